@@ -1,0 +1,94 @@
+# What `cmake --install` puts where. One export set for each thing a program may use without the others:
+#   Core                   the boxes without Bullet
+#   float32, float64       the runtime for one precision of Bullet
+#   Preprocess             the offline library (assimp), Preprocess_float32/_float64 what of it includes Bullet
+# so that a program for one precision needs neither the Bullet of the other nor assimp.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(BULLET_AMBIENT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/BulletAmbient)
+
+# ambient_install_box(NAME [float32|float64]): adds the box to the export set chosen by its folder and its precision.
+# Demos and tests are not installed.
+function(ambient_install_box name)
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  if(folder MATCHES "^bullet_ambient/")
+    set(export ${ARGN})
+    if(NOT export)
+      set(export Core)
+    endif()
+    set(include_dir ${CMAKE_INSTALL_INCLUDEDIR})
+  elseif(folder MATCHES "^preprocess/")
+    set(export Preprocess ${ARGN})
+    list(JOIN export "_" export)
+    set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient)
+  else()
+    return()
+  endif()
+  set_property(GLOBAL APPEND PROPERTY BULLET_AMBIENT_EXPORTS ${export})
+  set_property(GLOBAL APPEND PROPERTY BULLET_AMBIENT_BOXES_${export} ${name})
+  install(TARGETS ${name} EXPORT BulletAmbientTargets-${export}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    INCLUDES DESTINATION ${include_dir})
+endfunction()
+
+# The headers keep the paths they have in the source tree; those of the preprocessor move below bullet_ambient/, so
+# that the include directory gets one new name.
+function(ambient_install_headers)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/bullet_ambient
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN cmake EXCLUDE)
+  if(BULLET_AMBIENT_PREPROCESS)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/preprocess
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient FILES_MATCHING PATTERN "*.h")
+  endif()
+endfunction()
+
+# find_package(BulletAmbient)
+function(ambient_install_package)
+  get_property(exports GLOBAL PROPERTY BULLET_AMBIENT_EXPORTS)
+  list(REMOVE_DUPLICATES exports)
+  foreach(export IN LISTS exports)
+    install(EXPORT BulletAmbientTargets-${export} NAMESPACE BulletAmbient:: DESTINATION ${BULLET_AMBIENT_PACKAGE_DIR})
+  endforeach()
+  set(generated ${PROJECT_BINARY_DIR}/package)
+  configure_package_config_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/BulletAmbientConfig.cmake.in
+    ${generated}/BulletAmbientConfig.cmake INSTALL_DESTINATION ${BULLET_AMBIENT_PACKAGE_DIR})
+  write_basic_package_version_file(${generated}/BulletAmbientConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${generated}/BulletAmbientConfig.cmake ${generated}/BulletAmbientConfigVersion.cmake
+    ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/BulletPrecision.cmake
+    DESTINATION ${BULLET_AMBIENT_PACKAGE_DIR})
+endfunction()
+
+# pkg-config bullet_ambient, bullet_ambient-float64
+function(ambient_install_pkg_config)
+  get_property(core GLOBAL PROPERTY BULLET_AMBIENT_BOXES_Core)
+  # A static library comes after what uses it: the reverse of the order in which the boxes were added.
+  list(REVERSE core)
+  foreach(precision IN LISTS BULLET_AMBIENT_PRECISIONS)
+    ambient_name_for_precision(name bullet_ambient ${precision})
+    get_property(boxes GLOBAL PROPERTY BULLET_AMBIENT_BOXES_${precision})
+    set(pc_libraries)
+    foreach(box IN LISTS boxes core)
+      get_target_property(type ${box} TYPE)
+      if(NOT type STREQUAL "INTERFACE_LIBRARY")
+        get_target_property(output_name ${box} OUTPUT_NAME)
+        string(APPEND pc_libraries " -l${output_name}")
+      endif()
+    endforeach()
+    string(COMPARE EQUAL ${precision} float64 pc_is_float64)
+    get_target_property(pc_bullet BulletAmbient::bullet-${precision} PKG_CONFIG_NAME)
+    set(pc_name ${name})
+    file(RELATIVE_PATH pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+    configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/bullet_ambient.pc.in ${PROJECT_BINARY_DIR}/package/${name}.pc @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/package/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  endforeach()
+endfunction()
+
+# Call once, after all boxes are added.
+function(ambient_install_all)
+  ambient_install_headers()
+  ambient_install_package()
+  ambient_install_pkg_config()
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+endfunction()

@@ -1,0 +1,69 @@
+include(AmbientInstall)
+
+# ambient_add_box(NAME [SOURCES ...] [DEPENDS ...] [PRIVATE_DEPENDS ...] [PRECISION float32|float64])
+#
+# One library target per box of docs/architecture.md. A box without sources is header-only. DEPENDS are public; the
+# linker enforces who may include whom. PRIVATE_DEPENDS are header-only libraries that the sources alone see: they
+# do not reach the installed package. PRECISION: the box includes Bullet's headers of that precision, and everything
+# that links it is compiled with BULLET_AMBIENT_FLOAT64 = 0 or 1.
+function(ambient_add_box name)
+  cmake_parse_arguments(BOX "" "PRECISION" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  if(BOX_SOURCES)
+    add_library(${name} ${BOX_SOURCES})
+    set(scope PUBLIC)
+    ambient_set_compile_options(${name})
+    foreach(dependency IN LISTS BOX_PRIVATE_DEPENDS)
+      target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:${dependency}>)
+    endforeach()
+  else()
+    add_library(${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(BulletAmbient::${name} ALIAS ${name})
+  # The library files carry the project's name, whatever the box is called.
+  string(REGEX REPLACE "^(bullet_)?ambient" "bullet_ambient" output_name ${name})
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME ${output_name})
+  target_compile_features(${name} ${scope} cxx_std_17)
+  target_include_directories(${name} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_link_libraries(${name} ${scope} ${BOX_DEPENDS})
+  if(BOX_PRECISION)
+    ambient_set_precision(${name} ${scope} ${BOX_PRECISION})
+  endif()
+  ambient_install_box(${name} ${BOX_PRECISION})
+endfunction()
+
+# No target can link boxes of both precisions: CMake refuses to generate it.
+function(ambient_set_precision name scope precision)
+  target_link_libraries(${name} ${scope} BulletAmbient::bullet-${precision})
+  string(COMPARE EQUAL ${precision} float64 is_float64)
+  target_compile_definitions(${name} ${scope} BULLET_AMBIENT_FLOAT64=${is_float64})
+  set_target_properties(${name} PROPERTIES
+    BULLET_PRECISION ${precision}
+    INTERFACE_BULLET_PRECISION ${precision}
+    COMPATIBLE_INTERFACE_STRING BULLET_PRECISION)
+endfunction()
+
+# ambient_add_bullet_box(NAME SOURCES ... [DEPENDS ...] [PRIVATE_DEPENDS ...]): the same sources once for each precision of
+# Bullet that is built: NAME for float, NAME-float64 for double.
+function(ambient_add_bullet_box name)
+  foreach(precision IN LISTS BULLET_AMBIENT_PRECISIONS)
+    ambient_name_for_precision(target ${name} ${precision})
+    ambient_add_box(${target} PRECISION ${precision} ${ARGN})
+  endforeach()
+endfunction()
+
+# ambient_name_for_precision(OUT NAME float32|float64): NAME or NAME-float64, as Debian names the two Bullets.
+function(ambient_name_for_precision out name precision)
+  if(precision STREQUAL "float64")
+    set(${out} ${name}-float64 PARENT_SCOPE)
+  else()
+    set(${out} ${name} PARENT_SCOPE)
+  endif()
+endfunction()
+
+# Options every target of this project is compiled with. No contraction to fused multiply-add: the same
+# input gives the same bits with every instruction set.
+function(ambient_set_compile_options name)
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    -ffp-contract=off $<$<BOOL:${BULLET_AMBIENT_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()

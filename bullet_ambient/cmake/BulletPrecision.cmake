@@ -1,0 +1,90 @@
+# bullet_ambient_find_bullet(float32|float64 [REQUIRED]): makes the imported target BulletAmbient::bullet-float32
+# or BulletAmbient::bullet-float64 from the first BulletConfig*.cmake on CMake's search path of that precision.
+#
+# Bullet's own package config gives variables, not targets, and on Debian 12 its include path is relative and one of
+# the libraries it names is not shipped. Its precision is known from BULLET_DEFINITIONS alone.
+# Bullet_float32_DIR and Bullet_float64_DIR override the search, as <Package>_DIR does.
+
+# Relative paths of Bullet's config hang below its root directory or, if the install was moved, below its prefix.
+function(_bullet_ambient_absolute_dirs out config_dir root)
+  set(absolute)
+  foreach(dir IN LISTS ARGN)
+    if(NOT IS_ABSOLUTE "${dir}")
+      if(NOT EXISTS "${root}/${dir}")
+        string(REGEX REPLACE "/(lib|lib32|lib64|share)/.*$" "" root "${config_dir}")
+      endif()
+      set(dir "${root}/${dir}")
+    endif()
+    list(APPEND absolute "${dir}")
+  endforeach()
+  set(${out} "${absolute}" PARENT_SCOPE)
+endfunction()
+
+# Runs inside a function, so that the config's variables do not leak.
+function(_bullet_ambient_make_target precision config_dir)
+  _bullet_ambient_absolute_dirs(includes "${config_dir}" "${BULLET_ROOT_DIR}" ${BULLET_INCLUDE_DIRS})
+  _bullet_ambient_absolute_dirs(library_dirs "${config_dir}" "${BULLET_ROOT_DIR}" ${BULLET_LIBRARY_DIRS})
+  set(libraries)
+  # The order matters for static libraries.
+  foreach(part BulletSoftBody BulletDynamics BulletCollision LinearMath)
+    set(names ${BULLET_LIBRARIES})
+    list(FILTER names INCLUDE REGEX "^${part}")
+    find_library(library NAMES ${names} PATHS ${library_dirs} NO_DEFAULT_PATH NO_CACHE)
+    if(NOT library)
+      message(FATAL_ERROR "bullet_ambient: Bullet's config in ${config_dir} names the library '${names}', but it is not in ${library_dirs}")
+    endif()
+    list(APPEND libraries "${library}")
+    unset(library)
+  endforeach()
+  # Debian has one pkg-config file per precision, upstream one of the same name for either.
+  set(pkg_config_name bullet)
+  foreach(dir IN LISTS library_dirs)
+    if(precision STREQUAL "float64" AND EXISTS "${dir}/pkgconfig/bullet-float64.pc")
+      set(pkg_config_name bullet-float64)
+    endif()
+  endforeach()
+  set(target BulletAmbient::bullet-${precision})
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  set_target_properties(${target} PROPERTIES
+    INTERFACE_INCLUDE_DIRECTORIES "${includes}"
+    INTERFACE_LINK_LIBRARIES "${libraries}"
+    PKG_CONFIG_NAME ${pkg_config_name})
+  separate_arguments(definitions UNIX_COMMAND "${BULLET_DEFINITIONS}")
+  target_compile_options(${target} INTERFACE ${definitions})
+endfunction()
+
+function(bullet_ambient_find_bullet precision)
+  if(TARGET BulletAmbient::bullet-${precision})
+    return()
+  endif()
+  set(package Bullet_${precision})
+  set(configs BulletConfig.cmake bullet-config.cmake)
+  if(precision STREQUAL "float64")
+    list(PREPEND configs BulletConfig-float64.cmake)
+  endif()
+  set(seen)
+  foreach(attempt RANGE 9)
+    find_package(${package} QUIET CONFIG NAMES Bullet CONFIGS ${configs})
+    if(NOT ${package}_FOUND)
+      break()
+    endif()
+    set(found float32)
+    if("${BULLET_DEFINITIONS}" MATCHES "BT_USE_DOUBLE_PRECISION")
+      set(found float64)
+    endif()
+    if(found STREQUAL precision)
+      _bullet_ambient_make_target(${precision} "${${package}_DIR}")
+      return()
+    endif()
+    # The other precision: look past this directory.
+    list(APPEND seen "${${package}_CONFIG} (${found})")
+    list(APPEND CMAKE_IGNORE_PATH "${${package}_DIR}")
+    unset(${package}_DIR CACHE)
+    unset(${package}_DIR)
+  endforeach()
+  if("REQUIRED" IN_LIST ARGN)
+    list(JOIN seen ", " seen)
+    message(FATAL_ERROR "bullet_ambient: no Bullet of precision ${precision} was found (seen: ${seen}). Install it "
+      "(Debian: libbullet-dev), add its prefix to CMAKE_PREFIX_PATH, or build without this precision.")
+  endif()
+endfunction()

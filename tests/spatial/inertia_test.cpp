@@ -1,0 +1,155 @@
+#include "bullet_ambient/spatial/inertia.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+// A few dozen rounded operations on numbers of order 1 to 10.
+constexpr double kRounding = 1e-13;
+
+double kineticEnergy(const Matrix6& K, const Twist& x) {
+  return x.vector().dot(K * x.vector()) / 2;
+}
+
+/// Point masses that fill no symmetry.
+struct PointMass {
+  double mass;
+  Vector3 position;
+};
+const std::vector<PointMass> kPoints = {
+    {2, {1, 0.5, -1}}, {0.5, {-2, 1, 0.25}}, {1.5, {0, -1, 2}}, {3, {0.5, 0.5, -0.5}}};
+
+/// Its 6x6 inertia about `origin`, from the definition: sum m J^T J, J x = v + w x r.
+Matrix6 inertiaOfPoints(const Vector3& origin) {
+  Matrix6 K = Matrix6::Zero();
+  for (const PointMass& point : kPoints) {
+    Eigen::Matrix<double, 3, 6> J;
+    J << -crossMatrix(point.position - origin), Matrix3::Identity();
+    K += point.mass * J.transpose() * J;
+  }
+  return K;
+}
+
+TEST(CrossMatrix, IsTheCrossProduct) {
+  const Vector3 d(1, -2, 3);
+  const Vector3 a(0.5, 4, -1);
+  EXPECT_EQ(crossMatrix(d) * a, d.cross(a));
+}
+
+TEST(ShiftOrigin, GivesTheInertiaOfPointMassesAboutTheNewOrigin) {
+  const Vector3 d(0.3, -0.7, 1.1);
+  EXPECT_LT((shiftOrigin(inertiaOfPoints(Vector3::Zero()), d) - inertiaOfPoints(d)).norm(),
+            kRounding * inertiaOfPoints(d).norm());
+}
+
+TEST(ShiftOrigin, KeepsTheKineticEnergyOfAMotion) {
+  test::Arbitrary arbitrary(1);
+  for (int i = 0; i < 100; ++i) {
+    const Matrix6 K = arbitrary.positiveDefinite();
+    const Vector3 d = arbitrary.vector();
+    const Twist x = arbitrary.twist();
+    const Twist x_at_new_origin{x.angular, x.at(d)};
+    const double energy = kineticEnergy(K, x);
+    // The size of the terms that cancel grows with |d|^2.
+    EXPECT_NEAR(kineticEnergy(shiftOrigin(K, d), x_at_new_origin), energy,
+                kRounding * (1 + d.squaredNorm()) * x.vector().squaredNorm() * K.norm());
+  }
+}
+
+TEST(ShiftOrigin, BackAndForthChangesNothing) {
+  test::Arbitrary arbitrary(2);
+  const Matrix6 K = arbitrary.positiveDefinite();
+  const Vector3 d(0.4, -1.2, 0.9);
+  EXPECT_LT((shiftOrigin(shiftOrigin(K, d), -d) - K).norm(), kRounding * K.norm());
+}
+
+TEST(ShiftOrigin, MovesTheHemisphereFromItsSphereCentreToItsCentroid) {
+  // Added mass of the hemisphere R = 1 with its flat face in z = 0, per unit density, from an
+  // axisymmetric Nystroem solution with uncertainty 2e-9; both origins were solved for.
+  const double volume = 2 * std::acos(-1.0) / 3;
+  Matrix6 K = Matrix6::Zero();
+  K(0, 0) = K(1, 1) = 0.2314263542669546;
+  K(3, 3) = K(4, 4) = 0.368533971412441 * volume;
+  K(5, 5) = 1.2151482353124803 * volume;
+  K(1, 3) = K(3, 1) = 0.09588537248611967;
+  K(0, 4) = K(4, 0) = -0.09588537248611967;
+  const Matrix6 at_centroid = shiftOrigin(K, Vector3(0, 0, 0.375));
+  EXPECT_NEAR(at_centroid(1, 1), 0.2680545390137699, 2e-9);
+  EXPECT_NEAR(at_centroid(0, 0), 0.2680545390137699, 2e-9);
+  EXPECT_NEAR(at_centroid(1, 3), -0.193560531810821, 2e-9);
+  EXPECT_NEAR(at_centroid(0, 4), 0.193560531810821, 2e-9);
+  EXPECT_EQ(at_centroid(5, 5), K(5, 5));
+}
+
+TEST(RotateAxes, KeepsTheKineticEnergyOfAMotion) {
+  test::Arbitrary arbitrary(3);
+  const Matrix6 K = arbitrary.positiveDefinite();
+  const Matrix3 R = arbitrary.rotation();
+  const Twist x = arbitrary.twist();
+  const Twist turned{R * x.angular, R * x.linear};
+  EXPECT_NEAR(kineticEnergy(rotateAxes(K, R), turned), kineticEnergy(K, x),
+              kRounding * K.norm() * x.vector().squaredNorm());
+}
+
+TEST(RotateAxes, AQuarterTurnExchangesPrincipalValues) {
+  Vector6 diagonal;
+  diagonal << 1, 2, 3, 4, 5, 6;
+  const Matrix6 K = diagonal.asDiagonal();
+  Matrix3 quarter_turn_about_z;
+  quarter_turn_about_z << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  Vector6 expected;
+  expected << 2, 1, 3, 5, 4, 6;
+  EXPECT_EQ(rotateAxes(K, quarter_turn_about_z), Matrix6(expected.asDiagonal()));
+}
+
+TEST(ScaleShape, TurnsTheSmallOblateSpheroidIntoTheLargeOne) {
+  // Lamb, Hydrodynamics, arts. 114-115: semi-axes (1, 1, 0.2) and (5, 5, 1), per unit density.
+  Vector6 unit;
+  unit << 0.312444118881301, 0.312444118881301, 0, 0.11941504131050919, 0.11941504131050919,
+      2.5197731270494916;
+  Vector6 five;
+  five << 976.3878715040643, 976.3878715040643, 0, 14.926880163813646, 14.926880163813646,
+      314.971640881186;
+  const Matrix6 scaled = scaleShape(unit.asDiagonal(), 5);
+  EXPECT_LT((scaled - Matrix6(five.asDiagonal())).norm(), 1e-12 * five.norm());
+}
+
+TEST(ScaleShape, ScalesTheCouplingWithTheFourthPower) {
+  const Matrix6 ones = Matrix6::Ones();
+  const Matrix6 scaled = scaleShape(ones, 2);
+  EXPECT_EQ(scaled(0, 1), 32);
+  EXPECT_EQ(scaled(0, 3), 16);
+  EXPECT_EQ(scaled(3, 0), 16);
+  EXPECT_EQ(scaled(3, 4), 8);
+}
+
+TEST(ScaleShape, CommutesWithAShiftScaledAlike) {
+  test::Arbitrary arbitrary(4);
+  const Matrix6 K = arbitrary.positiveDefinite();
+  const Vector3 d(0.2, 0.5, -0.3);
+  const Matrix6 one_way = scaleShape(shiftOrigin(K, d), 1.7);
+  EXPECT_LT((one_way - shiftOrigin(scaleShape(K, 1.7), 1.7 * d)).norm(),
+            kRounding * one_way.norm());
+}
+
+TEST(RigidBodyInertia, IsThatOfPointMassesAboutTheirCentre) {
+  double mass = 0;
+  Vector3 moment = Vector3::Zero();
+  for (const PointMass& point : kPoints) {
+    mass += point.mass;
+    moment += point.mass * point.position;
+  }
+  const Vector3 centre = moment / mass;
+  Matrix3 J = Matrix3::Zero();
+  for (const PointMass& point : kPoints) {
+    const Matrix3 arm = crossMatrix(point.position - centre);
+    J -= point.mass * arm * arm;
+  }
+  EXPECT_LT((rigidBodyInertia(mass, J) - inertiaOfPoints(centre)).norm(), kRounding * J.norm());
+}
+
+}  // namespace
+}  // namespace ambient
