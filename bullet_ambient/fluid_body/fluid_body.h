@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/spatial/vector_types.h"
+
+namespace ambient {
+
+/// The faces that carry the fluid loads, as a structure of arrays over F faces.
+/// Frame: fluid body frame F. The slip matrix of the paper's appendix (3F x 6) is U_i = -(I - n
+/// n^T) [-[c]x, I] and is therefore held exactly by normals and centroids; computeSlipMatrix()
+/// spells it out.
+struct FaceTable {
+  std::vector<double> normal_x, normal_y, normal_z;        ///< unit normals into the fluid
+  std::vector<double> centroid_x, centroid_y, centroid_z;  ///< barycentres [m]
+  std::vector<double> area;                                ///< [m^2]
+
+  std::size_t size() const { return area.size(); }
+  Vector3 normal(std::size_t i) const { return {normal_x[i], normal_y[i], normal_z[i]}; }
+  Vector3 centroid(std::size_t i) const { return {centroid_x[i], centroid_y[i], centroid_z[i]}; }
+  void reserve(std::size_t faces);
+  void add(const Vector3& normal, const Vector3& centroid, double area);
+};
+
+/// Where the mass sits, for a body of mass 1 kg: centre [m] in F and inertia about it [m^2], in F's
+/// axes.
+struct MassDistribution {
+  Vector3 centre = Vector3::Zero();
+  Matrix3 inertia = Matrix3::Zero();
+};
+
+/// Where a fluid body came from.
+struct Provenance {
+  std::string source;             ///< file name or shape description, without directories
+  std::uint64_t source_hash = 0;  ///< FNV-1a of the source's bytes
+  std::string settings;           ///< solver settings, as text
+  std::string generator;          ///< program and version that made it
+};
+
+/// The triangles of the shape in F, for drawing and inspection only.
+struct Surface {
+  std::vector<double> vertices;  ///< x, y, z per vertex [m]
+  std::vector<std::int32_t>
+      triangles;  ///< three vertex indices per triangle, counter-clockwise from the fluid
+};
+
+/// What the fluid needs to know of one shape: plain data, per unit fluid density, independent of
+/// any body. Frame F: origin chosen when built (default: centre of volume), axes of the source
+/// mesh.
+struct FluidBody {
+  std::string name;
+  Provenance provenance;
+  Matrix6 added_mass =
+      Matrix6::Zero();   ///< K_fluid / rho about F's origin, symmetric positive semi-definite
+  double asymmetry = 0;  ///< largest |K - K^T| before symmetrising, over the largest |K| [1]
+  double volume = 0;     ///< displaced volume [m^3]; 0 for a sheet
+  double area = 0;       ///< wetted area [m^2]
+  Vector3 centre_of_volume = Vector3::Zero();  ///< in F [m]
+  Vector3 origin = Vector3::Zero();            ///< F's origin in the source mesh's frame [m]
+  MassDistribution uniform_mass;               ///< uniform density inside
+  MassDistribution surface_mass;               ///< uniform mass per area, at face barycentres
+  FaceTable faces;
+  Surface surface;
+};
+
+/// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x is the slip velocity of fully attached
+/// flow at every face, stacked, for the relative twist x in F. Padilla et al. 2025, appendix A.2.
+Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& faces);
+
+}  // namespace ambient

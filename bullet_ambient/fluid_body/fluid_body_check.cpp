@@ -1,0 +1,152 @@
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+
+namespace ambient {
+namespace {
+
+// What is left of a quantity that is exact on paper after some thousand rounded operations.
+constexpr double kRounding = 1e-9;
+
+class Checker {
+ public:
+  explicit Checker(std::string source) : source_(std::move(source)) {}
+
+  template <class... Parts>
+  [[noreturn]] void fail(const Parts&... parts) const {
+    std::ostringstream message;
+    message.precision(9);
+    message << source_ << ": ";
+    (message << ... << parts);
+    throw std::runtime_error(message.str());
+  }
+
+  void finite(double value, const char* what) const {
+    if (!std::isfinite(value)) fail(what, " is ", value, ", but must be finite");
+  }
+
+  void notNegative(double value, const char* what) const {
+    finite(value, what);
+    if (value < 0) fail(what, " is ", value, ", but must not be negative");
+  }
+
+  template <class Matrix>
+  void finiteMatrix(const Matrix& matrix, const char* what) const {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) finite(matrix.data()[i], what);
+  }
+
+  void finiteColumn(const std::vector<double>& column, const char* what) const {
+    for (std::size_t i = 0; i < column.size(); ++i)
+      if (!std::isfinite(column[i]))
+        fail(what, " of entry ", i, " is ", column[i], ", but must be finite");
+  }
+
+  /// Symmetric and positive semi-definite up to rounding.
+  /// @pre all entries are finite and of one unit.
+  template <class Matrix>
+  void positiveSemiDefinite(const Matrix& matrix, const char* what) const {
+    const double largest = matrix.cwiseAbs().maxCoeff();
+    if (largest == 0) return;
+    using Aligned = Eigen::Matrix<double, Matrix::RowsAtCompileTime, Matrix::ColsAtCompileTime>;
+    const Aligned scaled = matrix / largest;
+    const double asymmetry = (scaled - scaled.transpose()).cwiseAbs().maxCoeff();
+    if (!(asymmetry <= kRounding))
+      fail(what, " is not symmetric: off by ", asymmetry, " of its largest entry, limit ",
+           kRounding);
+    const double lowest = Eigen::SelfAdjointEigenSolver<Aligned>(scaled, Eigen::EigenvaluesOnly)
+                              .eigenvalues()
+                              .minCoeff();
+    if (!(lowest >= -kRounding))
+      fail(what, " is not positive semi-definite: lowest eigenvalue ", lowest,
+           " of its largest entry, limit ", -kRounding);
+  }
+
+ private:
+  std::string source_;
+};
+
+void checkAddedMass(const FluidBody& body, const Checker& check) {
+  check.finiteMatrix(body.added_mass, "added mass");
+  // Lengths measured in the size of the body give all entries one unit, so that one tolerance fits.
+  const double translation = body.added_mass.diagonal().tail<3>().cwiseAbs().maxCoeff();
+  const double rotation = body.added_mass.diagonal().head<3>().cwiseAbs().maxCoeff();
+  const double length = rotation > 0 && translation > 0 ? std::sqrt(rotation / translation) : 1;
+  Vector6 units;
+  units << Vector3::Constant(1 / length), Vector3::Ones();
+  const Matrix6 scaled = units.asDiagonal() * body.added_mass * units.asDiagonal();
+  check.finiteMatrix(scaled, "added mass over its own length scale");
+  check.positiveSemiDefinite(scaled, "added mass");
+}
+
+void checkMassDistribution(const MassDistribution& mass, const Checker& check, const char* centre,
+                           const char* inertia) {
+  check.finiteMatrix(mass.centre, centre);
+  check.finiteMatrix(mass.inertia, inertia);
+  check.positiveSemiDefinite(mass.inertia, inertia);
+}
+
+void checkFaces(const FaceTable& faces, const Checker& check) {
+  struct Column {
+    const std::vector<double>& values;
+    const char* name;
+  };
+  const std::size_t count = faces.size();
+  for (const Column& column :
+       {Column{faces.normal_x, "face normal x"}, Column{faces.normal_y, "face normal y"},
+        Column{faces.normal_z, "face normal z"}, Column{faces.centroid_x, "face centroid x"},
+        Column{faces.centroid_y, "face centroid y"}, Column{faces.centroid_z, "face centroid z"},
+        Column{faces.area, "face area"}}) {
+    if (column.values.size() != count)
+      check.fail(column.name, " has ", column.values.size(), " entries, but there are ", count,
+                 " face areas");
+    check.finiteColumn(column.values, column.name);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (faces.area[i] < 0)
+      check.fail("area of face ", i, " is ", faces.area[i], " m^2, but must not be negative");
+    const double length = faces.normal(i).norm();
+    if (!(std::abs(length - 1) <= kRounding))
+      check.fail("normal of face ", i, " has length ", length, ", but must be 1 within ",
+                 kRounding);
+  }
+}
+
+void checkSurface(const Surface& surface, const Checker& check) {
+  check.finiteColumn(surface.vertices, "vertex coordinate");
+  if (surface.vertices.size() % 3 != 0)
+    check.fail("there are ", surface.vertices.size(),
+               " vertex coordinates, but their number must be a multiple of 3");
+  if (surface.triangles.size() % 3 != 0)
+    check.fail("there are ", surface.triangles.size(),
+               " triangle indices, but their number must be a multiple of 3");
+  const std::size_t vertex_count = surface.vertices.size() / 3;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const std::int32_t index = surface.triangles[i];
+    if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
+      check.fail("triangle ", i / 3, " refers to vertex ", index, ", but there are ", vertex_count,
+                 " vertices");
+  }
+}
+
+}  // namespace
+
+void checkFluidBody(const FluidBody& body, const std::string& source) {
+  const Checker check(source);
+  check.notNegative(body.asymmetry, "asymmetry");
+  check.notNegative(body.volume, "volume");
+  check.notNegative(body.area, "area");
+  check.finiteMatrix(body.centre_of_volume, "centre of volume");
+  check.finiteMatrix(body.origin, "origin");
+  checkAddedMass(body, check);
+  checkMassDistribution(body.uniform_mass, check, "centre of uniform mass",
+                        "inertia of uniform mass");
+  checkMassDistribution(body.surface_mass, check, "centre of surface mass",
+                        "inertia of surface mass");
+  checkFaces(body.faces, check);
+  checkSurface(body.surface, check);
+}
+
+}  // namespace ambient

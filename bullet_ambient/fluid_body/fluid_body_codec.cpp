@@ -1,0 +1,190 @@
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fluid_body_file_header.h"
+#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "fluid_body_generated.h"
+
+namespace ambient {
+namespace {
+
+using flatbuffers::FlatBufferBuilder;
+using flatbuffers::Offset;
+
+template <class Struct, class Matrix>
+Struct packMatrix(const Matrix& matrix) {
+  constexpr int kRows = Matrix::RowsAtCompileTime;
+  constexpr int kCols = Matrix::ColsAtCompileTime;
+  std::array<double, kRows * kCols> rows;
+  for (int row = 0; row < kRows; ++row)
+    for (int col = 0; col < kCols; ++col) rows[row * kCols + col] = matrix(row, col);
+  return Struct(flatbuffers::span<const double, kRows * kCols>(rows));
+}
+
+template <class Matrix, class Struct>
+Matrix unpackMatrix(const Struct& packed) {
+  Matrix matrix;
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+    for (Eigen::Index col = 0; col < matrix.cols(); ++col)
+      matrix(row, col) =
+          packed.values()->Get(static_cast<flatbuffers::uoffset_t>(row * matrix.cols() + col));
+  return matrix;
+}
+
+template <class T>
+std::vector<T> unpackVector(const flatbuffers::Vector<T>& packed) {
+  std::vector<T> values(packed.size());
+  for (flatbuffers::uoffset_t i = 0; i < packed.size(); ++i) values[i] = packed.Get(i);
+  return values;
+}
+
+Offset<file::MassDistribution> pack(FlatBufferBuilder& builder, const MassDistribution& mass) {
+  const auto centre = packMatrix<file::Vector3>(mass.centre);
+  const auto inertia = packMatrix<file::Matrix3>(mass.inertia);
+  return file::CreateMassDistribution(builder, &centre, &inertia);
+}
+
+MassDistribution unpack(const file::MassDistribution& packed) {
+  return {unpackMatrix<Vector3>(*packed.centre()), unpackMatrix<Matrix3>(*packed.inertia())};
+}
+
+Offset<file::Provenance> pack(FlatBufferBuilder& builder, const Provenance& provenance) {
+  const auto source = builder.CreateString(provenance.source);
+  const auto settings = builder.CreateString(provenance.settings);
+  const auto generator = builder.CreateString(provenance.generator);
+  return file::CreateProvenance(builder, source, provenance.source_hash, settings, generator);
+}
+
+Provenance unpack(const file::Provenance& packed) {
+  return {packed.source()->str(), packed.source_hash(), packed.settings()->str(),
+          packed.generator()->str()};
+}
+
+Offset<file::FaceTable> pack(FlatBufferBuilder& builder, const FaceTable& faces) {
+  const auto normal_x = builder.CreateVector(faces.normal_x);
+  const auto normal_y = builder.CreateVector(faces.normal_y);
+  const auto normal_z = builder.CreateVector(faces.normal_z);
+  const auto centroid_x = builder.CreateVector(faces.centroid_x);
+  const auto centroid_y = builder.CreateVector(faces.centroid_y);
+  const auto centroid_z = builder.CreateVector(faces.centroid_z);
+  const auto area = builder.CreateVector(faces.area);
+  return file::CreateFaceTable(builder, normal_x, normal_y, normal_z, centroid_x, centroid_y,
+                               centroid_z, area);
+}
+
+FaceTable unpack(const file::FaceTable& packed) {
+  return {unpackVector(*packed.normal_x()),   unpackVector(*packed.normal_y()),
+          unpackVector(*packed.normal_z()),   unpackVector(*packed.centroid_x()),
+          unpackVector(*packed.centroid_y()), unpackVector(*packed.centroid_z()),
+          unpackVector(*packed.area())};
+}
+
+Offset<file::Surface> pack(FlatBufferBuilder& builder, const Surface& surface) {
+  const auto vertices = builder.CreateVector(surface.vertices);
+  const auto triangles = builder.CreateVector(surface.triangles);
+  return file::CreateSurface(builder, vertices, triangles);
+}
+
+Surface unpack(const file::Surface& packed) {
+  return {unpackVector(*packed.vertices()), unpackVector(*packed.triangles())};
+}
+
+void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
+  builder.ForceDefaults(true);  // else -0.0 would come back as +0.0
+  const auto name = builder.CreateString(body.name);
+  const auto provenance = pack(builder, body.provenance);
+  const auto uniform_mass = pack(builder, body.uniform_mass);
+  const auto surface_mass = pack(builder, body.surface_mass);
+  const auto faces = pack(builder, body.faces);
+  const auto surface = pack(builder, body.surface);
+  const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
+  const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
+  const auto origin = packMatrix<file::Vector3>(body.origin);
+  file::FinishFluidBodyBuffer(
+      builder, file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry,
+                                     body.volume, body.area, &centre_of_volume, &origin,
+                                     uniform_mass, surface_mass, faces, surface));
+}
+
+FluidBody unpack(const file::FluidBody& packed) {
+  FluidBody body;
+  body.name = packed.name()->str();
+  body.provenance = unpack(*packed.provenance());
+  body.added_mass = unpackMatrix<Matrix6>(*packed.added_mass());
+  body.asymmetry = packed.asymmetry();
+  body.volume = packed.volume();
+  body.area = packed.area();
+  body.centre_of_volume = unpackMatrix<Vector3>(*packed.centre_of_volume());
+  body.origin = unpackMatrix<Vector3>(*packed.origin());
+  body.uniform_mass = unpack(*packed.uniform_mass());
+  body.surface_mass = unpack(*packed.surface_mass());
+  body.faces = unpack(*packed.faces());
+  body.surface = unpack(*packed.surface());
+  return body;
+}
+
+/// An upper bound of the payload's size [bytes].
+std::size_t payloadBound(const FluidBody& body) {
+  constexpr std::size_t kFixedPart = 4096;
+  const FaceTable& faces = body.faces;
+  std::size_t doubles = body.surface.vertices.size();
+  for (const std::vector<double>* column :
+       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
+        &faces.centroid_z, &faces.area})
+    doubles += column->size();
+  return kFixedPart + sizeof(double) * doubles +
+         sizeof(std::int32_t) * body.surface.triangles.size() + body.name.size() +
+         body.provenance.source.size() + body.provenance.settings.size() +
+         body.provenance.generator.size();
+}
+
+bool isAligned(const char* address) {
+  return reinterpret_cast<std::uintptr_t>(address) % alignof(double) == 0;
+}
+
+}  // namespace
+
+std::string encodeFluidBody(const FluidBody& body, const std::string& source) {
+  checkFluidBody(body, source);
+  const std::size_t bound = payloadBound(body);
+  if (bound > kPayloadLimit)
+    throw std::runtime_error(source + ": the fluid body needs about " + std::to_string(bound) +
+                             " bytes, limit " + std::to_string(kPayloadLimit));
+  FlatBufferBuilder builder(bound);
+  packInto(builder, body);
+  const std::string_view payload(reinterpret_cast<const char*>(builder.GetBufferPointer()),
+                                 builder.GetSize());
+  std::string bytes = encodeFileHeader({kFormatVersion, payload.size(), fnv1a64(payload)});
+  bytes += payload;
+  return bytes;
+}
+
+FluidBody decodeFluidBody(std::string_view bytes, const std::string& source) {
+  const FileHeader header = decodeFileHeader(bytes, source);
+  const std::string_view payload = bytes.substr(kFileHeaderSize);
+  checkPayloadSize(header, payload.size(), source);
+  if (fnv1a64(payload) != header.payload_checksum)
+    throw std::runtime_error(source + ": damaged: the checksum of its " +
+                             std::to_string(payload.size()) + " byte payload does not match");
+
+  std::vector<double> aligned;
+  const char* data = payload.data();
+  if (!isAligned(data)) {
+    aligned.resize(payload.size() / sizeof(double) + 1);
+    std::memcpy(aligned.data(), payload.data(), payload.size());
+    data = reinterpret_cast<const char*>(aligned.data());
+  }
+  const auto* buffer = reinterpret_cast<const std::uint8_t*>(data);
+  flatbuffers::Verifier verifier(buffer, payload.size());
+  if (!file::VerifyFluidBodyBuffer(verifier))
+    throw std::runtime_error(source +
+                             ": damaged: its payload is not a fluid body of format version " +
+                             std::to_string(header.version));
+  FluidBody body = unpack(*file::GetFluidBody(buffer));
+  checkFluidBody(body, source);
+  return body;
+}
+
+}  // namespace ambient

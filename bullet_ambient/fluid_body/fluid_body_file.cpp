@@ -1,0 +1,98 @@
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <stdexcept>
+#include <system_error>
+
+#include "bullet_ambient/fluid_body/fluid_body_file_header.h"
+
+namespace ambient {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what);
+}
+
+std::uint64_t sizeOfRegularFile(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) fail(file, "no such file");
+  if (error) fail(file, "cannot be read: " + error.message());
+  if (fs::is_directory(status)) fail(file, "is a directory, not a .ambient file");
+  if (!fs::is_regular_file(status)) fail(file, "is not a regular file");
+  const std::uint64_t size = fs::file_size(file, error);
+  if (error) fail(file, "cannot be read: " + error.message());
+  return size;
+}
+
+std::string readBytes(const fs::path& file) {
+  const std::uint64_t size = sizeOfRegularFile(file);
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(file, std::string("cannot be opened: ") + std::strerror(errno));
+
+  std::string bytes(static_cast<std::size_t>(std::min<std::uint64_t>(size, kFileHeaderSize)), '\0');
+  const auto read = [&](std::size_t from) {
+    stream.read(bytes.data() + from, static_cast<std::streamsize>(bytes.size() - from));
+    bytes.resize(from + static_cast<std::size_t>(stream.gcount()));
+  };
+  read(0);
+  // Nothing large is allocated before the header has vouched for it.
+  const FileHeader header = decodeFileHeader(bytes, file.string());
+  checkPayloadSize(header, size - kFileHeaderSize, file.string());
+  bytes.resize(static_cast<std::size_t>(size));
+  read(kFileHeaderSize);
+  return bytes;
+}
+
+/// A name beside `file` that no other writer uses.
+fs::path temporaryNameFor(const fs::path& file) {
+  std::random_device random;
+  fs::path name = file;
+  name += ".tmp-" + std::to_string(random()) + std::to_string(random());
+  return name;
+}
+
+/// Removes a file on the way out, unless it was kept.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(fs::path name) : name_(std::move(name)) {}
+  ~TemporaryFile() {
+    std::error_code ignored;
+    fs::remove(name_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const fs::path& name() const { return name_; }
+
+ private:
+  fs::path name_;
+};
+
+}  // namespace
+
+FluidBody readFluidBody(const fs::path& file) {
+  return decodeFluidBody(readBytes(file), file.string());
+}
+
+void writeFluidBody(const FluidBody& body, const fs::path& file) {
+  const std::string bytes = encodeFluidBody(body, file.string());
+  const TemporaryFile temporary(temporaryNameFor(file));
+  errno = 0;
+  std::ofstream stream(temporary.name(), std::ios::binary | std::ios::trunc);
+  if (!stream) fail(file, std::string("cannot be written: ") + std::strerror(errno));
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  if (!stream) fail(file, std::string("cannot be written: ") + std::strerror(errno));
+  std::error_code error;
+  fs::rename(temporary.name(), file, error);
+  if (error) fail(file, "cannot be written: " + error.message());
+}
+
+}  // namespace ambient

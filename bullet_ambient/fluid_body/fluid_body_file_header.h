@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace ambient {
+
+// The fixed part in front of the payload of a .ambient file, 32 bytes, little-endian:
+//   0  magic            8 bytes
+//   8  version          uint32
+//   12 reserved         uint32, 0
+//   16 payload size     uint64 [bytes]
+//   24 payload checksum uint64, FNV-1a
+
+constexpr std::size_t kFileHeaderSize = 32;
+constexpr std::uint32_t kFormatVersion = 1;  ///< written; also the newest that can be read
+/// FlatBuffers addresses less than 2 GiB.
+constexpr std::uint64_t kPayloadLimit = (std::uint64_t{1} << 31) - 1 - (std::uint64_t{1} << 16);
+
+struct FileHeader {
+  std::uint32_t version = 0;
+  std::uint64_t payload_size = 0;
+  std::uint64_t payload_checksum = 0;
+};
+
+std::string encodeFileHeader(const FileHeader& header);
+
+/// The header of a file that begins with `bytes`.
+/// @throws std::runtime_error if it is empty, foreign, cut short, damaged or of a newer version.
+FileHeader decodeFileHeader(std::string_view bytes, const std::string& source);
+
+/// @throws std::runtime_error if the payload present is not of the size that the header promises.
+void checkPayloadSize(const FileHeader& header, std::uint64_t present, const std::string& source);
+
+}  // namespace ambient

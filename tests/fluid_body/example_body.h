@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "tests/support/geodesic.h"
+
+namespace ambient::test {
+
+/// A fluid body in which every field has a value of its own. Valid, though not of any real shape.
+inline FluidBody exampleBody(int level = 1) {
+  const Triangulation mesh = geodesicEllipsoid({1, 0.5, 0.25}, level);
+  FluidBody body;
+  body.name = "example";
+  body.provenance = {"example.obj", 0xfedcba9876543210u, "faces 80, scale 1", "tests 0"};
+  for (int row = 0; row < 6; ++row)
+    for (int col = 0; col < 6; ++col)
+      body.added_mass(row, col) = row == col ? 1 + row : 0.01 * (row + col);
+  body.added_mass(1, 4) += 1e-12;  // rounding, which must survive at its place
+  body.asymmetry = 1.25e-9;
+  body.volume = 0.5;
+  body.area = 2.75;
+  body.centre_of_volume = {0.1, -0.2, 0.3};
+  body.origin = {-4, 5, -6};
+  body.uniform_mass = {{0.11, 0.12, 0.13}, Vector3(0.2, 0.3, 0.4).asDiagonal()};
+  body.surface_mass = {{0.21, 0.22, 0.23}, Vector3(0.5, 0.6, 0.7).asDiagonal()};
+  body.uniform_mass.inertia(0, 1) = body.uniform_mass.inertia(1, 0) = 0.015625;
+  body.faces = faceTableOf(mesh);
+  for (const Vector3& v : mesh.vertices)
+    body.surface.vertices.insert(body.surface.vertices.end(), {v.x(), v.y(), v.z()});
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    body.surface.triangles.insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
+  return body;
+}
+
+/// A directory of its own that goes away with its contents.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "ambient-XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~TemporaryDirectory() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string bytesOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void writeBytes(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+/// What readFluidBody() and its like say when they refuse; empty if they do not.
+template <class Action>
+std::string refusalOf(const Action& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace ambient::test
