@@ -1,0 +1,221 @@
+#pragma once
+
+#include "bullet_ambient/force/face_sums.h"
+#include "bullet_ambient/force/fifth_root.h"
+
+// Included once by each face_sums_<instruction set>.cpp, which is compiled for that set. Written
+// with the vector types of GCC and Clang, which have the +, -, *, > and ?: of IEEE 754 per lane.
+
+#if defined(__FAST_MATH__)
+#error "-ffast-math reorders the sums over faces; they must have the same bits everywhere"
+#endif
+
+namespace ambient {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kWidth = 8;
+#elif defined(__AVX2__)
+constexpr int kWidth = 4;
+#else
+constexpr int kWidth = 2;
+#endif
+constexpr int kLanes = 8;
+/// Faces whose intermediate results are held on the stack at a time.
+constexpr int kBlock = 256;
+
+using Doubles = double __attribute__((vector_size(kWidth * sizeof(double))));
+using Bits = std::uint64_t __attribute__((vector_size(kWidth * sizeof(std::uint64_t))));
+
+inline Doubles load(const double* from) {
+  Doubles d;
+  __builtin_memcpy(&d, from, sizeof d);
+  return d;
+}
+
+inline void store(double* to, Doubles d) { __builtin_memcpy(to, &d, sizeof d); }
+
+struct Vectors {
+  Doubles x, y, z;
+};
+
+inline Vectors load(const double* const columns[3], std::size_t i) {
+  return {load(columns[0] + i), load(columns[1] + i), load(columns[2] + i)};
+}
+inline Vectors broadcast(const double v[3]) {
+  return {Doubles{} + v[0], Doubles{} + v[1], Doubles{} + v[2]};
+}
+inline Vectors operator+(Vectors a, Vectors b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vectors operator-(Vectors a, Vectors b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vectors operator*(Doubles s, Vectors a) { return {s * a.x, s * a.y, s * a.z}; }
+inline Doubles dot(Vectors a, Vectors b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vectors cross(Vectors a, Vectors b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Partial sums of a wrench, one per lane.
+struct WrenchLanes {
+  double lanes[6][kLanes] = {};
+};
+
+/// kWidth of the eight lanes, held in registers while a block is summed.
+struct WrenchSum {
+  Vectors torque, force;
+
+  WrenchSum(const WrenchLanes& sums, int lane)
+      : torque{load(sums.lanes[0] + lane), load(sums.lanes[1] + lane), load(sums.lanes[2] + lane)},
+        force{load(sums.lanes[3] + lane), load(sums.lanes[4] + lane), load(sums.lanes[5] + lane)} {}
+
+  void add(Vectors f, Vectors position) {
+    force = force + f;
+    torque = torque + cross(position, f);
+  }
+
+  void storeTo(WrenchLanes& sums, int lane) const {
+    store(sums.lanes[0] + lane, torque.x);
+    store(sums.lanes[1] + lane, torque.y);
+    store(sums.lanes[2] + lane, torque.z);
+    store(sums.lanes[3] + lane, force.x);
+    store(sums.lanes[4] + lane, force.y);
+    store(sums.lanes[5] + lane, force.z);
+  }
+};
+
+/// What the friction of a block needs from its pressure. One array per component: GCC would pass a
+/// copied struct of vectors through memory.
+struct BlockSlip {
+  static constexpr int kSize = kBlock / kLanes;
+  Doubles t_x[kSize], t_y[kSize], t_z[kSize];  ///< -u_s
+  Doubles speed_sq[kSize];                     ///< |u_s|^2
+  Doubles strength[kSize];                     ///< |u_s|^2 A, or 0 where the flow is detached
+};
+
+/// Where the flow is attached: n.u > cos(alpha) |u|. With |u|^2 = (n.u)^2 + |u_s|^2 the root drops
+/// out: (n.u) |n.u| sin^2(alpha) > cos(alpha) |cos(alpha)| |u_s|^2.
+template <bool kRightAngle>
+inline Doubles strengthWhereAttached(Doubles normal_speed, Doubles strength, Doubles speed_sq,
+                                     const FaceMotion& motion) {
+  const Doubles zero = {};
+  if (kRightAngle) return normal_speed > zero ? strength : zero;
+  const Doubles magnitude = normal_speed > zero ? normal_speed : -normal_speed;
+  const Doubles excess =
+      (normal_speed * magnitude) * motion.sine_sq + speed_sq * motion.signed_cosine_sq;
+  return excess > zero ? strength : zero;
+}
+
+/// Faces [begin, end) of the kWidth lanes from `lane`; docs/theory.md eq. (12) to (15).
+template <bool kRightAngle, bool kKeepSlip>
+void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t begin,
+                 std::size_t end, int lane, WrenchLanes& sums, BlockSlip& slip) {
+  const Vectors w = broadcast(motion.angular);
+  const Vectors v = broadcast(motion.linear);
+  WrenchSum sum(sums, lane);
+  int k = 0;
+  for (std::size_t i = begin + static_cast<std::size_t>(lane); i < end; i += kLanes, ++k) {
+    const Vectors n = load(faces.normal, i);
+    const Vectors c = load(faces.centroid, i);
+    const Vectors u = v + cross(w, c);
+    const Doubles normal_speed = dot(n, u);
+    const Vectors t = u - normal_speed * n;
+    const Doubles speed_sq = dot(t, t);
+    const Doubles strength = strengthWhereAttached<kRightAngle>(
+        normal_speed, load(faces.area + i) * speed_sq, speed_sq, motion);
+    sum.add(strength * n, c);
+    if (kKeepSlip) {
+      slip.t_x[k] = t.x;
+      slip.t_y[k] = t.y;
+      slip.t_z[k] = t.z;
+      slip.speed_sq[k] = speed_sq;
+      slip.strength[k] = strength;
+    }
+  }
+  sum.storeTo(sums, lane);
+}
+
+/// The friction of the same faces; docs/theory.md eq. (16) and (17). The roots have a loop of their
+/// own: they are one long chain of dependent operations each, and the shorter the loop, the more of
+/// them a processor has under way.
+void sumFriction(const FaceColumns& faces, std::size_t begin, std::size_t end, int lane,
+                 WrenchLanes& sums, BlockSlip& slip) {
+  const int count = static_cast<int>((end - begin) / kLanes);
+  for (int k = 0; k < count; ++k) {
+    const Doubles r = inverseFifthRoot<Bits>(slip.speed_sq[k]);
+    slip.strength[k] = (slip.strength[k] * r) * (r * r);  // |u_s|^0.8 = |u_s|^2 (|u_s|^-0.4)^3
+  }
+  WrenchSum sum(sums, lane);
+  std::size_t i = begin + static_cast<std::size_t>(lane);
+  for (int k = 0; k < count; ++k, i += kLanes) {
+    const Vectors t = {slip.t_x[k], slip.t_y[k], slip.t_z[k]};
+    sum.add(slip.strength[k] * t, load(faces.centroid, i));
+  }
+  sum.storeTo(sums, lane);
+}
+
+struct LaneSums {
+  WrenchLanes pressure, friction;
+};
+
+/// @pre faces.size is a multiple of kLanes.
+template <bool kRightAngle, bool kFriction>
+void sumColumns(const FaceColumns& faces, const FaceMotion& motion, LaneSums& sums) {
+  BlockSlip slip;
+  for (std::size_t begin = 0; begin < faces.size; begin += kBlock) {
+    const std::size_t end = begin + kBlock < faces.size ? begin + kBlock : faces.size;
+    for (int lane = 0; lane < kLanes; lane += kWidth) {
+      sumPressure<kRightAngle, kFriction>(faces, motion, begin, end, lane, sums.pressure, slip);
+      if (kFriction) sumFriction(faces, begin, end, lane, sums.friction, slip);
+    }
+  }
+}
+
+/// The last faces, fewer than kLanes, filled up with faces without normal and area.
+struct PaddedFaces {
+  double values[7][kLanes] = {};
+
+  PaddedFaces(const FaceColumns& faces, std::size_t begin) {
+    const double* const columns[7] = {faces.normal[0],   faces.normal[1],   faces.normal[2],
+                                      faces.centroid[0], faces.centroid[1], faces.centroid[2],
+                                      faces.area};
+    for (int column = 0; column < 7; ++column)
+      for (std::size_t i = begin; i < faces.size; ++i)
+        values[column][i - begin] = columns[column][i];
+  }
+  FaceColumns columns() const {
+    return {
+        {values[0], values[1], values[2]}, {values[3], values[4], values[5]}, values[6], kLanes};
+  }
+};
+
+void sumLanes(const WrenchLanes& sums, double wrench[6]) {
+  for (int row = 0; row < 6; ++row) {
+    const double* l = sums.lanes[row];
+    wrench[row] = ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
+  }
+}
+
+template <bool kRightAngle, bool kFriction>
+FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion) {
+  LaneSums lanes;
+  FaceColumns whole = faces;
+  whole.size -= faces.size % kLanes;
+  sumColumns<kRightAngle, kFriction>(whole, motion, lanes);
+  if (whole.size != faces.size) {
+    const PaddedFaces rest(faces, whole.size);
+    sumColumns<kRightAngle, kFriction>(rest.columns(), motion, lanes);
+  }
+  FaceSums sums;
+  sumLanes(lanes.pressure, sums.pressure);
+  sumLanes(lanes.friction, sums.friction);
+  return sums;
+}
+
+FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion, bool with_friction) {
+  if (motion.signed_cosine_sq == 0)
+    return with_friction ? sumFaces<true, true>(faces, motion)
+                         : sumFaces<true, false>(faces, motion);
+  return with_friction ? sumFaces<false, true>(faces, motion)
+                       : sumFaces<false, false>(faces, motion);
+}
+
+}  // namespace
+}  // namespace ambient
