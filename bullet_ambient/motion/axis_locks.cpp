@@ -1,0 +1,110 @@
+#include "bullet_ambient/motion/axis_locks.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "bullet_ambient/motion/kirchhoff.h"
+#include "bullet_ambient/motion/passive_kick.h"
+
+namespace ambient {
+namespace {
+
+constexpr int kNewtonSteps = 4;
+
+Vector6 projectionOf(const AxisFactors& factors) {
+  return stack(factors.angular, factors.linear).unaryExpr([](double f) {
+    return f != 0 ? 1.0 : 0.0;
+  });
+}
+
+// Rates of change in body axes of a body whose response to a wrench is `response` instead of K^-1.
+class LockedRates {
+ public:
+  LockedRates(const Matrix6& inertia, const Matrix6& response, const Vector6& forced)
+      : inertia_(inertia), response_(response), forced_(forced) {}
+
+  // Acceleration of the velocity in world axes, written in body axes.
+  Vector6 acceleration(const Vector6& x) const {
+    const Vector6 gyroscopic = gyroscopicWrench(inertia_, Twist::fromVector(x)).vector();
+    return response_ * (gyroscopic + inertia_ * turning(x)) + forced_;
+  }
+  // What it is more than the rate of the body's coordinates, because these turn: (0, w x v).
+  static Vector6 turning(const Vector6& x) {
+    return stack(Vector3::Zero(), x.head<3>().cross(x.tail<3>()));
+  }
+  // d(acceleration - turning)/dx
+  Matrix6 jacobian(const Vector6& x) const {
+    const Vector6 m = inertia_ * x;
+    const Matrix3 w = crossMatrix(x.head<3>()), v = crossMatrix(x.tail<3>());
+    const Matrix3 l = crossMatrix(m.head<3>()), p = crossMatrix(m.tail<3>());
+    Matrix6 by_momentum = Matrix6::Zero(), by_twist = Matrix6::Zero(), turned = Matrix6::Zero();
+    by_momentum << -w, -v, Matrix3::Zero(), -w;
+    by_twist << l, p, p, Matrix3::Zero();
+    turned << Matrix3::Zero(), Matrix3::Zero(), -v, w;
+    return response_ * (by_momentum * inertia_ + by_twist + inertia_ * turned) - turned;
+  }
+
+ private:
+  const Matrix6& inertia_;
+  const Matrix6& response_;
+  const Vector6& forced_;
+};
+
+Vector6 midpoint(const LockedRates& rates, const Vector6& x, double dt) {
+  Vector6 mid = x;
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const Vector6 residual =
+        mid - x - dt / 2 * (rates.acceleration(mid) - LockedRates::turning(mid));
+    const Eigen::Matrix<double, 6, 6> jacobian = Matrix6::Identity() - dt / 2 * rates.jacobian(mid);
+    mid -= jacobian.partialPivLu().solve(residual);
+  }
+  return mid;
+}
+
+}  // namespace
+
+Matrix6 freeInertia(const Matrix6& inertia_W, const AxisFactors& factors) {
+  const Vector6 free = projectionOf(factors);
+  Matrix6 result = free.asDiagonal() * inertia_W * free.asDiagonal();
+  result.diagonal() += Vector6::Ones() - free;
+  return result;
+}
+
+Matrix6 lockedInverse(const Matrix6& inertia_W, const AxisFactors& factors) {
+  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> cholesky(freeInertia(inertia_W, factors));
+  const Matrix6 inverse = cholesky.solve(Eigen::Matrix<double, 6, 6>::Identity());
+  const Vector6 scale = stack(factors.angular, factors.linear);
+  const Matrix6 scaled = scale.asDiagonal() * inverse * scale.asDiagonal();
+  return 0.5 * (scaled + scaled.transpose());
+}
+
+RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& start,
+                                  const AxisFactors& factors) noexcept {
+  const Surroundings& s = task.surroundings;
+  const double dt = task.duration;
+  const Matrix3 R = start.orientation.toRotationMatrix();
+  BodyModel model = task.model;
+  model.inverse_inertia =
+      rotateAxes(lockedInverse(rotateAxes(model.inertia, R), factors), R.transpose());
+  Twist relative = start.twist;
+  relative.linear -= R.transpose() * s.ambient_velocity;
+  const Vector6 x = relative.vector();
+
+  RowVelocity result;
+  Vector6 forced = model.inverse_inertia * externalWrench(model, s, start.orientation).vector();
+  if (model.loads.density > 0) {
+    const SurfaceLoad load = computeSurfaceLoad(model, relative);
+    result.count.load_evaluations = 1;
+    result.count.guarded = load.guarded;
+    forced += (passiveKick(model, x, {x, load.wrench.vector()}, dt) - x) / dt;
+  }
+  const LockedRates rates(model.inertia, model.inverse_inertia, forced);
+  const Vector6 change = dt * rates.acceleration(midpoint(rates, x, dt));
+  const Vector6 free = projectionOf(factors);
+  result.change_W.angular = free.head<3>().cwiseProduct(R * change.head<3>());
+  result.change_W.linear =
+      free.tail<3>().cwiseProduct(R * change.tail<3>() + dt * s.ambient_acceleration);
+  return result;
+}
+
+}  // namespace ambient

@@ -1,0 +1,138 @@
+#include "bullet_ambient/motion/body_model.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "bullet_ambient/force/passivity_guard.h"
+
+namespace ambient {
+namespace {
+
+[[noreturn]] void reject(const FluidBody& body, const std::string& what, double value,
+                         const char* limit) {
+  std::ostringstream message;
+  message << "fluid body '" << body.name << "': " << what << " is " << value << ", must be "
+          << limit;
+  throw std::invalid_argument(message.str());
+}
+
+Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+void checkMass(const FluidBody& body, const MassProperties& mass) {
+  if (!(mass.mass > 0) || !std::isfinite(mass.mass)) {
+    reject(body, "mass [kg]", mass.mass, "positive and finite");
+  }
+  for (const double entry : mass.inertia.reshaped()) {
+    if (!std::isfinite(entry)) {
+      reject(body, "moment of inertia [kg m^2]", entry,
+             "finite (for a body that must not turn, use its angular factor)");
+    }
+  }
+  const double smallest = eigenvalues(mass.inertia)[0];
+  if (!(smallest > 0)) {
+    reject(body, "smallest principal moment of inertia [kg m^2]", smallest, "positive");
+  }
+}
+
+void checkShape(const FluidBody& body) {
+  if (!(body.volume >= 0) || !std::isfinite(body.volume)) {
+    reject(body, "volume [m^3]", body.volume, "zero or positive and finite");
+  }
+  if (!(body.area >= 0) || !std::isfinite(body.area)) {
+    reject(body, "wetted area [m^2]", body.area, "zero or positive and finite");
+  }
+  if (!body.centre_of_volume.allFinite()) {
+    reject(body, "distance of its centre of volume [m]", body.centre_of_volume.norm(), "finite");
+  }
+}
+
+void checkFlow(const FluidBody& body, const FlowSettings& flow) {
+  constexpr double kPi = 3.14159265358979323846;
+  constexpr double kRounding = 1e-9;  // of an angle that was written by hand
+  if (!(flow.separation_angle >= kPi / 2 * (1 - kRounding)) ||
+      !(flow.separation_angle <= kPi * (1 + kRounding))) {
+    reject(body, "separation angle [rad]", flow.separation_angle, "between pi/2 and pi");
+  }
+}
+
+void checkFrame(const FluidBody& body, const FrameOffset& frame) {
+  if (!frame.translation.allFinite()) {
+    reject(body, "distance of its frame from the centre of mass [m]", frame.translation.norm(),
+           "finite");
+  }
+  constexpr double kRounding = 1e-6;  // of a rotation that was stored as float
+  const Matrix3 rest = frame.rotation * frame.rotation.transpose() - Matrix3::Identity();
+  const double error = rest.cwiseAbs().maxCoeff();
+  if (!(error <= kRounding) || !(frame.rotation.determinant() > 0)) {
+    reject(body, "error of its frame's rotation matrix", error, "at most 1e-6, right-handed");
+  }
+}
+
+}  // namespace
+
+void checkMedium(const FluidBody& body, const Medium& medium) {
+  if (!(medium.density >= 0) || !std::isfinite(medium.density)) {
+    reject(body, "density of the medium [kg/m^3]", medium.density, "zero or positive and finite");
+  }
+  if (!(medium.viscosity >= 0) || !std::isfinite(medium.viscosity)) {
+    reject(body, "viscosity of the medium [Pa s]", medium.viscosity, "zero or positive and finite");
+  }
+  if (!medium.velocity.allFinite()) {
+    reject(body, "speed of the medium [m/s]", medium.velocity.norm(), "finite");
+  }
+  if (!medium.acceleration.allFinite()) {
+    reject(body, "acceleration of the medium [m/s^2]", medium.acceleration.norm(), "finite");
+  }
+}
+
+BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_frame,
+                        const MassProperties& mass, const Medium& medium,
+                        const FlowSettings& flow) {
+  checkMass(fluid_body, mass);
+  checkShape(fluid_body);
+  checkMedium(fluid_body, medium);
+  checkFlow(fluid_body, flow);
+  checkFrame(fluid_body, fluid_frame);
+  BodyModel model;
+  model.inertia = rigidBodyInertia(mass.mass, mass.inertia) +
+                  medium.density * fluid_frame.inertiaToB(fluid_body.added_mass);
+  // The rounding of the frame change must not leave an asymmetry in K.
+  model.inertia = 0.5 * (model.inertia + model.inertia.transpose()).eval();
+  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> cholesky(model.inertia);
+  if (cholesky.info() != Eigen::Success || !model.inertia.allFinite()) {
+    reject(fluid_body, "largest entry of body and added inertia",
+           model.inertia.cwiseAbs().maxCoeff(), "finite, in a positive definite 6x6 matrix");
+  }
+  model.inverse_inertia = cholesky.solve(Eigen::Matrix<double, 6, 6>::Identity());
+  model.inverse_inertia = 0.5 * (model.inverse_inertia + model.inverse_inertia.transpose()).eval();
+  model.mass = mass.mass;
+  model.displaced_mass = medium.density * fluid_body.volume;
+  model.centre_of_volume =
+      fluid_frame.rotation * fluid_body.centre_of_volume + fluid_frame.translation;
+  model.fluid_frame = fluid_frame;
+  model.loads = {medium.density, medium.viscosity, separationCosine(flow.separation_angle),
+                 flow.skin_friction};
+  model.reference_length = std::sqrt(fluid_body.area);
+  model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
+  model.faces = &fluid_body.faces;
+  return model;
+}
+
+SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept {
+  const Twist x_F = model.fluid_frame.toF(relative_twist);
+  const FaceLoads loads = computeFaceLoads(*model.faces, model.reference_length, x_F, model.loads);
+  const Wrench wrench = model.fluid_frame.toB(loads.total());
+  // At alpha = pi/2 no face can push its body along: eq. (15) and (17) are dissipative term by
+  // term.
+  if (model.loads.separation_cosine == 0) return {wrench, false};
+  const GuardedWrench guarded = removePositivePower(wrench, relative_twist, model.inertia);
+  return {guarded.wrench, guarded.acted};
+}
+
+}  // namespace ambient

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/force/medium.h"
+#include "bullet_ambient/spatial/inertia.h"
+
+namespace ambient {
+
+/// How the flow follows the surface of one body.
+struct FlowSettings {
+  double separation_angle =
+      1.5707963267948966;     ///< alpha in [pi/2, pi] [rad]; larger = more attachment
+  bool skin_friction = true;  ///< turbulent 1/5-power law, docs/theory.md eq. (16)
+};
+
+/// Mass [kg] and rotational inertia about the centre of mass in B's axes [kg m^2].
+struct MassProperties {
+  double mass = 0;
+  Matrix3 inertia = Matrix3::Zero();
+};
+
+/// All that the equations of motion need to know of one body in one medium; constant between
+/// changes of either. Frame: body frame B at the centre of mass. Points into `fluid_body`, which
+/// must outlive it.
+struct BodyModel {
+  Matrix6 inertia;                   ///< K = K_body + rho K_fluid, docs/theory.md eq. (3); SPD
+  Matrix6 inverse_inertia;           ///< K^-1
+  double mass = 0;                   ///< of the body without fluid [kg]
+  double displaced_mass = 0;         ///< m_f = rho volume [kg]
+  Vector3 centre_of_volume;          ///< in B [m]
+  FrameOffset fluid_frame;           ///< F in B
+  LoadSettings loads;                ///< how the faces are loaded
+  double reference_length = 0;       ///< sqrt(area) [m]
+  const FaceTable* faces = nullptr;  ///< in F
+
+  double largest_mass = 0;  ///< largest eigenvalue of K's translation block [kg]
+};
+
+/// @throws std::invalid_argument, naming value and limit, if the medium is not physical.
+void checkMedium(const FluidBody& fluid_body, const Medium& medium);
+
+/// Builds the model. Cost: a few 6x6 factorisations.
+/// @throws std::invalid_argument, naming value and limit, if mass, inertia, medium or flow settings
+/// are not physical.
+BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_frame,
+                        const MassProperties& mass, const Medium& medium, const FlowSettings& flow);
+
+/// Pressure and friction on the body in B for a twist relative to the ambient flow, after the
+/// passivity guard; docs/theory.md eq. (13) to (17) and (20).
+struct SurfaceLoad {
+  Wrench wrench;
+  bool guarded = false;  ///< the guard removed a positive power
+};
+SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept;
+
+/// Twice the kinetic energy of body and fluid, x.K x [J].
+inline double inertiaNormSquared(const BodyModel& model, const Vector6& x) {
+  return x.dot(model.inertia * x);
+}
+
+}  // namespace ambient

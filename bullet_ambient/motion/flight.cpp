@@ -1,0 +1,33 @@
+#include "bullet_ambient/motion/flight.h"
+
+#include "bullet_ambient/force/buoyancy.h"
+#include "bullet_ambient/motion/leapfrog.h"
+#include "bullet_ambient/motion/runge_kutta.h"
+
+namespace ambient {
+
+Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings,
+                      const Quaternion& orientation) {
+  const Quaternion to_body = orientation.conjugate();
+  const Vector3 force = surroundings.applied.force - model.mass * surroundings.ambient_acceleration;
+  const Vector3 gravity = to_body * (surroundings.gravity - surroundings.ambient_acceleration);
+  return Wrench{to_body * surroundings.applied.torque, to_body * force} +
+         buoyancy(model.displaced_mass, model.centre_of_volume, gravity);
+}
+
+FlightResult fly(const FlightTask& task, const RigidState& start,
+                 const FlightMemory& memory) noexcept {
+  const Surroundings& s = task.surroundings;
+  RigidState relative = start;
+  relative.twist.linear -= start.orientation.conjugate() * s.ambient_velocity;
+  FlightResult flight = task.settings.integrator == Integrator::kRungeKutta4
+                            ? flyRungeKutta(task, relative)
+                            : flyLeapfrog(task, relative, memory);
+  const double t = task.duration;
+  flight.state.position += t * s.ambient_velocity + t * t / 2 * s.ambient_acceleration;
+  flight.state.twist.linear +=
+      flight.state.orientation.conjugate() * (s.ambient_velocity + t * s.ambient_acceleration);
+  return flight;
+}
+
+}  // namespace ambient

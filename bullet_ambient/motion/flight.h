@@ -1,0 +1,71 @@
+#pragma once
+
+#include "bullet_ambient/motion/body_model.h"
+#include "bullet_ambient/motion/rigid_state.h"
+
+namespace ambient {
+
+/// How free flight is integrated over one step of the world.
+enum class Integrator {
+  kPassiveLeapfrog,  ///< default: energy cannot grow at any step, one load evaluation per substep
+  kRungeKutta4,      ///< the paper's: |w| h < 5.7 degrees, four load evaluations per substep
+};
+
+struct FlightSettings {
+  Integrator integrator = Integrator::kPassiveLeapfrog;
+  double tolerance =
+      1e-3;  ///< leapfrog: velocity error per substep relative to the motion [1], docs eq. (25)
+  int max_substeps =
+      0;  ///< bound per step; 0: 16 (64 for bodies lighter than their added mass), RK4: 4096
+};
+
+/// What acts on the body during one step besides the surface loads. World axes; constant over the
+/// step.
+struct Surroundings {
+  Vector3 gravity = Vector3::Zero();  ///< that makes the hydrostatic pressure [m/s^2]
+  Wrench applied;  ///< all other forces, weight included, and torque about the centre of mass
+  Vector3 ambient_velocity = Vector3::Zero();      ///< at the start of the step [m/s]
+  Vector3 ambient_acceleration = Vector3::Zero();  ///< [m/s^2]
+};
+
+/// What the leapfrog remembers from one step to the next. Reset it when anybody else changed the
+/// velocity.
+struct FlightMemory {
+  Wrench load_W;  ///< last surface load, world axes
+  bool has_load = false;
+  double substep = 0;  ///< substep that the last step ended with [s]; 0: unknown
+};
+
+struct FlightCount {
+  int substeps = 0;
+  int load_evaluations = 0;
+  int guarded = 0;      ///< evaluations in which the passivity guard acted
+  bool coarse = false;  ///< the bound on substeps was reached with the error above tolerance
+};
+
+struct FlightResult {
+  RigidState state;  ///< at the end; twist absolute, in B
+  FlightMemory memory;
+  FlightCount count;
+};
+
+/// Weight, buoyancy and inertial forces of the ambient acceleration in B, docs/theory.md eq. (18)
+/// and (19).
+Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings,
+                      const Quaternion& orientation);
+
+/// One body over one step.
+struct FlightTask {
+  const BodyModel& model;
+  const Surroundings& surroundings;
+  const FlightSettings& settings;
+  double duration;  ///< [s], > 0
+};
+
+/// Integrates Kirchhoff's equations with loads over the task's duration from `start` (twist
+/// absolute, in B). Works in the frame that moves with the ambient flow. Allocates nothing. The
+/// result is not finite if the input or a load is not: check before use.
+FlightResult fly(const FlightTask& task, const RigidState& start,
+                 const FlightMemory& memory) noexcept;
+
+}  // namespace ambient

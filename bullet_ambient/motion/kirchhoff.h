@@ -1,0 +1,26 @@
+#pragma once
+
+#include "bullet_ambient/motion/body_model.h"
+#include "bullet_ambient/motion/rigid_state.h"
+
+namespace ambient {
+
+/// Gyroscopic terms of Kirchhoff's equations in B, docs/theory.md eq. (2): K dx/dt = (l x w + p x
+/// v, p x w) + wrench.
+Wrench gyroscopicWrench(const Matrix6& inertia, const Twist& x);
+
+/// Linear and angular momentum of body and fluid in world axes; the angular one about `pivot`.
+/// Without loads both stay constant.
+struct WorldMomentum {
+  Vector3 linear;   ///< P [kg m/s]
+  Vector3 angular;  ///< L about pivot [kg m^2/s]
+  Vector3 pivot;    ///< [m]
+};
+WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state);
+
+/// The twist in B that a pose has for a given world momentum, x = K^-1 (R^T (L - (y - pivot) x P),
+/// R^T P).
+Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quaternion& orientation,
+              const Vector3& position);
+
+}  // namespace ambient

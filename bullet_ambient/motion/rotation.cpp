@@ -1,0 +1,23 @@
+#include "bullet_ambient/motion/rotation.h"
+
+#include <cmath>
+
+namespace ambient {
+
+Quaternion rotationFromVector(const Vector3& r) {
+  const double angle = r.norm();
+  // sin(a/2)/a, whose series is exact to rounding where the quotient would lose digits.
+  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : std::sin(angle / 2) / angle;
+  const Vector3 v = scale * r;
+  return Quaternion(std::cos(angle / 2), v.x(), v.y(), v.z()).normalized();
+}
+
+Vector3 rotationVector(const Quaternion& q) {
+  const double sine = q.vec().norm();
+  const double cosine = std::abs(q.w());
+  const double half_angle = std::atan2(sine, cosine);
+  const double scale = sine > 0 ? 2 * half_angle / sine : 2.0;
+  return (q.w() < 0 ? -scale : scale) * q.vec();
+}
+
+}  // namespace ambient

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include "bullet_ambient/motion/row_velocity.h"
+#include "tests/reference/full_inertia_accelerations.h"
+#include "tests/support/extrapolation.h"
+#include "tests/support/free_body.h"
+
+namespace ambient {
+namespace {
+
+using reference::AccelerationCase;
+using test::FreeBody;
+
+FreeBody bodyOf(const AccelerationCase& c) {
+  FreeBody body({test::shapeWithoutFaces(reference::fullInertia() - Matrix6::Identity(), 0)});
+  body.state.orientation = Quaternion(c.orientation.normalized());
+  const Quaternion to_body = body.state.orientation.conjugate();
+  body.state.twist = {to_body * Vector3(c.angular_velocity), to_body * Vector3(c.linear_velocity)};
+  body.surroundings.applied = {c.torque, c.force};
+  return body;
+}
+
+Vector6 worldVelocity(const FreeBody& body) {
+  return stack(body.state.orientation * body.state.twist.angular,
+               body.state.orientation * body.state.twist.linear);
+}
+
+Vector6 expectedAcceleration(const AccelerationCase& c) {
+  return stack(c.angular_acceleration, c.linear_acceleration);
+}
+
+TEST(RowVelocity, HasTheAccelerationsOfAnotherSimulator) {
+  for (const AccelerationCase& c : reference::fullInertiaAccelerations()) {
+    const FreeBody body = bodyOf(c);
+    constexpr double kStep = 1.0 / 1024;
+    const RowVelocity row =
+        computeRowVelocity({body.model(), body.surroundings, body.settings, kStep}, body.state);
+    const Vector6 error = row.change_W.vector() / kStep - expectedAcceleration(c);
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12);  // uncertainty of the reference
+  }
+}
+
+TEST(Leapfrog, HasTheAccelerationsOfAnotherSimulator) {
+  for (const AccelerationCase& c : reference::fullInertiaAccelerations()) {
+    const auto central_difference = [&](double h) {
+      FreeBody forwards = bodyOf(c);
+      FreeBody backwards = bodyOf(c);  // the same motion with time reversed
+      backwards.state.twist = Twist::fromVector(-backwards.state.twist.vector());
+      forwards.advance(h);
+      backwards.advance(h);
+      return Vector6((worldVelocity(forwards) + worldVelocity(backwards)) / (2 * h));
+    };
+    const Vector6 error =
+        test::limitAtZero(central_difference, {0.1, 5, 2}) - expectedAcceleration(c);
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(RungeKutta, HasTheAccelerationsOfAnotherSimulator) {
+  for (const AccelerationCase& c : reference::fullInertiaAccelerations()) {
+    const auto difference = [&](double h) {
+      FreeBody body = bodyOf(c);
+      body.settings = {Integrator::kRungeKutta4, 1e-3, 1};
+      const Vector6 start = worldVelocity(body);
+      body.advance(h);
+      return Vector6((worldVelocity(body) - start) / h);
+    };
+    const Vector6 error = test::limitAtZero(difference, {0.1, 8, 1}) - expectedAcceleration(c);
+    // Rounding of the velocities over the smallest of the steps, 0.8 ms.
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace ambient

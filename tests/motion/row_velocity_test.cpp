@@ -1,0 +1,80 @@
+#include "bullet_ambient/motion/row_velocity.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/ellipsoid_body.h"
+#include "tests/support/free_body.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+using test::Arbitrary;
+using test::FreeBody;
+
+Vector6 rowChange(const FreeBody& body, double step) {
+  return computeRowVelocity({body.model(), body.surroundings, body.settings, step}, body.state)
+      .change_W.vector();
+}
+
+FreeBody spinningBody(unsigned seed, double spin) {
+  Arbitrary arbitrary(seed);
+  FreeBody body({test::shapeWithoutFaces(arbitrary.positiveDefinite())});
+  body.state.orientation = Quaternion(arbitrary.rotation());
+  body.state.twist = {spin * arbitrary.vector().normalized(), arbitrary.vector()};
+  return body;
+}
+
+TEST(RowVelocity, IsTheAccelerationAtTheStartTimesTheStep) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const FreeBody body = spinningBody(seed, 1);
+    const Vector6 unit = rowChange(body, 1e-6) / 1e-6;
+    EXPECT_LT((rowChange(body, 1e-3) / 1e-3 - unit).norm(), 1e-9 * unit.norm()) << seed;
+  }
+}
+
+TEST(RowVelocity, ApproachesTheAccelerationToFirstOrderWhereItIsStiff) {
+  // Beyond |w| dt = 0.5 the implicit midpoint takes over; it agrees to first order in the step.
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const FreeBody body = spinningBody(seed, 1e4);
+    const Vector6 unit = rowChange(body, 1e-9) / 1e-9;
+    const double coarse = (rowChange(body, 0.51e-4) / 0.51e-4 - unit).norm() / unit.norm();
+    EXPECT_LT(coarse, 1) << seed;
+  }
+}
+
+TEST(RowVelocity, OfAFastSpinStaysBounded) {
+  // The acceleration times the step would be |w| dt times the velocity: 17, 170 and 1700.
+  for (const double spin : {1e3, 1e4, 1e5}) {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const FreeBody body = spinningBody(seed, spin);
+      const Vector3 change = rowChange(body, 1.0 / 60).head<3>();
+      EXPECT_LT(change.norm(), 10 * spin) << seed;
+    }
+  }
+}
+
+TEST(RowVelocity, CannotBeReversedByDrag) {
+  const double radius = 0.1;
+  const FluidBody shape = test::gaussSphere(radius);
+  FreeBody ball({shape,
+                 {1e-3, test::ellipsoidMoments(Vector3::Constant(radius), 1e-3).asDiagonal()},
+                 water()});
+  ball.state.twist.linear = {0, 0, 100};
+  for (const double step : {1e-3, 1.0, 1e6}) {
+    const double change = rowChange(ball, step)[5];
+    EXPECT_LT(change, 0) << step;
+    EXPECT_GT(change, -100) << step;
+  }
+}
+
+TEST(RowVelocity, CountsItsLoadEvaluation) {
+  const FluidBody shape = test::gaussSphere(0.1);
+  const FreeBody ball({shape, {1, Matrix3::Identity()}, water()});
+  const RowVelocity row =
+      computeRowVelocity({ball.model(), ball.surroundings, ball.settings, 0.01}, ball.state);
+  EXPECT_EQ(row.count.load_evaluations, 1);
+}
+
+}  // namespace
+}  // namespace ambient
