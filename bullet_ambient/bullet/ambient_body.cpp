@@ -1,0 +1,56 @@
+#include "bullet_ambient/bullet/ambient_body.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other) {
+  substeps += other.substeps;
+  load_evaluations += other.load_evaluations;
+  guarded += other.guarded;
+  coarse += other.coarse;
+  rows += other.rows;
+  rejected += other.rejected;
+  return *this;
+}
+
+RigidState readState(const btRigidBody& body) {
+  RigidState state;
+  state.orientation = toQuaternion(body.getWorldTransform().getRotation());
+  state.position = toVector3(body.getWorldTransform().getOrigin());
+  const Quaternion to_body = state.orientation.conjugate();
+  state.twist.angular = to_body * toVector3(body.getAngularVelocity());
+  state.twist.linear = to_body * toVector3(body.getLinearVelocity());
+  return state;
+}
+
+Surroundings readSurroundings(const AmbientBody& ambient) {
+  const btRigidBody& body = *ambient.body;
+  Surroundings s;
+  s.gravity = toVector3(body.getGravity());
+  s.applied = {toVector3(body.getTotalTorque()), toVector3(body.getTotalForce())};
+  s.ambient_velocity = ambient.def.medium.velocity;
+  s.ambient_acceleration = ambient.def.medium.acceleration;
+  return s;
+}
+
+void rebuildModel(AmbientBody& ambient) {
+  const btRigidBody& body = *ambient.body;
+  const Vector3 inverse_inertia = toVector3(body.getInvInertiaDiagLocal());
+  const Vector3 inertia = inverse_inertia.cwiseInverse();
+  const MassProperties mass{1 / static_cast<double>(body.getInvMass()), inertia.asDiagonal()};
+  ambient.model = makeBodyModel(*ambient.def.fluid_body, ambient.def.fluid_frame, mass,
+                                ambient.def.medium, ambient.def.flow);
+  ambient.basis_B = makeVelocityBasis(ambient.model, inertia);
+  ambient.seen_inverse_mass = body.getInvMass();
+  ambient.seen_inverse_inertia = body.getInvInertiaDiagLocal();
+  ambient.memory = {};
+}
+
+bool isModelStale(const AmbientBody& ambient) {
+  const btRigidBody& body = *ambient.body;
+  return body.getInvMass() != ambient.seen_inverse_mass ||
+         !(body.getInvInertiaDiagLocal() == ambient.seen_inverse_inertia);
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <memory>
+
+#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/velocity_basis.h"
+#include "bullet_ambient/motion/flight.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// How a btRigidBody meets the fluid.
+struct AttachDef {
+  std::shared_ptr<const FluidBody> fluid_body;  ///< shared by all bodies of one shape
+  Medium medium;
+  FlowSettings flow;
+  FlightSettings flight;
+  FrameOffset
+      fluid_frame;  ///< frame F of the fluid body in the btRigidBody's frame (centre of mass)
+};
+
+/// What was computed for one body since it was attached.
+struct AmbientCounters {
+  long long substeps = 0;          ///< of free flight
+  long long load_evaluations = 0;  ///< passes over all faces
+  long long guarded = 0;           ///< load evaluations in which the passivity guard acted
+  long long coarse =
+      0;  ///< steps whose error stayed above the tolerance at the largest substep count
+  long long rows = 0;      ///< constraint rows rewritten
+  long long rejected = 0;  ///< steps whose result was not finite and was not taken over
+
+  AmbientCounters& operator+=(const AmbientCounters& other);
+};
+
+/// One attached body: its model and what the solver hands to the action within a substep.
+struct AmbientBody {
+  btRigidBody* body = nullptr;
+  AttachDef def;
+  BodyModel model;
+  Matrix6 basis_B = Matrix6::Identity();
+  btScalar seen_inverse_mass = 0;  ///< dry mass properties the model was built from
+  btVector3 seen_inverse_inertia{0, 0, 0};
+  FlightMemory memory;
+  Twist left_W;  ///< velocity after the last flight, world axes
+  AmbientCounters counters;
+
+  bool was_solved = false;  ///< the solver met the body in this substep
+  bool is_adrift = false;   ///< no row has moved it in this substep
+  bool has_flown = false;   ///< free flight was computed in this substep and awaits the action
+  RigidState end;           ///< where it ends
+  Twist effective_W;        ///< constant twist that Bullet integrates onto the end pose
+
+  bool isInFluid() const { return def.medium.density > 0; }
+};
+
+/// Pose and twist of a btRigidBody, its twist in body axes.
+RigidState readState(const btRigidBody& body);
+
+/// Gravity, applied forces and torques, and the ambient flow at the start of a step.
+Surroundings readSurroundings(const AmbientBody& ambient);
+
+/// Builds model and velocity basis from the body's mass properties as they are now.
+/// @throws std::invalid_argument as makeBodyModel().
+void rebuildModel(AmbientBody& ambient);
+
+/// Whether setMassProps was called since the model was built.
+bool isModelStale(const AmbientBody& ambient);
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,140 @@
+#include "bullet_ambient/bullet/ambient_registry.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+const char* sentence(AmbientRegistry::Complaint complaint) {
+  using Complaint = AmbientRegistry::Complaint;
+  switch (complaint) {
+    case Complaint::kNoAction:
+      return "bullet_ambient: bodies in fluid moved without their AmbientAction; call "
+             "world->addAction(&action)";
+    case Complaint::kNoSolver:
+      return "bullet_ambient: bodies in fluid are awake but their AmbientSolver was not called; "
+             "construct the world with it or call world->setConstraintSolver(&solver)";
+    case Complaint::kNotFinite:
+      return "bullet_ambient: a velocity, force or result of a body in fluid is not finite; the "
+             "body kept its velocity or, where that is not finite, stopped";
+    case Complaint::kNotPhysical:
+      return "bullet_ambient: the mass properties of a body in fluid were changed to values that "
+             "are not physical; it moves as in a vacuum until they are valid again";
+    case Complaint::kCount:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+AmbientRegistry::AmbientRegistry()
+    : report_([](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }) {}
+
+void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
+  if (!def.fluid_body) {
+    throw std::invalid_argument("attach: the fluid body is null; load one with readFluidBody()");
+  }
+  const std::string who = "attach: body with fluid body '" + def.fluid_body->name + "'";
+  if (body.isStaticOrKinematicObject() || !(body.getInvMass() > 0)) {
+    throw std::invalid_argument(
+        who + " is static or kinematic (mass 0); only dynamic bodies feel a fluid");
+  }
+  if (isAttached(body)) {
+    throw std::invalid_argument(who + " is attached already; use setMedium() or detach it first");
+  }
+  auto ambient = std::make_unique<AmbientBody>();
+  ambient->body = &body;
+  ambient->def = std::move(def);
+  rebuildModel(*ambient);
+  if (ambient->isInFluid()) body.activate();
+  by_object_.emplace(&body, ambient.get());
+  bodies_.push_back(std::move(ambient));
+}
+
+bool AmbientRegistry::detach(const btRigidBody& body) {
+  const auto found = by_object_.find(&body);
+  if (found == by_object_.end()) return false;
+  const auto owner =
+      std::find_if(bodies_.begin(), bodies_.end(),
+                   [&](const std::unique_ptr<AmbientBody>& b) { return b.get() == found->second; });
+  bodies_.erase(owner);
+  by_object_.erase(found);
+  return true;
+}
+
+void AmbientRegistry::setMedium(const btRigidBody& body, const Medium& medium) {
+  AmbientBody& ambient = require(body);
+  checkMedium(*ambient.def.fluid_body, medium);
+  const Medium before = std::exchange(ambient.def.medium, medium);
+  const bool is_same_fluid =
+      medium.density == before.density && medium.viscosity == before.viscosity;
+  if (is_same_fluid && medium.velocity == before.velocity &&
+      medium.acceleration == before.acceleration) {
+    return;
+  }
+  if (!is_same_fluid) {
+    try {
+      rebuildModel(ambient);
+    } catch (...) {
+      ambient.def.medium = before;
+      throw;
+    }
+  }
+  ambient.body->activate();
+}
+
+const Medium& AmbientRegistry::medium(const btRigidBody& body) const {
+  return require(body).def.medium;
+}
+
+const Matrix6& AmbientRegistry::inertia(const btRigidBody& body) const {
+  return require(body).model.inertia;
+}
+
+AmbientCounters AmbientRegistry::counters(const btRigidBody& body) const {
+  return require(body).counters;
+}
+
+AmbientCounters AmbientRegistry::counters() const {
+  AmbientCounters sum;
+  for (const auto& ambient : bodies_) sum += ambient->counters;
+  return sum;
+}
+
+void AmbientRegistry::setReport(std::function<void(const std::string&)> report) {
+  report_ = std::move(report);
+}
+
+AmbientBody* AmbientRegistry::find(const btCollisionObject* body) {
+  const auto found = by_object_.find(body);
+  return found == by_object_.end() ? nullptr : found->second;
+}
+
+const AmbientBody* AmbientRegistry::find(const btCollisionObject* body) const {
+  return const_cast<AmbientRegistry*>(this)->find(body);
+}
+
+AmbientBody& AmbientRegistry::require(const btRigidBody& body) const {
+  AmbientBody* ambient = const_cast<AmbientRegistry*>(this)->find(&body);
+  if (!ambient) throw std::invalid_argument("this body is not attached to the ambient registry");
+  return *ambient;
+}
+
+void AmbientRegistry::complain(Complaint complaint) noexcept {
+  bool& done = complained_[static_cast<int>(complaint)];
+  if (done) return;
+  done = true;
+  try {
+    if (report_) report_(sentence(complaint));
+  } catch (...) {
+    // A user's callback that throws must not unwind through Bullet's solver.
+  }
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

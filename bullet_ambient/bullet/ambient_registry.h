@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/bullet/precision_check.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// Which bodies are in which fluid. Shared by one AmbientSolver (or several, with a multithreaded
+/// world) and one AmbientAction. Change it between steps only; it uses neither user pointers nor
+/// callbacks of the world.
+class AmbientRegistry {
+ public:
+  AmbientRegistry();
+  AmbientRegistry(const AmbientRegistry&) = delete;
+  AmbientRegistry& operator=(const AmbientRegistry&) = delete;
+
+  /// Puts a dynamic body into a fluid. Detach it before it is destroyed.
+  /// @throws std::invalid_argument, saying what and the limit: static body, attached twice, no
+  /// fluid body, mass, inertia, medium or flow settings that are not physical.
+  void attach(btRigidBody& body, AttachDef def);
+  /// Takes the body out of its fluid; it then moves as in stock Bullet. False if it was not
+  /// attached.
+  bool detach(const btRigidBody& body);
+  bool isAttached(const btRigidBody& body) const { return find(&body) != nullptr; }
+
+  /// Changes the fluid around an attached body; its velocity stays, and it wakes up if anything
+  /// did change. Cheap where density and viscosity stay: a current may be given in every step.
+  /// @throws std::invalid_argument if the body is not attached or the medium is not physical.
+  void setMedium(const btRigidBody& body, const Medium& medium);
+  const Medium& medium(const btRigidBody& body) const;
+
+  /// Total inertia K in the body frame; docs/theory.md eq. (3). @throws as medium().
+  const Matrix6& inertia(const btRigidBody& body) const;
+
+  std::size_t size() const { return bodies_.size(); }
+  AmbientCounters counters(const btRigidBody& body) const;
+  AmbientCounters counters() const;
+
+  /// Receives one sentence the first time something cannot be right: the action or the solver is
+  /// missing from the world, a step's result was not finite. Default: standard error.
+  void setReport(std::function<void(const std::string&)> report);
+
+  // For solver and action.
+  AmbientBody* find(const btCollisionObject* body);
+  const AmbientBody* find(const btCollisionObject* body) const;
+  const std::vector<std::unique_ptr<AmbientBody>>& bodies() const { return bodies_; }
+  enum class Complaint { kNoAction, kNoSolver, kNotFinite, kNotPhysical, kCount };
+  void complain(Complaint complaint) noexcept;
+
+ private:
+  AmbientBody& require(const btRigidBody& body) const;
+
+  std::vector<std::unique_ptr<AmbientBody>> bodies_;  // in the order of attachment
+  std::unordered_map<const btCollisionObject*, AmbientBody*> by_object_;
+  std::function<void(const std::string&)> report_;
+  bool complained_[static_cast<int>(Complaint::kCount)] = {};
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+
+#include <type_traits>
+#include <utility>
+
+#include "bullet_ambient/bullet/ambient_registry.h"
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/solver_group.h"
+
+class btMultiBodyConstraintSolver;
+class btDeformableMultiBodyConstraintSolver;
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// A stock constraint solver whose contacts and joints feel the full 6x6 inertia of ambient bodies,
+/// by a change of velocity basis; docs/bullet_step.md. A world without ambient bodies moves bit for
+/// bit as with Base. Base: btSequentialImpulseConstraintSolver or a class derived from it. Must be
+/// compiled against the same Bullet headers and precision as the library.
+template <class Base = btSequentialImpulseConstraintSolver>
+class AmbientSolver : public Base {
+  static_assert(std::is_base_of_v<btSequentialImpulseConstraintSolver, Base>,
+                "AmbientSolver<Base>: Base must be btSequentialImpulseConstraintSolver or derived "
+                "from it");
+  static_assert(!std::is_base_of_v<btDeformableMultiBodyConstraintSolver, Base>,
+                "AmbientSolver<Base>: btDeformableMultiBodyDynamicsWorld solves rigid bodies "
+                "together with deformable ones in a way that cannot be rewritten; use "
+                "btSoftRigidDynamicsWorld or btMultiBodyDynamicsWorld");
+  static constexpr bool kHasMultiBodies = std::is_base_of_v<btMultiBodyConstraintSolver, Base>;
+
+ public:
+  /// Further arguments go to Base. The registry must outlive the solver.
+  template <class... Args>
+  explicit AmbientSolver(AmbientRegistry& registry, Args&&... args)
+      : Base(std::forward<Args>(args)...), registry_(registry) {}
+
+ protected:
+  btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count,
+                                        btPersistentManifold** manifolds, int manifold_count,
+                                        btTypedConstraint** constraints, int constraint_count,
+                                        const btContactSolverInfo& info,
+                                        btIDebugDraw* debug_drawer) override {
+    input_ = {manifolds, manifold_count, constraints, constraint_count};
+    return Base::solveGroupCacheFriendlySetup(bodies, body_count, manifolds, manifold_count,
+                                              constraints, constraint_count, info, debug_drawer);
+  }
+
+  void convertBodies(btCollisionObject** bodies, int body_count,
+                     const btContactSolverInfo& info) override {
+    Base::convertBodies(bodies, body_count, info);
+    group_.begin(registry_, this->m_tmpSolverBodyPool, input_, info.m_timeStep);
+  }
+
+  // The last stock conversion: joints and contacts are rows by now.
+  void convertContacts(btPersistentManifold** manifolds, int manifold_count,
+                       const btContactSolverInfo& info) override {
+    Base::convertContacts(manifolds, manifold_count, info);
+    if constexpr (kHasMultiBodies) {
+      const MultiBodyRows multibodies{this->m_multiBodyNormalContactConstraints,
+                                      this->m_multiBodyFrictionContactConstraints,
+                                      this->m_multiBodyTorsionalFrictionContactConstraints,
+                                      this->m_multiBodySpinningFrictionContactConstraints,
+                                      this->m_multiBodyNonContactConstraints,
+                                      this->m_data};
+      group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), &multibodies, info);
+    } else {
+      group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), nullptr, info);
+    }
+  }
+
+  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
+                                         const btContactSolverInfo& info) override {
+    group_.finish(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool);
+    return Base::solveGroupCacheFriendlyFinish(bodies, body_count, info);
+  }
+
+ private:
+  RowPools pools() {
+    return {this->m_tmpSolverContactConstraintPool, this->m_tmpSolverContactFrictionConstraintPool,
+            this->m_tmpSolverContactRollingFrictionConstraintPool,
+            this->m_tmpSolverNonContactConstraintPool};
+  }
+
+  AmbientRegistry& registry_;
+  SolverGroup group_;
+  GroupInput input_;
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <LinearMath/btMatrix3x3.h>
+#include <LinearMath/btQuaternion.h>
+#include <LinearMath/btVector3.h>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/spatial/vector_types.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+inline Vector3 toVector3(const btVector3& v) {
+  return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
+}
+inline btVector3 toBullet(const Vector3& v) {
+  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+}
+
+/// Unit to double rounding, also from float32 quaternions.
+inline Quaternion toQuaternion(const btQuaternion& q) {
+  return Quaternion(static_cast<double>(q.w()), static_cast<double>(q.x()),
+                    static_cast<double>(q.y()), static_cast<double>(q.z()))
+      .normalized();
+}
+inline btQuaternion toBullet(const Quaternion& q) {
+  return {static_cast<btScalar>(q.x()), static_cast<btScalar>(q.y()), static_cast<btScalar>(q.z()),
+          static_cast<btScalar>(q.w())};
+}
+
+template <class Block>  // any 3x3 Eigen expression
+btMatrix3x3 toBulletMatrix(const Block& m) {
+  const auto s = [](double value) { return static_cast<btScalar>(value); };
+  return {s(m(0, 0)), s(m(0, 1)), s(m(0, 2)), s(m(1, 0)), s(m(1, 1)),
+          s(m(1, 2)), s(m(2, 0)), s(m(2, 1)), s(m(2, 2))};
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

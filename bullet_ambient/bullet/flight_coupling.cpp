@@ -1,0 +1,138 @@
+#include "bullet_ambient/bullet/flight_coupling.h"
+
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include "bullet_ambient/motion/rotation.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+// A velocity that others changed by more than this part since the last flight makes its history
+// worthless.
+constexpr double kSameVelocity = 1e-3;
+constexpr double kBulletMaxTurn =
+    3.14159265358979323846 / 4;          // [rad] per step in integrateTransform
+constexpr double kRestingTravel = 0.01;  // of the body's size, within kRestingTime
+constexpr double kRestingTime = 2;       // [s], Bullet's gDeactivationTime by default
+
+Twist worldTwist(const RigidState& state) {
+  return {state.orientation * state.twist.angular, state.orientation * state.twist.linear};
+}
+
+bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start) {
+  const Twist now = worldTwist(start);
+  const Quaternion to_body = start.orientation.conjugate();
+  Vector6 change;
+  change << to_body * (now.angular - ambient.left_W.angular),
+      to_body * (now.linear - ambient.left_W.linear);
+  return inertiaNormSquared(ambient.model, change) >
+         kSameVelocity * kSameVelocity * inertiaNormSquared(ambient.model, start.twist.vector());
+}
+
+// Within rounding of where the flight ends, or did a continuous collision stop the body on its way?
+bool reachedEnd(const AmbientBody& ambient) {
+  const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
+  const double rounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  return (position - ambient.end.position).norm() <=
+         rounding * (ambient.end.position.norm() + ambient.model.reference_length);
+}
+
+bool fitsBullet(const RigidState& state) {
+  constexpr auto kLargest = static_cast<double>(std::numeric_limits<btScalar>::max());
+  const Twist twist = worldTwist(state);
+  return state.isFinite() && state.position.norm() < kLargest && twist.linear.norm() < kLargest &&
+         twist.angular.norm() < kLargest;
+}
+
+}  // namespace
+
+bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
+  ambient.was_solved = true;
+  if (ambient.has_flown) {
+    registry.complain(AmbientRegistry::Complaint::kNoAction);
+    ambient.has_flown = false;
+  }
+  if (!ambient.isInFluid()) return false;
+  if (ambient.body->isStaticOrKinematicObject()) return false;  // for now
+  if (!isModelStale(ambient)) return true;
+  try {
+    rebuildModel(ambient);
+    return true;
+  } catch (const std::exception&) {
+    registry.complain(AmbientRegistry::Complaint::kNotPhysical);
+    return false;
+  }
+}
+
+bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
+  btRigidBody& body = *ambient.body;
+  if (toVector3(body.getLinearVelocity()).allFinite() &&
+      toVector3(body.getAngularVelocity()).allFinite()) {
+    return false;
+  }
+  body.setLinearVelocity({0, 0, 0});
+  body.setAngularVelocity({0, 0, 0});
+  ambient.memory = {};
+  ++ambient.counters.rejected;
+  registry.complain(AmbientRegistry::Complaint::kNotFinite);
+  return true;
+}
+
+Twist beginFlight(AmbientBody& ambient, double time_step) noexcept {
+  const RigidState start = readState(*ambient.body);
+  const Surroundings surroundings = readSurroundings(ambient);
+  if (wasMovedByOthers(ambient, start)) ambient.memory.has_load = false;
+  const FlightResult flight =
+      fly({ambient.model, surroundings, ambient.def.flight, time_step}, start, ambient.memory);
+  ambient.counters.substeps += flight.count.substeps;
+  ambient.counters.load_evaluations += flight.count.load_evaluations;
+  ambient.counters.guarded += flight.count.guarded;
+  ambient.counters.coarse += flight.count.coarse;
+  if (!fitsBullet(flight.state)) {
+    ++ambient.counters.rejected;
+    ambient.memory = {};
+    ambient.has_flown = false;
+    return {};
+  }
+  ambient.memory = flight.memory;
+  ambient.end = flight.state;
+  ambient.has_flown = true;
+  const Quaternion turn = (flight.state.orientation * start.orientation.conjugate()).normalized();
+  ambient.effective_W = {rotationVector(turn) / time_step,
+                         (flight.state.position - start.position) / time_step};
+  const Twist before = worldTwist(start);
+  return {ambient.effective_W.angular - before.angular, ambient.effective_W.linear - before.linear};
+}
+
+void endFlight(AmbientBody& ambient, double time_step) noexcept {
+  btRigidBody& body = *ambient.body;
+  ambient.has_flown = false;
+  if (ambient.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) &&
+      reachedEnd(ambient)) {
+    btTransform end = body.getWorldTransform();
+    end.setRotation(toBullet(ambient.end.orientation));
+    body.setCenterOfMassTransform(end);
+  }
+  const Twist end = worldTwist(ambient.end);
+  // Added, not set: impulses that other actions have applied meanwhile survive.
+  body.setAngularVelocity(body.getAngularVelocity() +
+                          toBullet(Vector3(end.angular - ambient.effective_W.angular)));
+  body.setLinearVelocity(body.getLinearVelocity() +
+                         toBullet(Vector3(end.linear - ambient.effective_W.linear)));
+  ambient.left_W = end;
+}
+
+void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept {
+  btRigidBody& body = *ambient.body;
+  const double size = ambient.model.reference_length;
+  const double travel =
+      kRestingTime * (static_cast<double>(body.getLinearVelocity().length()) +
+                      size * static_cast<double>(body.getAngularVelocity().length()));
+  if (travel > kRestingTravel * size) body.setDeactivationTime(0);
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "bullet_ambient/bullet/ambient_registry.h"
+#include "bullet_ambient/bullet/precision_check.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// Whether the fluid acts on the body in this step. Rebuilds a stale model, and reports an action
+/// that is missing.
+bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
+
+/// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports
+/// it; returns whether it did.
+bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
+
+/// Flies the body over `time_step` [s] and keeps where it ends. Returns the velocity change in
+/// world axes that makes Bullet's integrateTransform reach that pose, docs/theory.md eq. (29). If
+/// the flight is not finite, has_flown is false and nothing is kept.
+Twist beginFlight(AmbientBody& ambient, double time_step) noexcept;
+
+/// After Bullet has moved the body: gives it the velocity of the end of its flight, and the pose
+/// itself where Bullet limits the rotation per step.
+void endFlight(AmbientBody& ambient, double time_step) noexcept;
+
+/// Keeps Bullet from putting a body to sleep that drifts freely: it may rest only when it moves by
+/// less than a hundredth of its size within Bullet's two seconds.
+void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept;
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

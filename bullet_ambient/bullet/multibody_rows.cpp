@@ -1,0 +1,125 @@
+#include "bullet_ambient/bullet/multibody_rows.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+// One side of a row: a multibody, an ambient body, or another rigid body. Without either: nothing.
+struct Party {
+  const btMultiBody* multibody;
+  int jacobian;  // where the multibody's Jacobian begins
+  RowBody* ambient;
+  const btSolverBody* solver_body;
+  RowSide side;
+};
+
+class RowSet {
+ public:
+  RowSet(const MultiBodyRows& rows, RowBodies& bodies,
+         const btAlignedObjectArray<btSolverBody>& solver_bodies)
+      : data_(rows.data), bodies_(bodies), solver_bodies_(solver_bodies) {}
+
+  // `time_step`: of the applied forces that the rows have seen; 0 if none.
+  void rewrite(btMultiBodyConstraintArray& rows, btScalar relaxation, btScalar time_step) {
+    for (int i = 0; i < rows.size(); ++i) {
+      btMultiBodySolverConstraint& row = rows[i];
+      const Party a =
+          party(row.m_multiBodyA, row.m_jacAindex, row.m_solverBodyIdA,
+                {row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA});
+      const Party b =
+          party(row.m_multiBodyB, row.m_jacBindex, row.m_solverBodyIdB,
+                {row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB});
+      if (!a.ambient && !b.ambient) continue;
+      rewriteRow(row, a, b, relaxation, time_step);
+      ++(a.ambient ? a.ambient : b.ambient)->rows;
+    }
+  }
+
+ private:
+  Party party(const btMultiBody* multibody, int jacobian, int solver_body, RowSide side) {
+    if (multibody) return {multibody, jacobian, nullptr, nullptr, side};
+    if (solver_body < 0) return {nullptr, 0, nullptr, nullptr, side};
+    return {nullptr, 0, bodies_.find(solver_body), &solver_bodies_[solver_body], side};
+  }
+
+  btScalar responseOf(const Party& party) const {
+    if (party.multibody) {
+      btScalar sum = 0;
+      for (int i = 0; i < party.multibody->getNumDofs() + 6; ++i)
+        sum += data_.m_jacobians[party.jacobian + i] *
+               data_.m_deltaVelocitiesUnitImpulse[party.jacobian + i];
+      return sum;
+    }
+    if (party.ambient) return changeBasis(*party.ambient, party.side);
+    return party.solver_body ? inverseEffectiveMass(*party.solver_body, party.side) : btScalar(0);
+  }
+
+  // What the rows must see of the step's change of velocity and have not.
+  static btScalar unseenChange(const Party& party, btScalar time_step) {
+    if (!party.ambient) return 0;
+    const RowSide& side = party.side;
+    const btScalar change = side.angular.dot(party.ambient->spin_change) +
+                            side.linear.dot(party.ambient->velocity_change);
+    // Rows about an axis, as of rolling friction, see no forces.
+    if (time_step == 0 || side.linear.length2() == 0) return change;
+    const btRigidBody& body = *party.solver_body->m_originalBody;
+    const btVector3 spin = body.getInvInertiaTensorWorld() * body.getTotalTorque();
+    const btVector3 velocity = body.getTotalForce() * body.getInvMass();
+    return change - time_step * (side.angular.dot(spin) + side.linear.dot(velocity));
+  }
+
+  void rewriteRow(btMultiBodySolverConstraint& row, const Party& a, const Party& b,
+                  btScalar relaxation, btScalar time_step) const {
+    const btScalar old_inverse = row.m_jacDiagABInv;
+    const btScalar unseen = unseenChange(a, time_step) + unseenChange(b, time_step);
+    const btScalar response = responseOf(a) + responseOf(b);
+    if (!(old_inverse > 0)) return;  // switched off by Bullet
+    const btScalar cfm = row.m_cfm / old_inverse;
+    const btScalar new_inverse = relaxation / (response + cfm);
+    row.m_rhs = (row.m_rhs / old_inverse - unseen) * new_inverse;
+    row.m_cfm = cfm * new_inverse;
+    row.m_jacDiagABInv = new_inverse;
+  }
+
+  const btMultiBodyJacobianData& data_;
+  RowBodies& bodies_;
+  const btAlignedObjectArray<btSolverBody>& solver_bodies_;
+};
+
+}  // namespace
+
+void rewriteMultiBodyRows(const MultiBodyRows& rows, const btContactSolverInfo& info,
+                          RowBodies& bodies,
+                          const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
+  RowSet set(rows, bodies, solver_bodies);
+  set.rewrite(rows.contacts, info.m_sor, info.m_timeStep);
+  set.rewrite(rows.frictions, info.m_sor, info.m_timeStep);
+  set.rewrite(rows.rolling_frictions, info.m_sor, 0);
+  set.rewrite(rows.spinning_frictions, info.m_sor, 0);
+  set.rewrite(rows.joints, 1, 0);
+}
+
+void reapplyMultiBodyImpulses(const btMultiBodyConstraintArray& rows, RowBodies& bodies,
+                              btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
+  for (int i = 0; i < rows.size(); ++i) {
+    const btMultiBodySolverConstraint& row = rows[i];
+    const btScalar impulse = row.m_appliedImpulse;
+    if (impulse == 0) continue;
+    if (!row.m_multiBodyA && bodies.find(row.m_solverBodyIdA)) {
+      btSolverBody& a = solver_bodies[row.m_solverBodyIdA];
+      a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA,
+                             impulse);
+    }
+    if (!row.m_multiBodyB && bodies.find(row.m_solverBodyIdB)) {
+      btSolverBody& b = solver_bodies[row.m_solverBodyIdB];
+      b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB,
+                             impulse);
+    }
+  }
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

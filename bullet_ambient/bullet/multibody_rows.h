@@ -1,0 +1,45 @@
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodySolverConstraint.h>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/row_rewriting.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// The rows between multibodies and what they touch or are joined to.
+struct MultiBodyRows {
+  btMultiBodyConstraintArray& contacts;
+  btMultiBodyConstraintArray& frictions;
+  btMultiBodyConstraintArray& rolling_frictions;
+  btMultiBodyConstraintArray& spinning_frictions;
+  btMultiBodyConstraintArray& joints;
+  const btMultiBodyJacobianData& data;  ///< Jacobians of the multibodies and their responses
+};
+
+/// Brings the rigid side of all rows that touch an ambient body into its velocity basis, as
+/// rewriteRows() does: J' = J T; effective mass, right-hand side and softness rescaled. Bullet lets
+/// these rows see applied forces without fluid, or none: they are made to see the change of
+/// velocity that the fluid body really has.
+void rewriteMultiBodyRows(const MultiBodyRows& rows, const btContactSolverInfo& info,
+                          RowBodies& bodies,
+                          const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
+
+/// Calls visit(solver body id) for the rigid sides of rows that join multibodies to rigid bodies:
+/// Bullet does not tell these bodies before the rows are made.
+template <class Visit>
+void forEachJoinedBody(const btMultiBodyConstraintArray& joints, const Visit& visit) {
+  for (int i = 0; i < joints.size(); ++i) {
+    if (!joints[i].m_multiBodyA && joints[i].m_solverBodyIdA >= 0) visit(joints[i].m_solverBodyIdA);
+    if (!joints[i].m_multiBodyB && joints[i].m_solverBodyIdB >= 0) visit(joints[i].m_solverBodyIdB);
+  }
+}
+
+/// Applies the impulses that rows begin with to ambient bodies, in their bases.
+void reapplyMultiBodyImpulses(const btMultiBodyConstraintArray& rows, RowBodies& bodies,
+                              btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btSolverBody.h>
+#include <BulletDynamics/ConstraintSolver/btSolverConstraint.h>
+
+#include <vector>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/velocity_basis.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// One ambient body as its rows see it during one step. World axes.
+struct RowBody {
+  WorldBasis basis;
+  btMatrix3x3 inverse_inertia;     ///< Bullet's, without fluid
+  btScalar inverse_mass = 0;       ///< Bullet's, without fluid
+  btVector3 spin_change{0, 0, 0};  ///< of the step, outside the rows
+  btVector3 velocity_change{0, 0, 0};
+  int rows = 0;  ///< how many were rewritten
+
+  bool is_locked = false;
+  btVector3 locked_angular{0, 0, 0};  ///< 1 for an axis that is locked, else 0
+  btVector3 locked_linear{0, 0, 0};
+  btMatrix3x3 root_inertia;  ///< sqrt(I), set for locked bodies only
+};
+
+/// The ambient bodies with rows of a solver's group, by the id of their solver body. Keeps its
+/// memory.
+class RowBodies {
+ public:
+  void reset(int solver_body_count);
+  RowBody& add(int solver_body);
+  bool empty() const { return bodies_.empty(); }
+  /// Null if not ambient. Bodies that Bullet appends after convertBodies() (fixed, kinematic) never
+  /// are.
+  RowBody* find(int solver_body) noexcept {
+    if (static_cast<std::size_t>(solver_body) >= index_.size()) return nullptr;
+    const int at = index_[solver_body];
+    return at < 0 ? nullptr : &bodies_[at];
+  }
+
+ private:
+  std::vector<RowBody> bodies_;
+  std::vector<int> index_;  // by solver body; -1: not ambient
+};
+
+/// Kinds of rows of the sequential impulse solver; they differ in what Bullet puts into their
+/// right-hand side.
+enum class RowKind { kContact, kFriction, kTorsionalFriction, kJoint };
+
+/// The Jacobian of one body of a row, in place.
+struct RowSide {
+  btVector3& angular;
+  btVector3& linear;
+  btVector3& angular_component;  ///< response of the spin to a unit impulse
+};
+
+/// J' = J T for an ambient body, docs/theory.md eq. (27). Returns J' D J'^T [1/kg].
+btScalar changeBasis(const RowBody& body, RowSide side) noexcept;
+
+/// J D J^T of a body that is not ambient [1/kg].
+btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noexcept;
+
+/// Brings all rows of a pool that touch ambient bodies into their velocity bases: J' = J T, and
+/// effective mass, right-hand sides and softness rescaled, so that the stock iterations solve J
+/// K^-1 J^T; docs/theory.md eq. (27). `relaxation`: the solver's m_sor for contact and friction
+/// rows, 1 for the others.
+void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
+                 const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
+
+/// Applies the impulses that contact rows begin with to ambient bodies, in their bases.
+void reapplyImpulses(const btConstraintArray& rows, RowBodies& bodies,
+                     btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,244 @@
+#include "bullet_ambient/bullet/solver_group.h"
+
+#include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/motion/axis_locks.h"
+#include "bullet_ambient/motion/row_velocity.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
+
+// No row has moved the body: neither its velocity nor, by split impulses, its position.
+bool isUntouched(btSolverBody& b) {
+  return isZero(b.internalGetDeltaLinearVelocity()) &&
+         isZero(b.internalGetDeltaAngularVelocity()) && isZero(b.internalGetPushVelocity()) &&
+         isZero(b.internalGetTurnVelocity());
+}
+
+void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
+  angular = T.angular * angular + T.coupling * linear;
+  linear = T.linear * linear;
+}
+
+void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
+  solver_body.m_externalTorqueImpulse = toBullet(change_W.angular);
+  solver_body.m_externalForceImpulse = toBullet(change_W.linear);
+}
+
+AxisFactors axisFactors(const btRigidBody& body) {
+  return {toVector3(body.getAngularFactor()), toVector3(body.getLinearFactor())};
+}
+
+btVector3 whereZero(const btVector3& v) {
+  return {btScalar(v.x() == 0), btScalar(v.y() == 0), btScalar(v.z() == 0)};
+}
+
+// The rows of a locked body take its locks from T. The solver must not apply them again.
+void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& factors,
+          btSolverBody& solver_body) {
+  const btRigidBody& body = *ambient.body;
+  const Vector3 inertia = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
+  const Matrix3 R = readState(body).orientation.toRotationMatrix();
+  const Matrix3 root = rootInertia(inertia, R);
+  row_body.is_locked = true;
+  row_body.basis = makeLockedBasis(ambient.model, root, R, factors);
+  row_body.root_inertia = toBulletMatrix(root);
+  row_body.locked_angular = whereZero(body.getAngularFactor());
+  row_body.locked_linear = whereZero(body.getLinearFactor());
+  solver_body.m_angularFactor.setValue(1, 1, 1);
+  solver_body.m_linearFactor.setValue(1, 1, 1);
+  solver_body.internalSetInvMass(btVector3(1, 1, 1) * body.getInvMass());
+}
+
+}  // namespace
+
+void SolverGroup::begin(AmbientRegistry& registry, SolverBodies& solver_bodies,
+                        const GroupInput& input, btScalar time_step) noexcept {
+  registry_ = &registry;
+  time_step_ = static_cast<double>(time_step);
+  members_.clear();
+  saved_.clear();
+  if (registry.size() == 0) return;
+  findMembers(registry, solver_bodies);
+  if (members_.empty()) return;
+  row_bodies_.reset(solver_bodies.size());
+  markBodiesWithRows(solver_bodies, input);
+  for (Member& member : members_) {
+    btSolverBody& solver_body = solver_bodies[member.solver_body];
+    if (member.has_rows || member.is_locked) {
+      prepareForRows(member, solver_body);
+    } else {
+      setExternalImpulse(solver_body, Twist{});
+    }
+  }
+}
+
+void SolverGroup::findMembers(AmbientRegistry& registry, SolverBodies& solver_bodies) noexcept {
+  member_of_solver_body_.assign(solver_bodies.size(), -1);
+  for (int i = 0; i < solver_bodies.size(); ++i) {
+    const btRigidBody* body = solver_bodies[i].m_originalBody;
+    AmbientBody* ambient = registry.find(body);
+    if (!ambient || !prepareStep(registry, *ambient)) continue;
+    if (stopIfNotFinite(registry, *ambient)) {
+      solver_bodies[i].m_linearVelocity.setZero();
+      solver_bodies[i].m_angularVelocity.setZero();
+    }
+    member_of_solver_body_[i] = static_cast<int>(members_.size());
+    members_.push_back({ambient, i, false, !axisFactors(*body).areFree()});
+  }
+}
+
+void SolverGroup::markBodiesWithRows(const SolverBodies& solver_bodies,
+                                     const GroupInput& input) noexcept {
+  for (int i = 0; i < input.manifold_count; ++i) {
+    const btPersistentManifold& manifold = *input.manifolds[i];
+    if (manifold.getNumContacts() == 0) continue;
+    mark(solver_bodies, *manifold.getBody0());
+    mark(solver_bodies, *manifold.getBody1());
+  }
+  for (int i = 0; i < input.constraint_count; ++i) {
+    const btTypedConstraint& constraint = *input.constraints[i];
+    if (!constraint.isEnabled()) continue;
+    mark(solver_bodies, constraint.getRigidBodyA());
+    mark(solver_bodies, constraint.getRigidBodyB());
+  }
+}
+
+void SolverGroup::mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept {
+  const int id = body.getCompanionId();
+  if (id < 0 || id >= solver_bodies.size() || solver_bodies[id].m_originalBody != &body) return;
+  if (Member* member = memberOf(id)) member->has_rows = true;
+}
+
+void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noexcept {
+  AmbientBody& ambient = *member.ambient;
+  const btRigidBody& body = *ambient.body;
+  const RigidState start = readState(body);
+  const Surroundings surroundings = readSurroundings(ambient);
+  const FlightTask task{ambient.model, surroundings, ambient.def.flight, time_step_};
+  const AxisFactors factors = axisFactors(body);
+  RowVelocity row = member.is_locked ? computeLockedVelocity(task, start, factors)
+                                     : computeRowVelocity(task, start);
+  ambient.counters.load_evaluations += row.count.load_evaluations;
+  ambient.counters.guarded += row.count.guarded;
+  if (!row.change_W.vector().allFinite()) {
+    ++ambient.counters.rejected;
+    registry_->complain(AmbientRegistry::Complaint::kNotFinite);
+    row.change_W = {};
+  }
+  setExternalImpulse(solver_body, row.change_W);
+
+  RowBody& row_body = row_bodies_.add(member.solver_body);
+  row_body.inverse_inertia = body.getInvInertiaTensorWorld();
+  row_body.inverse_mass = body.getInvMass();
+  row_body.spin_change = solver_body.m_externalTorqueImpulse;
+  row_body.velocity_change = solver_body.m_externalForceImpulse;
+  if (member.is_locked) {
+    lock(row_body, ambient, factors, solver_body);
+  } else {
+    row_body.basis = toWorld(ambient.basis_B, start.orientation.toRotationMatrix());
+  }
+}
+
+void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
+                              const MultiBodyRows* multibodies,
+                              const btContactSolverInfo& info) noexcept {
+  if (members_.empty()) return;
+  if (multibodies) prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
+  if (row_bodies_.empty()) return;
+  saveFeedbackJacobians(rows.joints);
+  const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
+    ambient::rewriteRows(pool, kind, relaxation, row_bodies_, solver_bodies);
+  };
+  rewrite(rows.contacts, RowKind::kContact, info.m_sor);
+  rewrite(rows.frictions, RowKind::kFriction, info.m_sor);
+  rewrite(rows.torsional_frictions, RowKind::kTorsionalFriction, 1);
+  rewrite(rows.joints, RowKind::kJoint, 1);
+  if (multibodies) rewriteMultiBodyRows(*multibodies, info, row_bodies_, solver_bodies);
+  reapplyWarmStart(solver_bodies, rows, multibodies, info.m_solverMode);
+}
+
+void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
+                                             const btMultiBodyConstraintArray& joints) noexcept {
+  forEachJoinedBody(joints, [&](int id) {
+    Member* member = memberOf(id);
+    if (member && !row_bodies_.find(id)) prepareForRows(*member, solver_bodies[id]);
+  });
+}
+
+void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
+                                   const MultiBodyRows* multibodies, int solver_mode) noexcept {
+  const bool for_multibodies = multibodies && (solver_mode & SOLVER_USE_ARTICULATED_WARMSTARTING);
+  if (!(solver_mode & SOLVER_USE_WARMSTARTING) && !for_multibodies) return;
+  for (const Member& member : members_) {
+    solver_bodies[member.solver_body].internalGetDeltaLinearVelocity().setZero();
+    solver_bodies[member.solver_body].internalGetDeltaAngularVelocity().setZero();
+  }
+  reapplyImpulses(rows.contacts, row_bodies_, solver_bodies);
+  if (!for_multibodies) return;
+  reapplyMultiBodyImpulses(multibodies->contacts, row_bodies_, solver_bodies);
+  reapplyMultiBodyImpulses(multibodies->frictions, row_bodies_, solver_bodies);
+}
+
+void SolverGroup::saveFeedbackJacobians(const btConstraintArray& joints) noexcept {
+  for (int i = 0; i < joints.size(); ++i) {
+    const btSolverConstraint& row = joints[i];
+    const auto* constraint = static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
+    if (!constraint->getJointFeedback()) continue;
+    saved_.push_back({i, row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_relpos2CrossNormal,
+                      row.m_contactNormal2});
+  }
+}
+
+void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
+  for (const SavedJacobian& saved : saved_) {
+    btSolverConstraint& row = joints[saved.row];
+    row.m_relpos1CrossNormal = saved.angular_a;
+    row.m_contactNormal1 = saved.linear_a;
+    row.m_relpos2CrossNormal = saved.angular_b;
+    row.m_contactNormal2 = saved.linear_b;
+  }
+  saved_.clear();
+}
+
+void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+  restoreFeedbackJacobians(joints);
+  for (const Member& member : members_) {
+    btSolverBody& b = solver_bodies[member.solver_body];
+    const RowBody* row_body = row_bodies_.find(member.solver_body);
+    if (row_body) member.ambient->counters.rows += row_body->rows;
+    member.ambient->is_adrift = isUntouched(b);
+    if (!member.ambient->is_adrift) {
+      fromBasis(row_body->basis, b.internalGetDeltaAngularVelocity(),
+                b.internalGetDeltaLinearVelocity());
+      fromBasis(row_body->basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
+      member.ambient->memory = {};
+    } else if (!member.is_locked) {
+      flyFreely(member, b);
+    }
+  }
+  members_.clear();
+}
+
+void SolverGroup::flyFreely(const Member& member, btSolverBody& solver_body) noexcept {
+  AmbientBody& ambient = *member.ambient;
+  const Twist change_W = beginFlight(ambient, time_step_);
+  if (ambient.has_flown) {
+    setExternalImpulse(solver_body, change_W);
+  } else {
+    registry_->complain(AmbientRegistry::Complaint::kNotFinite);
+    setExternalImpulse(solver_body, Twist{});
+  }
+}
+
+SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
+  // Bodies appended after convertBodies (fixed, kinematic) are never ambient.
+  if (static_cast<std::size_t>(solver_body) >= member_of_solver_body_.size()) return nullptr;
+  const int index = member_of_solver_body_[solver_body];
+  return index < 0 ? nullptr : &members_[index];
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,59 @@
+#include "bullet_ambient/bullet/velocity_basis.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "bullet_ambient/bullet/conversions.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+using Matrix = Eigen::Matrix<double, 6, 6>;
+
+// L^-T of K = L L^T, upper triangular.
+Matrix inverseTransposedFactor(const Matrix6& inertia) {
+  return Eigen::LLT<Matrix>(inertia).matrixU().solve(Matrix::Identity());
+}
+
+WorldBasis toBullet(const Matrix6& T) {
+  return {toBulletMatrix(T.topLeftCorner<3, 3>()), toBulletMatrix(T.topRightCorner<3, 3>()),
+          toBulletMatrix(T.bottomRightCorner<3, 3>())};
+}
+
+}  // namespace
+
+Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& inertia_diagonal) {
+  Vector6 scale;
+  scale << inertia_diagonal.cwiseSqrt(), Vector3::Constant(std::sqrt(model.mass));
+  return inverseTransposedFactor(model.inertia) * scale.asDiagonal();
+}
+
+WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& R) {
+  const Matrix3 angular = R * basis_B.topLeftCorner<3, 3>() * R.transpose();
+  const Matrix3 coupling = R * basis_B.topRightCorner<3, 3>() * R.transpose();
+  const Matrix3 linear = R * basis_B.bottomRightCorner<3, 3>() * R.transpose();
+  return {toBulletMatrix(angular), toBulletMatrix(coupling), toBulletMatrix(linear)};
+}
+
+Matrix3 rootInertia(const Vector3& inertia_diagonal, const Matrix3& R) {
+  return R * inertia_diagonal.cwiseSqrt().asDiagonal() * R.transpose();
+}
+
+WorldBasis makeLockedBasis(const BodyModel& model, const Matrix3& root_inertia_W, const Matrix3& R,
+                           const AxisFactors& factors) {
+  const Matrix6 K_W = rotateAxes(model.inertia, R);
+  Matrix6 root = inverseTransposedFactor(freeInertia(K_W, factors));
+  // Rows scaled by the factors; columns of locked axes must not move the body.
+  const Vector6 scale = stack(factors.angular, factors.linear);
+  for (int axis = 0; axis < 6; ++axis) {
+    if (scale[axis] == 0) root.col(axis).setZero();
+    root.row(axis) *= scale[axis];
+  }
+  root.leftCols<3>() = (root.leftCols<3>() * root_inertia_W).eval();
+  root.rightCols<3>() *= std::sqrt(model.mass);
+  return toBullet(root);
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient
