@@ -1,0 +1,65 @@
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+
+#include "tests/contact/coupled_body.h"
+#include "tests/contact/solver_kinds.h"
+
+namespace ambient::test {
+
+/// Two bodies that touch in one point, handed to a solver without a world.
+class ContactPair {
+ public:
+  /// The second body is moved to where the first one's surface point is its own, both points
+  /// within twice the size of their body; the normal points from b to a.
+  ContactPair(Arbitrary& arbitrary, CoupledBody a, CoupledBody b);
+
+  /// Turns both velocities around if the points move apart, so that the bodies meet.
+  void makeApproaching();
+  /// Velocity of a's point minus that of b's along a direction.
+  Real approach(const Vector3r& direction, const DenseVector6& u_a, const DenseVector6& u_b) const;
+
+  btManifoldPoint& point() { return manifold_.getContactPoint(0); }
+  const CoupledBody& a() const { return a_; }
+  const CoupledBody& b() const { return b_; }
+  Vector3r normal() const { return exact(manifold_.getContactPoint(0).m_normalWorldOnB); }
+  Vector3r tangent(int i) const;
+  Vector3r fromA() const;  ///< from a's centre of mass to the contact
+  Vector3r fromB() const;
+  reference::DenseRow row(const Vector3r& direction) const;
+  /// Normal row that ends with `normal_velocity`, and two friction rows with the coefficient of the
+  /// point, as a step of dt begins.
+  std::vector<reference::DenseRow> frictionRows(Real normal_velocity, FrictionBound bound, Real dt);
+  /// Bodies for the dense solver, before the step.
+  std::vector<reference::DenseBody> dense(Real dt) const { return {a_.dense(dt), b_.dense(dt)}; }
+
+  /// Attaches what is ambient and solves once with a new solver. False if a complementarity solver
+  /// gave up and handed over to sequential impulses.
+  template <class Kind>
+  bool solve(const btContactSolverInfo& info) {
+    AmbientRegistry registry;
+    a_.attachTo(registry);
+    b_.attachTo(registry);
+    typename Kind::Ambient ambient(registry);
+    SolverTask task;
+    task.bodies.push_back(&a_.body());
+    if (!b_.isFixed()) task.bodies.push_back(&b_.body());
+    task.manifolds.push_back(&manifold_);
+    task.info = info;
+    solveOnce(ambient.solver, task);
+    if constexpr (std::is_same_v<typename Kind::Base, btMLCPSolver>) {
+      return ambient.solver.getNumFallbacks() == 0;
+    }
+    return true;
+  }
+
+ private:
+  CoupledBody a_, b_;
+  btPersistentManifold manifold_;
+};
+
+/// Settings without any of Bullet's position terms, thresholds and defaults that a test did not
+/// ask for.
+btContactSolverInfo plainSettings(double dt);
+
+}  // namespace ambient::test

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace ambient::reference {
+
+// Extended precision: the reference is exact to the rounding of what it is compared with.
+using Real = long double;
+using DenseVector6 = Eigen::Matrix<Real, 6, 1>;  ///< rotation first
+using DenseMatrix6 = Eigen::Matrix<Real, 6, 6>;
+
+/// A rigid body with any symmetric positive definite 6x6 inertia, about its centre of mass, in
+/// world axes.
+struct DenseBody {
+  bool fixed = false;
+  DenseMatrix6 inertia = DenseMatrix6::Identity();
+  DenseVector6 free_velocity = DenseVector6::Zero();  ///< at the end of the step, without rows
+};
+
+/// One scalar constraint J u + softness * impulse = target between two bodies, or, where the
+/// impulse reaches a bound, the inequality that remains.
+struct DenseRow {
+  static constexpr Real kUnbounded = std::numeric_limits<Real>::infinity();
+
+  int body_a = 0, body_b = 0;
+  DenseVector6 jacobian_a = DenseVector6::Zero(), jacobian_b = DenseVector6::Zero();
+  Real target = 0;
+  Real softness = 0;  ///< [1/kg] for linear rows
+  Real lower = -kUnbounded, upper = kUnbounded;
+  int normal_row = -1;  ///< friction row: bounds are -+ friction times the impulse of that row
+  Real friction = 0;
+};
+
+struct DenseSolution {
+  Eigen::Matrix<Real, Eigen::Dynamic, 1> impulses;
+  std::vector<DenseVector6> velocities;
+};
+
+/// Velocities and impulses of all bodies and rows at once: the saddle-point system
+/// [K, -J^T; J, softness] is solved for every set of bounds that Murty's principal pivoting visits,
+/// until impulses and velocities satisfy all rows. No effective masses, no iteration over rows.
+/// @throws std::runtime_error if no set of bounds fits.
+DenseSolution solveDense(const std::vector<DenseBody>& bodies, const std::vector<DenseRow>& rows);
+
+/// The solution if exactly one set of bounds fits: with friction there may be none or several
+/// (Painleve). Tries all 3^rows.
+std::optional<DenseSolution> onlySolution(const std::vector<DenseBody>& bodies,
+                                          const std::vector<DenseRow>& rows);
+
+/// Velocity of `K` (body axes, turned by `rotation`) after dt under a wrench (torque, force) in
+/// world axes, by the acceleration of Kirchhoff's equations at the start.
+DenseVector6 explicitFreeVelocity(const DenseMatrix6& K, const Eigen::Matrix<Real, 3, 3>& rotation,
+                                  const DenseVector6& velocity, const DenseVector6& wrench,
+                                  Real dt);
+
+/// K turned into world axes.
+DenseMatrix6 turned(const DenseMatrix6& K, const Eigen::Matrix<Real, 3, 3>& rotation);
+
+/// Row of a unit direction at a point: the velocity of body a's point minus that of body b's.
+/// `from_a`, `from_b`: from the centres of mass to the point.
+DenseRow pointRow(const Eigen::Matrix<Real, 3, 1>& direction,
+                  const Eigen::Matrix<Real, 3, 1>& from_a, const Eigen::Matrix<Real, 3, 1>& from_b);
+
+/// Row of the relative spin about a unit direction.
+DenseRow spinRow(const Eigen::Matrix<Real, 3, 1>& direction);
+
+}  // namespace ambient::reference
