@@ -1,0 +1,103 @@
+#include "preprocess/builder/fluid_body_builder.h"
+
+#include <cmath>
+
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/potential_flow/potential_flow.h"
+
+namespace ambient {
+namespace {
+
+const std::string& sourceOf(const BuildSettings& settings) {
+  return settings.source.empty() ? settings.name : settings.source;
+}
+
+void requireSolvableSize(const TriangleMesh& mesh, const BuildSettings& settings) {
+  if (mesh.vertexCount() <= kMostVertices) return;
+  raiseInputError(sourceOf(settings), mesh.vertexCount(),
+                  " vertices are more than the dense solver takes, ", kMostVertices, " (",
+                  8e-9 * kMostVertices * kMostVertices, " GB): simplify the mesh");
+}
+
+MeshProperties massPropertiesOf(const TriangleMesh& mesh, bool sheet) {
+  return sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
+}
+
+TriangleMesh withTrueVolume(TriangleMesh mesh, const BuildSettings& settings) {
+  if (settings.true_volume == 0 || settings.sheet) return mesh;
+  const MeshProperties properties = computeMassProperties(mesh);
+  const Eigen::Vector3d centre = properties.uniform.centre;
+  const double stretch = std::cbrt(settings.true_volume / properties.volume);
+  mesh.vertices = ((mesh.vertices.colwise() - centre) * stretch).colwise() + centre;
+  return mesh;
+}
+
+FaceTable facesOf(const TriangleMesh& mesh, bool sheet) {
+  FaceTable faces;
+  faces.reserve(static_cast<std::size_t>(mesh.triangleCount()) * (sheet ? 2 : 1));
+  const auto addSide = [&](double side) {
+    for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+      const Eigen::Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+      const Eigen::Vector3d twice_area = (b - a).cross(c - a);
+      faces.add(side * twice_area.normalized(), (a + b + c) / 3, twice_area.norm() / 2);
+    }
+  };
+  addSide(1);
+  if (sheet) addSide(-1);
+  return faces;
+}
+
+Surface surfaceOf(const TriangleMesh& mesh) {
+  const double* vertices = mesh.vertices.data();
+  const int* triangles = mesh.triangles.data();
+  return {{vertices, vertices + mesh.vertices.size()},
+          {triangles, triangles + mesh.triangles.size()}};
+}
+
+MassDistribution aboutOrigin(MassDistribution mass, const Eigen::Vector3d& origin) {
+  mass.centre -= origin;
+  return mass;
+}
+
+PotentialFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
+  PotentialFlowSettings flow_settings;
+  flow_settings.sheet = settings.sheet;
+  flow_settings.threads = settings.threads;
+  try {
+    return solvePotentialFlow(mesh, flow_settings);
+  } catch (const std::runtime_error& error) {
+    raiseInputError(sourceOf(settings), error.what());
+  }
+}
+
+}  // namespace
+
+FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
+  requireSolvableSize(source_mesh, settings);
+  TriangleMesh mesh = withTrueVolume(source_mesh, settings);
+  const MeshProperties properties = massPropertiesOf(mesh, settings.sheet);
+  const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
+  mesh.vertices.colwise() -= origin;
+
+  FluidBody body;
+  body.name = settings.name;
+  body.provenance = settings.provenance;
+  if (body.provenance.generator.empty()) {
+    body.provenance.generator = "bullet_ambient " AMBIENT_VERSION;
+  }
+  const PotentialFlow flow = solveFlow(mesh, settings);
+  body.added_mass = flow.added_mass;
+  body.asymmetry = flow.asymmetry;
+  body.volume = properties.volume;
+  body.area = settings.sheet ? 2 * properties.area : properties.area;
+  body.origin = origin;
+  body.uniform_mass = aboutOrigin(properties.uniform, origin);
+  body.surface_mass = aboutOrigin(properties.surface, origin);
+  body.centre_of_volume = body.uniform_mass.centre;
+  body.faces = facesOf(mesh, settings.sheet);
+  body.surface = surfaceOf(mesh);
+  return body;
+}
+
+}  // namespace ambient

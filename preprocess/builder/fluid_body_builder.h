@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// Vertices above which makeFluidBody() refuses a mesh: the dense solver needs 8 bytes per pair of
+/// them, 3.2 GB here.
+constexpr Eigen::Index kMostVertices = 20000;
+
+/// How a fluid body is made from a mesh.
+struct BuildSettings {
+  std::string name;    ///< of the body
+  std::string source;  ///< begins every message: the file it comes from; empty: the name
+  /// Origin of the fluid body frame F in the mesh's frame [m]; none: the centre of volume, of a
+  /// sheet the centre of its area.
+  std::optional<Eigen::Vector3d> origin;
+  bool sheet = false;      ///< the mesh is an open surface of zero thickness
+  double true_volume = 0;  ///< of the smooth body the mesh stands for [m^3]: the mesh is scaled
+                           ///< about its centre of volume to enclose as much. 0: taken as it is
+  int threads = 0;         ///< 0: all cores; the result does not depend on it, bit for bit
+  Provenance provenance;   ///< copied; an empty generator becomes this library and its version
+};
+
+/// Everything the fluid needs to know of a shape: mass properties, added mass, faces. The axes of F
+/// are those of the mesh. The two sides of a sheet are faces of their own, the front of all
+/// triangles first, and both count in its area; its volume is 0. Cost: that of
+/// solvePotentialFlow().
+/// @pre the mesh passed checkMesh() as a body or as a sheet.
+/// @throws std::runtime_error in one line that begins with the source, if the mesh has more than
+/// kMostVertices or the flow cannot be solved.
+FluidBody makeFluidBody(const TriangleMesh& mesh, const BuildSettings& settings);
+
+}  // namespace ambient

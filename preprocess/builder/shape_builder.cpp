@@ -1,0 +1,75 @@
+#include "preprocess/builder/shape_builder.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/shape_mesh.h"
+
+namespace ambient {
+namespace {
+
+// Below this the discretisation, not the model, decides about the result.
+constexpr Eigen::Index kCoarse = 100;
+
+std::string settingsText(const ShapeBuildSettings& settings, bool sheet) {
+  std::ostringstream text;
+  text.precision(17);
+  text << (sheet ? "sheet" : "body") << ", scale " << settings.scale << ", origin ";
+  if (settings.origin) {
+    text << settings.origin->x() << "," << settings.origin->y() << "," << settings.origin->z();
+  } else {
+    text << "centre-of-volume";
+  }
+  return text.str();
+}
+
+Provenance provenanceOf(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
+  const std::filesystem::path file = fileOf(shape);
+  Provenance provenance;
+  provenance.source = file.empty() ? shape.text : file.filename().string();
+  provenance.source_hash = fnv1a64(file.empty() ? shape.text : readBytes(file));
+  provenance.settings = settingsText(settings, isSheet(shape));
+  return provenance;
+}
+
+BuiltBody readBody(const FluidBodyShape& shape, const ShapeBuildSettings& settings) {
+  const std::string name = shape.file.string();
+  if (settings.origin) raiseInputError(name, "a fluid body keeps its origin");
+  if (settings.scale != 1) {
+    raiseInputError(name, "scale = ", settings.scale, ": a fluid body keeps its size");
+  }
+  return {readFluidBody(shape.file), {}};
+}
+
+}  // namespace
+
+BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
+  if (!std::isfinite(settings.scale) || settings.scale <= 0) {
+    raiseInputError(shape.source, "scale = ", settings.scale, " is not positive and finite");
+  }
+  if (const auto* fluid_body = std::get_if<FluidBodyShape>(&shape.geometry)) {
+    return readBody(*fluid_body, settings);
+  }
+  CheckedMesh checked = makeShapeMesh(shape);
+  checked.mesh.vertices *= settings.scale;
+  if (checked.mesh.triangleCount() < kCoarse) {
+    checked.warnings.push_back(shape.source + ": " + std::to_string(checked.mesh.triangleCount()) +
+                               " triangles are few: expect errors of several percent, more with "
+                               "sharp edges; divide them");
+  }
+  BuildSettings build;
+  build.name = settings.name;
+  build.source = shape.source;
+  build.origin = settings.origin;
+  build.sheet = isSheet(shape);
+  build.threads = settings.threads;
+  build.provenance = provenanceOf(shape, settings);
+  return {makeFluidBody(checked.mesh, build), checked.warnings};
+}
+
+}  // namespace ambient

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/shape/shape_description.h"
+
+namespace ambient {
+
+/// How a fluid body is made from a shape.
+struct ShapeBuildSettings {
+  std::string name;                       ///< of the body
+  std::optional<Eigen::Vector3d> origin;  ///< as in BuildSettings, in the shape's frame
+  double scale = 1;                       ///< multiplies all lengths of the shape
+  int threads = 0;                        ///< 0: all cores
+};
+
+/// A fluid body, and what a user should know about its mesh, one line each.
+struct BuiltBody {
+  FluidBody body;
+  std::vector<std::string> warnings;
+};
+
+/// Makes the mesh of a shape and its fluid body; a FluidBodyShape is read from its file as it is.
+/// The provenance is the file and its hash, or the text of the shape.
+/// @throws std::runtime_error in one line that names the file or the shape's source. A fluid body
+/// can be neither moved nor scaled here.
+BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& settings);
+
+}  // namespace ambient

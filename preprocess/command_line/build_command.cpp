@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/shape_builder.h"
+#include "preprocess/command_line/blocked_signals.h"
+#include "preprocess/command_line/commands.h"
+#include "preprocess/command_line/fluid_body_report.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/shape/shape_mesh.h"
+#include "preprocess/shape/shape_reader.h"
+
+namespace ambient {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isJsonFile(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".json";
+}
+
+std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
+  if (text == "centre-of-volume") return std::nullopt;
+  std::istringstream stream(text);
+  Eigen::Vector3d origin;
+  char comma_1 = 0, comma_2 = 0;
+  stream >> origin.x() >> comma_1 >> origin.y() >> comma_2 >> origin.z();
+  const bool is_point = !stream.fail() && comma_1 == ',' && comma_2 == ',' &&
+                        stream.peek() == std::istringstream::traits_type::eof();
+  if (!is_point || !origin.allFinite()) {
+    raiseInputError("--origin", "\"", text, "\" is neither centre-of-volume nor three finite ",
+                    "numbers X,Y,Z");
+  }
+  return origin;
+}
+
+ShapeDescription describeInput(const BuildArguments& arguments) {
+  const fs::path input = arguments.input;
+  if (!isJsonFile(input)) {
+    ShapeDescription mesh;
+    if (arguments.sheet) {
+      mesh.geometry = MeshSheetShape{input, 1};
+    } else {
+      mesh.geometry = MeshShape{input, 1};
+    }
+    mesh.source = input.string();
+    return mesh;
+  }
+  ShapeDescription shape = readShapeFile(input);
+  if (std::holds_alternative<FluidBodyShape>(shape.geometry)) {
+    raiseInputError(shape.source, "a shape \"fluid_body\" is built already");
+  }
+  if (arguments.sheet && !isSheet(shape)) {
+    raiseInputError(shape.source, "--sheet needs a shape of type \"sheet\"");
+  }
+  return shape;
+}
+
+// Found out before the work, not after it.
+void requireWritablePlace(const fs::path& output, const fs::path& input) {
+  std::error_code error;
+  const fs::path folder = output.parent_path().empty() ? "." : output.parent_path();
+  if (!fs::is_directory(folder, error)) {
+    raiseInputError(output.string(), "the directory ", folder, " does not exist");
+  }
+  if (fs::is_directory(output, error)) raiseInputError(output.string(), "is a directory");
+  if (fs::equivalent(output, input, error)) {
+    raiseInputError(output.string(), "the output would replace the input");
+  }
+}
+
+BuiltBody build(const ShapeDescription& shape, const BuildArguments& arguments) {
+  ShapeBuildSettings settings;
+  settings.name = fs::path(arguments.input).stem().string();
+  settings.origin = parseOrigin(arguments.origin);
+  settings.scale = arguments.scale;
+  settings.threads = arguments.threads;
+  const ElapsedDisplay display("building " + settings.name);
+  return buildShape(shape, settings);
+}
+
+}  // namespace
+
+void runBuild(const BuildArguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  if (arguments.threads < 0) {
+    raiseInputError("--threads", arguments.threads, " is below 0 (0: all cores)");
+  }
+  const ShapeDescription shape = describeInput(arguments);
+  requireWritablePlace(arguments.output, arguments.input);
+  const BuiltBody built = build(shape, arguments);
+  for (const std::string& warning : built.warnings) std::cerr << "warning: " << warning << "\n";
+  {
+    const BlockedSignals until_renamed;
+    writeFluidBody(built.body, arguments.output);
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  std::cout << (arguments.json ? reportJson(built.body, seconds.count())
+                               : reportTable(built.body, arguments.output));
+}
+
+}  // namespace ambient

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace ambient {
+
+/// ambient_preprocess build
+struct BuildArguments {
+  std::string input;                        ///< a mesh, or a JSON file with a shape
+  std::string output;                       ///< the .ambient file
+  double scale = 1;                         ///< multiplies all lengths
+  std::string origin = "centre-of-volume";  ///< or x,y,z in the mesh's frame [m]
+  bool sheet = false;                       ///< the mesh is an open surface of zero thickness
+  int threads = 0;                          ///< 0: all cores
+  bool json = false;
+};
+
+/// ambient_preprocess inspect
+struct InspectArguments {
+  std::string file;
+  bool json = false;
+};
+
+/// ambient_preprocess loads
+struct LoadsArguments {
+  std::string file;
+  std::array<double, 6> twist{};  ///< relative to the fluid, angular velocity first [rad/s, m/s]
+  double density = 0;             ///< [kg/m^3]
+  double viscosity = 0;           ///< [Pa s]
+  double separation_angle = 1.5707963267948966;  ///< from pi/2 to pi [rad]
+  bool no_friction = false;
+  bool json = false;
+};
+
+/// Each of these does one command, with its result on standard output, messages and progress on
+/// standard error.
+/// @throws std::runtime_error in one line that names the file or the option, the value and the
+/// limit.
+void runBuild(const BuildArguments& arguments);
+void runInspect(const InspectArguments& arguments);
+void runLoads(const LoadsArguments& arguments);
+
+}  // namespace ambient

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+
+namespace ambient {
+
+/// One JSON object about a fluid body, numbers so that reading them back gives the same bits;
+/// `seconds` that it took to build it, if it was built just now.
+std::string reportJson(const FluidBody& body, std::optional<double> seconds);
+
+/// The same for people to read, headed by the file's name.
+std::string reportTable(const FluidBody& body, const std::string& file);
+
+}  // namespace ambient

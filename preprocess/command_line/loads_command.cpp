@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/force/face_loads.h"
+#include "preprocess/command_line/commands.h"
+#include "preprocess/command_line/json_numbers.h"
+#include "preprocess/mesh/input_error.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+void requireNotNegative(const char* option, double value, const char* unit) {
+  if (std::isfinite(value) && value >= 0) return;
+  raiseInputError(option, value, " ", unit, " must be finite and not negative");
+}
+
+LoadSettings settingsOf(const LoadsArguments& arguments) {
+  requireNotNegative("--density", arguments.density, "kg/m^3");
+  requireNotNegative("--viscosity", arguments.viscosity, "Pa s");
+  const double angle = arguments.separation_angle;
+  // An angle given with a few digits is still a right or a straight one.
+  constexpr double kDigits = 1e-6;
+  if (!(angle >= kPi / 2 * (1 - kDigits) && angle <= kPi * (1 + kDigits))) {
+    raiseInputError("--separation-angle", angle, " rad must lie between pi/2 and pi");
+  }
+  LoadSettings settings;
+  settings.density = arguments.density;
+  settings.viscosity = arguments.viscosity;
+  settings.separation_cosine = separationCosine(std::clamp(angle, kPi / 2, kPi));
+  settings.skin_friction = !arguments.no_friction;
+  return settings;
+}
+
+Twist twistOf(const LoadsArguments& arguments) {
+  Vector6 twist;
+  for (int i = 0; i < 6; ++i) {
+    twist[i] = arguments.twist[i];
+    if (!std::isfinite(twist[i])) {
+      raiseInputError("--twist", "number ", i + 1, " is ", twist[i], ", must be finite");
+    }
+  }
+  return Twist::fromVector(twist);
+}
+
+std::string loadsJson(const FaceLoads& loads) {
+  const nlohmann::ordered_json report{{"pressure", vectorJson(loads.pressure.vector())},
+                                      {"friction", vectorJson(loads.friction.vector())},
+                                      {"total", vectorJson(loads.total().vector())}};
+  return jsonText(report);
+}
+
+std::string loadsTable(const FaceLoads& loads) {
+  std::string text =
+      "               torque about the origin of F [N m]            force [N]\n"
+      "                      x            y            z            x            y            z\n";
+  const auto append = [&text](const char* label, const Wrench& wrench) {
+    char cell[32];
+    std::snprintf(cell, sizeof cell, "%-10s", label);
+    text += cell;
+    const Vector6 numbers = wrench.vector();
+    for (int i = 0; i < 6; ++i) {
+      std::snprintf(cell, sizeof cell, "%13.5e", numbers[i]);
+      text += cell;
+    }
+    text += "\n";
+  };
+  append("pressure", loads.pressure);
+  append("friction", loads.friction);
+  append("total", loads.total());
+  return text;
+}
+
+}  // namespace
+
+void runLoads(const LoadsArguments& arguments) {
+  const LoadSettings settings = settingsOf(arguments);
+  const Twist twist = twistOf(arguments);
+  const FluidBody body = readFluidBody(arguments.file);
+  const FaceLoads loads = computeFaceLoads(body.faces, std::sqrt(body.area), twist, settings);
+  std::cout << (arguments.json ? loadsJson(loads) : loadsTable(loads));
+}
+
+}  // namespace ambient

@@ -1,0 +1,100 @@
+#include "preprocess/mesh/mass_properties.h"
+
+#include <cassert>
+
+namespace ambient {
+namespace {
+
+/// Integrals of 1, x and x x^T over a body or a distribution of points.
+struct Moments {
+  double mass = 0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+};
+
+using Corners = Eigen::Matrix3d;  // one per column
+
+Corners cornersFrom(const TriangleMesh& mesh, Eigen::Index t, const Eigen::Vector3d& reference) {
+  Corners corners;
+  for (int k = 0; k < 3; ++k) corners.col(k) = mesh.corner(t, k) - reference;
+  return corners;
+}
+
+double areaOf(const Corners& p) {
+  return (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0)).norm() / 2;
+}
+
+// Tetrahedron with one corner at the reference: int 1 = d/6, int x = d/24 s, int x x^T = d/120 (sum
+// of p p^T + s s^T), with d = a . (b x c) and s = a + b + c.
+Moments tetrahedronMoments(const Corners& p) {
+  const double d = p.col(0).dot(p.col(1).cross(p.col(2)));
+  const Eigen::Vector3d s = p.rowwise().sum();
+  return {d / 6, d / 24 * s, d / 120 * (p * p.transpose() + s * s.transpose())};
+}
+
+// Triangle of uniform mass per area: A, A/3 s, A/12 (sum of p p^T + s s^T).
+Moments triangleMoments(const Corners& p) {
+  const double area = areaOf(p);
+  const Eigen::Vector3d s = p.rowwise().sum();
+  return {area, area / 3 * s, area / 12 * (p * p.transpose() + s * s.transpose())};
+}
+
+// The triangle's mass at its barycentre.
+Moments barycentreMoments(const Corners& p) {
+  const double area = areaOf(p);
+  const Eigen::Vector3d centre = p.rowwise().sum() / 3;
+  return {area, area * centre, area * centre * centre.transpose()};
+}
+
+template <class MomentsOf>
+Moments sumMoments(const TriangleMesh& mesh, const Eigen::Vector3d& reference,
+                   MomentsOf momentsOf) {
+  Moments sum;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Moments part = momentsOf(cornersFrom(mesh, t, reference));
+    sum.mass += part.mass;
+    sum.first += part.first;
+    sum.second += part.second;
+  }
+  return sum;
+}
+
+struct MassAndDistribution {
+  double mass = 0;
+  MassDistribution distribution;
+};
+
+// Two passes: the first finds the centre, the second integrates about it, where the second moments
+// need no subtraction, and finds what rounding has left of the first.
+template <class MomentsOf>
+MassAndDistribution distributionOf(const TriangleMesh& mesh, MomentsOf momentsOf) {
+  const Eigen::Vector3d middle =
+      (mesh.vertices.rowwise().minCoeff() + mesh.vertices.rowwise().maxCoeff()) / 2;
+  const Moments about_middle = sumMoments(mesh, middle, momentsOf);
+  assert(about_middle.mass > 0);
+  const Eigen::Vector3d centre = middle + about_middle.first / about_middle.mass;
+  const Moments moments = sumMoments(mesh, centre, momentsOf);
+  const Eigen::Vector3d residue = moments.first / moments.mass;
+  Eigen::Matrix3d spread = moments.second / moments.mass;
+  spread = (spread + spread.transpose().eval()) / 2;  // symmetric to the last bit
+  MassAndDistribution result;
+  result.mass = moments.mass;
+  result.distribution.centre = centre + residue;
+  result.distribution.inertia = spread.trace() * Eigen::Matrix3d::Identity() - spread;
+  return result;
+}
+
+}  // namespace
+
+MeshProperties computeMassProperties(const TriangleMesh& mesh) {
+  const MassAndDistribution inside = distributionOf(mesh, tetrahedronMoments);
+  const MassAndDistribution shell = distributionOf(mesh, barycentreMoments);
+  return {inside.mass, shell.mass, inside.distribution, shell.distribution};
+}
+
+MeshProperties computeSheetMassProperties(const TriangleMesh& mesh) {
+  const MassAndDistribution sheet = distributionOf(mesh, triangleMoments);
+  return {0, sheet.mass, sheet.distribution, distributionOf(mesh, barycentreMoments).distribution};
+}
+
+}  // namespace ambient

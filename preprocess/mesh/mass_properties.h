@@ -1,0 +1,31 @@
+#pragma once
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// What follows from the shape of a mesh alone, in the mesh's frame.
+struct MeshProperties {
+  double volume = 0;  ///< enclosed by a closed mesh [m^3]; 0 for a sheet
+  double area = 0;    ///< of all triangles, each counted once [m^2]
+  /// Uniform density inside, per unit mass; its centre is the centre of volume. For a sheet:
+  /// uniform mass per area.
+  MassDistribution uniform;
+  /// Masses proportional to the area, as points at the barycentres of the triangles (Padilla et al.
+  /// 2025), per unit mass: a thin shell.
+  MassDistribution surface;
+};
+
+/// Exact integrals over the polyhedron that a closed mesh bounds: signed tetrahedra on its faces.
+/// They are taken about the mesh itself, so that a far-off origin costs no digits beyond those the
+/// coordinates have lost already. Mirtich, "Fast and accurate computation of polyhedral mass
+/// properties", 1996, treats the same integrals by projection. Cost O(T).
+/// @pre the mesh is closed, outward oriented and encloses a volume (checkMesh()).
+MeshProperties computeMassProperties(const TriangleMesh& mesh);
+
+/// The same of an open sheet of zero thickness: exact integrals over its area. Cost O(T).
+/// @pre the mesh has a positive area.
+MeshProperties computeSheetMassProperties(const TriangleMesh& mesh);
+
+}  // namespace ambient

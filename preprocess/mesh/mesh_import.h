@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// Distance, over the diagonal of the bounding box, up to which the vertices of a file are one.
+constexpr double kWeldTolerance = 1e-6;
+
+/// A mesh as a file holds it, and what a user should know about it, one line each.
+struct ImportedMesh {
+  TriangleMesh mesh;
+  std::vector<std::string> warnings;
+};
+
+/// Reads the triangles of a mesh file: OBJ, STL, PLY, glTF and whatever else assimp reads. All
+/// meshes of the scene count, each as often and where its nodes place it; polygons are divided into
+/// triangles, points and lines left out. Vertices closer than kWeldTolerance are welded, across
+/// meshes too, and triangles that vanish by it dropped. Coordinates are in single precision in
+/// assimp, whatever the file holds, and are multiplied by `scale` in double. Nothing is checked
+/// beyond that: see checkMesh().
+/// @throws std::runtime_error in one line that names the file, if it is missing, not a mesh or has
+/// no triangles, or if the scale is not positive and finite.
+ImportedMesh importMesh(const std::filesystem::path& file, double scale = 1);
+
+}  // namespace ambient

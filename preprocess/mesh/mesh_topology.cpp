@@ -1,0 +1,71 @@
+#include "preprocess/mesh/mesh_topology.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace ambient {
+
+MeshEdges computeMeshEdges(const TriangleMesh& mesh) {
+  MeshEdges result;
+  result.half_edges.reserve(3 * static_cast<std::size_t>(mesh.triangleCount()));
+  for (int t = 0; t < static_cast<int>(mesh.triangleCount()); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles(k, t), b = mesh.triangles((k + 1) % 3, t);
+      result.half_edges.push_back({std::min(a, b), std::max(a, b), t, k, a < b});
+    }
+  }
+  std::sort(result.half_edges.begin(), result.half_edges.end(),
+            [](const HalfEdge& p, const HalfEdge& q) {
+              return std::tie(p.low, p.high, p.triangle, p.side) <
+                     std::tie(q.low, q.high, q.triangle, q.side);
+            });
+  const std::vector<HalfEdge>& sorted = result.half_edges;
+  for (std::size_t first = 0; first < sorted.size();) {
+    std::size_t last = first + 1;
+    while (last < sorted.size() && sorted[last].low == sorted[first].low &&
+           sorted[last].high == sorted[first].high) {
+      ++last;
+    }
+    result.edges.push_back({first, last});
+    first = last;
+  }
+  return result;
+}
+
+DisjointSets::DisjointSets(std::size_t count) : parent_(count) {
+  std::iota(parent_.begin(), parent_.end(), 0);
+}
+
+int DisjointSets::find(int element) {
+  while (parent_[element] != element) {
+    parent_[element] = parent_[parent_[element]];
+    element = parent_[element];
+  }
+  return element;
+}
+
+void DisjointSets::join(int a, int b) {
+  const int root_a = find(a), root_b = find(b);
+  parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
+}
+
+MeshComponents computeMeshComponents(const TriangleMesh& mesh, const MeshEdges& edges) {
+  const auto triangle_count = static_cast<std::size_t>(mesh.triangleCount());
+  DisjointSets sets(triangle_count);
+  for (const EdgeGroup& edge : edges.edges) {
+    if (edge.size() != 2) continue;
+    sets.join(edges.half_edges[edge.first].triangle, edges.half_edges[edge.first + 1].triangle);
+  }
+  MeshComponents result;
+  result.component_of.resize(triangle_count);
+  std::vector<int> number_of_root(triangle_count, -1);
+  for (std::size_t t = 0; t < triangle_count; ++t) {
+    int& number = number_of_root[sets.find(static_cast<int>(t))];
+    if (number < 0) number = result.count++;
+    result.component_of[t] = number;
+  }
+  return result;
+}
+
+}  // namespace ambient

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// One side of a triangle.
+struct HalfEdge {
+  int low = 0, high = 0;  ///< its two vertices, low < high
+  int triangle = 0;
+  int side = 0;          ///< from corner `side` to corner (side + 1) % 3
+  bool forward = false;  ///< runs from low to high
+};
+
+/// The half edges that share two vertices: [first, last) of MeshEdges::half_edges.
+struct EdgeGroup {
+  std::size_t first = 0, last = 0;
+
+  std::size_t size() const { return last - first; }
+};
+
+/// All half edges of a mesh, sorted so that those of one edge stand together.
+struct MeshEdges {
+  std::vector<HalfEdge> half_edges;
+  std::vector<EdgeGroup> edges;
+};
+
+/// Cost O(T log T), independent of the order of the triangles up to their numbers.
+MeshEdges computeMeshEdges(const TriangleMesh& mesh);
+
+/// Disjoint sets over 0 .. n - 1.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count);
+
+  int find(int element);
+  void join(int a, int b);
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Triangles that hang together through edges of exactly two triangles.
+struct MeshComponents {
+  std::vector<int> component_of;  ///< per triangle, numbered by first appearance
+  int count = 0;
+};
+
+MeshComponents computeMeshComponents(const TriangleMesh& mesh, const MeshEdges& edges);
+
+}  // namespace ambient

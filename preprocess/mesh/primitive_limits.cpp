@@ -1,0 +1,19 @@
+#include "preprocess/mesh/primitive_limits.h"
+
+#include <cmath>
+
+#include "preprocess/mesh/input_error.h"
+
+namespace ambient {
+
+void requirePositiveSize(const std::string& shape, const std::string& what, double value) {
+  if (std::isfinite(value) && value > 0) return;
+  raiseInputError(shape, what, " = ", value, " m is not positive and finite");
+}
+
+void requireFaces(const std::string& shape, int faces, int least) {
+  if (faces >= least) return;
+  raiseInputError(shape, "faces = ", faces, " is below the least possible number ", least);
+}
+
+}  // namespace ambient

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace ambient {
+
+/// Refuses a size that is not positive and finite.
+/// @throws std::runtime_error naming the shape, the size and its value.
+void requirePositiveSize(const std::string& shape, const std::string& what, double value);
+
+/// Refuses a number of faces below the least one the shape can be made of.
+/// @throws std::runtime_error naming the shape, the number and the limit.
+void requireFaces(const std::string& shape, int faces, int least);
+
+}  // namespace ambient

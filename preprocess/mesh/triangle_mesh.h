@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace ambient {
+
+/// Indexed triangle mesh. Triangles are counter-clockwise seen from the fluid: (b - a) x (c - a)
+/// points into it.
+struct TriangleMesh {
+  Eigen::Matrix3Xd vertices;   ///< 3 x V [m]
+  Eigen::Matrix3Xi triangles;  ///< 3 x T vertex indices
+
+  Eigen::Index vertexCount() const { return vertices.cols(); }
+  Eigen::Index triangleCount() const { return triangles.cols(); }
+  Eigen::Vector3d corner(Eigen::Index triangle, int k) const {
+    return vertices.col(triangles(k, triangle));
+  }
+};
+
+}  // namespace ambient

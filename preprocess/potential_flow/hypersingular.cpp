@@ -1,0 +1,107 @@
+#include "preprocess/potential_flow/hypersingular.h"
+
+#include <algorithm>
+
+#include "preprocess/potential_flow/parallel_for.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr Index kPanelsAtOnce = 128;  // held in memory between the two passes
+constexpr Index kRowBlock = 64;
+constexpr Index kFarBlock =
+    256;  // panels per sweep of the far field, small enough for the first cache
+using FarArray = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kFarBlock, 1>;
+
+/// row[s] = far-field integral of 1/r over panel t and every panel s.
+void computeFarRow(const PanelArrays& a, Index t, ArrayXd& row) {
+  const Index n = a.area.size();
+  for (Index first = 0; first < n; first += kFarBlock) {
+    const Index count = std::min(kFarBlock, n - first);
+    const auto part = [&](const ArrayXd& array) { return array.segment(first, count); };
+    const FarArray x = a.x[t] - part(a.x), y = a.y[t] - part(a.y), z = a.z[t] - part(a.z);
+    const FarArray xx = a.xx[t] + part(a.xx), yy = a.yy[t] + part(a.yy), zz = a.zz[t] + part(a.zz);
+    const FarArray inverse_square = 1 / (x * x + y * y + z * z);
+    const FarArray along =
+        x * (x * xx + 2 * (y * (a.xy[t] + part(a.xy)) + z * (a.xz[t] + part(a.xz)))) +
+        y * (y * yy + 2 * z * (a.yz[t] + part(a.yz))) + z * z * zz;
+    row.segment(first, count) =
+        a.area[t] * part(a.area) * inverse_square.sqrt() *
+        (1 + (1.5 * along * inverse_square - 0.5 * (xx + yy + zz)) * inverse_square);
+  }
+}
+
+/// sum over s of I(t, s) curl h_j on s, for every unknown j (U x 3).
+void gatherCurls(const PanelSurface& surface, const Unknowns& unknowns, const ArrayXd& row,
+                 Eigen::MatrixX3d& curls) {
+  curls.setZero();
+  for (Index s = 0; s < surface.panelCount(); ++s)
+    for (int a = 0; a < 3; ++a) {
+      const int j = unknowns.of_vertex[surface.triangles(a, s)];
+      if (j >= 0) curls.row(j) += row[s] * surface.panels[s].hatCurl(a).transpose();
+    }
+}
+
+}  // namespace
+
+Unknowns numberUnknowns(const PanelSurface& surface) {
+  Unknowns unknowns;
+  for (Index v = 0; v < surface.vertexCount(); ++v) {
+    const bool free = surface.component[v] >= 0 && !surface.boundary_vertex[v];
+    unknowns.of_vertex.push_back(free ? unknowns.count++ : -1);
+  }
+  return unknowns;
+}
+
+Eigen::MatrixXd assembleHypersingular(const PanelSurface& surface, const Unknowns& unknowns,
+                                      const NearPanels& near, int threads) {
+  const Index panels = surface.panelCount(), size = unknowns.count;
+  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(size, size);
+  std::vector<Eigen::MatrixX3d> curls(kPanelsAtOnce, Eigen::MatrixX3d(size, 3));
+  for (Index first = 0; first < panels; first += kPanelsAtOnce) {
+    const Index count = std::min(kPanelsAtOnce, panels - first);
+    parallelFor(threads, count, [&](Index k) {
+      ArrayXd row(panels);
+      computeFarRow(surface.arrays, first + k, row);
+      for (const NearPanels::Entry& entry : near.of_panel[first + k])
+        row[entry.panel] = entry.integral;
+      gatherCurls(surface, unknowns, row, curls[k]);
+    });
+    const Index row_blocks = (size + kRowBlock - 1) / kRowBlock;
+    parallelFor(threads, row_blocks, [&](Index block) {
+      const Index row = block * kRowBlock, height = std::min(kRowBlock, size - row);
+      for (Index k = 0; k < count; ++k)
+        for (int a = 0; a < 3; ++a) {
+          const Index i = unknowns.of_vertex[surface.triangles(a, first + k)];
+          if (i < 0 || i >= row + height) continue;
+          const Vector3d curl = surface.panels[first + k].hatCurl(a) / (4 * kPi);
+          W.col(i).segment(row, height) += curls[k].middleRows(row, height) * curl;
+        }
+    });
+  }
+  return W;
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 6> assembleNormalVelocity(const PanelSurface& surface,
+                                                                const Unknowns& unknowns) {
+  Eigen::Matrix<double, Eigen::Dynamic, 6> B(unknowns.count, 6);
+  B.setZero();
+  for (Index t = 0; t < surface.panelCount(); ++t) {
+    const Panel& p = surface.panels[t];
+    for (int a = 0; a < 3; ++a) {
+      const Index i = unknowns.of_vertex[surface.triangles(a, t)];
+      if (i < 0) continue;
+      const Vector3d first_moment = p.area / 12 * (3 * p.centroid + p.corner[a]);
+      B.row(i).head<3>() += first_moment.cross(p.normal).transpose();
+      B.row(i).tail<3>() += p.area / 3 * p.normal.transpose();
+    }
+  }
+  return B;
+}
+
+}  // namespace ambient

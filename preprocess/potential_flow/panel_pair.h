@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "preprocess/potential_flow/panel_surface.h"
+
+namespace ambient {
+
+/// How two panels lie to each other, from the same panel to far apart.
+enum class PairKind { Same, SharedEdge, SharedVertex, Near, Close, Middle, Far };
+
+/// Kind of the pair, by shared vertices, else by q = distance of the centroids over the sum of the
+/// radii.
+PairKind classifyPair(const PanelSurface& surface, Eigen::Index t, Eigen::Index s);
+
+/// int_T int_S 1/|x - y| dx dy [length^3]. Exact reductions for panels that touch (docs/theory.md
+/// eq. (9)), quadrature by q for the others. The order of t and s matters to the error of the
+/// quadrature only.
+double computePairIntegral(const PanelSurface& surface, Eigen::Index t, Eigen::Index s);
+
+}  // namespace ambient

@@ -1,0 +1,184 @@
+#include "preprocess/potential_flow/potential_flow.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/potential_flow/double_layer.h"
+#include "preprocess/potential_flow/hypersingular.h"
+#include "preprocess/potential_flow/parallel_for.h"
+#include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/potential_flow/vertex_projection.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+/// Solution in the units of the solver, about the surface's centre.
+struct UnitFlow {
+  MatrixX6 potential;  ///< V x 6
+  Matrix6 inertia = Matrix6::Zero();
+  double asymmetry = 0;
+};
+
+double largestAsymmetry(const Matrix6& K) {
+  const double largest = K.cwiseAbs().maxCoeff();
+  return largest > 0 ? (K - K.transpose()).cwiseAbs().maxCoeff() / largest : 0;
+}
+
+Matrix6 symmetricPart(const Matrix6& K) { return 0.5 * (K + K.transpose()); }
+
+/// Adds s m m^T for the constants m of every closed component, the kernel of W; s of the size of
+/// W's diagonal.
+void fillKernel(const PanelSurface& surface, const Unknowns& unknowns, Eigen::MatrixXd& W) {
+  std::vector<bool> open(surface.component_count, false);
+  for (Index v = 0; v < surface.vertexCount(); ++v)
+    if (surface.boundary_vertex[v]) open[surface.component[v]] = true;
+  std::vector<std::vector<int>> members(surface.component_count);
+  for (Index v = 0; v < surface.vertexCount(); ++v)
+    if (unknowns.of_vertex[v] >= 0) members[surface.component[v]].push_back(unknowns.of_vertex[v]);
+  for (int c = 0; c < surface.component_count; ++c) {
+    if (open[c]) continue;
+    double trace = 0;
+    for (int i : members[c]) trace += W(i, i);
+    const auto count = static_cast<double>(members[c].size());
+    const double s = trace / (count * count);
+    for (int i : members[c])
+      for (int j : members[c]) W(i, j) += s;
+  }
+}
+
+/// Jump of the potential (V x 6, 0 where there is no unknown): W mu = -B.
+MatrixX6 solveJump(const PanelSurface& surface, const Unknowns& unknowns, const NearPanels& near,
+                   int threads) {
+  Eigen::MatrixXd W = assembleHypersingular(surface, unknowns, near, threads);
+  fillKernel(surface, unknowns, W);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(W);
+  if (factors.info() != Eigen::Success)
+    throw std::runtime_error("potential flow: the linear system of " +
+                             std::to_string(unknowns.count) +
+                             " vertices is not positive definite; two sides of the surface are too "
+                             "close for the size of "
+                             "its triangles: use more triangles or a sheet");
+  const MatrixX6 solution = factors.solve(-assembleNormalVelocity(surface, unknowns));
+  MatrixX6 jump = MatrixX6::Zero(surface.vertexCount(), 6);
+  for (Index v = 0; v < surface.vertexCount(); ++v)
+    if (unknowns.of_vertex[v] >= 0) jump.row(v) = solution.row(unknowns.of_vertex[v]);
+  return jump;
+}
+
+/// -B^T mu: the inertia of the fluid on both sides of the surface; symmetric.
+Matrix6 integrateEnergy(const PanelSurface& surface, const Unknowns& unknowns,
+                        const MatrixX6& jump) {
+  const MatrixX6 B = assembleNormalVelocity(surface, unknowns);
+  Matrix6 K = Matrix6::Zero();
+  for (Index v = 0; v < surface.vertexCount(); ++v)
+    if (unknowns.of_vertex[v] >= 0) K -= B.row(unknowns.of_vertex[v]).transpose() * jump.row(v);
+  return K;
+}
+
+/// -int phi_j g_i, the inertia by definition, from the potentials' moments.
+Matrix6 integrateInertia(const PanelSurface& surface, const PanelMoments& moments) {
+  Matrix6 K = Matrix6::Zero();
+  for (Index t = 0; t < surface.panelCount(); ++t)
+    for (int a = 0; a < 3; ++a) {
+      const Panel& panel = surface.panels[t];
+      Vector6 g;
+      g << panel.corner[a].cross(panel.normal), panel.normal;
+      K -= g * moments[t].row(a);
+    }
+  return K;
+}
+
+UnitFlow solveSheet(const PanelSurface& surface, int threads) {
+  const Unknowns unknowns = numberUnknowns(surface);
+  if (unknowns.count == 0)
+    throw std::runtime_error("potential flow: the sheet of " +
+                             std::to_string(surface.panelCount()) +
+                             " triangles has no vertex inside its boundary; it needs at least 1");
+  UnitFlow flow;
+  flow.potential = solveJump(surface, unknowns, findNearPanels(surface, threads), threads);
+  flow.inertia = integrateEnergy(surface, unknowns, flow.potential);
+  flow.asymmetry = largestAsymmetry(flow.inertia);
+  return flow;
+}
+
+UnitFlow solveClosed(const PanelSurface& surface, int threads) {
+  if (surface.boundary_edge_count > 0)
+    throw std::runtime_error("potential flow: the surface is open at " +
+                             std::to_string(surface.boundary_edge_count) +
+                             " edges; it must be closed, or be declared a sheet");
+  if (!(surface.volume > 0))
+    throw std::runtime_error(
+        "potential flow: the surface is inside out or encloses no volume; triangles must be "
+        "counter-clockwise seen from the fluid");
+  const Unknowns unknowns = numberUnknowns(surface);
+  const NearPanels near = findNearPanels(surface, threads);
+  const MatrixX6 jump = solveJump(surface, unknowns, near, threads);
+  const PanelMoments moments = computeExteriorMoments(surface, near, jump, threads);
+  const Matrix6 direct = integrateInertia(surface, moments);
+
+  UnitFlow flow;
+  flow.potential = projectOnVertices(surface, moments);
+  flow.asymmetry = largestAsymmetry(direct);
+  // The energy holds the interior flow too. In translation that moves as a solid, volume times
+  // unity and, about the centre of volume, without coupling; in rotation it is not known.
+  flow.inertia = integrateEnergy(surface, unknowns, jump);
+  flow.inertia.bottomRightCorner<3, 3>().diagonal().array() -= surface.volume;
+  flow.inertia.topLeftCorner<3, 3>() = direct.topLeftCorner<3, 3>();
+  return flow;
+}
+
+/// Makes the inertia symmetric positive semi-definite; returns the lowest eigenvalue over the
+/// largest if it was negative, else 0.
+double removeNegativePart(Matrix6& K) {
+  K = symmetricPart(K);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(K);
+  const double lowest = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[5];
+  if (lowest >= 0 || largest <= 0) return 0;
+  K = symmetricPart(eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+                    eigen.eigenvectors().transpose());
+  return lowest / largest;
+}
+
+}  // namespace
+
+PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  if (mesh.triangleCount() == 0)
+    throw std::runtime_error("potential flow: the mesh has 0 triangles; it needs at least 1");
+  if (settings.true_volume < 0) {
+    std::ostringstream message;
+    message << "potential flow: the true volume is " << settings.true_volume
+            << " m^3; it must not be below 0";
+    throw std::runtime_error(message.str());
+  }
+  const int threads = threadCount(settings.threads);
+  const PanelSurface surface =
+      makePanelSurface(refineSurface(mesh, settings.sheet, settings.max_panels), settings.sheet);
+  UnitFlow unit = settings.sheet ? solveSheet(surface, threads) : solveClosed(surface, threads);
+
+  PotentialFlow flow;
+  flow.panels = surface.panelCount();
+  flow.asymmetry = unit.asymmetry;
+  flow.removed_eigenvalue = removeNegativePart(unit.inertia);
+  const double size = settings.true_volume > 0 && !settings.sheet
+                          ? std::cbrt(settings.true_volume / surface.volume)
+                          : surface.length;
+  flow.added_mass = symmetricPart(shiftOrigin(scaleShape(unit.inertia, size), -surface.centre));
+  // The mesh's vertices come first. A rotation about its origin moves the centre c with w x c.
+  const auto own = unit.potential.topRows(mesh.vertexCount());
+  flow.potential.resize(mesh.vertexCount(), 6);
+  flow.potential.rightCols<3>() = size * own.rightCols<3>();
+  flow.potential.leftCols<3>() =
+      size * size * own.leftCols<3>() - flow.potential.rightCols<3>() * crossMatrix(surface.centre);
+  return flow;
+}
+
+}  // namespace ambient

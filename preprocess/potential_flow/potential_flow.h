@@ -1,0 +1,49 @@
+#pragma once
+
+#include "bullet_ambient/spatial/vector_types.h"
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// How the six exterior Neumann problems are solved.
+struct PotentialFlowSettings {
+  bool sheet = false;      ///< the mesh is an open surface of zero thickness
+  double true_volume = 0;  ///< volume of the smooth body the mesh stands for [m^3]; 0: the mesh's
+                           ///< own. Scales the result about the centre of volume; not for sheets.
+  int max_panels = 0;  ///< the flat faces are cut into up to so many panels where the flow needs
+                       ///< them, see refineSurface(); 0: every face is a panel
+  int threads = 0;     ///< 0: all cores; the result does not depend on it, bit for bit
+};
+
+/// Potentials of the six unit motions and the fluid's inertia, per unit density, about the mesh's
+/// origin.
+struct PotentialFlow {
+  /// V x 6, continuous piecewise linear [m^2/s per unit motion], rotation first; for a sheet its
+  /// jump, front (where the normal points to) minus back.
+  Eigen::Matrix<double, Eigen::Dynamic, 6> potential;
+  /// Symmetric positive semi-definite, rotation first.
+  Matrix6 added_mass = Matrix6::Zero();
+  /// Largest |K - K^T| over the largest |K| of K = -int phi_j g_i dA integrated directly, before
+  /// any symmetrising; about the centre of volume, lengths divided by the body's size [1]. A
+  /// measure of the discretisation; rounding only for sheets.
+  double asymmetry = 0;
+  /// Discretisation may leave tiny negative eigenvalues where the true inertia vanishes (spin of a
+  /// body of revolution about its axis): they are set to zero. The lowest eigenvalue before that,
+  /// or 0, over the largest; in the same units [1].
+  double removed_eigenvalue = 0;
+  Eigen::Index panels = 0;  ///< how many the equations were solved on
+};
+
+/// Solves the six exterior Neumann problems dphi/dn = n.(v + w x z) by a Galerkin boundary element
+/// method with the hypersingular operator; docs/theory.md eq. (6) to (11). Disjoint components are
+/// solved together. Cost for P panels: time O(P^2) + O(P^3) with small constants, memory 2 P^2
+/// bytes and about 15 kB per panel; 2700 panels take 0.6 s of one core and 60 MB.
+/// @pre the mesh passed checkMesh(): closed, manifold and outward oriented (or a manifold open
+/// sheet).
+/// @throws std::runtime_error for no triangles, a triangle without area, an open or inside-out
+/// surface that is not a sheet, a sheet without vertices inside its boundary, a true volume below
+/// 0, or a linear system that cannot be solved, with the reason.
+PotentialFlow solvePotentialFlow(const TriangleMesh& mesh,
+                                 const PotentialFlowSettings& settings = {});
+
+}  // namespace ambient

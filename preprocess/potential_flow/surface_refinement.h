@@ -1,0 +1,15 @@
+#pragma once
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// The same flat faces cut into more triangles where the potential needs them: coarse triangles
+/// everywhere, then, towards edges the flow is singular at (convex ones with an angle between the
+/// normals above 41 degrees; for a sheet creases and the boundary), triangles that are thinned
+/// across the edge but not along it, a factor of 2 per level. The first vertices are the mesh's
+/// own. At most `max_triangles` result, or the mesh itself when it has more. Depends on the shape
+/// and the order of the mesh only, not on its place, size or attitude.
+TriangleMesh refineSurface(const TriangleMesh& mesh, bool sheet, int max_triangles);
+
+}  // namespace ambient

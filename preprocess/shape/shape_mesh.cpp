@@ -1,0 +1,110 @@
+#include "preprocess/shape/shape_mesh.h"
+
+#include <cmath>
+
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/mesh/mesh_import.h"
+#include "preprocess/mesh/primitives.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// For cylinders and cones: lengths along the axis are exact as they are.
+TriangleMesh withVolumeAcross(TriangleMesh mesh, double volume) {
+  const double stretch = std::sqrt(volume / computeMassProperties(mesh).volume);
+  mesh.vertices.topRows<2>() *= stretch;
+  return mesh;
+}
+
+TriangleMesh withVolume(TriangleMesh mesh, double volume) {
+  mesh.vertices *= std::cbrt(volume / computeMassProperties(mesh).volume);
+  return mesh;
+}
+
+CheckedMesh importChecked(const std::filesystem::path& file, double scale, bool sheet) {
+  const ImportedMesh imported = importMesh(file, scale);
+  CheckedMesh checked = checkMesh(imported.mesh, file.string(), {sheet});
+  checked.warnings.insert(checked.warnings.begin(), imported.warnings.begin(),
+                          imported.warnings.end());
+  return checked;
+}
+
+/// Makes the mesh of every kind of shape with `faces` triangles.
+struct MeshMaker {
+  int faces;
+
+  CheckedMesh operator()(const SphereShape& s) const {
+    return (*this)(EllipsoidShape{Eigen::Vector3d::Constant(s.radius)});
+  }
+  CheckedMesh operator()(const EllipsoidShape& s) const {
+    const double volume = 4 * kPi / 3 * s.semi_axes.prod();
+    return {withVolume(makeEllipsoidMesh(s.semi_axes, faces), volume), {}};
+  }
+  CheckedMesh operator()(const BoxShape& s) const { return {makeBoxMesh(s.half_sizes, faces), {}}; }
+  CheckedMesh operator()(const CylinderShape& s) const {
+    const double volume = kPi * s.radius * s.radius * s.height;
+    return {withVolumeAcross(makeCylinderMesh(s.radius, s.height, faces), volume), {}};
+  }
+  CheckedMesh operator()(const CapsuleShape& s) const {
+    const double volume = kPi * s.radius * s.radius * (s.height + 4 * s.radius / 3);
+    return {withVolume(makeCapsuleMesh(s.radius, s.height, faces), volume), {}};
+  }
+  CheckedMesh operator()(const ConeShape& s) const {
+    const double volume = kPi * s.radius * s.radius * s.height / 3;
+    return {withVolumeAcross(makeConeMesh(s.radius, s.height, faces), volume), {}};
+  }
+  CheckedMesh operator()(const RectangularSheetShape& s) const {
+    return {makeRectangularSheetMesh(s.size.x(), s.size.y(), faces), {}};
+  }
+  CheckedMesh operator()(const EllipticSheetShape& s) const {
+    TriangleMesh mesh = makeEllipticSheetMesh(s.semi_axes.x(), s.semi_axes.y(), faces);
+    mesh.vertices *= std::sqrt(kPi * s.semi_axes.prod() / computeSheetMassProperties(mesh).area);
+    return {mesh, {}};
+  }
+  CheckedMesh operator()(const MeshShape& s) const { return importChecked(s.file, s.scale, false); }
+  CheckedMesh operator()(const MeshSheetShape& s) const {
+    return importChecked(s.file, s.scale, true);
+  }
+  CheckedMesh operator()(const FluidBodyShape& s) const {
+    throw std::logic_error(s.file.string() + ": a fluid body is read, not meshed");
+  }
+};
+
+struct FileFinder {
+  std::filesystem::path operator()(const MeshShape& s) const { return s.file; }
+  std::filesystem::path operator()(const MeshSheetShape& s) const { return s.file; }
+  std::filesystem::path operator()(const FluidBodyShape& s) const { return s.file; }
+  template <class Other>
+  std::filesystem::path operator()(const Other&) const {
+    return {};
+  }
+};
+
+}  // namespace
+
+bool isSheet(const ShapeDescription& shape) {
+  return std::holds_alternative<RectangularSheetShape>(shape.geometry) ||
+         std::holds_alternative<EllipticSheetShape>(shape.geometry) ||
+         std::holds_alternative<MeshSheetShape>(shape.geometry);
+}
+
+std::filesystem::path fileOf(const ShapeDescription& shape) {
+  return std::visit(FileFinder{}, shape.geometry);
+}
+
+CheckedMesh makeShapeMesh(const ShapeDescription& shape) {
+  try {
+    return std::visit(MeshMaker{shape.faces}, shape.geometry);
+  } catch (const std::runtime_error& error) {
+    // Messages about a file begin with it already.
+    const bool names_file = !fileOf(shape).empty() || shape.source.empty();
+    if (names_file) throw;
+    raiseInputError(shape.source, error.what());
+  }
+}
+
+}  // namespace ambient

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "preprocess/mesh/mesh_orientation.h"
+#include "preprocess/shape/shape_description.h"
+
+namespace ambient {
+
+/// Whether the shape is an open surface of zero thickness.
+bool isSheet(const ShapeDescription& shape);
+
+/// The file with the shape's mesh or fluid body; empty for the others.
+std::filesystem::path fileOf(const ShapeDescription& shape);
+
+/// The triangles of a shape in its frame S. Meshes are read and checked; the others are made, round
+/// ones with the volume of the smooth body (elliptic sheets: the area) instead of vertices on its
+/// surface: a ball of 1280 triangles would displace 1 % too little, and carry so much less added
+/// mass.
+/// @pre the shape is not a FluidBodyShape
+/// @throws std::runtime_error in one line that begins with the shape's source.
+CheckedMesh makeShapeMesh(const ShapeDescription& shape);
+
+}  // namespace ambient

@@ -1,0 +1,119 @@
+#include "preprocess/shape/shape_reader.h"
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/shape_schema.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+using Geometry = decltype(ShapeDescription::geometry);
+
+struct ShapeSource {
+  const json& shape;
+  const std::filesystem::path& directory;
+  const std::string& source;
+};
+
+template <int n>
+Eigen::Matrix<double, n, 1> vectorOf(const json& array) {
+  Eigen::Matrix<double, n, 1> vector;
+  for (int k = 0; k < n; ++k) vector[k] = array[k].get<double>();
+  return vector;
+}
+
+std::filesystem::path fileOf(const ShapeSource& from) {
+  return (from.directory / from.shape["file"].get<std::string>()).lexically_normal();
+}
+
+double scaleOf(const ShapeSource& from) { return from.shape.value("scale", 1.0); }
+
+/// The one of the keys that is given.
+std::string requireOneOf(const ShapeSource& from, const std::vector<std::string>& keys) {
+  std::string given, list;
+  int count = 0;
+  for (const std::string& key : keys) {
+    list += (list.empty() ? "" : ", ") + key;
+    if (!from.shape.contains(key)) continue;
+    given = key;
+    ++count;
+  }
+  if (count != 1) {
+    raiseInputError(from.source, "shape ", from.shape["type"].dump(), " needs exactly one of ",
+                    list, ", not ", count);
+  }
+  return given;
+}
+
+void refuseKey(const ShapeSource& from, const std::string& key, const std::string& why) {
+  if (!from.shape.contains(key)) return;
+  raiseInputError(from.source, "key \"", key, "\" in shape ", from.shape["type"].dump(), " ", why);
+}
+
+Geometry readBox(const ShapeSource& from) {
+  if (requireOneOf(from, {"half_sizes", "size"}) == "size") {
+    return BoxShape{vectorOf<3>(from.shape["size"]) / 2};
+  }
+  return BoxShape{vectorOf<3>(from.shape["half_sizes"])};
+}
+
+Geometry readSheet(const ShapeSource& from) {
+  const std::string key = requireOneOf(from, {"size", "semi_axes", "file"});
+  if (key == "file") {
+    refuseKey(from, "faces", "has no meaning with \"file\": the mesh has its own");
+    return MeshSheetShape{fileOf(from), scaleOf(from)};
+  }
+  refuseKey(from, "scale", "has no meaning without \"file\"");
+  if (key == "size") return RectangularSheetShape{vectorOf<2>(from.shape["size"])};
+  return EllipticSheetShape{vectorOf<2>(from.shape["semi_axes"])};
+}
+
+// One of the round shapes with a radius and a height.
+template <class Shape>
+Geometry readRound(const ShapeSource& from) {
+  return Shape{from.shape["radius"].get<double>(), from.shape["height"].get<double>()};
+}
+
+Geometry readGeometry(const ShapeSource& from) {
+  static const std::map<std::string, std::function<Geometry(const ShapeSource&)>> readers{
+      {"sphere",
+       [](const auto& s) { return SphereShape{s.shape["radius"].template get<double>()}; }},
+      {"box", readBox},
+      {"ellipsoid",
+       [](const auto& s) { return EllipsoidShape{vectorOf<3>(s.shape["semi_axes"])}; }},
+      {"cylinder", readRound<CylinderShape>},
+      {"capsule", readRound<CapsuleShape>},
+      {"cone", readRound<ConeShape>},
+      {"mesh",
+       [](const auto& s) {
+         return MeshShape{fileOf(s), scaleOf(s)};
+       }},
+      {"fluid_body", [](const auto& s) { return FluidBodyShape{fileOf(s)}; }},
+      {"sheet", readSheet}};
+  return readers.at(from.shape["type"].get<std::string>())(from);
+}
+
+}  // namespace
+
+ShapeDescription readShape(const json& shape, const std::filesystem::path& directory,
+                           const std::string& source) {
+  validateShape(shape, source);
+  ShapeDescription description;
+  description.geometry = readGeometry({shape, directory, source});
+  description.faces = shape.value("faces", ShapeDescription::kDefaultFaces);
+  description.text = shape.dump();
+  description.source = source;
+  return description;
+}
+
+ShapeDescription readShapeFile(const std::filesystem::path& file) {
+  const json shape = parseJson(readBytes(file), file.string());
+  return readShape(shape, file.parent_path(), file.string());
+}
+
+}  // namespace ambient

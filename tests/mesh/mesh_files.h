@@ -1,0 +1,112 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+inline void writeText(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+}
+
+inline std::string objText(const TriangleMesh& mesh) {
+  std::ostringstream text;
+  text << std::setprecision(17);
+  for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v) {
+    text << "v " << mesh.vertices(0, v) << ' ' << mesh.vertices(1, v) << ' ' << mesh.vertices(2, v)
+         << '\n';
+  }
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    text << "f " << mesh.triangles(0, t) + 1 << ' ' << mesh.triangles(1, t) + 1 << ' '
+         << mesh.triangles(2, t) + 1 << '\n';
+  }
+  return text.str();
+}
+
+inline std::string asciiStlText(const TriangleMesh& mesh) {
+  std::ostringstream text;
+  text << std::setprecision(9) << "solid thing\n";
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    text << "facet normal 0 0 0\nouter loop\n";
+    for (int k = 0; k < 3; ++k) text << "vertex " << mesh.corner(t, k).transpose() << '\n';
+    text << "endloop\nendfacet\n";
+  }
+  text << "endsolid thing\n";
+  return text.str();
+}
+
+/// Bytes of a little-endian float32 or integer, as the machine has them.
+template <class Number>
+std::string bytesOf(Number number) {
+  return {reinterpret_cast<const char*>(&number), sizeof number};
+}
+
+inline std::string binaryStlText(const TriangleMesh& mesh) {
+  // A header that begins with "solid", as some exporters write it.
+  std::string text = "solid but binary";
+  text.resize(80, ' ');
+  text += bytesOf(static_cast<std::uint32_t>(mesh.triangleCount()));
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    text += std::string(12, '\0');
+    for (int k = 0; k < 3; ++k) {
+      for (int c = 0; c < 3; ++c) text += bytesOf(static_cast<float>(mesh.corner(t, k)[c]));
+    }
+    text += std::string(2, '\0');
+  }
+  return text;
+}
+
+inline std::string plyText(const TriangleMesh& mesh) {
+  std::ostringstream text;
+  text << std::setprecision(17) << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertexCount()
+       << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
+       << mesh.triangleCount() << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v) {
+    text << mesh.vertices.col(v).transpose() << '\n';
+  }
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    text << "3 " << mesh.triangles.col(t).transpose() << '\n';
+  }
+  return text.str();
+}
+
+/// A glTF file beside its buffer: `nodes` is the JSON of the nodes, which place mesh 0.
+inline void writeGltf(const std::filesystem::path& file, const TriangleMesh& mesh,
+                      const std::string& nodes) {
+  std::string buffer;
+  for (Eigen::Index v = 0; v < mesh.vertexCount(); ++v) {
+    for (int k = 0; k < 3; ++k) buffer += bytesOf(static_cast<float>(mesh.vertices(k, v)));
+  }
+  const std::size_t positions = buffer.size();
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
+    buffer += bytesOf(static_cast<std::uint32_t>(mesh.triangles.data()[i]));
+  }
+  const std::string buffer_name = file.stem().string() + ".bin";
+  writeText(file.parent_path() / buffer_name, buffer);
+  const auto point = [](const Eigen::Vector3d& p) {
+    std::ostringstream text;
+    text << "[" << p.x() << "," << p.y() << "," << p.z() << "]";
+    return text.str();
+  };
+  std::ostringstream text;
+  text << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" << nodes
+       << R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
+       << R"("buffers":[{"uri":")" << buffer_name << R"(","byteLength":)" << buffer.size() << "}],"
+       << R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":)" << positions
+       << R"(},{"buffer":0,"byteOffset":)" << positions << R"(,"byteLength":)"
+       << buffer.size() - positions << "}],"
+       << R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)"
+       << mesh.vertexCount() << R"(,"min":)" << point(mesh.vertices.rowwise().minCoeff())
+       << R"(,"max":)" << point(mesh.vertices.rowwise().maxCoeff())
+       << R"(},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":)"
+       << mesh.triangles.size() << "}]}";
+  writeText(file, text.str());
+}
+
+}  // namespace ambient

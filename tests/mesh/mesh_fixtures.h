@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// A mesh from literal rows.
+inline TriangleMesh meshOf(const std::vector<Eigen::Vector3d>& vertices,
+                           const std::vector<Eigen::Vector3i>& triangles) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, static_cast<Eigen::Index>(vertices.size()));
+  for (std::size_t i = 0; i < vertices.size(); ++i) mesh.vertices.col(i) = vertices[i];
+  mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+  for (std::size_t i = 0; i < triangles.size(); ++i) mesh.triangles.col(i) = triangles[i];
+  return mesh;
+}
+
+/// Corners at the origin and at 1 on each axis; volume 1/6.
+inline TriangleMesh unitTetrahedron() {
+  return meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+}
+
+inline TriangleMesh moved(TriangleMesh mesh, const Eigen::Vector3d& by) {
+  mesh.vertices.colwise() += by;
+  return mesh;
+}
+
+inline TriangleMesh scaled(TriangleMesh mesh, double by) {
+  mesh.vertices *= by;
+  return mesh;
+}
+
+inline TriangleMesh rotated(TriangleMesh mesh, const Eigen::Matrix3d& rotation) {
+  mesh.vertices = rotation * mesh.vertices;
+  return mesh;
+}
+
+inline TriangleMesh insideOut(TriangleMesh mesh) {
+  mesh.triangles.row(1).swap(mesh.triangles.row(2));
+  return mesh;
+}
+
+/// Both meshes in one, nothing shared.
+inline TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
+  TriangleMesh both;
+  both.vertices.resize(3, a.vertexCount() + b.vertexCount());
+  both.vertices << a.vertices, b.vertices;
+  both.triangles.resize(3, a.triangleCount() + b.triangleCount());
+  both.triangles << a.triangles, (b.triangles.array() + static_cast<int>(a.vertexCount())).matrix();
+  return both;
+}
+
+inline TriangleMesh withoutTriangle(const TriangleMesh& mesh, Eigen::Index triangle) {
+  TriangleMesh result{mesh.vertices, {}};
+  result.triangles.resize(3, mesh.triangleCount() - 1);
+  result.triangles << mesh.triangles.leftCols(triangle),
+      mesh.triangles.rightCols(mesh.triangleCount() - triangle - 1);
+  return result;
+}
+
+/// An arbitrary rotation, no axis special.
+inline Eigen::Matrix3d someRotation() {
+  return Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
+}
+
+/// what() of the std::runtime_error that `action` throws.
+inline std::string messageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace ambient

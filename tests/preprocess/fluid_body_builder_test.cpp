@@ -1,0 +1,210 @@
+#include "preprocess/builder/fluid_body_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/builder/shape_builder.h"
+#include "preprocess/mesh/primitives.h"
+#include "preprocess/shape/shape_reader.h"
+#include "tests/demos/temporary_folder.h"
+#include "tests/mesh/mesh_files.h"
+#include "tests/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Lengths in units of the body, so that all entries of K are comparable.
+double relativeError(const Matrix6& a, const Matrix6& b) {
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+TriangleMesh cone() { return makeConeMesh(0.5, 1.2, 300); }
+
+FluidBody build(const TriangleMesh& mesh, BuildSettings settings = {}) {
+  settings.name = "thing";
+  return makeFluidBody(mesh, settings);
+}
+
+BuiltBody buildText(const std::string& shape, const ShapeBuildSettings& settings = {}) {
+  return buildShape(readShape(nlohmann::json::parse(shape), "", "shape.json"), settings);
+}
+
+TEST(FluidBodyBuilder, BodiesSatisfyTheChecksOfTheFile) {
+  checkFluidBody(build(cone()), "cone");
+  BuildSettings sheet;
+  sheet.sheet = true;
+  checkFluidBody(build(makeRectangularSheetMesh(1, 2, 200), sheet), "sheet");
+}
+
+TEST(FluidBodyBuilder, OriginIsTheCentreOfVolumeByDefault) {
+  const Eigen::Vector3d far(3, -2, 5);
+  const FluidBody body = build(moved(cone(), far));
+  EXPECT_EQ(body.centre_of_volume, Vector3::Zero());
+  EXPECT_EQ(body.uniform_mass.centre, Vector3::Zero());
+  // A quarter of the height above the base at -0.6, but for the facets.
+  EXPECT_NEAR(body.origin.z(), 5 - 0.6 + 0.3, 2e-3);
+  const Vector3 apex = far + Vector3(0, 0, 0.6) - body.origin;
+  EXPECT_LT(
+      (Vector3(body.surface.vertices[0], body.surface.vertices[1], body.surface.vertices[2]) - apex)
+          .norm(),
+      1e-15);
+}
+
+TEST(FluidBodyBuilder, AnotherOriginShiftsEverything) {
+  const FluidBody centred = build(cone());
+  BuildSettings settings;
+  settings.origin = Eigen::Vector3d(0.1, -0.2, 0.3);
+  const FluidBody shifted = build(cone(), settings);
+  const Vector3 d = *settings.origin - centred.origin;
+  EXPECT_EQ(shifted.origin, *settings.origin);
+  EXPECT_LT((shifted.centre_of_volume + d).norm(), 1e-15);
+  EXPECT_LT((shifted.surface_mass.centre + d - centred.surface_mass.centre).norm(), 1e-15);
+  EXPECT_LT((shifted.faces.centroid(7) + d - centred.faces.centroid(7)).norm(), 1e-15);
+  EXPECT_LT(relativeError(shifted.added_mass, shiftOrigin(centred.added_mass, d)), 1e-10);
+  EXPECT_EQ(shifted.uniform_mass.inertia, centred.uniform_mass.inertia);
+}
+
+TEST(FluidBodyBuilder, PlaceOfTheMeshDoesNotMatter) {
+  const FluidBody here = build(cone());
+  const FluidBody there = build(moved(cone(), {100, -200, 300}));
+  // The coordinates keep 1e-14 of their own size.
+  EXPECT_LT(relativeError(there.added_mass, here.added_mass), 1e-10);
+  EXPECT_LT((there.origin - here.origin - Vector3(100, -200, 300)).norm(), 1e-12);
+}
+
+TEST(FluidBodyBuilder, FacesCloseTheSurface) {
+  const FluidBody body = build(cone());
+  Vector3 area_vector = Vector3::Zero();
+  double area = 0, volume = 0;
+  for (std::size_t i = 0; i < body.faces.size(); ++i) {
+    area_vector += body.faces.area[i] * body.faces.normal(i);
+    volume += body.faces.area[i] * body.faces.normal(i).dot(body.faces.centroid(i)) / 3;
+    area += body.faces.area[i];
+  }
+  EXPECT_LT(area_vector.norm(), 1e-15 * 10);
+  EXPECT_NEAR(volume / body.volume, 1, 1e-13);
+  EXPECT_NEAR(area / body.area, 1, 1e-13);
+}
+
+TEST(FluidBodyBuilder, SheetsHaveTwoSidesAndNoVolume) {
+  BuildSettings settings;
+  settings.sheet = true;
+  const TriangleMesh mesh = makeRectangularSheetMesh(0.4, 0.3, 200);
+  const FluidBody sheet = build(mesh, settings);
+  const auto count = static_cast<std::size_t>(mesh.triangleCount());
+  EXPECT_EQ(sheet.volume, 0);
+  EXPECT_NEAR(sheet.area, 2 * 0.4 * 0.3, 1e-15);
+  ASSERT_EQ(sheet.faces.size(), 2 * count);
+  EXPECT_EQ(sheet.surface.triangles.size(), 3 * count);
+  EXPECT_EQ(sheet.faces.normal(0), Vector3(0, 0, 1));
+  EXPECT_EQ(sheet.faces.normal(count), Vector3(0, 0, -1));
+  EXPECT_EQ(sheet.faces.centroid(count + 5), sheet.faces.centroid(5));
+  // No motion within its plane moves any fluid.
+  EXPECT_LT(sheet.added_mass.block(2, 2, 3, 3).norm(), 1e-14 * sheet.added_mass(5, 5));
+}
+
+TEST(FluidBodyBuilder, ThreadsDoNotChangeABit) {
+  BuildSettings settings;
+  settings.threads = 1;
+  const std::string one = encodeFluidBody(build(cone(), settings), "one");
+  settings.threads = 3;
+  EXPECT_EQ(encodeFluidBody(build(cone(), settings), "three"), one);
+}
+
+TEST(FluidBodyBuilder, TrueVolumeScalesTheBodyAboutItsCentre) {
+  const FluidBody body = build(cone());
+  BuildSettings settings;
+  settings.true_volume = 1.331 * body.volume;
+  const FluidBody larger = build(cone(), settings);
+  EXPECT_NEAR(larger.volume / settings.true_volume, 1, 1e-14);
+  EXPECT_LT((larger.origin - body.origin).norm(), 1e-15);
+  EXPECT_LT(relativeError(larger.added_mass, scaleShape(body.added_mass, 1.1)), 1e-12);
+  EXPECT_NEAR(larger.area / body.area, 1.21, 1e-13);
+}
+
+TEST(FluidBodyBuilder, MeshesTooLargeForTheSolverAreRefused) {
+  const TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 50000);
+  const std::string message = messageOf([&] { build(mesh); });
+  EXPECT_EQ(message,
+            "thing: 25002 vertices are more than the dense solver takes, 20000 (3.2 GB): simplify "
+            "the mesh");
+}
+
+// Lamb, Hydrodynamics: sphere V/2 per axis, nothing in rotation.
+TEST(ShapeBuilder, SphereHasHalfItsVolumeAsAddedMass) {
+  const BuiltBody sphere = buildText(R"({"type":"sphere","radius":0.5})");
+  const double volume = kPi / 6;
+  EXPECT_TRUE(sphere.warnings.empty());
+  EXPECT_NEAR(sphere.body.volume / volume, 1, 1e-13);
+  Matrix6 expected = Matrix6::Zero();
+  expected.bottomRightCorner<3, 3>() = volume / 2 * Matrix3::Identity();
+  // Discretisation at 1280 faces, measured 1e-5.
+  EXPECT_LT(relativeError(sphere.body.added_mass, expected), 3e-5);
+}
+
+// Lamb section 102: a disc of radius a has 8/3 a^3 broadside and 16/45 a^5 about a diameter.
+TEST(ShapeBuilder, DiscConvergesToLambWithSecondOrder) {
+  const double a = 0.5, broadside = 8.0 / 3 * a * a * a, turning = 16.0 / 45 * std::pow(a, 5);
+  std::vector<double> errors, turning_errors;
+  for (const char* faces : {"288", "1152"}) {
+    const FluidBody disc =
+        buildText(R"({"type":"sheet","semi_axes":[0.5,0.5],"faces":)" + std::string(faces) + "}")
+            .body;
+    errors.push_back(1 - disc.added_mass(5, 5) / broadside);
+    turning_errors.push_back(1 - disc.added_mass(0, 0) / turning);
+  }
+  EXPECT_LT(errors[1], 4e-3);          // measured 2.9e-3
+  EXPECT_LT(turning_errors[1], 6e-3);  // measured 5.1e-3
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2, 0.15);
+  EXPECT_NEAR(std::log2(turning_errors[0] / turning_errors[1]), 2, 0.15);
+}
+
+TEST(ShapeBuilder, ProvenanceNamesTheFileAndHashesItsBytes) {
+  const TemporaryFolder folder;
+  const std::string text = objText(cone());
+  writeText(folder.path() / "c.obj", text);
+  ShapeDescription shape;
+  shape.geometry = MeshShape{folder.path() / "c.obj", 1};
+  shape.source = "c.obj";
+  ShapeBuildSettings settings;
+  settings.name = "c";
+  settings.scale = 0.5;
+  const FluidBody body = buildShape(shape, settings).body;
+  EXPECT_EQ(body.name, "c");
+  EXPECT_EQ(body.provenance.source, "c.obj");
+  EXPECT_EQ(body.provenance.source_hash, fnv1a64(text));
+  EXPECT_EQ(body.provenance.settings, "body, scale 0.5, origin centre-of-volume");
+  EXPECT_EQ(body.provenance.generator.substr(0, 15), "bullet_ambient ");
+  EXPECT_NEAR(body.volume, kPi * 0.0625 * 0.2, 0.02 * body.volume);
+  const FluidBody ball = buildText(R"({"type":"sphere", "radius":1, "faces":80})").body;
+  EXPECT_EQ(ball.provenance.source, R"({"faces":80,"radius":1,"type":"sphere"})");
+  EXPECT_EQ(ball.provenance.source_hash, fnv1a64(ball.provenance.source));
+}
+
+TEST(ShapeBuilder, CoarseMeshesAreWarnedAbout) {
+  const BuiltBody ball = buildText(R"({"type":"sphere","radius":1,"faces":80})");
+  ASSERT_EQ(ball.warnings.size(), 1u);
+  EXPECT_EQ(ball.warnings[0].find("shape.json: 80 triangles are few"), 0u) << ball.warnings[0];
+}
+
+TEST(ShapeBuilder, FluidBodiesAreReadAsTheyAre) {
+  const TemporaryFolder folder;
+  const FluidBody body = build(cone());
+  writeFluidBody(body, folder.path() / "c.ambient");
+  ShapeDescription shape;
+  shape.geometry = FluidBodyShape{folder.path() / "c.ambient"};
+  EXPECT_EQ(encodeFluidBody(buildShape(shape, {}).body, "read"), encodeFluidBody(body, "built"));
+  ShapeBuildSettings settings;
+  settings.scale = 2;
+  EXPECT_EQ(messageOf([&] { buildShape(shape, settings); }),
+            (folder.path() / "c.ambient").string() + ": scale = 2: a fluid body keeps its size");
+}
+
+}  // namespace
+}  // namespace ambient

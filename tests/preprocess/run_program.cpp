@@ -1,0 +1,68 @@
+#include "tests/preprocess/run_program.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/demos/temporary_folder.h"
+
+namespace ambient {
+namespace {
+
+std::string textOf(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// Between fork and exec: system calls only.
+[[noreturn]] void becomeProgram(const std::vector<char*>& argv, const char* output,
+                                const char* errors) {
+  ::dup2(::open(output, O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
+  ::dup2(::open(errors, O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+  ::execv(argv[0], argv.data());
+  ::_exit(127);
+}
+
+ProgramResult run(const std::string& program, const std::vector<std::string>& arguments,
+                  int interrupt_after) {
+  const TemporaryFolder folder;
+  const std::string output = (folder.path() / "output").string();
+  const std::string errors = (folder.path() / "errors").string();
+  std::vector<std::string> words{program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) becomeProgram(argv, output.c_str(), errors.c_str());
+  if (interrupt_after >= 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after));
+    ::kill(child, SIGINT);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(output), textOf(errors)};
+}
+
+}  // namespace
+
+ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments) {
+  return run(program, arguments, -1);
+}
+
+ProgramResult interruptProgram(const std::string& program,
+                               const std::vector<std::string>& arguments, int milliseconds) {
+  return run(program, arguments, milliseconds);
+}
+
+}  // namespace ambient
