@@ -1,0 +1,126 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "demos/scene/scene_lookup.h"
+#include "demos/scene/scene_reader.h"
+#include "demos/simulation/body_preparation.h"
+#include "demos/simulation/scene_run.h"
+#include "demos/simulation/summary.h"
+#include "preprocess/builder/elapsed_display.h"
+
+namespace ambient {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kBadInput = 1;
+constexpr int kBadUsage = 2;
+
+struct Arguments {
+  bool list = false;
+  bool quiet = false;
+  std::string scene;
+  std::string out;
+  std::vector<SceneOverride> overrides;
+};
+
+/// The arguments, or the exit code if there is nothing more to do.
+struct Parsed {
+  Arguments arguments;
+  std::optional<int> exit_code;
+};
+
+Parsed parseArguments(int argc, char** argv) {
+  Parsed parsed;
+  std::vector<std::string> sets;
+  CLI::App app("Runs a scene of rigid bodies in a fluid inside a Bullet world.", "ambient_demo");
+  app.add_flag("--list", parsed.arguments.list, "List the scenes of data/scenes and stop");
+  app.add_option("SCENE", parsed.arguments.scene, "A scene's name or the path of a JSON file");
+  app.add_option("--out", parsed.arguments.out, "Folder of the results (default: out/<scene>)")
+      ->type_name("DIR");
+  app.add_option("--set", sets, "Change the scene before it is checked, e.g. bodies.0.mass=0.001")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
+  app.add_flag("--quiet", parsed.arguments.quiet, "Print errors only");
+  try {
+    app.parse(argc, argv);
+    for (const std::string& text : sets) parsed.arguments.overrides.push_back(parseOverride(text));
+    if (parsed.arguments.scene.empty() && !parsed.arguments.list)
+      throw CLI::RequiredError("SCENE or --list");
+  } catch (const CLI::ParseError& error) {
+    parsed.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    parsed.exit_code = kBadUsage;
+  }
+  return parsed;
+}
+
+void printScenes() {
+  for (const fs::path& file : listScenes(sceneFolders())) {
+    std::string description;
+    try {
+      description = readScene(file).description;
+    } catch (const std::exception& error) {
+      description = std::string("not readable: ") + error.what();
+    }
+    std::printf("%-24s %s\n", file.stem().c_str(), description.c_str());
+  }
+}
+
+std::vector<PreparedBody> prepare(const Scene& scene, FluidBodyCache& cache, bool quiet) {
+  std::optional<ElapsedDisplay> display;
+  if (!quiet) display.emplace(scene.name + ": preparing bodies");
+  return prepareBodies(scene, cache);
+}
+
+void runAndWrite(const Arguments& arguments) {
+  const Scene scene = readScene(findScene(arguments.scene, sceneFolders()), arguments.overrides);
+  const fs::path out =
+      arguments.out.empty() ? "out" / fs::path(scene.name) : fs::path(arguments.out);
+  FluidBodyCache cache(out / "fluid_bodies", scene.threads);
+  const std::vector<PreparedBody> bodies = prepare(scene, cache, arguments.quiet);
+  for (const std::string& warning : cache.warnings())
+    if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+
+  OutputFolder folder(out);
+  TrajectoryFile trajectory(out / "trajectory.csv");
+  OutputFile summary(out / "summary.json");
+  const RunRecord record = runScene(scene, bodies, trajectory, arguments.quiet);
+  summary.write(makeSummary(scene, bodies, record));
+  trajectory.commit();
+  summary.commit();
+  folder.keep();
+  cache.save();
+  if (!arguments.quiet)
+    std::printf("%s: %lld steps in %.2f s; wrote trajectory.csv and summary.json to %s\n",
+                scene.name.c_str(), record.steps, record.wall_seconds, folder.path().c_str());
+}
+
+int run(int argc, char** argv) {
+  const Parsed parsed = parseArguments(argc, argv);
+  if (parsed.exit_code) return *parsed.exit_code;
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interruptRun(); });
+  try {
+    if (parsed.arguments.list)
+      printScenes();
+    else
+      runAndWrite(parsed.arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ambient_demo: %s\n", error.what());
+    return kBadInput;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace ambient
+
+int main(int argc, char** argv) { return ambient::run(argc, argv); }

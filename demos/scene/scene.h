@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/force/medium.h"
+#include "bullet_ambient/motion/flight.h"
+#include "bullet_ambient/spatial/vector_types.h"
+#include "preprocess/shape/shape_description.h"
+
+namespace ambient {
+
+/// How the fluid acts on the bodies of a scene.
+enum class FluidModel {
+  kAmbient,  ///< this library
+  kVacuum,   ///< stock Bullet
+  kUwrbd,    ///< linear drag, Weissmann and Pinkall 2012
+  kGwtf,     ///< momentum flux on windward faces, a stand-in for Soliman et al. 2024
+};
+
+/// The scene file's word for a model.
+std::string modelName(FluidModel model);
+
+enum class MassKind { kUniform, kSurface };
+
+/// One rigid body of a scene. The shape's frame is that of the scene's "shape" entry.
+struct BodyDef {
+  std::string name;
+  ShapeDescription shape;
+  double mass = 0;  ///< [kg]; 0: static
+  MassKind mass_kind = MassKind::kUniform;
+  std::optional<Matrix3> inertia;         ///< about the centre of mass, shape's axes [kg m^2]
+  std::optional<Vector3> centre_of_mass;  ///< in the shape's frame [m]
+  Vector3 position = Vector3::Zero();     ///< of the centre of mass in W [m]
+  Quaternion orientation = Quaternion::Identity();  ///< shape's axes to W
+  Vector3 linear_velocity = Vector3::Zero();        ///< of the centre of mass in W [m/s]
+  Vector3 angular_velocity = Vector3::Zero();       ///< in W [rad/s]
+  FlowSettings flow;                                ///< separation and skin friction
+  std::optional<double> fluid_density;              ///< overrides the medium's [kg/m^3]
+  double restitution = 0;
+  double friction = 0.5;
+};
+
+/// One scene, checked. SI units; W is the world frame.
+struct Scene {
+  std::string name;  ///< file name without extension
+  std::string description;
+  std::filesystem::path file;    ///< where it was read from
+  double duration = 0;           ///< [s]
+  double time_step = 0;          ///< [s]
+  double output_step = 0;        ///< [s]
+  Vector3 gravity{0, 0, -9.81};  ///< [m/s^2]
+  Medium medium = air();
+  FluidModel model = FluidModel::kAmbient;
+  FlightSettings flight;
+  int threads = 0;  ///< of the preprocessing; 0: all cores
+  std::vector<BodyDef> bodies;
+};
+
+}  // namespace ambient

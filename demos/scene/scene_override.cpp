@@ -1,0 +1,82 @@
+#include "demos/scene/scene_override.h"
+
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "demos/scene/scene_error.h"
+#include "demos/scene/scene_schema.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+/// {"bodies", "0", "mass"} of bodies.0.mass or bodies[0].mass; empty tokens are kept as such.
+std::vector<std::string> splitPath(const std::string& path) {
+  std::vector<std::string> tokens(1);
+  for (const char c : path) {
+    if (c == '.' || c == '[')
+      tokens.emplace_back();
+    else if (c != ']')
+      tokens.back() += c;
+  }
+  return tokens;
+}
+
+bool isIndex(const std::string& token) {
+  constexpr std::size_t kMostDigits = 9;
+  return !token.empty() && token.size() <= kMostDigits &&
+         std::all_of(token.begin(), token.end(), [](unsigned char c) { return std::isdigit(c); });
+}
+
+json parseValue(const std::string& text) {
+  const json value = json::parse(text, nullptr, false);
+  return value.is_discarded() ? json(text) : value;
+}
+
+/// The element or member of `parent` that `token` names, made if a member is missing.
+json& descend(json& parent, const std::string& token, const std::string& parent_name) {
+  if (parent.is_array()) {
+    if (!isIndex(token) || std::stoul(token) >= parent.size())
+      throw std::out_of_range(parent_name + " has " + std::to_string(parent.size()) +
+                              " elements, no element " + token);
+    return parent[std::stoul(token)];
+  }
+  if (parent.is_null()) parent = json::object();
+  if (!parent.is_object() || isIndex(token))
+    throw std::out_of_range(parent_name + " is " + (parent.empty() ? "not given" : parent.dump()) +
+                            " and has no part " + token);
+  return parent[token];
+}
+
+}  // namespace
+
+SceneOverride parseOverride(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw std::invalid_argument("--set " + text + ": must be PATH=VALUE");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void applyOverride(json& scene, const SceneOverride& change, const std::string& file) {
+  const std::vector<std::string> path = splitPath(change.path);
+  const std::string option = "--set " + change.path + "=" + change.value + ": ";
+  if (std::count(path.begin(), path.end(), "") > 0 || !schemaKnows(path))
+    throw SceneError(file, option + "a scene has no such key");
+  json* place = &scene;
+  try {
+    std::vector<std::string> walked;
+    for (const std::string& token : path) {
+      place = &descend(*place, token, walked.empty() ? "the scene" : placeName(walked));
+      walked.push_back(token);
+    }
+  } catch (const std::out_of_range& error) {
+    throw SceneError(file, option + error.what());
+  }
+  *place = parseValue(change.value);
+}
+
+}  // namespace ambient

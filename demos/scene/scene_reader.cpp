@@ -1,0 +1,151 @@
+#include "demos/scene/scene_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "demos/scene/scene_checks.h"
+#include "demos/scene/scene_schema.h"
+#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/shape_reader.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kPi = 3.141592653589793;
+
+Vector3 toVector(const json& v) {
+  return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+}
+
+Vector3 vectorOr(const json& parent, const char* key, const Vector3& absent) {
+  const auto found = parent.find(key);
+  return found == parent.end() ? absent : toVector(*found);
+}
+
+/// xx, yy, zz, xy, xz, yz.
+Matrix3 toInertia(const json& v) {
+  Matrix3 inertia;
+  inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
+  return inertia;
+}
+
+FluidModel toModel(const std::string& name) {
+  if (name == "vacuum") return FluidModel::kVacuum;
+  if (name == "uwrbd") return FluidModel::kUwrbd;
+  if (name == "gwtf") return FluidModel::kGwtf;
+  return FluidModel::kAmbient;
+}
+
+Medium toMedium(const json& scene) {
+  const auto found = scene.find("medium");
+  if (found == scene.end()) return air();
+  Medium medium;
+  medium.density = found->at("density").get<double>();
+  medium.viscosity = found->value("viscosity", 0.0);
+  medium.velocity = vectorOr(*found, "velocity", Vector3::Zero());
+  medium.acceleration = vectorOr(*found, "acceleration", Vector3::Zero());
+  return medium;
+}
+
+FlightSettings toFlightSettings(const json& scene) {
+  FlightSettings settings;
+  const auto found = scene.find("integrator");
+  if (found == scene.end()) return settings;
+  if (found->value("method", "leapfrog") == "rk4") settings.integrator = Integrator::kRungeKutta4;
+  settings.tolerance = found->value("tolerance", settings.tolerance);
+  settings.max_substeps = found->value("max_substeps", settings.max_substeps);
+  return settings;
+}
+
+void readMassProperties(const json& from, BodyDef& body) {
+  body.mass = from.at("mass").get<double>();
+  body.mass_kind = from.value("mass_distribution", "uniform") == "surface" ? MassKind::kSurface
+                                                                           : MassKind::kUniform;
+  if (from.contains("inertia")) body.inertia = toInertia(from.at("inertia"));
+  if (from.contains("centre_of_mass")) body.centre_of_mass = toVector(from.at("centre_of_mass"));
+}
+
+void readMotion(const json& from, BodyDef& body) {
+  body.position = vectorOr(from, "position", Vector3::Zero());
+  if (from.contains("orientation")) {
+    const json& q = from.at("orientation");
+    body.orientation =
+        Quaternion(q[0].get<double>(), q[1].get<double>(), q[2].get<double>(), q[3].get<double>());
+  }
+  body.linear_velocity = vectorOr(from, "linear_velocity", Vector3::Zero());
+  body.angular_velocity = vectorOr(from, "angular_velocity", Vector3::Zero());
+}
+
+BodyDef toBody(const json& from, std::size_t index, const std::filesystem::path& file) {
+  BodyDef body;
+  body.name = from.value("name", "body_" + std::to_string(index));
+  body.shape = readShape(from.at("shape"), file.parent_path(),
+                         file.string() + ": bodies[" + std::to_string(index) + "].shape");
+  readMassProperties(from, body);
+  readMotion(from, body);
+  body.flow.separation_angle = from.value("separation_angle", kPi / 2);
+  body.flow.skin_friction = from.value("skin_friction", true);
+  if (from.contains("fluid_density")) body.fluid_density = from.at("fluid_density").get<double>();
+  body.restitution = from.value("restitution", body.restitution);
+  body.friction = from.value("friction", body.friction);
+  return body;
+}
+
+Scene toScene(const json& from, const std::filesystem::path& file) {
+  Scene scene;
+  scene.name = file.stem().string();
+  scene.file = file;
+  scene.description = from.value("description", "");
+  scene.duration = from.at("duration").get<double>();
+  scene.time_step = from.at("time_step").get<double>();
+  scene.output_step = from.value("output_step", scene.time_step);
+  scene.gravity = vectorOr(from, "gravity", scene.gravity);
+  scene.medium = toMedium(from);
+  scene.model = toModel(from.value("model", "ambient"));
+  scene.flight = toFlightSettings(from);
+  scene.threads = from.value("threads", 0);
+  for (const json& body : from.at("bodies"))
+    scene.bodies.push_back(toBody(body, scene.bodies.size(), file));
+  return scene;
+}
+
+/// Takes the rounding of printed digits out of what checkScene() let pass.
+void removeRounding(Scene& scene) {
+  for (BodyDef& body : scene.bodies) {
+    body.orientation.normalize();
+    double& angle = body.flow.separation_angle;
+    if (std::abs(angle - kPi / 2) <= kAngleTolerance) angle = kPi / 2;
+    angle = std::min(angle, kPi);
+  }
+}
+
+}  // namespace
+
+std::string modelName(FluidModel model) {
+  switch (model) {
+    case FluidModel::kAmbient:
+      return "ambient";
+    case FluidModel::kVacuum:
+      return "vacuum";
+    case FluidModel::kUwrbd:
+      return "uwrbd";
+    case FluidModel::kGwtf:
+      return "gwtf";
+  }
+  return "";
+}
+
+Scene readScene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides) {
+  json document = parseJson(readBytes(file), file.string());
+  for (const SceneOverride& change : overrides) applyOverride(document, change, file.string());
+  validateAgainstSchema(document, file.string());
+  Scene scene = toScene(document, file);
+  checkScene(scene);
+  removeRounding(scene);
+  return scene;
+}
+
+}  // namespace ambient

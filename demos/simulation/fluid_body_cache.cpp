@@ -1,0 +1,76 @@
+#include "demos/simulation/fluid_body_cache.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "preprocess/builder/shape_builder.h"
+#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/shape_mesh.h"
+
+namespace ambient {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Differs between two builds of this program.
+std::string programStamp() {
+  const fs::path program = "/proc/self/exe";
+  std::error_code error;
+  const auto size = fs::file_size(program, error);
+  const auto time = fs::last_write_time(program, error).time_since_epoch().count();
+  return std::to_string(size) + " " + std::to_string(time);
+}
+
+}  // namespace
+
+FluidBodyCache::FluidBodyCache(fs::path folder, int threads)
+    : folder_(std::move(folder)), threads_(threads) {}
+
+std::shared_ptr<const FluidBody> FluidBodyCache::get(const ShapeDescription& shape,
+                                                     const std::string& name) {
+  std::shared_ptr<const FluidBody>& known = by_text_[shape.text];
+  if (!known) known = readOrBuild(shape, name);
+  return known;
+}
+
+fs::path FluidBodyCache::fileFor(const ShapeDescription& shape) const {
+  const fs::path mesh = fileOf(shape);
+  const std::string bytes = mesh.empty() ? "" : readBytes(mesh);
+  char hash[17];
+  std::snprintf(
+      hash, sizeof hash, "%016llx",
+      static_cast<unsigned long long>(fnv1a64(programStamp() + "\n" + shape.text + "\n" + bytes)));
+  return folder_ / (std::string(hash) + ".ambient");
+}
+
+std::shared_ptr<const FluidBody> FluidBodyCache::readOrBuild(const ShapeDescription& shape,
+                                                             const std::string& name) {
+  const bool cached = !folder_.empty() && !std::holds_alternative<FluidBodyShape>(shape.geometry);
+  const fs::path file = cached ? fileFor(shape) : fs::path();
+  if (cached && fs::exists(file)) {
+    try {
+      return std::make_shared<const FluidBody>(readFluidBody(file));
+    } catch (const std::runtime_error&) {
+      // A damaged file is as good as none: save() replaces it.
+    }
+  }
+  ShapeBuildSettings settings;
+  settings.name = name;
+  settings.threads = threads_;
+  BuiltBody built = buildShape(shape, settings);
+  warnings_.insert(warnings_.end(), built.warnings.begin(), built.warnings.end());
+  auto body = std::make_shared<const FluidBody>(std::move(built.body));
+  if (cached) unsaved_.emplace(file, body);
+  return body;
+}
+
+void FluidBodyCache::save() {
+  if (unsaved_.empty()) return;
+  fs::create_directories(folder_);
+  for (const auto& [file, body] : unsaved_) writeFluidBody(*body, file);
+  unsaved_.clear();
+}
+
+}  // namespace ambient

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/shape/shape_description.h"
+
+namespace ambient {
+
+/// The fluid bodies of a program's runs, each solved once: within a scene by memory, between runs
+/// by .ambient files in a folder. A file is named by a hash of the shape, the bytes of its mesh
+/// file and the program itself, so that neither an edited mesh nor a rebuilt program meets an old
+/// file.
+class FluidBodyCache {
+ public:
+  /// `folder` need not exist; empty: no files. `threads` solve; 0: all cores.
+  explicit FluidBodyCache(std::filesystem::path folder = {}, int threads = 0);
+
+  /// @throws std::runtime_error in one line that names the file or the shape's source.
+  std::shared_ptr<const FluidBody> get(const ShapeDescription& shape, const std::string& name);
+
+  /// Writes what was solved since it was made. @throws std::runtime_error as writeFluidBody().
+  void save();
+
+  /// What a user should know about the meshes, one line each.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  int solved() const { return static_cast<int>(unsaved_.size()); }
+
+ private:
+  std::filesystem::path fileFor(const ShapeDescription& shape) const;
+  std::shared_ptr<const FluidBody> readOrBuild(const ShapeDescription& shape,
+                                               const std::string& name);
+
+  std::filesystem::path folder_;
+  int threads_;
+  std::map<std::string, std::shared_ptr<const FluidBody>> by_text_;
+  std::map<std::filesystem::path, std::shared_ptr<const FluidBody>> unsaved_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace ambient

@@ -1,0 +1,84 @@
+#include "demos/simulation/motion_interpolation.h"
+
+#include <cmath>
+
+#include "bullet_ambient/spatial/inertia.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+
+/// Values and slopes (per unit of s in [0, 1]) at both ends.
+struct HermiteEnds {
+  Vector3 value_0, slope_0, value_1, slope_1;
+};
+
+Vector3 hermite(const HermiteEnds& ends, double s) {
+  const double t = 1 - s;
+  return (1 + 2 * s) * t * t * ends.value_0 + s * t * t * ends.slope_0 +
+         s * s * (3 - 2 * s) * ends.value_1 - s * s * t * ends.slope_1;
+}
+
+/// Rotation vector of a unit quaternion, length at most pi [rad].
+Vector3 rotationVector(const Quaternion& q) {
+  const double sine = q.vec().norm();
+  if (sine == 0) return Vector3::Zero();
+  const double sign = q.w() < 0 ? -1 : 1;
+  return 2 * std::atan2(sine, sign * q.w()) / sine * sign * q.vec();
+}
+
+Quaternion quaternionOf(const Vector3& rotation_vector) {
+  const double angle = rotation_vector.norm();
+  if (angle == 0) return Quaternion::Identity();
+  return Quaternion(Eigen::AngleAxisd(angle, rotation_vector / angle));
+}
+
+/// The vector of the same rotation that is nearest to `guess`, full turns added.
+Vector3 nearestTurns(const Vector3& vector, const Vector3& guess) {
+  const double angle = vector.norm();
+  if (angle == 0) return vector;
+  const Vector3 axis = vector / angle;
+  return (angle + 2 * kPi * std::round((guess.dot(axis) - angle) / (2 * kPi))) * axis;
+}
+
+/// Rate of the rotation vector that goes with the angular velocity `w` in the turned axes:
+/// phi' = w + phi x w / 2 + (1/phi^2 - cot(phi/2) / (2 phi)) phi x (phi x w).
+Vector3 vectorRate(const Vector3& vector, const Vector3& w) {
+  const double angle = vector.norm();
+  constexpr double kSeriesBelow = 1e-2;  // the series is exact to 1e-17 there
+  const double c = angle < kSeriesBelow
+                       ? 1.0 / 12 + angle * angle / 720 + std::pow(angle, 4) / 30240
+                       : 1 / (angle * angle) - 1 / (2 * angle * std::tan(angle / 2));
+  const Matrix3 cross = crossMatrix(vector);
+  return w + 0.5 * cross * w + c * cross * (cross * w);
+}
+
+}  // namespace
+
+MotionSample interpolateMotion(const MotionSample& from, const MotionSample& to, double time) {
+  if (time <= from.time) return from;
+  if (time >= to.time) return to;
+  const double h = to.time - from.time;
+  const double s = (time - from.time) / h;
+  MotionSample between;
+  between.time = time;
+  between.position =
+      hermite({from.position, h * from.twist.linear, to.position, h * to.twist.linear}, s);
+  between.twist.linear = from.twist.linear + s * (to.twist.linear - from.twist.linear);
+  between.twist.angular = from.twist.angular + s * (to.twist.angular - from.twist.angular);
+
+  // Turned axes are those of the body, so angular velocities go there.
+  const Vector3 w_0 = h * (from.orientation.conjugate() * from.twist.angular);
+  const Vector3 w_1 = h * (to.orientation.conjugate() * to.twist.angular);
+  const Vector3 vector = nearestTurns(rotationVector(from.orientation.conjugate() * to.orientation),
+                                      0.5 * (w_0 + w_1));
+  // Near a full turn the rate of the rotation vector is singular: beyond half a turn, turn evenly.
+  const Vector3 turned = vector.norm() > kPi
+                             ? Vector3(s * vector)
+                             : hermite({Vector3::Zero(), w_0, vector, vectorRate(vector, w_1)}, s);
+  between.orientation = (from.orientation * quaternionOf(turned)).normalized();
+  return between;
+}
+
+}  // namespace ambient

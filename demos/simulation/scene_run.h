@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "demos/analysis/motion_sample.h"
+#include "demos/scene/scene.h"
+#include "demos/simulation/prepared_body.h"
+#include "demos/simulation/simulation.h"
+#include "demos/simulation/trajectory_file.h"
+
+namespace ambient {
+
+/// What came of a run, besides its trajectory file.
+struct RunRecord {
+  long long steps = 0;
+  double wall_seconds = 0;                        ///< spent stepping
+  std::vector<std::vector<MotionSample>> motion;  ///< per body, one sample per output time
+  std::vector<FlightWork> work;                   ///< per body
+};
+
+/// The times of the rows: multiples of the output step from 0 on, and the duration.
+std::vector<double> outputTimes(const Scene& scene);
+
+/// Steps that cover the duration.
+long long countSteps(const Scene& scene);
+
+/// Runs a scene and adds one row per body and output time to `file`, which stays uncommitted.
+/// Output times between two steps are interpolated.
+/// @throws std::runtime_error naming body and time if a state is not finite, or if interrupted.
+RunRecord runScene(const Scene& scene, const std::vector<PreparedBody>& bodies,
+                   TrajectoryFile& file, bool quiet);
+
+/// Makes a running runScene() stop with an exception; may be called from a signal handler.
+void interruptRun() noexcept;
+
+}  // namespace ambient

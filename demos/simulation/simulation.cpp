@@ -1,0 +1,177 @@
+#include "demos/simulation/simulation.h"
+
+#include <btBulletDynamicsCommon.h>
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "bullet_ambient/bullet/ambient_action.h"
+#include "bullet_ambient/bullet/ambient_registry.h"
+#include "bullet_ambient/bullet/ambient_solver.h"
+#include "demos/simulation/collision_shape.h"
+#include "demos/simulation/principal_frame.h"
+
+namespace ambient {
+namespace {
+
+/// One body in the world. Bullet's body frame B has its origin at the centre of mass and principal
+/// axes; S is the shape's frame.
+struct WorldBody {
+  std::string name;
+  MotionSample start;
+  Matrix3 R_SB = Matrix3::Identity();  // B's axes to S's
+  CollisionShape shape;
+  std::unique_ptr<btRigidBody> body;
+  bool is_ambient = false;
+};
+
+MotionSample startOf(const BodyDef& def) {
+  MotionSample start;
+  start.position = def.position;
+  start.orientation = def.orientation;
+  start.twist = {def.angular_velocity, def.linear_velocity};
+  return start;
+}
+
+btTransform toBulletPose(const Matrix3& rotation, const Vector3& translation) {
+  return btTransform(toBulletMatrix(rotation), toBullet(translation));
+}
+
+WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
+  WorldBody made;
+  made.name = def.name;
+  made.start = startOf(def);
+  PrincipalFrame principal;
+  if (prepared.mass > 0) principal = findPrincipalFrame(prepared.inertia);
+  made.R_SB = principal.rotation;
+  const Matrix3 R_BS = made.R_SB.transpose();
+  made.shape = makeCollisionShape(prepared.collision,
+                                  toBulletPose(R_BS, Vector3(R_BS * -prepared.centre_of_mass)));
+
+  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(prepared.mass), nullptr,
+                                                made.shape.root(), toBullet(principal.moments));
+  info.m_startWorldTransform =
+      toBulletPose(Matrix3(def.orientation.toRotationMatrix() * made.R_SB), def.position);
+  info.m_restitution = static_cast<btScalar>(def.restitution);
+  info.m_friction = static_cast<btScalar>(def.friction);
+  made.body = std::make_unique<btRigidBody>(info);
+  made.body->setLinearVelocity(toBullet(def.linear_velocity));
+  made.body->setAngularVelocity(toBullet(def.angular_velocity));
+  // A body that hovers or glides slowly must not be put to sleep.
+  made.body->setActivationState(DISABLE_DEACTIVATION);
+  return made;
+}
+
+AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBody& prepared,
+                        const Matrix3& R_SB) {
+  AttachDef attach;
+  attach.fluid_body = prepared.fluid_body;
+  attach.medium = scene.medium;
+  if (def.fluid_density) attach.medium.density = *def.fluid_density;
+  attach.flow = def.flow;
+  attach.flight = scene.flight;
+  attach.fluid_frame.rotation = R_SB.transpose();
+  attach.fluid_frame.translation =
+      R_SB.transpose() * (prepared.fluid_origin - prepared.centre_of_mass);
+  return attach;
+}
+
+[[noreturn]] void throwNotFinite(const std::string& body, double time) {
+  std::ostringstream text;
+  text << "body \"" << body << "\": its state is not finite at t = " << time
+       << " s; a smaller time_step may help";
+  throw std::runtime_error(text.str());
+}
+
+}  // namespace
+
+struct Simulation::World {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  AmbientRegistry registry;
+  AmbientSolver<btSequentialImpulseConstraintSolver> solver{registry};
+  AmbientAction action{registry};
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  std::vector<WorldBody> bodies;
+  std::string report;
+  double time_step = 0;
+  long long steps = 0;
+
+  ~World() {
+    world.removeAction(&action);
+    for (WorldBody& body : bodies) {
+      registry.detach(*body.body);
+      world.removeRigidBody(body.body.get());
+    }
+  }
+
+  void add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared);
+  MotionSample sample(const WorldBody& of) const;
+};
+
+void Simulation::World::add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared) {
+  bodies.push_back(makeWorldBody(def, prepared));
+  WorldBody& added = bodies.back();
+  world.addRigidBody(added.body.get());
+  if (scene.model != FluidModel::kAmbient || prepared.mass == 0 || !prepared.fluid_body) return;
+  try {
+    registry.attach(*added.body, makeAttachDef(scene, def, prepared, added.R_SB));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("body \"" + def.name + "\": " + error.what());
+  }
+  added.is_ambient = true;
+}
+
+MotionSample Simulation::World::sample(const WorldBody& of) const {
+  if (steps == 0) return of.start;
+  MotionSample now;
+  now.time = static_cast<double>(steps) * time_step;
+  const btTransform& pose = of.body->getWorldTransform();
+  now.position = toVector3(pose.getOrigin());
+  now.orientation = toQuaternion(pose.getRotation()) * Quaternion(Matrix3(of.R_SB.transpose()));
+  now.twist = {toVector3(of.body->getAngularVelocity()), toVector3(of.body->getLinearVelocity())};
+  return now;
+}
+
+Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies)
+    : world_(std::make_unique<World>()) {
+  World& w = *world_;
+  w.time_step = scene.time_step;
+  w.registry.setReport([&w](const std::string& sentence) { w.report = sentence; });
+  w.world.setGravity(toBullet(scene.gravity));
+  w.world.addAction(&w.action);
+  for (std::size_t i = 0; i < bodies.size(); ++i) w.add(scene, scene.bodies[i], bodies[i]);
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::step() {
+  World& w = *world_;
+  // No substeps: exactly one step of this length.
+  w.world.stepSimulation(static_cast<btScalar>(w.time_step), 0);
+  ++w.steps;
+  for (const WorldBody& body : w.bodies) {
+    const bool rejected = body.is_ambient && w.registry.counters(*body.body).rejected > 0;
+    if (rejected || !w.sample(body).isFinite()) throwNotFinite(body.name, time());
+  }
+  if (!w.report.empty()) throw std::runtime_error(w.report);
+}
+
+double Simulation::time() const { return static_cast<double>(world_->steps) * world_->time_step; }
+
+std::vector<MotionSample> Simulation::sample() const {
+  std::vector<MotionSample> samples;
+  for (const WorldBody& body : world_->bodies) samples.push_back(world_->sample(body));
+  return samples;
+}
+
+FlightWork Simulation::work(std::size_t body) const {
+  const WorldBody& of = world_->bodies.at(body);
+  if (!of.is_ambient) return {};
+  const AmbientCounters counters = world_->registry.counters(*of.body);
+  return {counters.substeps, counters.load_evaluations, counters.guarded, counters.coarse};
+}
+
+}  // namespace ambient

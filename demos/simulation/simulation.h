@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "demos/analysis/motion_sample.h"
+#include "demos/scene/scene.h"
+#include "demos/simulation/prepared_body.h"
+
+namespace ambient {
+
+/// Work done for one body by the fluid; zero for bodies without fluid.
+struct FlightWork {
+  long long substeps = 0;
+  long long load_evaluations = 0;
+  long long guarded = 0;  ///< evaluations in which the passivity guard acted
+  long long coarse = 0;   ///< steps that stayed above the integrator's tolerance
+};
+
+/// A stock btDiscreteDynamicsWorld with the bodies of a scene in their fluid.
+class Simulation {
+ public:
+  /// `bodies` are those of the scene, in its order.
+  /// @throws std::invalid_argument naming the body if its values are not physical.
+  Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies);
+  ~Simulation();
+
+  /// One step of scene.time_step.
+  /// @throws std::runtime_error naming body and time if a state is not finite.
+  void step();
+
+  /// Steps made so far times the step [s].
+  double time() const;
+
+  /// Motion of all bodies now, in the order of the scene.
+  std::vector<MotionSample> sample() const;
+
+  FlightWork work(std::size_t body) const;
+
+ private:
+  struct World;
+  std::unique_ptr<World> world_;
+};
+
+}  // namespace ambient

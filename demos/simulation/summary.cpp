@@ -1,0 +1,125 @@
+#include "demos/simulation/summary.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "demos/analysis/falling_mode.h"
+#include "demos/analysis/path_summary.h"
+#include "demos/simulation/principal_frame.h"
+
+namespace ambient {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json toJson(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+json toJson(const MotionSample& sample) {
+  const Quaternion& q = sample.orientation;
+  return {{"time", sample.time},
+          {"position", toJson(sample.position)},
+          {"orientation", {q.w(), q.x(), q.y(), q.z()}},
+          {"linear_velocity", toJson(sample.twist.linear)},
+          {"angular_velocity", toJson(sample.twist.angular)}};
+}
+
+/// The normal of a body at most half as thick as it is wide, in the shape's axes. Thickness and
+/// widths are the root mean square extents of a uniform body along the principal axes.
+std::optional<Vector3> plateNormal(const FluidBody& body) {
+  const PrincipalFrame frame = findPrincipalFrame(body.uniform_mass.inertia);
+  const Vector3 extents_squared =
+      (Vector3::Constant(0.5 * frame.moments.sum()) - frame.moments).cwiseMax(0);
+  Vector3::Index thin = 0;
+  const double thickness_squared = extents_squared.minCoeff(&thin);
+  const double width_squared =
+      std::min(extents_squared[(thin + 1) % 3], extents_squared[(thin + 2) % 3]);
+  constexpr double kFlat = 0.5;
+  if (thickness_squared > kFlat * kFlat * width_squared) return std::nullopt;
+  return Vector3(frame.rotation.col(thin));
+}
+
+json toJson(const Fall& fall) {
+  json events = json::array();
+  for (const FallEvent& event : fall.events)
+    events.push_back({{"time", event.time}, {"kind", event.is_overturn ? "overturn" : "swing"}});
+  return {{"mode", fallingModeName(fall.mode)},
+          {"overturns", fall.overturns},
+          {"swings", fall.swings},
+          {"turns", fall.turns},
+          {"largest_swing", fall.largest_swing},
+          {"descent_speed", fall.descent_speed},
+          {"drift_speed", fall.drift_speed},
+          {"swing_axis", toJson(fall.swing_axis)},
+          {"events", events}};
+}
+
+json toJson(const PathSummary& path) {
+  json text = {{"length", path.length},
+               {"largest_speed", path.largest_speed},
+               {"largest_height", path.largest_height},
+               {"descent_speed", path.descent_speed}};
+  text["landing"] = path.landing ? toJson(*path.landing) : json();
+  return text;
+}
+
+json toJson(const FlightWork& work) {
+  return {{"substeps", work.substeps},
+          {"load_evaluations", work.load_evaluations},
+          {"guarded", work.guarded},
+          {"coarse", work.coarse}};
+}
+
+/// Half the size of the box around the surface along the shape's axes.
+Vector3 halfExtents(const Surface& surface) {
+  if (surface.vertices.empty()) return Vector3::Zero();
+  const Eigen::Map<const Eigen::Matrix3Xd> points(
+      surface.vertices.data(), 3, static_cast<Eigen::Index>(surface.vertices.size() / 3));
+  return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff());
+}
+
+json toJson(const FluidBody& body) {
+  return {{"name", body.name},          {"half_extents", toJson(halfExtents(body.surface))},
+          {"faces", body.faces.size()}, {"volume", body.volume},
+          {"area", body.area},          {"settings", body.provenance.settings}};
+}
+
+std::string integratorName(Integrator integrator) {
+  return integrator == Integrator::kRungeKutta4 ? "rk4" : "leapfrog";
+}
+
+}  // namespace
+
+std::string makeSummary(const Scene& scene, const std::vector<PreparedBody>& bodies,
+                        const RunRecord& record) {
+  json summary = {{"scene", scene.name},
+                  {"description", scene.description},
+                  {"model", modelName(scene.model)},
+                  {"steps", record.steps},
+                  {"time_step", scene.time_step},
+                  {"duration", scene.duration},
+                  {"output_step", scene.output_step},
+                  {"integrator", integratorName(scene.flight.integrator)},
+                  {"gravity", toJson(scene.gravity)},
+                  {"wall_seconds_simulation", record.wall_seconds},
+                  {"bodies", json::array()}};
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::vector<MotionSample>& motion = record.motion[i];
+    const std::shared_ptr<const FluidBody>& fluid_body = bodies[i].fluid_body;
+    json body = {{"name", scene.bodies[i].name}, {"mass", bodies[i].mass}};
+    body["fluid_body"] = fluid_body ? toJson(*fluid_body) : json();
+    body["start"] = toJson(motion.front());
+    body["end"] = toJson(motion.back());
+    body["path"] = toJson(summarisePath(motion, scene.gravity));
+    body["work"] = toJson(record.work[i]);
+    const auto normal = fluid_body && bodies[i].mass > 0 && !scene.gravity.isZero()
+                            ? plateNormal(*fluid_body)
+                            : std::nullopt;
+    body["fall"] = normal ? toJson(analyseFall(motion, *normal, scene.gravity)) : json();
+    if (normal) body["plate_normal"] = toJson(*normal);
+    summary["bodies"].push_back(body);
+  }
+  return summary.dump(2) + "\n";
+}
+
+}  // namespace ambient

@@ -1,0 +1,79 @@
+#include "demos/simulation/output_files.h"
+
+#include <gtest/gtest.h>
+
+#include "demos/simulation/trajectory_file.h"
+#include "tests/demos/temporary_folder.h"
+
+namespace ambient {
+namespace {
+
+std::string contentsOf(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(OutputFile, HasItsNameOnlyAfterCommit) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.txt";
+  {
+    OutputFile output(file);
+    output.write("text");
+    EXPECT_FALSE(std::filesystem::exists(file));
+    output.commit();
+  }
+  EXPECT_EQ(contentsOf(file), "text");
+}
+
+TEST(OutputFile, LeavesNothingWithoutCommitAndKeepsTheOldFile) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.txt";
+  std::ofstream(file) << "old";
+  { OutputFile(file).write("new"); }
+  EXPECT_EQ(contentsOf(file), "old");
+  std::filesystem::remove(file);
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(OutputFile, NamesAFileThatCannotBeWritten) {
+  EXPECT_THROW(OutputFile("no/such/folder/a.txt"), std::runtime_error);
+}
+
+TEST(OutputFolder, VanishesWithItsParentsUnlessKept) {
+  const TemporaryFolder folder;
+  { const OutputFolder output(folder.path() / "a/b/c"); }
+  EXPECT_TRUE(folder.empty());
+  {
+    OutputFolder output(folder.path() / "a/b/c");
+    output.keep();
+  }
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "a/b/c"));
+}
+
+TEST(OutputFolder, KeepsAFolderThatWasThere) {
+  const TemporaryFolder folder;
+  { const OutputFolder output(folder.path()); }
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path()));
+}
+
+TEST(OutputFolder, CannotBeAFile) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "a") << "x";
+  EXPECT_THROW(OutputFolder(folder.path() / "a"), std::runtime_error);
+  EXPECT_THROW(OutputFolder(folder.path() / "a/b"), std::runtime_error);
+}
+
+TEST(TrajectoryFile, RowsCarrySeventeenDigitsInTheOrderOfTheHeader) {
+  MotionSample sample;
+  sample.time = 0.1;
+  sample.position = Vector3(1.0 / 3, 2, -1e-7);
+  sample.orientation = Quaternion(0.5, -0.5, 0.5, -0.5);
+  sample.twist = {Vector3(4, 5, 6), Vector3(7, 8, 9)};
+  EXPECT_STREQ(kTrajectoryHeader, "time,body,px,py,pz,qw,qx,qy,qz,wx,wy,wz,vx,vy,vz");
+  EXPECT_EQ(trajectoryRow("plate", sample),
+            "0.10000000000000001,plate,0.33333333333333331,2,-9.9999999999999995e-08,"
+            "0.5,-0.5,0.5,-0.5,4,5,6,7,8,9\n");
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "demos/scene/scene_reader.h"
+#include "demos/simulation/body_preparation.h"
+#include "demos/simulation/scene_run.h"
+#include "tests/demos/temporary_folder.h"
+
+namespace ambient {
+
+/// A scene of data/scenes.
+inline std::filesystem::path sceneFile(const std::string& name) {
+  return std::filesystem::path(AMBIENT_DATA) / "scenes" / (name + ".json");
+}
+
+inline Scene readNamedScene(const std::string& name,
+                            const std::vector<SceneOverride>& overrides = {}) {
+  return readScene(sceneFile(name), overrides);
+}
+
+/// Runs a scene with bodies prepared before; the trajectory file is thrown away.
+inline RunRecord runPrepared(const Scene& scene, const std::vector<PreparedBody>& bodies) {
+  const TemporaryFolder folder;
+  TrajectoryFile file(folder.path() / "trajectory.csv");
+  return runScene(scene, bodies, file, true);
+}
+
+inline std::vector<PreparedBody> prepare(const Scene& scene) {
+  FluidBodyCache cache;
+  return prepareBodies(scene, cache);
+}
+
+inline RunRecord run(const Scene& scene) { return runPrepared(scene, prepare(scene)); }
+
+}  // namespace ambient
