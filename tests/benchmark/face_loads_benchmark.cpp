@@ -1,0 +1,80 @@
+#include <benchmark/benchmark.h>
+
+#include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/force/face_sums.h"
+#include "bullet_ambient/force/fifth_root.h"
+#include "tests/support/geodesic.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kRightAngle = 1.5707963267948966;
+
+Twist someTwist() { return {{3, -2, 5}, {4, 1, -2}}; }
+
+void reportPerFace(benchmark::State& state, std::size_t faces) {
+  state.counters["per_face"] =
+      benchmark::Counter(static_cast<double>(faces), benchmark::Counter::kIsIterationInvariantRate |
+                                                         benchmark::Counter::kInvert);
+}
+
+/// The kernel alone: arguments are subdivision level, instruction set, friction, angle in pi/2.
+void sumFacesKernel(benchmark::State& state, InstructionSet set, bool friction, double angle) {
+  const SumFaces sum_faces = sumFacesFor(set);
+  if (!sum_faces) {
+    state.SkipWithError("this processor does not have the instruction set");
+    return;
+  }
+  const FaceTable faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
+  const FaceColumns columns{
+      {faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
+      {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
+      faces.area.data(),
+      faces.size()};
+  const double cosine = separationCosine(angle * kRightAngle);
+  FaceMotion motion{{3, -2, 5}, {4, 1, -2}, -cosine * std::abs(cosine), 1 - cosine * cosine};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(motion);
+    benchmark::DoNotOptimize(sum_faces(columns, motion, friction));
+  }
+  reportPerFace(state, faces.size());
+}
+
+#define AMBIENT_KERNEL_BENCHMARK(set)                                                       \
+  BENCHMARK_CAPTURE(sumFacesKernel, set##_pressure, InstructionSet::k##set, false, 1.0)     \
+      ->DenseRange(2, 5);                                                                   \
+  BENCHMARK_CAPTURE(sumFacesKernel, set##_pressure_1_5, InstructionSet::k##set, false, 1.5) \
+      ->DenseRange(2, 5);                                                                   \
+  BENCHMARK_CAPTURE(sumFacesKernel, set##_friction, InstructionSet::k##set, true, 1.0)      \
+      ->DenseRange(2, 5)
+AMBIENT_KERNEL_BENCHMARK(Baseline);
+AMBIENT_KERNEL_BENCHMARK(Avx2);
+AMBIENT_KERNEL_BENCHMARK(Avx512);
+
+void faceLoads(benchmark::State& state, bool friction) {
+  const FaceTable faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
+  const LoadSettings settings{1.204, 1.82e-5, 0, friction};
+  const double length = test::referenceLength(faces);
+  Twist twist = someTwist();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(twist);
+    benchmark::DoNotOptimize(computeFaceLoads(faces, length, twist, settings));
+  }
+  reportPerFace(state, faces.size());
+}
+BENCHMARK_CAPTURE(faceLoads, pressure, false)->DenseRange(0, 5);
+BENCHMARK_CAPTURE(faceLoads, friction, true)->DenseRange(0, 5);
+
+void fifthRoot(benchmark::State& state) {
+  double x = 1.7;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(x);
+    benchmark::DoNotOptimize(inverseFifthRoot(x));
+  }
+}
+BENCHMARK(fifthRoot);
+
+}  // namespace
+}  // namespace ambient
+
+BENCHMARK_MAIN();

@@ -1,0 +1,68 @@
+// A ball of half the density of water, released at rest deep under its surface: cork FILE.ambient
+#include <btBulletDynamicsCommon.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "bullet_ambient/bullet/ambient_action.h"
+#include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+
+namespace {
+
+constexpr btScalar kGravity = btScalar(9.81);
+constexpr int kSteps = 120;
+constexpr btScalar kTimeStep = btScalar(1) / 240;
+
+/// Height [m] that the ball has risen by after half a second.
+btScalar riseInWater(const char* file) {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btDbvtBroadphase broadphase;
+
+  // The five lines that put a body into water.
+  ambient::AmbientRegistry registry;
+  ambient::AmbientSolver<> solver(registry);
+  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
+  ambient::AmbientAction action(registry);
+  world.addAction(&action);
+  world.setGravity({0, 0, -kGravity});
+
+  ambient::AttachDef def;
+  def.fluid_body = std::make_shared<ambient::FluidBody>(ambient::readFluidBody(file));
+  def.medium = ambient::water();
+
+  const btScalar mass = btScalar(0.5 * def.medium.density * def.fluid_body->volume);
+  btSphereShape shape(btScalar(0.05));
+  btVector3 inertia;
+  shape.calculateLocalInertia(mass, inertia);
+  btRigidBody ball(mass, nullptr, &shape, inertia);
+  world.addRigidBody(&ball);
+  registry.attach(ball, def);
+
+  for (int step = 0; step < kSteps; ++step) world.stepSimulation(kTimeStep, 0, kTimeStep);
+
+  registry.detach(ball);
+  world.removeRigidBody(&ball);
+  return ball.getWorldTransform().getOrigin().z();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: cork FILE.ambient\n");
+    return 2;
+  }
+  const btScalar rise = riseInWater(argv[1]);
+  std::printf("The ball rose by %.4f m, Bullet's numbers have %zu bytes.\n", double(rise),
+              sizeof(btScalar));
+  // Buoyancy lifts it with g / 2 at first, (m_f - m) / (m + m_f / 2) with the added mass; drag
+  // takes from that. Without the added mass the bound would be g, without the fluid it would sink.
+  const btScalar time = kSteps * kTimeStep;
+  return rise > 0 && rise < kGravity / 4 * time * time ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

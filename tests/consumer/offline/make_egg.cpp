@@ -1,0 +1,22 @@
+// Writes the fluid body of an ellipsoid: make_egg FILE.ambient
+#include <cstdio>
+#include <exception>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/mesh/primitives.h"
+
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: make_egg FILE.ambient\n");
+    return 2;
+  }
+  ambient::BuildSettings settings;
+  settings.name = "egg";
+  const ambient::TriangleMesh mesh = ambient::makeEllipsoidMesh({0.02, 0.02, 0.03}, 300);
+  ambient::writeFluidBody(ambient::makeFluidBody(mesh, settings), argv[1]);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "bullet_ambient/motion/flight.h"
+#include "bullet_ambient/motion/kirchhoff.h"
+
+namespace ambient::test {
+
+struct FreeBodyDef {
+  FluidBody shape;
+  MassProperties mass{1, Matrix3::Identity()};
+  Medium medium{1, 0, Vector3::Zero(), Vector3::Zero()};
+  FlowSettings flow{};
+  FrameOffset frame{};
+};
+
+/// A body in free flight, outside of any world.
+class FreeBody {
+ public:
+  explicit FreeBody(FreeBodyDef def)
+      : shape_(std::make_shared<FluidBody>(std::move(def.shape))),
+        model_(makeBodyModel(*shape_, def.frame, def.mass, def.medium, def.flow)) {}
+
+  RigidState state;
+  Surroundings surroundings;
+  FlightSettings settings;
+  FlightCount count;
+
+  const BodyModel& model() const { return model_; }
+
+  void setGravity(const Vector3& gravity) {
+    surroundings.gravity = gravity;
+    surroundings.applied.force = model_.mass * gravity;
+  }
+  void advance(double step, int steps = 1) {
+    for (int i = 0; i < steps; ++i) {
+      const FlightResult result = fly({model_, surroundings, settings, step}, state, memory_);
+      state = result.state;
+      memory_ = result.memory;
+      count.substeps += result.count.substeps;
+      count.load_evaluations += result.count.load_evaluations;
+      count.guarded += result.count.guarded;
+    }
+  }
+  /// Of body and fluid, in a fluid at rest [J].
+  double kineticEnergy() const { return inertiaNormSquared(model_, state.twist.vector()) / 2; }
+  /// Plus weight and buoyancy in the field of gravity [J].
+  double totalEnergy() const {
+    const Vector3 centre_of_volume = state.position + state.orientation * model_.centre_of_volume;
+    return kineticEnergy() - surroundings.gravity.dot(model_.mass * state.position -
+                                                      model_.displaced_mass * centre_of_volume);
+  }
+  /// Angular momentum about the origin of the world.
+  Momentum worldMomentum() const {
+    const WorldMomentum m = ambient::worldMomentum(model_, state);
+    return {m.angular + m.pivot.cross(m.linear), m.linear};
+  }
+
+ private:
+  std::shared_ptr<const FluidBody> shape_;  // the model points into it
+  BodyModel model_;
+  FlightMemory memory_;
+};
+
+/// Inertia without surface: no loads but gravity and buoyancy.
+inline FluidBody shapeWithoutFaces(const Matrix6& added_mass, double volume = 1) {
+  FluidBody shape;
+  shape.name = "inertia alone";
+  shape.added_mass = added_mass;
+  shape.volume = volume;
+  shape.area = std::pow(volume, 2.0 / 3.0);
+  return shape;
+}
+
+/// Angle between two orientations [rad].
+inline double angleBetween(const Quaternion& a, const Quaternion& b) {
+  const Quaternion turn = a.conjugate() * b;
+  return 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+}
+
+}  // namespace ambient::test
