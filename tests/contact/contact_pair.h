@@ -3,7 +3,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include "tests/contact/coupled_body.h"
-#include "tests/contact/solver_kinds.h"
+#include "tests/support/solver_kinds.h"
 
 namespace ambient::test {
 
