@@ -5,6 +5,7 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/surface_refinement.h"
 
 namespace ambient {
 namespace {
@@ -63,6 +64,7 @@ MassDistribution aboutOrigin(MassDistribution mass, const Eigen::Vector3d& origi
 PotentialFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
   PotentialFlowSettings flow_settings;
   flow_settings.sheet = settings.sheet;
+  flow_settings.max_panels = settings.max_panels;
   flow_settings.threads = settings.threads;
   try {
     return solvePotentialFlow(mesh, flow_settings);
@@ -74,8 +76,8 @@ PotentialFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings)
 }  // namespace
 
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
-  requireSolvableSize(source_mesh, settings);
-  TriangleMesh mesh = withTrueVolume(source_mesh, settings);
+  TriangleMesh mesh = withTrueVolume(divideTriangles(source_mesh, settings.least_faces), settings);
+  requireSolvableSize(mesh, settings);
   const MeshProperties properties = massPropertiesOf(mesh, settings.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
   mesh.vertices.colwise() -= origin;

@@ -1,11 +1,11 @@
 #include "preprocess/builder/shape_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
-#include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_mesh.h"
@@ -13,7 +13,7 @@
 namespace ambient {
 namespace {
 
-// Below this the discretisation, not the model, decides about the result.
+// Below this the faces, not the model, decide about the loads.
 constexpr Eigen::Index kCoarse = 100;
 
 std::string settingsText(const ShapeBuildSettings& settings, bool sheet) {
@@ -25,6 +25,7 @@ std::string settingsText(const ShapeBuildSettings& settings, bool sheet) {
   } else {
     text << "centre-of-volume";
   }
+  text << ", faces " << settings.least_faces << ", panels " << settings.max_panels;
   return text.str();
 }
 
@@ -52,21 +53,32 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (!std::isfinite(settings.scale) || settings.scale <= 0) {
     raiseInputError(shape.source, "scale = ", settings.scale, " is not positive and finite");
   }
+  if (settings.max_panels < 0) {
+    raiseInputError(shape.source, "panels = ", settings.max_panels, " is below 0 (0: no division)");
+  }
+  constexpr int kMostLeastFaces = kMostVertices;
+  if (settings.least_faces < 0 || settings.least_faces > kMostLeastFaces) {
+    raiseInputError(shape.source, "least faces = ", settings.least_faces,
+                    " is not between 0 (no division) and ", kMostLeastFaces);
+  }
   if (const auto* fluid_body = std::get_if<FluidBodyShape>(&shape.geometry)) {
     return readBody(*fluid_body, settings);
   }
   CheckedMesh checked = makeShapeMesh(shape);
   checked.mesh.vertices *= settings.scale;
-  if (checked.mesh.triangleCount() < kCoarse) {
-    checked.warnings.push_back(shape.source + ": " + std::to_string(checked.mesh.triangleCount()) +
-                               " triangles are few: expect errors of several percent, more with "
-                               "sharp edges; divide them");
+  if (std::max<Eigen::Index>(checked.mesh.triangleCount(), settings.least_faces) < kCoarse) {
+    checked.warnings.push_back(
+        shape.source + ": " + std::to_string(checked.mesh.triangleCount()) +
+        " triangles are few: each has one sample of the slip velocity, so that loads in "
+        "rotation may be off by half; divide them (least faces 400)");
   }
   BuildSettings build;
   build.name = settings.name;
   build.source = shape.source;
   build.origin = settings.origin;
   build.sheet = isSheet(shape);
+  build.least_faces = settings.least_faces;
+  build.max_panels = settings.max_panels;
   build.threads = settings.threads;
   build.provenance = provenanceOf(shape, settings);
   return {makeFluidBody(checked.mesh, build), checked.warnings};

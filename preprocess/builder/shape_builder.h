@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/shape/shape_description.h"
 
 namespace ambient {
@@ -14,6 +15,8 @@ struct ShapeBuildSettings {
   std::string name;                       ///< of the body
   std::optional<Eigen::Vector3d> origin;  ///< as in BuildSettings, in the shape's frame
   double scale = 1;                       ///< multiplies all lengths of the shape
+  int least_faces = 0;                    ///< as in BuildSettings
+  int max_panels = kDefaultPanels;        ///< as in BuildSettings
   int threads = 0;                        ///< 0: all cores
 };
 

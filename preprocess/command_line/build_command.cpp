@@ -83,6 +83,8 @@ BuiltBody build(const ShapeDescription& shape, const BuildArguments& arguments) 
   settings.name = fs::path(arguments.input).stem().string();
   settings.origin = parseOrigin(arguments.origin);
   settings.scale = arguments.scale;
+  settings.least_faces = arguments.least_faces;
+  settings.max_panels = arguments.panels;
   settings.threads = arguments.threads;
   const ElapsedDisplay display("building " + settings.name);
   return buildShape(shape, settings);

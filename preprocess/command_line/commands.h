@@ -3,6 +3,8 @@
 #include <array>
 #include <string>
 
+#include "preprocess/builder/fluid_body_builder.h"
+
 namespace ambient {
 
 /// ambient_preprocess build
@@ -12,6 +14,8 @@ struct BuildArguments {
   double scale = 1;                         ///< multiplies all lengths
   std::string origin = "centre-of-volume";  ///< or x,y,z in the mesh's frame [m]
   bool sheet = false;                       ///< the mesh is an open surface of zero thickness
+  int least_faces = 0;                      ///< the mesh is divided into at least so many
+  int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
   int threads = 0;                          ///< 0: all cores
   bool json = false;
 };

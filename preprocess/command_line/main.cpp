@@ -26,6 +26,15 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
                    "Origin of the body frame in the mesh's frame (default centre-of-volume)")
       ->type_name("centre-of-volume|X,Y,Z");
   build->add_flag("--sheet", arguments.sheet, "The mesh is an open surface of zero thickness");
+  build
+      ->add_option("--least-faces", arguments.least_faces,
+                   "Divide the mesh into at least so many faces (default 0: faces as they are)")
+      ->type_name("N");
+  build
+      ->add_option("--panels", arguments.panels,
+                   "Panels for the flow, at most; the faces stay those of the mesh (default 4200; "
+                   "0: the triangles of the mesh)")
+      ->type_name("N");
   build->add_option("--threads", arguments.threads, "0: all cores (default)")->type_name("N");
   build->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
   return build;

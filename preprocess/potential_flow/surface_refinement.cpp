@@ -149,16 +149,26 @@ class Cutter {
   std::vector<Eigen::Vector3i> triangles_;
 };
 
+TriangleMesh cutLongEdges(const TriangleMesh& mesh) {
+  const MeshEdges edges = computeMeshEdges(mesh);
+  return Cutter(mesh, edges, markLongEdges(mesh, edges)).cut();
+}
+
 bool any(const Marks& marks) { return std::find(marks.begin(), marks.end(), true) != marks.end(); }
 
 }  // namespace
+
+TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles) {
+  TriangleMesh fine = mesh;
+  while (fine.triangleCount() < least_triangles) fine = cutLongEdges(fine);
+  return fine;
+}
 
 TriangleMesh refineSurface(const TriangleMesh& mesh, bool sheet, int max_triangles) {
   if (mesh.triangleCount() >= max_triangles) return mesh;
   TriangleMesh fine = mesh;
   while (true) {
-    const MeshEdges edges = computeMeshEdges(fine);
-    TriangleMesh finer = Cutter(fine, edges, markLongEdges(fine, edges)).cut();
+    TriangleMesh finer = cutLongEdges(fine);
     if (kUniformShare * finer.triangleCount() > max_triangles) break;
     fine = std::move(finer);
   }

@@ -12,4 +12,9 @@ namespace ambient {
 /// and the order of the mesh only, not on its place, size or attitude.
 TriangleMesh refineSurface(const TriangleMesh& mesh, bool sheet, int max_triangles);
 
+/// The same surface, its longest edges halved again and again until there are at least so many
+/// triangles, of similar size. Vertices of the mesh come first.
+/// @pre the mesh has a triangle; every edge has one or two.
+TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles);
+
 }  // namespace ambient

@@ -57,6 +57,18 @@ TEST(SurfaceRefinement, LeavesFineMeshesAsTheyAre) {
   EXPECT_EQ(refineSurface(makeBoxMesh({1, 1, 1}, 12), false, 0).triangleCount(), 12);
 }
 
+TEST(SurfaceRefinement, DivisionKeepsShapeAndVertices) {
+  const TriangleMesh box = makeBoxMesh({1, 0.3, 0.02}, 12);
+  const TriangleMesh fine = divideTriangles(box, 400);
+  EXPECT_GE(fine.triangleCount(), 400);
+  EXPECT_LT(fine.triangleCount(), 1600);
+  EXPECT_NO_THROW(checkMesh(fine, "divided"));
+  EXPECT_NEAR(test::volumeOf(fine) / test::volumeOf(box), 1, 1e-13);
+  EXPECT_NEAR(areaOf(fine) / areaOf(box), 1, 1e-13);
+  EXPECT_EQ(fine.vertices.leftCols(8), box.vertices);
+  EXPECT_EQ(divideTriangles(box, 12).triangleCount(), 12);
+}
+
 TEST(SurfaceRefinement, ThinsTrianglesAcrossSharpEdgesButNotAlongThem) {
   const TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 768);
   const TriangleMesh fine = refineSurface(mesh, false, kPanels);

@@ -128,7 +128,7 @@ TEST_F(CommandLine, TablesSayWhatTheJsonSays) {
 
 TEST_F(CommandLine, BuildOptionsScaleShiftAndLimitThreads) {
   const std::string mesh = write("box.obj", objText(makeBoxMesh({1, 2, 3}, 200)));
-  const Arguments common{"build", mesh, "-o", path("box.ambient"), "--json"};
+  const Arguments common{"build", mesh, "-o", path("box.ambient"), "--panels", "600", "--json"};
   const auto with = [&](const Arguments& more) {
     Arguments arguments = common;
     arguments.insert(arguments.end(), more.begin(), more.end());
