@@ -13,7 +13,16 @@ ContactPair::ContactPair(Arbitrary& arbitrary, CoupledBody a, CoupledBody b)
     pose.setOrigin(at + toBt(arbitrary.vector(b_.size() / 2)));
     b_.body().setWorldTransform(pose);
   }
-  const btVector3 normal = toBt(arbitrary.vector()).normalized();
+  addPointAt(at, toBt(arbitrary.vector()).normalized());
+}
+
+void ContactPair::addPoint(Arbitrary& arbitrary) {
+  const btVector3 at =
+      a_.body().getWorldTransform().getOrigin() + toBt(arbitrary.vector(a_.size() / 2));
+  addPointAt(at, toBt(arbitrary.vector()).normalized());
+}
+
+void ContactPair::addPointAt(const btVector3& at, const btVector3& normal) {
   btManifoldPoint point(a_.body().getWorldTransform().inverse() * at,
                         b_.body().getWorldTransform().inverse() * at, normal, 0);
   point.m_positionWorldOnA = at;
@@ -24,28 +33,32 @@ ContactPair::ContactPair(Arbitrary& arbitrary, CoupledBody a, CoupledBody b)
   manifold_.addManifoldPoint(point);
 }
 
-Vector3r ContactPair::tangent(int i) const {
-  const btManifoldPoint& point = manifold_.getContactPoint(0);
+Vector3r ContactPair::normal(int at) const {
+  return exact(manifold_.getContactPoint(at).m_normalWorldOnB);
+}
+
+Vector3r ContactPair::tangent(int i, int at) const {
+  const btManifoldPoint& point = manifold_.getContactPoint(at);
   return exact(i == 0 ? point.m_lateralFrictionDir1 : point.m_lateralFrictionDir2);
 }
 
-Vector3r ContactPair::fromA() const {
-  return exact(manifold_.getContactPoint(0).m_positionWorldOnA) -
+Vector3r ContactPair::fromA(int at) const {
+  return exact(manifold_.getContactPoint(at).m_positionWorldOnA) -
          exact(a_.body().getWorldTransform().getOrigin());
 }
 
-Vector3r ContactPair::fromB() const {
-  return exact(manifold_.getContactPoint(0).m_positionWorldOnB) -
+Vector3r ContactPair::fromB(int at) const {
+  return exact(manifold_.getContactPoint(at).m_positionWorldOnB) -
          exact(b_.body().getWorldTransform().getOrigin());
 }
 
-reference::DenseRow ContactPair::row(const Vector3r& direction) const {
-  return reference::pointRow(direction, fromA(), fromB());
+reference::DenseRow ContactPair::row(const Vector3r& direction, int at) const {
+  return reference::pointRow(direction, fromA(at), fromB(at));
 }
 
 Real ContactPair::approach(const Vector3r& direction, const DenseVector6& u_a,
-                           const DenseVector6& u_b) const {
-  const reference::DenseRow r = row(direction);
+                           const DenseVector6& u_b, int at) const {
+  const reference::DenseRow r = row(direction, at);
   return r.jacobian_a.dot(u_a) + r.jacobian_b.dot(u_b);
 }
 
@@ -55,6 +68,11 @@ void ContactPair::makeApproaching() {
     body->body().setLinearVelocity(-body->body().getLinearVelocity());
     body->body().setAngularVelocity(-body->body().getAngularVelocity());
   }
+}
+
+void ContactPair::setVelocities(const DenseVector6& u_a, const DenseVector6& u_b) {
+  a_.setVelocity(u_a);
+  b_.setVelocity(u_b);
 }
 
 std::vector<reference::DenseRow> ContactPair::frictionRows(Real normal_velocity,

@@ -14,27 +14,34 @@ class ContactPair {
   /// within twice the size of their body; the normal points from b to a.
   ContactPair(Arbitrary& arbitrary, CoupledBody a, CoupledBody b);
 
+  /// A further contact at another place with another normal.
+  void addPoint(Arbitrary& arbitrary);
+  int points() const { return manifold_.getNumContacts(); }
+
   /// Turns both velocities around if the points move apart, so that the bodies meet.
   void makeApproaching();
+  void setVelocities(const DenseVector6& u_a, const DenseVector6& u_b);
   /// Velocity of a's point minus that of b's along a direction.
-  Real approach(const Vector3r& direction, const DenseVector6& u_a, const DenseVector6& u_b) const;
+  Real approach(const Vector3r& direction, const DenseVector6& u_a, const DenseVector6& u_b,
+                int at = 0) const;
 
-  btManifoldPoint& point() { return manifold_.getContactPoint(0); }
+  btManifoldPoint& point(int at = 0) { return manifold_.getContactPoint(at); }
   const CoupledBody& a() const { return a_; }
   const CoupledBody& b() const { return b_; }
-  Vector3r normal() const { return exact(manifold_.getContactPoint(0).m_normalWorldOnB); }
-  Vector3r tangent(int i) const;
-  Vector3r fromA() const;  ///< from a's centre of mass to the contact
-  Vector3r fromB() const;
-  reference::DenseRow row(const Vector3r& direction) const;
-  /// Normal row that ends with `normal_velocity`, and two friction rows with the coefficient of the
-  /// point, as a step of dt begins.
+  Vector3r normal(int at = 0) const;
+  Vector3r tangent(int i, int at = 0) const;
+  Vector3r fromA(int at = 0) const;  ///< from a's centre of mass to the contact
+  Vector3r fromB(int at = 0) const;
+  reference::DenseRow row(const Vector3r& direction, int at = 0) const;
+  /// Normal row of the first point that ends with `normal_velocity`, and two friction rows with the
+  /// coefficient of the point, as a step of dt begins.
   std::vector<reference::DenseRow> frictionRows(Real normal_velocity, FrictionBound bound, Real dt);
   /// Bodies for the dense solver, before the step.
   std::vector<reference::DenseBody> dense(Real dt) const { return {a_.dense(dt), b_.dense(dt)}; }
 
   /// Attaches what is ambient and solves once with a new solver. False if a complementarity solver
-  /// gave up and handed over to sequential impulses.
+  /// gave up and handed over to sequential impulses, or, where the settings ask for a residual, if
+  /// iterations have not reached it.
   template <class Kind>
   bool solve(const btContactSolverInfo& info) {
     AmbientRegistry registry;
@@ -47,13 +54,12 @@ class ContactPair {
     task.manifolds.push_back(&manifold_);
     task.info = info;
     solveOnce(ambient.solver, task);
-    if constexpr (std::is_same_v<typename Kind::Base, btMLCPSolver>) {
-      return ambient.solver.getNumFallbacks() == 0;
-    }
-    return true;
+    return hasFinished(ambient.solver, info);
   }
 
  private:
+  void addPointAt(const btVector3& at, const btVector3& normal);
+
   CoupledBody a_, b_;
   btPersistentManifold manifold_;
 };

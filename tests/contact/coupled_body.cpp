@@ -78,6 +78,11 @@ DenseVector6 CoupledBody::velocity() const {
   return u;
 }
 
+void CoupledBody::setVelocity(const DenseVector6& velocity) const {
+  body_->setAngularVelocity(toBt(velocity.head<3>().cast<double>()));
+  body_->setLinearVelocity(toBt(velocity.tail<3>().cast<double>()));
+}
+
 DenseMatrix6 CoupledBody::inertia() const {
   const Matrix3r R = exact(body_->getWorldTransform().getBasis());
   DenseMatrix6 K = fluid_.cast<Real>();

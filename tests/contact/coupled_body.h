@@ -43,7 +43,8 @@ class CoupledBody {
   bool isFixed() const { return fixed_; }
   bool isAmbient() const { return fluid_.norm() > 0; }
   DenseVector6 velocity() const;  ///< now, world axes
-  DenseMatrix6 inertia() const;   ///< K in world axes
+  void setVelocity(const DenseVector6& velocity) const;
+  DenseMatrix6 inertia() const;  ///< K in world axes
   /// What the dense solver needs: K and the velocity after dt under the body's forces.
   reference::DenseBody dense(Real dt) const;
   Real kineticEnergy(const DenseVector6& velocity) const;

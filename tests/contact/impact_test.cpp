@@ -1,60 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <iostream>
-#include <sstream>
 
-#include "tests/contact/contact_pair.h"
+#include "tests/contact/arbitrary_contacts.h"
 
 namespace ambient::test {
 namespace {
 
-// Impacts of an ambient body with coupled inertia, K_fluid from 1e-3 to 1e4 times K_body, against
-// everything that it may meet. The reference is exact; the tolerances are rounding.
+// Impacts of an ambient body against everything that it may meet. The reference is exact; the
+// tolerances are rounding.
 
-enum class Other { kPlane, kOrdinary, kAmbient };
-constexpr Other kOthers[] = {Other::kPlane, Other::kOrdinary, Other::kAmbient};
 constexpr double kRestitutions[] = {0, 0.5, 1};
 constexpr int kImpactsEach = 250;  // 3 others, 3 restitutions: 2250 in all
-
-double arbitraryRatio(Arbitrary& arbitrary) { return std::pow(10, arbitrary.between(-3, 4)); }
-
-ContactPair arbitraryPair(Arbitrary& arbitrary, Other other) {
-  CoupledBody a = CoupledBody::random(arbitrary, arbitraryRatio(arbitrary));
-  const double ratio_b = other == Other::kAmbient ? arbitraryRatio(arbitrary) : 0;
-  CoupledBody b =
-      other == Other::kPlane ? CoupledBody::fixed() : CoupledBody::random(arbitrary, ratio_b);
-  ContactPair pair(arbitrary, std::move(a), std::move(b));
-  pair.makeApproaching();
-  return pair;
-}
-
-double gyroscopicTime(const ContactPair& pair, double part) {
-  const double dt = pair.a().gyroscopicTime(part);
-  return pair.b().isFixed() ? dt : std::min(dt, pair.b().gyroscopicTime(part));
-}
-
-// Forces and torques that change the velocities by about 5 % during dt. No torques on bodies
-// without fluid: stock friction rows do not see them.
-void pushAtRandom(Arbitrary& arbitrary, const ContactPair& pair, double dt) {
-  for (const CoupledBody* body : {&pair.a(), &pair.b()}) {
-    if (body->isFixed()) continue;
-    const double push = 0.05 / (dt * static_cast<double>(body->body().getInvMass()));
-    body->body().applyCentralForce(toBt(arbitrary.vector(push)));
-    if (body->isAmbient()) body->body().applyTorque(toBt(arbitrary.vector(push * body->size())));
-  }
-}
-
-struct Before {
-  explicit Before(const ContactPair& pair) : a(pair.a().velocity()), b(pair.b().velocity()) {}
-  DenseVector6 a, b;
-};
-
-double worstError(const ContactPair& pair, const reference::DenseSolution& expected,
-                  const Before& before) {
-  const double a = pair.a().error(expected.velocities[0], before.a);
-  return pair.b().isFixed() ? a : std::max(a, pair.b().error(expected.velocities[1], before.b));
-}
 
 // Momentum about the world's origin, and energy, of both.
 struct Totals {
@@ -70,14 +26,6 @@ struct Totals {
   Real momentum_scale = 0;
   Real energy = 0;
 };
-
-// Into the log of the test run, as evidence.
-void report(const std::string& name, double error) {
-  std::ostringstream text;
-  text << std::setprecision(2) << error;
-  ::testing::Test::RecordProperty(name, text.str());
-  std::cout << "    largest error of " << name << ": " << text.str() << "\n";
-}
 
 template <class Kind>
 class Impact : public ::testing::Test {};
@@ -150,10 +98,7 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
   int sticking = 0, sliding = 0;
   for (int i = 0; i < 600; ++i) {
     ContactPair pair = arbitraryPair(arbitrary, kOthers[i % 3]);
-    btContactSolverInfo info = plainSettings(gyroscopicTime(pair, 0.05));
-    info.m_numIterations = 4000;
-    // Further iterations would only add up their rounding.
-    info.m_leastSquaresResidualThreshold = SIMD_EPSILON * SIMD_EPSILON;
+    const btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.05));
     pushAtRandom(arbitrary, pair, info.m_timeStep);
     pair.point().m_combinedFriction = btScalar(arbitrary.between(0.05, 0.6));
     const Before before(pair);

@@ -1,5 +1,6 @@
 #include "tests/reference/dense_rows.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
@@ -112,8 +113,11 @@ class DenseSystem {
 
   Bound correctedBound(int r, const Vector& solution) const {
     const DenseRow& row = rows_[r];
-    if (bounds_[r] == Bound::kUpper && row.upper == DenseRow::kUnbounded) return Bound::kFree;
-    if (bounds_[r] == Bound::kLower && row.lower == -DenseRow::kUnbounded) return Bound::kFree;
+    const bool follows = row.normal_row >= 0;  // its own bounds mean nothing then
+    if (bounds_[r] == Bound::kUpper && !follows && row.upper == DenseRow::kUnbounded)
+      return Bound::kFree;
+    if (bounds_[r] == Bound::kLower && !follows && row.lower == -DenseRow::kUnbounded)
+      return Bound::kFree;
     if (bounds_[r] == Bound::kLower) {
       return excess(r, solution) < 0 ? Bound::kFree : Bound::kLower;
     }
@@ -122,7 +126,7 @@ class DenseSystem {
     }
     const Real impulse = solution[impulseOf(r)];
     Real lower = row.lower, upper = row.upper;
-    if (row.normal_row >= 0) {
+    if (follows) {
       upper = row.friction * solution[impulseOf(row.normal_row)];
       lower = -upper;
     }
@@ -163,6 +167,31 @@ DenseSolution solveDense(const std::vector<DenseBody>& bodies, const std::vector
 std::optional<DenseSolution> onlySolution(const std::vector<DenseBody>& bodies,
                                           const std::vector<DenseRow>& rows) {
   return DenseSystem(bodies, rows).onlySolution();
+}
+
+Real response(const std::vector<DenseBody>& bodies, const DenseRow& row, const DenseRow& to) {
+  const auto jacobian = [](const DenseRow& r, int body) {
+    DenseVector6 sum = DenseVector6::Zero();
+    if (r.body_a == body) sum += r.jacobian_a;
+    if (r.body_b == body) sum += r.jacobian_b;
+    return sum;
+  };
+  Real sum = 0;
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
+    if (bodies[i].fixed) continue;
+    sum += jacobian(row, i).dot(bodies[i].inertia.fullPivLu().solve(jacobian(to, i)));
+  }
+  return sum;
+}
+
+Real independence(const std::vector<DenseBody>& bodies, const std::vector<DenseRow>& rows) {
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Matrix A(count, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = 0; j < count; ++j) A(i, j) = response(bodies, rows[i], rows[j]);
+  const Vector scale = A.diagonal().cwiseSqrt().cwiseInverse();
+  const Matrix scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Matrix>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
 DenseMatrix6 turned(const DenseMatrix6& K, const Matrix3r& rotation) {

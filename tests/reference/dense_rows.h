@@ -51,6 +51,13 @@ DenseSolution solveDense(const std::vector<DenseBody>& bodies, const std::vector
 std::optional<DenseSolution> onlySolution(const std::vector<DenseBody>& bodies,
                                           const std::vector<DenseRow>& rows);
 
+/// J K^-1 J^T of two rows: change of velocity along `row` by a unit impulse of `to`.
+Real response(const std::vector<DenseBody>& bodies, const DenseRow& row, const DenseRow& to);
+
+/// Smallest eigenvalue of the responses of all rows to each other, scaled to 1 on the diagonal: 1
+/// for rows that do not see each other, 0 for rows that say the same.
+Real independence(const std::vector<DenseBody>& bodies, const std::vector<DenseRow>& rows);
+
 /// Velocity of `K` (body axes, turned by `rotation`) after dt under a wrench (torque, force) in
 /// world axes, by the acceleration of Kirchhoff's equations at the start.
 DenseVector6 explicitFreeVelocity(const DenseMatrix6& K, const Eigen::Matrix<Real, 3, 3>& rotation,

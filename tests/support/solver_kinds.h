@@ -43,6 +43,23 @@ struct ConjugateGradient {
   };
 };
 
+/// Contacts without extrapolation. Bullet's conjugate gradients skip the friction rows of a contact
+/// whose impulse their extrapolation has made negative, and may end there: stock bodies too are
+/// then wrong by up to 500 times their velocity.
+struct ConjugateGradientForJoints {
+  using Base = btNNCGConstraintSolver;
+  struct Stock {
+    Stock() { solver.m_onlyForNoneContact = true; }
+    Base solver;
+  };
+  struct Ambient {
+    explicit Ambient(AmbientRegistry& registry) : solver(registry) {
+      solver.m_onlyForNoneContact = true;
+    }
+    AmbientSolver<Base> solver;
+  };
+};
+
 struct Multithreaded {
   using Base = btSequentialImpulseConstraintSolverMt;
   struct Stock {
@@ -107,6 +124,7 @@ struct SolverName {
   static std::string GetName(int) {
     if (std::is_same_v<Kind, SequentialImpulse>) return "SequentialImpulse";
     if (std::is_same_v<Kind, ConjugateGradient>) return "ConjugateGradient";
+    if (std::is_same_v<Kind, ConjugateGradientForJoints>) return "ConjugateGradientForJoints";
     if (std::is_same_v<Kind, Dantzig>) return "Dantzig";
     if (std::is_same_v<Kind, ProjectedGaussSeidel>) return "ProjectedGaussSeidel";
     if (std::is_same_v<Kind, Lemke>) return "Lemke";
@@ -135,6 +153,19 @@ inline void solveOnce(btMultiBodyConstraintSolver& solver, SolverTask& task) {
   solver.solveMultiBodyGroup(task.bodies.data(), count(task.bodies), task.manifolds.data(),
                              count(task.manifolds), task.joints.data(), count(task.joints), nullptr,
                              0, task.info, nullptr, nullptr);
+}
+
+/// Whether a solver has found what it looked for: a complementarity solver without handing over to
+/// sequential impulses, an iterative one the residual that the settings ask for, if they do.
+inline bool hasFinished(const btSequentialImpulseConstraintSolver& solver,
+                        const btContactSolverInfo& info) {
+  return !(info.m_leastSquaresResidualThreshold > 0) ||
+         solver.m_analyticsData.m_remainingLeastSquaresResidual <=
+             info.m_leastSquaresResidualThreshold;
+}
+
+inline bool hasFinished(const btMLCPSolver& solver, const btContactSolverInfo&) {
+  return solver.getNumFallbacks() == 0;
 }
 
 }  // namespace ambient::test
