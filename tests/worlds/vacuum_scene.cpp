@@ -68,7 +68,8 @@ void VacuumScene::addJoints() {
   const btVector3 up(0, 0, bt(0.7));
   const btTransform frame(btQuaternion::getIdentity(), up);
   for (int kind = 0; kind < 5; ++kind) {
-    btRigidBody& body = add(1, box_, {bt(4 + 3 * kind), 6, 4});
+    btRigidBody& body = add(1, plate_, {bt(4 + 3 * kind), 6, 4});
+    jointed_.push_back(&body);
     body.setAngularVelocity({1, 2, bt(0.5)});
     if (kind == 0) keep(new btPoint2PointConstraint(body, up));
     if (kind == 1) {
@@ -77,7 +78,11 @@ void VacuumScene::addJoints() {
       keep(hinge);
     }
     if (kind == 2) keep(new btSliderConstraint(body, frame, true));
-    if (kind == 3) keep(new btConeTwistConstraint(body, frame));
+    if (kind == 3) {
+      // Bullet's constructor for one body would pin it to the origin of the world.
+      keep(new btConeTwistConstraint(body, btTypedConstraint::getFixedBody(), frame,
+                                     body.getWorldTransform() * frame));
+    }
     if (kind == 4) {
       auto* spring = new btGeneric6DofSpring2Constraint(body, frame);
       spring->enableSpring(2, true);
@@ -165,6 +170,33 @@ std::vector<btScalar> VacuumScene::state() const {
     state.insert(state.end(), {chain_->getJointPos(i), chain_->getJointVel(i)});
   }
   return state;
+}
+
+void VacuumScene::takeStateOf(const VacuumScene& other) {
+  for (std::size_t i = 0; i < owned_.size(); ++i) {
+    const btRigidBody& from = *other.owned_[i];
+    btRigidBody& to = *owned_[i];
+    to.setWorldTransform(from.getWorldTransform());
+    to.updateInertiaTensor();
+    to.setLinearVelocity(from.getLinearVelocity());
+    to.setAngularVelocity(from.getAngularVelocity());
+    to.setInterpolationWorldTransform(from.getInterpolationWorldTransform());
+    to.setInterpolationLinearVelocity(from.getInterpolationLinearVelocity());
+    to.setInterpolationAngularVelocity(from.getInterpolationAngularVelocity());
+    to.forceActivationState(from.getActivationState());
+    to.setDeactivationTime(from.getDeactivationTime());
+  }
+  for (std::size_t i = 0; i < soft_bodies_.size(); ++i) {
+    for (int node = 0; node < soft_bodies_[i]->m_nodes.size(); ++node) {
+      soft_bodies_[i]->m_nodes[node].m_x = other.soft_bodies_[i]->m_nodes[node].m_x;
+      soft_bodies_[i]->m_nodes[node].m_q = other.soft_bodies_[i]->m_nodes[node].m_q;
+      soft_bodies_[i]->m_nodes[node].m_v = other.soft_bodies_[i]->m_nodes[node].m_v;
+    }
+  }
+  for (int i = 0; chain_ && i < kLinks; ++i) {
+    chain_->setJointPos(i, other.chain_->getJointPos(i));
+    chain_->setJointVel(i, other.chain_->getJointVel(i));
+  }
 }
 
 btScalar VacuumScene::ballTravel() const {

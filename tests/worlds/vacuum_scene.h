@@ -22,9 +22,14 @@ class VacuumScene {
   WorldHost& host() { return *host_; }
   /// Every dynamic body but those aside.
   const std::vector<btRigidBody*>& bodies() const { return watched_; }
+  /// Those of them that hang on a joint.
+  const std::vector<btRigidBody*>& jointed() const { return jointed_; }
   /// Poses and velocities of rigid bodies, nodes of soft bodies, links of multibodies; without
   /// those aside.
   std::vector<btScalar> state() const;
+  /// Poses and velocities of another scene become those of this one; what joints and contacts
+  /// remember stays.
+  void takeStateOf(const VacuumScene& other);
   /// How far the ball of the stack has come [m].
   btScalar ballTravel() const;
 
@@ -41,10 +46,12 @@ class VacuumScene {
   btBoxShape floor_{btVector3(50, 50, 1)};
   btBoxShape box_{btVector3(btScalar(0.5), btScalar(0.5), btScalar(0.5))};
   btBoxShape chassis_{btVector3(2, 1, btScalar(0.4))};
+  btBoxShape plate_{btVector3(btScalar(0.5), btScalar(0.4), btScalar(0.2))};
   btBoxShape link_{btVector3(btScalar(0.1), btScalar(0.1), btScalar(0.4))};
   btSphereShape ball_{btScalar(0.4)};
   std::vector<std::unique_ptr<btRigidBody>> owned_;
   std::vector<btRigidBody*> watched_;
+  std::vector<btRigidBody*> jointed_;
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
   std::unique_ptr<btVehicleRaycaster> raycaster_;
   std::unique_ptr<btRaycastVehicle> vehicle_;

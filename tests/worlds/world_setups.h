@@ -42,7 +42,9 @@ class WorldHost {
  protected:
   btSoftBodyRigidBodyCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
+  // Not btDbvtBroadphase: when it drops pairs that are apart again depends on how everything else
+  // moves, and Bullet merges islands by pairs.
+  btSimpleBroadphase broadphase_;
   AmbientAction action_{registry};
 };
 
