@@ -63,7 +63,7 @@ Vector6 exactFlight() {
   Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Identity();
   inertia.diagonal().head<3>() = def.moments;
   reference::KirchhoffState s = reference::KirchhoffState::Zero();
-  s[6] = 1;
+  s[3] = 1;
   s.segment<3>(7) = def.moments.cwiseProduct(def.start.twist.angular);
   s = reference::integrate({inertia.inverse()}, s, duration, 60);
   const Vector3 spin =
