@@ -1,0 +1,135 @@
+// Cost of a step against stock Bullet, in one run: the two worlds are stepped in turns of a few
+// steps each, and the ratio of each pair of turns is taken, so that other work on the machine hits
+// both.
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/pile/pile_scene.h"
+#include "tests/support/ellipsoid_body.h"
+
+namespace ambient::test {
+namespace {
+
+using Step = std::function<void()>;
+
+// Of processor time: waiting for a core is nobody's cost.
+double secondsFor(const Step& step, int count) {
+  const std::clock_t begin = std::clock();
+  for (int i = 0; i < count; ++i) step();
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+struct Cost {
+  double ratio;         // median
+  double low, high;     // quartiles
+  double stock_micros;  // per step, smallest
+};
+
+Cost compare(const Step& stock, const Step& ambient, int turns, int steps_per_turn) {
+  std::vector<double> ratios;
+  double fastest = 1e300;
+  for (int i = 0; i < turns; ++i) {
+    const double a = secondsFor(stock, steps_per_turn);
+    const double b = secondsFor(ambient, steps_per_turn);
+    ratios.push_back(b / a);
+    fastest = std::min(fastest, a / steps_per_turn);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  return {ratios[ratios.size() / 2], ratios[ratios.size() / 4], ratios[ratios.size() * 3 / 4],
+          fastest * 1e6};
+}
+
+void print(const std::string& scene, const Cost& cost) {
+  std::printf("%-44s %6.2f  (%.2f to %.2f)  stock %9.1f us\n", scene.c_str(), cost.ratio, cost.low,
+              cost.high, cost.stock_micros);
+  std::fflush(stdout);
+}
+
+constexpr double kStep = 1.0 / 240;
+
+void comparePiles(double part, int turns) {
+  btSequentialImpulseConstraintSolver stock_solver;
+  Pile stock(stock_solver, nullptr, 0, {});
+  AmbientRegistry registry;
+  AmbientSolver<> ambient_solver(registry);
+  Pile ambient(ambient_solver, &registry, part, {});
+  for (Pile* pile : {&stock, &ambient}) {
+    pile->keepAwake();
+    for (int i = 0; i < 480; ++i) pile->step(kStep);
+  }
+  print("pile of 512, " + std::to_string(static_cast<int>(100 * part)) + " % in fluid",
+        compare([&] { stock.step(kStep); }, [&] { ambient.step(kStep); }, turns, 4));
+}
+
+// Bodies that meet nothing.
+class Flock {
+ public:
+  Flock(btConstraintSolver& solver, AmbientRegistry* registry, const FluidBody& shape, int count)
+      : world_(&dispatcher_, &broadphase_, &solver, &configuration_) {
+    world_.setGravity({0, 0, btScalar(-9.81)});
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(shape);
+    def.medium = air();
+    for (int i = 0; i < count; ++i) {
+      bodies_.push_back(std::make_unique<btRigidBody>(
+          btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &sphere_, {0.1f, 0.2f, 0.3f})));
+      btRigidBody& body = *bodies_.back();
+      body.setWorldTransform(btTransform(btQuaternion::getIdentity(), {btScalar(10 * i), 0, 0}));
+      body.setLinearVelocity({1, 2, 3});
+      body.setAngularVelocity({2, btScalar(i % 7), -1});
+      body.setActivationState(DISABLE_DEACTIVATION);
+      world_.addRigidBody(&body);
+      if (registry) registry->attach(body, def);
+    }
+    if (!registry) return;
+    action_ = std::make_unique<AmbientAction>(*registry);
+    world_.addAction(action_.get());
+  }
+  ~Flock() {
+    if (action_) world_.removeAction(action_.get());
+    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
+  }
+  void step() { world_.stepSimulation(btScalar(kStep), 0, btScalar(kStep)); }
+
+ private:
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btDiscreteDynamicsWorld world_;
+  btSphereShape sphere_{btScalar(0.3)};
+  std::unique_ptr<AmbientAction> action_;
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+};
+
+void compareFlocks(const std::string& name, const FluidBody& shape, int turns) {
+  constexpr int kCount = 100;
+  btSequentialImpulseConstraintSolver stock_solver;
+  Flock stock(stock_solver, nullptr, shape, kCount);
+  AmbientRegistry registry;
+  AmbientSolver<> ambient_solver(registry);
+  Flock ambient(ambient_solver, &registry, shape, kCount);
+  print("100 bodies in flight, " + name,
+        compare([&] { stock.step(); }, [&] { ambient.step(); }, turns, 20));
+}
+
+void run() {
+  std::printf("Bullet in %s; ratio to stock: median (quartiles)\n",
+              sizeof(btScalar) == 8 ? "float64" : "float32");
+  for (const double part : {0.0, 0.1, 1.0}) comparePiles(part, 60);
+  const Vector3 semi_axes(0.3, 0.2, 0.1);
+  compareFlocks("no faces", facelessEllipsoid(semi_axes), 60);
+  for (const int level : {2, 3})
+    compareFlocks(std::to_string(20 << (2 * level)) + " faces", meshedEllipsoid(semi_axes, level),
+                  60);
+}
+
+}  // namespace
+}  // namespace ambient::test
+
+int main() { ambient::test::run(); }
