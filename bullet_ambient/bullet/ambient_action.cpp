@@ -24,6 +24,19 @@ bool hasAwakeMember(const btCollisionWorld& world, const AmbientRegistry& regist
   return false;
 }
 
+// Whether the body that the solver met is still there: it may have been removed and destroyed
+// since, by another action, or long ago if that substep had no action. Removals swap the world's
+// array.
+bool isStillIn(const btCollisionWorld& world, const AmbientRegistry& registry,
+               const AmbientBody& ambient) {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  int index = ambient.world_index;
+  if (index < 0 || index >= objects.size() || objects[index] != ambient.body) {
+    index = objects.findLinearSearch(ambient.body);
+  }
+  return index < objects.size() && registry.find(objects[index]) == &ambient;
+}
+
 }  // namespace
 
 // In two substeps in a row: another action may have woken the body after the solver's turn.
@@ -35,10 +48,13 @@ bool AmbientAction::isSolverMissing(const btCollisionWorld& world, bool any_solv
 void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   bool any_solved = false;
   for (const auto& ambient : registry_.bodies()) {
-    any_solved = any_solved || ambient->was_solved;
-    ambient->was_solved = false;
-    if (ambient->has_flown) endFlight(*ambient, static_cast<double>(time_step));
-    if (std::exchange(ambient->is_adrift, false)) keepAwakeWhileMoving(*ambient);
+    if (!std::exchange(ambient->was_solved, false)) continue;
+    any_solved = true;
+    const bool has_flown = std::exchange(ambient->has_flown, false);
+    const bool is_adrift = std::exchange(ambient->is_adrift, false);
+    if (!(has_flown || is_adrift) || !isStillIn(*world, registry_, *ambient)) continue;
+    if (has_flown) endFlight(*ambient, static_cast<double>(time_step));
+    if (is_adrift) keepAwakeWhileMoving(*ambient);
   }
   if (isSolverMissing(*world, any_solved)) {
     registry_.complain(AmbientRegistry::Complaint::kNoSolver);

@@ -23,6 +23,10 @@ RigidState readState(const btRigidBody& body) {
   return state;
 }
 
+AxisFactors axisFactors(const btRigidBody& body) {
+  return {toVector3(body.getAngularFactor()), toVector3(body.getLinearFactor())};
+}
+
 Surroundings readSurroundings(const AmbientBody& ambient) {
   const btRigidBody& body = *ambient.body;
   Surroundings s;
@@ -50,6 +54,14 @@ bool isModelStale(const AmbientBody& ambient) {
   const btRigidBody& body = *ambient.body;
   return body.getInvMass() != ambient.seen_inverse_mass ||
          !(body.getInvInertiaDiagLocal() == ambient.seen_inverse_inertia);
+}
+
+void refreshModel(AmbientBody& ambient) {
+  if (ambient.body->getInvMass() > 0) {
+    rebuildModel(ambient);
+  } else {
+    ambient.seen_inverse_mass = -1;  // stale whatever its mass will be
+  }
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

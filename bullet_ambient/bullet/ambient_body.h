@@ -7,6 +7,7 @@
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/velocity_basis.h"
+#include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/flight.h"
 
 namespace ambient {
@@ -37,7 +38,8 @@ struct AmbientCounters {
 
 /// One attached body: its model and what the solver hands to the action within a substep.
 struct AmbientBody {
-  btRigidBody* body = nullptr;
+  btRigidBody* body = nullptr;  ///< may have been destroyed: look it up in a world first
+  int instance = 0;             ///< instanceNumber() of the body that was attached
   AttachDef def;
   BodyModel model;
   Matrix6 basis_B = Matrix6::Identity();
@@ -50,6 +52,7 @@ struct AmbientBody {
   bool was_solved = false;  ///< the solver met the body in this substep
   bool is_adrift = false;   ///< no row has moved it in this substep
   bool has_flown = false;   ///< free flight was computed in this substep and awaits the action
+  int world_index = -1;     ///< where the body stood in its world's array when it was solved
   RigidState end;           ///< where it ends
   Twist effective_W;        ///< constant twist that Bullet integrates onto the end pose
 
@@ -58,6 +61,9 @@ struct AmbientBody {
 
 /// Pose and twist of a btRigidBody, its twist in body axes.
 RigidState readState(const btRigidBody& body);
+
+/// Linear and angular factors of a btRigidBody.
+AxisFactors axisFactors(const btRigidBody& body);
 
 /// Gravity, applied forces and torques, and the ambient flow at the start of a step.
 Surroundings readSurroundings(const AmbientBody& ambient);
@@ -68,6 +74,10 @@ void rebuildModel(AmbientBody& ambient);
 
 /// Whether setMassProps was called since the model was built.
 bool isModelStale(const AmbientBody& ambient);
+
+/// Rebuilds the model if the body is dynamic at present, or else when it next is.
+/// @throws std::invalid_argument as rebuildModel().
+void refreshModel(AmbientBody& ambient);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

@@ -1,9 +1,13 @@
 #include "bullet_ambient/bullet/ambient_registry.h"
 
+#include <BulletDynamics/Dynamics/btDynamicsWorld.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
+
+#include "bullet_ambient/bullet/body_instance.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -30,10 +34,31 @@ const char* sentence(AmbientRegistry::Complaint complaint) {
   return "";
 }
 
+void checkWorld(const btDynamicsWorld& world) {
+  switch (world.getWorldType()) {
+    case BT_SIMPLE_DYNAMICS_WORLD:
+      throw std::invalid_argument(
+          "attach: btSimpleDynamicsWorld hands no bodies to its solver, so that no fluid can act; "
+          "use btDiscreteDynamicsWorld");
+    case BT_DEFORMABLE_MULTIBODY_DYNAMICS_WORLD:
+      throw std::invalid_argument(
+          "attach: btDeformableMultiBodyDynamicsWorld solves rigid bodies together with deformable "
+          "ones in a way that cannot be rewritten; use btSoftRigidDynamicsWorld or "
+          "btMultiBodyDynamicsWorld");
+    default:
+      return;
+  }
+}
+
 }  // namespace
 
 AmbientRegistry::AmbientRegistry()
     : report_([](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }) {}
+
+void AmbientRegistry::attach(const btDynamicsWorld& world, btRigidBody& body, AttachDef def) {
+  checkWorld(world);
+  attach(body, std::move(def));
+}
 
 void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
   if (!def.fluid_body) {
@@ -49,9 +74,11 @@ void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
   }
   auto ambient = std::make_unique<AmbientBody>();
   ambient->body = &body;
+  ambient->instance = instanceNumber(body);
   ambient->def = std::move(def);
   rebuildModel(*ambient);
   if (ambient->isInFluid()) body.activate();
+  detach(body);  // what is left of one that was destroyed at this address
   by_object_.emplace(&body, ambient.get());
   bodies_.push_back(std::move(ambient));
 }
@@ -70,20 +97,40 @@ bool AmbientRegistry::detach(const btRigidBody& body) {
 void AmbientRegistry::setMedium(const btRigidBody& body, const Medium& medium) {
   AmbientBody& ambient = require(body);
   checkMedium(*ambient.def.fluid_body, medium);
-  const Medium before = std::exchange(ambient.def.medium, medium);
-  const bool is_same_fluid =
-      medium.density == before.density && medium.viscosity == before.viscosity;
-  if (is_same_fluid && medium.velocity == before.velocity &&
-      medium.acceleration == before.acceleration) {
-    return;
+  const Medium before = ambient.def.medium;
+  if (medium.density != before.density || medium.viscosity != before.viscosity) {
+    AttachDef def = ambient.def;
+    def.medium = medium;
+    replaceDef(ambient, std::move(def));
+  } else if (medium.velocity != before.velocity || medium.acceleration != before.acceleration) {
+    ambient.def.medium = medium;
+    ambient.body->activate();
   }
-  if (!is_same_fluid) {
-    try {
-      rebuildModel(ambient);
-    } catch (...) {
-      ambient.def.medium = before;
-      throw;
-    }
+}
+
+void AmbientRegistry::setFluidBody(const btRigidBody& body,
+                                   std::shared_ptr<const FluidBody> fluid_body) {
+  setFluidBody(body, std::move(fluid_body), require(body).def.fluid_frame);
+}
+
+void AmbientRegistry::setFluidBody(const btRigidBody& body,
+                                   std::shared_ptr<const FluidBody> fluid_body,
+                                   const FrameOffset& fluid_frame) {
+  AmbientBody& ambient = require(body);
+  if (!fluid_body) throw std::invalid_argument("setFluidBody: the fluid body is null");
+  AttachDef def = ambient.def;
+  def.fluid_body = std::move(fluid_body);
+  def.fluid_frame = fluid_frame;
+  replaceDef(ambient, std::move(def));
+}
+
+void AmbientRegistry::replaceDef(AmbientBody& ambient, AttachDef def) {
+  std::swap(ambient.def, def);
+  try {
+    refreshModel(ambient);
+  } catch (...) {
+    std::swap(ambient.def, def);
+    throw;
   }
   ambient.body->activate();
 }
@@ -112,7 +159,9 @@ void AmbientRegistry::setReport(std::function<void(const std::string&)> report) 
 
 AmbientBody* AmbientRegistry::find(const btCollisionObject* body) {
   const auto found = by_object_.find(body);
-  return found == by_object_.end() ? nullptr : found->second;
+  if (found == by_object_.end()) return nullptr;
+  const btRigidBody* rigid = btRigidBody::upcast(body);
+  return rigid && instanceNumber(*rigid) == found->second->instance ? found->second : nullptr;
 }
 
 const AmbientBody* AmbientRegistry::find(const btCollisionObject* body) const {

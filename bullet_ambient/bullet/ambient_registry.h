@@ -9,6 +9,8 @@
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/precision_check.h"
 
+class btDynamicsWorld;
+
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
@@ -21,12 +23,17 @@ class AmbientRegistry {
   AmbientRegistry(const AmbientRegistry&) = delete;
   AmbientRegistry& operator=(const AmbientRegistry&) = delete;
 
-  /// Puts a dynamic body into a fluid. Detach it before it is destroyed.
-  /// @throws std::invalid_argument, saying what and the limit: static body, attached twice, no
-  /// fluid body, mass, inertia, medium or flow settings that are not physical.
+  /// Puts a dynamic body of this world into a fluid; it may be added to the world before or after.
+  /// @throws std::invalid_argument, saying what and the limit: a world whose solver cannot carry
+  /// the fluid, static body, attached twice, no fluid body, mass, inertia, medium or flow settings
+  /// that are not physical.
+  void attach(const btDynamicsWorld& world, btRigidBody& body, AttachDef def);
+  /// The same for a solver that is used without a world, which then cannot be checked.
   void attach(btRigidBody& body, AttachDef def);
-  /// Takes the body out of its fluid; it then moves as in stock Bullet. False if it was not
-  /// attached.
+  /// Takes the body out of its fluid; it then moves as in stock Bullet. False if nothing was
+  /// attached at this address. It looks at nothing else, so that a body may be detached after it
+  /// was destroyed, too; a body that is destroyed without leaves an entry that nothing reads and
+  /// that the next body at its address replaces.
   bool detach(const btRigidBody& body);
   bool isAttached(const btRigidBody& body) const { return find(&body) != nullptr; }
 
@@ -35,6 +42,14 @@ class AmbientRegistry {
   /// @throws std::invalid_argument if the body is not attached or the medium is not physical.
   void setMedium(const btRigidBody& body, const Medium& medium);
   const Medium& medium(const btRigidBody& body) const;
+
+  /// Changes the shape of an attached body, say to scaled() of the old one after setLocalScaling()
+  /// of its collision shape. `fluid_frame` as in AttachDef; without it, it stays. Set new mass
+  /// properties before.
+  /// @throws std::invalid_argument as attach(); the body then keeps its shape.
+  void setFluidBody(const btRigidBody& body, std::shared_ptr<const FluidBody> fluid_body,
+                    const FrameOffset& fluid_frame);
+  void setFluidBody(const btRigidBody& body, std::shared_ptr<const FluidBody> fluid_body);
 
   /// Total inertia K in the body frame; docs/theory.md eq. (3). @throws as medium().
   const Matrix6& inertia(const btRigidBody& body) const;
@@ -47,7 +62,8 @@ class AmbientRegistry {
   /// missing from the world, a step's result was not finite. Default: standard error.
   void setReport(std::function<void(const std::string&)> report);
 
-  // For solver and action.
+  // For solver and action. Finds the body that was attached, never another one at its address.
+  // @pre the body is alive, or nothing was attached at its address.
   AmbientBody* find(const btCollisionObject* body);
   const AmbientBody* find(const btCollisionObject* body) const;
   const std::vector<std::unique_ptr<AmbientBody>>& bodies() const { return bodies_; }
@@ -56,6 +72,7 @@ class AmbientRegistry {
 
  private:
   AmbientBody& require(const btRigidBody& body) const;
+  void replaceDef(AmbientBody& ambient, AttachDef def);
 
   std::vector<std::unique_ptr<AmbientBody>> bodies_;  // in the order of attachment
   std::unordered_map<const btCollisionObject*, AmbientBody*> by_object_;

@@ -51,6 +51,7 @@ bool fitsBullet(const RigidState& state) {
 
 bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
   ambient.was_solved = true;
+  ambient.world_index = ambient.body->getWorldArrayIndex();
   if (ambient.has_flown) {
     registry.complain(AmbientRegistry::Complaint::kNoAction);
     ambient.has_flown = false;
@@ -109,7 +110,6 @@ Twist beginFlight(AmbientBody& ambient, double time_step) noexcept {
 
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
-  ambient.has_flown = false;
   if (ambient.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) &&
       reachedEnd(ambient)) {
     btTransform end = body.getWorldTransform();

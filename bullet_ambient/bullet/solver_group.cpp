@@ -27,10 +27,6 @@ void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
   solver_body.m_externalForceImpulse = toBullet(change_W.linear);
 }
 
-AxisFactors axisFactors(const btRigidBody& body) {
-  return {toVector3(body.getAngularFactor()), toVector3(body.getLinearFactor())};
-}
-
 btVector3 whereZero(const btVector3& v) {
   return {btScalar(v.x() == 0), btScalar(v.y() == 0), btScalar(v.z() == 0)};
 }

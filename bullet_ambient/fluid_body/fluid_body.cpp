@@ -1,8 +1,25 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
+namespace {
+
+void scale(std::vector<double>& column, double factor) {
+  for (double& value : column) value *= factor;
+}
+
+// Per unit mass.
+void scale(MassDistribution& mass, double factor) {
+  mass.centre *= factor;
+  mass.inertia *= factor * factor;
+}
+
+}  // namespace
 
 void FaceTable::reserve(std::size_t faces) {
   for (std::vector<double>* column :
@@ -31,6 +48,32 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& face
     slip.block<3, 3>(3 * i, 3) = -tangential;
   }
   return slip;
+}
+
+FluidBody scaled(const FluidBody& body, double factor) {
+  if (!(factor > 0) || !std::isfinite(factor)) {
+    std::ostringstream sentence;
+    sentence << "scaled: the factor for fluid body '" << body.name << "' is " << factor
+             << ", but must be positive and finite";
+    throw std::invalid_argument(sentence.str());
+  }
+  FluidBody result = body;
+  result.added_mass = scaleShape(body.added_mass, factor);
+  result.volume *= factor * factor * factor;
+  result.area *= factor * factor;
+  result.centre_of_volume *= factor;
+  result.origin *= factor;
+  scale(result.uniform_mass, factor);
+  scale(result.surface_mass, factor);
+  for (std::vector<double>* column : {&result.faces.centroid_x, &result.faces.centroid_y,
+                                      &result.faces.centroid_z, &result.surface.vertices})
+    scale(*column, factor);
+  scale(result.faces.area, factor * factor);
+  std::ostringstream settings;
+  settings.precision(17);
+  settings << body.provenance.settings << "; scaled by " << factor;
+  result.provenance.settings = settings.str();
+  return result;
 }
 
 }  // namespace ambient

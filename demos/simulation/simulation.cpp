@@ -117,7 +117,7 @@ void Simulation::World::add(const Scene& scene, const BodyDef& def, const Prepar
   world.addRigidBody(added.body.get());
   if (scene.model != FluidModel::kAmbient || prepared.mass == 0 || !prepared.fluid_body) return;
   try {
-    registry.attach(*added.body, makeAttachDef(scene, def, prepared, added.R_SB));
+    registry.attach(world, *added.body, makeAttachDef(scene, def, prepared, added.R_SB));
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("body \"" + def.name + "\": " + error.what());
   }

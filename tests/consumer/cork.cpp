@@ -39,7 +39,7 @@ btScalar riseInWater(const char* file) {
   shape.calculateLocalInertia(mass, inertia);
   btRigidBody ball(mass, nullptr, &shape, inertia);
   world.addRigidBody(&ball);
-  registry.attach(ball, def);
+  registry.attach(world, ball, def);
 
   for (int step = 0; step < kSteps; ++step) world.stepSimulation(kTimeStep, 0, kTimeStep);
 
