@@ -46,6 +46,7 @@ bool AmbientAction::isSolverMissing(const btCollisionWorld& world, bool any_solv
 }
 
 void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
+  world_ = world;
   bool any_solved = false;
   for (const auto& ambient : registry_.bodies()) {
     if (!std::exchange(ambient->was_solved, false)) continue;
@@ -58,6 +59,17 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   }
   if (isSolverMissing(*world, any_solved)) {
     registry_.complain(AmbientRegistry::Complaint::kNoSolver);
+  }
+}
+
+void AmbientAction::debugDraw(btIDebugDraw* drawer) {
+  if (!drawer || !world_ || !drawing.drawsAnything()) return;
+  const btCollisionObjectArray& objects = world_->getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const AmbientBody* ambient = registry_.find(objects[i]);
+    if (ambient && ambient->isInFluid() && !objects[i]->isStaticOrKinematicObject()) {
+      drawFluid(*ambient, drawing, *drawer);
+    }
   }
 }
 

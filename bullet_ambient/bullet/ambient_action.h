@@ -3,6 +3,7 @@
 #include <BulletDynamics/Dynamics/btActionInterface.h>
 
 #include "bullet_ambient/bullet/ambient_registry.h"
+#include "bullet_ambient/bullet/fluid_drawing.h"
 #include "bullet_ambient/bullet/precision_check.h"
 
 namespace ambient {
@@ -16,13 +17,18 @@ class AmbientAction : public btActionInterface {
   explicit AmbientAction(AmbientRegistry& registry) : registry_(registry) {}
 
   void updateAction(btCollisionWorld* world, btScalar time_step) override;
-  void debugDraw(btIDebugDraw*) override {}
+
+  /// What world->debugDrawWorld() draws of the fluid, for bodies that were in the world of the last
+  /// step and still are. Nothing by default; costs nothing until then.
+  FluidDrawing drawing;
+  void debugDraw(btIDebugDraw* drawer) override;
 
  private:
   bool isSolverMissing(const btCollisionWorld& world, bool any_solved);
 
   AmbientRegistry& registry_;
   bool was_missing_ = false;
+  const btCollisionWorld* world_ = nullptr;  // of the last step
 };
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

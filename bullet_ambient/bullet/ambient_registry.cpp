@@ -74,12 +74,17 @@ void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
   }
   auto ambient = std::make_unique<AmbientBody>();
   ambient->body = &body;
-  ambient->instance = instanceNumber(body);
   ambient->def = std::move(def);
   rebuildModel(*ambient);
   if (ambient->isInFluid()) body.activate();
-  detach(body);  // what is left of one that was destroyed at this address
-  by_object_.emplace(&body, ambient.get());
+  insert(std::move(ambient));
+}
+
+void AmbientRegistry::insert(std::unique_ptr<AmbientBody> ambient) {
+  detach(*ambient->body);  // or what is left of one that was destroyed at this address
+  ambient->instance = instanceNumber(*ambient->body);
+  bodies_.reserve(bodies_.size() + 1);
+  by_object_.emplace(ambient->body, ambient.get());
   bodies_.push_back(std::move(ambient));
 }
 

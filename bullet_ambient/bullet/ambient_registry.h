@@ -62,11 +62,14 @@ class AmbientRegistry {
   /// missing from the world, a step's result was not finite. Default: standard error.
   void setReport(std::function<void(const std::string&)> report);
 
-  // For solver and action. Finds the body that was attached, never another one at its address.
+  // For solver, action and saved states. Finds the body that was attached, never another one at its
+  // address.
   // @pre the body is alive, or nothing was attached at its address.
   AmbientBody* find(const btCollisionObject* body);
   const AmbientBody* find(const btCollisionObject* body) const;
   const std::vector<std::unique_ptr<AmbientBody>>& bodies() const { return bodies_; }
+  /// Takes over a body with a model, in place of what is attached at its address.
+  void insert(std::unique_ptr<AmbientBody> ambient);
   enum class Complaint { kNoAction, kNoSolver, kNotFinite, kNotPhysical, kCount };
   void complain(Complaint complaint) noexcept;
 

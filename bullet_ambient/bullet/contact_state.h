@@ -1,0 +1,24 @@
+#pragma once
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/world_state.h"
+
+class btCollisionWorld;
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// Overlapping pairs in the order in which Bullet keeps them.
+std::vector<PairState> savePairs(btCollisionWorld& world);
+
+/// Contact points in the order in which Bullet keeps them.
+std::vector<ContactState> saveContacts(btCollisionWorld& world);
+
+/// Replaces Bullet's pairs by the saved ones, lets collision detection make the places for their
+/// contact points, with all dynamic bodies awake, and fills in the saved points; both in the saved
+/// order. All other places become empty. @pre the bodies are where they were. Leaves them awake.
+void restoreContacts(const std::vector<PairState>& pairs, const std::vector<ContactState>& contacts,
+                     btCollisionWorld& world);
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/bullet/precision_check.h"
+
+class btIDebugDraw;
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// What AmbientAction draws of bodies in a fluid, through the world's btIDebugDraw. Arrows are
+/// lines from the place where the vector acts: of forces on the body, and of the fluid's velocity
+/// along the wall.
+struct FluidDrawing {
+  bool separation = false;        ///< a short normal per face: green attached, red separated
+  bool slip_velocity = false;     ///< per attached face, blue
+  bool pressure = false;          ///< force per attached face, orange
+  bool friction = false;          ///< force per attached face, yellow
+  bool buoyancy = false;          ///< at the centre of volume, cyan
+  bool total_wrench = false;      ///< force white and torque magenta at the centre of mass
+  bool centre_of_volume = false;  ///< a small cross, cyan
+
+  double length_per_velocity = 0.1;  ///< [m per m/s]
+  double length_per_force = 0.01;    ///< [m per N]; of the whole body
+  /// [m per N] of single faces, whose forces are smaller the more faces there are.
+  double length_per_face_force = 1;
+  double length_per_torque = 0.1;  ///< [m per N m]
+  double normal_length = 0.05;     ///< of the normals and the cross, in sqrt(wetted area) [1]
+
+  static FluidDrawing all();
+  bool drawsFaces() const { return separation || slip_velocity || pressure || friction; }
+  bool drawsAnything() const {
+    return drawsFaces() || buoyancy || total_wrench || centre_of_volume;
+  }
+};
+
+/// The colours of FluidDrawing, red, green and blue.
+namespace fluid_colours {
+inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
+    kSlip(btScalar(0.2), btScalar(0.4), 1), kPressure(1, btScalar(0.5), 0), kFriction(1, 1, 0),
+    kBuoyancy(0, 1, 1), kForce(1, 1, 1), kTorque(1, 0, 1);
+}  // namespace fluid_colours
+
+/// Draws one body as it moves now. The total wrench is that of pressure, friction (after the
+/// passivity guard) and buoyancy; the inertia of the fluid is no part of it. @pre it is in a fluid,
+/// alive and dynamic.
+void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer);
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

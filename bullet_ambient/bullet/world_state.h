@@ -1,0 +1,86 @@
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bullet_ambient/bullet/ambient_registry.h"
+#include "bullet_ambient/bullet/precision_check.h"
+
+class btDynamicsWorld;
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// A body in its fluid, and what its flight remembers.
+struct AmbientState {
+  AttachDef def;
+  FlightMemory memory;
+  Twist left_W;
+  AmbientCounters counters;
+};
+
+/// A btRigidBody: motion, sleep, and the properties that its motion depends on.
+struct BodyState {
+  btTransform pose = btTransform::getIdentity();
+  btTransform interpolation_pose = btTransform::getIdentity();
+  btVector3 linear_velocity{0, 0, 0}, angular_velocity{0, 0, 0};
+  btVector3 interpolation_linear_velocity{0, 0, 0}, interpolation_angular_velocity{0, 0, 0};
+  btVector3 total_force{0, 0, 0}, total_torque{0, 0, 0};  ///< applied since the last step
+  btVector3 gravity{0, 0, 0}, inverse_inertia{0, 0, 0};
+  btVector3 linear_factor{1, 1, 1}, angular_factor{1, 1, 1};
+  btScalar inverse_mass = 0, linear_damping = 0, angular_damping = 0;
+  btScalar linear_sleeping_threshold = 0, angular_sleeping_threshold = 0;
+  btScalar friction = 0, rolling_friction = 0, spinning_friction = 0, restitution = 0;
+  btScalar ccd_radius = 0, ccd_threshold = 0, contact_processing_threshold = 0;
+  btScalar deactivation_time = 0;
+  int activation_state = ACTIVE_TAG, collision_flags = 0, flags = 0;
+  std::optional<AmbientState> ambient;
+};
+
+/// Two objects whose bounding boxes overlap, or did: Bullet forgets them late, and until then they
+/// wake each other. Objects are numbered with the rigid bodies first, each in the order of the
+/// world's array.
+struct PairState {
+  int object_a = 0, object_b = 0;
+};
+
+/// The contact points that Bullet keeps between two objects from step to step.
+struct ContactState {
+  PairState pair;
+  std::vector<btManifoldPoint> points;  // at most MANIFOLD_CACHE_SIZE
+};
+
+struct JointState {
+  bool is_enabled = true;
+  btScalar applied_impulse = 0;
+};
+
+/// Everything of a world of rigid bodies that changes from step to step.
+struct WorldState {
+  std::vector<BodyState> bodies;  // in the order of the world's array
+  std::vector<PairState> pairs;   // both in Bullet's order
+  std::vector<ContactState> contacts;
+  std::vector<JointState> joints;
+  unsigned long random_seed = 0;  ///< of a solver that shuffles its rows
+};
+
+/// Takes a picture of rigid bodies, their fluids, contacts and joints, between two steps. Changes
+/// nothing. Not in it: soft bodies, multibodies, vehicles, the rest of time that stepSimulation()
+/// keeps when it interpolates, and what only the program sets (shapes, joints' parameters, filters,
+/// additional damping).
+WorldState saveState(const btDynamicsWorld& world, const AmbientRegistry& registry);
+
+/// Puts a world back into a saved state; docs/bullet_step.md says when it then goes on bit for bit.
+/// The world has the same bodies and joints in the same order: it is the same one, or was built by
+/// the same code, or loaded from a file. Attaches and detaches as needed. Runs Bullet's collision
+/// detection once, with its callbacks, so that contacts have their places.
+/// @throws std::invalid_argument if the numbers of bodies or joints differ, or a medium is not
+/// physical; the world is then unchanged.
+void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegistry& registry);
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,127 @@
+#pragma once
+
+#include "bullet_ambient/bullet/byte_stream.h"
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/world_state.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+// The fields of a saved state in the order of their bytes, once for writing and reading. The sizes
+// are the least that entries take in the precision of less bytes; they bound lengths that are read.
+inline constexpr std::size_t kPairSize = 8, kContactSize = 12, kJointSize = 5, kPointSize = 100;
+
+template <class Stream, class State>
+void transferMedium(Stream& s, State& medium) {
+  s.number(medium.density);
+  s.number(medium.viscosity);
+  transferMatrix(s, medium.velocity);
+  transferMatrix(s, medium.acceleration);
+}
+
+template <class Stream, class State>
+void transferSettings(Stream& s, State& def) {
+  transferMedium(s, def.medium);
+  s.number(def.flow.separation_angle);
+  transferFlag(s, def.flow.skin_friction);
+  auto is_leapfrog = def.flight.integrator == Integrator::kPassiveLeapfrog;
+  transferFlag(s, is_leapfrog);
+  if constexpr (Stream::kReads) {
+    def.flight.integrator = is_leapfrog ? Integrator::kPassiveLeapfrog : Integrator::kRungeKutta4;
+  }
+  s.number(def.flight.tolerance);
+  s.number(def.flight.max_substeps);
+  transferMatrix(s, def.fluid_frame.rotation);
+  transferMatrix(s, def.fluid_frame.translation);
+}
+
+template <class Stream, class State>
+void transferFlight(Stream& s, State& state) {
+  transferMatrix(s, state.memory.load_W.torque);
+  transferMatrix(s, state.memory.load_W.force);
+  transferFlag(s, state.memory.has_load);
+  s.number(state.memory.substep);
+  transferMatrix(s, state.left_W.angular);
+  transferMatrix(s, state.left_W.linear);
+  s.number(state.counters.substeps);
+  s.number(state.counters.load_evaluations);
+  s.number(state.counters.guarded);
+  s.number(state.counters.coarse);
+  s.number(state.counters.rows);
+  s.number(state.counters.rejected);
+}
+
+template <class Stream, class State>
+void transferBody(Stream& s, State& body) {
+  transferPose(s, body.pose);
+  transferPose(s, body.interpolation_pose);
+  for (auto* v :
+       {&body.linear_velocity, &body.angular_velocity, &body.interpolation_linear_velocity,
+        &body.interpolation_angular_velocity, &body.total_force, &body.total_torque, &body.gravity,
+        &body.inverse_inertia, &body.linear_factor, &body.angular_factor}) {
+    transferVector(s, *v);
+  }
+  for (auto* number :
+       {&body.inverse_mass, &body.linear_damping, &body.angular_damping,
+        &body.linear_sleeping_threshold, &body.angular_sleeping_threshold, &body.friction,
+        &body.rolling_friction, &body.spinning_friction, &body.restitution, &body.ccd_radius,
+        &body.ccd_threshold, &body.contact_processing_threshold, &body.deactivation_time}) {
+    s.number(*number);
+  }
+  for (auto* number : {&body.activation_state, &body.collision_flags, &body.flags}) {
+    s.number(*number);
+  }
+}
+
+template <class Stream, class State>
+void transferPoint(Stream& s, State& point) {
+  for (auto* v : {&point.m_localPointA, &point.m_localPointB, &point.m_positionWorldOnB,
+                  &point.m_positionWorldOnA, &point.m_normalWorldOnB, &point.m_lateralFrictionDir1,
+                  &point.m_lateralFrictionDir2}) {
+    transferVector(s, *v);
+  }
+  for (auto* number :
+       {&point.m_distance1, &point.m_combinedFriction, &point.m_combinedRollingFriction,
+        &point.m_combinedSpinningFriction, &point.m_combinedRestitution, &point.m_appliedImpulse,
+        &point.m_prevRHS, &point.m_appliedImpulseLateral1, &point.m_appliedImpulseLateral2,
+        &point.m_contactMotion1, &point.m_contactMotion2, &point.m_contactCFM, &point.m_contactERP,
+        &point.m_frictionCFM}) {
+    s.number(*number);
+  }
+  for (auto* number : {&point.m_partId0, &point.m_partId1, &point.m_index0, &point.m_index1,
+                       &point.m_contactPointFlags, &point.m_lifeTime}) {
+    s.number(*number);
+  }
+}
+
+template <class Stream, class State>
+void transferPair(Stream& s, State& pair) {
+  s.number(pair.object_a);
+  s.number(pair.object_b);
+}
+
+template <class Stream, class State>
+void transferContact(Stream& s, State& contact) {
+  transferPair(s, contact.pair);
+  transferSize(s, contact.points, kPointSize);
+  for (auto& point : contact.points) transferPoint(s, point);
+}
+
+template <class Stream, class State>
+void transferContactsAndJoints(Stream& s, State& state) {
+  transferSize(s, state.pairs, kPairSize);
+  for (auto& pair : state.pairs) transferPair(s, pair);
+  transferSize(s, state.contacts, kContactSize);
+  for (auto& contact : state.contacts) transferContact(s, contact);
+  transferSize(s, state.joints, kJointSize);
+  for (auto& joint : state.joints) {
+    transferFlag(s, joint.is_enabled);
+    s.number(joint.applied_impulse);
+  }
+  auto seed = static_cast<std::uint64_t>(state.random_seed);
+  s.number(seed);
+  if constexpr (Stream::kReads) state.random_seed = static_cast<unsigned long>(seed);
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,26 @@
+#include "bullet_ambient/fluid_body/content_hash.h"
+
+#include <string>
+
+#include "bullet_ambient/fluid_body/fnv1a.h"
+
+namespace ambient {
+
+std::uint64_t contentHash(const FluidBody& body) {
+  std::string bytes;
+  const auto append = [&bytes](const double* values, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(double));
+  };
+  append(body.added_mass.data(), 36);
+  append(&body.volume, 1);
+  append(&body.area, 1);
+  append(body.centre_of_volume.data(), 3);
+  const FaceTable& faces = body.faces;
+  for (const std::vector<double>* column :
+       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
+        &faces.centroid_z, &faces.area})
+    append(column->data(), column->size());
+  return fnv1a64(bytes);
+}
+
+}  // namespace ambient

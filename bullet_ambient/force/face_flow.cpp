@@ -1,0 +1,25 @@
+#include "bullet_ambient/force/face_flow.h"
+
+#include <cmath>
+
+namespace ambient {
+
+FaceFlow computeFaceFlow(const FaceTable& faces, std::size_t face, double reference_length,
+                         const Twist& relative_twist, const LoadSettings& settings) noexcept {
+  const Vector3 n = faces.normal(face);
+  const Vector3 u = relative_twist.at(faces.centroid(face));
+  FaceFlow flow;
+  flow.is_attached = n.dot(u) > settings.separation_cosine * u.norm();
+  if (!flow.is_attached) return flow;
+  flow.slip = n.dot(u) * n - u;
+  const double speed = flow.slip.norm();
+  const double area = faces.area[face];
+  flow.pressure = -0.5 * settings.density * speed * speed * area * n;
+  if (!settings.skin_friction || !(settings.viscosity > 0) || !(speed > 0)) return flow;
+  const double reynolds = settings.density * speed * reference_length / settings.viscosity;
+  const double coefficient = 0.0576 * std::pow(reynolds, -0.2);
+  flow.friction = 0.5 * coefficient * settings.density * speed * area * flow.slip;
+  return flow;
+}
+
+}  // namespace ambient
