@@ -110,6 +110,8 @@ void SolverGroup::mark(const SolverBodies& solver_bodies, const btCollisionObjec
 
 void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noexcept {
   AmbientBody& ambient = *member.ambient;
+  // Bullet's setWorldTransform leaves the tensor of the old orientation, to which T does not fit.
+  ambient.body->updateInertiaTensor();
   const btRigidBody& body = *ambient.body;
   const RigidState start = readState(body);
   const Surroundings surroundings = readSurroundings(ambient);
