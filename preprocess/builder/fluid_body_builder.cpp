@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/potential_flow/potential_flow.h"
@@ -75,6 +76,8 @@ PotentialFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings)
 
 }  // namespace
 
+std::string libraryVersion() { return "bullet_ambient " AMBIENT_VERSION; }
+
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
   TriangleMesh mesh = withTrueVolume(divideTriangles(source_mesh, settings.least_faces), settings);
   requireSolvableSize(mesh, settings);
@@ -85,12 +88,14 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   FluidBody body;
   body.name = settings.name;
   body.provenance = settings.provenance;
-  if (body.provenance.generator.empty()) {
-    body.provenance.generator = "bullet_ambient " AMBIENT_VERSION;
+  if (body.provenance.generator.empty()) body.provenance.generator = libraryVersion();
+  if (settings.added_mass) {
+    body.added_mass = shiftOrigin(*settings.added_mass, origin);
+  } else {
+    const PotentialFlow flow = solveFlow(mesh, settings);
+    body.added_mass = flow.added_mass;
+    body.asymmetry = flow.asymmetry;
   }
-  const PotentialFlow flow = solveFlow(mesh, settings);
-  body.added_mass = flow.added_mass;
-  body.asymmetry = flow.asymmetry;
   body.volume = properties.volume;
   body.area = settings.sheet ? 2 * properties.area : properties.area;
   body.origin = origin;

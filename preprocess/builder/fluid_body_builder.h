@@ -16,6 +16,9 @@ constexpr Eigen::Index kMostVertices = 20000;
 /// within 1 % of the largest entry of each block of the added mass, in one to two seconds.
 constexpr int kDefaultPanels = 4200;
 
+/// This library and its version, as fluid bodies name it.
+std::string libraryVersion();
+
 /// How a fluid body is made from a mesh.
 struct BuildSettings {
   std::string name;    ///< of the body
@@ -26,7 +29,9 @@ struct BuildSettings {
   bool sheet = false;      ///< the mesh is an open surface of zero thickness
   double true_volume = 0;  ///< of the smooth body the mesh stands for [m^3]: the mesh is scaled
                            ///< about its centre of volume to enclose as much. 0: taken as it is
-  int least_faces = 0;     ///< the mesh is divided into at least so many triangles for the loads
+  /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
+  std::optional<Matrix6> added_mass;
+  int least_faces = 0;  ///< the mesh is divided into at least so many triangles for the loads
   /// The flow is solved on up to so many panels, finer than the mesh where that helps; the faces
   /// remain those of the mesh. 0: on the triangles of the mesh.
   int max_panels = kDefaultPanels;

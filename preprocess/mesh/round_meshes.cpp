@@ -166,7 +166,73 @@ std::vector<Ring> coneRings(double radius, double height, int n) {
   return rings;
 }
 
+/// Angle between the cone's axis and the outward normal of its side.
+double coneNormalAngle(double radius, double height) { return std::atan2(height, radius); }
+
+std::vector<Ring> roundedConeRings(double radius, double height, double rounding, int n) {
+  const double side = coneNormalAngle(radius, height);
+  const auto arcRows = [&](double angle, double distance) {
+    const double wanted = n * angle * rounding / (rounding + distance);
+    return std::max(3, static_cast<int>(std::lround(wanted)));
+  };
+  const int least = (n + 1) / 2;  // as coneRings()
+  std::vector<Ring> rings{{0, height / 2 + rounding, 0}};
+  const auto add = [&](double r, double z) {
+    rings.push_back({r, z, std::min(n, least + static_cast<int>(rings.size()) - 1)});
+  };
+  const int tip_rows = arcRows(side, 0);
+  for (int k = 1; k <= tip_rows; ++k) {
+    const double angle = side * k / tip_rows;
+    add(rounding * std::sin(angle), height / 2 + rounding * std::cos(angle));
+  }
+  const double slant = std::hypot(radius, height);
+  const int rows = std::max(n, static_cast<int>(std::lround(n * rowsPerRing(slant, radius))));
+  for (int k = 1; k <= rows; ++k) {
+    const double fraction = gradedRadius(1, k, rows);
+    add(radius * fraction + rounding * std::sin(side),
+        height * (0.5 - fraction) + rounding * std::cos(side));
+  }
+  const int rim_rows = arcRows(kPi - side, radius);
+  for (int k = 1; k <= rim_rows; ++k) {
+    const double angle = k == rim_rows ? kPi : side + (kPi - side) * k / rim_rows;
+    add(radius + (k == rim_rows ? 0 : rounding * std::sin(angle)),
+        -height / 2 + rounding * std::cos(angle));
+  }
+  const int last = rings.back().m;
+  for (int k = last - 1; k >= 0; --k) {
+    rings.push_back({gradedRadius(radius, k, last), -height / 2 - rounding, k});
+  }
+  return rings;
+}
+
+/// Integral of pi r^2 dz over an arc of the profile, between two angles from the axis; `offset` is
+/// the distance of its centre from the axis.
+double arcVolume(double offset, double rounding, double from, double to) {
+  const auto integral = [&](double angle) {
+    const double c = std::cos(angle);
+    return offset * offset * -c + offset * rounding * (angle - std::sin(2 * angle) / 2) +
+           rounding * rounding * (c * c * c / 3 - c);
+  };
+  return kPi * rounding * (integral(to) - integral(from));
+}
+
 }  // namespace
+
+TriangleMesh makeRoundedConeMesh(double radius, double height, double rounding, int faces) {
+  requirePositiveSize("rounded cone", "radius", radius);
+  requirePositiveSize("rounded cone", "height", height);
+  requirePositiveSize("rounded cone", "rounding", rounding);
+  const auto make = [&](int n) { return roundedConeRings(radius, height, rounding, n); };
+  requireFaces("rounded cone", faces, static_cast<int>(triangleCount(make(1))));
+  return Lathe(finestRings(faces, make)).mesh();
+}
+
+double roundedConeVolume(double radius, double height, double rounding) {
+  const double side = coneNormalAngle(radius, height);
+  const double narrow = rounding * std::sin(side), wide = radius + narrow;
+  return arcVolume(0, rounding, 0, side) + arcVolume(radius, rounding, side, kPi) +
+         kPi * height / 3 * (narrow * narrow + narrow * wide + wide * wide);
+}
 
 TriangleMesh makeCylinderMesh(double radius, double height, int faces) {
   requirePositiveSize("cylinder", "radius", radius);

@@ -43,13 +43,17 @@ double edgeLength(const TriangleMesh& mesh, const HalfEdge& edge) {
   return (mesh.vertices.col(edge.low) - mesh.vertices.col(edge.high)).norm();
 }
 
+Marks markLongerThan(double limit, const TriangleMesh& mesh, const MeshEdges& edges) {
+  Marks marks;
+  for (const EdgeGroup& edge : edges.edges)
+    marks.push_back(edgeLength(mesh, edges.half_edges[edge.first]) > limit);
+  return marks;
+}
+
 Marks markLongEdges(const TriangleMesh& mesh, const MeshEdges& edges) {
   double longest = 0;
   for (const HalfEdge& edge : edges.half_edges) longest = std::max(longest, edgeLength(mesh, edge));
-  Marks marks;
-  for (const EdgeGroup& edge : edges.edges)
-    marks.push_back(edgeLength(mesh, edges.half_edges[edge.first]) > kLongEdge * longest);
-  return marks;
+  return markLongerThan(kLongEdge * longest, mesh, edges);
 }
 
 /// Edges that end at a sharp edge but are not sharp themselves.
@@ -161,6 +165,32 @@ bool any(const Marks& marks) { return std::find(marks.begin(), marks.end(), true
 TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles) {
   TriangleMesh fine = mesh;
   while (fine.triangleCount() < least_triangles) fine = cutLongEdges(fine);
+  return fine;
+}
+
+TriangleMesh divideLongEdges(const TriangleMesh& mesh, double longest_edge) {
+  TriangleMesh fine = mesh;
+  while (true) {
+    const MeshEdges edges = computeMeshEdges(fine);
+    const Marks marks = markLongerThan(longest_edge, fine, edges);
+    if (!any(marks)) return fine;
+    fine = Cutter(fine, edges, marks).cut();
+  }
+}
+
+TriangleMesh refineTowardsFirst(const TriangleMesh& mesh, Index vertex_count, int max_triangles) {
+  TriangleMesh fine = mesh;
+  for (int level = 0; level < kEdgeLevels; ++level) {
+    const MeshEdges edges = computeMeshEdges(fine);
+    Marks marks;
+    for (const EdgeGroup& edge : edges.edges) {
+      const HalfEdge& side = edges.half_edges[edge.first];
+      marks.push_back((side.low < vertex_count) != (side.high < vertex_count));
+    }
+    TriangleMesh finer = Cutter(fine, edges, marks).cut();
+    if (finer.triangleCount() > max_triangles || !any(marks)) break;
+    fine = std::move(finer);
+  }
   return fine;
 }
 

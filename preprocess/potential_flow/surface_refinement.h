@@ -17,4 +17,15 @@ TriangleMesh refineSurface(const TriangleMesh& mesh, bool sheet, int max_triangl
 /// @pre the mesh has a triangle; every edge has one or two.
 TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles);
 
+/// The same surface, edges halved until none is longer than that [m]. Vertices of the mesh come
+/// first.
+/// @pre longest_edge > 0; every edge has one or two triangles.
+TriangleMesh divideLongEdges(const TriangleMesh& mesh, double longest_edge);
+
+/// The same surface, thinned towards the first `vertex_count` vertices, which lie on narrow rounded
+/// edges: edges with one end there are halved, up to four times, while at most `max_triangles`
+/// result. Vertices of the mesh come first.
+TriangleMesh refineTowardsFirst(const TriangleMesh& mesh, Eigen::Index vertex_count,
+                                int max_triangles);
+
 }  // namespace ambient

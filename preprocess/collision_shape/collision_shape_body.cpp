@@ -1,0 +1,147 @@
+#include "preprocess/collision_shape/collision_shape_body.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/collision_shape/collision_solids.h"
+#include "preprocess/collision_shape/solid_contact.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/potential_flow/potential_flow.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+std::string nameOf(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
+  return settings.name.empty() ? shape.getName() : settings.name;
+}
+
+std::vector<Solid> solidsOf(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
+  SolidResolution resolution;
+  resolution.faces = settings.faces;
+  resolution.flow_faces = std::max(settings.faces, settings.max_panels);
+  return makeCollisionSolids(shape, settings.margins, resolution, nameOf(shape, settings));
+}
+
+void appendBytes(const TriangleMesh& mesh, std::string& bytes) {
+  bytes.append(reinterpret_cast<const char*>(mesh.vertices.data()),
+               static_cast<std::size_t>(mesh.vertices.size()) * sizeof(double));
+  bytes.append(reinterpret_cast<const char*>(mesh.triangles.data()),
+               static_cast<std::size_t>(mesh.triangles.size()) * sizeof(int));
+}
+
+Provenance provenanceOf(const btCollisionShape& shape, const std::vector<Solid>& solids,
+                        const CollisionShapeSettings& settings) {
+  std::string bytes;
+  for (const Solid& solid : solids) {
+    appendBytes(solid.mesh, bytes);
+    appendBytes(solid.flow, bytes);
+  }
+  Provenance provenance;
+  provenance.source = std::string("collision shape ") + shape.getName();
+  provenance.source_hash = fnv1a64(bytes);
+  provenance.settings = std::string(settings.margins ? "with" : "without") + " margins, faces " +
+                        std::to_string(settings.faces) + ", panels " +
+                        std::to_string(settings.max_panels);
+  provenance.generator = libraryVersion();
+  return provenance;
+}
+
+void requireGaps(const std::vector<Solid>& solids, const std::string& name) {
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!areInContact(solids[i].mesh, solids[j].mesh)) continue;
+      raiseInputError(name, "parts ", j, " and ", i, " of the compound shape overlap or touch; ",
+                      "leave a gap of ", kLeastGap,
+                      " of the smaller one's size, or make one hull or mesh of them");
+    }
+  }
+}
+
+TriangleMesh joined(const std::vector<Solid>& solids) {
+  Eigen::Index vertices = 0, triangles = 0;
+  for (const Solid& solid : solids) {
+    vertices += solid.mesh.vertexCount();
+    triangles += solid.mesh.triangleCount();
+  }
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, vertices);
+  mesh.triangles.resize(3, triangles);
+  vertices = triangles = 0;
+  for (const Solid& solid : solids) {
+    const TriangleMesh& part = solid.mesh;
+    mesh.vertices.middleCols(vertices, part.vertexCount()) = part.vertices;
+    mesh.triangles.middleCols(triangles, part.triangleCount()) =
+        part.triangles.array() + static_cast<int>(vertices);
+    vertices += part.vertexCount();
+    triangles += part.triangleCount();
+  }
+  return mesh;
+}
+
+/// Lamb's ball: half the displaced volume in every direction, nothing in rotation.
+Matrix6 ballAddedMass(double volume, const Eigen::Vector3d& centre) {
+  Matrix6 K = Matrix6::Zero();
+  K.bottomRightCorner<3, 3>().diagonal().setConstant(volume / 2);
+  return shiftOrigin(K, -centre);
+}
+
+Matrix6 solvedAddedMass(const TriangleMesh& mesh, const CollisionShapeSettings& settings,
+                        const std::string& name) {
+  PotentialFlowSettings flow;
+  flow.threads = settings.threads;
+  flow.max_panels = settings.max_panels;
+  try {
+    return solvePotentialFlow(mesh, flow).added_mass;
+  } catch (const std::runtime_error& error) {
+    raiseInputError(name, error.what());
+  }
+}
+
+/// The nearest symmetric positive semi-definite matrix: extrapolation may leave a tiny negative
+/// eigenvalue where the true inertia vanishes.
+Matrix6 withoutNegativePart(const Matrix6& K) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(K);
+  const Matrix6 positive = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+                           eigen.eigenvectors().transpose();
+  return (positive + positive.transpose()) / 2;
+}
+
+/// The added mass of a single solid about the shape's origin, if it is not that of its mesh.
+std::optional<Matrix6> addedMassOf(const Solid& solid, const CollisionShapeSettings& settings,
+                                   const std::string& name) {
+  if (solid.ball_centre) {
+    return ballAddedMass(computeMassProperties(solid.mesh).volume, *solid.ball_centre);
+  }
+  if (solid.flow.triangleCount() == 0) return std::nullopt;
+  const Matrix6 fine = solvedAddedMass(solid.flow, settings, name);
+  if (solid.flow_ratio == 0) return fine;
+  const Matrix6 coarse = solvedAddedMass(solid.coarse_flow, settings, name);
+  return withoutNegativePart(fine + (fine - coarse) / (solid.flow_ratio - 1));
+}
+
+}  // namespace
+
+FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
+  const std::vector<Solid> solids = solidsOf(shape, settings);
+  BuildSettings build;
+  build.name = nameOf(shape, settings);
+  build.origin = Eigen::Vector3d::Zero();
+  build.max_panels = settings.max_panels;
+  build.threads = settings.threads;
+  build.provenance = provenanceOf(shape, solids, settings);
+  requireGaps(solids, build.name);
+  if (solids.size() == 1) build.added_mass = addedMassOf(solids.front(), settings, build.name);
+  return makeFluidBody(joined(solids), build);
+}
+
+Provenance describeCollisionShape(const btCollisionShape& shape,
+                                  const CollisionShapeSettings& settings) {
+  return provenanceOf(shape, solidsOf(shape, settings), settings);
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
+#include <string>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/builder/fluid_body_builder.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// How a fluid body is made from a collision shape.
+struct CollisionShapeSettings {
+  std::string name;     ///< of the body, begins every message; empty: the shape's name
+  bool margins = true;  ///< convex hulls and cones are as large as Bullet collides with them,
+                        ///< margin included; false: as they were given
+  int faces = 1300;     ///< triangles aimed at, where the shape has no mesh of its own
+  int max_panels = kDefaultPanels;  ///< as in BuildSettings
+  int threads = 0;                  ///< 0: all cores; the result does not depend on it
+};
+
+/// The fluid body of a collision shape, whose frame F is that of the shape: a btRigidBody with the
+/// shape needs no offset. Spheres have the closed form; everything else is solved.
+///
+/// Takes spheres, boxes, cylinders, capsules, cones, convex hulls, tetrahedra, multi-spheres,
+/// btGImpactMeshShape (a closed mesh), btUniformScalingShape, and btCompoundShape of these, nested,
+/// whose children do not touch. Local scalings count. docs/preprocessor.md says what margins do.
+/// Added mass is within 0.5 % of the largest entry of its block, for convex hulls within 1 % and,
+/// where a margin rounds them, 3 %; docs/preprocessor.md has the table.
+/// @throws std::runtime_error in one line that begins with the name: a plane, a height field, a
+/// static triangle mesh, an empty or flat shape, a size that is not positive and finite, a mesh
+/// that is not closed, children that touch or overlap.
+FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSettings& settings = {});
+
+/// Where makeFluidBody() says that its result came from: the kind of the shape, a hash of its
+/// geometry, and the settings. Costs a small part of it; the same provenance means the same result.
+/// @throws std::runtime_error as makeFluidBody().
+Provenance describeCollisionShape(const btCollisionShape& shape,
+                                  const CollisionShapeSettings& settings = {});
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,245 @@
+#include "preprocess/collision_shape/convex_solids.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "preprocess/collision_shape/hull_mesh.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/primitives.h"
+#include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/shape/shape_mesh.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr double kPi = 3.14159265358979323846;
+
+void requireSize(const std::string& name, const char* what, double value) {
+  if (std::isfinite(value) && value > 0) return;
+  raiseInputError(name, what, " = ", value, " m must be positive and finite");
+}
+
+/// Mesh of a shape that JSON knows too, with the volume of the smooth body.
+template <class Geometry>
+TriangleMesh meshOf(const Geometry& geometry, int faces, const std::string& name) {
+  ShapeDescription shape;
+  shape.geometry = geometry;
+  shape.faces = faces;
+  shape.source = name;
+  return makeShapeMesh(shape).mesh;
+}
+
+TriangleMesh withVolume(TriangleMesh mesh, double volume) {
+  const MeshProperties properties = computeMassProperties(mesh);
+  const double stretch = std::cbrt(volume / properties.volume);
+  const Eigen::Vector3d centre = properties.uniform.centre;
+  mesh.vertices = ((mesh.vertices.colwise() - centre) * stretch).colwise() + centre;
+  return mesh;
+}
+
+double volumeOf(const TriangleMesh& mesh) { return computeMassProperties(mesh).volume; }
+
+Eigen::Vector3d normalOf(const TriangleMesh& mesh, Eigen::Index t) {
+  return (mesh.corner(t, 1) - mesh.corner(t, 0))
+      .cross(mesh.corner(t, 2) - mesh.corner(t, 0))
+      .normalized();
+}
+
+/// Sum of length times angle between the normals over all edges of a convex polyhedron, halved: the
+/// integral of its mean curvature.
+double meanCurvatureOf(const TriangleMesh& mesh) {
+  double sum = 0;
+  const MeshEdges edges = computeMeshEdges(mesh);
+  for (const EdgeGroup& edge : edges.edges) {
+    const HalfEdge& half = edges.half_edges[edge.first];
+    const Eigen::Vector3d a = normalOf(mesh, half.triangle);
+    const Eigen::Vector3d b = normalOf(mesh, edges.half_edges[edge.first + 1].triangle);
+    sum += (mesh.vertices.col(half.low) - mesh.vertices.col(half.high)).norm() *
+           std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  return sum / 2;
+}
+
+/// Steiner's formula for the volume within `margin` of a convex polyhedron.
+double volumeWithin(const TriangleMesh& hull, double margin) {
+  const MeshProperties properties = computeMassProperties(hull);
+  return properties.volume + margin * properties.area + margin * margin * meanCurvatureOf(hull) +
+         4 * kPi / 3 * margin * margin * margin;
+}
+
+/// Directions of the vertices of a geodesic sphere of 20 n^2 triangles.
+TriangleMesh directions(int n) { return makeEllipsoidMesh({1, 1, 1}, 20 * n * n); }
+
+/// The hull's corners moved by the margin along the normals of their faces, so that faces stay flat
+/// and come to lie where they should, and in the directions of a sphere, for the edges.
+Points pointsWithin(const TriangleMesh& hull, double margin, int n) {
+  Points points;
+  for (Eigen::Index t = 0; t < hull.triangleCount(); ++t) {
+    for (int k = 0; k < 3; ++k) points.emplace_back(hull.corner(t, k) + margin * normalOf(hull, t));
+  }
+  const TriangleMesh sphere = directions(n);
+  for (Eigen::Index v = 0; v < hull.vertexCount(); ++v) {
+    for (Eigen::Index d = 0; d < sphere.vertexCount(); ++d) {
+      points.emplace_back(hull.vertices.col(v) + margin * sphere.vertices.col(d));
+    }
+  }
+  return points;
+}
+
+TriangleMesh ballHull(const std::vector<HullBall>& balls, int n, const std::string& name) {
+  const TriangleMesh sphere = directions(n);
+  Points points;
+  for (const HullBall& ball : balls) {
+    for (Eigen::Index d = 0; d < sphere.vertexCount(); ++d) {
+      points.emplace_back(ball.centre + ball.semi_axes.cwiseProduct(sphere.vertices.col(d)));
+    }
+  }
+  return makeHullMesh(points, name);
+}
+
+/// Triangles with edges at most kLongest times as long as those of equilateral ones of that number.
+TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces) {
+  const double area = computeMassProperties(mesh).area;
+  constexpr double kLongest = 2.5;
+  return divideLongEdges(mesh, kLongest * std::sqrt(4 / std::sqrt(3.0) * area / faces));
+}
+
+/// Solid of a smooth body whose error shrinks as the number of its triangles grows.
+Solid smoothSolid(const TriangleMesh& mesh, const TriangleMesh& flow) {
+  Solid solid;
+  solid.mesh = mesh;
+  if (flow.triangleCount() <= mesh.triangleCount()) return solid;
+  solid.flow = flow;
+  solid.coarse_flow = mesh;
+  solid.flow_ratio =
+      static_cast<double>(flow.triangleCount()) / static_cast<double>(mesh.triangleCount());
+  return solid;
+}
+
+Solid solidOf(const TriangleMesh& mesh) {
+  Solid solid;
+  solid.mesh = mesh;
+  return solid;
+}
+
+/// Largest n so that a geodesic sphere has at most that many triangles.
+int frequencyFor(int faces) { return std::max(2, static_cast<int>(std::sqrt(faces / 20.0))); }
+
+}  // namespace
+
+Solid makeBallSolid(double radius, const SolidResolution& resolution, const std::string& name) {
+  requireSize(name, "the radius", radius);
+  Solid ball = solidOf(meshOf(SphereShape{radius}, resolution.faces, name));
+  ball.ball_centre = Eigen::Vector3d::Zero();
+  return ball;
+}
+
+Solid makeBoxSolid(const Eigen::Vector3d& half_sizes, const SolidResolution& resolution,
+                   const std::string& name) {
+  for (int k = 0; k < 3; ++k) requireSize(name, "a half size", half_sizes[k]);
+  return solidOf(meshOf(BoxShape{half_sizes}, resolution.faces, name));
+}
+
+Solid makeCylinderSolid(double radius, double height, const SolidResolution& resolution,
+                        const std::string& name) {
+  requireSize(name, "the radius", radius);
+  requireSize(name, "the height", height);
+  return solidOf(meshOf(CylinderShape{radius, height}, resolution.faces, name));
+}
+
+Solid makeCapsuleSolid(double radius, double height, const SolidResolution& resolution,
+                       const std::string& name) {
+  if (height == 0) return makeBallSolid(radius, resolution, name);
+  requireSize(name, "the radius", radius);
+  requireSize(name, "the height", height);
+  const CapsuleShape capsule{radius, height};
+  return smoothSolid(meshOf(capsule, resolution.faces, name),
+                     meshOf(capsule, resolution.flow_faces, name));
+}
+
+Solid makeConeSolid(double radius, double height, double margin, const SolidResolution& resolution,
+                    const std::string& name) {
+  requireSize(name, "the radius", radius);
+  requireSize(name, "the height", height);
+  if (margin <= 0) return solidOf(meshOf(ConeShape{radius, height}, resolution.faces, name));
+  requireSize(name, "the margin", margin);
+  const double volume = roundedConeVolume(radius, height, margin);
+  const auto make = [&](int faces) {
+    constexpr int kLeastFaces = 640;
+    return withVolume(makeRoundedConeMesh(radius, height, margin, std::max(faces, kLeastFaces)),
+                      volume);
+  };
+  return smoothSolid(make(resolution.faces), make(resolution.flow_faces));
+}
+
+Solid makeHullSolid(const Points& points, double margin, const SolidResolution& resolution,
+                    const std::string& name) {
+  const TriangleMesh hull = makeHullMesh(points, name);
+  if (margin <= 0) return solidOf(evenlyDivided(hull, resolution.faces));
+  requireSize(name, "the margin", margin);
+  const auto roundedWith = [&](int n) {
+    return withVolume(makeHullMesh(pointsWithin(hull, margin, n), name),
+                      volumeWithin(hull, margin));
+  };
+  constexpr int kFine = 4, kCoarse = 2;
+  Solid solid = solidOf(evenlyDivided(roundedWith(kFine), resolution.faces));
+  if (resolution.flow_faces > solid.mesh.triangleCount()) {
+    // All corners of the rounded hull lie on edges that are sharp from afar. Few directions on
+    // narrow ones leave panels for the sides.
+    constexpr double kNarrow = 0.05;
+    const Eigen::Vector3d extent =
+        hull.vertices.rowwise().maxCoeff() - hull.vertices.rowwise().minCoeff();
+    const bool is_narrow = margin < kNarrow * extent.minCoeff();
+    const TriangleMesh rounded = roundedWith(is_narrow ? kCoarse : kFine);
+    const int even = is_narrow ? resolution.flow_faces / 2 : resolution.faces;
+    solid.flow = refineTowardsFirst(evenlyDivided(rounded, even), rounded.vertexCount(),
+                                    resolution.flow_faces);
+  }
+  return solid;
+}
+
+/// The ellipsoid of a multi-sphere shape with one sphere.
+static Solid makeEllipsoidSolid(const HullBall& ball, const SolidResolution& resolution,
+                                const std::string& name) {
+  const EllipsoidShape ellipsoid{ball.semi_axes};
+  const bool is_ball = (ball.semi_axes.array() == ball.semi_axes.x()).all();
+  Solid solid = is_ball ? makeBallSolid(ball.semi_axes.x(), resolution, name)
+                        : smoothSolid(meshOf(ellipsoid, resolution.faces, name),
+                                      meshOf(ellipsoid, resolution.flow_faces, name));
+  for (TriangleMesh* mesh : {&solid.mesh, &solid.flow, &solid.coarse_flow}) {
+    mesh->vertices.colwise() += ball.centre;
+  }
+  if (is_ball) solid.ball_centre = ball.centre;
+  return solid;
+}
+
+Solid makeBallHullSolid(const std::vector<HullBall>& balls, const SolidResolution& resolution,
+                        const std::string& name) {
+  for (const HullBall& ball : balls) {
+    for (int k = 0; k < 3; ++k) requireSize(name, "the radius of a sphere", ball.semi_axes[k]);
+  }
+  if (balls.size() == 1) return makeEllipsoidSolid(balls.front(), resolution, name);
+  // The other half of the triangles is for what lies between the balls.
+  const int n = frequencyFor(resolution.faces / 2), fine = frequencyFor(resolution.flow_faces / 2);
+  const TriangleMesh coarse_hull = ballHull(balls, n, name);
+  if (fine <= n) return solidOf(evenlyDivided(coarse_hull, resolution.faces));
+  const TriangleMesh fine_hull = ballHull(balls, fine, name);
+  // The missing volume shrinks with the square of the triangles' size, and so does the error.
+  const double ratio = static_cast<double>(fine * fine) / (n * n);
+  const double volume =
+      volumeOf(fine_hull) + (volumeOf(fine_hull) - volumeOf(coarse_hull)) / (ratio - 1);
+  Solid solid;
+  solid.mesh = evenlyDivided(withVolume(coarse_hull, volume), resolution.faces);
+  solid.coarse_flow = solid.mesh;
+  solid.flow = evenlyDivided(withVolume(fine_hull, volume), resolution.flow_faces);
+  solid.flow_ratio = ratio;
+  return solid;
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

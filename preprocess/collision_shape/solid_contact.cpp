@@ -1,0 +1,95 @@
+#include "preprocess/collision_shape/solid_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "preprocess/mesh/winding_number.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+
+struct Box {
+  Vector3d low, high;
+
+  bool meets(const Box& other, double gap) const {
+    return ((low - other.high).array() <= gap).all() && ((other.low - high).array() <= gap).all();
+  }
+};
+
+Box boxOf(const TriangleMesh& mesh) {
+  return {mesh.vertices.rowwise().minCoeff(), mesh.vertices.rowwise().maxCoeff()};
+}
+
+Box boxOf(const TriangleMesh& mesh, Index t) {
+  const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+double sizeOf(const Box& box) { return (box.high - box.low).maxCoeff(); }
+
+double sixfoldVolume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+  return (b - a).cross(c - a).dot(d - a);
+}
+
+bool crosses(const Vector3d& p, const Vector3d& q, const TriangleMesh& mesh, Index t) {
+  const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+  if (sixfoldVolume(a, b, c, p) * sixfoldVolume(a, b, c, q) > 0) return false;
+  const double u = sixfoldVolume(p, q, a, b), v = sixfoldVolume(p, q, b, c),
+               w = sixfoldVolume(p, q, c, a);
+  return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+}
+
+double distanceToSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
+  const double along = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (x - a - along * (b - a)).norm();
+}
+
+double distanceToTriangle(const Vector3d& x, const TriangleMesh& mesh, Index t) {
+  const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+  const Vector3d normal = (b - a).cross(c - a).normalized();
+  const auto isInside = [&](const Vector3d& from, const Vector3d& to) {
+    return (to - from).cross(x - from).dot(normal) >= 0;
+  };
+  if (isInside(a, b) && isInside(b, c) && isInside(c, a)) return std::abs((x - a).dot(normal));
+  return std::min(
+      {distanceToSegment(x, a, b), distanceToSegment(x, b, c), distanceToSegment(x, c, a)});
+}
+
+bool isInside(const Vector3d& x, const TriangleMesh& mesh) {
+  double angle = 0;
+  for (Index t = 0; t < mesh.triangleCount(); ++t) angle += solidAngle(mesh, t, x);
+  return angle > 2 * kPi;
+}
+
+/// Edges of a through b, or corners of a closer to b than the gap.
+bool reaches(const TriangleMesh& a, const TriangleMesh& b, double gap) {
+  const Box box_of_b = boxOf(b);
+  for (Index s = 0; s < a.triangleCount(); ++s) {
+    const Box box = boxOf(a, s);
+    if (!box.meets(box_of_b, gap)) continue;
+    for (Index t = 0; t < b.triangleCount(); ++t) {
+      if (!box.meets(boxOf(b, t), gap)) continue;
+      for (int k = 0; k < 3; ++k) {
+        if (distanceToTriangle(a.corner(s, k), b, t) < gap) return true;
+        if (crosses(a.corner(s, k), a.corner(s, (k + 1) % 3), b, t)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool areInContact(const TriangleMesh& a, const TriangleMesh& b) {
+  const double gap = kLeastGap * std::min(sizeOf(boxOf(a)), sizeOf(boxOf(b)));
+  if (!boxOf(a).meets(boxOf(b), gap)) return false;
+  return reaches(a, b, gap) || reaches(b, a, gap) || isInside(a.vertices.col(0), b) ||
+         isInside(b.vertices.col(0), a);
+}
+
+}  // namespace ambient

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <btBulletCollisionCommon.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/bullet/conversions.h"
+#include "preprocess/collision_shape/collision_shape_body.h"
+
+namespace ambient::test {
+
+/// Sizes of shapes in float carry its rounding into everything that follows from them.
+constexpr double kScalarRounding = sizeof(btScalar) == sizeof(float) ? 4e-7 : 1e-13;
+
+/// Settings for what does not depend on accuracy: seconds become milliseconds.
+inline CollisionShapeSettings coarse() {
+  CollisionShapeSettings settings;
+  settings.faces = 350;
+  settings.max_panels = 0;
+  return settings;
+}
+
+/// Largest difference of two 3x3 blocks over the largest entry of the reference's.
+inline double blockError(const Matrix3& block, const Matrix3& reference) {
+  return (block - reference).cwiseAbs().maxCoeff() / reference.cwiseAbs().maxCoeff();
+}
+
+inline double rotationError(const Matrix6& K, const Matrix6& reference) {
+  return blockError(K.topLeftCorner<3, 3>(), reference.topLeftCorner<3, 3>());
+}
+
+inline double translationError(const Matrix6& K, const Matrix6& reference) {
+  return blockError(K.bottomRightCorner<3, 3>(), reference.bottomRightCorner<3, 3>());
+}
+
+/// Largest difference of two matrices over the largest entry of the reference, which must have
+/// lengths of about 1.
+inline double differenceOf(const Matrix6& K, const Matrix6& reference) {
+  return (K - reference).cwiseAbs().maxCoeff() / reference.cwiseAbs().maxCoeff();
+}
+
+}  // namespace ambient::test
