@@ -92,7 +92,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
 
   RowVelocity result;
   Vector6 forced = model.inverse_inertia * externalWrench(model, s, start.orientation).vector();
-  if (model.loads.density > 0) {
+  if (model.has_surface_loads) {
     const SurfaceLoad load = computeSurfaceLoad(model, relative);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;

@@ -121,6 +121,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   model.reference_length = std::sqrt(fluid_body.area);
   model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
   model.faces = &fluid_body.faces;
+  model.has_surface_loads = medium.density > 0 && fluid_body.faces.size() > 0;
   return model;
 }
 

@@ -33,6 +33,7 @@ struct BodyModel {
   LoadSettings loads;                ///< how the faces are loaded
   double reference_length = 0;       ///< sqrt(area) [m]
   const FaceTable* faces = nullptr;  ///< in F
+  bool has_surface_loads = false;    ///< there are faces, and a fluid to load them
 
   double largest_mass = 0;  ///< largest eigenvalue of K's translation block [kg]
 };

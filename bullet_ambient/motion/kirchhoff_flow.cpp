@@ -1,117 +1,52 @@
 #include "bullet_ambient/motion/kirchhoff_flow.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bullet_ambient/motion/kirchhoff.h"
+#include "bullet_ambient/motion/motion_series.h"
 #include "bullet_ambient/motion/rotation.h"
 
 namespace ambient {
 namespace {
 
-constexpr int kMaxOrder = 18;
-constexpr double kRounding = 1e-15;  // a term below it, relative to the motion, is zero
-constexpr int kMaxPieces = 64;       // series per call
+constexpr int kMaxPieces = 64;  // series per call
 
-// Kirchhoff's equations in body axes are bilinear, so that the coefficients of their power series
-// follow from one another by sums of cross products (Jorba and Zou 2005 on such integrators):
-//   l' = l x w + p x v,   p' = p x w,   (w, v) = K^-1 (l, p),
-//   r' = r x w + v,       q' = 1/2 q w,
-// r being the way from the start in body axes, y = y_0 + R r, and q the turn since the start.
-// Coefficients are scaled to t = fraction of the duration.
-class MotionSeries {
- public:
-  MotionSeries(const BodyModel& model, const Twist& start, double duration)
-      : model_(model), duration_(duration) {
-    const Vector6 momentum = model.inertia * start.vector();
-    c_[0] = {momentum.head<3>(),
-             momentum.tail<3>(),
-             start.angular,
-             start.linear,
-             Vector3::Zero(),
-             Vector3::Zero(),
-             1.0};
-    energy_ = momentum.dot(start.vector());
-    double size = size_sq_[0] = 1;
-    do {
-      addTerm();
-      size = std::max(size_sq_[order_], size_sq_[order_ - 1]);
-    } while (!(size <= kRounding * kRounding) && order_ < kMaxOrder);
+SumMotionSeries fastestMotionSeries() noexcept {
+#if defined(__x86_64__)
+  if (hasAvx2MotionSeries()) return sumMotionSeriesAvx2;
+#endif
+  return sumMotionSeriesBaseline;
+}
+
+SeriesStart seriesStart(const BodyModel& model, const Twist& twist, double duration,
+                        double precision) {
+  SeriesStart start;
+  Eigen::Map<Eigen::Matrix<double, 6, 6>>(start.inverse_inertia[0]) = model.inverse_inertia;
+  Eigen::Map<Vector6>(start.momentum) = model.inertia * twist.vector();
+  Eigen::Map<Vector6>(start.twist) = twist.vector();
+  start.duration = duration;
+  start.precision = precision;
+  return start;
+}
+
+RigidState endState(const BodyModel& model, const RigidState& start, const SeriesEnd& series) {
+  const double* q = series.turn;
+  RigidState end;
+  end.orientation = (start.orientation * Quaternion(q[3], q[0], q[1], q[2])).normalized();
+  end.position = start.position + end.orientation * Eigen::Map<const Vector3>(series.way);
+  end.twist = Twist::fromVector(model.inverse_inertia * Eigen::Map<const Vector6>(series.momentum));
+  return end;
+}
+
+// Scales the twist down to the energy that it had.
+RigidState withoutGain(const BodyModel& model, RigidState end, double energy_norm_sq) {
+  const double after = inertiaNormSquared(model, end.twist.vector());
+  if (after > energy_norm_sq) {
+    const double scale = std::sqrt(energy_norm_sq / after);
+    end.twist = {scale * end.twist.angular, scale * end.twist.linear};
   }
-
-  // Largest fraction of the duration at which the series still holds to rounding.
-  double reach() const {
-    return std::min(reachOfTerm(order_), order_ > 1 ? reachOfTerm(order_ - 1) : 1.0);
-  }
-
-  RigidState at(double fraction, const RigidState& start) const {
-    Coefficient sum = c_[order_];
-    for (int k = order_ - 1; k >= 0; --k) {
-      const Coefficient& c = c_[k];
-      sum.l = c.l + fraction * sum.l;
-      sum.p = c.p + fraction * sum.p;
-      sum.r = c.r + fraction * sum.r;
-      sum.turn = c.turn + fraction * sum.turn;
-      sum.cosine = c.cosine + fraction * sum.cosine;
-    }
-    RigidState end;
-    const Quaternion turn(sum.cosine, sum.turn.x(), sum.turn.y(), sum.turn.z());
-    end.orientation = (start.orientation * turn).normalized();
-    end.position = start.position + end.orientation * sum.r;
-    end.twist = Twist::fromVector(model_.inverse_inertia * stack(sum.l, sum.p));
-    return end;
-  }
-
- private:
-  struct Coefficient {
-    Vector3 l, p, w, v, r;
-    Vector3 turn;  // vector part of q
-    double cosine;
-  };
-
-  void addTerm() {
-    const int k = order_;
-    Coefficient rate;
-    rate.l = rate.p = rate.turn = Vector3::Zero();
-    rate.r = c_[k].v;
-    rate.cosine = 0;
-    for (int i = 0; i <= k; ++i) {
-      const Coefficient& a = c_[i];
-      const Coefficient& b = c_[k - i];
-      rate.l += a.l.cross(b.w) + a.p.cross(b.v);
-      rate.p += a.p.cross(b.w);
-      rate.r += a.r.cross(b.w);
-      rate.turn += a.cosine * b.w + a.turn.cross(b.w);
-      rate.cosine -= a.turn.dot(b.w);
-    }
-    const double step = duration_ / (k + 1);
-    Coefficient& next = c_[k + 1];
-    next.l = step * rate.l;
-    next.p = step * rate.p;
-    next.r = step * rate.r;
-    next.turn = step / 2 * rate.turn;
-    next.cosine = step / 2 * rate.cosine;
-    const Twist x = Twist::fromVector(model_.inverse_inertia * stack(next.l, next.p));
-    next.w = x.angular;
-    next.v = x.linear;
-    ++order_;
-    size_sq_[order_] = std::max((next.l.dot(next.w) + next.p.dot(next.v)) / energy_,
-                                next.turn.squaredNorm() + next.cosine * next.cosine);
-  }
-
-  double reachOfTerm(int k) const {
-    const double excess = size_sq_[k] / (kRounding * kRounding);
-    return excess > 1 ? std::pow(excess, -0.5 / k) : 1.0;
-  }
-
-  const BodyModel& model_;
-  double duration_;
-  double energy_;
-  int order_ = 0;
-  std::array<Coefficient, kMaxOrder + 1> c_;
-  std::array<double, kMaxOrder + 1> size_sq_;  // in the norms of K^-1 and of the quaternion
-};
+  return end;
+}
 
 // Turns with the present angular velocity. World momentum stays: it gives the twist in the end.
 RigidState coast(const BodyModel& model, const RigidState& state, double duration) {
@@ -121,30 +56,25 @@ RigidState coast(const BodyModel& model, const RigidState& state, double duratio
       (state.orientation * rotationFromVector(duration * state.twist.angular)).normalized();
   end.position = state.position + state.orientation * (duration * state.twist.linear);
   end.twist = twistOf(model, momentum, end.orientation, end.position);
-  const double before = inertiaNormSquared(model, state.twist.vector());
-  const double after = inertiaNormSquared(model, end.twist.vector());
-  if (after > before) {
-    const double scale = std::sqrt(before / after);
-    end.twist = {scale * end.twist.angular, scale * end.twist.linear};
-  }
   return end;
 }
 
 }  // namespace
 
-RigidState flowWithoutLoads(const BodyModel& model, const RigidState& state,
-                            double duration) noexcept {
-  if (!(inertiaNormSquared(model, state.twist.vector()) > 0)) return state;
+RigidState flowWithoutLoads(const BodyModel& model, const RigidState& state, double duration,
+                            double precision) noexcept {
+  static const SumMotionSeries sum_series = fastestMotionSeries();
+  const double energy_norm_sq = inertiaNormSquared(model, state.twist.vector());
+  if (!(energy_norm_sq > 0)) return state;
   RigidState end = state;
   double left = duration;
-  for (int i = 0; i < kMaxPieces; ++i) {
-    const MotionSeries series(model, end.twist, left);
-    const double fraction = series.reach();
-    end = series.at(fraction, end);
-    if (fraction == 1) return end;
-    left -= fraction * left;
+  for (int i = 0; i < kMaxPieces && left > 0; ++i) {
+    const SeriesEnd series = sum_series(seriesStart(model, end.twist, left, precision));
+    end = endState(model, end, series);
+    left -= series.fraction * left;
   }
-  return coast(model, end, left);
+  if (left > 0) end = coast(model, end, left);
+  return withoutGain(model, end, energy_norm_sq);
 }
 
 }  // namespace ambient

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kMaxRetries = 2;
 constexpr double kSafety = 0.9;
+constexpr double kFlowPrecision = 1e-6;  // of the tolerance: the flow adds nothing to the error
 constexpr double kAcceptance =
     2;  // a step is repeated when its error exceeds the tolerance by this factor
 
@@ -26,7 +27,7 @@ class Kick {
     const Wrench external = externalWrench(model_, task_.surroundings, flight.state.orientation);
     const Vector6 fall = h_ / 2 * (model_.inverse_inertia * external.vector());
     const Vector6 x = flight.state.twist.vector() + fall;
-    const Loaded loaded = model_.loads.density > 0 ? kickByLoads(flight, x) : Loaded{x, 0};
+    const Loaded loaded = model_.has_surface_loads ? kickByLoads(flight, x) : Loaded{x, 0};
     flight.state.twist = Twist::fromVector(loaded.x + fall);
     ++flight.count.substeps;
     return loaded.error;
@@ -78,11 +79,13 @@ class Kick {
 // flow: it is exact.
 double advance(const FlightTask& task, double h, int substeps, FlightResult& flight) {
   const Kick kick(task, h);
+  const double precision =
+      task.model.has_surface_loads ? kFlowPrecision * task.settings.tolerance : kToRounding;
   double error = 0;
-  flight.state = flowWithoutLoads(task.model, flight.state, h / 2);
+  flight.state = flowWithoutLoads(task.model, flight.state, h / 2, precision);
   for (int i = 1; i <= substeps; ++i) {
     error = std::max(error, kick.act(flight));
-    flight.state = flowWithoutLoads(task.model, flight.state, i < substeps ? h : h / 2);
+    flight.state = flowWithoutLoads(task.model, flight.state, i < substeps ? h : h / 2, precision);
   }
   return error;
 }

@@ -56,7 +56,7 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
 
   Vector6 impulse =
       dt * (model.inverse_inertia * externalWrench(model, s, start.orientation).vector());
-  if (model.loads.density > 0) {
+  if (model.has_surface_loads) {
     const SurfaceLoad load = computeSurfaceLoad(model, relative);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;

@@ -38,7 +38,7 @@ class Equations {
     const Quaternion q = unit(s.orientation);
     const Twist x = twistOf(task_.model, {s.linear, s.angular, pivot_}, q, s.position);
     Wrench wrench = externalWrench(task_.model, task_.surroundings, q);
-    if (task_.model.loads.density > 0) {
+    if (task_.model.has_surface_loads) {
       const SurfaceLoad load = computeSurfaceLoad(task_.model, x);
       ++count_.load_evaluations;
       count_.guarded += load.guarded;
