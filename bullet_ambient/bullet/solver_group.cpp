@@ -178,6 +178,8 @@ void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& 
   if (!for_multibodies) return;
   reapplyMultiBodyImpulses(multibodies->contacts, row_bodies_, solver_bodies);
   reapplyMultiBodyImpulses(multibodies->frictions, row_bodies_, solver_bodies);
+  // Stock Bullet forgets the rigid side of these, and momentum is lost.
+  reapplyMultiBodyImpulses(multibodies->joints, row_bodies_, solver_bodies);
 }
 
 void SolverGroup::saveFeedbackJacobians(const btConstraintArray& joints) noexcept {

@@ -47,13 +47,26 @@ class DenseSystem {
   }
 
  private:
+  static Bound next(Bound bound) {
+    return bound == Bound::kFree    ? Bound::kLower
+           : bound == Bound::kLower ? Bound::kUpper
+                                    : Bound::kFree;
+  }
+
+  // A row that follows another one has that one's bounds, its own mean nothing.
+  bool exists(int r, Bound bound) const {
+    const DenseRow& row = rows_[r];
+    if (bound == Bound::kFree || row.normal_row >= 0) return true;
+    return bound == Bound::kLower ? row.lower != -DenseRow::kUnbounded
+                                  : row.upper != DenseRow::kUnbounded;
+  }
+
   // Counts through all sets of bounds; false after the last.
   bool advanceBounds() {
-    for (Bound& bound : bounds_) {
-      bound = bound == Bound::kFree    ? Bound::kLower
-              : bound == Bound::kLower ? Bound::kUpper
-                                       : Bound::kFree;
-      if (bound != Bound::kFree) return true;
+    for (int r = 0; r < static_cast<int>(rows_.size()); ++r) {
+      do bounds_[r] = next(bounds_[r]);
+      while (!exists(r, bounds_[r]));
+      if (bounds_[r] != Bound::kFree) return true;
     }
     return false;
   }
@@ -113,11 +126,7 @@ class DenseSystem {
 
   Bound correctedBound(int r, const Vector& solution) const {
     const DenseRow& row = rows_[r];
-    const bool follows = row.normal_row >= 0;  // its own bounds mean nothing then
-    if (bounds_[r] == Bound::kUpper && !follows && row.upper == DenseRow::kUnbounded)
-      return Bound::kFree;
-    if (bounds_[r] == Bound::kLower && !follows && row.lower == -DenseRow::kUnbounded)
-      return Bound::kFree;
+    if (!exists(r, bounds_[r])) return Bound::kFree;
     if (bounds_[r] == Bound::kLower) {
       return excess(r, solution) < 0 ? Bound::kFree : Bound::kLower;
     }
@@ -126,7 +135,7 @@ class DenseSystem {
     }
     const Real impulse = solution[impulseOf(r)];
     Real lower = row.lower, upper = row.upper;
-    if (follows) {
+    if (row.normal_row >= 0) {
       upper = row.friction * solution[impulseOf(row.normal_row)];
       lower = -upper;
     }

@@ -47,7 +47,7 @@ struct DenseSolution {
 DenseSolution solveDense(const std::vector<DenseBody>& bodies, const std::vector<DenseRow>& rows);
 
 /// The solution if exactly one set of bounds fits: with friction there may be none or several
-/// (Painleve). Tries all 3^rows.
+/// (Painleve). Tries all of them.
 std::optional<DenseSolution> onlySolution(const std::vector<DenseBody>& bodies,
                                           const std::vector<DenseRow>& rows);
 
