@@ -121,12 +121,19 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   model.reference_length = std::sqrt(fluid_body.area);
   model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
   model.faces = &fluid_body.faces;
-  model.has_surface_loads = medium.density > 0 && fluid_body.faces.size() > 0;
+  model.load_model = flow.model.get();
+  model.has_surface_loads = medium.density > 0 && (model.load_model || fluid_body.faces.size() > 0);
   return model;
 }
 
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept {
   const Twist x_F = model.fluid_frame.toF(relative_twist);
+  if (model.load_model) {
+    const Wrench load_F = model.load_model->load(*model.faces, x_F, model.loads);
+    const GuardedWrench guarded =
+        removePositivePower(model.fluid_frame.toB(load_F), relative_twist, model.inertia);
+    return {guarded.wrench, guarded.acted};
+  }
   const FaceLoads loads = computeFaceLoads(*model.faces, model.reference_length, x_F, model.loads);
   const Wrench wrench = model.fluid_frame.toB(loads.total());
   // At alpha = pi/2 no face can push its body along: eq. (15) and (17) are dissipative term by

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/medium.h"
@@ -7,11 +9,25 @@
 
 namespace ambient {
 
+/// Surface loads by another law than docs/theory.md eq. (13) to (17), to compare with: a rival
+/// model, a measured polar. What a body loses by them the integrators treat as they treat the
+/// library's own.
+class SurfaceLoadModel {
+ public:
+  virtual ~SurfaceLoadModel() = default;
+  /// The load on the body for a twist relative to the ambient flow, both in F. Power that it feeds
+  /// to the body is removed, eq. (20). Called from every thread that flies a body.
+  virtual Wrench load(const FaceTable& faces, const Twist& relative_twist,
+                      const LoadSettings& settings) const noexcept = 0;
+};
+
 /// How the flow follows the surface of one body.
 struct FlowSettings {
   double separation_angle =
       1.5707963267948966;     ///< alpha in [pi/2, pi] [rad]; larger = more attachment
   bool skin_friction = true;  ///< turbulent 1/5-power law, docs/theory.md eq. (16)
+  std::shared_ptr<const SurfaceLoadModel> model =
+      nullptr;  ///< null: this library's pressure and friction
 };
 
 /// Mass [kg] and rotational inertia about the centre of mass in B's axes [kg m^2].
@@ -21,8 +37,8 @@ struct MassProperties {
 };
 
 /// All that the equations of motion need to know of one body in one medium; constant between
-/// changes of either. Frame: body frame B at the centre of mass. Points into `fluid_body`, which
-/// must outlive it.
+/// changes of either. Frame: body frame B at the centre of mass. Points into the fluid body and the
+/// flow settings that it was made of, which must outlive it.
 struct BodyModel {
   Matrix6 inertia;                   ///< K = K_body + rho K_fluid, docs/theory.md eq. (3); SPD
   Matrix6 inverse_inertia;           ///< K^-1
@@ -33,7 +49,8 @@ struct BodyModel {
   LoadSettings loads;                ///< how the faces are loaded
   double reference_length = 0;       ///< sqrt(area) [m]
   const FaceTable* faces = nullptr;  ///< in F
-  bool has_surface_loads = false;    ///< there are faces, and a fluid to load them
+  const SurfaceLoadModel* load_model = nullptr;  ///< null: pressure and friction
+  bool has_surface_loads = false;                ///< there are faces or a load model, and a fluid
 
   double largest_mass = 0;  ///< largest eigenvalue of K's translation block [kg]
 };
