@@ -29,13 +29,11 @@ std::string settingsText(const ShapeBuildSettings& settings, bool sheet) {
   return text.str();
 }
 
-Provenance provenanceOf(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
-  const std::filesystem::path file = fileOf(shape);
-  Provenance provenance;
-  provenance.source = file.empty() ? shape.text : file.filename().string();
-  provenance.source_hash = fnv1a64(file.empty() ? shape.text : readBytes(file));
-  provenance.settings = settingsText(settings, isSheet(shape));
-  return provenance;
+/// The scale in the shape's own description.
+double ownScale(const ShapeDescription& shape) {
+  if (const auto* mesh = std::get_if<MeshShape>(&shape.geometry)) return mesh->scale;
+  if (const auto* sheet = std::get_if<MeshSheetShape>(&shape.geometry)) return sheet->scale;
+  return 1;
 }
 
 BuiltBody readBody(const FluidBodyShape& shape, const ShapeBuildSettings& settings) {
@@ -48,6 +46,18 @@ BuiltBody readBody(const FluidBodyShape& shape, const ShapeBuildSettings& settin
 }
 
 }  // namespace
+
+Provenance describeShape(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
+  const std::filesystem::path file = fileOf(shape);
+  ShapeBuildSettings effective = settings;
+  effective.scale *= ownScale(shape);
+  Provenance provenance;
+  provenance.source = file.empty() ? shape.text : file.filename().string();
+  provenance.source_hash = fnv1a64(file.empty() ? shape.text : readBytes(file));
+  provenance.settings = settingsText(effective, isSheet(shape));
+  provenance.generator = libraryVersion();
+  return provenance;
+}
 
 BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
   if (!std::isfinite(settings.scale) || settings.scale <= 0) {
@@ -80,7 +90,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   build.least_faces = settings.least_faces;
   build.max_panels = settings.max_panels;
   build.threads = settings.threads;
-  build.provenance = provenanceOf(shape, settings);
+  build.provenance = describeShape(shape, settings);
   return {makeFluidBody(checked.mesh, build), checked.warnings};
 }
 

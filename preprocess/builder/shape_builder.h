@@ -32,4 +32,10 @@ struct BuiltBody {
 /// can be neither moved nor scaled here.
 BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& settings);
 
+/// The provenance that buildShape() gives its result: the same provenance means the same result.
+/// Reads the shape's file, if it has one.
+/// @pre the shape is not a FluidBodyShape
+/// @throws std::runtime_error if the file cannot be read.
+Provenance describeShape(const ShapeDescription& shape, const ShapeBuildSettings& settings);
+
 }  // namespace ambient

@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/command_line/blocked_signals.h"
 #include "preprocess/command_line/commands.h"
@@ -21,11 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isJsonFile(const fs::path& file) {
+bool hasExtension(const fs::path& file, const std::string& wanted) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".json";
+  return extension == wanted;
 }
 
 std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
@@ -45,7 +46,7 @@ std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
 
 ShapeDescription describeInput(const BuildArguments& arguments) {
   const fs::path input = arguments.input;
-  if (!isJsonFile(input)) {
+  if (!hasExtension(input, ".json")) {
     ShapeDescription mesh;
     if (arguments.sheet) {
       mesh.geometry = MeshSheetShape{input, 1};
@@ -78,7 +79,7 @@ void requireWritablePlace(const fs::path& output, const fs::path& input) {
   }
 }
 
-BuiltBody build(const ShapeDescription& shape, const BuildArguments& arguments) {
+ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   ShapeBuildSettings settings;
   settings.name = fs::path(arguments.input).stem().string();
   settings.origin = parseOrigin(arguments.origin);
@@ -86,28 +87,47 @@ BuiltBody build(const ShapeDescription& shape, const BuildArguments& arguments) 
   settings.least_faces = arguments.least_faces;
   settings.max_panels = arguments.panels;
   settings.threads = arguments.threads;
-  const ElapsedDisplay display("building " + settings.name);
-  return buildShape(shape, settings);
+  return settings;
+}
+
+FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings& settings,
+                        const fs::path& output) {
+  BuiltBody built;
+  {
+    const ElapsedDisplay display("building " + settings.name);
+    built = buildShape(shape, settings);
+  }
+  for (const std::string& warning : built.warnings) std::cerr << "warning: " << warning << "\n";
+  const BlockedSignals until_renamed;
+  writeFluidBody(built.body, output);
+  return built.body;
 }
 
 }  // namespace
 
-void runBuild(const BuildArguments& arguments) {
+int runBuild(const BuildArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   if (arguments.threads < 0) {
     raiseInputError("--threads", arguments.threads, " is below 0 (0: all cores)");
   }
+  if (hasExtension(arguments.input, ".bullet")) return runWorldBuild(arguments);
+  if (arguments.no_margins) raiseInputError("--no-margins", "only worlds have margins");
   const ShapeDescription shape = describeInput(arguments);
+  const ShapeBuildSettings settings = settingsOf(arguments);
   requireWritablePlace(arguments.output, arguments.input);
-  const BuiltBody built = build(shape, arguments);
-  for (const std::string& warning : built.warnings) std::cerr << "warning: " << warning << "\n";
-  {
-    const BlockedSignals until_renamed;
-    writeFluidBody(built.body, arguments.output);
+  std::optional<FluidBody> body;
+  if (!arguments.rebuild) {
+    body = readIfSame(arguments.output, settings.name, describeShape(shape, settings));
   }
+  const bool is_reused = body.has_value();
+  if (!body) body = buildAndWrite(shape, settings, arguments.output);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  std::cout << (arguments.json ? reportJson(built.body, seconds.count())
-                               : reportTable(built.body, arguments.output));
+  if (is_reused && !arguments.json) {
+    std::cerr << arguments.output << ": nothing has changed since it was built\n";
+  }
+  std::cout << (arguments.json ? reportJson(*body, seconds.count())
+                               : reportTable(*body, arguments.output));
+  return 0;
 }
 
 }  // namespace ambient

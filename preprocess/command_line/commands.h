@@ -17,6 +17,8 @@ struct BuildArguments {
   int least_faces = 0;                      ///< the mesh is divided into at least so many
   int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
   int threads = 0;                          ///< 0: all cores
+  bool no_margins = false;                  ///< of a world: hulls and cones without their margins
+  bool rebuild = false;                     ///< also where nothing has changed
   bool json = false;
 };
 
@@ -41,7 +43,10 @@ struct LoadsArguments {
 /// standard error.
 /// @throws std::runtime_error in one line that names the file or the option, the value and the
 /// limit.
-void runBuild(const BuildArguments& arguments);
+/// @returns the exit status, where bad input need not be the end.
+int runBuild(const BuildArguments& arguments);
+/// build of a .bullet file into a folder; 1 if a shape failed.
+int runWorldBuild(const BuildArguments& arguments);
 void runInspect(const InspectArguments& arguments);
 void runLoads(const LoadsArguments& arguments);
 

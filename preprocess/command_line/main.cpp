@@ -13,10 +13,13 @@ constexpr int kBadUsage = 2;
 CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
   CLI::App* build = app.add_subcommand("build", "Makes an .ambient file from a mesh or a shape");
   build
-      ->add_option("INPUT", arguments.input,
-                   "A mesh (OBJ, STL, PLY, glTF, ...) or a JSON file with a shape")
+      ->add_option(
+          "INPUT", arguments.input,
+          "A mesh (OBJ, STL, PLY, glTF, ...), a JSON file with a shape, or a .bullet world")
       ->required();
-  build->add_option("-o,--output", arguments.output, "The .ambient file to write")
+  build
+      ->add_option("-o,--output", arguments.output,
+                   "The .ambient file to write, of a world: the folder for them")
       ->required()
       ->type_name("OUT.ambient");
   build->add_option("--scale", arguments.scale, "Multiplies all lengths (default 1)")
@@ -36,6 +39,9 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
                    "0: the triangles of the mesh)")
       ->type_name("N");
   build->add_option("--threads", arguments.threads, "0: all cores (default)")->type_name("N");
+  build->add_flag("--no-margins", arguments.no_margins,
+                  "Worlds: convex hulls and cones without their margins");
+  build->add_flag("--rebuild", arguments.rebuild, "Build also where nothing has changed");
   build->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
   return build;
 }
@@ -89,7 +95,7 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kBadUsage;
   }
   try {
-    if (build->parsed()) runBuild(build_arguments);
+    if (build->parsed()) return runBuild(build_arguments);
     if (inspect->parsed()) runInspect(inspect_arguments);
     if (loads->parsed()) runLoads(loads_arguments);
   } catch (const std::exception& error) {

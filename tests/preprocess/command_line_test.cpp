@@ -141,7 +141,7 @@ TEST_F(CommandLine, BuildOptionsScaleShiftAndLimitThreads) {
   EXPECT_EQ(shifted["origin"], json({-1.0, 0.5, 0.0}));
   EXPECT_NEAR(shifted["centre_of_volume"][0].get<double>(), 1, 1e-6);
   EXPECT_EQ(with({"--origin", "centre-of-volume"})["origin"], plain["origin"]);
-  EXPECT_EQ(with({"--threads", "1"})["added_mass"], plain["added_mass"]);
+  EXPECT_EQ(with({"--threads", "1", "--rebuild"})["added_mass"], plain["added_mass"]);
 }
 
 TEST_F(CommandLine, SheetsAreBuiltFromOpenMeshes) {
@@ -184,6 +184,19 @@ TEST_F(CommandLine, InterruptedBuildsLeaveNothing) {
     EXPECT_EQ(result.exit_code, -1);
     EXPECT_EQ(fileCount(), 1u);
   }
+}
+
+TEST_F(CommandLine, BuildKeepsAFileThatIsStillRight) {
+  const std::string input = write("ball.json", sphereText());
+  const Arguments arguments{"build", input, "-o", path("ball.ambient"), "--json"};
+  json built = resultOf(arguments);
+  const auto time = std::filesystem::last_write_time(path("ball.ambient"));
+  json kept = resultOf(arguments);
+  EXPECT_EQ(std::filesystem::last_write_time(path("ball.ambient")), time);
+  kept["seconds"] = built["seconds"];
+  EXPECT_EQ(kept, built);
+  write("ball.json", R"({"type":"sphere","radius":0.6,"faces":320})");
+  EXPECT_GT(resultOf(arguments)["volume"].get<double>(), 1.5 * built["volume"].get<double>());
 }
 
 TEST_F(CommandLine, LoadsAreThoseOfTheForceModel) {

@@ -1,0 +1,27 @@
+#include "preprocess/builder/reuse.h"
+
+#include <stdexcept>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+
+namespace ambient {
+
+std::optional<FluidBody> readIfSame(const std::filesystem::path& file, const std::string& name,
+                                    const Provenance& provenance) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  try {
+    FluidBody body = readFluidBody(file);
+    const Provenance& found = body.provenance;
+    const bool is_same = body.name == name && found.source == provenance.source &&
+                         found.source_hash == provenance.source_hash &&
+                         found.settings == provenance.settings &&
+                         found.generator == provenance.generator;
+    if (is_same) return body;
+  } catch (const std::runtime_error&) {
+    // A damaged or foreign file is as good as none.
+  }
+  return std::nullopt;
+}
+
+}  // namespace ambient

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "preprocess/builder/fluid_body_builder.h"
+
+namespace ambient {
+
+/// How the fluid bodies of a world are made.
+struct WorldBuildSettings {
+  bool margins = true;              ///< as in CollisionShapeSettings
+  int max_panels = kDefaultPanels;  ///< as in BuildSettings
+  int threads = 0;                  ///< 0: all cores
+  bool reuse = true;  ///< keep a file that was made from the same geometry and settings
+};
+
+/// What became of one shape.
+struct WorldShapeResult {
+  enum class Status { kBuilt, kKept, kFailed };
+
+  std::string name;
+  std::vector<std::string> bodies;
+  std::filesystem::path file;  ///< the .ambient file
+  Status status = Status::kFailed;
+  std::string message;  ///< why it failed
+  double seconds = 0;
+  std::size_t faces = 0;
+  double volume = 0;  ///< [m^3]
+};
+
+/// What became of a world.
+struct WorldBuild {
+  std::vector<WorldShapeResult> shapes;
+  int lost_bodies = 0;  ///< whose shape Bullet's importer does not know
+};
+
+/// Makes `folder`/<name>.ambient of every distinct collision shape of a dynamic body in a .bullet
+/// file. A shape that fails does not stop the others and leaves its file as it was. `onBegin` is
+/// called with the name of each shape before its turn.
+/// @throws std::runtime_error in one line that names the file, if it cannot be read.
+WorldBuild buildWorld(const std::filesystem::path& file, const std::filesystem::path& folder,
+                      const WorldBuildSettings& settings,
+                      const std::function<void(const std::string&)>& onBegin);
+
+}  // namespace ambient

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/bullet/precision_check.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// A collision shape of a world and the dynamic bodies that have it.
+struct WorldShape {
+  std::string name;  ///< unique in the file, fit for a file name
+  const btCollisionShape* shape = nullptr;
+  std::vector<std::string> bodies;  ///< names; "body <number>" for those without
+};
+
+/// The content of a .bullet file, as btDynamicsWorld::serialize() writes it, in either precision.
+class WorldFile {
+ public:
+  /// The file's structure is followed without further checks, as Bullet does: read files that you
+  /// trust.
+  /// @throws std::runtime_error in one line that names the file, if it cannot be read, is not a
+  /// .bullet file, or Bullet refuses it.
+  explicit WorldFile(const std::filesystem::path& file);
+  ~WorldFile();
+  WorldFile(const WorldFile&) = delete;
+  WorldFile& operator=(const WorldFile&) = delete;
+
+  /// Every distinct shape of a body with mass, in the order of the bodies. A shape is named after
+  /// its body if there is one only, else after itself, else after its first body.
+  const std::vector<WorldShape>& dynamicShapes() const { return shapes_; }
+
+  /// Bodies that Bullet's importer left out because it does not know their shape.
+  int lostBodies() const { return lost_bodies_; }
+
+ private:
+  struct Importer;
+  std::unique_ptr<Importer> importer_;
+  std::vector<WorldShape> shapes_;
+  int lost_bodies_ = 0;
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "preprocess/builder/elapsed_display.h"
+#include "preprocess/bullet_world/world_builder.h"
+#include "preprocess/command_line/commands.h"
+#include "preprocess/command_line/json_numbers.h"
+#include "preprocess/mesh/input_error.h"
+
+namespace ambient {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using Status = WorldShapeResult::Status;
+
+void requireWorldOptions(const BuildArguments& arguments) {
+  const auto refuse = [](const char* option) {
+    raiseInputError(option, "has no meaning for a world: its shapes keep frame and size");
+  };
+  if (arguments.scale != 1) refuse("--scale");
+  if (arguments.origin != "centre-of-volume") refuse("--origin");
+  if (arguments.sheet) refuse("--sheet");
+  if (arguments.least_faces != 0) refuse("--least-faces");
+  if (arguments.panels < 0) {
+    raiseInputError("--panels", arguments.panels, " is below 0 (0: no division)");
+  }
+}
+
+fs::path folderFor(const std::string& output) {
+  std::error_code error;
+  if (fs::exists(output, error) && !fs::is_directory(output, error)) {
+    raiseInputError(output, "is a file; the output of a world is a folder");
+  }
+  fs::create_directories(output, error);
+  if (error) raiseInputError(output, "the folder cannot be made: ", error.message());
+  return output;
+}
+
+const char* wordFor(Status status) {
+  if (status == Status::kFailed) return "failed";
+  return status == Status::kKept ? "kept" : "built";
+}
+
+ordered_json shapeJson(const WorldShapeResult& shape) {
+  ordered_json report{{"name", shape.name},
+                      {"file", shape.file.string()},
+                      {"status", wordFor(shape.status)},
+                      {"bodies", shape.bodies},
+                      {"seconds", shape.seconds}};
+  if (shape.status == Status::kFailed) {
+    report["message"] = shape.message;
+  } else {
+    report["faces"] = shape.faces;
+    report["volume"] = shape.volume;
+  }
+  return report;
+}
+
+std::string worldJson(const WorldBuild& built, int failed) {
+  ordered_json shapes = ordered_json::array();
+  for (const WorldShapeResult& shape : built.shapes) shapes.push_back(shapeJson(shape));
+  return jsonText({{"shapes", shapes}, {"failed", failed}, {"lost_bodies", built.lost_bodies}});
+}
+
+std::string worldTable(const WorldBuild& built) {
+  std::size_t width = 5;
+  for (const WorldShapeResult& shape : built.shapes) width = std::max(width, shape.name.size());
+  const auto name = [width](std::string text) {
+    text.resize(width, ' ');
+    return text;
+  };
+  std::string text = name("shape") + "  bodies  result   faces    volume [m^3]  time [s]\n";
+  for (const WorldShapeResult& shape : built.shapes) {
+    char row[96];
+    std::snprintf(row, sizeof row, "  %6zu  %-6s  %6zu  %14.6g  %8.2f\n", shape.bodies.size(),
+                  wordFor(shape.status), shape.faces, shape.volume, shape.seconds);
+    text += name(shape.name) + row;
+  }
+  return text;
+}
+
+}  // namespace
+
+int runWorldBuild(const BuildArguments& arguments) {
+  requireWorldOptions(arguments);
+  WorldBuildSettings settings;
+  settings.margins = !arguments.no_margins;
+  settings.max_panels = arguments.panels;
+  settings.threads = arguments.threads;
+  settings.reuse = !arguments.rebuild;
+  std::error_code error;
+  if (!fs::is_regular_file(arguments.input, error))
+    raiseInputError(arguments.input, "no such file");
+  const fs::path folder = folderFor(arguments.output);
+  WorldBuild built;
+  {
+    std::unique_ptr<ElapsedDisplay> display;
+    built = buildWorld(arguments.input, folder, settings, [&](const std::string& shape) {
+      display.reset();
+      display = std::make_unique<ElapsedDisplay>("building " + shape);
+    });
+  }
+  int failed = 0;
+  for (const WorldShapeResult& shape : built.shapes) {
+    if (shape.status != Status::kFailed) continue;
+    ++failed;
+    std::cerr << arguments.input << ": " << shape.message << "\n";
+  }
+  if (built.lost_bodies > 0) {
+    std::cerr << arguments.input << ": " << built.lost_bodies
+              << " bodies were left out: Bullet's importer does not know their shape\n";
+  }
+  if (built.shapes.empty()) {
+    std::cerr << "warning: " << arguments.input << ": no body has mass\n";
+  }
+  std::cout << (arguments.json ? worldJson(built, failed) : worldTable(built));
+  return failed > 0 || built.lost_bodies > 0 ? 1 : 0;
+}
+
+}  // namespace ambient

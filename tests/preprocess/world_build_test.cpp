@@ -1,0 +1,186 @@
+#include <btBulletDynamicsCommon.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "tests/demos/temporary_folder.h"
+#include "tests/preprocess/run_program.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+/// A Bullet world that is only filled and saved.
+class SavedWorld {
+ public:
+  btRigidBody& add(btCollisionShape& shape, btScalar mass, const char* name) {
+    bodies_.push_back(std::make_unique<btRigidBody>(mass, nullptr, &shape, btVector3(1, 1, 1)));
+    world_.addRigidBody(bodies_.back().get());
+    if (name != nullptr) serializer_.registerNameForPointer(bodies_.back().get(), name);
+    return *bodies_.back();
+  }
+
+  void name(const btCollisionShape& shape, const char* name) {
+    serializer_.registerNameForPointer(&shape, name);
+  }
+
+  void save(const std::filesystem::path& file) {
+    world_.serialize(&serializer_);
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(serializer_.getBufferPointer()),
+               serializer_.getCurrentBufferSize());
+  }
+
+  ~SavedWorld() {
+    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
+  }
+
+ private:
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  btDefaultSerializer serializer_;
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+};
+
+class WorldBuild : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  static ProgramResult run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "build");
+    return runProgram(AMBIENT_PREPROCESS, arguments);
+  }
+
+  ProgramResult build(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{path("w.bullet"), "-o",  path("out"),
+                                       "--panels",       "500", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+
+  static json shapeOf(const ProgramResult& result, const std::string& name) {
+    const json report = json::parse(result.output);
+    for (const json& shape : report["shapes"]) {
+      if (shape["name"] == name) return shape;
+    }
+    return {};
+  }
+
+  TemporaryFolder folder_;
+};
+
+void saveGoodWorld(const std::string& file) {
+  btBoxShape crate(btVector3(btScalar(0.5), btScalar(0.25), 1));
+  btSphereShape ball(btScalar(0.5));
+  btCapsuleShape pill(btScalar(0.25), 1);
+  btStaticPlaneShape ground(btVector3(0, 1, 0), 0);
+  SavedWorld world;
+  world.add(ground, 0, "ground");
+  world.add(crate, 2, "crate 1");
+  world.add(crate, 3, "crate 2");
+  world.name(crate, "crate");
+  world.add(ball, 1, "../ball");
+  world.add(pill, 1, nullptr);
+  world.save(file);
+}
+
+TEST_F(WorldBuild, EveryShapeOfADynamicBodyGetsItsFile) {
+  saveGoodWorld(path("w.bullet"));
+  const ProgramResult result = build();
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.errors, "");
+  ASSERT_EQ(json::parse(result.output)["shapes"].size(), 3u) << result.output;
+  EXPECT_EQ(shapeOf(result, "crate")["bodies"], json({"crate 1", "crate 2"}));
+  EXPECT_EQ(shapeOf(result, "crate")["status"], "built");
+  EXPECT_NEAR(readFluidBody(path("out/crate.ambient")).volume, 1, 1e-6);
+  const FluidBody ball = readFluidBody(path("out/_._ball.ambient"));
+  EXPECT_NEAR(ball.volume, std::acos(-1.0) / 6, 1e-12);
+  EXPECT_NEAR(ball.added_mass(4, 4), ball.volume / 2, 1e-12);
+  EXPECT_TRUE(std::filesystem::exists(path("out/body_4.ambient"))) << result.output;
+}
+
+TEST_F(WorldBuild, FilesAreKeptUntilSomethingChanges) {
+  saveGoodWorld(path("w.bullet"));
+  const auto statusOf = [&](const ProgramResult& result, const char* name) {
+    return shapeOf(result, name)["status"].get<std::string>();
+  };
+  build();
+  const auto time = std::filesystem::last_write_time(path("out/crate.ambient"));
+  const ProgramResult again = build();
+  EXPECT_EQ(statusOf(again, "crate"), "kept");
+  EXPECT_EQ(std::filesystem::last_write_time(path("out/crate.ambient")), time);
+  EXPECT_EQ(statusOf(build({"--rebuild"}), "crate"), "built");
+  EXPECT_EQ(statusOf(build({"--no-margins"}), "crate"), "built");
+  build();
+  std::ofstream(path("out/_._ball.ambient")) << "damaged";
+  btBoxShape crate(btVector3(btScalar(0.5), btScalar(0.25), btScalar(1.01)));
+  btSphereShape ball(btScalar(0.5));
+  {
+    SavedWorld other;
+    other.add(crate, 2, "crate");
+    other.add(ball, 1, "../ball");
+    other.save(path("w.bullet"));
+  }
+  const ProgramResult changed = build();
+  EXPECT_EQ(statusOf(changed, "crate"), "built");
+  EXPECT_EQ(statusOf(changed, "_._ball"), "built");
+  EXPECT_NEAR(readFluidBody(path("out/crate.ambient")).volume, 1.01, 1e-6);
+}
+
+TEST_F(WorldBuild, OneBadShapeDoesNotStopTheOthers) {
+  btBoxShape box(btVector3(1, 1, 1));
+  btCompoundShape overlap;
+  overlap.addChildShape(btTransform::getIdentity(), &box);
+  overlap.addChildShape(btTransform(btQuaternion::getIdentity(), btVector3(btScalar(0.5), 0, 0)),
+                        &box);
+  {
+    SavedWorld world;
+    world.add(overlap, 1, "clump");
+    world.add(box, 1, "box");
+    world.save(path("w.bullet"));
+  }
+  const ProgramResult result = build();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.errors.find(path("w.bullet") + ": clump: parts 0 and 1 of the compound shape"),
+            0u)
+      << result.errors;
+  EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1);
+  EXPECT_EQ(shapeOf(result, "clump")["status"], "failed");
+  EXPECT_EQ(shapeOf(result, "box")["status"], "built");
+  EXPECT_FALSE(std::filesystem::exists(path("out/clump.ambient")));
+}
+
+TEST_F(WorldBuild, TableHasOneRowPerShape) {
+  saveGoodWorld(path("w.bullet"));
+  const ProgramResult result = run({path("w.bullet"), "-o", path("out"), "--panels", "0"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 4) << result.output;
+  EXPECT_NE(result.output.find("\ncrate         2  built "), std::string::npos) << result.output;
+}
+
+TEST_F(WorldBuild, OtherFilesAndOptionsAreRefused) {
+  std::ofstream(path("w.bullet")) << "this is no world at all";
+  EXPECT_EQ(build().errors, "ambient_preprocess: " + path("w.bullet") +
+                                ": is not a .bullet file: it does not begin with BULLET\n");
+  EXPECT_EQ(build().exit_code, 1);
+  EXPECT_EQ(build({"--scale", "2"}).errors,
+            "ambient_preprocess: --scale: has no meaning for a world: its shapes keep frame and "
+            "size\n");
+  EXPECT_EQ(run({path("no.bullet"), "-o", path("x")}).errors,
+            "ambient_preprocess: " + path("no.bullet") + ": no such file\n");
+  EXPECT_FALSE(std::filesystem::exists(path("x")));
+}
+
+}  // namespace
+}  // namespace ambient
