@@ -115,5 +115,77 @@ TEST(Sleeping, EndsWhenABodyIsAttached) {
   EXPECT_TRUE(body.isActive());
 }
 
+TEST(Sleeping, EndsWhenACurrentSetsIn) {
+  FluidWorld fluid;
+  fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+  BodyDef def;
+  const FluidBody shape = meshedEllipsoid(kSemiAxes, 2);
+  def.mass = 1000 * shape.volume;
+  def.moments = ellipsoidMoments(kSemiAxes, def.mass);
+  btRigidBody& body = fluid.add(def, shape, stillWater());
+  body.forceActivationState(ACTIVE_TAG);
+  fluid.step(1.0 / 60, 300);
+  ASSERT_FALSE(body.isActive());
+  Medium current = stillWater();
+  current.velocity = Vector3(0.5, 0, 0);
+  fluid.registry.setMedium(body, current);
+  fluid.step(1.0 / 60, 300);
+  EXPECT_TRUE(body.isActive());
+  EXPECT_GT(static_cast<double>(body.getLinearVelocity().x()), 0.25);
+}
+
+// A box on the floor that a ball comes to hit.
+struct Floor {
+  FluidWorld fluid;
+  btBoxShape ground{btVector3(20, 20, 1)};
+  btBoxShape cube{btVector3(static_cast<btScalar>(0.3), static_cast<btScalar>(0.3),
+                            static_cast<btScalar>(0.3))};
+  btSphereShape sphere{static_cast<btScalar>(0.2)};
+  btRigidBody* box = nullptr;
+  btRigidBody* ball = nullptr;
+
+  explicit Floor(bool in_water) {
+    fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+    BodyDef def{0, Vector3::Zero(), {}, &ground};
+    def.start.position = {0, 0, -1};
+    fluid.add(def);
+    def = {400, Vector3::Constant(400 * 0.06), {}, &cube};
+    def.start.position = {0, 0, 0.3};
+    box = &fluid.add(def);
+    if (in_water) {
+      AttachDef attach;
+      attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Constant(0.3), 1));
+      attach.medium = stillWater();
+      attach.fluid_frame.translation = Vector3(0.02, 0.01, 0);
+      fluid.registry.attach(*box, attach);
+    }
+    box->forceActivationState(ACTIVE_TAG);
+    def = {5, Vector3::Constant(0.1), {}, &sphere};
+    def.start.position = {-12, 0, 0.3};
+    def.start.twist.linear = {3, 0, 0};
+    ball = &fluid.add(def);
+    ball->setGravity({0, 0, 0});
+  }
+  // Steps until the box is awake or not, 1000 at most.
+  int stepsUntil(bool is_awake) {
+    for (int i = 0; i < 1000; ++i) {
+      if (box->isActive() == is_awake) return i;
+      fluid.step(1.0 / 60);
+    }
+    return 1000;
+  }
+};
+
+TEST(Sleeping, ComesAndGoesInStillWaterAsInStockBullet) {
+  Floor dry(false), wet(true);
+  const int slept = dry.stepsUntil(false);
+  EXPECT_GT(slept, 100);
+  EXPECT_EQ(wet.stepsUntil(false), slept);
+  const int woken = dry.stepsUntil(true);
+  EXPECT_GT(woken, 10);
+  EXPECT_LT(woken, 1000);
+  EXPECT_EQ(wet.stepsUntil(true), woken);
+}
+
 }  // namespace
 }  // namespace ambient::test
