@@ -42,8 +42,9 @@ class ContactPair {
   /// Attaches what is ambient and solves once with a new solver. False if a complementarity solver
   /// gave up and handed over to sequential impulses, or, where the settings ask for a residual, if
   /// iterations have not reached it.
+  /// With a joint, the bodies do not touch.
   template <class Kind>
-  bool solve(const btContactSolverInfo& info) {
+  bool solve(const btContactSolverInfo& info, btTypedConstraint* joint = nullptr) {
     AmbientRegistry registry;
     a_.attachTo(registry);
     b_.attachTo(registry);
@@ -51,7 +52,11 @@ class ContactPair {
     SolverTask task;
     task.bodies.push_back(&a_.body());
     if (!b_.isFixed()) task.bodies.push_back(&b_.body());
-    task.manifolds.push_back(&manifold_);
+    if (joint) {
+      task.joints.push_back(joint);
+    } else {
+      task.manifolds.push_back(&manifold_);
+    }
     task.info = info;
     solveOnce(ambient.solver, task);
     return hasFinished(ambient.solver, info);

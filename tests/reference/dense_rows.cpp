@@ -25,7 +25,13 @@ class DenseSystem {
     }
   }
 
+  // Begins with the rows that only push or only pull at rest: two of them may say the same, as of
+  // the two ends of a range, and must not be solved at once.
   DenseSolution solve() {
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      if (rows_[r].lower == 0 && rows_[r].upper > 0) bounds_[r] = Bound::kLower;
+      if (rows_[r].upper == 0 && rows_[r].lower < 0) bounds_[r] = Bound::kUpper;
+    }
     for (int visit = 0; visit < 2000; ++visit) {
       const Vector solution = solveForBounds();
       const int violated = firstViolation(solution);
