@@ -16,8 +16,8 @@ namespace ambient {
 enum class FluidModel {
   kAmbient,  ///< this library
   kVacuum,   ///< stock Bullet
-  kUwrbd,    ///< linear drag, Weissmann and Pinkall 2012
-  kGwtf,     ///< momentum flux on windward faces, a stand-in for Soliman et al. 2024
+  kUwrbd,    ///< LinearDrag, Weissmann and Pinkall 2012
+  kGwtf,     ///< WindwardFlux, a stand-in for Soliman et al. 2024
 };
 
 /// The scene file's word for a model.
@@ -54,6 +54,7 @@ struct Scene {
   Vector3 gravity{0, 0, -9.81};  ///< [m/s^2]
   Medium medium = air();
   FluidModel model = FluidModel::kAmbient;
+  double linear_drag_speed = 1;  ///< of FluidModel::kUwrbd [m/s]
   FlightSettings flight;
   int threads = 0;  ///< of the preprocessing; 0: all cores
   std::vector<BodyDef> bodies;

@@ -69,9 +69,7 @@ void checkSettings(const Scene& scene) {
   integrator.require(scene.flight.max_substeps >= 0, "max_substeps", scene.flight.max_substeps,
                      ">= 0");
   const Checker top(scene, "");
-  top.require(scene.model == FluidModel::kAmbient || scene.model == FluidModel::kVacuum,
-              "model \"" + modelName(scene.model) +
-                  "\" is known but not part of this version; must be ambient or vacuum");
+  top.require(scene.linear_drag_speed > 0, "linear_drag_speed", scene.linear_drag_speed, "> 0 m/s");
   top.require(scene.threads >= 0, "threads", scene.threads, ">= 0");
 }
 

@@ -105,6 +105,7 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   scene.gravity = vectorOr(from, "gravity", scene.gravity);
   scene.medium = toMedium(from);
   scene.model = toModel(from.value("model", "ambient"));
+  scene.linear_drag_speed = from.value("linear_drag_speed", scene.linear_drag_speed);
   scene.flight = toFlightSettings(from);
   scene.threads = from.value("threads", 0);
   for (const json& body : from.at("bodies"))

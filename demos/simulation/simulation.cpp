@@ -9,6 +9,8 @@
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
+#include "demos/rivals/linear_drag.h"
+#include "demos/rivals/windward_flux.h"
 #include "demos/simulation/collision_shape.h"
 #include "demos/simulation/principal_frame.h"
 
@@ -63,6 +65,14 @@ WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
   return made;
 }
 
+/// The loads of a rival model; null for this library's own.
+std::shared_ptr<const SurfaceLoadModel> makeLoadModel(const Scene& scene) {
+  if (scene.model == FluidModel::kUwrbd)
+    return std::make_shared<LinearDrag>(scene.linear_drag_speed);
+  if (scene.model == FluidModel::kGwtf) return std::make_shared<WindwardFlux>();
+  return nullptr;
+}
+
 AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBody& prepared,
                         const Matrix3& R_SB) {
   AttachDef attach;
@@ -70,6 +80,7 @@ AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBo
   attach.medium = scene.medium;
   if (def.fluid_density) attach.medium.density = *def.fluid_density;
   attach.flow = def.flow;
+  attach.flow.model = makeLoadModel(scene);
   attach.flight = scene.flight;
   attach.fluid_frame.rotation = R_SB.transpose();
   attach.fluid_frame.translation =
@@ -115,7 +126,7 @@ void Simulation::World::add(const Scene& scene, const BodyDef& def, const Prepar
   bodies.push_back(makeWorldBody(def, prepared));
   WorldBody& added = bodies.back();
   world.addRigidBody(added.body.get());
-  if (scene.model != FluidModel::kAmbient || prepared.mass == 0 || !prepared.fluid_body) return;
+  if (scene.model == FluidModel::kVacuum || prepared.mass == 0 || !prepared.fluid_body) return;
   try {
     registry.attach(world, *added.body, makeAttachDef(scene, def, prepared, added.R_SB));
   } catch (const std::invalid_argument& error) {

@@ -103,8 +103,9 @@ TEST(AmbientDemo, StopsWithoutATraceWhenAStateIsNotFinite) {
                 "body \"ball\": its state is not finite at t = 0.01 s");
 }
 
-TEST(AmbientDemo, RefusesAModelThatItDoesNotHave) {
-  expectRefusal(smallBall(), "--set model=gwtf", "model \"gwtf\"");
+TEST(AmbientDemo, RefusesALinearDragThatIsNotPositive) {
+  expectRefusal(smallBall(), "--set model=uwrbd --set linear_drag_speed=0",
+                "linear_drag_speed is 0; must be > 0 m/s");
 }
 
 TEST(AmbientDemo, RefusesAnUnknownScene) {
