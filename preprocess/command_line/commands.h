@@ -39,6 +39,27 @@ struct LoadsArguments {
   bool json = false;
 };
 
+/// ambient_preprocess polar
+struct PolarArguments {
+  std::string file;
+  std::string attack = "-90:90:5";  ///< an angle or FROM:TO:STEP [degrees]
+  std::string side_slip = "0";
+  std::string forward = "x", up = "z";           ///< axes of F, with a sign
+  double density = 1;                            ///< [kg/m^3]; matters with viscosity only
+  double speed = 1;                              ///< [m/s]; the same
+  double viscosity = 0;                          ///< [Pa s]
+  double separation_angle = 1.5707963267948966;  ///< from pi/2 to pi [rad]
+  double reference_area = 0;                     ///< [m^2]; 0: seen along `up`
+  double reference_length = 0;                   ///< [m]; 0: extent along `forward`
+};
+
+/// ambient_preprocess compare
+struct CompareArguments {
+  std::string first, second;
+  double tolerance = 1e-6;  ///< relative
+  bool json = false;
+};
+
 /// Each of these does one command, with its result on standard output, messages and progress on
 /// standard error.
 /// @throws std::runtime_error in one line that names the file or the option, the value and the
@@ -49,5 +70,8 @@ int runBuild(const BuildArguments& arguments);
 int runWorldBuild(const BuildArguments& arguments);
 void runInspect(const InspectArguments& arguments);
 void runLoads(const LoadsArguments& arguments);
+void runPolar(const PolarArguments& arguments);
+/// 1 if the files differ beyond the tolerance.
+int runCompare(const CompareArguments& arguments);
 
 }  // namespace ambient

@@ -1,7 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
+#include "preprocess/command_line/closest_word.h"
 #include "preprocess/command_line/commands.h"
 
 namespace ambient {
@@ -78,6 +82,54 @@ CLI::App* addLoads(CLI::App& app, LoadsArguments& arguments) {
   return loads;
 }
 
+CLI::App* addPolar(CLI::App& app, PolarArguments& arguments) {
+  CLI::App* polar = app.add_subcommand(
+      "polar", "Coefficients of lift, drag and moment against the angles of the flow, as CSV");
+  const auto option = [&](const char* name, auto& value, const char* text, const char* type) {
+    polar->add_option(name, value, text)->type_name(type);
+  };
+  polar->add_option("FILE", arguments.file, "An .ambient file")->required();
+  option("--attack", arguments.attack, "Angle of attack in degrees (default -90:90:5)",
+         "FROM:TO:STEP");
+  option("--side-slip", arguments.side_slip, "Angle of side-slip in degrees (default 0)",
+         "FROM:TO:STEP");
+  option("--forward", arguments.forward, "The body's forward axis (default x)", "AXIS");
+  option("--up", arguments.up, "The body's upward axis (default z)", "AXIS");
+  option("--density", arguments.density, "Of the fluid [kg/m^3] (default 1)", "RHO");
+  option("--speed", arguments.speed, "[m/s] (default 1); matters with viscosity only", "V");
+  option("--viscosity", arguments.viscosity, "Dynamic viscosity [Pa s] (default 0: no friction)",
+         "MU");
+  option("--separation-angle", arguments.separation_angle, "From pi/2 (default) to pi", "RAD");
+  option("--reference-area", arguments.reference_area,
+         "[m^2] (default: half the area projected along --up)", "A");
+  option("--reference-length", arguments.reference_length, "[m] (default: extent along --forward)",
+         "L");
+  return polar;
+}
+
+CLI::App* addCompare(CLI::App& app, CompareArguments& arguments) {
+  CLI::App* compare =
+      app.add_subcommand("compare", "Relative differences of two .ambient files; status 1 if any");
+  compare->add_option("A", arguments.first, "An .ambient file")->required();
+  compare->add_option("B", arguments.second, "Another one")->required();
+  compare->add_option("--tolerance", arguments.tolerance, "Relative (default 1e-6)")
+      ->type_name("T");
+  compare->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
+  return compare;
+}
+
+/// A sentence about a first word that is no command, if there is one.
+std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return {};
+  const std::string closest = closestWord(word, names);
+  return "unknown command '" + word + "'" +
+         (closest.empty() ? "; --help lists them" : "; did you mean '" + closest + "'?");
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Makes, shows and evaluates .ambient files: what a fluid needs to know of a shape.",
                "ambient_preprocess");
@@ -89,6 +141,14 @@ int run(int argc, char** argv) {
   const CLI::App* build = addBuild(app, build_arguments);
   const CLI::App* inspect = addInspect(app, inspect_arguments);
   const CLI::App* loads = addLoads(app, loads_arguments);
+  PolarArguments polar_arguments;
+  CompareArguments compare_arguments;
+  const CLI::App* polar = addPolar(app, polar_arguments);
+  const CLI::App* compare = addCompare(app, compare_arguments);
+  if (const std::string message = unknownCommand(app, argc, argv); !message.empty()) {
+    std::cerr << "ambient_preprocess: " << message << "\n";
+    return kBadUsage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -98,6 +158,8 @@ int run(int argc, char** argv) {
     if (build->parsed()) return runBuild(build_arguments);
     if (inspect->parsed()) runInspect(inspect_arguments);
     if (loads->parsed()) runLoads(loads_arguments);
+    if (polar->parsed()) runPolar(polar_arguments);
+    if (compare->parsed()) return runCompare(compare_arguments);
   } catch (const std::exception& error) {
     std::cerr << "ambient_preprocess: " << error.what() << "\n";
     return kBadInput;

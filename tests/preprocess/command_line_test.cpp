@@ -272,6 +272,24 @@ TEST_F(CommandLine, BadUsageEndsWithTwo) {
   }
 }
 
+TEST_F(CommandLine, MistypedCommandsAreCorrected) {
+  EXPECT_EQ(run({"bild"}).errors,
+            "ambient_preprocess: unknown command 'bild'; did you mean 'build'?\n");
+  EXPECT_EQ(run({"inpsect", "x"}).errors,
+            "ambient_preprocess: unknown command 'inpsect'; did you mean 'inspect'?\n");
+  EXPECT_EQ(run({"something"}).errors,
+            "ambient_preprocess: unknown command 'something'; --help lists them\n");
+  EXPECT_EQ(run({"something"}).exit_code, 2);
+}
+
+TEST_F(CommandLine, NamesThatAreNotUtf8AreShownWithReplacements) {
+  resultOf({"build", write("ball.json", sphereText()), "-o", path("b.ambient"), "--json"});
+  FluidBody body = readFluidBody(path("b.ambient"));
+  body.name = "caf\xe9";
+  writeFluidBody(body, path("b.ambient"));
+  EXPECT_EQ(resultOf({"inspect", path("b.ambient"), "--json"})["name"], "caf\xef\xbf\xbd");
+}
+
 TEST_F(CommandLine, HelpAndVersionEndWithZero) {
   for (const Arguments& arguments :
        std::vector<Arguments>{{"--help"}, {"build", "--help"}, {"--version"}}) {

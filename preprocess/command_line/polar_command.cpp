@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/force/face_loads.h"
+#include "preprocess/command_line/commands.h"
+#include "preprocess/mesh/input_error.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRightAngle = kPi / 2;
+
+/// Angles [degrees] of one variable.
+struct AngleRange {
+  double from = 0, to = 0, step = 1;
+
+  int count() const { return 1 + static_cast<int>(std::floor((to - from) / step + 1e-9)); }
+  double operator[](int i) const { return from + i * step; }
+};
+
+AngleRange parseRange(const std::string& option, const std::string& text) {
+  std::istringstream stream(text);
+  AngleRange range;
+  stream >> range.from;
+  range.to = range.from;
+  char colon_1 = ':', colon_2 = ':';
+  if (!stream.eof() && stream.peek() == ':') stream >> colon_1 >> range.to >> colon_2 >> range.step;
+  const bool is_read = !stream.fail() && colon_1 == ':' && colon_2 == ':' &&
+                       (stream.eof() || stream.peek() == std::istringstream::traits_type::eof());
+  constexpr int kMostAngles = 100000;
+  if (!is_read || !std::isfinite(range.from) || !std::isfinite(range.to) || !(range.step > 0) ||
+      range.to < range.from || (range.to - range.from) / range.step > kMostAngles) {
+    raiseInputError(option, "\"", text, "\" is neither an angle nor FROM:TO:STEP in degrees, with ",
+                    "STEP above 0, TO not below FROM and at most ", kMostAngles, " angles");
+  }
+  return range;
+}
+
+/// Forward, left and up, right-handed, as columns in F.
+Matrix3 parseAxes(const std::string& forward, const std::string& up) {
+  const auto axisOf = [](const char* option, const std::string& text) {
+    const bool has_sign = text.size() == 2 && (text[0] == '-' || text[0] == '+');
+    const char letter = text.empty() ? ' ' : text.back();
+    if ((text.size() != 1 && !has_sign) || letter < 'x' || letter > 'z') {
+      raiseInputError(option, "\"", text, "\" is none of x, y, z, -x, -y, -z");
+    }
+    Vector3 axis = Vector3::Zero();
+    axis[letter - 'x'] = text[0] == '-' ? -1 : 1;
+    return axis;
+  };
+  Matrix3 axes;
+  axes.col(0) = axisOf("--forward", forward);
+  axes.col(2) = axisOf("--up", up);
+  if (axes.col(0).dot(axes.col(2)) != 0) {
+    raiseInputError("--up", up, " is along --forward ", forward);
+  }
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
+struct Reference {
+  double area = 0;
+  double length = 0;
+};
+
+/// Half the area projected along an axis, both sides counted: the silhouette of a convex body or of
+/// a flat sheet.
+double silhouetteAlong(const Vector3& axis, const FaceTable& faces) {
+  double sum = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    sum += faces.area[i] * std::abs(faces.normal(i).dot(axis));
+  }
+  return sum / 2;
+}
+
+double extentAlong(const Vector3& axis, const FluidBody& body) {
+  double low = 0, high = 0;
+  const std::vector<double>& v = body.surface.vertices;
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
+    const double along = Vector3(v[i], v[i + 1], v[i + 2]).dot(axis);
+    low = i == 0 ? along : std::min(low, along);
+    high = i == 0 ? along : std::max(high, along);
+  }
+  return high - low;
+}
+
+Reference referenceOf(const PolarArguments& arguments, const FluidBody& body, const Matrix3& axes) {
+  Reference reference;
+  reference.area = arguments.reference_area > 0 ? arguments.reference_area
+                                                : silhouetteAlong(axes.col(2), body.faces);
+  reference.length =
+      arguments.reference_length > 0 ? arguments.reference_length : extentAlong(axes.col(0), body);
+  if (!(reference.area > 0)) {
+    raiseInputError(arguments.file, "has no area seen along --up: give --reference-area");
+  }
+  if (!(reference.length > 0)) {
+    raiseInputError(arguments.file, "has no length along --forward: give --reference-length");
+  }
+  return reference;
+}
+
+LoadSettings settingsOf(const PolarArguments& arguments) {
+  const auto require = [](const char* option, double value, bool may_be_zero) {
+    if (std::isfinite(value) && (value > 0 || (may_be_zero && value == 0))) return;
+    raiseInputError(
+        option, value,
+        may_be_zero ? " must be finite and not negative" : " must be finite and positive");
+  };
+  require("--density", arguments.density, false);
+  require("--speed", arguments.speed, false);
+  require("--viscosity", arguments.viscosity, true);
+  require("--reference-area", arguments.reference_area, true);
+  require("--reference-length", arguments.reference_length, true);
+  constexpr double kDigits = 1e-6;
+  const double angle = arguments.separation_angle;
+  if (!(angle >= kRightAngle * (1 - kDigits) && angle <= kPi * (1 + kDigits))) {
+    raiseInputError("--separation-angle", angle, " rad must lie between pi/2 and pi");
+  }
+  LoadSettings settings;
+  settings.density = arguments.density;
+  settings.viscosity = arguments.viscosity;
+  settings.separation_cosine = separationCosine(std::clamp(angle, kRightAngle, kPi));
+  return settings;
+}
+
+/// C_L, C_D, C_Y, C_l, C_m, C_n at one attitude; forward, left and up axes.
+std::array<double, 6> coefficientsAt(double attack, double side_slip, const FluidBody& body,
+                                     const Matrix3& axes, const LoadSettings& settings,
+                                     const Reference& reference, double speed) {
+  const double ca = std::cos(attack), sa = std::sin(attack);
+  const double cb = std::cos(side_slip), sb = std::sin(side_slip);
+  const Vector3 motion(ca * cb, -sb, -sa * cb), lift(sa, 0, ca);
+  const Vector3 side = motion.cross(lift);  // to the right
+  const Twist twist{Vector3::Zero(), axes * motion * speed};
+  const Wrench load = computeFaceLoads(body.faces, std::sqrt(body.area), twist, settings).total();
+  const double scale = 0.5 * settings.density * speed * speed * reference.area;
+  const Vector3 force = axes.transpose() * load.force / scale;
+  const Vector3 moment = axes.transpose() * load.torque / (scale * reference.length);
+  return {force.dot(lift), -force.dot(motion), force.dot(side),
+          moment.x(),      -moment.y(),        -moment.z()};
+}
+
+}  // namespace
+
+void runPolar(const PolarArguments& arguments) {
+  const AngleRange attack = parseRange("--attack", arguments.attack);
+  const AngleRange side_slip = parseRange("--side-slip", arguments.side_slip);
+  const Matrix3 axes = parseAxes(arguments.forward, arguments.up);
+  const LoadSettings settings = settingsOf(arguments);
+  const FluidBody body = readFluidBody(arguments.file);
+  const Reference reference = referenceOf(arguments, body, axes);
+  std::fprintf(stderr, "reference area %.9g m^2, reference length %.9g m\n", reference.area,
+               reference.length);
+  std::string text = "attack,side_slip,C_L,C_D,C_Y,C_l,C_m,C_n\n";
+  for (int j = 0; j < side_slip.count(); ++j) {
+    for (int i = 0; i < attack.count(); ++i) {
+      const auto coefficients = coefficientsAt(attack[i] * kPi / 180, side_slip[j] * kPi / 180,
+                                               body, axes, settings, reference, arguments.speed);
+      char cell[40];
+      std::snprintf(cell, sizeof cell, "%.10g,%.10g", attack[i], side_slip[j]);
+      text += cell;
+      for (const double value : coefficients) {
+        std::snprintf(cell, sizeof cell, ",%.9g", value + 0.0);
+        text += cell;
+      }
+      text += "\n";
+    }
+  }
+  std::cout << text;
+}
+
+}  // namespace ambient
