@@ -45,8 +45,8 @@ Real impulseScale(const reference::DenseRow& row, const std::vector<reference::D
   return along / reference::response(bodies, row, row);
 }
 
-// Difference of the wrench that Bullet reports and that of the reference, over the largest impulse
-// of a row.
+// Difference of the wrench that Bullet reports and that of the reference, over the impulses of
+// all rows.
 double feedbackError(const btJointFeedback& feedback, const Rows& rows,
                      const std::vector<reference::DenseBody>& bodies,
                      const reference::DenseSolution& expected, Real size, Real dt) {
@@ -57,9 +57,8 @@ double feedbackError(const btJointFeedback& feedback, const Rows& rows,
   Real scale = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     wrench += expected.impulses[r] * rows[r].jacobian_a;
-    scale =
-        std::max(scale, std::max(std::abs(expected.impulses[r]), impulseScale(rows[r], bodies)) *
-                            rows[r].jacobian_a.cwiseProduct(units).norm());
+    scale += std::max(std::abs(expected.impulses[r]), impulseScale(rows[r], bodies)) *
+             rows[r].jacobian_a.cwiseProduct(units).norm();
   }
   return static_cast<double>((reported - wrench).cwiseProduct(units).norm() / scale);
 }
