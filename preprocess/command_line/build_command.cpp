@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -13,21 +11,13 @@
 #include "preprocess/command_line/blocked_signals.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
+#include "preprocess/command_line/input_shape.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/shape/shape_mesh.h"
-#include "preprocess/shape/shape_reader.h"
 
 namespace ambient {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool hasExtension(const fs::path& file, const std::string& wanted) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == wanted;
-}
 
 std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
   if (text == "centre-of-volume") return std::nullopt;
@@ -42,28 +32,6 @@ std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
                     "numbers X,Y,Z");
   }
   return origin;
-}
-
-ShapeDescription describeInput(const BuildArguments& arguments) {
-  const fs::path input = arguments.input;
-  if (!hasExtension(input, ".json")) {
-    ShapeDescription mesh;
-    if (arguments.sheet) {
-      mesh.geometry = MeshSheetShape{input, 1};
-    } else {
-      mesh.geometry = MeshShape{input, 1};
-    }
-    mesh.source = input.string();
-    return mesh;
-  }
-  ShapeDescription shape = readShapeFile(input);
-  if (std::holds_alternative<FluidBodyShape>(shape.geometry)) {
-    raiseInputError(shape.source, "a shape \"fluid_body\" is built already");
-  }
-  if (arguments.sheet && !isSheet(shape)) {
-    raiseInputError(shape.source, "--sheet needs a shape of type \"sheet\"");
-  }
-  return shape;
 }
 
 // Found out before the work, not after it.
@@ -112,7 +80,7 @@ int runBuild(const BuildArguments& arguments) {
   }
   if (hasExtension(arguments.input, ".bullet")) return runWorldBuild(arguments);
   if (arguments.no_margins) raiseInputError("--no-margins", "only worlds have margins");
-  const ShapeDescription shape = describeInput(arguments);
+  const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
   const ShapeBuildSettings settings = settingsOf(arguments);
   requireWritablePlace(arguments.output, arguments.input);
   std::optional<FluidBody> body;

@@ -60,6 +60,16 @@ struct CompareArguments {
   bool json = false;
 };
 
+/// ambient_preprocess report
+struct ReportArguments {
+  std::string input;  ///< as of build
+  double scale = 1;
+  bool sheet = false;
+  int panels = kDefaultPanels;
+  int threads = 0;
+  bool json = false;
+};
+
 /// Each of these does one command, with its result on standard output, messages and progress on
 /// standard error.
 /// @throws std::runtime_error in one line that names the file or the option, the value and the
@@ -70,6 +80,7 @@ int runBuild(const BuildArguments& arguments);
 int runWorldBuild(const BuildArguments& arguments);
 void runInspect(const InspectArguments& arguments);
 void runLoads(const LoadsArguments& arguments);
+void runReport(const ReportArguments& arguments);
 void runPolar(const PolarArguments& arguments);
 /// 1 if the files differ beyond the tolerance.
 int runCompare(const CompareArguments& arguments);

@@ -118,6 +118,19 @@ CLI::App* addCompare(CLI::App& app, CompareArguments& arguments) {
   return compare;
 }
 
+CLI::App* addReport(CLI::App& app, ReportArguments& arguments) {
+  CLI::App* report = app.add_subcommand(
+      "report", "Estimates the error of a mesh and shows its thinnest part and worst triangles");
+  report->add_option("INPUT", arguments.input, "A mesh, or a JSON file with a shape")->required();
+  report->add_option("--scale", arguments.scale, "Multiplies all lengths (default 1)")
+      ->type_name("S");
+  report->add_flag("--sheet", arguments.sheet, "The mesh is an open surface of zero thickness");
+  report->add_option("--panels", arguments.panels, "As for build (default 4200)")->type_name("N");
+  report->add_option("--threads", arguments.threads, "0: all cores (default)")->type_name("N");
+  report->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
+  return report;
+}
+
 /// A sentence about a first word that is no command, if there is one.
 std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};
@@ -143,6 +156,8 @@ int run(int argc, char** argv) {
   const CLI::App* loads = addLoads(app, loads_arguments);
   PolarArguments polar_arguments;
   CompareArguments compare_arguments;
+  ReportArguments report_arguments;
+  const CLI::App* report = addReport(app, report_arguments);
   const CLI::App* polar = addPolar(app, polar_arguments);
   const CLI::App* compare = addCompare(app, compare_arguments);
   if (const std::string message = unknownCommand(app, argc, argv); !message.empty()) {
@@ -158,6 +173,7 @@ int run(int argc, char** argv) {
     if (build->parsed()) return runBuild(build_arguments);
     if (inspect->parsed()) runInspect(inspect_arguments);
     if (loads->parsed()) runLoads(loads_arguments);
+    if (report->parsed()) runReport(report_arguments);
     if (polar->parsed()) runPolar(polar_arguments);
     if (compare->parsed()) return runCompare(compare_arguments);
   } catch (const std::exception& error) {

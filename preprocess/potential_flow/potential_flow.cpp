@@ -26,6 +26,13 @@ struct UnitFlow {
   MatrixX6 potential;  ///< V x 6
   Matrix6 inertia = Matrix6::Zero();
   double asymmetry = 0;
+  double reciprocal_condition = 0;
+};
+
+/// Jump of the potential across the surface, and how well it is determined.
+struct Jump {
+  MatrixX6 values;  ///< V x 6, 0 where there is no unknown
+  double reciprocal_condition = 0;
 };
 
 double largestAsymmetry(const Matrix6& K) {
@@ -55,9 +62,9 @@ void fillKernel(const PanelSurface& surface, const Unknowns& unknowns, Eigen::Ma
   }
 }
 
-/// Jump of the potential (V x 6, 0 where there is no unknown): W mu = -B.
-MatrixX6 solveJump(const PanelSurface& surface, const Unknowns& unknowns, const NearPanels& near,
-                   int threads) {
+/// W mu = -B.
+Jump solveJump(const PanelSurface& surface, const Unknowns& unknowns, const NearPanels& near,
+               int threads) {
   Eigen::MatrixXd W = assembleHypersingular(surface, unknowns, near, threads);
   fillKernel(surface, unknowns, W);
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(W);
@@ -68,9 +75,9 @@ MatrixX6 solveJump(const PanelSurface& surface, const Unknowns& unknowns, const 
                              "close for the size of "
                              "its triangles: use more triangles or a sheet");
   const MatrixX6 solution = factors.solve(-assembleNormalVelocity(surface, unknowns));
-  MatrixX6 jump = MatrixX6::Zero(surface.vertexCount(), 6);
+  Jump jump{MatrixX6::Zero(surface.vertexCount(), 6), factors.rcond()};
   for (Index v = 0; v < surface.vertexCount(); ++v)
-    if (unknowns.of_vertex[v] >= 0) jump.row(v) = solution.row(unknowns.of_vertex[v]);
+    if (unknowns.of_vertex[v] >= 0) jump.values.row(v) = solution.row(unknowns.of_vertex[v]);
   return jump;
 }
 
@@ -104,7 +111,9 @@ UnitFlow solveSheet(const PanelSurface& surface, int threads) {
                              std::to_string(surface.panelCount()) +
                              " triangles has no vertex inside its boundary; it needs at least 1");
   UnitFlow flow;
-  flow.potential = solveJump(surface, unknowns, findNearPanels(surface, threads), threads);
+  const Jump jump = solveJump(surface, unknowns, findNearPanels(surface, threads), threads);
+  flow.potential = jump.values;
+  flow.reciprocal_condition = jump.reciprocal_condition;
   flow.inertia = integrateEnergy(surface, unknowns, flow.potential);
   flow.asymmetry = largestAsymmetry(flow.inertia);
   return flow;
@@ -121,11 +130,13 @@ UnitFlow solveClosed(const PanelSurface& surface, int threads) {
         "counter-clockwise seen from the fluid");
   const Unknowns unknowns = numberUnknowns(surface);
   const NearPanels near = findNearPanels(surface, threads);
-  const MatrixX6 jump = solveJump(surface, unknowns, near, threads);
+  const Jump solved = solveJump(surface, unknowns, near, threads);
+  const MatrixX6& jump = solved.values;
   const PanelMoments moments = computeExteriorMoments(surface, near, jump, threads);
   const Matrix6 direct = integrateInertia(surface, moments);
 
   UnitFlow flow;
+  flow.reciprocal_condition = solved.reciprocal_condition;
   flow.potential = projectOnVertices(surface, moments);
   flow.asymmetry = largestAsymmetry(direct);
   // The energy holds the interior flow too. In translation that moves as a solid, volume times
@@ -167,6 +178,7 @@ PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSe
   PotentialFlow flow;
   flow.panels = surface.panelCount();
   flow.asymmetry = unit.asymmetry;
+  flow.reciprocal_condition = unit.reciprocal_condition;
   flow.removed_eigenvalue = removeNegativePart(unit.inertia);
   const double size = settings.true_volume > 0 && !settings.sheet
                           ? std::cbrt(settings.true_volume / surface.volume)

@@ -32,6 +32,8 @@ struct PotentialFlow {
   /// or 0, over the largest; in the same units [1].
   double removed_eigenvalue = 0;
   Eigen::Index panels = 0;  ///< how many the equations were solved on
+  /// Estimate for the matrix of the linear system, in the 1-norm [1].
+  double reciprocal_condition = 0;
 };
 
 /// Solves the six exterior Neumann problems dphi/dn = n.(v + w x z) by a Galerkin boundary element

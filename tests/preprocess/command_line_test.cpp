@@ -272,6 +272,24 @@ TEST_F(CommandLine, BadUsageEndsWithTwo) {
   }
 }
 
+TEST_F(CommandLine, ReportEstimatesTheErrorOfAMesh) {
+  const std::string mesh = write("box.obj", objText(makeBoxMesh({1, 2, 3}, 12)));
+  const json report = resultOf({"report", mesh, "--scale", "0.1", "--panels", "800", "--json"});
+  EXPECT_EQ(report["faces"], 12);
+  EXPECT_GT(report["built"]["panels"], report["other"]["panels"]);
+  EXPECT_GT(report["rotation_error"].get<double>(), 1e-3);
+  EXPECT_LT(report["rotation_error"].get<double>(), 0.2);
+  EXPECT_NEAR(report["thinnest"]["thickness"].get<double>(), 0.2, 1e-6);
+  EXPECT_EQ(report["worst_triangles"].size(), 3u);
+  const ProgramResult table = run({"report", mesh, "--panels", "800"});
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_NE(table.output.find("\nestimated error  "), std::string::npos) << table.output;
+  const std::string open = write("open.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
+  EXPECT_EQ(refusal({"report", open}).find(open + ": not watertight"), 0u);
+  EXPECT_EQ(refusal({"report", mesh, "--panels", "-1"}),
+            "--panels: -1 is below 0 (0: no division)");
+}
+
 TEST_F(CommandLine, MistypedCommandsAreCorrected) {
   EXPECT_EQ(run({"bild"}).errors,
             "ambient_preprocess: unknown command 'bild'; did you mean 'build'?\n");

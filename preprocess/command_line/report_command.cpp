@@ -1,0 +1,125 @@
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+#include "preprocess/builder/elapsed_display.h"
+#include "preprocess/command_line/commands.h"
+#include "preprocess/command_line/input_shape.h"
+#include "preprocess/command_line/json_numbers.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh_report/mesh_report.h"
+#include "preprocess/shape/shape_mesh.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+ordered_json levelJson(const FlowLevel& level) {
+  return {{"panels", level.panels},
+          {"seconds", level.seconds},
+          {"asymmetry", level.asymmetry},
+          {"condition", level.condition},
+          {"added_mass", matrixJson(level.added_mass)}};
+}
+
+std::string asJson(const MeshReport& report, const TriangleMesh& mesh) {
+  ordered_json worst = ordered_json::array();
+  for (const TriangleQuality& t : report.worst_triangles) {
+    worst.push_back({{"triangle", t.triangle},
+                     {"aspect", t.aspect},
+                     {"smallest_angle", t.smallest_angle},
+                     {"barycentre", vectorJson(t.barycentre)}});
+  }
+  ordered_json text{{"vertices", mesh.vertexCount()},
+                    {"faces", mesh.triangleCount()},
+                    {"origin", vectorJson(report.origin)},
+                    {"built", levelJson(report.built)}};
+  if (report.other) {
+    text["other"] = levelJson(*report.other);
+    text["rotation_error"] = report.rotation_error;
+    text["translation_error"] = report.translation_error;
+    text["extrapolated"] = matrixJson(report.extrapolated);
+  }
+  if (report.thinnest) {
+    text["thinnest"] = {{"thickness", report.thinnest->thickness},
+                        {"triangle", report.thinnest->triangle},
+                        {"barycentre", vectorJson(report.thinnest->barycentre)}};
+  }
+  text["worst_triangles"] = worst;
+  return jsonText(text);
+}
+
+std::string placeText(int triangle, const Eigen::Vector3d& point) {
+  std::ostringstream text;
+  text.precision(6);
+  text << "triangle " << triangle << " at (" << point.x() << ", " << point.y() << ", " << point.z()
+       << ")";
+  return text.str();
+}
+
+std::string asTable(const MeshReport& report, const TriangleMesh& mesh) {
+  std::ostringstream text;
+  text.precision(3);
+  const auto level = [&](const char* label, const FlowLevel& flow) {
+    text << label << flow.panels << " panels, " << flow.seconds << " s, condition "
+         << flow.condition << ", asymmetry " << flow.asymmetry << "\n";
+  };
+  text << "mesh             " << mesh.vertexCount() << " vertices, " << mesh.triangleCount()
+       << " faces\n";
+  level("flow             ", report.built);
+  if (report.other) {
+    level("compared with    ", *report.other);
+    text << "estimated error  " << 100 * report.rotation_error << " % in rotation, "
+         << 100 * report.translation_error << " % in translation\n";
+  } else {
+    text << "estimated error  none: the mesh is too large to be solved on more panels\n";
+  }
+  if (report.thinnest) {
+    text << "thinnest part    " << report.thinnest->thickness << " m, "
+         << placeText(report.thinnest->triangle, report.thinnest->barycentre) << "\n";
+  }
+  for (const TriangleQuality& t : report.worst_triangles) {
+    text << "worst triangle   aspect " << t.aspect << ", smallest angle "
+         << t.smallest_angle / kDegree << " degrees, " << placeText(t.triangle, t.barycentre)
+         << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+void runReport(const ReportArguments& arguments) {
+  if (!std::isfinite(arguments.scale) || arguments.scale <= 0) {
+    raiseInputError("--scale", arguments.scale, " is not positive and finite");
+  }
+  if (arguments.threads < 0) {
+    raiseInputError("--threads", arguments.threads, " is below 0 (0: all cores)");
+  }
+  if (arguments.panels < 0) {
+    raiseInputError("--panels", arguments.panels, " is below 0 (0: no division)");
+  }
+  const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
+  CheckedMesh checked = makeShapeMesh(shape);
+  checked.mesh.vertices *= arguments.scale;
+  for (const std::string& warning : checked.warnings) std::cerr << "warning: " << warning << "\n";
+  MeshReportSettings settings;
+  settings.sheet = isSheet(shape);
+  settings.max_panels = arguments.panels;
+  settings.threads = arguments.threads;
+  MeshReport report;
+  {
+    const ElapsedDisplay display("solving " + arguments.input);
+    try {
+      report = makeMeshReport(checked.mesh, settings);
+    } catch (const std::runtime_error& error) {
+      raiseInputError(arguments.input, error.what());
+    }
+  }
+  std::cout << (arguments.json ? asJson(report, checked.mesh) : asTable(report, checked.mesh));
+}
+
+}  // namespace ambient

@@ -1,0 +1,72 @@
+#include "preprocess/mesh_report/mesh_report.h"
+
+#include <chrono>
+
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/surface_refinement.h"
+
+namespace ambient {
+namespace {
+
+FlowLevel solveLevel(const TriangleMesh& mesh, int max_panels, const MeshReportSettings& settings) {
+  PotentialFlowSettings flow_settings;
+  flow_settings.sheet = settings.sheet;
+  flow_settings.max_panels = max_panels;
+  flow_settings.threads = settings.threads;
+  const auto start = std::chrono::steady_clock::now();
+  const PotentialFlow flow = solvePotentialFlow(mesh, flow_settings);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  return {flow.panels, seconds.count(), flow.added_mass, flow.asymmetry,
+          flow.reciprocal_condition > 0 ? 1 / flow.reciprocal_condition : 0};
+}
+
+/// A solution on clearly fewer panels, or on about four times as many if there is none.
+std::optional<FlowLevel> solveOther(const TriangleMesh& mesh, const FlowLevel& built,
+                                    const MeshReportSettings& settings) {
+  constexpr int kMostPanels = 8000;
+  for (const int divisor : {2, 3}) {
+    const auto fewer = static_cast<int>(built.panels / divisor);
+    const Eigen::Index panels = refineSurface(mesh, settings.sheet, fewer).triangleCount();
+    if (5 * panels <= 4 * built.panels) return solveLevel(mesh, fewer, settings);
+  }
+  const auto panels = static_cast<int>(built.panels);
+  const TriangleMesh more =
+      divideTriangles(refineSurface(mesh, settings.sheet, settings.max_panels), 3 * panels);
+  if (more.triangleCount() > kMostPanels) return std::nullopt;
+  return solveLevel(more, 0, settings);
+}
+
+double blockError(const Matrix6& error, const Matrix6& value, int first) {
+  const double scale = value.block<3, 3>(first, first).cwiseAbs().maxCoeff();
+  return scale > 0 ? error.block<3, 3>(first, first).cwiseAbs().maxCoeff() / scale : 0;
+}
+
+}  // namespace
+
+MeshReport makeMeshReport(const TriangleMesh& mesh, const MeshReportSettings& settings) {
+  MeshReport report;
+  const MeshProperties properties =
+      settings.sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
+  report.origin = properties.uniform.centre;
+  TriangleMesh centred = mesh;
+  centred.vertices.colwise() -= report.origin;
+  report.worst_triangles = findWorstTriangles(mesh, settings.worst_triangles);
+  if (!settings.sheet) report.thinnest = findThinnestPart(mesh);
+
+  report.built = solveLevel(centred, settings.max_panels, settings);
+  report.extrapolated = report.built.added_mass;
+  report.other = solveOther(centred, report.built, settings);
+  if (!report.other) return report;
+  // K(P) = K + c / P.
+  const auto built = static_cast<double>(report.built.panels),
+             other = static_cast<double>(report.other->panels);
+  const Matrix6 error =
+      (report.built.added_mass - report.other->added_mass) * (other / (other - built));
+  report.extrapolated = report.built.added_mass - error;
+  report.rotation_error = blockError(error, report.extrapolated, 0);
+  report.translation_error = blockError(error, report.extrapolated, 3);
+  return report;
+}
+
+}  // namespace ambient

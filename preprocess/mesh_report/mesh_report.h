@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bullet_ambient/spatial/vector_types.h"
+#include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/mesh_report/mesh_shape_quality.h"
+
+namespace ambient {
+
+/// One solution of the potential flow.
+struct FlowLevel {
+  Eigen::Index panels = 0;
+  double seconds = 0;
+  Matrix6 added_mass = Matrix6::Zero();  ///< per unit density, about the origin of the report
+  double asymmetry = 0;                  ///< as in PotentialFlow
+  double condition = 0;  ///< estimate of the condition number of its linear system, in the 1-norm
+};
+
+/// What one should know about a mesh before its fluid body is trusted.
+struct MeshReport {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< centre of volume, of a sheet of area [m]
+  FlowLevel built;  ///< the solution that a fluid body gets at these settings
+  /// Another one on fewer or, if the mesh itself is too fine for that, on more panels.
+  std::optional<FlowLevel> other;
+  /// Estimated error of `built` over the largest entry of the block, from both levels, the error
+  /// taken as inverse to the number of panels [1]. It knows the polyhedron only, not the smooth
+  /// body that the mesh may stand for.
+  double rotation_error = 0, translation_error = 0;
+  Matrix6 extrapolated = Matrix6::Zero();  ///< `built` corrected by that error
+  std::vector<TriangleQuality> worst_triangles;
+  std::optional<Thickness> thinnest;  ///< of a body, not of a sheet
+};
+
+/// How a report is made.
+struct MeshReportSettings {
+  bool sheet = false;
+  int max_panels = 4200;    ///< as for the fluid body
+  int worst_triangles = 3;  ///< how many are listed
+  int threads = 0;          ///< 0: all cores
+};
+
+/// Cost: that of solvePotentialFlow() on both levels, where the finer one has at most 8000 panels
+/// or those of the mesh.
+/// @pre the mesh passed checkMesh() as a body or as a sheet.
+/// @throws std::runtime_error as solvePotentialFlow().
+MeshReport makeMeshReport(const TriangleMesh& mesh, const MeshReportSettings& settings);
+
+}  // namespace ambient

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// How far a triangle is from an equilateral one.
+struct TriangleQuality {
+  int triangle = 0;
+  double aspect = 0;          ///< longest edge over the height on it; 1.15 at best
+  double smallest_angle = 0;  ///< [rad]
+  Eigen::Vector3d barycentre = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// The triangles of largest aspect, worst first. Cost O(T log T).
+std::vector<TriangleQuality> findWorstTriangles(const TriangleMesh& mesh, int count);
+
+/// Where a body is thinnest.
+struct Thickness {
+  double thickness = 0;  ///< from a barycentre straight inwards to the other side [m]
+  int triangle = 0;
+  Eigen::Vector3d barycentre = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// The least thickness over the barycentres of at most some 2000 triangles, evenly chosen; none if
+/// no ray meets another side. Cost O(T) per ray.
+/// @pre closed and outward oriented.
+std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh);
+
+}  // namespace ambient
