@@ -43,6 +43,15 @@ Vector6 implicitMidpoint(const BodyModel& model, const Vector6& x, const Vector6
   return mid;
 }
 
+// `end`, scaled down where it has more energy than `limit`. Gyroscopic terms have no power, but
+// over a long step the turning of the body's axes would make some, and a body on a joint gain
+// without end.
+Vector6 withoutGain(const BodyModel& model, const Vector6& end, const Vector6& limit) {
+  const double energy = inertiaNormSquared(model, end);
+  const double allowed = inertiaNormSquared(model, limit);
+  return energy > allowed ? Vector6(std::sqrt(allowed / energy) * end) : end;
+}
+
 }  // namespace
 
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept {
@@ -67,7 +76,8 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
       dt * (model.inverse_inertia * gyroscopicWrench(model.inertia, relative).vector());
   Twist mean = relative;
   Vector6 change = impulse + gyroscopic;
-  if (isStiff(model, gyroscopic, x, dt)) {
+  const bool is_stiff = isStiff(model, gyroscopic, x, dt);
+  if (is_stiff) {
     const Vector6 mid = implicitMidpoint(model, x, model.inertia * (impulse / dt), dt);
     mean = Twist::fromVector(mid);
     change = 2 * (mid - x);
@@ -75,6 +85,9 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   // Body axes turn: d(v)/dt in world axes is v' + w x v.
   Twist body_change = Twist::fromVector(change);
   body_change.linear += dt * mean.angular.cross(mean.linear);
+  if (is_stiff) {
+    body_change = Twist::fromVector(withoutGain(model, x + body_change.vector(), x + impulse) - x);
+  }
   result.change_W.angular = start.orientation * body_change.angular;
   result.change_W.linear = start.orientation * body_change.linear + dt * s.ambient_acceleration;
   return result;

@@ -152,6 +152,24 @@ TEST(JointFeatures, ASpringSwingsTheInertiaAlongItsRail) {
   }
 }
 
+// 5 rad per step, while rows are solved at the pose where it begins. Measured: 1.9 in 10 s, and
+// infinite where gyroscopic terms may add energy.
+TEST(JointFeatures, AFastTopOnAJointDoesNotBlowUp) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    OnJoint scene(seed);
+    scene.body().setAngularVelocity(toBt(scene.arbitrary.vector().normalized() * 300));
+    scene.add(new btPoint2PointConstraint(scene.body(), scene.pivot));
+    const auto energy = [&] { return scene.coupled.kineticEnergy(scene.coupled.velocity()); };
+    scene.fluid.step(1.0 / 60);
+    const Real start = energy();
+    for (int i = 0; i < 120; ++i) {
+      scene.fluid.step(1.0 / 60);
+      ASSERT_LT(energy(), 2 * start) << seed;
+    }
+    EXPECT_EQ(scene.fluid.registry.counters(scene.body()).rejected, 0) << seed;
+  }
+}
+
 TEST(JointFeatures, FeedbackIsWhatChangesTheMomentum) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     OnJoint scene(seed);
