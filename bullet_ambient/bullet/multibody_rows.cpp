@@ -71,6 +71,20 @@ class RowSet {
     return change - time_step * (side.angular.dot(spin) + side.linear.dot(velocity));
   }
 
+  static bool isLocked(const Party& party) { return party.ambient && party.ambient->is_locked; }
+
+  // A row that only pulls at locked axes, against a multibody that cannot move. The solver divides
+  // by the effective mass: that remains what it was.
+  static void suspendRow(btMultiBodySolverConstraint& row, const Party& a, const Party& b) {
+    for (const Party* party : {&a, &b}) {
+      if (!party->ambient) continue;
+      party->side.angular.setZero();
+      party->side.linear.setZero();
+      party->side.angular_component.setZero();
+    }
+    row.m_rhs = row.m_cfm = 0;
+  }
+
   void rewriteRow(btMultiBodySolverConstraint& row, const Party& a, const Party& b,
                   btScalar relaxation, btScalar time_step) const {
     const btScalar old_inverse = row.m_jacDiagABInv;
@@ -78,6 +92,11 @@ class RowSet {
     const btScalar response = responseOf(a) + responseOf(b);
     if (!(old_inverse > 0)) return;  // switched off by Bullet
     const btScalar cfm = row.m_cfm / old_inverse;
+    const btScalar old_response = relaxation / old_inverse - cfm;
+    if ((isLocked(a) || isLocked(b)) && !(response > kNoResponse * old_response)) {
+      suspendRow(row, a, b);
+      return;
+    }
     const btScalar new_inverse = relaxation / (response + cfm);
     row.m_rhs = (row.m_rhs / old_inverse - unseen) * new_inverse;
     row.m_cfm = cfm * new_inverse;

@@ -6,9 +6,6 @@ namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
-// Part of the response without fluid below which a row of a locked body has none: rounding of T.
-constexpr btScalar kNoResponse = 64 * SIMD_EPSILON;
-
 // One side of a row: an ambient body, or any other.
 struct Party {
   RowBody* ambient;

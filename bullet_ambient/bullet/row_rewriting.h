@@ -57,6 +57,9 @@ struct RowSide {
   btVector3& angular_component;  ///< response of the spin to a unit impulse
 };
 
+/// Part of the response without fluid below which a row of a locked body has none: rounding of T.
+constexpr btScalar kNoResponse = 64 * SIMD_EPSILON;
+
 /// J' = J T for an ambient body, docs/theory.md eq. (27). Returns J' D J'^T [1/kg].
 btScalar changeBasis(const RowBody& body, RowSide side) noexcept;
 

@@ -17,17 +17,16 @@ ChainTask::ChainTask(Arbitrary& arbitrary, CoupledBody body, LinkChain chain, in
   body_.body().setWorldTransform(pose);
 }
 
-void ChainTask::touch(Arbitrary& arbitrary, bool body_is_a) {
+void ChainTask::touchAlong(const btVector3& normal_or_opposite, bool body_is_a) {
   body_is_a_ = body_is_a;
   btCollisionObject* a = &body_.body();
   btCollisionObject* b = &chain_.collider(link_body_);
   if (!body_is_a) std::swap(a, b);
   manifold_ = std::make_unique<btPersistentManifold>(a, b, 0, btScalar(1), btScalar(1));
-  const btVector3 normal = toBt(arbitrary.vector()).normalized();
   const btVector3 at = toBt(point_.cast<double>());
   point_ = exact(at);
   for (const btScalar sign : {btScalar(1), btScalar(-1)}) {
-    btManifoldPoint point({0, 0, 0}, {0, 0, 0}, sign * normal, 0);
+    btManifoldPoint point({0, 0, 0}, {0, 0, 0}, sign * normal_or_opposite, 0);
     point.m_positionWorldOnA = point.m_positionWorldOnB = at;
     manifold_->clearManifold();
     manifold_->addManifoldPoint(point);
@@ -84,13 +83,17 @@ double BeforeChain::error(const ChainTask& task, const reference::DenseSolution&
                   task.chain().error(expected.velocities, 1, chain));
 }
 
-ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base) {
+ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base, int link_body) {
   CoupledBody body = CoupledBody::random(arbitrary, arbitraryRatio(arbitrary));
   LinkChain chain = LinkChain::random(arbitrary, has_fixed_base);
+  return {arbitrary, std::move(body), std::move(chain), link_body};
+}
+
+ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base) {
   const int lowest = has_fixed_base ? 1 : 0;
   const int link_body = std::min(LinkChain::kBodies - 1,
                                  static_cast<int>(arbitrary.between(lowest, LinkChain::kBodies)));
-  return {arbitrary, std::move(body), std::move(chain), link_body};
+  return arbitraryChainTask(arbitrary, has_fixed_base, link_body);
 }
 
 double pushedTime(Arbitrary& arbitrary, const ChainTask& task) {

@@ -24,7 +24,10 @@ class ChainTask {
   Vector3r point() const { return point_; }  ///< where they meet, world
 
   /// Contact with the body as A, or as B. The normal is drawn so that they approach.
-  void touch(Arbitrary& arbitrary, bool body_is_a);
+  void touch(Arbitrary& arbitrary, bool body_is_a) {
+    touchAlong(toBt(arbitrary.vector()).normalized(), body_is_a);
+  }
+  void touchAlong(const btVector3& normal_or_opposite, bool body_is_a);
   btManifoldPoint& contact() { return manifold_->getContactPoint(0); }
   Real approach() const;
 
@@ -57,7 +60,9 @@ struct BeforeChain {
   std::array<DenseVector6, LinkChain::kBodies> chain;
 };
 
-/// An ambient body and a chain with a free or fixed base that meets it with an arbitrary link.
+/// An ambient body and a chain with a free or fixed base that meets it with its body `link_body`,
+/// or with an arbitrary one that can move.
+ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base, int link_body);
 ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base);
 
 /// Step over which the gyroscopic terms of the body change its velocity by 5 %, forces and torques

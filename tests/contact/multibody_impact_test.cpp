@@ -100,6 +100,72 @@ TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
   report("link_friction", worst);
 }
 
+// Rows that hold the locked axes of body 0 at rest against the last body, which is fixed.
+Rows planeRows(int fixed_body) {
+  Rows rows;
+  for (int axis : {0, 1, 5}) {
+    reference::DenseRow row;
+    row.body_b = fixed_body;
+    row.jacobian_a[axis] = 1;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// A body of a 2D scene on a multibody, also on one that does not move: as a ground loaded from a
+// file is. One direction of friction acts on locked axes alone there.
+TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
+  Arbitrary arbitrary(57);
+  double worst = 0;
+  int solved = 0, on_ground = 0;
+  for (int i = 0; i < 300; ++i) {
+    const bool is_ground = i % 2 == 0;
+    ChainTask task = arbitraryChainTask(arbitrary, is_ground, is_ground ? 0 : 2);
+    btRigidBody& body = task.body().body();
+    body.setLinearFactor({1, 1, 0});
+    body.setAngularFactor({0, 0, 1});
+    body.setLinearVelocity(body.getLinearVelocity() * body.getLinearFactor());
+    body.setAngularVelocity(body.getAngularVelocity() * body.getAngularFactor());
+    const btVector3 direction(btScalar(arbitrary.between(-1, 1)),
+                              btScalar(arbitrary.between(-1, 1)), 0);
+    task.touchAlong(direction.normalized(), i / 2 % 2 == 0);
+    // So short that forces and gyroscopic terms do nothing.
+    btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(1e-18));
+    info.m_solverMode |= SOLVER_DISABLE_IMPLICIT_CONE_FRICTION;
+    btManifoldPoint& contact = task.contact();
+    contact.m_combinedFriction = btScalar(0.3);
+    const BeforeChain before(task);
+    auto bodies = task.dense(info.m_timeStep);
+    Rows rows = chainRows(task);
+    for (const reference::DenseRow& row : planeRows(static_cast<int>(bodies.size())))
+      rows.push_back(row);
+    bodies.emplace_back();
+    bodies.back().fixed = true;
+    const auto normal = rows.size();
+    rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
+    rows[normal].lower = 0;
+    btVector3 tangent[2];
+    btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);
+    for (int t = 0; t < (is_ground ? 1 : 2); ++t) {
+      rows.push_back(task.row(exact(tangent[t])));
+      rows.back().friction = contact.m_combinedFriction;
+      rows.back().normal_row = static_cast<int>(normal);
+    }
+    const auto expected = reference::onlySolution(bodies, rows);
+    if (!expected || !(expected->impulses[normal] > 1e-9L)) continue;
+    const bool has_finished = task.solve(info);
+    ASSERT_TRUE(task.body().velocity().allFinite());
+    if (!has_finished) continue;
+    ++solved;
+    on_ground += is_ground;
+    worst = std::max(worst, before.error(task, *expected));
+  }
+  EXPECT_GT(solved, 150);
+  EXPECT_GT(on_ground, 100);
+  EXPECT_LT(worst, kTolerance);
+  report("link_locked_axes", worst);
+}
+
 // Coefficients so large that nothing slides, rolls or spins: all of Bullet's rows of a contact
 // between a link and a body hold, in its default mode with cones of friction.
 TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
