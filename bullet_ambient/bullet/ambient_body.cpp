@@ -57,11 +57,12 @@ bool isModelStale(const AmbientBody& ambient) {
 }
 
 void refreshModel(AmbientBody& ambient) {
-  if (ambient.body->getInvMass() > 0) {
-    rebuildModel(ambient);
-  } else {
-    ambient.seen_inverse_mass = -1;  // stale whatever its mass will be
-  }
+  if (ambient.body->getInvMass() > 0) return rebuildModel(ambient);
+  const MassProperties stand_in{1, Matrix3::Identity()};
+  ambient.model = makeBodyModel(*ambient.def.fluid_body, ambient.def.fluid_frame, stand_in,
+                                ambient.def.medium, ambient.def.flow);
+  ambient.seen_inverse_mass = -1;  // stale whatever its mass will be
+  ambient.memory = {};
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

@@ -75,7 +75,8 @@ void rebuildModel(AmbientBody& ambient);
 /// Whether setMassProps was called since the model was built.
 bool isModelStale(const AmbientBody& ambient);
 
-/// Rebuilds the model if the body is dynamic at present, or else when it next is.
+/// Rebuilds the model if the body is dynamic at present, or else when it next is: until then, it
+/// has one of unit mass and inertia.
 /// @throws std::invalid_argument as rebuildModel().
 void refreshModel(AmbientBody& ambient);
 

@@ -1,9 +1,16 @@
 #include "bullet_ambient/bullet/contact_state.h"
 
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 
+#include <algorithm>
 #include <map>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "bullet_ambient/bullet/world_objects.h"
@@ -11,47 +18,6 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
-
-// Bullet's array of manifolds, whose order is that of the rows of a solver.
-class Manifolds {
- public:
-  explicit Manifolds(btDispatcher& dispatcher)
-      : first_(dispatcher.getInternalManifoldPointer()), size_(dispatcher.getNumManifolds()) {}
-
-  int size() const { return size_; }
-  btPersistentManifold& operator[](int i) const { return *first_[i]; }
-  void swap(int i, int j) const {
-    std::swap(first_[i], first_[j]);
-    first_[i]->m_index1a = i;
-    first_[j]->m_index1a = j;
-  }
-  /// The first from `begin` between these two objects; size() if there is none.
-  int find(int begin, const btCollisionObject* a, const btCollisionObject* b) const {
-    int i = begin;
-    while (i < size_ && (first_[i]->getBody0() != a || first_[i]->getBody1() != b)) ++i;
-    return i;
-  }
-
- private:
-  btPersistentManifold** first_;
-  int size_;
-};
-
-void fill(btPersistentManifold& manifold, const std::vector<btManifoldPoint>& points) {
-  manifold.setNumContacts(static_cast<int>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    btManifoldPoint& point = manifold.getContactPoint(static_cast<int>(i));
-    point = points[i];
-    point.m_userPersistentData = nullptr;  // belonged to the point that it was saved from
-  }
-}
-
-// Bullet makes no place for a pair of sleeping bodies.
-void wakeAll(btCollisionWorld& world) {
-  for (btRigidBody* body : rigidBodiesOf(world)) {
-    if (!body->isStaticObject()) body->forceActivationState(ACTIVE_TAG);
-  }
-}
 
 class ObjectNumbers {
  public:
@@ -71,6 +37,48 @@ class ObjectNumbers {
   std::map<const void*, int> numbers_;
 };
 
+// A manifold, Bullet's place for the contact points of a pair or a part of one.
+struct Place {
+  btPersistentManifold* manifold;
+  PairState pair;
+  int part;
+};
+
+// Those of the pairs. Predictive contacts of fast bodies have others, which last for one step.
+std::vector<Place> placesOf(btCollisionWorld& world) {
+  btManifoldArray manifolds;
+  btOverlappingPairCache& cache = *world.getPairCache();
+  for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
+    btCollisionAlgorithm* algorithm = cache.getOverlappingPairArrayPtr()[i].m_algorithm;
+    if (algorithm) algorithm->getAllContactManifolds(manifolds);
+  }
+  const ObjectNumbers numbers(world);
+  std::map<std::pair<int, int>, int> parts;
+  std::vector<Place> places;
+  for (int i = 0; i < manifolds.size(); ++i) {
+    const PairState pair = numbers.pair(manifolds[i]->getBody0(), manifolds[i]->getBody1());
+    if (pair.object_a < 0) continue;
+    places.push_back({manifolds[i], pair, parts[{pair.object_a, pair.object_b}]++});
+  }
+  return places;
+}
+
+void fill(btPersistentManifold& manifold, const std::vector<btManifoldPoint>& points) {
+  manifold.setNumContacts(static_cast<int>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    btManifoldPoint& point = manifold.getContactPoint(static_cast<int>(i));
+    point = points[i];
+    point.m_userPersistentData = nullptr;  // belonged to the point that it was saved from
+  }
+}
+
+// Swaps two manifolds in Bullet's array of them.
+void moveTo(int to, int from, btPersistentManifold** array) {
+  std::swap(array[to], array[from]);
+  array[to]->m_index1a = to;
+  array[from]->m_index1a = from;
+}
+
 class Objects {
  public:
   explicit Objects(btCollisionWorld& world) : objects_(objectsOf(world)) {}
@@ -85,11 +93,23 @@ class Objects {
   std::vector<btCollisionObject*> objects_;
 };
 
+// btDbvtBroadphase finds a pair once, when its boxes with margins begin to overlap, and drops it
+// some steps after they ceased to.
+bool isDue(const btBroadphasePair& pair, const btCollisionWorld& world) {
+  if (!dynamic_cast<const btDbvtBroadphase*>(world.getBroadphase())) return true;
+  const auto& a = *static_cast<const btDbvtProxy*>(pair.m_pProxy0);
+  const auto& b = *static_cast<const btDbvtProxy*>(pair.m_pProxy1);
+  return Intersect(a.leaf->volume, b.leaf->volume);
+}
+
+// The saved ones in their order, then those that the broadphase would not find again.
 void restorePairs(const std::vector<PairState>& pairs, const Objects& objects,
                   btCollisionWorld& world) {
   btOverlappingPairCache& cache = *world.getPairCache();
+  std::vector<btBroadphasePair> found;
   for (int i = cache.getNumOverlappingPairs() - 1; i >= 0; --i) {
     const btBroadphasePair pair = cache.getOverlappingPairArrayPtr()[i];
+    if (isDue(pair, world)) found.push_back(pair);
     cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, world.getDispatcher());
   }
   for (const PairState& pair : pairs) {
@@ -98,6 +118,44 @@ void restorePairs(const std::vector<PairState>& pairs, const Objects& objects,
     if (a && b && a != b) {
       cache.addOverlappingPair(a->getBroadphaseHandle(), b->getBroadphaseHandle());
     }
+  }
+  for (const btBroadphasePair& pair : found) {
+    cache.addOverlappingPair(pair.m_pProxy0, pair.m_pProxy1);
+  }
+}
+
+// As Bullet's near callback does, but also for pairs that do not collide at present: because they
+// sleep, or were joined since, which leaves their last points in force.
+void makePlaces(btBroadphasePair& pair, btCollisionWorld& world) {
+  const auto& a = *static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+  const auto& b = *static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+  const btCollisionObjectWrapper of_a(nullptr, a.getCollisionShape(), &a, a.getWorldTransform(), -1,
+                                      -1);
+  const btCollisionObjectWrapper of_b(nullptr, b.getCollisionShape(), &b, b.getWorldTransform(), -1,
+                                      -1);
+  if (!pair.m_algorithm) {
+    pair.m_algorithm =
+        world.getDispatcher()->findAlgorithm(&of_a, &of_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+  }
+  if (!pair.m_algorithm) return;
+  btManifoldResult result(&of_a, &of_b);
+  pair.m_algorithm->processCollision(&of_a, &of_b, world.getDispatchInfo(), &result);
+}
+
+std::pair<int, int> inOrder(const PairState& pair) {
+  return {std::min(pair.object_a, pair.object_b), std::max(pair.object_a, pair.object_b)};
+}
+
+void makePlaces(const std::vector<ContactState>& contacts, btCollisionWorld& world) {
+  std::set<std::pair<int, int>> touching;
+  for (const ContactState& contact : contacts) touching.insert(inOrder(contact.pair));
+  const ObjectNumbers numbers(world);
+  btOverlappingPairCache& cache = *world.getPairCache();
+  for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
+    btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
+    const PairState found =
+        numbers.pair(pair.m_pProxy0->m_clientObject, pair.m_pProxy1->m_clientObject);
+    if (touching.count(inOrder(found)) > 0) makePlaces(pair, world);
   }
 }
 
@@ -116,16 +174,17 @@ std::vector<PairState> savePairs(btCollisionWorld& world) {
   return pairs;
 }
 
+// In the order of Bullet's array of manifolds, which is that of the rows of a solver.
 std::vector<ContactState> saveContacts(btCollisionWorld& world) {
-  const ObjectNumbers numbers(world);
+  std::vector<Place> places = placesOf(world);
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.manifold->m_index1a < b.manifold->m_index1a;
+  });
   std::vector<ContactState> contacts;
-  const Manifolds manifolds(*world.getDispatcher());
-  for (int i = 0; i < manifolds.size(); ++i) {
-    const btPersistentManifold& manifold = manifolds[i];
-    ContactState contact{numbers.pair(manifold.getBody0(), manifold.getBody1()), {}};
-    if (contact.pair.object_a < 0) continue;
-    for (int p = 0; p < manifold.getNumContacts(); ++p) {
-      contact.points.push_back(manifold.getContactPoint(p));
+  for (const Place& place : places) {
+    ContactState contact{place.pair, place.part, {}};
+    for (int p = 0; p < place.manifold->getNumContacts(); ++p) {
+      contact.points.push_back(place.manifold->getContactPoint(p));
       contact.points.back().m_userPersistentData = nullptr;
     }
     contacts.push_back(std::move(contact));
@@ -135,25 +194,24 @@ std::vector<ContactState> saveContacts(btCollisionWorld& world) {
 
 void restoreContacts(const std::vector<PairState>& pairs, const std::vector<ContactState>& contacts,
                      btCollisionWorld& world) {
-  const Objects objects(world);
-  wakeAll(world);
   world.updateAabbs();
   world.computeOverlappingPairs();
-  restorePairs(pairs, objects, world);
-  btDispatcher& dispatcher = *world.getDispatcher();
-  dispatcher.dispatchAllCollisionPairs(world.getPairCache(), world.getDispatchInfo(), &dispatcher);
+  restorePairs(pairs, Objects(world), world);
+  makePlaces(contacts, world);
 
-  const Manifolds manifolds(dispatcher);
-  for (int i = 0; i < manifolds.size(); ++i) manifolds[i].clearManifold();
+  std::map<std::tuple<int, int, int>, btPersistentManifold*> places;
+  for (const Place& place : placesOf(world)) {
+    place.manifold->clearManifold();
+    places[{place.pair.object_a, place.pair.object_b, place.part}] = place.manifold;
+  }
+  btPersistentManifold** array = world.getDispatcher()->getInternalManifoldPointer();
   int restored = 0;
   for (const ContactState& contact : contacts) {
-    const btCollisionObject* a = objects[contact.pair.object_a];
-    const btCollisionObject* b = objects[contact.pair.object_b];
-    if (!a || !b) continue;
-    const int found = manifolds.find(restored, a, b);
-    if (found == manifolds.size()) continue;
-    fill(manifolds[found], contact.points);
-    manifolds.swap(restored++, found);
+    const auto found = places.find({contact.pair.object_a, contact.pair.object_b, contact.part});
+    if (found == places.end()) continue;
+    fill(*found->second, contact.points);
+    moveTo(restored++, found->second->m_index1a, array);
+    places.erase(found);
   }
 }
 

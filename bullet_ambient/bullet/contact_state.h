@@ -14,9 +14,9 @@ std::vector<PairState> savePairs(btCollisionWorld& world);
 /// Contact points in the order in which Bullet keeps them.
 std::vector<ContactState> saveContacts(btCollisionWorld& world);
 
-/// Replaces Bullet's pairs by the saved ones, lets collision detection make the places for their
-/// contact points, with all dynamic bodies awake, and fills in the saved points; both in the saved
-/// order. All other places become empty. @pre the bodies are where they were. Leaves them awake.
+/// Adds the saved pairs to those that overlap, lets its collision detection make the places for
+/// their contact points, and fills in the saved points; both in the saved order. All other places
+/// become empty. @pre the bodies are where they were.
 void restoreContacts(const std::vector<PairState>& pairs, const std::vector<ContactState>& contacts,
                      btCollisionWorld& world);
 

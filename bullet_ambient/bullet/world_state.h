@@ -51,6 +51,7 @@ struct PairState {
 /// The contact points that Bullet keeps between two objects from step to step.
 struct ContactState {
   PairState pair;
+  int part = 0;  ///< which of the pair's: shapes of several parts have more than one
   std::vector<btManifoldPoint> points;  // at most MANIFOLD_CACHE_SIZE
 };
 

@@ -9,7 +9,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 // The fields of a saved state in the order of their bytes, once for writing and reading. The sizes
 // are the least that entries take in the precision of less bytes; they bound lengths that are read.
-inline constexpr std::size_t kPairSize = 8, kContactSize = 12, kJointSize = 5, kPointSize = 100;
+inline constexpr std::size_t kPairSize = 8, kContactSize = 16, kJointSize = 5, kPointSize = 100;
 
 template <class Stream, class State>
 void transferMedium(Stream& s, State& medium) {
@@ -103,6 +103,7 @@ void transferPair(Stream& s, State& pair) {
 template <class Stream, class State>
 void transferContact(Stream& s, State& contact) {
   transferPair(s, contact.pair);
+  s.number(contact.part);
   transferSize(s, contact.points, kPointSize);
   for (auto& point : contact.points) transferPoint(s, point);
 }

@@ -1,0 +1,117 @@
+#include "tests/fuzz/fuzz_scene.h"
+
+#include <stdexcept>
+
+#include "tests/support/allocation_counter.h"
+#include "tests/support/ellipsoid_body.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr double kSpeedLimit = 1e5;            // [m/s], far above what the events give
+constexpr std::size_t kAllocationLimit = 500;  // per scene, whatever its length
+
+std::shared_ptr<const FluidBody> named(const char* name, FluidBody shape) {
+  shape.name = name;
+  return std::make_shared<FluidBody>(std::move(shape));
+}
+
+// A disc without volume: all of its inertia in the fluid is added mass.
+FluidBody sheet() {
+  FluidBody shape = meshedEllipsoid(Vector3(0.4, 0.4, 0.02), 1);
+  shape.volume = 0;
+  return shape;
+}
+
+bool isFinite(const btRigidBody& body) {
+  const auto& pose = body.getWorldTransform();
+  return toVector3(pose.getOrigin()).allFinite() && toVector3(pose.getBasis()[0]).allFinite() &&
+         toVector3(body.getLinearVelocity()).norm() < kSpeedLimit &&
+         toVector3(body.getAngularVelocity()).norm() < kSpeedLimit;
+}
+
+}  // namespace
+
+FuzzScene::FuzzScene(unsigned seed) : arbitrary_(seed) {
+  fluid_bodies_ = {named("box", meshedEllipsoid(Vector3(0.5, 0.35, 0.25), 1)),
+                   named("ball", meshedEllipsoid(Vector3::Constant(0.3), 1)),
+                   named("without faces", facelessEllipsoid(Vector3(0.3, 0.2, 0.4))),
+                   named("sheet", sheet())};
+  pair_of_balls_.addChildShape(
+      btTransform(btQuaternion::getIdentity(), btVector3(btScalar(0.2), 0, 0)), &ball_);
+  pair_of_balls_.addChildShape(
+      btTransform(btQuaternion::getIdentity(), btVector3(btScalar(-0.2), 0, 0)), &ball_);
+  is_repeatable_ = chance(0.6);
+  world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
+  if (!is_repeatable_ && chance(0.5)) world_.getSolverInfo().m_solverMode |= SOLVER_RANDMIZE_ORDER;
+  world_.setGravity(btVector3(0, 0, btScalar(-9.81)));
+  world_.addAction(&action_);
+  registry_.setReport([this](const std::string& sentence) { complaint_ = sentence; });
+  floor_ = std::make_unique<btRigidBody>(btScalar(0), nullptr, &floor_shape_);
+  floor_->translate(btVector3(0, 0, -1));
+  world_.addRigidBody(floor_.get());
+  for (int i = below(12); i >= 0; --i) addBody();
+}
+
+FuzzScene::~FuzzScene() {
+  for (const auto& joint : joints_) world_.removeConstraint(joint.get());
+  for (const FuzzBody& fuzz : bodies_) {
+    if (fuzz.is_in_world) world_.removeRigidBody(fuzz.body.get());
+  }
+  world_.removeRigidBody(floor_.get());
+}
+
+int FuzzScene::below(int count) {
+  return std::min(static_cast<int>(arbitrary_.between(0, count)), count - 1);
+}
+
+FuzzBody* FuzzScene::anyBody() {
+  return bodies_.empty()
+             ? nullptr
+             : &bodies_[static_cast<std::size_t>(below(static_cast<int>(bodies_.size())))];
+}
+
+void FuzzScene::play() {
+  static constexpr Event kEvents[] = {
+      &FuzzScene::addBody,        &FuzzScene::destroyBody,   &FuzzScene::moveBetweenWorldAndShelf,
+      &FuzzScene::attach,         &FuzzScene::attach,        &FuzzScene::attachWrongly,
+      &FuzzScene::detach,         &FuzzScene::changeMedium,  &FuzzScene::changeMedium,
+      &FuzzScene::changeShape,    &FuzzScene::changeMass,    &FuzzScene::push,
+      &FuzzScene::push,           &FuzzScene::changeFactors, &FuzzScene::changeFlags,
+      &FuzzScene::changeSleep,    &FuzzScene::addJoint,      &FuzzScene::addJoint,
+      &FuzzScene::removeJoint,    &FuzzScene::draw,          &FuzzScene::saveAndRestore,
+      &FuzzScene::saveAndRestore, &FuzzScene::damageBytes};
+  const Event event = kEvents[below(static_cast<int>(std::size(kEvents)))];
+  (this->*event)();
+  check();
+  step(1 + below(4));
+}
+
+void FuzzScene::step(int count) {
+  for (int i = 0; i < count; ++i) {
+    const std::size_t before = allocationCount();
+    world_.stepSimulation(btScalar(1) / 120, 0);
+    allocations_ += allocationCount() - before;
+    ++steps_;
+    check();
+  }
+}
+
+void FuzzScene::check() {
+  std::size_t attached = 0;
+  for (const FuzzBody& fuzz : bodies_) {
+    if (!isFinite(*fuzz.body)) throw std::logic_error("a body's state is not finite or too fast");
+    if (registry_.isAttached(*fuzz.body) != fuzz.is_attached) {
+      throw std::logic_error("the registry does not know who is attached");
+    }
+    attached += fuzz.is_attached;
+    if (fuzz.is_attached && !registry_.inertia(*fuzz.body).allFinite()) {
+      throw std::logic_error("an inertia is not finite");
+    }
+  }
+  if (registry_.size() < attached) throw std::logic_error("the registry has lost a body");
+  if (!complaint_.empty()) throw std::logic_error("reported: " + complaint_);
+  if (allocations_ > kAllocationLimit) throw std::logic_error("steps go on allocating");
+}
+
+}  // namespace ambient::test
