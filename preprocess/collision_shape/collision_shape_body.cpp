@@ -4,11 +4,9 @@
 #include <algorithm>
 
 #include "bullet_ambient/fluid_body/fnv1a.h"
-#include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/collision_shape/collision_solids.h"
 #include "preprocess/collision_shape/solid_contact.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/mass_properties.h"
 #include "preprocess/potential_flow/potential_flow.h"
 
 namespace ambient {
@@ -82,13 +80,6 @@ TriangleMesh joined(const std::vector<Solid>& solids) {
   return mesh;
 }
 
-/// Lamb's ball: half the displaced volume in every direction, nothing in rotation.
-Matrix6 ballAddedMass(double volume, const Eigen::Vector3d& centre) {
-  Matrix6 K = Matrix6::Zero();
-  K.bottomRightCorner<3, 3>().diagonal().setConstant(volume / 2);
-  return shiftOrigin(K, -centre);
-}
-
 Matrix6 solvedAddedMass(const TriangleMesh& mesh, const CollisionShapeSettings& settings,
                         const std::string& name) {
   PotentialFlowSettings flow;
@@ -113,9 +104,7 @@ Matrix6 withoutNegativePart(const Matrix6& K) {
 /// The added mass of a single solid about the shape's origin, if it is not that of its mesh.
 std::optional<Matrix6> addedMassOf(const Solid& solid, const CollisionShapeSettings& settings,
                                    const std::string& name) {
-  if (solid.ball_centre) {
-    return ballAddedMass(computeMassProperties(solid.mesh).volume, *solid.ball_centre);
-  }
+  if (solid.added_mass) return solid.added_mass;
   if (solid.flow.triangleCount() == 0) return std::nullopt;
   const Matrix6 fine = solvedAddedMass(solid.flow, settings, name);
   if (solid.flow_ratio == 0) return fine;

@@ -22,7 +22,7 @@ struct CollisionShapeSettings {
 };
 
 /// The fluid body of a collision shape, whose frame F is that of the shape: a btRigidBody with the
-/// shape needs no offset. Spheres have the closed form; everything else is solved.
+/// shape needs no offset. Spheres and ellipsoids have closed forms; all else is solved.
 ///
 /// Takes spheres, boxes, cylinders, capsules, cones, convex hulls, tetrahedra, multi-spheres,
 /// btGImpactMeshShape (a closed mesh), btUniformScalingShape, and btCompoundShape of these, nested,

@@ -4,9 +4,11 @@
 #include <btBulletCollisionCommon.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mesh_checks.h"
@@ -44,7 +46,12 @@ Solid placed(Solid solid, const Eigen::Affine3d& pose) {
   for (TriangleMesh* mesh : {&solid.mesh, &solid.flow, &solid.coarse_flow}) {
     mesh->vertices = (pose.linear() * mesh->vertices).colwise() + pose.translation();
   }
-  if (solid.ball_centre) solid.ball_centre = Eigen::Vector3d(pose * *solid.ball_centre);
+  if (solid.added_mass) {
+    const double scale = std::cbrt(pose.linear().determinant());
+    const Matrix3 turn = pose.linear() / scale;
+    solid.added_mass =
+        shiftOrigin(rotateAxes(scaleShape(*solid.added_mass, scale), turn), -pose.translation());
+  }
   return solid;
 }
 

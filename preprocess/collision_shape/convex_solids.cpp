@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/collision_shape/hull_mesh.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/primitives.h"
+#include "preprocess/potential_flow/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 #include "preprocess/shape/shape_mesh.h"
 
@@ -130,13 +132,22 @@ Solid solidOf(const TriangleMesh& mesh) {
 /// Largest n so that a geodesic sphere has at most that many triangles.
 int frequencyFor(int faces) { return std::max(2, static_cast<int>(std::sqrt(faces / 20.0))); }
 
+/// Also the only ball of a multi-sphere shape.
+Solid makeEllipsoidSolid(const HullBall& ball, const SolidResolution& resolution,
+                         const std::string& name) {
+  Solid solid = solidOf(meshOf(EllipsoidShape{ball.semi_axes}, resolution.faces, name));
+  solid.mesh.vertices.colwise() += ball.centre;
+  const Matrix6 about_centre = ellipsoidAddedMass(ball.semi_axes).asDiagonal();
+  solid.added_mass = shiftOrigin(about_centre, -ball.centre);
+  return solid;
+}
+
 }  // namespace
 
 Solid makeBallSolid(double radius, const SolidResolution& resolution, const std::string& name) {
   requireSize(name, "the radius", radius);
-  Solid ball = solidOf(meshOf(SphereShape{radius}, resolution.faces, name));
-  ball.ball_centre = Eigen::Vector3d::Zero();
-  return ball;
+  return makeEllipsoidSolid({Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(radius)},
+                            resolution, name);
 }
 
 Solid makeBoxSolid(const Eigen::Vector3d& half_sizes, const SolidResolution& resolution,
@@ -200,21 +211,6 @@ Solid makeHullSolid(const Points& points, double margin, const SolidResolution& 
     solid.flow = refineTowardsFirst(evenlyDivided(rounded, even), rounded.vertexCount(),
                                     resolution.flow_faces);
   }
-  return solid;
-}
-
-/// The ellipsoid of a multi-sphere shape with one sphere.
-static Solid makeEllipsoidSolid(const HullBall& ball, const SolidResolution& resolution,
-                                const std::string& name) {
-  const EllipsoidShape ellipsoid{ball.semi_axes};
-  const bool is_ball = (ball.semi_axes.array() == ball.semi_axes.x()).all();
-  Solid solid = is_ball ? makeBallSolid(ball.semi_axes.x(), resolution, name)
-                        : smoothSolid(meshOf(ellipsoid, resolution.faces, name),
-                                      meshOf(ellipsoid, resolution.flow_faces, name));
-  for (TriangleMesh* mesh : {&solid.mesh, &solid.flow, &solid.coarse_flow}) {
-    mesh->vertices.colwise() += ball.centre;
-  }
-  if (is_ball) solid.ball_centre = ball.centre;
   return solid;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
+#include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
@@ -13,7 +13,8 @@ struct Solid {
   TriangleMesh flow;  ///< the same body, finer, for the flow alone; without triangles: `mesh`
   TriangleMesh coarse_flow;  ///< and coarser: the error shrinks as 1 / `flow_ratio` from here on
   double flow_ratio = 0;     ///< to `flow`, so that the result can be extrapolated; 0: it is not
-  std::optional<Eigen::Vector3d> ball_centre;  ///< of a ball, which has a closed form [m]
+  /// The closed form about the shape's origin, if there is one, per unit density.
+  std::optional<Matrix6> added_mass;
 };
 
 }  // namespace ambient
