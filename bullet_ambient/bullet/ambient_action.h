@@ -18,8 +18,9 @@ class AmbientAction : public btActionInterface {
 
   void updateAction(btCollisionWorld* world, btScalar time_step) override;
 
-  /// What world->debugDrawWorld() draws of the fluid, for bodies that were in the world of the last
-  /// step and still are. Nothing by default; costs nothing until then.
+  /// What world->debugDrawWorld() draws of the fluid around the bodies of that world, after its
+  /// first step with this action. Nothing by default; costs nothing until then. An action that
+  /// moves to another world must be stepped there before it draws again.
   FluidDrawing drawing;
   void debugDraw(btIDebugDraw* drawer) override;
 
