@@ -35,7 +35,6 @@ class CoupledScene {
     body().setLinearVelocity({0, 0, 0});
     body().setAngularVelocity({0, 0, 0});
   }
-  Vector3r centre() { return exact(body().getWorldTransform().getOrigin()); }
   /// In which forces and gyroscopic terms change the velocities by nothing; Bullet does not step
   /// over less than its epsilon.
   static constexpr double kInstant = byPrecision(1e-14, 1e-6);
@@ -60,7 +59,6 @@ class Wall {
     scene_.fluid.world.addRigidBody(&body_);
   }
   ~Wall() { scene_.fluid.world.removeRigidBody(&body_); }
-  btRigidBody& body() { return body_; }
 
  private:
   CoupledScene& scene_;
