@@ -43,6 +43,14 @@ struct BodyDef {
   double friction = 0.5;
 };
 
+/// A joint without friction between two bodies, or of one with the world. Bodies that it joins do
+/// not collide with each other.
+struct JointDef {
+  std::vector<std::string> bodies;  ///< names; one: joined to the world
+  Vector3 point = Vector3::Zero();  ///< in W at t = 0 [m]
+  std::optional<Vector3> axis;      ///< of a hinge, in W at t = 0; none: a ball joint
+};
+
 /// One scene, checked. SI units; W is the world frame.
 struct Scene {
   std::string name;  ///< file name without extension
@@ -58,6 +66,7 @@ struct Scene {
   FlightSettings flight;
   int threads = 0;  ///< of the preprocessing; 0: all cores
   std::vector<BodyDef> bodies;
+  std::vector<JointDef> joints;
 };
 
 }  // namespace ambient

@@ -1,6 +1,7 @@
 #include "demos/scene/scene_checks.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -122,6 +123,29 @@ void checkNames(const Scene& scene) {
   }
 }
 
+bool isDynamicBody(const Scene& scene, const std::string& name) {
+  for (const BodyDef& body : scene.bodies)
+    if (body.name == name) return body.mass > 0;
+  return false;
+}
+
+bool isBody(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [&](const BodyDef& body) { return body.name == name; });
+}
+
+void checkJoint(const Scene& scene, const JointDef& joint, const Checker& check) {
+  bool moves = false;
+  for (const std::string& name : joint.bodies) {
+    check.require(isBody(scene, name), "bodies names \"" + name + "\", which no body is called");
+    moves = moves || isDynamicBody(scene, name);
+  }
+  check.require(moves, "bodies are all static; one must have a mass > 0");
+  check.require(joint.bodies.size() == 1 || joint.bodies[0] != joint.bodies[1],
+                "bodies names \"" + joint.bodies[0] + "\" twice");
+  if (joint.axis) check.require(joint.axis->norm() > 0, "axis is 0, 0, 0; must have a length > 0");
+}
+
 }  // namespace
 
 void checkScene(const Scene& scene) {
@@ -135,6 +159,8 @@ void checkScene(const Scene& scene) {
     checkInertia(scene.bodies[i], check);
     checkMotion(scene.bodies[i], check);
   }
+  for (std::size_t i = 0; i < scene.joints.size(); ++i)
+    checkJoint(scene, scene.joints[i], Checker(scene, "joints[" + std::to_string(i) + "]."));
 }
 
 }  // namespace ambient

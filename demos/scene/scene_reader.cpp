@@ -94,6 +94,14 @@ BodyDef toBody(const json& from, std::size_t index, const std::filesystem::path&
   return body;
 }
 
+JointDef toJoint(const json& from) {
+  JointDef joint;
+  joint.bodies = from.at("bodies").get<std::vector<std::string>>();
+  joint.point = toVector(from.at("point"));
+  if (from.contains("axis")) joint.axis = toVector(from.at("axis"));
+  return joint;
+}
+
 Scene toScene(const json& from, const std::filesystem::path& file) {
   Scene scene;
   scene.name = file.stem().string();
@@ -110,6 +118,8 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   scene.threads = from.value("threads", 0);
   for (const json& body : from.at("bodies"))
     scene.bodies.push_back(toBody(body, scene.bodies.size(), file));
+  if (from.contains("joints"))
+    for (const json& joint : from.at("joints")) scene.joints.push_back(toJoint(joint));
   return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include "demos/rivals/linear_drag.h"
 #include "demos/rivals/windward_flux.h"
 #include "demos/simulation/collision_shape.h"
+#include "demos/simulation/joint.h"
 #include "demos/simulation/principal_frame.h"
 
 namespace ambient {
@@ -106,12 +108,14 @@ struct Simulation::World {
   AmbientAction action{registry};
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<WorldBody> bodies;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints;
   std::string report;
   double time_step = 0;
   long long steps = 0;
 
   ~World() {
     world.removeAction(&action);
+    for (const auto& joint : joints) world.removeConstraint(joint.get());
     for (WorldBody& body : bodies) {
       registry.detach(*body.body);
       world.removeRigidBody(body.body.get());
@@ -119,6 +123,8 @@ struct Simulation::World {
   }
 
   void add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared);
+  void add(const JointDef& def);
+  btRigidBody& find(const std::string& name) const;
   MotionSample sample(const WorldBody& of) const;
 };
 
@@ -133,6 +139,19 @@ void Simulation::World::add(const Scene& scene, const BodyDef& def, const Prepar
     throw std::invalid_argument("body \"" + def.name + "\": " + error.what());
   }
   added.is_ambient = true;
+}
+
+btRigidBody& Simulation::World::find(const std::string& name) const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&](const WorldBody& body) { return body.name == name; });
+  return *found->body;
+}
+
+void Simulation::World::add(const JointDef& def) {
+  btRigidBody* second = def.bodies.size() > 1 ? &find(def.bodies[1]) : nullptr;
+  joints.push_back(makeJoint(def, find(def.bodies[0]), second));
+  constexpr bool kWithoutCollisions = true;
+  world.addConstraint(joints.back().get(), kWithoutCollisions);
 }
 
 MotionSample Simulation::World::sample(const WorldBody& of) const {
@@ -154,6 +173,7 @@ Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& bodi
   w.world.setGravity(toBullet(scene.gravity));
   w.world.addAction(&w.action);
   for (std::size_t i = 0; i < bodies.size(); ++i) w.add(scene, scene.bodies[i], bodies[i]);
+  for (const JointDef& joint : scene.joints) w.add(joint);
 }
 
 Simulation::~Simulation() = default;

@@ -20,12 +20,6 @@ double ballRadius(const Scene& scene, std::size_t body = 0) {
   return std::get<SphereShape>(scene.bodies[body].shape.geometry).radius;
 }
 
-/// Runs a scene; scenes of one shape share its fluid body.
-RunRecord runSharing(const Scene& scene) {
-  static FluidBodyCache cache;
-  return runPrepared(scene, prepareBodies(scene, cache));
-}
-
 /// Where a body first comes down through z = 0.
 MotionSample landingOf(const RunRecord& record, const Scene& scene, std::size_t body = 0) {
   return summarisePath(record.motion[body], scene.gravity).landing.value();

@@ -17,7 +17,7 @@ namespace {
 const double kPi = std::acos(-1.0);
 
 std::vector<MotionSample> motionOf(const std::string& scene, const std::string& model) {
-  return run(readNamedScene(scene, {{"model", model}})).motion[0];
+  return runSharing(readNamedScene(scene, {{"model", model}})).motion[0];
 }
 
 TEST(RivalScenes, LinearDragSlowsABallExponentially) {
@@ -27,7 +27,7 @@ TEST(RivalScenes, LinearDragSlowsABallExponentially) {
   text["gravity"] = {0, 0, 0};
   const TemporaryFolder folder;
   const Scene scene = readScene(writeScene(folder, text.dump()));
-  const MotionSample end = run(scene).motion[0].back();
+  const MotionSample end = runSharing(scene).motion[0].back();
   const double radius = 0.11, rho = scene.medium.density;
   const double displaced = rho * 4 / 3 * kPi * std::pow(radius, 3);
   const double rate = rho * 2 * 4 * kPi * radius * radius / (0.43 + displaced / 2);
@@ -51,7 +51,7 @@ TEST(RivalScenes, OnlyThisLibraryBendsAFreeKickToMagnusSide) {
 TEST(RivalScenes, BothDampATumblingPlateToASteadyFall) {
   for (const char* model : {"uwrbd", "gwtf"}) {
     const Scene scene = readNamedScene("plate_8cm", {{"model", model}});
-    const Fall fall = analyseFall(run(scene).motion[0], Vector3::UnitZ(), scene.gravity);
+    const Fall fall = analyseFall(runSharing(scene).motion[0], Vector3::UnitZ(), scene.gravity);
     EXPECT_EQ(fallingModeName(fall.mode), fallingModeName(FallingMode::kSteady)) << model;
   }
 }
@@ -59,7 +59,7 @@ TEST(RivalScenes, BothDampATumblingPlateToASteadyFall) {
 TEST(RivalScenes, ShortenTheFlightOfAGolfBallThatThisLibraryLengthens) {
   const auto range = [](const char* model) {
     const Scene scene = readNamedScene("golf_dimpled_spin", {{"model", model}});
-    return summarisePath(run(scene).motion[0], scene.gravity).landing->position.x();
+    return summarisePath(runSharing(scene).motion[0], scene.gravity).landing->position.x();
   };
   const double vacuum = range("vacuum");
   EXPECT_GT(range("ambient"), 2 * vacuum);

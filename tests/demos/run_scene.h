@@ -33,6 +33,12 @@ inline std::vector<PreparedBody> prepare(const Scene& scene) {
   return prepareBodies(scene, cache);
 }
 
+/// Runs a scene; scenes of one shape share its fluid body.
+inline RunRecord runSharing(const Scene& scene) {
+  static FluidBodyCache cache;
+  return runPrepared(scene, prepareBodies(scene, cache));
+}
+
 inline RunRecord run(const Scene& scene) { return runPrepared(scene, prepare(scene)); }
 
 }  // namespace ambient

@@ -118,6 +118,41 @@ TEST(SceneReader, RejectsAnUnknownModel) {
             "[\"ambient\",\"vacuum\",\"uwrbd\",\"gwtf\"]");
 }
 
+/// A ball that hangs from the world, and a static one.
+json jointScene() {
+  json scene = ballScene();
+  scene["bodies"].push_back(
+      {{"name", "wall"}, {"shape", {{"type", "sphere"}, {"radius", 1}}}, {"mass", 0}});
+  scene["joints"] = json::parse(R"([{"bodies": ["ball"], "point": [0, 0, 2]},
+      {"bodies": ["wall", "ball"], "point": [1, 2, 3], "axis": [0, 2, 0]}])");
+  return scene;
+}
+
+TEST(SceneReader, ReadsJoints) {
+  const Scene scene = readText(jointScene());
+  ASSERT_EQ(scene.joints.size(), 2u);
+  EXPECT_EQ(scene.joints[0].bodies, std::vector<std::string>{"ball"});
+  EXPECT_EQ(scene.joints[0].point, Vector3(0, 0, 2));
+  EXPECT_FALSE(scene.joints[0].axis);
+  EXPECT_EQ(scene.joints[1].bodies, (std::vector<std::string>{"wall", "ball"}));
+  EXPECT_EQ(*scene.joints[1].axis, Vector3(0, 2, 0));
+}
+
+TEST(SceneReader, RejectsJointsThatJoinNothing) {
+  const auto complaint = [](const char* place, const json& value) {
+    json scene = jointScene();
+    scene[json::json_pointer(std::string("/joints/1") + place)] = value;
+    return complaintAbout(scene);
+  };
+  EXPECT_EQ(complaint("/bodies/1", "bal"),
+            "joints[1].bodies names \"bal\", which no body is called");
+  EXPECT_EQ(complaint("/bodies", json::parse(R"(["wall"])")),
+            "joints[1].bodies are all static; one must have a mass > 0");
+  EXPECT_EQ(complaint("/bodies/0", "ball"), "joints[1].bodies names \"ball\" twice");
+  EXPECT_EQ(complaint("/axis", {0, 0, 0}), "joints[1].axis is 0, 0, 0; must have a length > 0");
+  EXPECT_EQ(complaint("/type", "hinge"), "unknown key \"type\" in joints[1]");
+}
+
 TEST(SceneReader, RejectsTimesThatCannotBeStepped) {
   EXPECT_EQ(complaintAfter("/duration", 0), "duration is 0; must be > 0 s");
   EXPECT_EQ(complaintAfter("/time_step", 0), "time_step is 0; must be > 0 s");
