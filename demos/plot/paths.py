@@ -76,3 +76,24 @@ def draw_paths(runs):
         interval = run.summary["duration"] / 10
         top_view.set(title=f"from above; dots every {interval:g} s", xlabel="along [m]", ylabel="across [m]")
     return figure
+
+
+def draw_overlay(runs):
+    """A figure of the first bodies of runs in one side view and one top view, each up to its landing."""
+    figure, (side_view, top_view) = plt.subplots(1, 2, figsize=(12.5, 4), layout="constrained")
+    up, along = runs[0].up(), main_direction(runs[0])
+    across = np.cross(up, along)
+    rivals = len({run.name for run in runs}) == 1
+    for colour, run in zip(COLOURS, runs):
+        track = run.tracks[0]
+        landing = track.entry["path"]["landing"]
+        position = track.position[track.time <= landing["time"]] if landing else track.position
+        label = run.summary["model"] if rivals else run.name
+        side_view.plot(position @ along, position @ up, color=colour, linewidth=1.5, label=label)
+        top_view.plot(position @ along, position @ across, color=colour, linewidth=1.5)
+    side_view.set(xlabel="along [m]", ylabel="height [m]", title="from the side")
+    top_view.set(xlabel="along [m]", ylabel="across [m]", title="from above")
+    for axes in (side_view, top_view):
+        decorate(axes)
+    side_view.legend(frameon=False, fontsize=9)
+    return figure

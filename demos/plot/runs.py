@@ -16,6 +16,7 @@ class Track:
         self.time = rows[:, 0]
         self.position = rows[:, 1:4]
         self.orientation = rows[:, 4:8]  # w, x, y, z
+        self.spin = rows[:, 8:11]
         self.velocity = rows[:, 11:14]
 
     def rotations(self):
