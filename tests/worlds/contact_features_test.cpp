@@ -1,12 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <memory>
-
 #include "tests/worlds/coupled_scene.h"
 
 // What Bullet offers around contacts, with a body of coupled K: kinematic bodies, locked axes,
-// compound shapes, filters, continuous collision.
+// compound shapes.
 namespace ambient::test {
 namespace {
 
@@ -183,76 +180,6 @@ TEST(ContactFeatures, ACompoundShapeActsAboutItsCentreOfMass) {
   // The axes of the compound are found to the precision of its own iteration.
   EXPECT_LT(static_cast<double>((u - expected.velocities[0]).norm()), byPrecision(1e-10, 1e-4));
   fluid.world.removeRigidBody(&wall);
-}
-
-// Position and velocity after flying towards a wall for half a second.
-Vector6 flightTowardsAWall(bool is_wall_there, int mask) {
-  CoupledScene scene(3);
-  scene.body().setLinearVelocity({4, 0, 0});
-  btTransform pose = scene.body().getWorldTransform();
-  pose.setOrigin({0, 0, 0});
-  scene.body().setWorldTransform(pose);
-  scene.fluid.world.removeRigidBody(&scene.body());
-  scene.fluid.world.addRigidBody(&scene.body(), 2, mask);
-  btBoxShape box(btVector3(bt(0.1), 5, 5));
-  btRigidBody wall(0, nullptr, &box);
-  wall.setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(1, 0, 0)));
-  if (is_wall_there) scene.fluid.world.addRigidBody(&wall, 4, -1);
-  scene.fluid.step(1.0 / 120, 60);
-  const Vector6 state = stack(toVector3(scene.body().getWorldTransform().getOrigin()),
-                              toVector3(scene.body().getLinearVelocity()));
-  if (is_wall_there) scene.fluid.world.removeRigidBody(&wall);
-  return state;
-}
-
-TEST(ContactFeatures, FiltersLetABodyThroughOrNot) {
-  const Vector6 free = flightTowardsAWall(false, -1);
-  EXPECT_GT(free[0], 1.2);
-  EXPECT_EQ(flightTowardsAWall(true, -1 & ~4), free);
-  EXPECT_LT(flightTowardsAWall(true, -1)[0], 1 - 0.1 - CoupledScene::kRadius + 0.01);
-}
-
-// Where the body ends that flies by a metre per step towards a thin wall at 3.5 m, and how far it
-// has come.
-struct Flight {
-  double farthest = 0, end = 0;
-};
-Flight flyByAMetrePerStep(unsigned seed, bool is_continuous) {
-  CoupledScene scene(seed, 1);
-  btContactSolverInfo& info = scene.fluid.world.getSolverInfo();
-  info.m_erp = info.m_erp2 = bt(0.2);
-  scene.body().setAngularVelocity({1, 2, 3});
-  scene.body().setLinearVelocity({60, 0, 0});
-  btTransform pose = scene.body().getWorldTransform();
-  pose.setOrigin({0, 0, 0});
-  scene.body().setWorldTransform(pose);
-  btBoxShape box(btVector3(bt(0.05), 50, 50));
-  btRigidBody wall(0, nullptr, &box);
-  wall.setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(bt(3.5), 0, 0)));
-  scene.fluid.world.addRigidBody(&wall);
-  if (is_continuous) {
-    scene.body().setCcdMotionThreshold(bt(0.1));
-    scene.body().setCcdSweptSphereRadius(bt(0.2));
-  }
-  Flight flight;
-  for (int i = 0; i < 30; ++i) {
-    scene.fluid.step(1.0 / 60);
-    flight.end = static_cast<double>(scene.body().getWorldTransform().getOrigin().x());
-    flight.farthest = std::max(flight.farthest, flight.end);
-  }
-  scene.fluid.world.removeRigidBody(&wall);
-  return flight;
-}
-
-TEST(ContactFeatures, ContinuousCollisionStopsAtTheWall) {
-  int tunnelled = 0;
-  for (unsigned seed = 0; seed < 10; ++seed) {
-    const Flight with = flyByAMetrePerStep(seed, true), without = flyByAMetrePerStep(seed, false);
-    EXPECT_LT(with.farthest, 3.5 - 0.05 - 0.2 + 0.001) << seed;
-    EXPECT_GT(with.farthest, 3.5 - 0.05 - CoupledScene::kRadius - 0.001) << seed;
-    tunnelled += without.farthest > 4.5;
-  }
-  EXPECT_GT(tunnelled, 3);
 }
 
 }  // namespace

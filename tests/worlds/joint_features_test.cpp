@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "tests/worlds/coupled_scene.h"
 
-// What Bullet offers around joints and forces, with a body of coupled K in an ideal fluid.
+// What Bullet offers around joints, with a body of coupled K in an ideal fluid.
 namespace ambient::test {
 namespace {
 
@@ -213,34 +214,6 @@ TEST(JointFeatures, AJointBreaksAtTheImpulseOfTheFullInertia) {
       EXPECT_EQ(scene.joint->isEnabled(), strength > 1) << seed;
     }
   }
-}
-
-TEST(JointFeatures, AForceAtAPointIsFeltThroughTheFullInertia) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    CoupledScene scene(seed);
-    scene.stop();
-    scene.body().applyForce(toBt(scene.arbitrary.vector(1 / CoupledScene::kInstant)),
-                            toBt(scene.arbitrary.vector(0.3)));
-    const DenseVector6 expected = scene.coupled.dense(bt(CoupledScene::kInstant)).free_velocity;
-    scene.fluid.step(CoupledScene::kInstant);
-    EXPECT_LT(scene.coupled.error(expected, expected), byPrecision(1e-12, 1e-4)) << seed;
-  }
-}
-
-TEST(JointFeatures, DampingScalesTheVelocityBeforeEachStep) {
-  const double dt = 1.0 / 128;
-  CoupledScene damped(4), scaled(4);
-  damped.body().setDamping(bt(0.3), bt(0.5));
-  for (int i = 0; i < 128; ++i) {
-    btRigidBody& body = scaled.body();
-    body.setLinearVelocity(body.getLinearVelocity() * btPow(bt(0.7), bt(dt)));
-    body.setAngularVelocity(body.getAngularVelocity() * btPow(bt(0.5), bt(dt)));
-    damped.fluid.step(dt);
-    scaled.fluid.step(dt);
-  }
-  const DenseVector6 expected = scaled.coupled.velocity();
-  EXPECT_LT(damped.coupled.error(expected, expected), byPrecision(1e-12, 1e-4));
-  EXPECT_LT(expected.norm(), 0.8 * CoupledScene(4).coupled.velocity().norm());
 }
 
 TEST(JointFeatures, SubstepsOfACallAreStepsOfTheirOwn) {

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
+#include <type_traits>
+#include <vector>
 
 #include "tests/support/ellipsoid_body.h"
 #include "tests/worlds/vacuum_scene.h"

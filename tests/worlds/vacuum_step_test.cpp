@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <memory>
+#include <type_traits>
+#include <vector>
 
 #include "bullet_ambient/bullet/conversions.h"
 #include "tests/support/ellipsoid_body.h"
