@@ -9,6 +9,7 @@
 
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/collision_shape/shape_refusal.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mesh_checks.h"
@@ -187,7 +188,7 @@ class SolidCollector {
       case TETRAHEDRAL_SHAPE_PROXYTYPE:
         return makePolyhedron(static_cast<const btPolyhedralConvexShape&>(shape), name);
       default:
-        refuse(shape, name);
+        refuseShape(shape, name);
     }
   }
 
@@ -224,29 +225,6 @@ class SolidCollector {
       points.push_back(toVector3(vertex));
     }
     return makeHullSolid(points, marginOf(shape), resolution_, name);
-  }
-
-  [[noreturn]] static void refuse(const btCollisionShape& shape, const std::string& name) {
-    const std::string kind = shape.getName();
-    switch (shape.getShapeType()) {
-      case STATIC_PLANE_PROXYTYPE:
-        raiseInputError(name, "a plane (", kind, ") is unbounded and cannot move in a fluid");
-      case TERRAIN_SHAPE_PROXYTYPE:
-        raiseInputError(name, "a height field (", kind,
-                        ") encloses no volume and cannot move in a fluid");
-      case TRIANGLE_MESH_SHAPE_PROXYTYPE:
-      case SCALED_TRIANGLE_MESH_SHAPE_PROXYTYPE:
-      case MULTIMATERIAL_TRIANGLE_MESH_PROXYTYPE:
-        raiseInputError(name, "a static triangle mesh (", kind,
-                        ") cannot move in Bullet: use btGImpactMeshShape or convex hulls");
-      case EMPTY_SHAPE_PROXYTYPE:
-        raiseInputError(name, "an empty shape (", kind, ") displaces no fluid");
-      case SOFTBODY_SHAPE_PROXYTYPE:
-        raiseInputError(name, "a soft body (", kind, ") has no rigid shape");
-      default:
-        raiseInputError(name, "a shape of type ", kind, " (", shape.getShapeType(),
-                        ") is not supported: use a convex hull or a btGImpactMeshShape");
-    }
   }
 
   bool margins_;

@@ -78,12 +78,14 @@ double volumeWithin(const TriangleMesh& hull, double margin) {
 TriangleMesh directions(int n) { return makeEllipsoidMesh({1, 1, 1}, 20 * n * n); }
 
 /// The hull's corners moved by the margin along the normals of their faces, so that faces stay flat
-/// and come to lie where they should, and in the directions of a sphere, for the edges.
+/// and come to lie where they should, and in the directions of a sphere, for the edges; n = 0: none
+/// of these.
 Points pointsWithin(const TriangleMesh& hull, double margin, int n) {
   Points points;
   for (Eigen::Index t = 0; t < hull.triangleCount(); ++t) {
     for (int k = 0; k < 3; ++k) points.emplace_back(hull.corner(t, k) + margin * normalOf(hull, t));
   }
+  if (n == 0) return points;
   const TriangleMesh sphere = directions(n);
   for (Eigen::Index v = 0; v < hull.vertexCount(); ++v) {
     for (Eigen::Index d = 0; d < sphere.vertexCount(); ++d) {
@@ -104,11 +106,16 @@ TriangleMesh ballHull(const std::vector<HullBall>& balls, int n, const std::stri
   return makeHullMesh(points, name);
 }
 
-/// Triangles with edges at most kLongest times as long as those of equilateral ones of that number.
+/// Triangles with edges at most 2.5 times as long as those of equilateral ones of that number;
+/// longer if narrow strips would make more than twice as many.
 TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces) {
-  const double area = computeMassProperties(mesh).area;
-  constexpr double kLongest = 2.5;
-  return divideLongEdges(mesh, kLongest * std::sqrt(4 / std::sqrt(3.0) * area / faces));
+  constexpr double kLongest = 2.5, kLonger = 1.4;
+  double longest =
+      kLongest * std::sqrt(4 / std::sqrt(3.0) * computeMassProperties(mesh).area / faces);
+  const auto limit = std::max<Eigen::Index>(2 * faces, mesh.triangleCount());
+  TriangleMesh divided = divideLongEdges(mesh, longest);
+  while (divided.triangleCount() > limit) divided = divideLongEdges(mesh, longest *= kLonger);
+  return divided;
 }
 
 /// Solid of a smooth body whose error shrinks as the number of its triangles grows.
@@ -197,16 +204,23 @@ Solid makeHullSolid(const Points& points, double margin, const SolidResolution& 
     return withVolume(makeHullMesh(pointsWithin(hull, margin, n), name),
                       volumeWithin(hull, margin));
   };
-  constexpr int kFine = 4, kCoarse = 2;
-  Solid solid = solidOf(evenlyDivided(roundedWith(kFine), resolution.faces));
+  const Eigen::Vector3d extent =
+      hull.vertices.rowwise().maxCoeff() - hull.vertices.rowwise().minCoeff();
+  const double share = margin / extent.minCoeff();
+  // The more corners, the smaller the angles that are left to be rounded; and the narrower the
+  // rounded edges, the less their form matters.
+  constexpr double kNarrow = 0.05, kTiny = 0.01;
+  const int fine = share < kTiny               ? 0
+                   : hull.vertexCount() <= 30  ? 4
+                   : hull.vertexCount() <= 100 ? 2
+                                               : 0;
+  const int coarse = std::min(fine, 2);
+  Solid solid = solidOf(evenlyDivided(roundedWith(fine), resolution.faces));
   if (resolution.flow_faces > solid.mesh.triangleCount()) {
     // All corners of the rounded hull lie on edges that are sharp from afar. Few directions on
     // narrow ones leave panels for the sides.
-    constexpr double kNarrow = 0.05;
-    const Eigen::Vector3d extent =
-        hull.vertices.rowwise().maxCoeff() - hull.vertices.rowwise().minCoeff();
-    const bool is_narrow = margin < kNarrow * extent.minCoeff();
-    const TriangleMesh rounded = roundedWith(is_narrow ? kCoarse : kFine);
+    const bool is_narrow = share < kNarrow;
+    const TriangleMesh rounded = roundedWith(is_narrow ? coarse : fine);
     const int even = is_narrow ? resolution.flow_faces / 2 : resolution.faces;
     solid.flow = refineTowardsFirst(evenlyDivided(rounded, even), rounded.vertexCount(),
                                     resolution.flow_faces);

@@ -2,6 +2,8 @@
 #include <BulletCollision/CollisionShapes/btTetrahedronShape.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "tests/collision_shape/shape_fixtures.h"
 #include "tests/reference/body_added_mass.h"
@@ -92,6 +94,28 @@ TEST(HullShape, WithAHalfMetreMarginAPointIsAlmostABall) {
   EXPECT_NEAR(ball.volume / volume, 1, 10 * kScalarRounding);
   Matrix3 expected = volume / 2 * Matrix3::Identity();
   EXPECT_LT(test::blockError(ball.added_mass.bottomRightCorner<3, 3>(), expected), 5e-3);
+}
+
+TEST(HullShape, RandomHullsAreBodiesOfModestSize) {
+  std::mt19937 random(20);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (const int points : {4, 8, 40, 400}) {
+    btConvexHullShape hull;
+    for (int i = 0; i < points; ++i) {
+      const Vector3 point(coordinate(random), coordinate(random), 0.4 * coordinate(random));
+      hull.addPoint(toBullet(point), false);
+    }
+    hull.recalcLocalAabb();
+    double volume = 0;
+    for (const double margin : {0.0, 0.001, 0.02, 0.2}) {
+      hull.setMargin(btScalar(margin));
+      const FluidBody body = makeFluidBody(hull, coarse());
+      EXPECT_NO_THROW(checkFluidBody(body, "hull"));
+      EXPECT_GT(body.volume, volume) << points << " points, margin " << margin;
+      EXPECT_LT(body.faces.size(), 4500u) << points << " points, margin " << margin;
+      volume = body.volume;
+    }
+  }
 }
 
 TEST(HullShape, LocalScalingCounts) {
