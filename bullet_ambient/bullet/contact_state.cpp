@@ -124,11 +124,42 @@ void restorePairs(const std::vector<PairState>& pairs, const Objects& objects,
   }
 }
 
+// While it lives, a joint does not keep these two from colliding.
+class CollisionsAllowed {
+ public:
+  CollisionsAllowed(btCollisionObject& a, btCollisionObject& b)
+      : a_(a), b_(b), removed_from_a_(allow(a, b)), removed_from_b_(allow(b, a)) {}
+  ~CollisionsAllowed() {
+    for (int i = 0; i < removed_from_a_; ++i) a_.setIgnoreCollisionCheck(&b_, true);
+    for (int i = 0; i < removed_from_b_; ++i) b_.setIgnoreCollisionCheck(&a_, true);
+  }
+  CollisionsAllowed(const CollisionsAllowed&) = delete;
+  CollisionsAllowed& operator=(const CollisionsAllowed&) = delete;
+
+ private:
+  // Two joints enter an object twice.
+  static int allow(btCollisionObject& object, const btCollisionObject& other) {
+    const int before = object.getNumObjectsWithoutCollision();
+    int now = before, last = before + 1;
+    while (now < last && !object.checkCollideWith(&other)) {
+      last = now;
+      object.setIgnoreCollisionCheck(&other, false);
+      now = object.getNumObjectsWithoutCollision();
+    }
+    return before - now;
+  }
+
+  btCollisionObject& a_;
+  btCollisionObject& b_;
+  int removed_from_a_, removed_from_b_;
+};
+
 // As Bullet's near callback does, but also for pairs that do not collide at present: because they
 // sleep, or were joined since, which leaves their last points in force.
 void makePlaces(btBroadphasePair& pair, btCollisionWorld& world) {
-  const auto& a = *static_cast<const btCollisionObject*>(pair.m_pProxy0->m_clientObject);
-  const auto& b = *static_cast<const btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+  auto& a = *static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+  auto& b = *static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+  const CollisionsAllowed allowed(a, b);
   const btCollisionObjectWrapper of_a(nullptr, a.getCollisionShape(), &a, a.getWorldTransform(), -1,
                                       -1);
   const btCollisionObjectWrapper of_b(nullptr, b.getCollisionShape(), &b, b.getWorldTransform(), -1,
@@ -140,6 +171,13 @@ void makePlaces(btBroadphasePair& pair, btCollisionWorld& world) {
   if (!pair.m_algorithm) return;
   btManifoldResult result(&of_a, &of_b);
   pair.m_algorithm->processCollision(&of_a, &of_b, world.getDispatchInfo(), &result);
+}
+
+// Some of Bullet's algorithms make no place for a pair of sleeping bodies.
+void wakeAll(btCollisionWorld& world) {
+  for (btRigidBody* body : rigidBodiesOf(world)) {
+    if (!body->isStaticObject()) body->forceActivationState(ACTIVE_TAG);
+  }
 }
 
 std::pair<int, int> inOrder(const PairState& pair) {
@@ -197,6 +235,7 @@ void restoreContacts(const std::vector<PairState>& pairs, const std::vector<Cont
   world.updateAabbs();
   world.computeOverlappingPairs();
   restorePairs(pairs, Objects(world), world);
+  wakeAll(world);
   makePlaces(contacts, world);
 
   std::map<std::tuple<int, int, int>, btPersistentManifold*> places;

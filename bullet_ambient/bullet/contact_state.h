@@ -16,7 +16,8 @@ std::vector<ContactState> saveContacts(btCollisionWorld& world);
 
 /// Adds the saved pairs to those that overlap, lets its collision detection make the places for
 /// their contact points, and fills in the saved points; both in the saved order. All other places
-/// become empty. @pre the bodies are where they were.
+/// become empty. @pre the bodies are where they were. Leaves dynamic ones
+/// awake.
 void restoreContacts(const std::vector<PairState>& pairs, const std::vector<ContactState>& contacts,
                      btCollisionWorld& world);
 

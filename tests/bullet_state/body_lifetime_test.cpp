@@ -4,6 +4,7 @@
 #include <memory>
 #include <new>
 
+#include "bullet_ambient/bullet/world_state.h"
 #include "tests/bullet/fluid_world.h"
 
 namespace ambient::test {
@@ -164,6 +165,20 @@ TEST_F(Lifetime, ARemovedBodyKeepsItsFluidAndMeetsItAgain) {
   fluid.world.addRigidBody(&body);
   fluid.step(kTimeStep);
   EXPECT_GT(body.getLinearVelocity().z(), 0);
+  fluid.world.removeRigidBody(&body);
+}
+
+// Nothing may be left of the fluid body that it had before, until it is dynamic and stepped again.
+TEST_F(Lifetime, AStaticBodyHasTheModelOfItsNewFluidBody) {
+  btRigidBody& body = addAttached();
+  body.setMassProps(0, btVector3(0, 0, 0));
+  fluid.registry.setFluidBody(body, std::make_shared<FluidBody>(scaled(ball(), 2)));
+  const WorldState state = saveState(fluid.world, fluid.registry);
+  restoreState(state, fluid.world, fluid.registry);
+  const AmbientBody& ambient = *fluid.registry.find(&body);
+  EXPECT_EQ(ambient.model.faces, &ambient.def.fluid_body->faces);
+  EXPECT_TRUE(fluid.registry.inertia(body).allFinite());
+  EXPECT_NEAR(ambient.model.displaced_mass, water().density * 8 * ball().volume, 1e-6);
   fluid.world.removeRigidBody(&body);
 }
 

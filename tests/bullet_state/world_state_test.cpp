@@ -136,6 +136,31 @@ TEST(WorldState, SleepingBodiesSleepOnAndAreWokenAsBefore) {
   expectSame(motions, wake(other));
 }
 
+// Two dynamic bodies that touch; their collision is switched off by the joint, which leaves their
+// last contact points in force.
+TEST(WorldState, BodiesThatWereJoinedInContactGoOnBitForBit) {
+  StateScene scene;
+  scene.step(100);
+  btRigidBody *a = nullptr, *b = nullptr;
+  for (int i = 0; i < scene.fluid.dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *scene.fluid.dispatcher.getManifoldByIndexInternal(i);
+    if (manifold.getNumContacts() == 0) continue;
+    if (manifold.getBody0()->isStaticObject() || manifold.getBody1()->isStaticObject()) continue;
+    a = &scene.body(manifold.getBody0()->getWorldArrayIndex());
+    b = &scene.body(manifold.getBody1()->getWorldArrayIndex());
+  }
+  ASSERT_NE(a, nullptr);
+  const btTransform to_b = b->getWorldTransform().inverse() * a->getWorldTransform();
+  scene.joints.push_back(
+      std::make_unique<btPoint2PointConstraint>(*a, *b, btVector3(0, 0, 0), to_b.getOrigin()));
+  scene.fluid.world.addConstraint(scene.joints.back().get(), true);
+  scene.step(5);
+  const WorldState state = saveState(scene.fluid.world, scene.fluid.registry);
+  const auto motions = record(scene, kAfter);
+  restoreState(state, scene.fluid.world, scene.fluid.registry);
+  expectSame(motions, record(scene, kAfter));
+}
+
 TEST(WorldState, RefusesAWorldOfOtherBodiesOrJoints) {
   Recording run(5);
   const std::string before = run.scene.motion();
