@@ -31,14 +31,14 @@ DIFFERENCES = """## Where the model is known to differ from reality
   the model's lift is 1.6 times and its drag half of the measured one.
 - **Broadside drag.** A flat face that moves along its normal has no slip and so feels no dynamic pressure. The low flap
   of `flap_in_current` swings with hardly any damping, and a plate that settles broadside falls faster than a real one.
-- **Football.** Range and alignment depend on the inertia that is assumed: 69 m and 10.4° at most for a shell (the scene),
-  65 m and 7.7° for a solid. It stays longer in the air than in the paper and in reality.
+- **Football.** Range and alignment depend on the assumed inertia: 69 m and 10.4° at most for a shell (the scene), 65 m
+  and 7.7° for a solid. It stays longer in the air than in the paper and in reality.
 - **Basketball.** The drifts are those without skin friction. With it they are 14.0, 28.5 and 44.3 m.
 - **Bouncing.** Bullet applies restitution to the contact as a step finds it: with 0.8 a ball leaves with 0.8 to 0.98 of
   its speed, stock or in a fluid.
 - **Propellers.** A propeller of 4 g or less without a stick turns over in flight; the scene has 8 g. Under water it
   spins up and then turns over as well.
-- **Paper copter.** A fat proxy, as in the paper, and without stem. Pitch (30°) and coning (45°) were chosen so that it
+- **Paper copter.** A fat proxy, as in the paper, without stem. Pitch (30°) and coning (45°) were chosen so that it
   rights itself; with 15° and 25° it keeps nutating.
 - Plates are chaotic: compare modes, not positions; how far they can be trusted is in [data](../data/README.md).
 - Not here: the bunny and the winged seed.
@@ -49,8 +49,8 @@ RIVALS = """## Beside other models
 All with the same inertia and the same integrator; `--set model=NAME` does it for any scene.
 
 - `vacuum`: stock Bullet.
-- `uwrbd`: linear drag after [Weissmann 2012](theory.md#references) with λ = 1: the traction −ρ c u. Its free parameter c
-  is `linear_drag_speed`, 1 m/s.
+- `uwrbd`: linear drag after [Weissmann 2012](theory.md#references) with λ = 1: the traction −ρ c u. Its free parameter
+  c is `linear_drag_speed`, 1 m/s.
 - `gwtf`: a **stand-in** for "Going with the Flow" (Soliman et al. 2024), whose rule per face no public source gives:
   momentum flux on windward faces, −½ ρ A max(n·u, 0) u.
 
@@ -58,9 +58,9 @@ All with the same inertia and the same integrator; `--set model=NAME` does it fo
 
 RIVALS_END = """
 As the paper reports, linear drag has no lift, both rivals shorten the golf ball's flight, the stand-in pushes the
-spinning ball to the wrong side, and both damp the tumbling plate to a steady fall. Two things differ. The paper's linear
-drag becomes unstable when it is weak: here the plate with c = 0.05 m/s falls steadily at 2 m/s, as the integrator is
-passive. And the paper's "Going with the Flow" lifts the toy propeller, which the stand-in does not.
+spinning ball to the wrong side, and both damp the tumbling plate to a steady fall. Two things differ. The paper's
+linear drag becomes unstable when it is weak: here the plate with c = 0.05 m/s falls steadily at 2 m/s, as the
+integrator is passive. And the paper's "Going with the Flow" lifts the toy propeller, which the stand-in does not.
 
 """
 
@@ -117,11 +117,12 @@ def paper_rows(numbers):
 def water_and_toy_rows(numbers):
     tilt, spin = numbers.copter()
     sinking, falling = numbers.end_speed("underwater_ellipsoid"), numbers.end_speed("paper_copter")
+    spin_under_water = f"up to {numbers.largest_spin('underwater_propeller'):.1f} rad/s"
     balloon = f"{numbers.height('balloon'):.1f} m in 8 s, tilts up to {numbers.largest_tilt('balloon'):.0f}°"
     rocking = f"turns back {numbers.turns_back()} times, sinks at {sinking:.2f} m/s"
     return [
         ("`underwater_ellipsoid`", "glides and rocks", rocking, "glides and rocks"),
-        ("`underwater_propeller`", "spins up", f"up to {numbers.largest_spin('underwater_propeller'):.1f} rad/s", "spins up"),
+        ("`underwater_propeller`", "spins up", spin_under_water, "spins up"),
         ("`toy_propeller`", "climbs on a curved path", f"climbs {numbers.height('toy_propeller'):.2f} m", "climbs"),
         ("`balloon`", "unsteady ascent", balloon, "unsteady ascent"),
         (

@@ -14,7 +14,6 @@ namespace ambient {
 namespace {
 
 const double kPi = std::acos(-1.0);
-constexpr double kGravity = 9.81;
 
 double ballRadius(const Scene& scene, std::size_t body = 0) {
   return std::get<SphereShape>(scene.bodies[body].shape.geometry).radius;
