@@ -53,8 +53,11 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     any_solved = true;
     const bool has_flown = std::exchange(ambient->has_flown, false);
     const bool is_adrift = std::exchange(ambient->is_adrift, false);
-    if (!(has_flown || is_adrift) || !isStillIn(*world, registry_, *ambient)) continue;
+    const bool is_bounded = ambient->energy_bound >= 0;
+    if (!(has_flown || is_adrift || is_bounded) || !isStillIn(*world, registry_, *ambient))
+      continue;
     if (has_flown) endFlight(*ambient, static_cast<double>(time_step));
+    if (is_bounded) limitEnergy(*ambient);
     if (is_adrift) keepAwakeWhileMoving(*ambient);
   }
   if (isSolverMissing(*world, any_solved)) {

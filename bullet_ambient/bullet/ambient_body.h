@@ -55,6 +55,11 @@ struct AmbientBody {
   int world_index = -1;     ///< where the body stood in its world's array when it was solved
   RigidState end;           ///< where it ends
   Twist effective_W;        ///< constant twist that Bullet integrates onto the end pose
+  double length_scale = 0;  ///< lengths whose rounding the end position carries [m]
+  Twist turning_W;          ///< turning part of the velocity that the rows were solved against
+  bool is_turning_stiff = false;
+  double energy_bound =
+      -1;  ///< twice the kinetic energy that rows may leave the body with [J]; < 0: none
 
   bool isInFluid() const { return def.medium.density > 0; }
 };

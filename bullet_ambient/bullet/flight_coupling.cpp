@@ -36,8 +36,7 @@ bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start) {
 bool reachedEnd(const AmbientBody& ambient) {
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   const double rounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
-  return (position - ambient.end.position).norm() <=
-         rounding * (ambient.end.position.norm() + ambient.model.reference_length);
+  return (position - ambient.end.position).norm() <= rounding * ambient.length_scale;
 }
 
 bool fitsBullet(const RigidState& state) {
@@ -51,6 +50,7 @@ bool fitsBullet(const RigidState& state) {
 
 bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
   ambient.was_solved = true;
+  ambient.energy_bound = -1;
   ambient.world_index = ambient.body->getWorldArrayIndex();
   if (ambient.has_flown) {
     registry.complain(AmbientRegistry::Complaint::kNoAction);
@@ -105,6 +105,8 @@ Twist beginFlight(AmbientBody& ambient, double time_step) noexcept {
   ambient.effective_W = {rotationVector(turn) / time_step,
                          (flight.state.position - start.position) / time_step};
   const Twist before = worldTwist(start);
+  ambient.length_scale = flight.state.position.norm() + ambient.model.reference_length +
+                         time_step * before.linear.norm();
   return {ambient.effective_W.angular - before.angular, ambient.effective_W.linear - before.linear};
 }
 
@@ -123,6 +125,28 @@ void endFlight(AmbientBody& ambient, double time_step) noexcept {
   body.setLinearVelocity(body.getLinearVelocity() +
                          toBullet(Vector3(end.linear - ambient.effective_W.linear)));
   ambient.left_W = end;
+}
+
+void boundEnergy(AmbientBody& ambient, const Twist& solved_W) noexcept {
+  RigidState state = readState(*ambient.body);
+  const Quaternion to_body = state.orientation.conjugate();
+  const Vector3 flow_W = ambient.def.medium.velocity;
+  state.twist.angular = to_body * (solved_W.angular - ambient.turning_W.angular);
+  state.twist.linear = to_body * (solved_W.linear - ambient.turning_W.linear - flow_W);
+  ambient.energy_bound = inertiaNormSquared(ambient.model, state.twist.vector());
+}
+
+void limitEnergy(AmbientBody& ambient) noexcept {
+  btRigidBody& body = *ambient.body;
+  RigidState state = readState(body);
+  const Vector3 flow_W = ambient.def.medium.velocity;
+  state.twist.linear -= state.orientation.conjugate() * flow_W;
+  const double energy = inertiaNormSquared(ambient.model, state.twist.vector());
+  if (!(energy > ambient.energy_bound)) return;
+  const double scale = std::sqrt(ambient.energy_bound / energy);
+  const Twist now = worldTwist(state);
+  body.setAngularVelocity(toBullet(Vector3(scale * now.angular)));
+  body.setLinearVelocity(toBullet(Vector3(scale * now.linear + flow_W)));
 }
 
 void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept {

@@ -23,6 +23,13 @@ Twist beginFlight(AmbientBody& ambient, double time_step) noexcept;
 /// itself where Bullet limits the rotation per step.
 void endFlight(AmbientBody& ambient, double time_step) noexcept;
 
+/// For a body that rows have moved to `solved_W` while it turns fast: bounds the kinetic energy
+/// that it may have in its next pose, docs/theory.md eq. (31).
+void boundEnergy(AmbientBody& ambient, const Twist& solved_W) noexcept;
+
+/// After Bullet has moved the body: scales its velocity relative to the fluid down to that energy.
+void limitEnergy(AmbientBody& ambient) noexcept;
+
 /// Keeps Bullet from putting a body to sleep that drifts freely: it may rest only when it moves by
 /// less than a hundredth of its size within Bullet's two seconds.
 void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept;

@@ -27,6 +27,14 @@ void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
   solver_body.m_externalForceImpulse = toBullet(change_W.linear);
 }
 
+// What Bullet is about to write back.
+Twist solvedVelocity(btSolverBody& b) {
+  return {toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
+                    b.m_externalTorqueImpulse),
+          toVector3(b.m_linearVelocity + b.internalGetDeltaLinearVelocity() +
+                    b.m_externalForceImpulse)};
+}
+
 btVector3 whereZero(const btVector3& v) {
   return {btScalar(v.x() == 0), btScalar(v.y() == 0), btScalar(v.z() == 0)};
 }
@@ -127,6 +135,8 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
     row.change_W = {};
   }
   setExternalImpulse(solver_body, row.change_W);
+  ambient.turning_W = row.turning_W;
+  ambient.is_turning_stiff = row.is_stiff;
 
   RowBody& row_body = row_bodies_.add(member.solver_body);
   row_body.inverse_inertia = body.getInvInertiaTensorWorld();
@@ -215,6 +225,7 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
                 b.internalGetDeltaLinearVelocity());
       fromBasis(row_body->basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
       member.ambient->memory = {};
+      if (member.ambient->is_turning_stiff) boundEnergy(*member.ambient, solvedVelocity(b));
     } else if (!member.is_locked) {
       flyFreely(member, b);
     }

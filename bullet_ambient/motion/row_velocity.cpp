@@ -11,11 +11,21 @@ namespace {
 
 constexpr double kStiffGyroscopicPart = 0.15;  // of the state, in the norm of K
 constexpr double kStiffTurn = 0.5;             // [rad] per step
+constexpr double kWildGyroscopicPart = 0.5;    // beyond, no velocity holds for the whole step
+constexpr double kWildTurn = 1.0;
 constexpr int kNewtonSteps = 3;
 
-bool isStiff(const BodyModel& model, const Vector6& gyroscopic, const Vector6& x, double dt) {
-  const double limit = kStiffGyroscopicPart * kStiffGyroscopicPart * inertiaNormSquared(model, x);
-  return inertiaNormSquared(model, gyroscopic) > limit || x.head<3>().norm() * dt > kStiffTurn;
+enum class Turning { kSmooth, kStiff, kWild };
+
+Turning classify(const BodyModel& model, const Vector6& gyroscopic, const Vector6& x, double dt) {
+  const double part_sq = inertiaNormSquared(model, gyroscopic);
+  const double motion_sq = inertiaNormSquared(model, x);
+  const double turn = x.head<3>().norm() * dt;
+  const auto exceeds = [&](double part, double angle) {
+    return part_sq > part * part * motion_sq || turn > angle;
+  };
+  if (exceeds(kWildGyroscopicPart, kWildTurn)) return Turning::kWild;
+  return exceeds(kStiffGyroscopicPart, kStiffTurn) ? Turning::kStiff : Turning::kSmooth;
 }
 
 // Twist in the middle of the step by the implicit midpoint rule for K dx/dt = gyroscopic(x) +
@@ -43,15 +53,6 @@ Vector6 implicitMidpoint(const BodyModel& model, const Vector6& x, const Vector6
   return mid;
 }
 
-// `end`, scaled down where it has more energy than `limit`. Gyroscopic terms have no power, but
-// over a long step the turning of the body's axes would make some, and a body on a joint gain
-// without end.
-Vector6 withoutGain(const BodyModel& model, const Vector6& end, const Vector6& limit) {
-  const double energy = inertiaNormSquared(model, end);
-  const double allowed = inertiaNormSquared(model, limit);
-  return energy > allowed ? Vector6(std::sqrt(allowed / energy) * end) : end;
-}
-
 }  // namespace
 
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept {
@@ -74,22 +75,26 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   }
   const Vector6 gyroscopic =
       dt * (model.inverse_inertia * gyroscopicWrench(model.inertia, relative).vector());
-  Twist mean = relative;
-  Vector6 change = impulse + gyroscopic;
-  const bool is_stiff = isStiff(model, gyroscopic, x, dt);
-  if (is_stiff) {
-    const Vector6 mid = implicitMidpoint(model, x, model.inertia * (impulse / dt), dt);
-    mean = Twist::fromVector(mid);
-    change = 2 * (mid - x);
+  const Turning turning = classify(model, gyroscopic, x, dt);
+  result.is_stiff = turning != Turning::kSmooth;
+  Twist turned;
+  if (turning != Turning::kWild) {
+    Twist mean = relative;
+    Vector6 change = gyroscopic;
+    if (turning == Turning::kStiff) {
+      const Vector6 mid = implicitMidpoint(model, x, model.inertia * (impulse / dt), dt);
+      mean = Twist::fromVector(mid);
+      change = 2 * (mid - x) - impulse;
+    }
+    turned = Twist::fromVector(change);
+    // Body axes turn: d(v)/dt in world axes is v' + w x v.
+    turned.linear += dt * mean.angular.cross(mean.linear);
   }
-  // Body axes turn: d(v)/dt in world axes is v' + w x v.
-  Twist body_change = Twist::fromVector(change);
-  body_change.linear += dt * mean.angular.cross(mean.linear);
-  if (is_stiff) {
-    body_change = Twist::fromVector(withoutGain(model, x + body_change.vector(), x + impulse) - x);
-  }
-  result.change_W.angular = start.orientation * body_change.angular;
-  result.change_W.linear = start.orientation * body_change.linear + dt * s.ambient_acceleration;
+  const Quaternion& q = start.orientation;
+  result.turning_W = {q * turned.angular, q * turned.linear};
+  result.change_W.angular = result.turning_W.angular + q * impulse.head<3>();
+  result.change_W.linear =
+      result.turning_W.linear + q * impulse.tail<3>() + dt * s.ambient_acceleration;
   return result;
 }
 

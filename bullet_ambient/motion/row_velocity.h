@@ -11,6 +11,10 @@ namespace ambient {
 /// of the centre of mass [rad/s, m/s].
 struct RowVelocity {
   Twist change_W;
+  /// The part of it by gyroscopic terms and by the turn of the body axes, which do no work.
+  Twist turning_W;
+  /// That part is large, so that the step's error could feed energy: docs/theory.md eq. (31).
+  bool is_stiff = false;
   FlightCount count;
 };
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept;

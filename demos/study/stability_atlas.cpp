@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -13,9 +14,10 @@
 namespace ambient {
 namespace {
 
-/// What the energy may rise by, relative, in free motion: rounding of Bullet's poses aside,
-/// nothing.
+/// What the energy may rise by, relative: free, nothing but rounding; falling, the error of the
+/// splitting into gravity and flow, which is of second order in the step.
 constexpr double kMostRise = 1e-6;
+constexpr double kMostRiseFalling = 1e-3;
 
 const char* nameOf(AtlasSetting setting) {
   switch (setting) {
@@ -57,6 +59,13 @@ class CaseGenerator {
   const std::vector<AtlasShape>& shapes_;
   std::mt19937 engine_;
 };
+
+// Rows may add energy: Bullet pushes bodies apart and pulls joints together.
+double mostRise(AtlasSetting setting) {
+  if (setting == AtlasSetting::kFree) return kMostRise;
+  if (setting == AtlasSetting::kFalling) return kMostRiseFalling;
+  return std::numeric_limits<double>::infinity();
+}
 
 struct Tally {
   long long runs = 0, not_finite = 0, rejected = 0, rose = 0;
@@ -104,8 +113,8 @@ int run(int runs, unsigned seed, const std::string& out) {
   for (const auto& [setting, tally] : tallies) {
     std::printf("%-12s %6lld %11lld %9lld %12lld %12.1e\n", nameOf(setting), tally.runs,
                 tally.not_finite, tally.rejected, tally.rose, tally.worst_rise);
-    const bool in_flight = setting == AtlasSetting::kFree || setting == AtlasSetting::kFalling;
-    is_stable = is_stable && tally.not_finite == 0 && (!in_flight || tally.rose == 0);
+    is_stable = is_stable && tally.not_finite == 0 && tally.rejected == 0 &&
+                tally.worst_rise <= mostRise(setting);
   }
   return is_stable ? 0 : 1;
 }
