@@ -219,15 +219,21 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
     btSolverBody& b = solver_bodies[member.solver_body];
     const RowBody* row_body = row_bodies_.find(member.solver_body);
     if (row_body) member.ambient->counters.rows += row_body->rows;
-    member.ambient->is_adrift = isUntouched(b);
-    if (!member.ambient->is_adrift) {
+    AmbientBody& ambient = *member.ambient;
+    ambient.is_adrift = isUntouched(b);
+    if (!ambient.is_adrift) {
       fromBasis(row_body->basis, b.internalGetDeltaAngularVelocity(),
                 b.internalGetDeltaLinearVelocity());
       fromBasis(row_body->basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
-      member.ambient->memory = {};
-      if (member.ambient->is_turning_stiff) boundEnergy(*member.ambient, solvedVelocity(b));
-    } else if (!member.is_locked) {
+    }
+    // Rows that are near have allowed the velocity that they were solved against; a fast turn would
+    // take the body elsewhere.
+    const bool turns_fast_near_rows = row_body && ambient.is_turning_stiff;
+    if (turns_fast_near_rows) boundEnergy(ambient, solvedVelocity(b));
+    if (ambient.is_adrift && !member.is_locked && !turns_fast_near_rows) {
       flyFreely(member, b);
+    } else {
+      ambient.memory = {};
     }
   }
   members_.clear();
