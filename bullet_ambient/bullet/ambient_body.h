@@ -57,7 +57,7 @@ struct AmbientBody {
   Twist effective_W;        ///< constant twist that Bullet integrates onto the end pose
   double length_scale = 0;  ///< lengths whose rounding the end position carries [m]
   Twist turning_W;          ///< turning part of the velocity that the rows were solved against
-  bool is_turning_stiff = false;
+  Turn turn = Turn::kSlow;  ///< of a body with rows near
   double energy_bound =
       -1;  ///< twice the kinetic energy that rows may leave the body with [J]; < 0: none
 

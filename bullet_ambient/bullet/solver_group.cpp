@@ -136,7 +136,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   }
   setExternalImpulse(solver_body, row.change_W);
   ambient.turning_W = row.turning_W;
-  ambient.is_turning_stiff = row.is_stiff;
+  ambient.turn = row.turn;
 
   RowBody& row_body = row_bodies_.add(member.solver_body);
   row_body.inverse_inertia = body.getInvInertiaTensorWorld();
@@ -226,15 +226,15 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
                 b.internalGetDeltaLinearVelocity());
       fromBasis(row_body->basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
     }
-    // Rows that are near have allowed the velocity that they were solved against; a fast turn would
-    // take the body elsewhere.
-    const bool turns_fast_near_rows = row_body && ambient.is_turning_stiff;
-    if (turns_fast_near_rows) boundEnergy(ambient, solvedVelocity(b));
-    if (ambient.is_adrift && !member.is_locked && !turns_fast_near_rows) {
+    // Rows that are near have allowed the velocity that they were solved against; a flight with a
+    // fast turn would take the body elsewhere.
+    const bool may_fly = !member.is_locked && !(row_body && ambient.turn != Turn::kSlow);
+    if (ambient.is_adrift && may_fly) {
       flyFreely(member, b);
-    } else {
-      ambient.memory = {};
+      continue;
     }
+    ambient.memory = {};
+    if (ambient.turn != Turn::kSlow) boundEnergy(ambient, solvedVelocity(b));
   }
   members_.clear();
 }

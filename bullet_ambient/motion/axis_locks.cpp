@@ -99,11 +99,19 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
     forced += (passiveKick(model, x, {x, load.wrench.vector()}, dt) - x) / dt;
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
-  const Vector6 change = dt * rates.acceleration(midpoint(rates, x, dt));
+  result.turn = classifyTurn(model, dt * (rates.acceleration(x) - forced), x, dt);
+  Vector6 turning = Vector6::Zero();
+  if (result.turn != Turn::kWild) {
+    turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
+  }
   const Vector6 free = projectionOf(factors);
-  result.change_W.angular = free.head<3>().cwiseProduct(R * change.head<3>());
-  result.change_W.linear =
-      free.tail<3>().cwiseProduct(R * change.tail<3>() + dt * s.ambient_acceleration);
+  const auto inWorld = [&](const Vector6& change) {
+    return Twist{free.head<3>().cwiseProduct(R * change.head<3>()),
+                 free.tail<3>().cwiseProduct(R * change.tail<3>())};
+  };
+  result.turning_W = inWorld(turning);
+  result.change_W = inWorld(turning + dt * forced);
+  result.change_W.linear += dt * free.tail<3>().cwiseProduct(s.ambient_acceleration);
   return result;
 }
 

@@ -9,24 +9,7 @@
 namespace ambient {
 namespace {
 
-constexpr double kStiffGyroscopicPart = 0.15;  // of the state, in the norm of K
-constexpr double kStiffTurn = 0.5;             // [rad] per step
-constexpr double kWildGyroscopicPart = 0.5;    // beyond, no velocity holds for the whole step
-constexpr double kWildTurn = 1.0;
 constexpr int kNewtonSteps = 3;
-
-enum class Turning { kSmooth, kStiff, kWild };
-
-Turning classify(const BodyModel& model, const Vector6& gyroscopic, const Vector6& x, double dt) {
-  const double part_sq = inertiaNormSquared(model, gyroscopic);
-  const double motion_sq = inertiaNormSquared(model, x);
-  const double turn = x.head<3>().norm() * dt;
-  const auto exceeds = [&](double part, double angle) {
-    return part_sq > part * part * motion_sq || turn > angle;
-  };
-  if (exceeds(kWildGyroscopicPart, kWildTurn)) return Turning::kWild;
-  return exceeds(kStiffGyroscopicPart, kStiffTurn) ? Turning::kStiff : Turning::kSmooth;
-}
 
 // Twist in the middle of the step by the implicit midpoint rule for K dx/dt = gyroscopic(x) +
 // wrench; the end of the step is 2 x_mid - x.
@@ -55,6 +38,18 @@ Vector6 implicitMidpoint(const BodyModel& model, const Vector6& x, const Vector6
 
 }  // namespace
 
+Turn classifyTurn(const BodyModel& model, const Vector6& gyroscopic_change, const Vector6& x,
+                  double duration) noexcept {
+  const double part_sq = inertiaNormSquared(model, gyroscopic_change);
+  const double motion_sq = inertiaNormSquared(model, x);
+  const double angle = x.head<3>().norm() * duration;
+  const auto exceeds = [&](double part, double limit) {
+    return part_sq > part * part * motion_sq || angle > limit;
+  };
+  if (exceeds(0.5, 1)) return Turn::kWild;
+  return exceeds(0.15, 0.5) ? Turn::kStiff : Turn::kSlow;
+}
+
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept {
   const BodyModel& model = task.model;
   const Surroundings& s = task.surroundings;
@@ -75,13 +70,12 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   }
   const Vector6 gyroscopic =
       dt * (model.inverse_inertia * gyroscopicWrench(model.inertia, relative).vector());
-  const Turning turning = classify(model, gyroscopic, x, dt);
-  result.is_stiff = turning != Turning::kSmooth;
+  result.turn = classifyTurn(model, gyroscopic, x, dt);
   Twist turned;
-  if (turning != Turning::kWild) {
+  if (result.turn != Turn::kWild) {
     Twist mean = relative;
     Vector6 change = gyroscopic;
-    if (turning == Turning::kStiff) {
+    if (result.turn == Turn::kStiff) {
       const Vector6 mid = implicitMidpoint(model, x, model.inertia * (impulse / dt), dt);
       mean = Twist::fromVector(mid);
       change = 2 * (mid - x) - impulse;
