@@ -123,4 +123,11 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace ambient
 
-int main(int argc, char** argv) { return ambient::run(argc, argv); }
+int main(int argc, char** argv) {
+  const int exit_code = ambient::run(argc, argv);
+  if (exit_code == 0 && std::fflush(stdout) != 0) {
+    std::fprintf(stderr, "ambient_demo: cannot write to standard output\n");
+    return ambient::kBadInput;
+  }
+  return exit_code;
+}

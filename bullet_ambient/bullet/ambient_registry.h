@@ -24,7 +24,7 @@ class AmbientRegistry {
   AmbientRegistry& operator=(const AmbientRegistry&) = delete;
 
   /// Puts a dynamic body of this world into a fluid; it may be added to the world before or after.
-  /// @throws std::invalid_argument, saying what and the limit: a world whose solver cannot carry
+  /// @throws std::invalid_argument, saying what and the limit: a kind of world that cannot carry
   /// the fluid, static body, attached twice, no fluid body, mass, inertia, medium or flow settings
   /// that are not physical.
   void attach(const btDynamicsWorld& world, btRigidBody& body, AttachDef def);

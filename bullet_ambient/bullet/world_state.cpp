@@ -30,6 +30,15 @@ void checkCount(const char* what, std::size_t saved, std::size_t found) {
   throw std::invalid_argument(sentence.str());
 }
 
+void checkContacts(const WorldState& state) {
+  for (const ContactState& contact : state.contacts) {
+    if (contact.points.size() <= MANIFOLD_CACHE_SIZE) continue;
+    throw std::invalid_argument("restoreState: a contact of the state has " +
+                                std::to_string(contact.points.size()) + " points; at most " +
+                                std::to_string(MANIFOLD_CACHE_SIZE) + " are possible");
+  }
+}
+
 // Models are built before anything is changed, so that a medium that is refused changes nothing.
 std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(
     const WorldState& state, const std::vector<btRigidBody*>& bodies) {
@@ -38,6 +47,9 @@ std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(
     result.emplace_back();
     if (!state.bodies[i].ambient) continue;
     const AmbientState& saved = *state.bodies[i].ambient;
+    if (!saved.def.fluid_body) {
+      throw std::invalid_argument("restoreState: an attached body of the state has no fluid body");
+    }
     btRigidBody with_mass(1, nullptr, bodies[i]->getCollisionShape());
     restoreMass(state.bodies[i], with_mass);
     AmbientBody built;
@@ -92,6 +104,7 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegist
   const std::vector<btRigidBody*> bodies = rigidBodiesOf(world);
   checkCount("rigid bodies", state.bodies.size(), bodies.size());
   checkCount("joints", state.joints.size(), static_cast<std::size_t>(world.getNumConstraints()));
+  checkContacts(state);
   auto ambient_bodies = makeAmbientBodies(state, bodies);
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {

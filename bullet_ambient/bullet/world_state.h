@@ -79,8 +79,8 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientRegistry& regist
 /// The world has the same bodies and joints in the same order: it is the same one, or was built by
 /// the same code, or loaded from a file. Attaches and detaches as needed. Runs Bullet's collision
 /// detection once, with its callbacks, so that contacts have their places.
-/// @throws std::invalid_argument if the numbers of bodies or joints differ, or a medium is not
-/// physical; the world is then unchanged.
+/// @throws std::invalid_argument if the numbers of bodies or joints differ, a contact has too many
+/// points, a fluid body is missing or a medium is not physical; the world is then unchanged.
 void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegistry& registry);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

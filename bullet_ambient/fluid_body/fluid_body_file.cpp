@@ -83,6 +83,9 @@ FluidBody readFluidBody(const fs::path& file) {
 
 void writeFluidBody(const FluidBody& body, const fs::path& file) {
   const std::string bytes = encodeFluidBody(body, file.string());
+  std::error_code no_status;
+  const fs::file_status target = fs::status(file, no_status);
+  if (fs::is_other(target)) fail(file, "is not a regular file");  // renaming would replace a device
   const TemporaryFile temporary(temporaryNameFor(file));
   errno = 0;
   std::ofstream stream(temporary.name(), std::ios::binary | std::ios::trunc);

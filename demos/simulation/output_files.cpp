@@ -32,6 +32,11 @@ OutputFile::OutputFile(const fs::path& file)
       partial_(file.parent_path() /
                ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".partial")),
       stream_(partial_, std::ios::binary | std::ios::trunc) {
+  std::error_code error;
+  if (fs::is_other(fs::status(file, error))) {  // renaming would replace a device
+    fs::remove(partial_, error);
+    throw std::runtime_error(file.string() + ": is not a regular file");
+  }
   if (!stream_) throw std::runtime_error(file.string() + ": cannot be written");
 }
 

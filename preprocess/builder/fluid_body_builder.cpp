@@ -62,6 +62,19 @@ MassDistribution aboutOrigin(MassDistribution mass, const Eigen::Vector3d& origi
   return mass;
 }
 
+// Far beyond these sizes areas, volumes and moments leave the range of a double.
+constexpr double kSmallestSize = 1e-9, kLargestSize = 1e9;  // [m]
+
+void requireUsualSize(const TriangleMesh& mesh, const BuildSettings& settings) {
+  const Eigen::Vector3d extents =
+      mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff();
+  const double size = extents.norm();
+  if (!(size >= kSmallestSize && size <= kLargestSize)) {
+    raiseInputError(sourceOf(settings), "the diagonal of its bounding box is ", size,
+                    " m; it must be ", kSmallestSize, " m to ", kLargestSize, " m");
+  }
+}
+
 PotentialFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
   PotentialFlowSettings flow_settings;
   flow_settings.sheet = settings.sheet;
@@ -79,6 +92,7 @@ PotentialFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings)
 std::string libraryVersion() { return "bullet_ambient " AMBIENT_VERSION; }
 
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
+  requireUsualSize(source_mesh, settings);
   TriangleMesh mesh = withTrueVolume(divideTriangles(source_mesh, settings.least_faces), settings);
   requireSolvableSize(mesh, settings);
   const MeshProperties properties = massPropertiesOf(mesh, settings.sheet);

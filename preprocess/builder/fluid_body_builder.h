@@ -44,8 +44,9 @@ struct BuildSettings {
 /// triangles first, and both count in its area; its volume is 0. Cost: that of
 /// solvePotentialFlow().
 /// @pre the mesh passed checkMesh() as a body or as a sheet.
-/// @throws std::runtime_error in one line that begins with the source, if the mesh has more than
-/// kMostVertices, also after its division, or the flow cannot be solved.
+/// @throws std::runtime_error in one line that begins with the source, if the mesh is smaller than
+/// 1e-9 m or larger than 1e9 m, has more than kMostVertices, also after its division, or the flow
+/// cannot be solved.
 FluidBody makeFluidBody(const TriangleMesh& mesh, const BuildSettings& settings);
 
 }  // namespace ambient

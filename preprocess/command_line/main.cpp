@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -186,4 +187,12 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace ambient
 
-int main(int argc, char** argv) { return ambient::run(argc, argv); }
+int main(int argc, char** argv) {
+  const int exit_code = ambient::run(argc, argv);
+  std::cout.flush();
+  if (exit_code == 0 && (!std::cout || std::fflush(stdout) != 0)) {
+    std::cerr << "ambient_preprocess: the result cannot be written to standard output\n";
+    return ambient::kBadInput;
+  }
+  return exit_code;
+}

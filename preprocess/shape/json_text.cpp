@@ -14,6 +14,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kDeepestJson = 100;
+
 // The library's message without its "[json.exception.parse_error.101] " mark, on one line.
 std::string plainMessage(const json::exception& error) {
   std::string text = error.what();
@@ -40,7 +42,10 @@ std::string readBytes(const std::filesystem::path& file) {
 
 json parseJson(const std::string& text, const std::string& source) {
   std::vector<std::set<std::string>> keys_of_open_objects;
-  const auto check = [&](int, json::parse_event_t event, json& parsed) {
+  const auto check = [&](int depth, json::parse_event_t event, json& parsed) {
+    if (depth > kDeepestJson) {
+      raiseInputError(source, "is nested deeper than ", kDeepestJson, " levels");
+    }
     if (event == json::parse_event_t::object_start) keys_of_open_objects.emplace_back();
     if (event == json::parse_event_t::object_end) keys_of_open_objects.pop_back();
     if (event == json::parse_event_t::key &&

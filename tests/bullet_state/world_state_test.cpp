@@ -176,6 +176,15 @@ TEST(WorldState, RefusesAWorldOfOtherBodiesOrJoints) {
   broken.bodies[3].ambient->def.medium.density = -1;
   EXPECT_THROW(restoreState(broken, run.scene.fluid.world, run.scene.fluid.registry),
                std::invalid_argument);
+  broken = run.state;
+  broken.bodies[3].ambient->def.fluid_body = nullptr;
+  EXPECT_THROW(restoreState(broken, run.scene.fluid.world, run.scene.fluid.registry),
+               std::invalid_argument);
+  broken = run.state;
+  ASSERT_FALSE(broken.contacts.empty());
+  broken.contacts[0].points.resize(100);
+  EXPECT_THROW(restoreState(broken, run.scene.fluid.world, run.scene.fluid.registry),
+               std::invalid_argument);
   EXPECT_EQ(run.scene.motion() == before, true);
 }
 

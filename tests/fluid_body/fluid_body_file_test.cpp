@@ -1,6 +1,7 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
@@ -124,7 +125,12 @@ TEST(FluidBodyFile, SaysWhyItCannotBeWritten) {
   std::filesystem::create_directory(folder);
   EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), folder); }),
             folder.string() + ": cannot be written: Is a directory");
-  EXPECT_EQ(entriesOf(directory), 1);  // nothing half-written stays
+  const auto pipe = directory / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), pipe); }),
+            pipe.string() + ": is not a regular file");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_EQ(entriesOf(directory), 2);  // nothing half-written stays
 }
 
 TEST(FluidBodyFile, SaysThatItIsMissingOrNoFile) {

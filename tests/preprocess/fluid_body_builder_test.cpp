@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
@@ -134,6 +135,16 @@ TEST(FluidBodyBuilder, MeshesTooLargeForTheSolverAreRefused) {
   EXPECT_EQ(message,
             "thing: 25002 vertices are more than the dense solver takes, 20000 (3.2 GB): simplify "
             "the mesh");
+}
+
+TEST(FluidBodyBuilder, MeshesBeyondTheRangeOfADoubleAreRefused) {
+  TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 80);
+  for (const double size : {1e-10, 1e10, 1e100, std::numeric_limits<double>::infinity()}) {
+    TriangleMesh scaled = mesh;
+    scaled.vertices *= size;
+    const std::string message = messageOf([&] { build(scaled); });
+    EXPECT_EQ(message.find("thing: the diagonal of its bounding box is "), 0u) << message;
+  }
 }
 
 // Lamb, Hydrodynamics: sphere V/2 per axis, nothing in rotation.

@@ -149,6 +149,8 @@ TEST(Shape, FilesThatAreNotJsonAreRefused) {
   EXPECT_EQ(refusalOf(R"({"type":"sphere","radius":1e999})").find("is not valid JSON: "), 0u);
   EXPECT_EQ(refusalOf(R"({"type":"sphere","radius":1,"radius":2})"),
             "key \"radius\" is given twice in one object");
+  const std::string deep(100000, '[');
+  EXPECT_EQ(refusalOf(deep), "is nested deeper than 100 levels");
   EXPECT_EQ(messageOf([&] { readShapeFile(folder.path() / "no.json"); }),
             (folder.path() / "no.json").string() + ": no such file");
 }

@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+"""Heat maps of a stability atlas: plot_atlas.py -o PICTURE.png ATLAS.csv
+
+Each cell is the worst of the runs that fall into it: the largest relative rise of the energy.
+"""
+
+import argparse
+import csv
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import LogNorm
+
+SETTINGS = ("free", "falling", "on a plane", "on a joint")
+# Column, label, text of a value.
+STEP = ("step", "step [s]", lambda v: f"1/{round(1 / v)}")
+SPIN = ("spin", "spin at the start [rad/s]", "{:g}".format)
+SIZE = ("size", "size [m]", "{:g}".format)
+RATIO = ("density_ratio", "density over the fluid's", "{:g}".format)
+MAPS = ((STEP, SPIN), (RATIO, SIZE))
+ROUNDING = 1e-16
+
+
+def worst_rises(runs, horizontal, vertical):
+    columns = sorted({float(run[horizontal]) for run in runs})
+    rows = sorted({float(run[vertical]) for run in runs})
+    worst = np.full((len(rows), len(columns)), math.nan)
+    for run in runs:
+        i, j = rows.index(float(run[vertical])), columns.index(float(run[horizontal]))
+        worst[i, j] = np.nanmax([worst[i, j], float(run["energy_rise"]), ROUNDING])
+    return columns, rows, worst
+
+
+def draw_map(axes, runs, horizontal, vertical):
+    columns, rows, worst = worst_rises(runs, horizontal[0], vertical[0])
+    image = axes.imshow(worst, origin="lower", aspect="auto", cmap="viridis", norm=LogNorm(ROUNDING, 10))
+    axes.set_xticks(range(len(columns)), [horizontal[2](v) for v in columns], rotation=45)
+    axes.set_yticks(range(len(rows)), [vertical[2](v) for v in rows])
+    axes.set_xlabel(horizontal[1])
+    return image
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("atlas", metavar="ATLAS.csv")
+    parser.add_argument("-o", "--output", required=True, metavar="PICTURE")
+    arguments = parser.parse_args()
+    with open(arguments.atlas, newline="", encoding="utf-8") as file:
+        runs = list(csv.DictReader(file))
+    figure, panels = plt.subplots(len(MAPS), len(SETTINGS), figsize=(11, 6), layout="constrained")
+    for row, (horizontal, vertical) in zip(panels, MAPS):
+        for axes, setting in zip(row, SETTINGS):
+            chosen = [run for run in runs if run["setting"] == setting]
+            image = draw_map(axes, chosen, horizontal, vertical)
+            axes.set_title(f"{setting}: {len(chosen)} runs", fontsize=9)
+        row[0].set_ylabel(vertical[1])
+    figure.colorbar(image, ax=panels, label="worst relative rise of the energy in 2 s", shrink=0.7)
+    figure.savefig(arguments.output, dpi=80)
+
+
+if __name__ == "__main__":
+    main()
