@@ -22,7 +22,8 @@ class FreeBody {
  public:
   explicit FreeBody(FreeBodyDef def)
       : shape_(std::make_shared<FluidBody>(std::move(def.shape))),
-        model_(makeBodyModel(*shape_, def.frame, def.mass, def.medium, def.flow)) {}
+        flow_(def.flow),
+        model_(makeBodyModel(*shape_, def.frame, def.mass, def.medium, flow_)) {}
 
   RigidState state;
   Surroundings surroundings;
@@ -60,7 +61,8 @@ class FreeBody {
   }
 
  private:
-  std::shared_ptr<const FluidBody> shape_;  // the model points into it
+  std::shared_ptr<const FluidBody> shape_;  // the model points into both
+  FlowSettings flow_;
   BodyModel model_;
   FlightMemory memory_;
 };
