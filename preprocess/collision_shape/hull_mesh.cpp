@@ -6,7 +6,6 @@
 
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/polygon_triangles.h"
 
 namespace ambient {
@@ -27,14 +26,24 @@ std::vector<int> cornersOf(const btConvexHullComputer& hull, int face) {
   return corners;
 }
 
-/// Whether the points span a volume that is more than rounding.
+/// Whether the points span a volume that is more than rounding. Flat hulls are asked too, so this
+/// needs no volume to divide by, unlike computeMassProperties().
 bool areInSpace(const TriangleMesh& mesh) {
   constexpr double kLeastThickness = 1e-6;
   if (mesh.triangleCount() < 4) return false;
+  const Eigen::Vector3d origin = mesh.vertices.col(0);
+  double volume = 0, area = 0;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Eigen::Vector3i corners = mesh.triangles.col(t);
+    const Eigen::Vector3d a = mesh.vertices.col(corners[0]) - origin;
+    const Eigen::Vector3d b = mesh.vertices.col(corners[1]) - origin;
+    const Eigen::Vector3d c = mesh.vertices.col(corners[2]) - origin;
+    volume += a.dot(b.cross(c)) / 6;
+    area += (b - a).cross(c - a).norm() / 2;
+  }
   const Eigen::Vector3d extent =
       mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff();
-  const MeshProperties properties = computeMassProperties(mesh);
-  return properties.volume > kLeastThickness * extent.maxCoeff() * properties.area;
+  return volume > kLeastThickness * extent.maxCoeff() * area;
 }
 
 }  // namespace
