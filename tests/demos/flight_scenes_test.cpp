@@ -183,17 +183,40 @@ AxisAngles secondHalfAngles(const std::string& name) {
 }
 
 TEST(FootballScene, TheAxisFollowsThePathInAirOnly) {
-  // 10.4 degrees at most and 6.9 in the mean with the inertia of a shell, 7.7 and 4.4 with that of
-  // a solid; a ball lies between. The same with a quarter of the step and fifteen times the faces.
+  // 9.6 degrees at most; 9.8 with four times the faces, 9.6 with half the step.
   const AxisAngles angles = secondHalfAngles("football");
-  EXPECT_LT(angles.largest, 10.6);
-  EXPECT_LT(angles.mean, 8);
+  EXPECT_LT(angles.largest, 10);
+  EXPECT_LT(angles.mean, 7);
   EXPECT_GT(secondHalfAngles("football_vacuum").largest, 60);
 }
 
-TEST(FootballScene, FliesAsFarAsInThePrototypes) {
+/// Where a body comes down through a height, on the line between two samples.
+MotionSample passageOf(const std::vector<MotionSample>& motion, double height) {
+  std::size_t i = 1;
+  while (motion[i].position.z() > height || motion[i].twist.linear.z() > 0) ++i;
+  const MotionSample &a = motion[i - 1], &b = motion[i];
+  const double share = (height - a.position.z()) / (b.position.z() - a.position.z());
+  MotionSample passage = b;
+  passage.time = a.time + share * (b.time - a.time);
+  passage.position = a.position + share * (b.position - a.position);
+  return passage;
+}
+
+TEST(FootballScene, IsCaughtWhereRaeMeasuredIt) {
+  // Thrown and caught at one height: Rae 2003 gives 66.4 m.
+  const Scene scene = readNamedScene("football");
+  const MotionSample caught = passageOf(runSharing(scene).motion[0], scene.bodies[0].position.z());
+  EXPECT_NEAR(caught.position.x(), 66.4, 0.01 * 66.4);
+  // His 2.8 s are those of a throw without lift (2 x 13.7 / 9.81); the model's nose-up ball has
+  // lift.
+  EXPECT_NEAR(caught.time, 3.16, 0.03);
+}
+
+TEST(FootballScene, FliesBetweenTheShellAndTheSolidOfThePrototypes) {
   // 65 m with the inertia of a solid, 69 m with that of a shell.
-  EXPECT_NEAR(landingOf("football").position.x(), 69, 0.69);
+  const double range = landingOf("football").position.x();
+  EXPECT_GT(range, 65);
+  EXPECT_LT(range, 69);
 }
 
 /// The gated number of a scene: where the last body lands, or how far it has drifted at the end.

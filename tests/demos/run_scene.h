@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/scene_run.h"
+#include "preprocess/builder/shape_builder.h"
 #include "tests/demos/temporary_folder.h"
 
 namespace ambient {
@@ -37,6 +39,23 @@ inline std::vector<PreparedBody> prepare(const Scene& scene) {
 inline RunRecord runSharing(const Scene& scene) {
   static FluidBodyCache cache;
   return runPrepared(scene, prepareBodies(scene, cache));
+}
+
+/// A scene whose first body's flow is solved on the triangles of its mesh only, which is faster and
+/// within a percent. The .ambient file goes into the folder.
+inline Scene readCoarseScene(const std::string& name, const TemporaryFolder& folder,
+                             std::vector<SceneOverride> overrides = {}) {
+  ShapeBuildSettings settings;
+  settings.name = name;
+  settings.origin = Vector3::Zero();
+  settings.max_panels = 0;
+  const std::filesystem::path file = folder.path() / (name + ".ambient");
+  if (!std::filesystem::exists(file))
+    writeFluidBody(buildShape(readNamedScene(name, overrides).bodies[0].shape, settings).body,
+                   file);
+  overrides.push_back(
+      {"bodies.0.shape", R"({"type": "fluid_body", "file": ")" + file.string() + "\"}"});
+  return readNamedScene(name, overrides);
 }
 
 inline RunRecord run(const Scene& scene) { return runPrepared(scene, prepare(scene)); }

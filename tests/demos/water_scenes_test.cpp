@@ -1,5 +1,5 @@
-// Bodies in water and a balloon: the scenes underwater_ellipsoid, balloon, ball_on_bottom,
-// box_pile.
+// Bodies in water and a balloon: the scenes underwater_ellipsoid, underwater_bunny, balloon,
+// ball_on_bottom, box_pile.
 
 #include <gtest/gtest.h>
 
@@ -68,22 +68,93 @@ TEST(UnderwaterEllipsoid, GlidesRocksAndSettlesBroadside) {
   EXPECT_LE(largestRise(motion, EnergyOf(scene, bodies[0])), 1e-4);
 }
 
+/// Pressure and friction on the first body of a scene, for a motion in its own axes about its
+/// centre of mass.
+Wrench loadOn(const Scene& scene, const PreparedBody& body, const Twist& motion_B) {
+  LoadSettings settings;
+  settings.density = scene.medium.density;
+  settings.viscosity = scene.medium.viscosity;
+  settings.separation_cosine = separationCosine(scene.bodies[0].flow.separation_angle);
+  FrameOffset fluid_frame;
+  fluid_frame.translation = body.fluid_origin - body.centre_of_mass;
+  const FluidBody& fluid = *body.fluid_body;
+  return fluid_frame.toB(
+      computeFaceLoads(fluid.faces, std::sqrt(fluid.area), fluid_frame.toF(motion_B), settings)
+          .total());
+}
+
+/// Weight less buoyancy [N].
+double weightIn(const Scene& scene, const PreparedBody& body) {
+  return (body.mass - scene.medium.density * body.fluid_body->volume) * -scene.gravity.z();
+}
+
 TEST(UnderwaterEllipsoid, SinksAtTheSpeedWhereDragBalancesItsWeight) {
   const Scene scene = readNamedScene("underwater_ellipsoid");
   const auto bodies = prepare(scene);
   const auto motion = runPrepared(scene, bodies).motion[0];
   // Broadside at its terminal speed the loads of the faces carry the weight.
-  LoadSettings settings;
-  settings.density = scene.medium.density;
-  settings.viscosity = scene.medium.viscosity;
-  settings.separation_cosine = separationCosine(scene.bodies[0].flow.separation_angle);
-  const FluidBody& body = *bodies[0].fluid_body;
   const Wrench load =
-      computeFaceLoads(body.faces, std::sqrt(body.area),
-                       {Vector3::Zero(), Vector3(0, 0, motion.back().twist.linear.z())}, settings)
-          .total();
-  const double weight = (bodies[0].mass - scene.medium.density * body.volume) * 9.81;
+      loadOn(scene, bodies[0], {Vector3::Zero(), Vector3(0, 0, motion.back().twist.linear.z())});
+  const double weight = weightIn(scene, bodies[0]);
   EXPECT_NEAR(load.force.z(), weight, 0.01 * weight);
+}
+
+class UnderwaterBunny : public ::testing::Test {
+ protected:
+  UnderwaterBunny()
+      : scene_(readCoarseScene("underwater_bunny", folder_)),
+        bodies_(prepare(scene_)),
+        motion_(runPrepared(scene_, bodies_).motion[0]) {}
+
+  static Vector3 earsOf(const MotionSample& sample) {
+    return sample.orientation * Vector3::UnitZ();
+  }
+
+  TemporaryFolder folder_;
+  Scene scene_;
+  std::vector<PreparedBody> bodies_;
+  std::vector<MotionSample> motion_;
+};
+
+TEST_F(UnderwaterBunny, IsOfSiliconeAndLosesEnergyOnly) {
+  const PreparedBody& bunny = bodies_[0];
+  EXPECT_NEAR(bunny.mass / bunny.fluid_body->volume, 1060, 0.01);
+  EXPECT_LE(largestRise(motion_, EnergyOf(scene_, bunny)), 1e-4);
+}
+
+TEST_F(UnderwaterBunny, TurnsOverAndScrewsDown) {
+  EXPECT_EQ(earsOf(motion_.front()).z(), 1);
+  double lowest = 1;
+  for (const MotionSample& sample : motion_) lowest = std::min(lowest, earsOf(sample).z());
+  EXPECT_LT(lowest, 0);
+  // The end is a screw about the vertical: the tilt stays, and so do the speeds.
+  const MotionSample& end = motion_.back();
+  EXPECT_GT(end.twist.angular.normalized().dot(-Vector3::UnitZ()), 0.999);
+  for (const MotionSample& sample : motion_) {
+    if (sample.time < 0.9 * scene_.duration) continue;
+    EXPECT_NEAR(earsOf(sample).z(), earsOf(end).z(), 0.05);
+    EXPECT_NEAR(sample.twist.linear.z(), end.twist.linear.z(), 0.01 * end.twist.linear.norm());
+    EXPECT_NEAR(sample.twist.angular.z(), end.twist.angular.z(), 0.05 * end.twist.angular.norm());
+  }
+}
+
+TEST_F(UnderwaterBunny, DragDissipatesWhatItsWeightGives) {
+  const MotionSample& end = motion_.back();
+  const Quaternion to_body = end.orientation.conjugate();
+  const Twist motion_B{to_body * end.twist.angular, to_body * end.twist.linear};
+  const Wrench load = loadOn(scene_, bodies_[0], motion_B);
+  const double given = weightIn(scene_, bodies_[0]) * -end.twist.linear.z();
+  EXPECT_NEAR(-power(load, motion_B), given, 0.02 * given);
+}
+
+TEST_F(UnderwaterBunny, EndsAlikeReleasedOnItsHead) {
+  // From its back, its nose up, it finds another screw: 2.5 rad/s and 0.27 m/s.
+  Scene on_head = scene_;
+  on_head.bodies[0].orientation = Quaternion(0, 1, 0, 0);
+  const MotionSample other = runPrepared(on_head, bodies_).motion[0].back();
+  const MotionSample& end = motion_.back();
+  EXPECT_NEAR(other.twist.linear.z(), end.twist.linear.z(), 0.02 * end.twist.linear.norm());
+  EXPECT_NEAR(other.twist.angular.z(), end.twist.angular.z(), 0.05 * end.twist.angular.norm());
 }
 
 TEST(Balloon, RisesUnsteadily) {
