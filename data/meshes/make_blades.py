@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the propeller and the paper copter next to this file: two blades in one piece, closed triangle meshes in metres.
+"""Writes the propeller and the proxy of the paper copter next to this file: two blades in one piece, closed meshes in metres.
 
 Each is a loft from tip to tip along x: sections across x are ellipses whose chord is turned about x by the pitch, one way
 on the right and the other way on the left, so that the body looks the same after half a turn about z. The copter's blades
@@ -59,7 +59,7 @@ class Blades:
 
 SHAPES = (
     Blades("propeller", span=0.18, chord=0.022, thickness=0.004, pitch=20, rise=0, hub=0.02, sections=31),
-    Blades("paper_copter", span=0.16, chord=0.03, thickness=0.005, pitch=30, rise=45, hub=0.02, sections=31),
+    Blades("paper_copter_proxy", span=0.16, chord=0.03, thickness=0.005, pitch=30, rise=45, hub=0.02, sections=31),
 )
 
 

@@ -1,11 +1,12 @@
-// Two blades in one piece: the scenes toy_propeller, underwater_propeller and paper_copter.
+// Two blades in one piece: the scenes toy_propeller and underwater_propeller; and the
+// paper copters.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/demos/run_scene.h"
+#include "tests/demos/scene_loads.h"
 
 namespace ambient {
 namespace {
@@ -46,28 +47,79 @@ TEST(UnderwaterPropeller, SpinsUpAsItSinks) {
   EXPECT_LT(motion.back().position.z(), -0.1);
 }
 
-TEST(PaperCopter, RightsItselfAndSpinsSteadily) {
-  const auto motion = motionOf("paper_copter");
-  double least_spin = 1e9, largest_spin = 0, largest_tilt = 0;
-  for (const MotionSample& sample : motion) {
-    if (sample.time < motion.back().time / 2) continue;
-    least_spin = std::min(least_spin, std::abs(spinOf(sample)));
-    largest_spin = std::max(largest_spin, std::abs(spinOf(sample)));
-    // Against the descent.
-    const double cosine = -axisOf(sample).dot(sample.twist.linear.normalized());
-    largest_tilt = std::max(largest_tilt, std::acos(std::min(cosine, 1.0)));
+/// What a copter does in the later half of its flight.
+struct Autorotation {
+  double least_spin = 1e9, largest_spin = 0;  ///< either way about its axis [rad/s]
+  double largest_tilt = 0;                    ///< of its axis against the descent [rad]
+
+  explicit Autorotation(const std::vector<MotionSample>& motion) {
+    for (const MotionSample& sample : motion) {
+      if (sample.time < motion.back().time / 2) continue;
+      least_spin = std::min(least_spin, std::abs(spinOf(sample)));
+      largest_spin = std::max(largest_spin, std::abs(spinOf(sample)));
+      const double cosine = -axisOf(sample).dot(sample.twist.linear.normalized());
+      largest_tilt = std::max(largest_tilt, std::acos(std::min(cosine, 1.0)));
+    }
   }
-  EXPECT_LT(largest_tilt, 15 * std::acos(-1.0) / 180);
-  EXPECT_GT(least_spin, 50);
-  EXPECT_LT(largest_spin / least_spin, 1.05);
+};
+
+const double kDegree = std::acos(-1.0) / 180;
+
+/// A sheet, and the fat proxy of the paper.
+class PaperCopter : public ::testing::TestWithParam<const char*> {
+ protected:
+  PaperCopter() : scene_(readCoarseScene(GetParam(), folder_)), bodies_(prepare(scene_)) {}
+
+  TemporaryFolder folder_;
+  Scene scene_;
+  std::vector<PreparedBody> bodies_;
+};
+
+TEST_P(PaperCopter, RightsItselfAndSpinsSteadily) {
+  const Autorotation late(runPrepared(scene_, bodies_).motion[0]);
+  EXPECT_LT(late.largest_tilt, 5 * kDegree);
+  EXPECT_GT(late.least_spin, 50);
+  EXPECT_LT(late.largest_spin / late.least_spin, 1.02);
 }
 
-TEST(PaperCopter, FallsAtASteadySpeed) {
-  const auto motion = motionOf("paper_copter");
+TEST_P(PaperCopter, FallsAtASteadySpeedThatPaysForItsDrag) {
+  const auto motion = runPrepared(scene_, bodies_).motion[0];
   const double late = motion.back().twist.linear.z();
-  const double middle = motion[motion.size() / 2].twist.linear.z();
   EXPECT_LT(late, -1);
-  EXPECT_NEAR(late / middle, 1, 0.02);
+  EXPECT_NEAR(late / motion[motion.size() / 2].twist.linear.z(), 1, 0.02);
+  const double given = weightIn(scene_, bodies_[0]) * -late;
+  EXPECT_NEAR(-powerOfLoads(scene_, bodies_[0], motion.back()), given, 0.01 * given);
+}
+
+INSTANTIATE_TEST_SUITE_P(SheetAndProxy, PaperCopter,
+                         ::testing::Values("paper_copter", "paper_copter_proxy"));
+
+TEST(PaperCopterSheet, HasNoVolumeAndRightsItselfFromAnyTilt) {
+  const TemporaryFolder folder;
+  Scene scene = readCoarseScene("paper_copter", folder);
+  const auto bodies = prepare(scene);
+  EXPECT_EQ(bodies[0].fluid_body->volume, 0);
+  for (const double tilt : {10, 60, 85, 120}) {
+    for (const double azimuth : {15, 100}) {
+      const Vector3 axis(std::cos(azimuth * kDegree), std::sin(azimuth * kDegree), 0);
+      scene.bodies[0].orientation = Eigen::AngleAxisd(tilt * kDegree, axis);
+      const Autorotation late(runPrepared(scene, bodies).motion[0]);
+      EXPECT_LT(late.largest_tilt, 15 * kDegree) << tilt << " towards " << azimuth;
+      EXPECT_NEAR(late.least_spin, 64, 3) << tilt << " towards " << azimuth;
+    }
+  }
+}
+
+TEST(PaperCopterSheet, HalfTheStepKeepsSpinAndDescent) {
+  const TemporaryFolder folder;
+  Scene scene = readCoarseScene("paper_copter", folder);
+  const auto bodies = prepare(scene);
+  const MotionSample whole = runPrepared(scene, bodies).motion[0].back();
+  scene.time_step /= 2;
+  const MotionSample half = runPrepared(scene, bodies).motion[0].back();
+  EXPECT_NEAR(spinOf(half), spinOf(whole), 0.005 * std::abs(spinOf(whole)));
+  EXPECT_NEAR(half.twist.linear.z(), whole.twist.linear.z(),
+              0.005 * std::abs(whole.twist.linear.z()));
 }
 
 }  // namespace

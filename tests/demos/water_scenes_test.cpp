@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/demos/run_scene.h"
+#include "tests/demos/scene_loads.h"
 
 namespace ambient {
 namespace {
@@ -68,26 +68,6 @@ TEST(UnderwaterEllipsoid, GlidesRocksAndSettlesBroadside) {
   EXPECT_LE(largestRise(motion, EnergyOf(scene, bodies[0])), 1e-4);
 }
 
-/// Pressure and friction on the first body of a scene, for a motion in its own axes about its
-/// centre of mass.
-Wrench loadOn(const Scene& scene, const PreparedBody& body, const Twist& motion_B) {
-  LoadSettings settings;
-  settings.density = scene.medium.density;
-  settings.viscosity = scene.medium.viscosity;
-  settings.separation_cosine = separationCosine(scene.bodies[0].flow.separation_angle);
-  FrameOffset fluid_frame;
-  fluid_frame.translation = body.fluid_origin - body.centre_of_mass;
-  const FluidBody& fluid = *body.fluid_body;
-  return fluid_frame.toB(
-      computeFaceLoads(fluid.faces, std::sqrt(fluid.area), fluid_frame.toF(motion_B), settings)
-          .total());
-}
-
-/// Weight less buoyancy [N].
-double weightIn(const Scene& scene, const PreparedBody& body) {
-  return (body.mass - scene.medium.density * body.fluid_body->volume) * -scene.gravity.z();
-}
-
 TEST(UnderwaterEllipsoid, SinksAtTheSpeedWhereDragBalancesItsWeight) {
   const Scene scene = readNamedScene("underwater_ellipsoid");
   const auto bodies = prepare(scene);
@@ -140,11 +120,8 @@ TEST_F(UnderwaterBunny, TurnsOverAndScrewsDown) {
 
 TEST_F(UnderwaterBunny, DragDissipatesWhatItsWeightGives) {
   const MotionSample& end = motion_.back();
-  const Quaternion to_body = end.orientation.conjugate();
-  const Twist motion_B{to_body * end.twist.angular, to_body * end.twist.linear};
-  const Wrench load = loadOn(scene_, bodies_[0], motion_B);
   const double given = weightIn(scene_, bodies_[0]) * -end.twist.linear.z();
-  EXPECT_NEAR(-power(load, motion_B), given, 0.02 * given);
+  EXPECT_NEAR(-powerOfLoads(scene_, bodies_[0], end), given, 0.02 * given);
 }
 
 TEST_F(UnderwaterBunny, EndsAlikeReleasedOnItsHead) {
