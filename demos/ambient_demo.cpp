@@ -10,6 +10,7 @@
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
+#include "demos/simulation/geometry_text.h"
 #include "demos/simulation/scene_run.h"
 #include "demos/simulation/summary.h"
 #include "preprocess/builder/elapsed_display.h"
@@ -92,10 +93,13 @@ void runAndWrite(const Arguments& arguments) {
 
   OutputFolder folder(out);
   TrajectoryFile trajectory(out / "trajectory.csv");
+  OutputFile geometry(out / "geometry.json");
   OutputFile summary(out / "summary.json");
+  geometry.write(makeGeometryText(scene, bodies));
   const RunRecord record = runScene(scene, bodies, trajectory, arguments.quiet);
   summary.write(makeSummary(scene, bodies, record));
   trajectory.commit();
+  geometry.commit();
   summary.commit();
   folder.keep();
   cache.save();

@@ -71,6 +71,7 @@ TEST(AmbientDemo, WritesTrajectorySummaryAndFluidBodies) {
             0u);
   std::filesystem::remove(output.path() / "summary.json");
   std::filesystem::remove(output.path() / "trajectory.csv");
+  std::filesystem::remove(output.path() / "geometry.json");
   std::filesystem::remove_all(output.path() / "fluid_bodies");
   EXPECT_TRUE(output.empty());
 }

@@ -1,0 +1,116 @@
+'use strict';
+// What is drawn of one body: its faces in the colours of the slip, and its path.
+
+const PATH_COLOURS = ['#1f6feb', '#d9480f', '#2b8a3e', '#9c36b5', '#c2255c', '#5c7cfa', '#e8a400', '#0b7285'];
+// Pieces of the path's line between two samples.
+const PATH_PIECES = 4;
+const RIVAL_COLOURS = { vacuum: '#495057', uwrbd: '#d6336c', gwtf: '#e8590c' };
+
+class BodyView {
+  // `colour`: of the path, and of the body itself if `isRival`.
+  constructor(body, shape, colour, isRival) {
+    this.body = body;
+    this.motion = new Motion(body.samples);
+    this.isStatic = body.mass === 0;
+    this.group = new THREE.Group();
+    this.geometry = makeGeometry(shape);
+    this.slip = this.isStatic || isRival ? null : new SlipField(shape.vertices, shape.triangles);
+    this.mesh = new THREE.Mesh(this.geometry, this.makeMaterial(colour, isRival));
+    this.edges = new THREE.LineSegments(new THREE.EdgesGeometry(this.geometry, 25),
+      new THREE.LineBasicMaterial({ color: 0x223344, transparent: true, opacity: isRival ? 0.25 : 0.5 }));
+    this.solid = new THREE.Group();
+    this.solid.add(this.mesh, this.edges);
+    this.group.add(this.solid);
+    if (!this.isStatic) this.group.add(makePath(this.motion, colour));
+  }
+
+  makeMaterial(colour, isRival) {
+    const common = { side: THREE.DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+    if (isRival) return new THREE.MeshLambertMaterial({ ...common, color: colour, transparent: true, opacity: 0.55 });
+    if (this.isStatic) return new THREE.MeshLambertMaterial({ ...common, color: 0xb8c2cc });
+    return new THREE.MeshLambertMaterial({ ...common, vertexColors: THREE.VertexColors });
+  }
+
+  moveTo(time, magnification) {
+    this.motion.moveTo(time);
+    this.solid.position.copy(this.motion.position);
+    this.solid.quaternion.copy(this.motion.orientation);
+    this.solid.scale.setScalar(this.isStatic ? 1 : magnification);
+  }
+
+  // Colours the faces and returns the largest slip [m/s].
+  colour(mediumVelocity, scale, showSeparation) {
+    if (!this.slip) return 0;
+    const twist = relativeTwist(this.motion, mediumVelocity);
+    const colours = this.geometry.attributes.color;
+    let largest = 0;
+    for (let face = 0; face < this.slip.faces; ++face) {
+      const speed = this.slip.speed(face, twist);
+      largest = Math.max(largest, speed);
+      const attached = !showSeparation || this.slip.isAttached(face, twist, speed, this.body.separation_angle);
+      const [red, green, blue] = attached ? colourOf(speed / scale) : SEPARATED;
+      for (let corner = 3 * face; corner < 3 * face + 3; ++corner) colours.setXYZ(corner, red, green, blue);
+    }
+    colours.needsUpdate = true;
+    return largest;
+  }
+
+  // Largest slip over the run, looked up at some of its samples [m/s].
+  largestSlip(mediumVelocity) {
+    if (!this.slip) return 0;
+    let largest = 0;
+    const stride = Math.max(1, Math.floor(this.motion.count / 60));
+    for (let sample = 0; sample < this.motion.count; sample += stride) {
+      this.motion.moveTo(this.motion.timeOf(sample));
+      const twist = relativeTwist(this.motion, mediumVelocity);
+      for (let face = 0; face < this.slip.faces; ++face) largest = Math.max(largest, this.slip.speed(face, twist));
+    }
+    return largest;
+  }
+
+  radius() {
+    this.geometry.computeBoundingSphere();
+    return this.geometry.boundingSphere.center.length() + this.geometry.boundingSphere.radius;
+  }
+
+  dispose() {
+    this.group.traverse((part) => {
+      if (part.geometry) part.geometry.dispose();
+      if (part.material) part.material.dispose();
+    });
+  }
+}
+
+// Three vertices of its own per face, so that each face has one colour.
+function makeGeometry(shape) {
+  const positions = new Float32Array(3 * shape.triangles.length);
+  shape.triangles.forEach((vertex, i) => positions.set(shape.vertices.subarray(3 * vertex, 3 * vertex + 3), 3 * i));
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(positions.length).fill(0.7), 3));
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+// A line through the samples with dots at even intervals of time.
+function makePath(motion, colour) {
+  const points = [];
+  for (let k = 0; k <= (motion.count - 1) * PATH_PIECES; ++k) {
+    const sample = Math.min(Math.floor(k / PATH_PIECES), motion.count - 2);
+    const share = k / PATH_PIECES - sample;
+    motion.moveTo((1 - share) * motion.timeOf(sample) + share * motion.timeOf(sample + 1));
+    points.push(motion.position.clone());
+  }
+  const path = new THREE.Group();
+  path.add(new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({ color: colour })));
+  const end = motion.timeOf(motion.count - 1);
+  const interval = roundUp(end / 20);
+  const dots = [];
+  for (let k = 0; k * interval <= end * (1 + 1e-6); ++k) {
+    motion.moveTo(k * interval);
+    dots.push(motion.position.clone());
+  }
+  path.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints(dots),
+    new THREE.PointsMaterial({ color: colour, size: 5, sizeAttenuation: false })));
+  return path;
+}

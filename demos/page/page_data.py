@@ -1,0 +1,96 @@
+"""What the page needs of the runs: bodies, shapes and motion, packed."""
+
+import base64
+import csv
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+# Samples per second that the page interpolates between.
+RATE = 60
+
+
+def encode(values, kind):
+    return base64.b64encode(np.ascontiguousarray(values, kind).tobytes()).decode()
+
+
+def read_motion(file):
+    """Rows of trajectory.csv by body: time, position, orientation, angular velocity, velocity."""
+    motion = {}
+    with open(file, newline="") as stream:
+        reader = csv.reader(stream)
+        next(reader)
+        for row in reader:
+            motion.setdefault(row[1], []).append([float(row[0]), *map(float, row[2:15])])
+    return {name: np.array(rows) for name, rows in motion.items()}
+
+
+def thin_out(rows, output_step):
+    """Every so many rows that RATE is about kept, and the last one."""
+    stride = max(1, round(1 / (RATE * output_step)))
+    kept = np.arange(0, len(rows), stride)
+    return rows[kept if kept[-1] == len(rows) - 1 else np.append(kept, len(rows) - 1)]
+
+
+class Shapes:
+    """Distinct shapes in the order of their first use."""
+
+    def __init__(self):
+        self.indices = {}
+        self.packed = []
+
+    def add(self, body):
+        packed = {"vertices": encode(body["vertices"], "<f4"), "triangles": encode(body["triangles"], "<u4")}
+        index = self.indices.setdefault((packed["vertices"], packed["triangles"]), len(self.packed))
+        if index == len(self.packed):
+            self.packed.append(packed)
+        return index
+
+
+def pack_bodies(folder, summary, geometry, shapes):
+    motion = read_motion(folder / "trajectory.csv")
+    bodies = []
+    for body in geometry["bodies"]:
+        rows = motion[body["name"]]
+        rows = thin_out(rows, summary["output_step"]) if body["mass"] > 0 else rows[:1]
+        bodies.append(
+            {
+                "name": body["name"],
+                "mass": body["mass"],
+                "separation_angle": body["separation_angle"],
+                "shape": shapes.add(body),
+                "samples": encode(rows, "<f4"),
+            }
+        )
+    return bodies
+
+
+def pack(folders):
+    """Runs of scenes in the order given; a folder SCENE-MODEL is a rival of that scene's run."""
+    shapes, runs, rivals = Shapes(), {}, []
+    for folder in map(Path, folders):
+        summary = json.loads((folder / "summary.json").read_text())
+        geometry = json.loads((folder / "geometry.json").read_text())
+        bodies = pack_bodies(folder, summary, geometry, shapes)
+        scene, model = summary["scene"], summary["model"]
+        if folder.name == f"{scene}-{model}":
+            rivals.append((scene, {"model": model, "bodies": bodies}))
+            continue
+        runs[scene] = {
+            "name": scene,
+            "description": summary["description"],
+            "model": model,
+            "duration": summary["duration"],
+            "gravity": summary["gravity"],
+            "medium_velocity": geometry["medium_velocity"],
+            "joints": geometry["joints"],
+            "bodies": bodies,
+            "rivals": [],
+        }
+    for scene, rival in rivals:
+        if scene not in runs:
+            sys.exit(f"{scene}-{rival['model']}: there is no run of {scene} beside it")
+        runs[scene]["rivals"].append(rival)
+    return {"shapes": shapes.packed, "runs": list(runs.values())}

@@ -1,0 +1,192 @@
+'use strict';
+// The page: choice of the scene, time, overlays and what they show.
+
+const SPEEDS = [0.01, 0.03, 0.1, 0.25, 0.5, 1, 2, 4];
+const MODELS = { vacuum: 'vacuum (stock Bullet)', uwrbd: 'UWRBD: linear drag', gwtf: 'GwtF stand-in: windward flux' };
+const element = (id) => document.getElementById(id);
+
+function decodeBase64(text, Type) {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  return new Type(bytes.buffer);
+}
+
+function readData() {
+  const data = JSON.parse(element('runs').textContent);
+  for (const shape of data.shapes) {
+    shape.vertices = decodeBase64(shape.vertices, Float32Array);
+    shape.triangles = decodeBase64(shape.triangles, Uint32Array);
+  }
+  for (const run of data.runs) {
+    for (const bodies of [run.bodies, ...run.rivals.map((rival) => rival.bodies)]) {
+      for (const body of bodies) body.samples = decodeBase64(body.samples, Float32Array);
+    }
+  }
+  return data;
+}
+
+function digits(value, count = 3) {
+  const rounded = Number(value.toPrecision(count));
+  return rounded === 0 || Math.abs(rounded) >= 1e-3 ? rounded.toString() : rounded.toExponential();
+}
+
+class Player {
+  constructor(data, view) {
+    this.data = data;
+    this.view = view;
+    this.time = 0;
+    this.playing = false;
+    this.changed = true;
+    this.lastFrame = null;
+    this.makeChoices();
+    this.listen();
+    const wanted = data.runs.findIndex((run) => `#${run.name}` === location.hash);
+    this.select(Math.max(wanted, 0));
+    requestAnimationFrame((now) => this.frame(now));
+  }
+
+  makeChoices() {
+    this.data.runs.forEach((run, i) => {
+      const button = document.createElement('button');
+      button.textContent = run.name.replace(/_/g, ' ');
+      button.setAttribute('role', 'option');
+      button.addEventListener('click', () => this.select(i));
+      element('scenes').append(button);
+    });
+    for (const speed of SPEEDS) element('speed').append(new Option(`${speed} ×`, speed, speed === 1, speed === 1));
+    element('legend-bar').style.background = colourGradient();
+  }
+
+  listen() {
+    element('play').addEventListener('click', () => this.play(!this.playing));
+    element('time').addEventListener('input', () => { this.play(false); this.setTime(Number(element('time').value)); });
+    element('view').addEventListener('change', () => this.look());
+    element('size').addEventListener('input', () => this.setMagnification(this.largestMagnification ** element('size').value));
+    element('show-separation').addEventListener('change', (event) => {
+      this.view.showSeparation = event.target.checked;
+      this.changed = true;
+    });
+    this.view.controls.addEventListener('change', () => { this.changed = true; });
+    window.addEventListener('resize', () => { this.changed = true; });
+    window.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  key(event) {
+    if (/^(INPUT|SELECT|BUTTON)$/.test(event.target.tagName)) return;
+    const step = { ArrowLeft: -1 / 60, ArrowRight: 1 / 60 }[event.key];
+    if (event.key === ' ') this.play(!this.playing);
+    else if (step) { this.play(false); this.setTime(this.time + step); }
+    else return;
+    event.preventDefault();
+  }
+
+  select(index) {
+    this.run = this.data.runs[index];
+    [...element('scenes').children].forEach((button, i) => button.setAttribute('aria-selected', i === index));
+    history.replaceState(null, '', `#${this.run.name}`);
+    this.view.followed = null;
+    this.view.show(this.run, this.data.shapes);
+    this.largestMagnification = Math.max(20, 3 * this.view.naturalMagnification);
+    element('title').textContent = this.run.name.replace(/_/g, ' ');
+    element('description').textContent = this.run.description;
+    element('time').max = this.run.duration;
+    element('legend-ticks').replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((share) => {
+      const tick = document.createElement('span');
+      tick.textContent = digits(share * this.view.slipScale);
+      return tick;
+    }));
+    element('scale').textContent = `grid: ${digits(this.view.gridStep)} m`;
+    this.makeViewChoices();
+    this.makeOverlays();
+    this.setTime(0);
+    this.look();
+    this.play(false);
+  }
+
+  makeViewChoices() {
+    const moving = this.view.moving();
+    const choices = moving.map((view, i) => new Option(`follow ${view.body.name.replace(/_/g, ' ')}`, i));
+    element('view').replaceChildren(new Option('whole path', -1), ...choices);
+  }
+
+  makeOverlays() {
+    element('overlays').replaceChildren(...this.run.rivals.map((rival) => {
+      const label = document.createElement('label');
+      const box = document.createElement('input');
+      box.type = 'checkbox';
+      box.checked = true;
+      box.id = `rival-${rival.model}`;
+      box.addEventListener('change', () => {
+        this.view.showRival(rival.model, box.checked);
+        this.changed = true;
+      });
+      const mark = document.createElement('i');
+      mark.style.background = RIVAL_COLOURS[rival.model];
+      label.append(box, mark, MODELS[rival.model]);
+      return label;
+    }));
+  }
+
+  look() {
+    const chosen = this.view.moving()[element('view').value];
+    this.setMagnification(chosen ? 1 : this.view.naturalMagnification);
+    this.view.render();
+    this.view.lookAt(chosen || null, this.time);
+    this.changed = true;
+  }
+
+  setMagnification(factor) {
+    this.view.magnification = factor;
+    element('size').value = Math.log(factor) / Math.log(this.largestMagnification);
+    element('factor').textContent = digits(factor, 2);
+    this.changed = true;
+  }
+
+  setTime(time) {
+    this.time = Math.min(Math.max(time, 0), this.run.duration);
+    element('time').value = this.time;
+    this.changed = true;
+  }
+
+  play(playing) {
+    if (playing && this.time >= this.run.duration) this.setTime(0);
+    this.playing = playing;
+    element('play').textContent = playing ? 'Pause' : 'Play';
+  }
+
+  frame(now) {
+    if (this.playing && this.lastFrame !== null) {
+      this.setTime(this.time + Number(element('speed').value) * (now - this.lastFrame) / 1000);
+      if (this.time >= this.run.duration) this.play(false);
+    }
+    this.lastFrame = now;
+    if (this.changed) this.draw();
+    requestAnimationFrame((next) => this.frame(next));
+  }
+
+  draw() {
+    this.changed = false;
+    const slip = this.view.moveTo(this.time);
+    const shown = this.view.followed || this.view.moving()[0];
+    const { motion } = shown;
+    const name = this.view.moving().length > 1 ? `${shown.body.name.replace(/_/g, ' ')}: ` : '';
+    element('clock').textContent = `${this.time.toFixed(3)} / ${digits(this.run.duration)} s`;
+    element('numbers').textContent = `${name}speed ${digits(motion.velocity.length())} m/s · spin ${digits(motion.spin.length())} rad/s`
+      + ` · largest slip ${digits(slip)} m/s`;
+    this.view.render();
+  }
+
+  // Pose of a body of the shown run at the shown time, for tests: position [m], orientation x, y, z, w.
+  pose(name) {
+    const view = this.view.bodies.find((candidate) => candidate.body.name === name);
+    view.motion.moveTo(this.time);
+    return { position: view.motion.position.toArray(), orientation: view.motion.orientation.toArray() };
+  }
+}
+
+function start() {
+  const canvas = element('canvas');
+  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, logarithmicDepthBuffer: true });
+  window.player = new Player(readData(), new RunView(renderer, canvas));
+}
+
+start();

@@ -1,0 +1,188 @@
+'use strict';
+// One run in the 3D view: bodies, rivals, joints, ground grid and camera.
+
+class RunView {
+  constructor(renderer, canvas) {
+    this.renderer = renderer;
+    this.scene = new THREE.Scene();
+    this.scene.background = new THREE.Color(0xeef2f6);
+    this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
+    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.controls.enableKeys = false;
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x9aa4ae, 0.75));
+    const sun = new THREE.DirectionalLight(0xffffff, 0.45);
+    sun.position.set(1, 3, 2);
+    this.scene.add(sun);
+    this.world = new THREE.Group();
+    this.scene.add(this.world);
+    this.bodies = [];
+    this.rivals = {};
+    this.followed = null;
+    this.magnification = 1;
+    this.showSeparation = false;
+  }
+
+  show(run, shapes) {
+    this.clear();
+    this.run = run;
+    this.mediumVelocity = new THREE.Vector3().fromArray(run.medium_velocity);
+    // The camera has y up.
+    const up = new THREE.Vector3().fromArray(run.gravity).multiplyScalar(-1);
+    if (up.length() === 0) up.set(0, 0, 1);
+    this.world.quaternion.setFromUnitVectors(up.normalize(), new THREE.Vector3(0, 1, 0));
+    const makeViews = (bodies, colour) => bodies.map((body, i) => {
+      const view = new BodyView(body, shapes[body.shape], colour || PATH_COLOURS[i % PATH_COLOURS.length], Boolean(colour));
+      this.world.add(view.group);
+      return view;
+    });
+    this.bodies = makeViews(run.bodies, null);
+    for (const rival of run.rivals) {
+      this.rivals[rival.model] = makeViews(rival.bodies.filter((body) => body.mass > 0), RIVAL_COLOURS[rival.model]);
+    }
+    this.addJoints();
+    const largest = Math.max(...this.bodies.map((view) => view.largestSlip(this.mediumVelocity)));
+    this.slipScale = roundUp(largest, [1, 1.2, 1.6, 2, 2.4, 3.2, 4, 5, 6, 8, 10]);
+    this.world.updateMatrixWorld();
+    this.measure();
+    this.addGrid();
+  }
+
+  clear() {
+    for (const view of this.allViews()) view.dispose();
+    this.world.children.slice().forEach((child) => this.world.remove(child));
+    if (this.grid) this.scene.remove(this.grid);
+    this.bodies = [];
+    this.rivals = {};
+  }
+
+  allViews() { return this.bodies.concat(...Object.values(this.rivals)); }
+
+  moving() { return this.bodies.filter((view) => !view.isStatic); }
+
+  // The box that the moving bodies sweep, y up, and a magnification that keeps them visible in it.
+  measure() {
+    this.box = new THREE.Box3();
+    let least = Infinity;
+    for (const view of this.moving()) {
+      const radius = view.radius();
+      least = Math.min(least, radius);
+      for (let i = 0; i < view.motion.count; ++i) {
+        const place = view.motion.positionOf(i).applyQuaternion(this.world.quaternion);
+        this.box.expandByPoint(place.clone().addScalar(radius)).expandByPoint(place.addScalar(-radius));
+      }
+    }
+    this.span = this.box.getSize(new THREE.Vector3()).length();
+    const wanted = 0.03 * this.span / least;
+    // Bodies that meet others keep their size.
+    this.naturalMagnification = this.bodies.length > this.moving().length || this.run.joints.length ? 1 : Math.max(1, wanted);
+  }
+
+  addGrid() {
+    const size = this.box.getSize(new THREE.Vector3());
+    this.gridStep = roundUp(Math.max(size.x, size.z, this.span / 4) / 12);
+    const cells = 2 * Math.ceil(Math.max(size.x, size.z, this.span / 4) / this.gridStep / 2 + 2);
+    this.grid = new THREE.GridHelper(cells * this.gridStep, cells, 0x9aa8b5, 0xc6d0d9);
+    const centre = this.box.getCenter(new THREE.Vector3());
+    const onGrid = (x) => Math.round(x / this.gridStep) * this.gridStep;
+    this.grid.position.set(onGrid(centre.x), this.groundHeight(), onGrid(centre.z));
+    this.scene.add(this.grid);
+  }
+
+  // Of the lowest place that a body reaches, or of the floor under the bodies.
+  groundHeight() {
+    const lowest = Math.min(...this.moving().map((view) => this.lowestCentre(view)));
+    let height = this.box.min.y;
+    for (const view of this.bodies.filter((candidate) => candidate.isStatic)) {
+      view.moveTo(0, 1);
+      view.group.updateMatrixWorld(true);
+      const top = new THREE.Box3().setFromObject(view.mesh).max.y;
+      if (top <= lowest) height = Math.max(height, top + 1e-3 * this.span);
+    }
+    return height;
+  }
+
+  lowestCentre(view) {
+    const heights = Array.from({ length: view.motion.count },
+      (_, i) => view.motion.positionOf(i).applyQuaternion(this.world.quaternion).y);
+    return Math.min(...heights);
+  }
+
+  // A dot at each joint, fixed to its first body.
+  addJoints() {
+    for (const joint of this.run.joints) {
+      const view = this.bodies.find((candidate) => candidate.body.name === joint.bodies[0]);
+      view.motion.moveTo(0);
+      const point = new THREE.Vector3().fromArray(joint.point).sub(view.motion.position)
+        .applyQuaternion(view.motion.orientation.clone().conjugate());
+      view.solid.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints([point]),
+        new THREE.PointsMaterial({ color: 0xc92a2a, size: 7, sizeAttenuation: false, depthTest: false, transparent: true })));
+    }
+  }
+
+  // Looks at everything, or follows one body.
+  lookAt(view, time) {
+    this.followed = view;
+    const direction = new THREE.Vector3(0.35, 0.28, 1).normalize();
+    if (view) {
+      this.moveTo(time);
+      this.controls.target.copy(this.placeOf(view));
+      this.setDistance(direction, 7 * view.radius() * this.magnification);
+    } else {
+      this.box.getCenter(this.controls.target);
+      this.setDistance(this.broadside(), this.fittingDistance());
+    }
+    this.controls.update();
+  }
+
+  // A direction from which the path shows its width.
+  broadside() {
+    const size = this.box.getSize(new THREE.Vector3());
+    return size.x >= size.z ? new THREE.Vector3(0.3, 0.25, 1).normalize() : new THREE.Vector3(1, 0.25, 0.3).normalize();
+  }
+
+  fittingDistance() {
+    const half = Math.tan(0.5 * this.camera.fov * Math.PI / 180);
+    const size = this.box.getSize(new THREE.Vector3());
+    const width = Math.max(size.x, size.z) + 0.3 * Math.min(size.x, size.z);
+    const height = size.y + 0.25 * width;
+    return 0.5 * Math.max(1.4 * height / half, 1.15 * width / (half * this.camera.aspect)) + 0.5 * Math.min(size.x, size.z);
+  }
+
+  setDistance(direction, distance) {
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
+  }
+
+  placeOf(view) { return view.motion.position.clone().applyQuaternion(this.world.quaternion); }
+
+  // Returns the largest slip now [m/s].
+  moveTo(time) {
+    const before = this.followed && this.placeOf(this.followed);
+    for (const view of this.allViews()) view.moveTo(time, this.magnification);
+    if (this.followed) {
+      const step = this.placeOf(this.followed).sub(before);
+      this.controls.target.add(step);
+      this.camera.position.add(step);
+    }
+    return Math.max(...this.bodies.map((view) => view.colour(this.mediumVelocity, this.slipScale, this.showSeparation)));
+  }
+
+  showRival(model, visible) {
+    for (const view of this.rivals[model]) view.group.visible = visible;
+  }
+
+  render() {
+    const canvas = this.renderer.domElement;
+    const width = canvas.clientWidth, height = canvas.clientHeight;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    if (canvas.width !== Math.floor(width * ratio) || canvas.height !== Math.floor(height * ratio)) {
+      this.renderer.setPixelRatio(ratio);
+      this.renderer.setSize(width, height, false);
+    }
+    this.camera.aspect = width / height;
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    this.camera.near = 0.01 * distance;
+    this.camera.far = 10 * (distance + this.span);
+    this.camera.updateProjectionMatrix();
+    this.renderer.render(this.scene, this.camera);
+  }
+}

@@ -1,0 +1,186 @@
+#!/usr/bin/python3
+"""The page of runs in a browser without a screen: page_test.py AMBIENT_DEMO [-v]. Needs chromium, chromedriver, selenium."""
+
+import csv
+import io
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from matplotlib.image import imread
+from selenium import webdriver
+from selenium.webdriver.common.by import By
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.support.ui import WebDriverWait
+
+ROOT = Path(__file__).resolve().parents[3]
+SWITCHES = """--headless --no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader
+    --disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync
+    --disable-dev-shm-usage --force-device-scale-factor=1 --window-size=1000,800""".split()
+DEMO = None  # the program ambient_demo
+
+
+def run_scene(folder, scene, *changes):
+    settings = [word for change in changes for word in ("--set", change)]
+    subprocess.run([DEMO, ROOT / f"data/scenes/{scene}.json", "--quiet", "--out", folder, *settings], check=True)
+
+
+def start_browser(profile):
+    options = webdriver.ChromeOptions()
+    options.binary_location = "/usr/bin/chromium"
+    for switch in [*SWITCHES, f"--user-data-dir={profile}"]:
+        options.add_argument(switch)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+
+
+def rows_of(folder, body):
+    """Rows of trajectory.csv without the name."""
+    with open(folder / "trajectory.csv", newline="") as stream:
+        return np.array([[float(x) for x in row[:1] + row[2:15]] for row in csv.reader(stream) if row[1] == body])
+
+
+def rotation_matrix(w, x, y, z):
+    axis = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + 2 * w * axis + 2 * axis @ axis
+
+
+class PageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        cls.addClassCleanup(folder.cleanup)
+        cls.out = Path(folder.name)
+        # More than a full turn between samples that the page keeps.
+        golf = ("duration=0.5", "output_step=0.005")
+        run_scene(cls.out / "golf_dimpled_spin", "golf_dimpled_spin", *golf)
+        for model in ("vacuum", "gwtf"):
+            run_scene(cls.out / f"golf_dimpled_spin-{model}", "golf_dimpled_spin", f"model={model}", *golf)
+        run_scene(cls.out / "ball_on_bottom", "ball_on_bottom", "duration=0.5")
+        run_scene(cls.out / "flap_in_current", "flap_in_current", "duration=0.3")
+        page = cls.out / "page.html"
+        generator = [sys.executable, "-B", ROOT / "demos/page/make_page.py", *sorted(cls.out.iterdir()), "-o", page]
+        subprocess.run([*generator, "--tables", ROOT / "docs/experiments.md"], check=True, stdout=subprocess.DEVNULL)
+        cls.browser = start_browser(cls.out / "profile")
+        cls.addClassCleanup(cls.browser.quit)
+        cls.browser.set_script_timeout(20)
+        cls.browser.get(page.as_uri())
+
+    def setUp(self):
+        self.choose("golf dimpled spin")
+
+    def tearDown(self):
+        errors = [entry for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"]
+        self.assertEqual(errors, [])
+
+    def choose(self, title):
+        buttons = self.browser.find_elements(By.CSS_SELECTOR, "#scenes button")
+        next(button for button in buttons if button.text == title).click()
+
+    def scrub(self, time):
+        self.browser.execute_script(
+            "const slider = document.getElementById('time'); slider.value = arguments[0];"
+            "slider.dispatchEvent(new Event('input'));",
+            float(time),
+        )
+
+    def pixels(self):
+        """What the canvas shows, rows x columns x 3 in [0, 1]."""
+        # Two frames: the first may have been asked for before the change.
+        self.browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
+        picture = self.browser.find_element(By.ID, "stage").screenshot_as_png
+        return imread(io.BytesIO(picture))[:, :, :3]
+
+    def pose(self, body):
+        return self.browser.execute_script("return player.pose(arguments[0])", body)
+
+    def test_needs_nothing_but_itself(self):
+        self.assertEqual(self.browser.execute_script("return performance.getEntriesByType('resource').length"), 0)
+        self.assertIn("golf_dimpled_spin", self.browser.find_element(By.ID, "tables").text)
+
+    def test_every_scene_is_drawn(self):
+        for title in ("ball on bottom", "flap in current", "golf dimpled spin"):
+            self.choose(title)
+            picture = self.pixels()
+            background = np.array([0xEE, 0xF2, 0xF6]) / 255
+            share = np.mean(np.abs(picture[100:-150] - background).max(axis=2) > 0.1)
+            colours = len(np.unique(np.round(picture.reshape(-1, 3) * 255), axis=0))
+            self.assertGreater(share, 0.002, title)
+            self.assertGreater(colours, 100, title)
+
+    def test_scrubbing_moves_the_body_as_logged(self):
+        rows = rows_of(self.out / "golf_dimpled_spin", "ball")
+        self.scrub(0)
+        before = self.pixels()
+        # Rows that the page did and did not keep.
+        for row in rows[[0, 30, 31, 50, 76, 100]]:
+            self.scrub(row[0])
+            pose = self.pose("ball")
+            np.testing.assert_allclose(pose["position"], row[1:4], rtol=1e-5, atol=1e-5)
+            x, y, z, w = pose["orientation"]
+            np.testing.assert_allclose(rotation_matrix(w, x, y, z), rotation_matrix(*row[4:8]), atol=1e-4)
+        self.assertGreater(np.mean(np.abs(self.pixels() - before).max(axis=2) > 0.05), 1e-3)
+
+    def test_slip_is_that_of_the_faces(self):
+        geometry = json.loads((self.out / "flap_in_current/geometry.json").read_text())
+        flow = geometry["medium_velocity"]
+        self.assertGreater(np.linalg.norm(flow), 0)
+        self.choose("flap in current")
+        largest = []
+        for body in geometry["bodies"]:
+            corners = np.reshape(body["vertices"], (-1, 3))[np.reshape(body["triangles"], (-1, 3))]
+            centroids = corners.mean(axis=1)
+            normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            normals /= np.linalg.norm(normals, axis=1)[:, None]
+            row = rows_of(self.out / "flap_in_current", body["name"])[-1]
+            to_world = rotation_matrix(*row[4:8])
+            velocity = row[11:14] - flow + np.cross(row[8:11], centroids @ to_world.T)
+            normals = normals @ to_world.T
+            slip = velocity - np.sum(velocity * normals, axis=1)[:, None] * normals
+            largest.append(np.linalg.norm(slip, axis=1).max())
+        shown = self.browser.execute_script("return player.view.moveTo(0.3)")
+        self.assertAlmostEqual(shown, max(largest), delta=1e-4 * max(largest))
+
+    def test_rivals_can_be_hidden(self):
+        def orange(picture):
+            """Pixels near the colour of the rival's path, left of its entry in the list."""
+            part = picture[:, : int(0.6 * picture.shape[1])]
+            return np.sum(np.abs(part - np.array([0xE8, 0x59, 0x0C]) / 255).max(axis=2) < 0.2)
+
+        self.scrub(0.3)
+        self.assertGreater(orange(self.pixels()), 30)
+        box = self.browser.find_element(By.ID, "rival-gwtf")
+        box.click()
+        self.assertLess(orange(self.pixels()), 3)
+        box.click()
+        self.assertGreater(orange(self.pixels()), 30)
+
+    def test_plays_and_pauses(self):
+        time = lambda: self.browser.execute_script("return player.time")
+        button = self.browser.find_element(By.ID, "play")
+        self.browser.execute_script("document.getElementById('speed').value = 0.01")
+        button.click()
+        WebDriverWait(self.browser, 20).until(lambda _: time() > 0)
+        button.click()
+        stopped = time()
+        self.pixels()
+        self.assertEqual(time(), stopped)
+        self.assertLess(stopped, 0.5)
+
+    def test_following_keeps_the_body_in_the_middle(self):
+        self.browser.execute_script(
+            "const view = document.getElementById('view'); view.value = 0; view.dispatchEvent(new Event('change'));"
+        )
+        self.scrub(0.4)
+        picture = self.pixels()
+        middle = picture[picture.shape[0] // 2, picture.shape[1] // 2]
+        self.assertGreater(np.abs(middle - np.array([0xEE, 0xF2, 0xF6]) / 255).max(), 0.2)
+
+
+if __name__ == "__main__":
+    DEMO = sys.argv.pop(1)
+    unittest.main()
