@@ -109,6 +109,17 @@ void transferFlag(Stream& stream, Bool& flag) {
   }
 }
 
+/// As one byte, from 0 to the number of `last`.
+template <class Stream, class Enum, class Last>
+void transferEnum(Stream& stream, Enum& value, Last last) {
+  auto byte = static_cast<std::uint8_t>(value);
+  stream.number(byte);
+  if constexpr (Stream::kReads) {
+    if (byte > static_cast<std::uint8_t>(last)) stream.fail("has a choice that does not exist");
+    value = static_cast<Enum>(byte);
+  }
+}
+
 /// The length of a list whose entries take at least `entry_size` bytes each.
 template <class Stream, class List>
 void transferSize(Stream& stream, List& list, std::size_t entry_size) {

@@ -24,11 +24,7 @@ void transferSettings(Stream& s, State& def) {
   transferMedium(s, def.medium);
   s.number(def.flow.separation_angle);
   transferFlag(s, def.flow.skin_friction);
-  auto is_leapfrog = def.flight.integrator == Integrator::kPassiveLeapfrog;
-  transferFlag(s, is_leapfrog);
-  if constexpr (Stream::kReads) {
-    def.flight.integrator = is_leapfrog ? Integrator::kPassiveLeapfrog : Integrator::kRungeKutta4;
-  }
+  transferEnum(s, def.flight.integrator, Integrator::kSymplecticEuler);
   s.number(def.flight.tolerance);
   s.number(def.flight.max_substeps);
   transferMatrix(s, def.fluid_frame.rotation);

@@ -63,10 +63,7 @@ class Kick {
   // speeds far below sqrt(g L) move it by little of its own size while gravity turns them over.
   double relativeError(const Vector6& x, const Vector6& load_change) const {
     const double change = h_ * std::sqrt(load_change.dot(model_.inverse_inertia * load_change));
-    const Surroundings& s = task_.surroundings;
-    const double pull = (s.applied.force / model_.mass - s.ambient_acceleration).norm();
-    const double floor = std::sqrt(model_.largest_mass * pull * model_.reference_length);
-    const double scale = std::sqrt(inertiaNormSquared(model_, x)) + floor;
+    const double scale = motionScale(task_, x);
     return scale > 0 ? change / scale : 0;
   }
 

@@ -54,7 +54,10 @@ FlightSettings toFlightSettings(const json& scene) {
   FlightSettings settings;
   const auto found = scene.find("integrator");
   if (found == scene.end()) return settings;
-  if (found->value("method", "leapfrog") == "rk4") settings.integrator = Integrator::kRungeKutta4;
+  const std::string method = found->value("method", "leapfrog");
+  if (method == "dormand_prince") settings.integrator = Integrator::kDormandPrince;
+  if (method == "rk4") settings.integrator = Integrator::kRungeKutta4;
+  if (method == "symplectic_euler") settings.integrator = Integrator::kSymplecticEuler;
   settings.tolerance = found->value("tolerance", settings.tolerance);
   settings.max_substeps = found->value("max_substeps", settings.max_substeps);
   return settings;

@@ -2,51 +2,16 @@
 
 #include <algorithm>
 
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/motion/loaded_bodies.h"
 
 namespace ambient {
 namespace {
 
 using test::FreeBody;
+using test::glidingDisc;
+using test::tumblingEllipsoid;
 
 constexpr double kDuration = 0.4;  // [s]
-
-// A disc that glides at an incidence and turns slowly: every face stays on its side of the flow, so
-// that the loads are a smooth function of the motion.
-FreeBody glidingDisc(const FlightSettings& settings) {
-  FluidBody shape;
-  shape.name = "disc";
-  shape.added_mass.diagonal() << 1e-4, 1e-4, 0, 0, 0, 2e-2;
-  shape.added_mass(0, 5) = shape.added_mass(5, 0) = 2e-4;
-  shape.area = 0.06;
-  for (int i = 0; i < 6; ++i) {
-    const double angle = i * std::acos(-1.0) / 3;
-    for (const double side : {1.0, -1.0}) {
-      shape.faces.add({0, 0, side}, {0.1 * std::cos(angle), 0.07 * std::sin(angle), 0}, 5e-3);
-    }
-  }
-  FreeBody disc({shape,
-                 {0.05, Vector3(2e-4, 2e-4, 4e-4).asDiagonal()},
-                 {1.2, 1.8e-5, Vector3::Zero(), Vector3::Zero()}});
-  disc.settings = settings;
-  disc.setGravity({0, 0, -9.81});
-  disc.state.twist = {{0.3, 0.5, 4}, {6, 1, -5}};
-  return disc;
-}
-
-// A faceted ellipsoid that tumbles: faces switch all the time.
-FreeBody tumblingEllipsoid(const FlightSettings& settings) {
-  const Vector3 semi_axes(0.05, 0.05, 0.01);
-  const FluidBody shape = test::meshedEllipsoid(semi_axes, 2);
-  const double mass = 2e-4;
-  FreeBody plate({shape, {mass, test::ellipsoidMoments(semi_axes, mass).asDiagonal()}, air()});
-  plate.settings = settings;
-  plate.setGravity({0, 0, -9.81});
-  plate.state.twist = {{2, 1, 3}, {0.2, 0.3, -0.5}};
-  return plate;
-}
 
 using MakeBody = FreeBody (*)(const FlightSettings&);
 
@@ -77,6 +42,23 @@ TEST(RungeKutta, IsOfFourthOrderWhereTheLoadsAreSmooth) {
   const double coarse = positionError(glidingDisc, settings, 320, exact);
   const double fine = positionError(glidingDisc, settings, 1280, exact);
   EXPECT_NEAR(std::log2(coarse / fine) / 2, 4, 0.3);
+}
+
+TEST(SymplecticEuler, IsOfFirstOrder) {
+  const RigidState exact = exactEnd(glidingDisc, 8000);
+  const FlightSettings settings{Integrator::kSymplecticEuler, 1e-3, 1};
+  const double coarse = positionError(glidingDisc, settings, 5120, exact);
+  const double fine = positionError(glidingDisc, settings, 20480, exact);
+  EXPECT_NEAR(std::log2(coarse / fine) / 2, 1, 0.1);
+}
+
+TEST(SymplecticEuler, TakesAsManySubstepsAsItIsTold) {
+  FreeBody many = glidingDisc({Integrator::kSymplecticEuler, 1e-3, 4});
+  FreeBody few = glidingDisc({Integrator::kSymplecticEuler, 1e-3, 0});
+  many.advance(kDuration / 100, 100);
+  few.advance(kDuration / 400, 400);
+  EXPECT_EQ(many.count.load_evaluations, 400);
+  EXPECT_LT((many.state.position - few.state.position).norm(), 1e-12);
 }
 
 TEST(Integrators, ConvergeToTheSameMotionWhereFacesSwitch) {
@@ -127,7 +109,8 @@ TEST(RungeKutta, TurnsByLessThanSixDegreesPerSubstep) {
 }
 
 TEST(Flight, GivesTheSameBitsTwice) {
-  for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kRungeKutta4}) {
+  for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kDormandPrince,
+                                      Integrator::kRungeKutta4, Integrator::kSymplecticEuler}) {
     FreeBody a = tumblingEllipsoid({integrator, 1e-3, 0});
     FreeBody b = tumblingEllipsoid({integrator, 1e-3, 0});
     a.advance(1.0 / 60, 60);
