@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "demos/gltf/gltf_text.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
@@ -28,6 +29,7 @@ struct Arguments {
   bool quiet = false;
   std::string scene;
   std::string out;
+  std::string gltf;
   std::vector<SceneOverride> overrides;
 };
 
@@ -49,6 +51,11 @@ Parsed parseArguments(int argc, char** argv) {
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false)
       ->take_all();
+  app.add_option("--gltf", parsed.arguments.gltf, "Write an animated glTF too (.glb or .gltf)")
+      ->type_name("FILE")
+      ->check([](const std::string& file) {
+        return isGltfName(file) ? "" : file + ": the name must end in .glb or .gltf";
+      });
   app.add_flag("--quiet", parsed.arguments.quiet, "Print errors only");
   try {
     app.parse(argc, argv);
@@ -95,12 +102,16 @@ void runAndWrite(const Arguments& arguments) {
   TrajectoryFile trajectory(out / "trajectory.csv");
   OutputFile geometry(out / "geometry.json");
   OutputFile summary(out / "summary.json");
+  std::optional<OutputFile> gltf;
+  if (!arguments.gltf.empty()) gltf.emplace(arguments.gltf);
   geometry.write(makeGeometryText(scene, bodies));
   const RunRecord record = runScene(scene, bodies, trajectory, arguments.quiet);
   summary.write(makeSummary(scene, bodies, record));
+  if (gltf) gltf->write(makeGltf(arguments.gltf, scene, bodies, record.motion));
   trajectory.commit();
   geometry.commit();
   summary.commit();
+  if (gltf) gltf->commit();
   folder.keep();
   cache.save();
   if (!arguments.quiet)

@@ -20,7 +20,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 ROOT = Path(__file__).resolve().parents[3]
 SWITCHES = """--headless --no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader
     --disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync
-    --disable-dev-shm-usage --force-device-scale-factor=1 --window-size=1000,800""".split()
+    --disable-dev-shm-usage --force-device-scale-factor=1 --window-size=900,640""".split()
 DEMO = None  # the program ambient_demo
 
 

@@ -1,0 +1,38 @@
+#include "demos/gltf/motion_keys.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "demos/simulation/motion_interpolation.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kLargestTurn = 0.785;  // an eighth of a turn [rad]
+
+int countPieces(const MotionSample& from, const MotionSample& to) {
+  const double spin = std::max(from.twist.angular.norm(), to.twist.angular.norm());
+  return std::max(1, static_cast<int>(std::ceil(spin * (to.time - from.time) / kLargestTurn)));
+}
+
+void append(std::vector<MotionSample>& keys, MotionSample key) {
+  if (!keys.empty() && key.orientation.dot(keys.back().orientation) < 0)
+    key.orientation.coeffs() *= -1;
+  keys.push_back(key);
+}
+
+}  // namespace
+
+std::vector<MotionSample> makeMotionKeys(const std::vector<MotionSample>& motion) {
+  std::vector<MotionSample> keys;
+  for (std::size_t i = 0; i + 1 < motion.size(); ++i) {
+    const MotionSample &from = motion[i], &to = motion[i + 1];
+    const int pieces = countPieces(from, to);
+    for (int k = 0; k < pieces; ++k)
+      append(keys, interpolateMotion(from, to, from.time + (to.time - from.time) * k / pieces));
+  }
+  if (!motion.empty()) append(keys, motion.back());
+  return keys;
+}
+
+}  // namespace ambient

@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""What ambient_demo --gltf writes: gltf_files_test.py AMBIENT_DEMO FOLDER [-v]. npm packages are installed in FOLDER."""
+
+import csv
+import json
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+SCENES = HERE.parents[2] / "data/scenes"
+DEMO = FOLDER = None
+KINDS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
+
+
+def run_scene(out, scene, *changes, gltf=None):
+    words = [word for change in changes for word in ("--set", change)] + (["--gltf", gltf] if gltf else [])
+    subprocess.run([DEMO, SCENES / f"{scene}.json", "--quiet", "--out", out, *words], check=True)
+
+
+def rows_of(folder, body):
+    with open(folder / "trajectory.csv", newline="") as stream:
+        return np.array([[float(x) for x in row[:1] + row[2:15]] for row in csv.reader(stream) if row[1] == body])
+
+
+class Container:
+    """A .glb file."""
+
+    def __init__(self, file):
+        data = file.read_bytes()
+        length = struct.unpack_from("<I", data, 12)[0]
+        self.text = json.loads(data[20 : 20 + length])
+        self.buffer = data[28 + length :]
+
+    def array(self, accessor):
+        entry = self.text["accessors"][accessor]
+        view = self.text["bufferViews"][entry["bufferView"]]
+        width = KINDS[entry["type"]]
+        start = view.get("byteOffset", 0) + entry.get("byteOffset", 0)
+        return np.frombuffer(self.buffer, "<f4", entry["count"] * width, start).reshape(-1, width).astype(float)
+
+    def keys(self, body, path):
+        """Times and values of the channel of a body."""
+        animation = self.text["animations"][0]
+        for channel in animation["channels"]:
+            node = self.text["nodes"][channel["target"]["node"]]
+            if node["name"] == body and channel["target"]["path"] == path:
+                sampler = animation["samplers"][channel["sampler"]]
+                assert sampler["interpolation"] == "LINEAR"
+                return self.array(sampler["input"])[:, 0], self.array(sampler["output"])
+        raise KeyError(body)
+
+
+def slerp(times, values, time):
+    """As glTF demands of a player: along the shorter way."""
+    i = min(max(np.searchsorted(times, time) - 1, 0), len(times) - 2)
+    share = (time - times[i]) / (times[i + 1] - times[i])
+    a, b = values[i], values[i + 1]
+    cosine = a @ b
+    b, cosine = (-b, -cosine) if cosine < 0 else (b, cosine)
+    angle = np.arccos(min(cosine, 1))
+    if angle < 1e-6:
+        return (1 - share) * a + share * b
+    return (np.sin((1 - share) * angle) * a + np.sin(share * angle) * b) / np.sin(angle)
+
+
+class GltfTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.out = Path(folder.name)
+        # Five radians of spin per output step, and the same motion with finer steps to compare with.
+        run_scene(cls.out / "a", "golf_dimpled_spin", "duration=0.5", "output_step=0.02", gltf=cls.out / "golf.glb")
+        run_scene(cls.out / "golf", "golf_dimpled_spin", "duration=0.5", "output_step=0.005")
+        run_scene(cls.out / "b", "ball_on_bottom", "duration=0.2", gltf=cls.out / "floor.glb")
+        run_scene(cls.out / "c", "flap_in_current", "duration=0.2", gltf=cls.out / "flap.gltf")
+
+    def test_khronos_validator_has_nothing_to_say(self):
+        for name in ("package.json", "package-lock.json"):
+            shutil.copy(HERE / name, FOLDER)
+        if not (FOLDER / "node_modules/gltf-validator").exists():
+            subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=FOLDER, check=True)
+        files = [self.out / name for name in ("golf.glb", "floor.glb", "flap.gltf")]
+        found = subprocess.run(["node", HERE / "validate.js", FOLDER, *files], check=True, stdout=subprocess.PIPE)
+        reports = json.loads(found.stdout)
+        self.assertEqual(len(reports), len(files))
+        for file, issues in zip(files, reports):
+            self.assertEqual(issues["messages"], [], file)
+
+    def test_body_moves_as_logged(self):
+        golf = Container(self.out / "golf.glb")
+        times, places = golf.keys("ball", "translation")
+        turn_times, turns = golf.keys("ball", "rotation")
+        rows = rows_of(self.out / "golf", "ball")
+        self.assertGreater(np.linalg.norm(rows[0, 8:11]) * 0.02, np.pi)
+        for row in rows:
+            place = [np.interp(row[0], times, places[:, k]) for k in range(3)]
+            # A straight line between keys 3 ms apart: 20 m/s^2 * (3 ms)^2 / 8; a float of 25 m has 1e-6 m.
+            np.testing.assert_allclose(place, row[1:4], atol=5e-5)
+            x, y, z, w = slerp(turn_times, turns, row[0])
+            self.assertGreater(abs(np.dot([w, x, y, z], row[4:8])), 1 - 1e-6)
+
+    def test_shapes_are_in_metres(self):
+        golf = Container(self.out / "golf.glb")
+        points = golf.array(golf.text["meshes"][0]["primitives"][0]["attributes"]["POSITION"])
+        np.testing.assert_allclose(np.linalg.norm(points, axis=1), 0.0213, rtol=0.01)
+
+
+if __name__ == "__main__":
+    DEMO, FOLDER = sys.argv.pop(1), Path(sys.argv.pop(1))
+    unittest.main()
