@@ -16,7 +16,7 @@ class BodyView {
     this.geometry = makeGeometry(shape);
     this.slip = this.isStatic || isRival ? null : new SlipField(shape.vertices, shape.triangles);
     this.mesh = new THREE.Mesh(this.geometry, this.makeMaterial(colour, isRival));
-    this.edges = new THREE.LineSegments(new THREE.EdgesGeometry(this.geometry, 25),
+    this.edges = new THREE.LineSegments(makeEdges(shape),
       new THREE.LineBasicMaterial({ color: 0x223344, transparent: true, opacity: isRival ? 0.25 : 0.5 }));
     this.solid = new THREE.Group();
     this.solid.add(this.mesh, this.edges);
@@ -25,7 +25,8 @@ class BodyView {
   }
 
   makeMaterial(colour, isRival) {
-    const common = { side: THREE.DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+    // Behind its edges. Sheets have the triangles of both sides.
+    const common = { flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
     if (isRival) return new THREE.MeshLambertMaterial({ ...common, color: colour, transparent: true, opacity: 0.55 });
     if (this.isStatic) return new THREE.MeshLambertMaterial({ ...common, color: 0xb8c2cc });
     return new THREE.MeshLambertMaterial({ ...common, vertexColors: THREE.VertexColors });
@@ -92,6 +93,12 @@ function makeGeometry(shape) {
   return geometry;
 }
 
+// Where faces meet at more than 25 degrees, and rims of sheets.
+function makeEdges(shape) {
+  const side = shape.sheet ? shape.triangles.subarray(0, shape.triangles.length / 2) : shape.triangles;
+  return new THREE.EdgesGeometry(makeGeometry({ ...shape, triangles: side }), 25);
+}
+
 // A line through the samples with dots at even intervals of time.
 function makePath(motion, colour) {
   const points = [];
@@ -102,7 +109,8 @@ function makePath(motion, colour) {
     points.push(motion.position.clone());
   }
   const path = new THREE.Group();
-  path.add(new THREE.Line(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({ color: colour })));
+  const asGeometry = (places) => new THREE.BufferGeometry().setFromPoints(places);
+  path.add(new THREE.Line(asGeometry(points), new THREE.LineBasicMaterial({ color: colour })));
   const end = motion.timeOf(motion.count - 1);
   const interval = roundUp(end / 20);
   const dots = [];
@@ -110,7 +118,7 @@ function makePath(motion, colour) {
     motion.moveTo(k * interval);
     dots.push(motion.position.clone());
   }
-  path.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints(dots),
+  path.add(new THREE.Points(asGeometry(dots),
     new THREE.PointsMaterial({ color: colour, size: 5, sizeAttenuation: false })));
   return path;
 }

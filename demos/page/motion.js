@@ -51,7 +51,8 @@ class Motion {
     this.velocity.lerpVectors(velocities[0], velocities[1], s);
     const t = 1 - s;
     // Weights of the values and of the rates at both ends.
-    const [from, fromRate, to, toRate] = [(1 + 2 * s) * t * t, s * t * t * step, s * s * (3 - 2 * s), -s * s * t * step];
+    const from = (1 + 2 * s) * t * t, to = s * s * (3 - 2 * s);
+    const fromRate = s * t * t * step, toRate = -s * s * t * step;
     this.position.set(0, 0, 0)
       .addScaledVector(this.positionOf(i), from)
       .addScaledVector(velocities[0], fromRate)

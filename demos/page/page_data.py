@@ -42,10 +42,13 @@ class Shapes:
         self.packed = []
 
     def add(self, body):
-        packed = {"vertices": encode(body["vertices"], "<f4"), "triangles": encode(body["triangles"], "<u4")}
-        index = self.indices.setdefault((packed["vertices"], packed["triangles"]), len(self.packed))
+        triangles = np.reshape(body["triangles"], (-1, 3))
+        if body["sheet"]:
+            triangles = np.concatenate([triangles, triangles[:, ::-1]])
+        packed = {"vertices": encode(body["vertices"], "<f4"), "triangles": encode(triangles, "<u4")}
+        index = self.indices.setdefault(tuple(packed.values()), len(self.packed))
         if index == len(self.packed):
-            self.packed.append(packed)
+            self.packed.append({**packed, "sheet": body["sheet"]})
         return index
 
 

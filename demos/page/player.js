@@ -60,7 +60,9 @@ class Player {
     element('play').addEventListener('click', () => this.play(!this.playing));
     element('time').addEventListener('input', () => { this.play(false); this.setTime(Number(element('time').value)); });
     element('view').addEventListener('change', () => this.look());
-    element('size').addEventListener('input', () => this.setMagnification(this.largestMagnification ** element('size').value));
+    element('size').addEventListener('input', () => {
+      this.setMagnification(this.largestMagnification ** element('size').value);
+    });
     element('show-separation').addEventListener('change', (event) => {
       this.view.showSeparation = event.target.checked;
       this.changed = true;
@@ -170,8 +172,8 @@ class Player {
     const { motion } = shown;
     const name = this.view.moving().length > 1 ? `${shown.body.name.replace(/_/g, ' ')}: ` : '';
     element('clock').textContent = `${this.time.toFixed(3)} / ${digits(this.run.duration)} s`;
-    element('numbers').textContent = `${name}speed ${digits(motion.velocity.length())} m/s · spin ${digits(motion.spin.length())} rad/s`
-      + ` · largest slip ${digits(slip)} m/s`;
+    element('numbers').textContent = `${name}speed ${digits(motion.velocity.length())} m/s`
+      + ` · spin ${digits(motion.spin.length())} rad/s · largest slip ${digits(slip)} m/s`;
     this.view.render();
   }
 

@@ -9,8 +9,9 @@ class RunView {
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
     this.controls.enableKeys = false;
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x9aa4ae, 0.75));
-    const sun = new THREE.DirectionalLight(0xffffff, 0.45);
+    // Little shade: colours are to be compared with the legend.
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xd8dde2, 0.82));
+    const sun = new THREE.DirectionalLight(0xffffff, 0.22);
     sun.position.set(1, 3, 2);
     this.scene.add(sun);
     this.world = new THREE.Group();
@@ -31,7 +32,8 @@ class RunView {
     if (up.length() === 0) up.set(0, 0, 1);
     this.world.quaternion.setFromUnitVectors(up.normalize(), new THREE.Vector3(0, 1, 0));
     const makeViews = (bodies, colour) => bodies.map((body, i) => {
-      const view = new BodyView(body, shapes[body.shape], colour || PATH_COLOURS[i % PATH_COLOURS.length], Boolean(colour));
+      const pathColour = colour || PATH_COLOURS[i % PATH_COLOURS.length];
+      const view = new BodyView(body, shapes[body.shape], pathColour, Boolean(colour));
       this.world.add(view.group);
       return view;
     });
@@ -74,7 +76,8 @@ class RunView {
     this.span = this.box.getSize(new THREE.Vector3()).length();
     const wanted = 0.03 * this.span / least;
     // Bodies that meet others keep their size.
-    this.naturalMagnification = this.bodies.length > this.moving().length || this.run.joints.length ? 1 : Math.max(1, wanted);
+    const canMeet = this.bodies.length > this.moving().length || this.run.joints.length > 0;
+    this.naturalMagnification = canMeet ? 1 : Math.max(1, wanted);
   }
 
   addGrid() {
@@ -114,8 +117,10 @@ class RunView {
       view.motion.moveTo(0);
       const point = new THREE.Vector3().fromArray(joint.point).sub(view.motion.position)
         .applyQuaternion(view.motion.orientation.clone().conjugate());
-      view.solid.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints([point]),
-        new THREE.PointsMaterial({ color: 0xc92a2a, size: 7, sizeAttenuation: false, depthTest: false, transparent: true })));
+      const material = new THREE.PointsMaterial({ color: 0xc92a2a, size: 7, sizeAttenuation: false });
+      // Inside of bodies, and yet to be seen.
+      Object.assign(material, { depthTest: false, transparent: true });
+      view.solid.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints([point]), material));
     }
   }
 
@@ -126,7 +131,7 @@ class RunView {
     if (view) {
       this.moveTo(time);
       this.controls.target.copy(this.placeOf(view));
-      this.setDistance(direction, 7 * view.radius() * this.magnification);
+      this.setDistance(direction, 5.5 * view.radius() * this.magnification);
     } else {
       this.box.getCenter(this.controls.target);
       this.setDistance(this.broadside(), this.fittingDistance());
@@ -145,7 +150,8 @@ class RunView {
     const size = this.box.getSize(new THREE.Vector3());
     const width = Math.max(size.x, size.z) + 0.3 * Math.min(size.x, size.z);
     const height = size.y + 0.25 * width;
-    return 0.5 * Math.max(1.4 * height / half, 1.15 * width / (half * this.camera.aspect)) + 0.5 * Math.min(size.x, size.z);
+    const far = 0.5 * Math.max(1.4 * height, 1.15 * width / this.camera.aspect) / half;
+    return far + 0.5 * Math.min(size.x, size.z);
   }
 
   setDistance(direction, distance) {
@@ -163,7 +169,8 @@ class RunView {
       this.controls.target.add(step);
       this.camera.position.add(step);
     }
-    return Math.max(...this.bodies.map((view) => view.colour(this.mediumVelocity, this.slipScale, this.showSeparation)));
+    const slips = this.bodies.map((view) => view.colour(this.mediumVelocity, this.slipScale, this.showSeparation));
+    return Math.max(...slips);
   }
 
   showRival(model, visible) {

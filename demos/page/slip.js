@@ -34,7 +34,8 @@ class SlipField {
   }
 
   speed(face, twist) {
-    return Math.hypot(this.product(4 * face, twist), this.product(4 * face + 1, twist), this.product(4 * face + 2, twist));
+    const row = 4 * face;
+    return Math.hypot(this.product(row, twist), this.product(row + 1, twist), this.product(row + 2, twist));
   }
 
   // docs/theory.md eq. (13)

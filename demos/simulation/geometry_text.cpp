@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "demos/simulation/body_surface.h"
+#include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
 namespace {
@@ -15,11 +16,16 @@ json toJson(const Vector3& v) {
   return {rounded.x(), rounded.y(), rounded.z()};
 }
 
+bool hasTwoSides(const BodyDef& def, const PreparedBody& prepared) {
+  return prepared.fluid_body ? prepared.fluid_body->volume == 0 : isSheet(def.shape);
+}
+
 json toJson(const BodyDef& def, const PreparedBody& prepared) {
   const Surface surface = makeBodySurface(def, prepared);
   return {{"name", def.name},
           {"mass", static_cast<float>(prepared.mass)},
           {"separation_angle", static_cast<float>(def.flow.separation_angle)},
+          {"sheet", hasTwoSides(def, prepared)},
           {"vertices", std::vector<float>(surface.vertices.begin(), surface.vertices.end())},
           {"triangles", surface.triangles}};
 }

@@ -59,10 +59,19 @@ TEST(GeometryText, PlacesVerticesAboutTheCentreOfMass) {
   EXPECT_LT((centre - Vector3(-0.001, 0, 0.002)).norm(), 1e-8);
 }
 
+TEST(GeometryText, TellsSheets) {
+  json scene = ballScene();
+  scene["bodies"][0]["shape"] = {{"type", "sheet"}, {"semi_axes", {0.1, 0.1}}, {"faces", 60}};
+  const json sheet = geometryOf(scene)["bodies"][0];
+  EXPECT_EQ(sheet["sheet"], true);
+  EXPECT_EQ(boxOf(sheet).low.z(), boxOf(sheet).high.z());
+}
+
 TEST(GeometryText, HasStaticBodiesJointsAndTheFlow) {
   const json geometry = geometryOf(hungBall());
   const json& floor = geometry["bodies"][1];
   EXPECT_EQ(floor["mass"], 0);
+  EXPECT_EQ(floor["sheet"], false);
   const Box box = boxOf(floor);
   EXPECT_EQ(box.low, Vector3(-2, -1, -0.5));
   EXPECT_EQ(box.high, Vector3(2, 1, 0.5));

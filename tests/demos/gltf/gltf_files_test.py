@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What ambient_demo --gltf writes: gltf_files_test.py AMBIENT_DEMO FOLDER [-v]. npm packages are installed in FOLDER."""
+"""What ambient_demo --gltf writes: gltf_files_test.py AMBIENT_DEMO FOLDER [-v]. FOLDER gets the npm packages."""
 
 import csv
 import json

@@ -1,5 +1,8 @@
 #!/usr/bin/python3
-"""The page of runs in a browser without a screen: page_test.py AMBIENT_DEMO [-v]. Needs chromium, chromedriver, selenium."""
+"""The page of runs in a browser without a screen: page_test.py AMBIENT_DEMO [-v].
+
+Needs chromium, chromedriver, selenium and three.js, as Debian has them.
+"""
 
 import csv
 import io
