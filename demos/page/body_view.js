@@ -28,7 +28,7 @@ class BodyView {
     // Behind its edges. Sheets have the triangles of both sides.
     const common = { flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
     if (isRival) return new THREE.MeshLambertMaterial({ ...common, color: colour, transparent: true, opacity: 0.55 });
-    if (this.isStatic) return new THREE.MeshLambertMaterial({ ...common, color: 0xb8c2cc });
+    if (this.isStatic) return new THREE.MeshLambertMaterial({ ...common, color: 0xd3dae1 });
     return new THREE.MeshLambertMaterial({ ...common, vertexColors: THREE.VertexColors });
   }
 
