@@ -49,7 +49,10 @@ class Player {
       const button = document.createElement('button');
       button.textContent = run.name.replace(/_/g, ' ');
       button.setAttribute('role', 'option');
-      button.addEventListener('click', () => this.select(i));
+      button.addEventListener('click', () => {
+        button.blur();  // the space bar plays from now on
+        this.select(i);
+      });
       element('scenes').append(button);
     });
     for (const speed of SPEEDS) element('speed').append(new Option(`${speed} ×`, speed, speed === 1, speed === 1));
@@ -157,7 +160,9 @@ class Player {
 
   frame(now) {
     if (this.playing && this.lastFrame !== null) {
-      this.setTime(this.time + Number(element('speed').value) * (now - this.lastFrame) / 1000);
+      // A page that was hidden goes on where it stopped.
+      const seconds = Math.min((now - this.lastFrame) / 1000, 0.1);
+      this.setTime(this.time + Number(element('speed').value) * seconds);
       if (this.time >= this.run.duration) this.play(false);
     }
     this.lastFrame = now;

@@ -174,6 +174,13 @@ class PageTest(unittest.TestCase):
         self.assertEqual(time(), stopped)
         self.assertLess(stopped, 0.5)
 
+    def test_space_bar_plays(self):
+        self.browser.execute_script("document.getElementById('speed').value = 0.01")
+        body = self.browser.find_element(By.TAG_NAME, "body")
+        for expected in ("Pause", "Play"):
+            body.send_keys(" ")
+            self.assertEqual(self.browser.find_element(By.ID, "play").text, expected)
+
     def test_following_keeps_the_body_in_the_middle(self):
         self.browser.execute_script(
             "const view = document.getElementById('view'); view.value = 0; view.dispatchEvent(new Event('change'));"
