@@ -22,6 +22,8 @@ contacts and joints. Every number of "this library" in the tables and every pict
 from the logs of that very run, in `out`. `demos/run NAME` runs one scene of [data/scenes](../data/scenes). The tests in
 [tests/demos](../tests/demos) run the same scenes. A dash means that nothing is known or published.
 
+The same command writes `out/experiments.html`: every run in 3D, to be played, scrubbed and turned in a browser.
+
 """
 
 DIFFERENCES = """## Where the model is known to differ from reality

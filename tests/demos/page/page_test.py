@@ -59,7 +59,8 @@ class PageTest(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.out = Path(folder.name)
         # Two turns between samples that the page keeps, 15 ms apart.
-        golf = ("duration=0.5", "output_step=0.005", "bodies.0.angular_velocity=[0, -900, 0]")
+        spin = "bodies.0.angular_velocity=[0, -900, 0]"
+        golf = ("duration=0.5", "output_step=0.005", spin, "bodies.0.shape.faces=320")
         run_scene(cls.out / "golf_dimpled_spin", "golf_dimpled_spin", *golf)
         for model in ("vacuum", "gwtf"):
             run_scene(cls.out / f"golf_dimpled_spin-{model}", "golf_dimpled_spin", f"model={model}", *golf)
