@@ -51,6 +51,7 @@ struct AmbientBody {
 
   bool was_solved = false;  ///< the solver met the body in this substep
   bool is_adrift = false;   ///< no row has moved it in this substep
+  bool was_coarse = false;  ///< the last flight's error stayed above the tolerance
   bool has_flown = false;   ///< free flight was computed in this substep and awaits the action
   int world_index = -1;     ///< where the body stood in its world's array when it was solved
   RigidState end;           ///< where it ends

@@ -28,6 +28,10 @@ const char* sentence(AmbientRegistry::Complaint complaint) {
     case Complaint::kNotPhysical:
       return "bullet_ambient: the mass properties of a body in fluid were changed to values that "
              "are not physical; it moves as in a vacuum until they are valid again";
+    case Complaint::kCoarse:
+      return "bullet_ambient: a step was too long for the motion of a body in fluid: its error "
+             "stayed above the tolerance at the largest number of substeps; take shorter steps of "
+             "the world or raise FlightSettings::max_substeps";
     case Complaint::kCount:
       break;
   }

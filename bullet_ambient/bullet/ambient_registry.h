@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/tasks/task_runner.h"
 
 class btDynamicsWorld;
 
@@ -59,8 +60,14 @@ class AmbientRegistry {
   AmbientCounters counters() const;
 
   /// Receives one sentence the first time something cannot be right: the action or the solver is
-  /// missing from the world, a step's result was not finite. Default: standard error.
+  /// missing from the world, a step's result was not finite, a step was too long for a motion.
+  /// Default: standard error.
   void setReport(std::function<void(const std::string&)> report);
+
+  /// Flies the bodies of one group of the solver on the runner's threads; they end with the same
+  /// bits. Null (default): on the solver's thread. The runner must outlive its use here.
+  void setTaskRunner(TaskRunner* runner) { task_runner_ = runner; }
+  TaskRunner* taskRunner() const { return task_runner_; }
 
   // For solver, action and saved states. Finds the body that was attached, never another one at its
   // address.
@@ -70,7 +77,7 @@ class AmbientRegistry {
   const std::vector<std::unique_ptr<AmbientBody>>& bodies() const { return bodies_; }
   /// Takes over a body with a model, in place of what is attached at its address.
   void insert(std::unique_ptr<AmbientBody> ambient);
-  enum class Complaint { kNoAction, kNoSolver, kNotFinite, kNotPhysical, kCount };
+  enum class Complaint { kNoAction, kNoSolver, kNotFinite, kNotPhysical, kCoarse, kCount };
   void complain(Complaint complaint) noexcept;
 
  private:
@@ -79,6 +86,7 @@ class AmbientRegistry {
 
   std::vector<std::unique_ptr<AmbientBody>> bodies_;  // in the order of attachment
   std::unordered_map<const btCollisionObject*, AmbientBody*> by_object_;
+  TaskRunner* task_runner_ = nullptr;
   std::function<void(const std::string&)> report_;
   bool complained_[static_cast<int>(Complaint::kCount)] = {};
 };

@@ -92,6 +92,8 @@ Twist beginFlight(AmbientBody& ambient, double time_step) noexcept {
   ambient.counters.load_evaluations += flight.count.load_evaluations;
   ambient.counters.guarded += flight.count.guarded;
   ambient.counters.coarse += flight.count.coarse;
+  // Who sets a bound of substeps has chosen what is too long.
+  ambient.was_coarse = flight.count.coarse && ambient.def.flight.max_substeps == 0;
   if (!fitsBullet(flight.state)) {
     ++ambient.counters.rejected;
     ambient.memory = {};

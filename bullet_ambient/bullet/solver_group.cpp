@@ -56,6 +56,17 @@ void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& fact
   solver_body.internalSetInvMass(btVector3(1, 1, 1) * body.getInvMass());
 }
 
+// A function of the item as a task; holds no memory of its own.
+template <class Fly>
+class FlightTasks final : public Task {
+ public:
+  explicit FlightTasks(const Fly& fly) : fly_(fly) {}
+  void run(int item) const noexcept override { fly_(item); }
+
+ private:
+  const Fly& fly_;
+};
+
 }  // namespace
 
 void SolverGroup::begin(AmbientRegistry& registry, SolverBodies& solver_bodies,
@@ -230,24 +241,36 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
     // fast turn would take the body elsewhere.
     const bool may_fly = !member.is_locked && !(row_body && ambient.turn != Turn::kSlow);
     if (ambient.is_adrift && may_fly) {
-      flyFreely(member, b);
+      fliers_.push_back(&member);
       continue;
     }
     ambient.memory = {};
     if (ambient.turn != Turn::kSlow) boundEnergy(ambient, solvedVelocity(b));
   }
+  flyFreely(solver_bodies);
   members_.clear();
 }
 
-void SolverGroup::flyFreely(const Member& member, btSolverBody& solver_body) noexcept {
-  AmbientBody& ambient = *member.ambient;
-  const Twist change_W = beginFlight(ambient, time_step_);
-  if (ambient.has_flown) {
-    setExternalImpulse(solver_body, change_W);
+// Flights touch nothing but their own body, so that any thread may compute them.
+void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
+  const auto fly = [&](int i) {
+    const Member& flier = *fliers_[static_cast<std::size_t>(i)];
+    const Twist change_W = beginFlight(*flier.ambient, time_step_);
+    setExternalImpulse(solver_bodies[flier.solver_body], change_W);
+  };
+  const FlightTasks flights(fly);
+  const int count = static_cast<int>(fliers_.size());
+  if (TaskRunner* runner = registry_->taskRunner()) {
+    runner->runAll(flights, count);
   } else {
-    registry_->complain(AmbientRegistry::Complaint::kNotFinite);
-    setExternalImpulse(solver_body, Twist{});
+    for (int i = 0; i < count; ++i) flights.run(i);
   }
+  for (const Member* flier : fliers_) {
+    const AmbientBody& ambient = *flier->ambient;
+    if (!ambient.has_flown) registry_->complain(AmbientRegistry::Complaint::kNotFinite);
+    if (ambient.was_coarse) registry_->complain(AmbientRegistry::Complaint::kCoarse);
+  }
+  fliers_.clear();
 }
 
 SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {

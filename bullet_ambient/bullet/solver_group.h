@@ -76,13 +76,14 @@ class SolverGroup {
                         const MultiBodyRows* multibodies, int solver_mode) noexcept;
   void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
   void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
-  void flyFreely(const Member& member, btSolverBody& solver_body) noexcept;
+  void flyFreely(SolverBodies& solver_bodies) noexcept;
   Member* memberOf(int solver_body) noexcept;
 
   AmbientRegistry* registry_ = nullptr;
   double time_step_ = 0;
   std::vector<Member> members_;
   std::vector<int> member_of_solver_body_;  // -1: not ambient
+  std::vector<const Member*> fliers_;       // members that no row has moved
   RowBodies row_bodies_;
   std::vector<SavedJacobian> saved_;
 };

@@ -9,7 +9,7 @@
 namespace ambient {
 namespace {
 
-constexpr int kMaxPieces = 64;  // series per call
+constexpr int kMaxPieces = 1024;  // series per call
 
 SumMotionSeries fastestMotionSeries() noexcept {
 #if defined(__x86_64__)
@@ -61,11 +61,11 @@ RigidState coast(const BodyModel& model, const RigidState& state, double duratio
 
 }  // namespace
 
-RigidState flowWithoutLoads(const BodyModel& model, const RigidState& state, double duration,
-                            double precision) noexcept {
+Flow flowWithoutLoads(const BodyModel& model, const RigidState& state, double duration,
+                      double precision) noexcept {
   static const SumMotionSeries sum_series = fastestMotionSeries();
   const double energy_norm_sq = inertiaNormSquared(model, state.twist.vector());
-  if (!(energy_norm_sq > 0)) return state;
+  if (!(energy_norm_sq > 0)) return {state};
   RigidState end = state;
   double left = duration;
   for (int i = 0; i < kMaxPieces && left > 0; ++i) {
@@ -73,8 +73,9 @@ RigidState flowWithoutLoads(const BodyModel& model, const RigidState& state, dou
     end = endState(model, end, series);
     left -= series.fraction * left;
   }
-  if (left > 0) end = coast(model, end, left);
-  return withoutGain(model, end, energy_norm_sq);
+  const bool is_precise = !(left > 0);
+  if (!is_precise) end = coast(model, end, left);
+  return {withoutGain(model, end, energy_norm_sq), is_precise};
 }
 
 }  // namespace ambient

@@ -8,12 +8,17 @@ namespace ambient {
 /// Precision of flowWithoutLoads() at which what remains is rounding.
 constexpr double kToRounding = 1e-15;
 
+struct Flow {
+  RigidState state;        ///< at the end
+  bool is_precise = true;  ///< false: the turn was too long, a cruder rest of the way was taken
+};
+
 /// Motion of the body and the fluid for `duration` [s] without loads, docs/theory.md eq. (22):
 /// energy, world momentum and angular momentum stay, up to `precision` relative to the motion, and
 /// the energy never grows. Power series of as many terms as are needed for that; a body that turns
-/// by more than about 30 rad gets a cruder rest of the way that keeps the momenta. Cost: 0.2 us for
-/// small turns, some us per radian.
-RigidState flowWithoutLoads(const BodyModel& model, const RigidState& state, double duration,
-                            double precision = kToRounding) noexcept;
+/// by more than about 500 rad gets a cruder rest of the way that keeps the momenta. Cost: 0.2 us
+/// for small turns, some us per radian.
+Flow flowWithoutLoads(const BodyModel& model, const RigidState& state, double duration,
+                      double precision = kToRounding) noexcept;
 
 }  // namespace ambient

@@ -78,11 +78,16 @@ double advance(const FlightTask& task, double h, int substeps, FlightResult& fli
   const Kick kick(task, h);
   const double precision =
       task.model.has_surface_loads ? kFlowPrecision * task.settings.tolerance : kToRounding;
+  const auto flow = [&](double duration) {
+    const Flow end = flowWithoutLoads(task.model, flight.state, duration, precision);
+    flight.state = end.state;
+    flight.count.coarse = flight.count.coarse || !end.is_precise;
+  };
   double error = 0;
-  flight.state = flowWithoutLoads(task.model, flight.state, h / 2, precision);
+  flow(h / 2);
   for (int i = 1; i <= substeps; ++i) {
     error = std::max(error, kick.act(flight));
-    flight.state = flowWithoutLoads(task.model, flight.state, i < substeps ? h : h / 2, precision);
+    flow(i < substeps ? h : h / 2);
   }
   return error;
 }
@@ -115,7 +120,7 @@ FlightResult flyLeapfrog(const FlightTask& task, const RigidState& start,
     spent.load_evaluations += flight.count.load_evaluations;
     spent.guarded += flight.count.guarded;
     if (!(ratio > kAcceptance) || attempt == kMaxRetries || substeps == most) {
-      spent.coarse = ratio > kAcceptance;
+      spent.coarse = flight.count.coarse || ratio > kAcceptance;
       flight.count = spent;
       return flight;
     }
