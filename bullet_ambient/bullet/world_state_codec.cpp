@@ -13,7 +13,7 @@ namespace {
 
 // Header: magic, version, bytes per number of Bullet, FNV-1a of the payload, payload.
 constexpr std::string_view kMagic = "AMBSTATE";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kBodySize = 200;  // at least [bytes]
 
 using Hashes = std::map<const FluidBody*, std::uint64_t>;
@@ -98,8 +98,8 @@ void checkHeader(ByteReader& reader) {
   std::uint32_t version = 0, number_size = 0;
   std::uint64_t checksum = 0;
   reader.number(version);
-  if (version == 0 || version > kVersion) {
-    reader.fail("is of version " + std::to_string(version) + ", this program reads up to version " +
+  if (version != kVersion) {
+    reader.fail("is of version " + std::to_string(version) + ", this program reads version " +
                 std::to_string(kVersion));
   }
   reader.number(number_size);

@@ -24,6 +24,7 @@ void transferSettings(Stream& s, State& def) {
   transferMedium(s, def.medium);
   s.number(def.flow.separation_angle);
   transferFlag(s, def.flow.skin_friction);
+  transferEnum(s, def.flow.precision, LoadPrecision::kDouble);
   transferEnum(s, def.flight.integrator, Integrator::kSymplecticEuler);
   s.number(def.flight.tolerance);
   s.number(def.flight.max_substeps);

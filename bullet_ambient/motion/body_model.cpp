@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/force/passivity_guard.h"
+#include "bullet_ambient/force/single_loads.h"
 
 namespace ambient {
 namespace {
@@ -122,6 +123,8 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
   model.faces = &fluid_body.faces;
   model.load_model = flow.model.get();
+  if (!model.load_model && flow.precision == LoadPrecision::kSingle)
+    model.packed_faces = sharedPackedFaces(fluid_body.faces);
   model.has_surface_loads = medium.density > 0 && (model.load_model || fluid_body.faces.size() > 0);
   return model;
 }
@@ -134,7 +137,10 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
         removePositivePower(model.fluid_frame.toB(load_F), relative_twist, model.inertia);
     return {guarded.wrench, guarded.acted};
   }
-  const FaceLoads loads = computeFaceLoads(*model.faces, model.reference_length, x_F, model.loads);
+  const double length = model.reference_length;
+  const FaceLoads loads = model.packed_faces
+                              ? computeFaceLoads(*model.packed_faces, length, x_F, model.loads)
+                              : computeFaceLoads(*model.faces, length, x_F, model.loads);
   const Wrench wrench = model.fluid_frame.toB(loads.total());
   // At alpha = pi/2 no face can push its body along: eq. (15) and (17) are dissipative term by
   // term.

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/fluid_body/packed_faces.h"
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/medium.h"
 #include "bullet_ambient/spatial/inertia.h"
@@ -21,6 +22,13 @@ class SurfaceLoadModel {
                       const LoadSettings& settings) const noexcept = 0;
 };
 
+/// Arithmetic of the loads on faces. What a face does is rounded; sums, and all else, are in
+/// double.
+enum class LoadPrecision {
+  kSingle,  ///< half the time; moves bodies by a hundredth of what 1280 faces leave, or less
+  kDouble,
+};
+
 /// How the flow follows the surface of one body.
 struct FlowSettings {
   double separation_angle =
@@ -28,6 +36,7 @@ struct FlowSettings {
   bool skin_friction = true;  ///< turbulent 1/5-power law, docs/theory.md eq. (16)
   std::shared_ptr<const SurfaceLoadModel> model =
       nullptr;  ///< null: this library's pressure and friction
+  LoadPrecision precision = LoadPrecision::kSingle;
 };
 
 /// Mass [kg] and rotational inertia about the centre of mass in B's axes [kg m^2].
@@ -49,8 +58,9 @@ struct BodyModel {
   LoadSettings loads;                ///< how the faces are loaded
   double reference_length = 0;       ///< sqrt(area) [m]
   const FaceTable* faces = nullptr;  ///< in F
-  const SurfaceLoadModel* load_model = nullptr;  ///< null: pressure and friction
-  bool has_surface_loads = false;                ///< there are faces or a load model, and a fluid
+  std::shared_ptr<const PackedFaces> packed_faces;  ///< the same; null: loads in double precision
+  const SurfaceLoadModel* load_model = nullptr;     ///< null: pressure and friction
+  bool has_surface_loads = false;  ///< there are faces or a load model, and a fluid
 
   double largest_mass = 0;  ///< largest eigenvalue of K's translation block [kg]
 };

@@ -3,6 +3,8 @@
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/fifth_root.h"
+#include "bullet_ambient/force/single_loads.h"
+#include "bullet_ambient/force/single_sums.h"
 #include "tests/support/geodesic.h"
 
 namespace ambient {
@@ -40,12 +42,38 @@ void sumFacesKernel(benchmark::State& state, InstructionSet set, bool friction, 
   reportPerFace(state, faces.size());
 }
 
-#define AMBIENT_KERNEL_BENCHMARK(set)                                                       \
-  BENCHMARK_CAPTURE(sumFacesKernel, set##_pressure, InstructionSet::k##set, false, 1.0)     \
-      ->DenseRange(2, 5);                                                                   \
-  BENCHMARK_CAPTURE(sumFacesKernel, set##_pressure_1_5, InstructionSet::k##set, false, 1.5) \
-      ->DenseRange(2, 5);                                                                   \
-  BENCHMARK_CAPTURE(sumFacesKernel, set##_friction, InstructionSet::k##set, true, 1.0)      \
+/// The kernel in single precision; arguments as above.
+void sumBlocksKernel(benchmark::State& state, InstructionSet set, bool friction, double angle) {
+  const SumBlocks sum_blocks = sumBlocksFor(set);
+  if (!sum_blocks) {
+    state.SkipWithError("this processor does not have the instruction set");
+    return;
+  }
+  const PackedFaces faces(
+      test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0)))));
+  const auto cosine = static_cast<float>(separationCosine(angle * kRightAngle));
+  SingleMotion motion{
+      {0.3f, -0.2f, 0.5f}, {0.4f, 0.1f, -0.2f}, -cosine * std::abs(cosine), 1 - cosine * cosine};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(motion);
+    benchmark::DoNotOptimize(
+        sum_blocks(faces.blocks().data(), faces.blocks().size(), motion, friction));
+  }
+  reportPerFace(state, faces.size());
+}
+
+#define AMBIENT_KERNEL_BENCHMARK(set)                                                        \
+  BENCHMARK_CAPTURE(sumFacesKernel, set##_pressure, InstructionSet::k##set, false, 1.0)      \
+      ->DenseRange(2, 5);                                                                    \
+  BENCHMARK_CAPTURE(sumFacesKernel, set##_pressure_1_5, InstructionSet::k##set, false, 1.5)  \
+      ->DenseRange(2, 5);                                                                    \
+  BENCHMARK_CAPTURE(sumFacesKernel, set##_friction, InstructionSet::k##set, true, 1.0)       \
+      ->DenseRange(2, 5);                                                                    \
+  BENCHMARK_CAPTURE(sumBlocksKernel, set##_pressure, InstructionSet::k##set, false, 1.0)     \
+      ->DenseRange(2, 5);                                                                    \
+  BENCHMARK_CAPTURE(sumBlocksKernel, set##_pressure_1_5, InstructionSet::k##set, false, 1.5) \
+      ->DenseRange(2, 5);                                                                    \
+  BENCHMARK_CAPTURE(sumBlocksKernel, set##_friction, InstructionSet::k##set, true, 1.0)      \
       ->DenseRange(2, 5)
 AMBIENT_KERNEL_BENCHMARK(Baseline);
 AMBIENT_KERNEL_BENCHMARK(Avx2);
@@ -64,6 +92,21 @@ void faceLoads(benchmark::State& state, bool friction) {
 }
 BENCHMARK_CAPTURE(faceLoads, pressure, false)->DenseRange(0, 5);
 BENCHMARK_CAPTURE(faceLoads, friction, true)->DenseRange(0, 5);
+
+void singleLoads(benchmark::State& state, bool friction) {
+  const FaceTable faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
+  const PackedFaces packed(faces);
+  const LoadSettings settings{1.204, 1.82e-5, 0, friction};
+  const double length = test::referenceLength(faces);
+  Twist twist = someTwist();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(twist);
+    benchmark::DoNotOptimize(computeFaceLoads(packed, length, twist, settings));
+  }
+  reportPerFace(state, faces.size());
+}
+BENCHMARK_CAPTURE(singleLoads, pressure, false)->DenseRange(0, 5);
+BENCHMARK_CAPTURE(singleLoads, friction, true)->DenseRange(0, 5);
 
 void fifthRoot(benchmark::State& state) {
   double x = 1.7;

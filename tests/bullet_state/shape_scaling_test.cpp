@@ -16,6 +16,7 @@ AttachDef plate() {
   shape->centre_of_volume = Vector3(0.02, -0.01, 0.005);
   def.fluid_body = shape;
   def.medium = {500, 0.2, Vector3(0.1, 0.2, 0), Vector3::Zero()};
+  def.flow.precision = LoadPrecision::kDouble;  // 2.5 is no power of two
   def.fluid_frame.rotation = rotationFromVector(Vector3(0.3, 0.2, 0.5)).toRotationMatrix();
   def.fluid_frame.translation = Vector3(0.05, 0.02, -0.03);
   return def;

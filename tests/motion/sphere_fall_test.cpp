@@ -14,10 +14,13 @@ using test::FreeBody;
 constexpr double kGravity = 9.81;
 
 FreeBody sphereOf(const SphereFall& fall) {
+  FlowSettings flow;
+  flow.precision = LoadPrecision::kDouble;  // orders of convergence down to 1e-9
   FreeBody sphere(
       {test::gaussSphere(fall.radius),
        {fall.mass, test::ellipsoidMoments(Vector3::Constant(fall.radius), fall.mass).asDiagonal()},
-       {fall.density, 0, Vector3::Zero(), Vector3::Zero()}});
+       {fall.density, 0, Vector3::Zero(), Vector3::Zero()},
+       flow});
   sphere.setGravity({0, 0, -kGravity});
   return sphere;
 }
