@@ -49,6 +49,7 @@ PrecisionRun runWithMethod(Scene scene, const std::vector<PreparedBody>& bodies,
                            const PrecisionMethod& method, int takes) {
   scene.flight = method.flight;
   scene.time_step = method.time_step;
+  for (BodyDef& body : scene.bodies) body.flow.precision = method.precision;
   PrecisionRun run = runOnce(scene, bodies);
   for (int i = 1; i < takes; ++i) {
     run.processor_seconds =

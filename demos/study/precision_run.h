@@ -12,6 +12,7 @@ struct PrecisionMethod {
   std::string name;
   FlightSettings flight;
   double time_step = 0;  ///< of the world, a whole fraction of kPrecisionSample [s]
+  LoadPrecision precision = LoadPrecision::kSingle;
 };
 
 /// Motions are compared at multiples of this time [s].

@@ -50,8 +50,8 @@ std::vector<PrecisionMethod> methodsAt(double step) {
           {"leapfrog 1e-3", {kLeapfrog, 1e-3, 0}, step},
           {"leapfrog 1e-4", {kLeapfrog, 1e-4, 256}, step},
           {"pair 1e-3", {kPair, 1e-3, 0}, step},
-          {"pair 1e-5", {kPair, 1e-5, 0}, step},
-          {"pair 1e-7", {kPair, 1e-7, 0}, step},
+          {"pair 1e-5", {kPair, 1e-5, 0}, step, LoadPrecision::kDouble},
+          {"pair 1e-7", {kPair, 1e-7, 0}, step, LoadPrecision::kDouble},
           {"rk4", {Integrator::kRungeKutta4, 1e-3, 0}, step},
           {"symplectic euler", {Integrator::kSymplecticEuler, 1e-3, 0}, step}};
 }
@@ -76,7 +76,8 @@ std::string studyCase(const PrecisionCase& c, int takes) {
   FluidBodyCache cache;
   const std::vector<PreparedBody> bodies = prepareBodies(scene, cache);
   // The contacts' errors are of first order in the world's step, whatever flies between.
-  const PrecisionMethod exact{"reference", {Integrator::kDormandPrince, 1e-9, 0}, 1.0 / 7680};
+  const PrecisionMethod exact{
+      "reference", {Integrator::kDormandPrince, 1e-9, 0}, 1.0 / 7680, LoadPrecision::kDouble};
   const PrecisionRun reference = runWithMethod(scene, bodies, exact, 1);
   if (!reference.finite) throw std::runtime_error(c.name + ": the reference is not finite");
   std::string lines;
