@@ -97,9 +97,27 @@ class Numbers:
     def end_tilt(self, scene):
         return max(tilts(track)[-1] for track in self.moving(scene))
 
-    def copter(self):
+    def catch(self, scene):
+        """Distance and time at which a body comes down to the height of its launch."""
+        track = self.track(scene)
+        falling = np.flatnonzero((track.velocity[:, 2] < 0) & (track.position[:, 2] >= track.position[0, 2]))[-1]
+        rows = slice(falling, falling + 2)
+        height = -track.position[rows, 2]
+        place, time = (np.interp(-track.position[0, 2], height, x) for x in (track.position[rows, 0], track.time[rows]))
+        return place, time
+
+    def late_spin(self, scene):
+        """Mean spin about the vertical, either way, late half."""
+        track = self.track(scene)
+        return abs(track.spin[late_half(track), 2].mean())
+
+    def late_descent(self, scene):
+        track = self.track(scene)
+        return -track.velocity[late_half(track), 2].mean()
+
+    def copter(self, scene="paper_copter"):
         """Largest angle of the axis to the descent and mean spin about it, late half."""
-        track = self.track("paper_copter")
+        track = self.track(scene)
         rows = late_half(track)
         axis = track.rotations()[rows, :, 2]
         velocity = track.velocity[rows]
@@ -120,13 +138,3 @@ class Numbers:
         for track in self.moving("flap_in_current"):
             upward = track.rotations()[late_half(track), :, 2].mean(axis=0)
             yield np.degrees(np.arctan2(-upward[0], upward[2]))
-
-    def cost(self, scene):
-        """Seconds per step, the same without a fluid, and substeps per step; the least of three runs."""
-        fluid, empty = (self.least_step_time(scene, kind) for kind in ("fluid", "empty"))
-        summary = self.run(scene).summary
-        return fluid, empty, summary["bodies"][0]["work"]["substeps"] / summary["steps"]
-
-    def least_step_time(self, scene, kind):
-        summaries = [Run(self.out / f"{scene}-{kind}-{take}").summary for take in (1, 2, 3)]
-        return min(summary["wall_seconds_simulation"] / summary["steps"] for summary in summaries)

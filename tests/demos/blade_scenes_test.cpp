@@ -1,5 +1,5 @@
-// Two blades in one piece: the scenes toy_propeller and underwater_propeller; and the
-// paper copters.
+// Two blades in one piece: the scenes toy_propeller and underwater_propeller; the paper
+// copters and the winged seed.
 
 #include <gtest/gtest.h>
 
@@ -120,6 +120,66 @@ TEST(PaperCopterSheet, HalfTheStepKeepsSpinAndDescent) {
   EXPECT_NEAR(spinOf(half), spinOf(whole), 0.005 * std::abs(spinOf(whole)));
   EXPECT_NEAR(half.twist.linear.z(), whole.twist.linear.z(),
               0.005 * std::abs(whole.twist.linear.z()));
+}
+
+/// Steady turning about the vertical with the wing spread.
+struct SeedFlight {
+  double least_spin = 1e9, largest_spin = 0;  ///< about the vertical [rad/s]
+  double largest_cone = 0;                    ///< of the wing against the horizontal [rad]
+  double descent = 0;                         ///< [m/s]
+
+  explicit SeedFlight(const std::vector<MotionSample>& motion) {
+    for (const MotionSample& sample : motion) {
+      if (sample.time < motion.back().time / 2) continue;
+      least_spin = std::min(least_spin, sample.twist.angular.z());
+      largest_spin = std::max(largest_spin, sample.twist.angular.z());
+      const double rise = (sample.orientation * Vector3::UnitX()).z();
+      largest_cone = std::max(largest_cone, std::abs(std::asin(rise)));
+    }
+    descent = -motion.back().twist.linear.z();
+  }
+};
+
+class WingedSeed : public ::testing::Test {
+ protected:
+  WingedSeed() : scene_(readCoarseScene("winged_seed", folder_)), bodies_(prepare(scene_)) {}
+
+  TemporaryFolder folder_;
+  Scene scene_;
+  std::vector<PreparedBody> bodies_;
+};
+
+TEST_F(WingedSeed, AutorotatesFromRest) {
+  const SeedFlight flight(runPrepared(scene_, bodies_).motion[0]);
+  // A maple's: 131 rad/s and 1.2 m/s (Lee, Lee and Sohn 2014).
+  EXPECT_GT(flight.least_spin, 200);
+  EXPECT_LT(flight.largest_spin / flight.least_spin, 1.03);
+  EXPECT_LT(flight.largest_cone, 10 * kDegree);
+  EXPECT_GT(flight.descent, 0.7);
+  EXPECT_LT(flight.descent, 1.2);
+}
+
+TEST_F(WingedSeed, WeightPaysForTheDragOfItsTurning) {
+  const MotionSample end = runPrepared(scene_, bodies_).motion[0].back();
+  const double given = weightIn(scene_, bodies_[0]) * -end.twist.linear.z();
+  EXPECT_NEAR(-powerOfLoads(scene_, bodies_[0], end), given, 0.05 * given);
+}
+
+TEST_F(WingedSeed, SpunByHandKeepsTurningWhereverItsMassLiesAcrossTheChord) {
+  scene_.bodies[0].orientation = Quaternion::Identity();
+  scene_.bodies[0].angular_velocity = Vector3(0, 0, 230);
+  const Vector3 designed = *scene_.bodies[0].centre_of_mass;
+  double slower = 0;
+  for (const double forward : {-0.003, 0.0, 0.004}) {
+    scene_.bodies[0].centre_of_mass = designed + Vector3(0, forward, 0);
+    const SeedFlight flight(runPrepared(scene_, prepare(scene_)).motion[0]);
+    EXPECT_GT(flight.least_spin, 180) << forward;
+    EXPECT_LT(flight.largest_spin / flight.least_spin, 1.03) << forward;
+    // The farther forward, the faster it falls.
+    EXPECT_GT(flight.descent, slower) << forward;
+    slower = flight.descent;
+  }
+  EXPECT_LT(slower, 1.4);
 }
 
 }  // namespace
