@@ -48,12 +48,12 @@ def draw_attitudes(runs, body_axes, interval, length, until=np.inf, across=False
             draw_side(other, run, letter, interval, length, until, np.cross(run.up(), along), COLOURS[i], run.name)
             other.set(xlabel="across [m]", title="from the front")
         if not alike:
-            axes.set_title(f"{run.name}, {letter} axis every {interval:g} s")
+            axes.set_title(f"{run.name}: its {letter} axis")
     for axes in row[0]:
         decorate(axes)
         if alike:
             axes.legend(frameon=False)
-            axes.set_title(f"{body_axes[0]} axis every {interval:g} s")
+            axes.set_title(f"{body_axes[0]} axis of the body, every {interval:g} s")
     return figure
 
 

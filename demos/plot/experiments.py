@@ -14,7 +14,7 @@ from experiment_numbers import Numbers
 from experiment_tables import contact_rows, paper_rows, rival_rows, table
 from experiment_texts import CONVERGENCE, COST, DIFFERENCES, HEAD, RIVALS, RIVALS_END
 from falling_plates import PlanarFall, draw_falls
-from paths import draw_overlay, draw_paths
+from paths import draw_drop, draw_overlay
 from runs import Run
 from study_tables import convergence_rows, cost_rows
 
@@ -45,7 +45,7 @@ def add_experiments(page, numbers, runs):
     page.add_picture("plates", draw_falls([PlanarFall(run) for run in plates]), "Plates")
     golf = runs("golf_dimpled_spin", "golf_smooth_spin", "golf_dimpled", "golf_smooth")
     page.add_picture("golf", draw_overlay(golf), "Golf balls")
-    page.add_picture("basketball", draw_paths(runs("basketball_drop")), "Basketballs")
+    page.add_picture("basketball", draw_drop(runs("basketball_drop")[0]), "Basketballs")
     page.add_picture("football", draw_attitudes(runs("football", "football_vacuum"), "x", 0.25, 4), "Football")
     water = runs("underwater_ellipsoid", "underwater_propeller", "underwater_bunny")
     figure = draw_attitudes(water, "xzz", 0.1, 0.08, until=4)
@@ -63,7 +63,8 @@ def add_rivals(page, numbers, runs):
     page.add_picture("rivals_soccer", draw_overlay(rivals("soccer_curl", *RIVAL_MODELS[1:])), "Free kick")
     page.add_picture("rivals_golf", draw_overlay(rivals("golf_dimpled_spin", *RIVAL_MODELS[1:])), "Golf ball")
     page.add_picture("rivals_plate", draw_overlay(rivals("plate_8cm", "uwrbd", "gwtf")), "Plate of 8 cm")
-    page.add_picture("rivals_propeller", draw_overlay(rivals("toy_propeller", *RIVAL_MODELS[1:])), "Toy propeller")
+    figure = draw_overlay(rivals("toy_propeller", *RIVAL_MODELS[1:]), until=0.7)
+    page.add_picture("rivals_propeller", figure, "Toy propeller")
 
 
 def read_study(out, name):

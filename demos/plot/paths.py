@@ -4,6 +4,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 COLOURS = plt.get_cmap("tab10").colors
+# Paths that lie on each other show through.
+STYLES = ("-", (0, (6, 2)), (0, (3, 2)), (0, (1, 1.5)))
 
 
 # Sideways motion below this share of the whole counts as none.
@@ -78,22 +80,44 @@ def draw_paths(runs):
     return figure
 
 
-def draw_overlay(runs):
-    """A figure of the first bodies of runs in one side view and one top view, each up to its landing."""
-    figure, (side_view, top_view) = plt.subplots(1, 2, figsize=(12.5, 4), layout="constrained")
+def shown_part(track, until=np.inf):
+    """Positions up to the landing and up to a time."""
+    landing = track.entry["path"]["landing"]
+    end = min(until, landing["time"]) if landing else until
+    return track.position[track.time <= end]
+
+
+def draw_drop(run):
+    """A figure of all bodies that move, from the side, each up to its landing."""
+    figure, axes = plt.subplots(figsize=(6.5, 6.5), layout="constrained")
+    up, along = run.up(), main_direction(run)
+    moving = [track for track in run.tracks if track.entry["mass"] > 0]
+    for colour, track in zip(COLOURS, moving):
+        position = shown_part(track)
+        axes.plot(position @ along, position @ up, color=colour, linewidth=1.5, label=track.name.replace("_", " "))
+    axes.set(xlabel="along [m]", ylabel="height [m]", title=run.name)
+    decorate(axes)
+    axes.legend(frameon=False)
+    return figure
+
+
+def draw_overlay(runs, until=np.inf):
+    """A figure of the first bodies of runs in one side view, each up to its landing or a time, and in a top view if any
+    moves sideways."""
     up, along = runs[0].up(), main_direction(runs[0])
     across = np.cross(up, along)
+    paths = [shown_part(run.tracks[0], until) for run in runs]
+    extent = max(np.ptp(path, axis=0).max() for path in paths)
+    sideways = max(np.ptp(path @ across) for path in paths) > 0.05 * extent
+    figure, panels = plt.subplots(1, 1 + sideways, figsize=(12.5, 4), squeeze=False, layout="constrained")
     rivals = len({run.name for run in runs}) == 1
-    for colour, run in zip(COLOURS, runs):
-        track = run.tracks[0]
-        landing = track.entry["path"]["landing"]
-        position = track.position[track.time <= landing["time"]] if landing else track.position
+    for colour, style, run, path in zip(COLOURS, STYLES, runs, paths):
         label = run.summary["model"] if rivals else run.name
-        side_view.plot(position @ along, position @ up, color=colour, linewidth=1.5, label=label)
-        top_view.plot(position @ along, position @ across, color=colour, linewidth=1.5)
-    side_view.set(xlabel="along [m]", ylabel="height [m]", title="from the side")
-    top_view.set(xlabel="along [m]", ylabel="across [m]", title="from above")
-    for axes in (side_view, top_view):
+        for axes, vertical in zip(panels[0], (up, across)):
+            axes.plot(path @ along, path @ vertical, color=colour, linestyle=style, linewidth=1.7, label=label)
+    names = (("height [m]", "from the side"), ("across [m]", "from above"))
+    for axes, (name, title) in zip(panels[0], names):
+        axes.set(xlabel="along [m]", ylabel=name, title=title)
         decorate(axes)
-    side_view.legend(frameon=False, fontsize=9)
+    panels[0][0].legend(frameon=False, fontsize=9)
     return figure
