@@ -130,7 +130,8 @@ struct SeedFlight {
 
   explicit SeedFlight(const std::vector<MotionSample>& motion) {
     for (const MotionSample& sample : motion) {
-      if (sample.time < motion.back().time / 2) continue;
+      // The last quarter.
+      if (sample.time < 0.75 * motion.back().time) continue;
       least_spin = std::min(least_spin, sample.twist.angular.z());
       largest_spin = std::max(largest_spin, sample.twist.angular.z());
       const double rise = (sample.orientation * Vector3::UnitX()).z();
