@@ -14,27 +14,6 @@ using Eigen::Vector3d;
 constexpr double kPi = 3.14159265358979323846;
 constexpr Index kPanelsAtOnce = 128;  // held in memory between the two passes
 constexpr Index kRowBlock = 64;
-constexpr Index kFarBlock =
-    256;  // panels per sweep of the far field, small enough for the first cache
-using FarArray = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kFarBlock, 1>;
-
-/// row[s] = far-field integral of 1/r over panel t and every panel s.
-void computeFarRow(const PanelArrays& a, Index t, ArrayXd& row) {
-  const Index n = a.area.size();
-  for (Index first = 0; first < n; first += kFarBlock) {
-    const Index count = std::min(kFarBlock, n - first);
-    const auto part = [&](const ArrayXd& array) { return array.segment(first, count); };
-    const FarArray x = a.x[t] - part(a.x), y = a.y[t] - part(a.y), z = a.z[t] - part(a.z);
-    const FarArray xx = a.xx[t] + part(a.xx), yy = a.yy[t] + part(a.yy), zz = a.zz[t] + part(a.zz);
-    const FarArray inverse_square = 1 / (x * x + y * y + z * z);
-    const FarArray along =
-        x * (x * xx + 2 * (y * (a.xy[t] + part(a.xy)) + z * (a.xz[t] + part(a.xz)))) +
-        y * (y * yy + 2 * z * (a.yz[t] + part(a.yz))) + z * z * zz;
-    row.segment(first, count) =
-        a.area[t] * part(a.area) * inverse_square.sqrt() *
-        (1 + (1.5 * along * inverse_square - 0.5 * (xx + yy + zz)) * inverse_square);
-  }
-}
 
 /// sum over s of I(t, s) curl h_j on s, for every unknown j (U x 3).
 void gatherCurls(const PanelSurface& surface, const Unknowns& unknowns, const ArrayXd& row,
@@ -67,7 +46,7 @@ Eigen::MatrixXd assembleHypersingular(const PanelSurface& surface, const Unknown
     const Index count = std::min(kPanelsAtOnce, panels - first);
     parallelFor(threads, count, [&](Index k) {
       ArrayXd row(panels);
-      computeFarRow(surface.arrays, first + k, row);
+      computeFarPairIntegrals(surface.arrays, first + k, 0, row);
       for (const NearPanels::Entry& entry : near.of_panel[first + k])
         row[entry.panel] = entry.integral;
       gatherCurls(surface, unknowns, row, curls[k]);

@@ -1,5 +1,6 @@
 #include "preprocess/potential_flow/panel_pair.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,9 +15,8 @@ using Eigen::Vector3d;
 // Limits of q. Regular meshes have rational squares of q; these have not, so that rounding never
 // moves a pair to another class. Near reaches far enough to hold all panels that lie face to face
 // on a thin body, whose potentials have kinks.
-constexpr double kNearLimit = 1.1816;    // 2/3 sqrt(pi)
-constexpr double kCloseLimit = 1.7725;   // sqrt(pi)
-constexpr double kMiddleLimit = 3.5449;  // 2 sqrt(pi)
+constexpr double kNearLimit = 1.1816;   // 2/3 sqrt(pi)
+constexpr double kCloseLimit = 1.7725;  // sqrt(pi)
 
 /// Corner numbers of the vertices that two triangles share.
 struct SharedCorners {
@@ -106,7 +106,7 @@ double pointsByPoints(const Panel& t, const Panel& s) {
   return t.area * s.area * mean;
 }
 
-/// Centroids with second moments; hypersingular.cpp has the same for whole rows.
+/// Centroids with second moments; computeFarPairIntegrals() has the same for whole rows.
 double farPairIntegral(const PanelSurface& surface, Index t, Index s) {
   const PanelArrays& a = surface.arrays;
   const double x = a.x[t] - a.x[s], y = a.y[t] - a.y[s], z = a.z[t] - a.z[s];
@@ -126,7 +126,7 @@ PairKind classifyPair(const PanelSurface& surface, Index t, Index s) {
   const Panel& b = surface.panels[s];
   const double radii = a.radius + b.radius;
   const double square = (a.centroid - b.centroid).squaredNorm();
-  if (square > kMiddleLimit * kMiddleLimit * radii * radii) return PairKind::Far;
+  if (square > kFarLimit * kFarLimit * radii * radii) return PairKind::Far;
   switch (findSharedCorners(surface, t, s).count) {
     case 0:
       break;
@@ -163,6 +163,26 @@ double computePairIntegral(const PanelSurface& surface, Index t, Index s) {
       break;
   }
   return farPairIntegral(surface, t, s);
+}
+
+void computeFarPairIntegrals(const PanelArrays& a, Index t, Index from, Eigen::ArrayXd& row) {
+  constexpr Index kBlock = 256;  // small enough for the first cache
+  using FarArray = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kBlock, 1>;
+  for (Index first = 0; first < row.size(); first += kBlock) {
+    const Index count = std::min(kBlock, row.size() - first);
+    const auto part = [&](const Eigen::ArrayXd& array) {
+      return array.segment(from + first, count);
+    };
+    const FarArray x = a.x[t] - part(a.x), y = a.y[t] - part(a.y), z = a.z[t] - part(a.z);
+    const FarArray xx = a.xx[t] + part(a.xx), yy = a.yy[t] + part(a.yy), zz = a.zz[t] + part(a.zz);
+    const FarArray inverse_square = 1 / (x * x + y * y + z * z);
+    const FarArray along =
+        x * (x * xx + 2 * (y * (a.xy[t] + part(a.xy)) + z * (a.xz[t] + part(a.xz)))) +
+        y * (y * yy + 2 * z * (a.yz[t] + part(a.yz))) + z * z * zz;
+    row.segment(first, count) =
+        a.area[t] * part(a.area) * inverse_square.sqrt() *
+        (1 + (1.5 * along * inverse_square - 0.5 * (xx + yy + zz)) * inverse_square);
+  }
 }
 
 }  // namespace ambient

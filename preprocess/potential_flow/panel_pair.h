@@ -9,6 +9,9 @@ namespace ambient {
 /// How two panels lie to each other, from the same panel to far apart.
 enum class PairKind { Same, SharedEdge, SharedVertex, Near, Close, Middle, Far };
 
+/// Pairs whose q is larger are PairKind::Far.
+inline constexpr double kFarLimit = 3.5449;  // 2 sqrt(pi)
+
 /// Kind of the pair, by shared vertices, else by q = distance of the centroids over the sum of the
 /// radii.
 PairKind classifyPair(const PanelSurface& surface, Eigen::Index t, Eigen::Index s);
@@ -17,5 +20,9 @@ PairKind classifyPair(const PanelSurface& surface, Eigen::Index t, Eigen::Index 
 /// eq. (9)), quadrature by q for the others. The order of t and s matters to the error of the
 /// quadrature only.
 double computePairIntegral(const PanelSurface& surface, Eigen::Index t, Eigen::Index s);
+
+/// row[k] = far-field integral of panel t and panel first + k, for a whole row: PairKind::Far.
+void computeFarPairIntegrals(const PanelArrays& arrays, Eigen::Index t, Eigen::Index first,
+                             Eigen::ArrayXd& row);
 
 }  // namespace ambient

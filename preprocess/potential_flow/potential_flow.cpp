@@ -1,16 +1,17 @@
 #include "preprocess/potential_flow/potential_flow.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/potential_flow/double_layer.h"
-#include "preprocess/potential_flow/hypersingular.h"
+#include "preprocess/potential_flow/dense_solver.h"
+#include "preprocess/potential_flow/hierarchical_solver.h"
+#include "preprocess/potential_flow/memory_limit.h"
 #include "preprocess/potential_flow/parallel_for.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 #include "preprocess/potential_flow/vertex_projection.h"
@@ -27,12 +28,7 @@ struct UnitFlow {
   Matrix6 inertia = Matrix6::Zero();
   double asymmetry = 0;
   double reciprocal_condition = 0;
-};
-
-/// Jump of the potential across the surface, and how well it is determined.
-struct Jump {
-  MatrixX6 values;  ///< V x 6, 0 where there is no unknown
-  double reciprocal_condition = 0;
+  int iterations = 0;
 };
 
 double largestAsymmetry(const Matrix6& K) {
@@ -41,45 +37,6 @@ double largestAsymmetry(const Matrix6& K) {
 }
 
 Matrix6 symmetricPart(const Matrix6& K) { return 0.5 * (K + K.transpose()); }
-
-/// Adds s m m^T for the constants m of every closed component, the kernel of W; s of the size of
-/// W's diagonal.
-void fillKernel(const PanelSurface& surface, const Unknowns& unknowns, Eigen::MatrixXd& W) {
-  std::vector<bool> open(surface.component_count, false);
-  for (Index v = 0; v < surface.vertexCount(); ++v)
-    if (surface.boundary_vertex[v]) open[surface.component[v]] = true;
-  std::vector<std::vector<int>> members(surface.component_count);
-  for (Index v = 0; v < surface.vertexCount(); ++v)
-    if (unknowns.of_vertex[v] >= 0) members[surface.component[v]].push_back(unknowns.of_vertex[v]);
-  for (int c = 0; c < surface.component_count; ++c) {
-    if (open[c]) continue;
-    double trace = 0;
-    for (int i : members[c]) trace += W(i, i);
-    const auto count = static_cast<double>(members[c].size());
-    const double s = trace / (count * count);
-    for (int i : members[c])
-      for (int j : members[c]) W(i, j) += s;
-  }
-}
-
-/// W mu = -B.
-Jump solveJump(const PanelSurface& surface, const Unknowns& unknowns, const NearPanels& near,
-               int threads) {
-  Eigen::MatrixXd W = assembleHypersingular(surface, unknowns, near, threads);
-  fillKernel(surface, unknowns, W);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(W);
-  if (factors.info() != Eigen::Success)
-    throw std::runtime_error("potential flow: the linear system of " +
-                             std::to_string(unknowns.count) +
-                             " vertices is not positive definite; two sides of the surface are too "
-                             "close for the size of "
-                             "its triangles: use more triangles or a sheet");
-  const MatrixX6 solution = factors.solve(-assembleNormalVelocity(surface, unknowns));
-  Jump jump{MatrixX6::Zero(surface.vertexCount(), 6), factors.rcond()};
-  for (Index v = 0; v < surface.vertexCount(); ++v)
-    if (unknowns.of_vertex[v] >= 0) jump.values.row(v) = solution.row(unknowns.of_vertex[v]);
-  return jump;
-}
 
 /// -B^T mu: the inertia of the fluid on both sides of the surface; symmetric.
 Matrix6 integrateEnergy(const PanelSurface& surface, const Unknowns& unknowns,
@@ -104,22 +61,46 @@ Matrix6 integrateInertia(const PanelSurface& surface, const PanelMoments& moment
   return K;
 }
 
-UnitFlow solveSheet(const PanelSurface& surface, int threads) {
+UnitFlow solveSheet(FlowSolver& solver) {
+  const PanelSurface& surface = solver.surface();
   const Unknowns unknowns = numberUnknowns(surface);
-  if (unknowns.count == 0)
-    throw std::runtime_error("potential flow: the sheet of " +
-                             std::to_string(surface.panelCount()) +
-                             " triangles has no vertex inside its boundary; it needs at least 1");
   UnitFlow flow;
-  const Jump jump = solveJump(surface, unknowns, findNearPanels(surface, threads), threads);
+  const Jump jump = solver.solveJump(unknowns);
   flow.potential = jump.values;
   flow.reciprocal_condition = jump.reciprocal_condition;
+  flow.iterations = jump.iterations;
   flow.inertia = integrateEnergy(surface, unknowns, flow.potential);
   flow.asymmetry = largestAsymmetry(flow.inertia);
   return flow;
 }
 
-UnitFlow solveClosed(const PanelSurface& surface, int threads) {
+UnitFlow solveClosed(FlowSolver& solver) {
+  const PanelSurface& surface = solver.surface();
+  const Unknowns unknowns = numberUnknowns(surface);
+  const Jump jump = solver.solveJump(unknowns);
+  const PanelMoments moments = solver.computeMoments(jump);
+  const Matrix6 direct = integrateInertia(surface, moments);
+
+  UnitFlow flow;
+  flow.reciprocal_condition = jump.reciprocal_condition;
+  flow.iterations = jump.iterations;
+  flow.potential = projectOnVertices(surface, moments);
+  flow.asymmetry = largestAsymmetry(direct);
+  // The energy holds the interior flow too. In translation that moves as a solid, volume times
+  // unity and, about the centre of volume, without coupling; in rotation it is not known.
+  flow.inertia = integrateEnergy(surface, unknowns, jump.values);
+  flow.inertia.bottomRightCorner<3, 3>().diagonal().array() -= surface.volume;
+  flow.inertia.topLeftCorner<3, 3>() = direct.topLeftCorner<3, 3>();
+  return flow;
+}
+
+void requireUnknowns(const PanelSurface& sheet) {
+  if (numberUnknowns(sheet).count > 0) return;
+  throw std::runtime_error("potential flow: the sheet of " + std::to_string(sheet.panelCount()) +
+                           " triangles has no vertex inside its boundary; it needs at least 1");
+}
+
+void requireClosed(const PanelSurface& surface) {
   if (surface.boundary_edge_count > 0)
     throw std::runtime_error("potential flow: the surface is open at " +
                              std::to_string(surface.boundary_edge_count) +
@@ -128,23 +109,36 @@ UnitFlow solveClosed(const PanelSurface& surface, int threads) {
     throw std::runtime_error(
         "potential flow: the surface is inside out or encloses no volume; triangles must be "
         "counter-clockwise seen from the fluid");
-  const Unknowns unknowns = numberUnknowns(surface);
-  const NearPanels near = findNearPanels(surface, threads);
-  const Jump solved = solveJump(surface, unknowns, near, threads);
-  const MatrixX6& jump = solved.values;
-  const PanelMoments moments = computeExteriorMoments(surface, near, jump, threads);
-  const Matrix6 direct = integrateInertia(surface, moments);
+}
 
-  UnitFlow flow;
-  flow.reciprocal_condition = solved.reciprocal_condition;
-  flow.potential = projectOnVertices(surface, moments);
-  flow.asymmetry = largestAsymmetry(direct);
-  // The energy holds the interior flow too. In translation that moves as a solid, volume times
-  // unity and, about the centre of volume, without coupling; in rotation it is not known.
-  flow.inertia = integrateEnergy(surface, unknowns, jump);
-  flow.inertia.bottomRightCorner<3, 3>().diagonal().array() -= surface.volume;
-  flow.inertia.topLeftCorner<3, 3>() = direct.topLeftCorner<3, 3>();
-  return flow;
+bool isHierarchical(FlowSolverKind solver, Index panels) {
+  return solver == FlowSolverKind::Hierarchical ||
+         (solver == FlowSolverKind::Automatic && panels > kMostDensePanels);
+}
+
+UnitFlow solveUnitFlow(const PanelSurface& surface, const PotentialFlowSettings& settings) {
+  if (settings.sheet) {
+    requireUnknowns(surface);
+  } else {
+    requireClosed(surface);
+  }
+  const int threads = threadCount(settings.threads);
+  const double limit = memoryLimit(settings.memory_limit);
+  const auto solve = [&](FlowSolver& solver) {
+    return settings.sheet ? solveSheet(solver) : solveClosed(solver);
+  };
+  try {
+    if (isHierarchical(settings.solver, surface.panelCount())) {
+      HierarchicalSolver solver(surface, threads, limit);
+      return solve(solver);
+    }
+    DenseSolver solver(surface, threads, limit);
+    return solve(solver);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error("potential flow: the memory that " +
+                             std::to_string(surface.panelCount()) +
+                             " panels need is not there: use fewer panels");
+  }
 }
 
 /// Makes the inertia symmetric positive semi-definite; returns the lowest eigenvalue over the
@@ -170,15 +164,15 @@ PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSe
             << " m^3; it must not be below 0";
     throw std::runtime_error(message.str());
   }
-  const int threads = threadCount(settings.threads);
   const PanelSurface surface =
       makePanelSurface(refineSurface(mesh, settings.sheet, settings.max_panels), settings.sheet);
-  UnitFlow unit = settings.sheet ? solveSheet(surface, threads) : solveClosed(surface, threads);
+  UnitFlow unit = solveUnitFlow(surface, settings);
 
   PotentialFlow flow;
   flow.panels = surface.panelCount();
   flow.asymmetry = unit.asymmetry;
   flow.reciprocal_condition = unit.reciprocal_condition;
+  flow.iterations = unit.iterations;
   flow.removed_eigenvalue = removeNegativePart(unit.inertia);
   const double size = settings.true_volume > 0 && !settings.sheet
                           ? std::cbrt(settings.true_volume / surface.volume)

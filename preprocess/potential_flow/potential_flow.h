@@ -5,6 +5,12 @@
 
 namespace ambient {
 
+/// How the linear system is solved: by factorisation, or iteratively with a tree of panels.
+enum class FlowSolverKind { Automatic, Dense, Hierarchical };
+
+/// Panels up to which Automatic means Dense: above, the other is quicker for every shape.
+constexpr Eigen::Index kMostDensePanels = 4200;
+
 /// How the six exterior Neumann problems are solved.
 struct PotentialFlowSettings {
   bool sheet = false;      ///< the mesh is an open surface of zero thickness
@@ -13,6 +19,8 @@ struct PotentialFlowSettings {
   int max_panels = 0;  ///< the flat faces are cut into up to so many panels where the flow needs
                        ///< them, see refineSurface(); 0: every face is a panel
   int threads = 0;     ///< 0: all cores; the result does not depend on it, bit for bit
+  FlowSolverKind solver = FlowSolverKind::Automatic;
+  double memory_limit = 0;  ///< bytes; 0: what the machine has available
 };
 
 /// Potentials of the six unit motions and the fluid's inertia, per unit density, about the mesh's
@@ -32,8 +40,10 @@ struct PotentialFlow {
   /// or 0, over the largest; in the same units [1].
   double removed_eigenvalue = 0;
   Eigen::Index panels = 0;  ///< how many the equations were solved on
-  /// Estimate for the matrix of the linear system, in the 1-norm [1].
+  /// Estimate for the matrix of the linear system, in the 1-norm [1]; 0 where it was not
+  /// factorised.
   double reciprocal_condition = 0;
+  int iterations = 0;  ///< of the hierarchical solver; 0 where the matrix was factorised
 };
 
 /// Solves the six exterior Neumann problems dphi/dn = n.(v + w x z) by a Galerkin boundary element

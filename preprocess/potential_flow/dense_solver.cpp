@@ -1,0 +1,69 @@
+#include "preprocess/potential_flow/dense_solver.h"
+
+#include <Eigen/Cholesky>
+#include <stdexcept>
+#include <string>
+
+#include "preprocess/potential_flow/memory_limit.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+constexpr double kBytesPerPanel = 15000;  // of near pairs and what is held between passes; measured
+
+/// Adds s m m^T for the constants m of every closed component, the kernel of W; s of the size of
+/// W's diagonal.
+void fillKernel(const PanelSurface& surface, const Unknowns& unknowns, Eigen::MatrixXd& W) {
+  std::vector<bool> open(surface.component_count, false);
+  for (Index v = 0; v < surface.vertexCount(); ++v)
+    if (surface.boundary_vertex[v]) open[surface.component[v]] = true;
+  std::vector<std::vector<int>> members(surface.component_count);
+  for (Index v = 0; v < surface.vertexCount(); ++v)
+    if (unknowns.of_vertex[v] >= 0) members[surface.component[v]].push_back(unknowns.of_vertex[v]);
+  for (int c = 0; c < surface.component_count; ++c) {
+    if (open[c]) continue;
+    double trace = 0;
+    for (int i : members[c]) trace += W(i, i);
+    const auto count = static_cast<double>(members[c].size());
+    const double s = trace / (count * count);
+    for (int i : members[c])
+      for (int j : members[c]) W(i, j) += s;
+  }
+}
+
+}  // namespace
+
+DenseSolver::DenseSolver(const PanelSurface& surface, int threads, double memory_limit)
+    : surface_(surface), threads_(threads) {
+  const auto panels = static_cast<double>(surface.panelCount());
+  const auto vertices = static_cast<double>(surface.vertexCount());
+  requireMemory(surface.panelCount(),
+                sizeof(double) * vertices * vertices + kBytesPerPanel * panels, memory_limit);
+  near_ = findNearPanels(surface, threads);
+}
+
+Jump DenseSolver::solveJump(const Unknowns& unknowns) {
+  Eigen::MatrixXd W = assembleHypersingular(surface_, unknowns, near_, threads_);
+  fillKernel(surface_, unknowns, W);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(W);
+  if (factors.info() != Eigen::Success)
+    throw std::runtime_error("potential flow: the linear system of " +
+                             std::to_string(unknowns.count) +
+                             " vertices is not positive definite; two sides of the surface are too "
+                             "close for the size of "
+                             "its triangles: use more triangles or a sheet");
+  const MatrixX6 solution = factors.solve(-assembleNormalVelocity(surface_, unknowns));
+  Jump jump{MatrixX6::Zero(surface_.vertexCount(), 6), factors.rcond(), 0};
+  for (Index v = 0; v < surface_.vertexCount(); ++v)
+    if (unknowns.of_vertex[v] >= 0) jump.values.row(v) = solution.row(unknowns.of_vertex[v]);
+  return jump;
+}
+
+PanelMoments DenseSolver::computeMoments(const Jump& jump) {
+  return computeExteriorMoments(surface_, near_, jump.values, threads_);
+}
+
+}  // namespace ambient

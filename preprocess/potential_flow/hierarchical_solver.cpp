@@ -1,0 +1,50 @@
+#include "preprocess/potential_flow/hierarchical_solver.h"
+
+#include "preprocess/potential_flow/iterative_jump.h"
+#include "preprocess/potential_flow/memory_limit.h"
+#include "preprocess/potential_flow/tree_double_layer.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+
+// Expansions of degree 5 of clusters that open at most 0.7 leave 1e-5 of each block.
+constexpr int kLeafSize = 64;
+constexpr int kDegree = 5;
+constexpr double kOpening = 0.7;
+constexpr double kBytesPerPanel = 3000;  // of geometry, tree, fields and moments; measured
+
+double bytesNeeded(const PanelTree& tree, const ClusterPairs& pairs) {
+  constexpr int kFields = 18, kTerms = (kDegree + 1) * (kDegree + 1);
+  const double expansions =
+      2.0 * sizeof(float) * kFields * kTerms * static_cast<double>(tree.clusters.size());
+  return PairIntegrals::nearBytes(tree, pairs) + expansions +
+         kBytesPerPanel * static_cast<double>(tree.surface.panelCount());
+}
+
+}  // namespace
+
+HierarchicalSolver::HierarchicalSolver(const PanelSurface& surface, int threads,
+                                       double memory_limit)
+    : threads_(threads),
+      tree_(makePanelTree(surface, kLeafSize)),
+      pairs_(pairClusters(tree_, kOpening)) {
+  requireMemory(surface.panelCount(), bytesNeeded(tree_, pairs_), memory_limit);
+}
+
+Jump HierarchicalSolver::solveJump(const Unknowns& unknowns) {
+  const PairIntegrals integrals(tree_, pairs_, kDegree, threads_);
+  const IterativeJump solved = solveIteratively(tree_.surface, unknowns, integrals, threads_);
+  Jump jump{Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(tree_.surface.vertexCount(), 6), 0,
+            solved.iterations};
+  for (Index v = 0; v < tree_.surface.vertexCount(); ++v)
+    if (const int i = unknowns.of_vertex[v]; i >= 0) jump.values.row(v) = solved.values.row(i);
+  return jump;
+}
+
+PanelMoments HierarchicalSolver::computeMoments(const Jump& jump) {
+  return computeExteriorMoments(tree_, pairs_, kDegree, jump.values, threads_);
+}
+
+}  // namespace ambient

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+namespace ambient {
+
+/// Expansions of 1/|x - y| in solid harmonics up to a degree p, as real vectors with (p + 1)^2
+/// entries: with a = (x - c_t) / s_t and b = (y - c_s) / s_s, and centres further apart than |x -
+/// c_t| + |y - c_s|, 1/|x - y| = regular(a)^T transfer(c_t - c_s, s_t, s_s) regular(b), up to
+/// truncation; docs/theory.md eq. (32).
+class SolidHarmonics {
+ public:
+  explicit SolidHarmonics(int degree);
+
+  int count() const { return (degree_ + 1) * (degree_ + 1); }
+
+  /// Regular harmonics R(a), real and imaginary parts for orders m >= 0, by degree.
+  void evaluateRegular(const Eigen::Vector3d& a, Eigen::Ref<Eigen::VectorXd> harmonics) const;
+
+  /// Derivative of R at a along a direction.
+  void evaluateSlope(const Eigen::Vector3d& a, const Eigen::Vector3d& direction,
+                     Eigen::Ref<Eigen::VectorXd> harmonics) const;
+
+  /// The matrix Q with R(a) = Q R(a'), a = (x - c) / s, a' = (x - c') / s', of the expansion about
+  /// c: Q of shift = (c' - c) / s and ratio s' / s.
+  void fillShift(const Eigen::Vector3d& shift, double ratio, Eigen::MatrixXf& matrix) const;
+
+  /// transfer(): the offset is from the source's centre to the target's.
+  void fillTransfer(const Eigen::Vector3d& offset, double target_scale, double source_scale,
+                    Eigen::MatrixXf& matrix) const;
+
+ private:
+  using Complex = std::complex<double>;
+  /// An entry of the transfer matrix: a sum of two irregular harmonics, real or imaginary parts.
+  struct TransferEntry {
+    int first, second;
+    float first_factor, second_factor;
+  };
+
+  void fillTransferEntry(int i, int q, bool target_imaginary, int j, int m, bool source_imaginary);
+
+  int degree_;
+  std::vector<TransferEntry> transfer_;  ///< by columns
+  std::vector<int> degree_of_;           ///< of an entry of the real vectors
+};
+
+}  // namespace ambient
