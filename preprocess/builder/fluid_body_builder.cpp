@@ -5,7 +5,6 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/potential_flow/potential_flow.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 
 namespace ambient {
@@ -13,13 +12,6 @@ namespace {
 
 const std::string& sourceOf(const BuildSettings& settings) {
   return settings.source.empty() ? settings.name : settings.source;
-}
-
-void requireSolvableSize(const TriangleMesh& mesh, const BuildSettings& settings) {
-  if (mesh.vertexCount() <= kMostVertices) return;
-  raiseInputError(sourceOf(settings), mesh.vertexCount(),
-                  " vertices are more than the dense solver takes, ", kMostVertices, " (",
-                  8e-9 * kMostVertices * kMostVertices, " GB): simplify the mesh");
 }
 
 MeshProperties massPropertiesOf(const TriangleMesh& mesh, bool sheet) {
@@ -80,6 +72,8 @@ PotentialFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings)
   flow_settings.sheet = settings.sheet;
   flow_settings.max_panels = settings.max_panels;
   flow_settings.threads = settings.threads;
+  flow_settings.solver = settings.solver;
+  flow_settings.memory_limit = settings.memory_limit;
   try {
     return solvePotentialFlow(mesh, flow_settings);
   } catch (const std::runtime_error& error) {
@@ -94,7 +88,6 @@ std::string libraryVersion() { return "bullet_ambient " AMBIENT_VERSION; }
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
   requireUsualSize(source_mesh, settings);
   TriangleMesh mesh = withTrueVolume(divideTriangles(source_mesh, settings.least_faces), settings);
-  requireSolvableSize(mesh, settings);
   const MeshProperties properties = massPropertiesOf(mesh, settings.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
   mesh.vertices.colwise() -= origin;

@@ -5,12 +5,12 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/potential_flow/potential_flow.h"
 
 namespace ambient {
 
-/// Vertices above which makeFluidBody() refuses a mesh: the dense solver needs 8 bytes per pair of
-/// them, 3.2 GB here.
-constexpr Eigen::Index kMostVertices = 20000;
+/// Faces or panels that a mesh can be divided into; a finer mesh is solved on its own triangles.
+constexpr int kMostDivisions = 1000000;
 
 /// Panels into which the flow around a mesh is divided by default: a box of 12 triangles comes out
 /// within 1 % of the largest entry of each block of the added mass, in one to two seconds.
@@ -35,7 +35,9 @@ struct BuildSettings {
   /// The flow is solved on up to so many panels, finer than the mesh where that helps; the faces
   /// remain those of the mesh. 0: on the triangles of the mesh.
   int max_panels = kDefaultPanels;
-  int threads = 0;        ///< 0: all cores; the result does not depend on it, bit for bit
+  int threads = 0;          ///< 0: all cores; the result does not depend on it, bit for bit
+  double memory_limit = 0;  ///< for the flow, bytes; 0: what the machine has available
+  FlowSolverKind solver = FlowSolverKind::Automatic;
   Provenance provenance;  ///< copied; an empty generator becomes this library and its version
 };
 
@@ -45,8 +47,7 @@ struct BuildSettings {
 /// solvePotentialFlow().
 /// @pre the mesh passed checkMesh() as a body or as a sheet.
 /// @throws std::runtime_error in one line that begins with the source, if the mesh is smaller than
-/// 1e-9 m or larger than 1e9 m, has more than kMostVertices, also after its division, or the flow
-/// cannot be solved.
+/// 1e-9 m or larger than 1e9 m, or the flow cannot be solved or needs more memory than there is.
 FluidBody makeFluidBody(const TriangleMesh& mesh, const BuildSettings& settings);
 
 }  // namespace ambient

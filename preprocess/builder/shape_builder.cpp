@@ -26,6 +26,8 @@ std::string settingsText(const ShapeBuildSettings& settings, bool sheet) {
     text << "centre-of-volume";
   }
   text << ", faces " << settings.least_faces << ", panels " << settings.max_panels;
+  if (settings.solver == FlowSolverKind::Dense) text << ", dense";
+  if (settings.solver == FlowSolverKind::Hierarchical) text << ", hierarchical";
   return text.str();
 }
 
@@ -66,10 +68,12 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (settings.max_panels < 0) {
     raiseInputError(shape.source, "panels = ", settings.max_panels, " is below 0 (0: no division)");
   }
-  constexpr int kMostLeastFaces = kMostVertices;
-  if (settings.least_faces < 0 || settings.least_faces > kMostLeastFaces) {
+  if (settings.max_panels > kMostDivisions) {
+    raiseInputError(shape.source, "panels = ", settings.max_panels, " is above ", kMostDivisions);
+  }
+  if (settings.least_faces < 0 || settings.least_faces > kMostDivisions) {
     raiseInputError(shape.source, "least faces = ", settings.least_faces,
-                    " is not between 0 (no division) and ", kMostLeastFaces);
+                    " is not between 0 (no division) and ", kMostDivisions);
   }
   if (const auto* fluid_body = std::get_if<FluidBodyShape>(&shape.geometry)) {
     return readBody(*fluid_body, settings);
@@ -90,6 +94,8 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   build.least_faces = settings.least_faces;
   build.max_panels = settings.max_panels;
   build.threads = settings.threads;
+  build.memory_limit = settings.memory_limit;
+  build.solver = settings.solver;
   build.provenance = describeShape(shape, settings);
   return {makeFluidBody(checked.mesh, build), checked.warnings};
 }

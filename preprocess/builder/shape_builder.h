@@ -18,6 +18,8 @@ struct ShapeBuildSettings {
   int least_faces = 0;                    ///< as in BuildSettings
   int max_panels = kDefaultPanels;        ///< as in BuildSettings
   int threads = 0;                        ///< 0: all cores
+  double memory_limit = 0;                ///< as in BuildSettings
+  FlowSolverKind solver = FlowSolverKind::Automatic;
 };
 
 /// A fluid body, and what a user should know about its mesh, one line each.

@@ -12,6 +12,7 @@
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/input_shape.h"
+#include "preprocess/command_line/solver_options.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {
@@ -55,6 +56,8 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   settings.least_faces = arguments.least_faces;
   settings.max_panels = arguments.panels;
   settings.threads = arguments.threads;
+  settings.solver = parseSolver(arguments.solver);
+  settings.memory_limit = parseMemory(arguments.memory);
   return settings;
 }
 
@@ -75,9 +78,7 @@ FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings&
 
 int runBuild(const BuildArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  if (arguments.threads < 0) {
-    raiseInputError("--threads", arguments.threads, " is below 0 (0: all cores)");
-  }
+  requireThreads(arguments.threads);
   if (hasExtension(arguments.input, ".bullet")) return runWorldBuild(arguments);
   if (arguments.no_margins) raiseInputError("--no-margins", "only worlds have margins");
   const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);

@@ -17,6 +17,8 @@ struct BuildArguments {
   int least_faces = 0;                      ///< the mesh is divided into at least so many
   int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
   int threads = 0;                          ///< 0: all cores
+  std::string solver;                       ///< dense or hierarchical; empty: by the panels
+  std::string memory;                       ///< for the flow [GB]; empty: what is available
   bool no_margins = false;                  ///< of a world: hulls and cones without their margins
   bool rebuild = false;                     ///< also where nothing has changed
   bool json = false;

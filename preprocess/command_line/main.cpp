@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,14 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
                    "0: the triangles of the mesh)")
       ->type_name("N");
   build->add_option("--threads", arguments.threads, "0: all cores (default)")->type_name("N");
+  build
+      ->add_option("--solver", arguments.solver,
+                   "dense or hierarchical (default: hierarchical above 4200 panels)")
+      ->type_name("KIND");
+  build
+      ->add_option("--memory", arguments.memory,
+                   "For the flow, at most (default: what the machine has available)")
+      ->type_name("GB");
   build->add_flag("--no-margins", arguments.no_margins,
                   "Worlds: convex hulls and cones without their margins");
   build->add_flag("--rebuild", arguments.rebuild, "Build also where nothing has changed");
@@ -177,6 +186,9 @@ int run(int argc, char** argv) {
     if (report->parsed()) runReport(report_arguments);
     if (polar->parsed()) runPolar(polar_arguments);
     if (compare->parsed()) return runCompare(compare_arguments);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "ambient_preprocess: there is not enough memory for an input of this size\n";
+    return kBadInput;
   } catch (const std::exception& error) {
     std::cerr << "ambient_preprocess: " << error.what() << "\n";
     return kBadInput;

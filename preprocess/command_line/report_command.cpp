@@ -7,6 +7,7 @@
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/json_numbers.h"
+#include "preprocess/command_line/solver_options.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh_report/mesh_report.h"
 #include "preprocess/shape/shape_mesh.h"
@@ -65,8 +66,9 @@ std::string asTable(const MeshReport& report, const TriangleMesh& mesh) {
   std::ostringstream text;
   text.precision(3);
   const auto level = [&](const char* label, const FlowLevel& flow) {
-    text << label << flow.panels << " panels, " << flow.seconds << " s, condition "
-         << flow.condition << ", asymmetry " << flow.asymmetry << "\n";
+    text << label << flow.panels << " panels, " << flow.seconds << " s, ";
+    if (flow.condition > 0) text << "condition " << flow.condition << ", ";
+    text << "asymmetry " << flow.asymmetry << "\n";
   };
   text << "mesh             " << mesh.vertexCount() << " vertices, " << mesh.triangleCount()
        << " faces\n";
@@ -96,11 +98,12 @@ void runReport(const ReportArguments& arguments) {
   if (!std::isfinite(arguments.scale) || arguments.scale <= 0) {
     raiseInputError("--scale", arguments.scale, " is not positive and finite");
   }
-  if (arguments.threads < 0) {
-    raiseInputError("--threads", arguments.threads, " is below 0 (0: all cores)");
-  }
+  requireThreads(arguments.threads);
   if (arguments.panels < 0) {
     raiseInputError("--panels", arguments.panels, " is below 0 (0: no division)");
+  }
+  if (arguments.panels > kMostDivisions) {
+    raiseInputError("--panels", arguments.panels, " is above ", kMostDivisions);
   }
   const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
   CheckedMesh checked = makeShapeMesh(shape);

@@ -24,8 +24,13 @@ void requireWorldOptions(const BuildArguments& arguments) {
   if (arguments.origin != "centre-of-volume") refuse("--origin");
   if (arguments.sheet) refuse("--sheet");
   if (arguments.least_faces != 0) refuse("--least-faces");
+  if (!arguments.solver.empty()) raiseInputError("--solver", "is for one mesh, not for a world");
+  if (!arguments.memory.empty()) raiseInputError("--memory", "is for one mesh, not for a world");
   if (arguments.panels < 0) {
     raiseInputError("--panels", arguments.panels, " is below 0 (0: no division)");
+  }
+  if (arguments.panels > kMostDivisions) {
+    raiseInputError("--panels", arguments.panels, " is above ", kMostDivisions);
   }
 }
 

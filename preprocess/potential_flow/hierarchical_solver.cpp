@@ -13,7 +13,7 @@ using Eigen::Index;
 constexpr int kLeafSize = 64;
 constexpr int kDegree = 5;
 constexpr double kOpening = 0.7;
-constexpr double kBytesPerPanel = 3000;  // of geometry, tree, fields and moments; measured
+constexpr double kBytesPerPanel = 2000;  // of geometry, tree, fields and moments; measured
 
 double bytesNeeded(const PanelTree& tree, const ClusterPairs& pairs) {
   constexpr int kFields = 18, kTerms = (kDegree + 1) * (kDegree + 1);

@@ -21,16 +21,27 @@ PanelJump jumpOn(const PanelSurface& surface, const Eigen::Matrix<double, Eigen:
   return j;
 }
 
-/// int_S h_b n.(x - y)/r^3 dy by points, for panels a little apart.
-Vector3d computeDoubleLayerByPoints(const Panel& panel, const Vector3d& x) {
-  Vector3d weights = Vector3d::Zero();
-  for (const TriangleNode& node : kTriangleRule6) {
-    const Vector3d r = x - panel.at(node.barycentric);
-    const double square = r.squaredNorm();
-    const double kernel = node.weight / (square * std::sqrt(square));
-    weights += kernel * Eigen::Map<const Vector3d>(node.barycentric.data());
+/// int_S h_b n.(x - y)/r^3 dy by points at all nodes x of a panel, for panels a little apart.
+Eigen::Matrix<double, 6, 3> computeDoubleLayerByPoints(const Panel& source,
+                                                       const NodePotentials<6>& nodes) {
+  using Array6 = Eigen::Array<double, 6, 1>;
+  Array6 x, y, z;
+  for (int k = 0; k < 6; ++k) {
+    const Vector3d& node = nodes.node(k);
+    x[k] = node.x(), y[k] = node.y(), z[k] = node.z();
   }
-  return panel.area * panel.normal.dot(x - panel.centroid) * weights;
+  Eigen::Matrix<double, 6, 3> weights = Eigen::Matrix<double, 6, 3>::Zero();
+  for (const TriangleNode& node : kTriangleRule6) {
+    const Vector3d point = source.at(node.barycentric);
+    const Array6 square =
+        (x - point.x()).square() + (y - point.y()).square() + (z - point.z()).square();
+    const Array6 kernel = node.weight / (square * square.sqrt());
+    for (int b = 0; b < 3; ++b) weights.col(b).array() += node.barycentric[b] * kernel;
+  }
+  const Vector3d &n = source.normal, &c = source.centroid;
+  const Array6 height = n.x() * (x - c.x()) + n.y() * (y - c.y()) + n.z() * (z - c.z());
+  for (int b = 0; b < 3; ++b) weights.col(b).array() *= source.area * height;
+  return weights;
 }
 
 }  // namespace
@@ -62,7 +73,7 @@ Matrix36 computeNearMoments(const PanelSurface& surface, const std::vector<NearP
         break;
       case PairKind::Middle:
       case PairKind::Far:
-        coarse.add(source, jump, computeDoubleLayerByPoints);
+        coarse.addAll(computeDoubleLayerByPoints(source, coarse), jump);
         break;
     }
   }

@@ -39,6 +39,13 @@ class NodePotentials {
     }
   }
 
+  /// The same from the weights of the source's corners at all nodes.
+  void addAll(const Eigen::Matrix<double, static_cast<int>(N), 3>& weights,
+              const Eigen::Matrix<double, 3, 6>& jump) {
+    potential_ += weights * jump;
+    solid_angle_ += weights.rowwise().sum();
+  }
+
   /// At node k: what the jump causes, and what a jump of 1 everywhere would.
   void add(std::size_t k, const Eigen::Matrix<double, 1, 6>& potential, double solid_angle) {
     potential_.row(k) += potential;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <stdexcept>
 
 namespace ambient {
 namespace {
@@ -83,6 +84,7 @@ void copyReal(const HarmonicTable& table, Eigen::Ref<Eigen::VectorXd> harmonics)
 
 SolidHarmonics::SolidHarmonics(int degree)
     : degree_(degree), transfer_(count() * count()), degree_of_(count()) {
+  if (2 * degree > kMostDegree) throw std::invalid_argument("solid harmonics: degree above 6");
   for (int i = 0; i <= degree; ++i)
     for (int q = -i; q <= i; ++q) {
       degree_of_[q >= 0 ? realPlace(i, q) : imaginaryPlace(i, -q)] = i;

@@ -12,6 +12,7 @@ namespace ambient {
 /// truncation; docs/theory.md eq. (32).
 class SolidHarmonics {
  public:
+  /// @throws std::invalid_argument for a degree above 6.
   explicit SolidHarmonics(int degree);
 
   int count() const { return (degree_ + 1) * (degree_ + 1); }

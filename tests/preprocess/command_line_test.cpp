@@ -359,6 +359,15 @@ TEST_F(CommandLine, BadValuesOfOptionsAreRefusedByName) {
   EXPECT_EQ(buildRefusal(ball, {"--scale", "nan"}),
             ball + ": scale = nan is not positive and finite");
   EXPECT_EQ(buildRefusal(ball, {"--threads", "-1"}), "--threads: -1 is below 0 (0: all cores)");
+  EXPECT_EQ(buildRefusal(ball, {"--threads", "1000"}), "--threads: 1000 is above 256");
+  EXPECT_EQ(buildRefusal(ball, {"--panels", "2000000"}),
+            ball + ": panels = 2000000 is above 1000000");
+  EXPECT_EQ(buildRefusal(ball, {"--solver", "sparse"}),
+            "--solver: \"sparse\" is neither dense nor hierarchical");
+  EXPECT_EQ(buildRefusal(ball, {"--memory", "-2"}),
+            "--memory: \"-2\" is not a number of gigabytes above 0");
+  EXPECT_NE(buildRefusal(ball, {"--memory", "0.001"}).find("GB of memory, more than the 0.001 GB"),
+            std::string::npos);
   for (const char* origin : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf", "centre", "1,2,3x", "nan,0,0"}) {
     EXPECT_EQ(buildRefusal(ball, {"--origin", origin}),
               "--origin: \"" + std::string(origin) +

@@ -72,7 +72,10 @@ TEST_F(Reuse, OtherSettingsAreNot) {
   EXPECT_FALSE(isSame(shape(), settings));
   settings = quick();
   settings.threads = 1;
-  EXPECT_TRUE(isSame(shape(), settings)) << "threads do not change the result";
+  settings.memory_limit = 1e12;
+  EXPECT_TRUE(isSame(shape(), settings)) << "threads and memory do not change the result";
+  settings.solver = FlowSolverKind::Hierarchical;
+  EXPECT_FALSE(isSame(shape(), settings));
 }
 
 TEST_F(Reuse, OtherProgramsAndDamagedFilesAreNot) {
