@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <vector>
 
 namespace ambient {
@@ -33,7 +32,6 @@ class SolidHarmonics {
                     Eigen::MatrixXf& matrix) const;
 
  private:
-  using Complex = std::complex<double>;
   /// An entry of the transfer matrix: a sum of two irregular harmonics, real or imaginary parts.
   struct TransferEntry {
     int first, second;
