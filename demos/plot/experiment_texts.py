@@ -32,7 +32,7 @@ DIFFERENCES = """## Where the model is known to differ from reality
   spins up and then turns over as well.
 - **Paper copter.** A sheet without thickness: one strip of 80 g/m² paper, slit and folded, with a clip of 0.5 g. Its folds
   fall off outwards by 40°, which gives the wings a pitch. With 35° some releases, and with horizontal folds all, end
-  tilted by about 50° and hardly spinning: one wing is broadside to the air then, where the model has no pressure. The fat
+  tilted by 30° to 60° and hardly spinning: one wing is broadside to the air, where the model has no pressure. The fat
   proxy of the paper is `paper_copter_proxy`, without stem; with less pitch than 30° or less coning than 45° it keeps
   nutating.
 - **Bunny.** Released on its back it finds another screw: 2.5 rad/s and 0.27 m/s.
@@ -42,7 +42,8 @@ DIFFERENCES = """## Where the model is known to differ from reality
   farther forward on the chord of 11 mm, which gives 0.51 to 1.22 m/s. From rest that state is seldom reached: by the
   maple's shape in none of 24 releases in random directions (it falls at 6 m/s), by the scene's in 7. The scene's values
   were found by a random search: the nut at the trailing edge, half of the mass in it and a third in the vein of the leading
-  edge, the wing pitched by 5.6° and drooping by 3.7°. Time steps from 1 to 4 ms give the same flight. A real seed, of a
+  edge, the wing pitched by 5.6° and drooping by 3.7°. Time steps from 1 to 4 ms
+  give the same flight, and so do masses that differ by 1e-7 to 1e-3. A real seed, of a
   smaller kind, turns at 131 rad/s and falls at 1.2 m/s (Lee, Lee, Sohn: Experiments in Fluids 55, 2014).
 - Plates are chaotic: compare modes, not positions; how far they can be trusted is in [data](../data/README.md).
 """
