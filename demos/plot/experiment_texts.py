@@ -43,7 +43,7 @@ DIFFERENCES = """## Where the model is known to differ from reality
   maple's shape in none of 24 releases in random directions (it falls at 6 m/s), by the scene's in 7. The scene's values
   were found by a random search: the nut at the trailing edge, half of the mass in it and a third in the vein of the leading
   edge, the wing pitched by 5.6° and drooping by 3.7°. Time steps from 1 to 4 ms
-  give the same flight, and so do masses that differ by 1e-7 to 1e-3. A real seed, of a
+  give the same flight, and so do masses that differ by 1e-7 to 4e-4. A real seed, of a
   smaller kind, turns at 131 rad/s and falls at 1.2 m/s (Lee, Lee, Sohn: Experiments in Fluids 55, 2014).
 - Plates are chaotic: compare modes, not positions; how far they can be trusted is in [data](../data/README.md).
 """
