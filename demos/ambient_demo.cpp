@@ -114,6 +114,8 @@ void runAndWrite(const Arguments& arguments) {
   if (gltf) gltf->commit();
   folder.keep();
   cache.save();
+  if (!record.warning.empty() && !arguments.quiet)
+    std::fprintf(stderr, "warning: %s\n", record.warning.c_str());
   if (!arguments.quiet)
     std::printf("%s: %lld steps in %.2f s; wrote trajectory.csv and summary.json to %s\n",
                 scene.name.c_str(), record.steps, record.wall_seconds, folder.path().c_str());

@@ -120,7 +120,7 @@ FlightResult flyLeapfrog(const FlightTask& task, const RigidState& start,
     spent.load_evaluations += flight.count.load_evaluations;
     spent.guarded += flight.count.guarded;
     if (!(ratio > kAcceptance) || attempt == kMaxRetries || substeps == most) {
-      spent.coarse = flight.count.coarse || ratio > kAcceptance;
+      spent.coarse = flight.count.coarse || (ratio > kAcceptance && substeps == most);
       flight.count = spent;
       return flight;
     }

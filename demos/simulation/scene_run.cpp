@@ -97,6 +97,7 @@ RunRecord runScene(const Scene& scene, const std::vector<PreparedBody>& bodies,
   }
   record.wall_seconds = std::chrono::duration<double>(stepping).count();
   for (std::size_t i = 0; i < bodies.size(); ++i) record.work.push_back(simulation.work(i));
+  record.warning = simulation.warning();
   return record;
 }
 

@@ -17,6 +17,7 @@ struct RunRecord {
   double wall_seconds = 0;                        ///< spent stepping
   std::vector<std::vector<MotionSample>> motion;  ///< per body, one sample per output time
   std::vector<FlightWork> work;                   ///< per body
+  std::string warning;                            ///< of the library, one sentence; mostly empty
 };
 
 /// The times of the rows: multiples of the output step from 0 on, and the duration.

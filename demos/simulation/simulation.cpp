@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
@@ -123,12 +122,6 @@ struct Simulation::World {
     }
   }
 
-  /// What the registry reports does not end a run: steps that were too coarse are in the summary.
-  void warn() {
-    if (report.empty()) return;
-    std::cerr << report << '\n';
-    report.clear();
-  }
   void add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared);
   void add(const JointDef& def);
   btRigidBody& find(const std::string& name) const;
@@ -194,7 +187,6 @@ void Simulation::step() {
     const bool rejected = body.is_ambient && w.registry.counters(*body.body).rejected > 0;
     if (rejected || !w.sample(body).isFinite()) throwNotFinite(body.name, time());
   }
-  w.warn();
 }
 
 double Simulation::time() const { return static_cast<double>(world_->steps) * world_->time_step; }
@@ -204,6 +196,8 @@ std::vector<MotionSample> Simulation::sample() const {
   for (const WorldBody& body : world_->bodies) samples.push_back(world_->sample(body));
   return samples;
 }
+
+const std::string& Simulation::warning() const { return world_->report; }
 
 FlightWork Simulation::work(std::size_t body) const {
   const WorldBody& of = world_->bodies.at(body);

@@ -38,6 +38,9 @@ class Simulation {
 
   FlightWork work(std::size_t body) const;
 
+  /// What the library has reported last, one sentence; empty: nothing.
+  const std::string& warning() const;
+
  private:
   struct World;
   std::unique_ptr<World> world_;
