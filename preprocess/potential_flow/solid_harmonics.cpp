@@ -12,7 +12,7 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Vector3d;
 
-constexpr int kMostDegree = 12;  // of a table on the stack: twice the degree of the expansions
+constexpr int kMostDegree = 16;  // of a table on the stack: twice the degree of the expansions
 
 constexpr int triangular(int n, int m) { return n * (n + 1) / 2 + m; }
 
@@ -73,7 +73,7 @@ HarmonicTable irregularHarmonics(const Vector3d& x, int degree) {
   return S;
 }
 
-void copyReal(const HarmonicTable& table, Eigen::Ref<Eigen::VectorXd> harmonics) {
+void copyReal(const HarmonicTable& table, Eigen::VectorXd& harmonics) {
   for (int n = 0; n <= table.degree(); ++n)
     for (int m = 0; m <= n; ++m) {
       harmonics[realPlace(n, m)] = table.get(n, m).real();
@@ -85,7 +85,7 @@ void copyReal(const HarmonicTable& table, Eigen::Ref<Eigen::VectorXd> harmonics)
 
 SolidHarmonics::SolidHarmonics(int degree)
     : degree_(degree), transfer_(count() * count()), degree_of_(count()) {
-  if (2 * degree > kMostDegree) throw std::invalid_argument("solid harmonics: degree above 6");
+  if (2 * degree > kMostDegree) throw std::invalid_argument("solid harmonics: degree above 8");
   for (int i = 0; i <= degree; ++i)
     for (int q = -i; q <= i; ++q) {
       degree_of_[q >= 0 ? realPlace(i, q) : imaginaryPlace(i, -q)] = i;
@@ -117,13 +117,12 @@ void SolidHarmonics::fillTransferEntry(int i, int q, bool target_imaginary, int 
   entry.second_factor = static_cast<float>(difference);
 }
 
-void SolidHarmonics::evaluateRegular(const Vector3d& a,
-                                     Eigen::Ref<Eigen::VectorXd> harmonics) const {
+void SolidHarmonics::evaluateRegular(const Vector3d& a, Eigen::VectorXd& harmonics) const {
   copyReal(regularHarmonics(a, degree_), harmonics);
 }
 
 void SolidHarmonics::evaluateSlope(const Vector3d& a, const Vector3d& direction,
-                                   Eigen::Ref<Eigen::VectorXd> harmonics) const {
+                                   Eigen::VectorXd& harmonics) const {
   const HarmonicTable R = regularHarmonics(a, degree_);
   const HarmonicTable step = regularHarmonics(direction, 1);
   HarmonicTable slope(degree_);

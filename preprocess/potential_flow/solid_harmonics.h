@@ -11,17 +11,17 @@ namespace ambient {
 /// truncation; docs/theory.md eq. (32).
 class SolidHarmonics {
  public:
-  /// @throws std::invalid_argument for a degree above 6.
+  /// @throws std::invalid_argument for a degree above 8.
   explicit SolidHarmonics(int degree);
 
   int count() const { return (degree_ + 1) * (degree_ + 1); }
 
   /// Regular harmonics R(a), real and imaginary parts for orders m >= 0, by degree.
-  void evaluateRegular(const Eigen::Vector3d& a, Eigen::Ref<Eigen::VectorXd> harmonics) const;
+  void evaluateRegular(const Eigen::Vector3d& a, Eigen::VectorXd& harmonics) const;
 
   /// Derivative of R at a along a direction.
   void evaluateSlope(const Eigen::Vector3d& a, const Eigen::Vector3d& direction,
-                     Eigen::Ref<Eigen::VectorXd> harmonics) const;
+                     Eigen::VectorXd& harmonics) const;
 
   /// The matrix Q with R(a) = Q R(a'), a = (x - c) / s, a' = (x - c') / s', of the expansion about
   /// c: Q of shift = (c' - c) / s and ratio s' / s.

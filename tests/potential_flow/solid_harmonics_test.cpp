@@ -22,7 +22,7 @@ TEST(SolidHarmonics, ExpandTheInverseDistance) {
   const Vector3d source_centre(0.3, 0.2, -0.1), target_centre(2.3, 1.2, 0.7);
   const double source_scale = 0.4, target_scale = 0.5;
   const Vector3d offset = target_centre - source_centre;
-  for (int degree = 1; degree <= 6; ++degree) {
+  for (int degree = 1; degree <= 8; ++degree) {
     const SolidHarmonics harmonics(degree);
     MatrixXf transfer;
     harmonics.fillTransfer(offset, target_scale, source_scale, transfer);
