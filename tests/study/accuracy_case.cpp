@@ -60,6 +60,7 @@ Matrix6 builtAddedMass(const TriangleMesh& mesh, bool sheet, int max_panels, int
   settings.sheet = sheet;
   settings.max_panels = max_panels;
   settings.threads = threads;
+  if (max_panels == 0) settings.solver = FlowSolverKind::Dense;
   return makeFluidBody(mesh, settings).added_mass;
 }
 

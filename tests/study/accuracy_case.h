@@ -50,7 +50,8 @@ struct AccuracyRow {
   double processor_seconds = 0;  ///< of one build, all threads together
 };
 
-/// The added mass about the mesh's origin as makeFluidBody() computes it.
+/// The added mass about the mesh's origin as makeFluidBody() computes it; with 0 panels, every
+/// triangle is one, by the dense solver.
 Matrix6 builtAddedMass(const TriangleMesh& mesh, bool sheet, int max_panels, int threads = 0);
 
 /// Builds the case at default settings.
