@@ -38,11 +38,14 @@ void fillKernel(const PanelSurface& surface, const Unknowns& unknowns, Eigen::Ma
 
 DenseSolver::DenseSolver(const PanelSurface& surface, int threads, double memory_limit)
     : surface_(surface), threads_(threads) {
-  const auto panels = static_cast<double>(surface.panelCount());
-  const auto vertices = static_cast<double>(surface.vertexCount());
-  requireMemory(surface.panelCount(),
-                sizeof(double) * vertices * vertices + kBytesPerPanel * panels, memory_limit);
+  requireMemory(surface.panelCount(), bytesNeeded(), memory_limit);
   near_ = findNearPanels(surface, threads);
+}
+
+double DenseSolver::bytesNeeded() const {
+  const auto panels = static_cast<double>(surface_.panelCount());
+  const auto vertices = static_cast<double>(surface_.vertexCount());
+  return sizeof(double) * vertices * vertices + kBytesPerPanel * panels;
 }
 
 Jump DenseSolver::solveJump(const Unknowns& unknowns) {

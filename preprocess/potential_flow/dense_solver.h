@@ -5,13 +5,14 @@
 namespace ambient {
 
 /// Assembles the matrix and factorises it.
-class DenseSolver : public FlowSolver {
+class DenseSolver final : public FlowSolver {
  public:
   /// The surface must outlive the solver.
   /// @throws std::runtime_error if it would need more than `memory_limit` bytes.
   DenseSolver(const PanelSurface& surface, int threads, double memory_limit);
 
   const PanelSurface& surface() const override { return surface_; }
+  double bytesNeeded() const override;
   Jump solveJump(const Unknowns& unknowns) override;
   PanelMoments computeMoments(const Jump& jump) override;
 

@@ -20,6 +20,9 @@ class FlowSolver {
   /// The surface, perhaps with its panels in another order; vertices keep their numbers.
   virtual const PanelSurface& surface() const = 0;
 
+  /// Memory it takes at most, an estimate.
+  virtual double bytesNeeded() const = 0;
+
   /// Solves W mu = -B; docs/theory.md eq. (8).
   /// @throws std::runtime_error if it has no solution.
   virtual Jump solveJump(const Unknowns& unknowns) = 0;

@@ -17,14 +17,6 @@ constexpr int kDoubleLayerDegree = 8;
 constexpr double kOpening = 0.7;
 constexpr double kBytesPerPanel = 2000;  // of geometry, tree, fields and moments; measured
 
-double bytesNeeded(const PanelTree& tree, const ClusterPairs& pairs) {
-  constexpr int kFields = 18, kTerms = (kDegree + 1) * (kDegree + 1);
-  const double expansions =
-      2.0 * sizeof(float) * kFields * kTerms * static_cast<double>(tree.clusters.size());
-  return PairIntegrals::nearBytes(tree, pairs) + expansions +
-         kBytesPerPanel * static_cast<double>(tree.surface.panelCount());
-}
-
 }  // namespace
 
 HierarchicalSolver::HierarchicalSolver(const PanelSurface& surface, int threads,
@@ -32,7 +24,15 @@ HierarchicalSolver::HierarchicalSolver(const PanelSurface& surface, int threads,
     : threads_(threads),
       tree_(makePanelTree(surface, kLeafSize)),
       pairs_(pairClusters(tree_, kOpening)) {
-  requireMemory(surface.panelCount(), bytesNeeded(tree_, pairs_), memory_limit);
+  requireMemory(surface.panelCount(), bytesNeeded(), memory_limit);
+}
+
+double HierarchicalSolver::bytesNeeded() const {
+  constexpr int kFields = 18, kTerms = (kDegree + 1) * (kDegree + 1);
+  const double expansions =
+      2.0 * sizeof(float) * kFields * kTerms * static_cast<double>(tree_.clusters.size());
+  return PairIntegrals::nearBytes(tree_, pairs_) + expansions +
+         kBytesPerPanel * static_cast<double>(tree_.surface.panelCount());
 }
 
 Jump HierarchicalSolver::solveJump(const Unknowns& unknowns) {

@@ -6,12 +6,13 @@
 namespace ambient {
 
 /// Solves iteratively, with far clusters of panels as expansions.
-class HierarchicalSolver : public FlowSolver {
+class HierarchicalSolver final : public FlowSolver {
  public:
   /// @throws std::runtime_error if it would need more than `memory_limit` bytes.
   HierarchicalSolver(const PanelSurface& surface, int threads, double memory_limit);
 
   const PanelSurface& surface() const override { return tree_.surface; }
+  double bytesNeeded() const override;
   Jump solveJump(const Unknowns& unknowns) override;
   PanelMoments computeMoments(const Jump& jump) override;
 

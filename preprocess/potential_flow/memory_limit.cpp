@@ -33,4 +33,16 @@ void requireMemory(Eigen::Index panels, double bytes, double limit) {
   throw std::runtime_error(message.str());
 }
 
+void raiseOutOfMemory(Eigen::Index panels, double bytes) {
+  std::ostringstream message;
+  message.precision(2);
+  message << "potential flow: " << panels << " panels need ";
+  if (bytes > 0) {
+    message << bytes / 1e9 << " GB of memory, which is not there: use fewer panels";
+  } else {
+    message << "more memory than there is: use fewer panels";
+  }
+  throw std::runtime_error(message.str());
+}
+
 }  // namespace ambient

@@ -10,4 +10,7 @@ double memoryLimit(double setting);
 /// @throws std::runtime_error in one line with both numbers if `bytes` is above `limit`.
 void requireMemory(Eigen::Index panels, double bytes, double limit);
 
+/// Says what was needed, if that is known, when it was not there.
+[[noreturn]] void raiseOutOfMemory(Eigen::Index panels, double bytes);
+
 }  // namespace ambient

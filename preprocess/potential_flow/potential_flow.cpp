@@ -124,20 +124,17 @@ UnitFlow solveUnitFlow(const PanelSurface& surface, const PotentialFlowSettings&
   }
   const int threads = threadCount(settings.threads);
   const double limit = memoryLimit(settings.memory_limit);
-  const auto solve = [&](FlowSolver& solver) {
+  double bytes = 0;
+  const auto solve = [&](FlowSolver&& solver) {
+    bytes = solver.bytesNeeded();
     return settings.sheet ? solveSheet(solver) : solveClosed(solver);
   };
   try {
-    if (isHierarchical(settings.solver, surface.panelCount())) {
-      HierarchicalSolver solver(surface, threads, limit);
-      return solve(solver);
-    }
-    DenseSolver solver(surface, threads, limit);
-    return solve(solver);
+    return isHierarchical(settings.solver, surface.panelCount())
+               ? solve(HierarchicalSolver(surface, threads, limit))
+               : solve(DenseSolver(surface, threads, limit));
   } catch (const std::bad_alloc&) {
-    throw std::runtime_error("potential flow: the memory that " +
-                             std::to_string(surface.panelCount()) +
-                             " panels need is not there: use fewer panels");
+    raiseOutOfMemory(surface.panelCount(), bytes);
   }
 }
 
