@@ -25,6 +25,7 @@ void transferSettings(Stream& s, State& def) {
   s.number(def.flow.separation_angle);
   transferFlag(s, def.flow.skin_friction);
   transferEnum(s, def.flow.precision, LoadPrecision::kDouble);
+  s.number(def.flow.maximum_load_error);
   transferEnum(s, def.flight.integrator, Integrator::kSymplecticEuler);
   s.number(def.flight.tolerance);
   s.number(def.flight.max_substeps);

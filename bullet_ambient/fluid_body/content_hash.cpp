@@ -20,6 +20,15 @@ std::uint64_t contentHash(const FluidBody& body) {
        {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
         &faces.centroid_z, &faces.area})
     append(column->data(), column->size());
+  for (const LoadLevel& level : body.levels) {
+    for (const double* value :
+         {&level.separation_angle, &level.length, &level.error.p99, &level.cost})
+      append(value, 1);
+    append(level.centre.data(), 3);
+    append(level.even.data(), static_cast<std::size_t>(level.even.size()));
+    bytes.append(reinterpret_cast<const char*>(level.blocks.data()),
+                 level.blocks.size() * sizeof(ClusterBlock));
+  }
   return fnv1a64(bytes);
 }
 

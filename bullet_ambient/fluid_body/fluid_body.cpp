@@ -69,6 +69,10 @@ FluidBody scaled(const FluidBody& body, double factor) {
                                       &result.faces.centroid_z, &result.surface.vertices})
     scale(*column, factor);
   scale(result.faces.area, factor * factor);
+  for (LoadLevel& level : result.levels) {
+    level.centre *= factor;
+    level.length *= factor;
+  }
   std::ostringstream settings;
   settings.precision(17);
   settings << body.provenance.settings << "; scaled by " << factor;

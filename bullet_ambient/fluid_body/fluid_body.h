@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/load_level.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
@@ -63,6 +64,7 @@ struct FluidBody {
   MassDistribution surface_mass;               ///< uniform mass per area, at face barycentres
   FaceTable faces;
   Surface surface;
+  std::vector<LoadLevel> levels;  ///< of reduced loads; may be empty
 };
 
 /// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x is the slip velocity of fully attached

@@ -131,6 +131,48 @@ void checkSurface(const Surface& surface, const Checker& check) {
   }
 }
 
+void checkBlocks(const LoadLevel& level, const Checker& check) {
+  const std::size_t needed =
+      (static_cast<std::size_t>(level.clusters) + ClusterBlock::kClusters - 1) /
+      ClusterBlock::kClusters;
+  if (level.blocks.size() != needed)
+    check.fail("a level of reduced loads has ", level.blocks.size(), " blocks, but its ",
+               level.clusters, " clusters need ", needed);
+  for (const ClusterBlock& block : level.blocks) {
+    for (const auto* rows :
+         {&block.switching, &block.spread[0], &block.spread[1], &block.by_slip, &block.by_normal})
+      for (const auto& row : *rows)
+        for (const float value : row)
+          check.finite(static_cast<double>(value), "value of a cluster");
+    for (const auto& row : block.centroid)
+      for (const float value : row)
+        check.finite(static_cast<double>(value), "centroid of a cluster");
+    for (const float area : block.area)
+      check.notNegative(static_cast<double>(area), "area of a cluster");
+  }
+}
+
+void checkLevel(const LoadLevel& level, const Checker& check) {
+  constexpr double kPi = 3.14159265358979323846;
+  if (level.clusters < 1)
+    check.fail("a level of reduced loads has ", level.clusters,
+               " clusters, but must have 1 or more");
+  if (!(level.separation_angle >= kPi / 2 * (1 - kRounding)) ||
+      !(level.separation_angle <= kPi * (1 + kRounding)))
+    check.fail("separation angle of a level is ", level.separation_angle,
+               ", but must be between pi/2 and pi");
+  check.finiteMatrix(level.centre, "centre of a level");
+  check.finite(level.length, "length of a level");
+  if (!(level.length > 0))
+    check.fail("length of a level is ", level.length, ", but must be positive");
+  check.finiteMatrix(level.even, "even part of a level");
+  const LoadLevelError& error = level.error;
+  for (const double value : {error.maximum, error.p99, error.rms, error.broadside, error.friction})
+    check.notNegative(value, "error of a level");
+  check.notNegative(level.cost, "cost of a level");
+  checkBlocks(level, check);
+}
+
 }  // namespace
 
 void checkFluidBody(const FluidBody& body, const std::string& source) {
@@ -147,6 +189,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
                         "inertia of surface mass");
   checkFaces(body.faces, check);
   checkSurface(body.surface, check);
+  for (const LoadLevel& level : body.levels) checkLevel(level, check);
 }
 
 }  // namespace ambient

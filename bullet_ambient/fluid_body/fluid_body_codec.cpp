@@ -13,6 +13,8 @@ namespace {
 using flatbuffers::FlatBufferBuilder;
 using flatbuffers::Offset;
 
+constexpr std::size_t kBlockValues = sizeof(ClusterBlock) / sizeof(float);
+
 template <class Struct, class Matrix>
 Struct packMatrix(const Matrix& matrix) {
   constexpr int kRows = Matrix::RowsAtCompileTime;
@@ -91,6 +93,56 @@ Surface unpack(const file::Surface& packed) {
   return {unpackVector(*packed.vertices()), unpackVector(*packed.triangles())};
 }
 
+Offset<file::LoadLevel> pack(FlatBufferBuilder& builder, const LoadLevel& level) {
+  const auto centre = packMatrix<file::Vector3>(level.centre);
+  std::vector<double> rows;
+  for (Eigen::Index i = 0; i < level.even.size(); ++i)
+    rows.push_back(level.even(i / level.even.cols(), i % level.even.cols()));
+  const auto even = builder.CreateVector(rows);
+  float* values = nullptr;
+  const auto blocks =
+      builder.CreateUninitializedVector(level.blocks.size() * kBlockValues, &values);
+  if (!level.blocks.empty())
+    std::memcpy(values, level.blocks.data(), level.blocks.size() * sizeof(ClusterBlock));
+  const LoadLevelError& error = level.error;
+  return file::CreateLoadLevel(builder, level.clusters, level.separation_angle, &centre,
+                               level.length, even, blocks, error.maximum, error.p99, error.rms,
+                               error.broadside, error.friction, level.cost);
+}
+
+LoadLevel unpack(const file::LoadLevel& packed, const std::string& source) {
+  LoadLevel level;
+  level.clusters = packed.clusters();
+  level.separation_angle = packed.separation_angle();
+  level.centre = unpackMatrix<Vector3>(*packed.centre());
+  level.length = packed.length();
+  const auto& even = *packed.even();
+  const auto& blocks = *packed.blocks();
+  if (static_cast<Eigen::Index>(even.size()) != level.even.size() ||
+      blocks.size() % kBlockValues != 0)
+    throw std::runtime_error(
+        source + ": a level of reduced loads has " + std::to_string(even.size()) +
+        " even terms and " + std::to_string(blocks.size()) +
+        " cluster values, but must have 126 and a multiple of " + std::to_string(kBlockValues));
+  for (flatbuffers::uoffset_t i = 0; i < even.size(); ++i)
+    level.even(i / level.even.cols(), i % level.even.cols()) = even.Get(i);
+  level.blocks.resize(blocks.size() / kBlockValues);
+  if (!level.blocks.empty())
+    std::memcpy(level.blocks.data(), blocks.data(), level.blocks.size() * sizeof(ClusterBlock));
+  level.error = {packed.maximum_error(), packed.p99_error(), packed.rms_error(),
+                 packed.broadside_error(), packed.friction_error()};
+  level.cost = packed.cost();
+  return level;
+}
+
+Offset<flatbuffers::Vector<Offset<file::LoadLevel>>> pack(FlatBufferBuilder& builder,
+                                                          const std::vector<LoadLevel>& levels) {
+  if (levels.empty()) return 0;  // left out: the bytes of version 1
+  std::vector<Offset<file::LoadLevel>> packed;
+  for (const LoadLevel& level : levels) packed.push_back(pack(builder, level));
+  return builder.CreateVector(packed);
+}
+
 void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   builder.ForceDefaults(true);  // else -0.0 would come back as +0.0
   const auto name = builder.CreateString(body.name);
@@ -99,16 +151,17 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto surface_mass = pack(builder, body.surface_mass);
   const auto faces = pack(builder, body.faces);
   const auto surface = pack(builder, body.surface);
+  const auto levels = pack(builder, body.levels);
   const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
   const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
   const auto origin = packMatrix<file::Vector3>(body.origin);
   file::FinishFluidBodyBuffer(
       builder, file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry,
                                      body.volume, body.area, &centre_of_volume, &origin,
-                                     uniform_mass, surface_mass, faces, surface));
+                                     uniform_mass, surface_mass, faces, surface, levels));
 }
 
-FluidBody unpack(const file::FluidBody& packed) {
+FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   FluidBody body;
   body.name = packed.name()->str();
   body.provenance = unpack(*packed.provenance());
@@ -122,6 +175,9 @@ FluidBody unpack(const file::FluidBody& packed) {
   body.surface_mass = unpack(*packed.surface_mass());
   body.faces = unpack(*packed.faces());
   body.surface = unpack(*packed.surface());
+  if (packed.levels())
+    for (const file::LoadLevel* level : *packed.levels())
+      body.levels.push_back(unpack(*level, source));
   return body;
 }
 
@@ -134,7 +190,10 @@ std::size_t payloadBound(const FluidBody& body) {
        {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
         &faces.centroid_z, &faces.area})
     doubles += column->size();
-  return kFixedPart + sizeof(double) * doubles +
+  std::size_t level_bytes = 0;
+  for (const LoadLevel& level : body.levels)
+    level_bytes += kFixedPart + level.blocks.size() * sizeof(ClusterBlock);
+  return kFixedPart + level_bytes + sizeof(double) * doubles +
          sizeof(std::int32_t) * body.surface.triangles.size() + body.name.size() +
          body.provenance.source.size() + body.provenance.settings.size() +
          body.provenance.generator.size();
@@ -156,7 +215,9 @@ std::string encodeFluidBody(const FluidBody& body, const std::string& source) {
   packInto(builder, body);
   const std::string_view payload(reinterpret_cast<const char*>(builder.GetBufferPointer()),
                                  builder.GetSize());
-  std::string bytes = encodeFileHeader({kFormatVersion, payload.size(), fnv1a64(payload)});
+  // Older programs read what has no levels.
+  const std::uint32_t version = body.levels.empty() ? 1 : kFormatVersion;
+  std::string bytes = encodeFileHeader({version, payload.size(), fnv1a64(payload)});
   bytes += payload;
   return bytes;
 }
@@ -182,7 +243,7 @@ FluidBody decodeFluidBody(std::string_view bytes, const std::string& source) {
     throw std::runtime_error(source +
                              ": damaged: its payload is not a fluid body of format version " +
                              std::to_string(header.version));
-  FluidBody body = unpack(*file::GetFluidBody(buffer));
+  FluidBody body = unpack(*file::GetFluidBody(buffer), source);
   checkFluidBody(body, source);
   return body;
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bullet_ambient/force/level_loads.h"
 #include "bullet_ambient/force/passivity_guard.h"
 #include "bullet_ambient/force/single_loads.h"
 
@@ -60,6 +61,24 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
       !(flow.separation_angle <= kPi * (1 + kRounding))) {
     reject(body, "separation angle [rad]", flow.separation_angle, "between pi/2 and pi");
   }
+  if (!(flow.maximum_load_error >= 0)) {
+    reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");
+  }
+}
+
+// The cheapest level that keeps the allowed error, if it is cheaper than all faces.
+const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
+  constexpr double kSameAngle = 1e-9;
+  const LoadLevel* best = nullptr;
+  double least = static_cast<double>(body.faces.size());
+  for (const LoadLevel& level : body.levels) {
+    const bool fits = std::abs(level.separation_angle - flow.separation_angle) <= kSameAngle &&
+                      level.error.p99 <= flow.maximum_load_error;
+    if (!fits || !(level.cost < least)) continue;
+    least = level.cost;
+    best = &level;
+  }
+  return best;
 }
 
 void checkFrame(const FluidBody& body, const FrameOffset& frame) {
@@ -123,10 +142,18 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
   model.faces = &fluid_body.faces;
   model.load_model = flow.model.get();
-  if (!model.load_model && flow.precision == LoadPrecision::kSingle)
+  if (!model.load_model) model.level = chooseLevel(fluid_body, flow);
+  if (!model.load_model && !model.level && flow.precision == LoadPrecision::kSingle)
     model.packed_faces = sharedPackedFaces(fluid_body.faces);
   model.has_surface_loads = medium.density > 0 && (model.load_model || fluid_body.faces.size() > 0);
   return model;
+}
+
+static FaceLoads computeLoads(const BodyModel& model, const Twist& x_F) noexcept {
+  const double length = model.reference_length;
+  if (model.level) return computeLevelLoads(*model.level, length, x_F, model.loads);
+  return model.packed_faces ? computeFaceLoads(*model.packed_faces, length, x_F, model.loads)
+                            : computeFaceLoads(*model.faces, length, x_F, model.loads);
 }
 
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept {
@@ -137,14 +164,10 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
         removePositivePower(model.fluid_frame.toB(load_F), relative_twist, model.inertia);
     return {guarded.wrench, guarded.acted};
   }
-  const double length = model.reference_length;
-  const FaceLoads loads = model.packed_faces
-                              ? computeFaceLoads(*model.packed_faces, length, x_F, model.loads)
-                              : computeFaceLoads(*model.faces, length, x_F, model.loads);
-  const Wrench wrench = model.fluid_frame.toB(loads.total());
+  const Wrench wrench = model.fluid_frame.toB(computeLoads(model, x_F).total());
   // At alpha = pi/2 no face can push its body along: eq. (15) and (17) are dissipative term by
-  // term.
-  if (model.loads.separation_cosine == 0) return {wrench, false};
+  // term. The fitted wrenches of clusters can.
+  if (model.loads.separation_cosine == 0 && !model.level) return {wrench, false};
   const GuardedWrench guarded = removePositivePower(wrench, relative_twist, model.inertia);
   return {guarded.wrench, guarded.acted};
 }

@@ -37,6 +37,9 @@ struct FlowSettings {
   std::shared_ptr<const SurfaceLoadModel> model =
       nullptr;  ///< null: this library's pressure and friction
   LoadPrecision precision = LoadPrecision::kSingle;
+  /// Allowed p99 error of reduced loads, LoadLevelError: the cheapest level of the fluid body for
+  /// the separation angle that keeps it stands in for the faces. 0, or no such level: all faces.
+  double maximum_load_error = 0;
 };
 
 /// Mass [kg] and rotational inertia about the centre of mass in B's axes [kg m^2].
@@ -59,6 +62,7 @@ struct BodyModel {
   double reference_length = 0;       ///< sqrt(area) [m]
   const FaceTable* faces = nullptr;  ///< in F
   std::shared_ptr<const PackedFaces> packed_faces;  ///< the same; null: loads in double precision
+  const LoadLevel* level = nullptr;                 ///< of reduced loads; null: all faces
   const SurfaceLoadModel* load_model = nullptr;     ///< null: pressure and friction
   bool has_surface_loads = false;  ///< there are faces or a load model, and a fluid
 

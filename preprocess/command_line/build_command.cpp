@@ -14,6 +14,7 @@
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/solver_options.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/reduced_loads/reduced_loads.h"
 
 namespace ambient {
 namespace {
@@ -61,12 +62,22 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   return settings;
 }
 
+Provenance describeBody(const ShapeDescription& shape, const ShapeBuildSettings& settings,
+                        const std::vector<int>& levels) {
+  Provenance provenance = describeShape(shape, settings);
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    provenance.settings += (i == 0 ? "; levels " : ",") + std::to_string(levels[i]);
+  return provenance;
+}
+
 FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings& settings,
-                        const fs::path& output) {
+                        const std::vector<int>& levels, const fs::path& output) {
   BuiltBody built;
   {
     const ElapsedDisplay display("building " + settings.name);
     built = buildShape(shape, settings);
+    built.body.levels = buildLoadLevels(built.body, levels);
+    built.body.provenance.settings = describeBody(shape, settings, levels).settings;
   }
   for (const std::string& warning : built.warnings) std::cerr << "warning: " << warning << "\n";
   const BlockedSignals until_renamed;
@@ -80,16 +91,22 @@ int runBuild(const BuildArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   requireThreads(arguments.threads);
   if (hasExtension(arguments.input, ".bullet")) return runWorldBuild(arguments);
+  for (const int clusters : arguments.levels) {
+    if (clusters < kFewestClusters || clusters > kMostClusters)
+      raiseInputError("--levels", clusters, " clusters are not ", kFewestClusters, " to ",
+                      kMostClusters);
+  }
   if (arguments.no_margins) raiseInputError("--no-margins", "only worlds have margins");
   const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
   const ShapeBuildSettings settings = settingsOf(arguments);
   requireWritablePlace(arguments.output, arguments.input);
   std::optional<FluidBody> body;
   if (!arguments.rebuild) {
-    body = readIfSame(arguments.output, settings.name, describeShape(shape, settings));
+    body = readIfSame(arguments.output, settings.name,
+                      describeBody(shape, settings, arguments.levels));
   }
   const bool is_reused = body.has_value();
-  if (!body) body = buildAndWrite(shape, settings, arguments.output);
+  if (!body) body = buildAndWrite(shape, settings, arguments.levels, arguments.output);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (is_reused && !arguments.json) {
     std::cerr << arguments.output << ": nothing has changed since it was built\n";

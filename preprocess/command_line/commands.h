@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "preprocess/builder/fluid_body_builder.h"
 
@@ -16,6 +17,7 @@ struct BuildArguments {
   bool sheet = false;                       ///< the mesh is an open surface of zero thickness
   int least_faces = 0;                      ///< the mesh is divided into at least so many
   int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
+  std::vector<int> levels;                  ///< of reduced loads: their numbers of clusters
   int threads = 0;                          ///< 0: all cores
   std::string solver;                       ///< dense or hierarchical; empty: by the panels
   std::string memory;                       ///< for the flow [GB]; empty: what is available

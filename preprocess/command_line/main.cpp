@@ -40,6 +40,12 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
                    "Divide the mesh into at least so many faces (default 0: faces as they are)")
       ->type_name("N");
   build
+      ->add_option("--levels", arguments.levels,
+                   "Levels of reduced loads at a separation angle of pi/2, of so many clusters "
+                   "each (default none)")
+      ->delimiter(',')
+      ->type_name("N,N,...");
+  build
       ->add_option("--panels", arguments.panels,
                    "Panels for the flow, at most; the faces stay those of the mesh (default 4200; "
                    "0: the triangles of the mesh)")

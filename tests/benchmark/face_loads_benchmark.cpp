@@ -3,8 +3,10 @@
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/fifth_root.h"
+#include "bullet_ambient/force/level_loads.h"
 #include "bullet_ambient/force/single_loads.h"
 #include "bullet_ambient/force/single_sums.h"
+#include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/support/geodesic.h"
 
 namespace ambient {
@@ -107,6 +109,21 @@ void singleLoads(benchmark::State& state, bool friction) {
 }
 BENCHMARK_CAPTURE(singleLoads, pressure, false)->DenseRange(0, 5);
 BENCHMARK_CAPTURE(singleLoads, friction, true)->DenseRange(0, 5);
+
+/// Arguments: subdivision level of the mesh, clusters.
+void levelLoads(benchmark::State& state, bool friction) {
+  FluidBody body;
+  body.faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
+  const LoadLevel level = buildLoadLevels(body, {static_cast<int>(state.range(1))}).front();
+  const LoadSettings settings{1.204, 1.82e-5, 0, friction};
+  Twist twist = someTwist();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(twist);
+    benchmark::DoNotOptimize(computeLevelLoads(level, 1, twist, settings));
+  }
+}
+BENCHMARK_CAPTURE(levelLoads, pressure, false)->ArgsProduct({{3}, {48, 96, 200, 400}});
+BENCHMARK_CAPTURE(levelLoads, friction, true)->ArgsProduct({{3}, {48, 96, 200, 400}});
 
 void fifthRoot(benchmark::State& state) {
   double x = 1.7;

@@ -3,6 +3,7 @@
 // both.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/pile/pile_scene.h"
 #include "tests/support/ellipsoid_body.h"
 
@@ -70,12 +72,14 @@ void comparePiles(double part, int turns) {
 // Bodies that meet nothing.
 class Flock {
  public:
-  Flock(btConstraintSolver& solver, AmbientRegistry* registry, const FluidBody& shape, int count)
+  Flock(btConstraintSolver& solver, AmbientRegistry* registry, const FluidBody& shape,
+        const FlowSettings& flow, int count)
       : world_(&dispatcher_, &broadphase_, &solver, &configuration_) {
     world_.setGravity({0, 0, btScalar(-9.81)});
     AttachDef def;
     def.fluid_body = std::make_shared<FluidBody>(shape);
     def.medium = air();
+    def.flow = flow;
     for (int i = 0; i < count; ++i) {
       bodies_.push_back(std::make_unique<btRigidBody>(
           btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &sphere_, {0.1f, 0.2f, 0.3f})));
@@ -107,15 +111,65 @@ class Flock {
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
-void compareFlocks(const std::string& name, const FluidBody& shape, int turns) {
+void compareFlocks(const std::string& name, const FluidBody& shape, int turns,
+                   const FlowSettings& flow = {}) {
   constexpr int kCount = 100;
   btSequentialImpulseConstraintSolver stock_solver;
-  Flock stock(stock_solver, nullptr, shape, kCount);
+  Flock stock(stock_solver, nullptr, shape, flow, kCount);
   AmbientRegistry registry;
   AmbientSolver<> ambient_solver(registry);
-  Flock ambient(ambient_solver, &registry, shape, kCount);
+  Flock ambient(ambient_solver, &registry, shape, flow, kCount);
   print("100 bodies in flight, " + name,
         compare([&] { stock.step(); }, [&] { ambient.step(); }, turns, 20));
+}
+
+// Triangles between meridians and circles of latitude: 2 meridians (bands - 1) faces.
+FluidBody latticeEllipsoid(const Vector3& semi_axes, int meridians, int bands) {
+  const double pi = std::acos(-1.0);
+  Triangulation mesh;
+  for (int i = 1; i < bands; ++i)
+    for (int j = 0; j < meridians; ++j) {
+      const double theta = pi * i / bands, phi = 2 * pi * j / meridians;
+      mesh.vertices.push_back(semi_axes.cwiseProduct(Vector3(
+          std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta))));
+    }
+  const int north = static_cast<int>(mesh.vertices.size()), south = north + 1;
+  mesh.vertices.push_back({0, 0, semi_axes.z()});
+  mesh.vertices.push_back({0, 0, -semi_axes.z()});
+  const int last = (bands - 2) * meridians;
+  for (int j = 0; j < meridians; ++j) {
+    const int next = (j + 1) % meridians;
+    mesh.triangles.push_back({north, j, next});
+    mesh.triangles.push_back({south, last + next, last + j});
+    for (int row = 0; row < last; row += meridians) {
+      mesh.triangles.push_back({row + j, row + meridians + j, row + next});
+      mesh.triangles.push_back({row + next, row + meridians + j, row + meridians + next});
+    }
+  }
+  FluidBody shape = facelessEllipsoid(semi_axes);
+  shape.faces = faceTableOf(mesh);
+  shape.area = totalArea(shape.faces);
+  return shape;
+}
+
+void compareReduced(FluidBody shape, int turns) {
+  const std::string faces = std::to_string(shape.faces.size()) + " faces";
+  FlowSettings flow;
+  compareFlocks(faces + ", default", shape, turns, flow);
+  flow.precision = LoadPrecision::kDouble;
+  compareFlocks(faces + ", double precision", shape, turns, flow);
+  shape.levels = buildLoadLevels(shape, {48, 96, 144, 200, 400});
+  for (const double error : {0.01, 0.02, 0.03}) {
+    flow.maximum_load_error = error;
+    int clusters = 0;  // as makeBodyModel() chooses
+    for (const LoadLevel& level : shape.levels)
+      if (clusters == 0 && level.error.p99 <= error &&
+          level.cost < static_cast<double>(shape.faces.size()))
+        clusters = level.clusters;
+    const std::string used = clusters ? std::to_string(clusters) + " clusters" : "all faces";
+    compareFlocks(faces + ", " + std::to_string(static_cast<int>(100 * error)) + " %: " + used,
+                  shape, turns, flow);
+  }
 }
 
 void run() {
@@ -127,6 +181,8 @@ void run() {
   for (const int level : {2, 3})
     compareFlocks(std::to_string(20 << (2 * level)) + " faces", meshedEllipsoid(semi_axes, level),
                   60);
+  compareReduced(latticeEllipsoid(semi_axes, 25, 11), 60);
+  compareReduced(meshedEllipsoid(semi_axes, 4), 60);
 }
 
 }  // namespace

@@ -1,0 +1,145 @@
+#include "preprocess/reduced_loads/level_error.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bullet_ambient/force/level_loads.h"
+#include "preprocess/reduced_loads/motion_sampler.h"
+
+namespace ambient {
+namespace {
+
+constexpr std::uint64_t kSeed = 2;
+constexpr int kSamples = 4000, kFrictionSamples = 400, kBroadsideSamples = 200;
+constexpr std::size_t kAscents = 24;
+constexpr int kAscentSteps = 120;
+constexpr double kFirstStride = 0.2, kLastStride = 1e-3;
+constexpr double kBroadsideAngle = 0.1;  // [rad]
+
+struct Sample {
+  Vector6 motion;
+  double error;
+};
+
+class Comparison {
+ public:
+  Comparison(const LoadLevel& level, const FaceTable& faces) : level_(level), faces_(faces) {}
+
+  /// Of the pressure, relative to S.
+  double error(const Vector6& x) const {
+    const LoadSettings settings{1, 0, 0, false};
+    double scale = 0;
+    for (std::size_t i = 0; i < faces_.size(); ++i) scale += faces_.area[i] * slipSquared(x, i);
+    return ratio(difference(x, settings).pressure, 0.5 * scale);
+  }
+
+  /// Of the pressure, relative to itself.
+  double relativeError(const Vector6& x) const {
+    const LoadSettings settings{1, 0, 0, false};
+    const FaceLoads exact = computeFaceLoads(faces_, 1, Twist::fromVector(x), settings);
+    return ratio(difference(x, settings).pressure, exact.pressure.vector().norm());
+  }
+
+  /// Of the friction, relative to that on all faces together.
+  double frictionError(const Vector6& x) const {
+    const LoadSettings settings{1, 1, 0, true};
+    double scale = 0;
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      scale += faces_.area[i] * std::pow(slipSquared(x, i), 0.9);
+    return ratio(difference(x, settings).friction, 0.5 * 0.0576 * scale);
+  }
+
+ private:
+  static double ratio(const Wrench& error, double scale) {
+    return scale > 0 ? error.vector().norm() / scale : 0;
+  }
+
+  double slipSquared(const Vector6& x, std::size_t i) const {
+    const Vector3 n = faces_.normal(i);
+    const Vector3 u = x.tail<3>() + x.head<3>().cross(faces_.centroid(i));
+    return (u - n.dot(u) * n).squaredNorm();
+  }
+
+  FaceLoads difference(const Vector6& x, const LoadSettings& settings) const {
+    const Twist twist = Twist::fromVector(x);
+    FaceLoads loads = computeLevelLoads(level_, 1, twist, settings);
+    const FaceLoads exact = computeFaceLoads(faces_, 1, twist, settings);
+    loads.pressure += -1.0 * exact.pressure;
+    loads.friction += -1.0 * exact.friction;
+    return loads;
+  }
+
+  const LoadLevel& level_;
+  const FaceTable& faces_;
+};
+
+double percentile99(std::vector<Sample>& samples) {
+  std::sort(samples.begin(), samples.end(),
+            [](const Sample& a, const Sample& b) { return a.error > b.error; });
+  return samples[samples.size() / 100].error;
+}
+
+// Random steps that shrink; each that makes the error larger is kept.
+double climb(const Comparison& comparison, Sample sample, ArbitraryNumbers& numbers) {
+  for (int step = 0; step < kAscentSteps; ++step) {
+    const double progress = static_cast<double>(step) / kAscentSteps;
+    const double stride = kFirstStride * std::pow(kLastStride / kFirstStride, progress);
+    const Vector6 motion = (sample.motion + stride * sampleMotion(numbers)).normalized();
+    const double error = comparison.error(motion);
+    if (error > sample.error) sample = {motion, error};
+  }
+  return sample.error;
+}
+
+Vector3 broadsideDirection(const FaceTable& faces) {
+  Matrix3 square = Matrix3::Zero();
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    square += faces.area[i] * faces.normal(i) * faces.normal(i).transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(Eigen::Matrix3d(square))
+      .eigenvectors()
+      .col(2);
+}
+
+double broadsideError(const Comparison& comparison, const FaceTable& faces,
+                      ArbitraryNumbers& numbers) {
+  const Vector3 broadside = broadsideDirection(faces);
+  double largest = 0;
+  for (int i = 0; i < kBroadsideSamples; ++i) {
+    const Vector3 aside = numbers.direction().cross(broadside);
+    Vector6 x = Vector6::Zero();
+    x.tail<3>() = ((i % 2 ? 1 : -1) * broadside + kBroadsideAngle * aside).normalized();
+    largest = std::max(largest, comparison.relativeError(x));
+  }
+  return largest;
+}
+
+}  // namespace
+
+LoadLevelError measureError(const LoadLevel& level, const FaceTable& faces) {
+  const Comparison comparison(level, faces);
+  ArbitraryNumbers numbers(kSeed);
+  std::vector<Sample> samples(kSamples);
+  LoadLevelError error;
+  double square = 0;
+  for (Sample& sample : samples) {
+    sample.motion = sampleMotion(numbers);
+    sample.error = comparison.error(sample.motion);
+    square += sample.error * sample.error;
+  }
+  error.rms = std::sqrt(square / kSamples);
+  error.p99 = percentile99(samples);
+  for (std::size_t i = 0; i < kAscents; ++i)
+    error.maximum = std::max(error.maximum, climb(comparison, samples[i], numbers));
+  error.broadside = broadsideError(comparison, faces, numbers);
+  samples.resize(kFrictionSamples);
+  for (Sample& sample : samples) {
+    sample.motion = sampleMotion(numbers);
+    sample.error = comparison.frictionError(sample.motion);
+  }
+  error.friction = percentile99(samples);
+  return error;
+}
+
+}  // namespace ambient

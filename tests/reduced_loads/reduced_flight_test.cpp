@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include "preprocess/reduced_loads/reduced_loads.h"
+#include "tests/support/ellipsoid_body.h"
+#include "tests/support/free_body.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+const double kRightAngle = std::acos(0.0);
+
+// Made once per program.
+const FluidBody& plateWithLevels() {
+  static const FluidBody plate = [] {
+    FluidBody body = test::meshedEllipsoid({0.05, 0.05, 0.01}, 3);
+    body.levels = buildLoadLevels(body, {48, 96});
+    return body;
+  }();
+  return plate;
+}
+
+BodyModel modelWith(const FluidBody& body, double error, double angle = kRightAngle) {
+  FlowSettings flow;
+  flow.maximum_load_error = error;
+  flow.separation_angle = angle;
+  return makeBodyModel(body, {}, {1, Matrix3::Identity()}, air(), flow);
+}
+
+TEST(ReducedFlight, TakesTheCheapestLevelThatKeepsTheError) {
+  const FluidBody& body = plateWithLevels();
+  EXPECT_EQ(modelWith(body, 0).level, nullptr);
+  EXPECT_EQ(modelWith(body, 1).level, &body.levels[0]);
+  EXPECT_EQ(modelWith(body, body.levels[1].error.p99).level, &body.levels[1]);
+  EXPECT_EQ(modelWith(body, 0.5 * body.levels[1].error.p99).level, nullptr);
+  EXPECT_EQ(modelWith(body, 1, 1.2 * kRightAngle).level, nullptr);  // fitted for another angle
+  FluidBody small = test::meshedEllipsoid({1, 1, 0.2}, 1);
+  small.levels = buildLoadLevels(small, {48});
+  EXPECT_EQ(modelWith(small, 1).level, nullptr);  // 80 faces are cheaper
+  EXPECT_THROW(modelWith(body, -1), std::invalid_argument);
+}
+
+TEST(ReducedFlight, OfAFlutteringPlateStaysNearTheOneOnAllFaces) {
+  const auto end = [](double error) {
+    FlowSettings flow;
+    flow.maximum_load_error = error;
+    const double mass = 2e-4;
+    test::FreeBody plate({plateWithLevels(),
+                          {mass, test::ellipsoidMoments({0.05, 0.05, 0.01}, mass).asDiagonal()},
+                          air(),
+                          flow});
+    plate.setGravity({0, 0, -9.81});
+    plate.state.orientation =
+        Quaternion(Eigen::AngleAxisd(85.0 / 90 * kRightAngle, Vector3::UnitY()));
+    plate.advance(1.0 / 240, 240);
+    return plate.state.position;
+  };
+  const Vector3 exact = end(0);
+  EXPECT_GT(exact.norm(), 0.3);
+  EXPECT_LT((end(0.02) - exact).norm(), 0.01);  // a tenth of the diameter
+}
+
+TEST(ReducedFlight, GainsNoEnergy) {
+  const FluidBody& body = plateWithLevels();
+  const BodyModel model = modelWith(body, 1);
+  ASSERT_NE(model.level, nullptr);
+  test::Arbitrary arbitrary(71);
+  for (int i = 0; i < 2000; ++i) {
+    const Twist x = arbitrary.twist(20, 1);
+    const Wrench load = computeSurfaceLoad(model, x).wrench;
+    EXPECT_LE(load.vector().dot(x.vector()), 1e-12 * load.vector().norm() * x.vector().norm());
+  }
+}
+
+}  // namespace
+}  // namespace ambient
