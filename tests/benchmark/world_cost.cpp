@@ -158,6 +158,7 @@ void compareReduced(FluidBody shape, int turns) {
   compareFlocks(faces + ", default", shape, turns, flow);
   flow.precision = LoadPrecision::kDouble;
   compareFlocks(faces + ", double precision", shape, turns, flow);
+  flow.precision = LoadPrecision::kSingle;
   shape.levels = buildLoadLevels(shape, {48, 96, 144, 200, 400});
   for (const double error : {0.01, 0.02, 0.03}) {
     flow.maximum_load_error = error;
