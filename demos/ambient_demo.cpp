@@ -98,6 +98,10 @@ void runAndWrite(const Arguments& arguments) {
   for (const std::string& warning : cache.warnings())
     if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", warning.c_str());
 
+  // Before, there is nothing to tidy up: signals end the program at once.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::signal(signal, [](int) { interruptRun(); });
+  }
   OutputFolder folder(out);
   TrajectoryFile trajectory(out / "trajectory.csv");
   OutputFile geometry(out / "geometry.json");
@@ -124,7 +128,6 @@ void runAndWrite(const Arguments& arguments) {
 int run(int argc, char** argv) {
   const Parsed parsed = parseArguments(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interruptRun(); });
   try {
     if (parsed.arguments.list)
       printScenes();

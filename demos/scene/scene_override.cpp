@@ -8,6 +8,7 @@
 
 #include "demos/scene/scene_error.h"
 #include "demos/scene/scene_schema.h"
+#include "preprocess/shape/json_text.h"
 
 namespace ambient {
 namespace {
@@ -32,9 +33,8 @@ bool isIndex(const std::string& token) {
          std::all_of(token.begin(), token.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-json parseValue(const std::string& text) {
-  const json value = json::parse(text, nullptr, false);
-  return value.is_discarded() ? json(text) : value;
+json parseValue(const std::string& text, const std::string& source) {
+  return json::accept(text) ? parseJson(text, source) : json(text);
 }
 
 /// The element or member of `parent` that `token` names, made if a member is missing.
@@ -76,7 +76,7 @@ void applyOverride(json& scene, const SceneOverride& change, const std::string& 
   } catch (const std::out_of_range& error) {
     throw SceneError(file, option + error.what());
   }
-  *place = parseValue(change.value);
+  *place = parseValue(change.value, file + ": --set " + change.path);
 }
 
 }  // namespace ambient

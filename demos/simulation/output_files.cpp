@@ -3,11 +3,22 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <random>
 #include <stdexcept>
 
 namespace ambient {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Of this file and no other, also where programs of several machines write into one folder.
+std::string uniqueText() {
+  std::random_device random;
+  return std::to_string(::getpid()) + "-" + std::to_string(random());
+}
+
+}  // namespace
 
 OutputFolder::OutputFolder(const fs::path& folder)
     : folder_(fs::absolute(folder).lexically_normal()) {
@@ -30,7 +41,7 @@ OutputFolder::~OutputFolder() {
 OutputFile::OutputFile(const fs::path& file)
     : file_(file),
       partial_(file.parent_path() /
-               ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".partial")),
+               ("." + file.filename().string() + "." + uniqueText() + ".partial")),
       stream_(partial_, std::ios::binary | std::ios::trunc) {
   std::error_code error;
   if (fs::is_other(fs::status(file, error))) {  // renaming would replace a device

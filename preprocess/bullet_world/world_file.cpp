@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <set>
 
+#include "preprocess/bullet_world/file_structure.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/shape/json_text.h"
 
@@ -54,10 +55,53 @@ class PrintedToErrors {
   int output_ = -1;
 };
 
+/// A parsed file that knows which pointers Bullet could resolve.
+class ParsedFile : public bParse::btBulletFile {
+ public:
+  using btBulletFile::btBulletFile;
+
+  bool holds(const void* address) {
+    for (int i = 0; i < mLibPointers.size(); ++i) {
+      if (*mLibPointers.getAtIndex(i) == address) return true;
+    }
+    return false;
+  }
+};
+
+// Bullet writes no chunk for the name "", and the importer reads the name where there is nothing.
+template <class Data, class Name>
+void dropLostNames(btAlignedObjectArray<bParse::bStructHandle*>& objects, ParsedFile& file,
+                   const Name& name) {
+  for (int i = 0; i < objects.size(); ++i) {
+    if (objects[i] == nullptr) continue;
+    char*& text = name(*reinterpret_cast<Data*>(objects[i]));
+    if (!file.holds(text)) text = nullptr;
+  }
+}
+
+// The structures of objects are those of the file's precision.
+void dropLostNames(ParsedFile& file) {
+  const auto body_name = [](auto& body) -> char*& { return body.m_collisionObjectData.m_name; };
+  const auto own_name = [](auto& data) -> char*& { return data.m_name; };
+  if ((file.getFlags() & bParse::FD_DOUBLE_PRECISION) != 0) {
+    dropLostNames<btRigidBodyDoubleData>(file.m_rigidBodies, file, body_name);
+    dropLostNames<btCollisionObjectDoubleData>(file.m_collisionObjects, file, own_name);
+  } else {
+    dropLostNames<btRigidBodyFloatData>(file.m_rigidBodies, file, body_name);
+    dropLostNames<btCollisionObjectFloatData>(file.m_collisionObjects, file, own_name);
+  }
+  dropLostNames<btCollisionShapeData>(file.m_collisionShapes, file, own_name);
+}
+
 }  // namespace
 
 struct WorldFile::Importer : btBulletWorldImporter {
   ~Importer() override { deleteAllData(); }
+
+  bool convertAllObjects(bParse::btBulletFile* file) override {
+    dropLostNames(static_cast<ParsedFile&>(*file));
+    return btBulletWorldImporter::convertAllObjects(file);
+  }
 
   std::string nameOf(const void* object) const {
     const char* name = getNameForPointer(object);
@@ -67,13 +111,10 @@ struct WorldFile::Importer : btBulletWorldImporter {
 
 WorldFile::WorldFile(const std::filesystem::path& file) : importer_(std::make_unique<Importer>()) {
   std::string bytes = readBytes(file);
-  constexpr std::size_t kHeader = 12;
-  if (bytes.size() < kHeader || bytes.compare(0, 6, "BULLET") != 0) {
-    raiseInputError(file.string(), "is not a .bullet file: it does not begin with BULLET");
-  }
+  checkFileStructure(bytes, file.string());
   {
     const PrintedToErrors while_loading;
-    bParse::btBulletFile parsed(bytes.data(), static_cast<int>(bytes.size()));
+    ParsedFile parsed(bytes.data(), static_cast<int>(bytes.size()));
     if (!importer_->loadFileFromMemory(&parsed)) {
       raiseInputError(file.string(), "Bullet cannot read it");
     }

@@ -22,10 +22,10 @@ struct WorldShape {
 /// The content of a .bullet file, as btDynamicsWorld::serialize() writes it, in either precision.
 class WorldFile {
  public:
-  /// The file's structure is followed without further checks, as Bullet does: read files that you
-  /// trust.
+  /// Header, chunks and the description of structures are checked; what the structures hold is
+  /// followed without checks, as Bullet does: read files that you trust.
   /// @throws std::runtime_error in one line that names the file, if it cannot be read, is not a
-  /// .bullet file, or Bullet refuses it.
+  /// .bullet file or a damaged one, or Bullet refuses it.
   explicit WorldFile(const std::filesystem::path& file);
   ~WorldFile();
   WorldFile(const WorldFile&) = delete;

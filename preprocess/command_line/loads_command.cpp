@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <sstream>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
@@ -83,6 +84,10 @@ void runLoads(const LoadsArguments& arguments) {
   const Twist twist = twistOf(arguments);
   const FluidBody body = readFluidBody(arguments.file);
   const FaceLoads loads = computeFaceLoads(body.faces, std::sqrt(body.area), twist, settings);
+  if (!loads.total().vector().allFinite()) {
+    raiseInputError(arguments.file, "the loads of this motion are beyond the largest number, ",
+                    std::numeric_limits<double>::max());
+  }
   std::cout << (arguments.json ? loadsJson(loads) : loadsTable(loads));
 }
 

@@ -163,6 +163,11 @@ void runPolar(const PolarArguments& arguments) {
     for (int i = 0; i < attack.count(); ++i) {
       const auto coefficients = coefficientsAt(attack[i] * kPi / 180, side_slip[j] * kPi / 180,
                                                body, axes, settings, reference, arguments.speed);
+      for (const double value : coefficients) {
+        if (std::isfinite(value)) continue;
+        raiseInputError(arguments.file, "a coefficient at an angle of attack of ", attack[i],
+                        " degrees is ", value, ": speed or reference is too large or too small");
+      }
       char cell[40];
       std::snprintf(cell, sizeof cell, "%.10g,%.10g", attack[i], side_slip[j]);
       text += cell;

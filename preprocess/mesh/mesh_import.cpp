@@ -28,7 +28,10 @@ void requireReadableFile(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(status)) {
     raiseInputError(file.string(), "is a directory, not a mesh file");
   }
-  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(file, error) == 0) {
+  if (!std::filesystem::is_regular_file(status)) {
+    raiseInputError(file.string(), "is not a regular file");
+  }
+  if (std::filesystem::file_size(file, error) == 0) {
     raiseInputError(file.string(), "the file is empty");
   }
 }

@@ -32,6 +32,10 @@ std::string readBytes(const std::filesystem::path& file) {
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) raiseInputError(file.string(), "no such file");
   if (std::filesystem::is_directory(status)) raiseInputError(file.string(), "is a directory");
+  // A pipe or a device may never end.
+  if (!std::filesystem::is_regular_file(status)) {
+    raiseInputError(file.string(), "is not a regular file");
+  }
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream bytes;
   bytes << stream.rdbuf();

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -180,6 +181,69 @@ TEST_F(WorldBuild, OtherFilesAndOptionsAreRefused) {
   EXPECT_EQ(run({path("no.bullet"), "-o", path("x")}).errors,
             "ambient_preprocess: " + path("no.bullet") + ": no such file\n");
   EXPECT_FALSE(std::filesystem::exists(path("x")));
+}
+
+class DamagedWorld : public WorldBuild {
+ protected:
+  void SetUp() override {
+    saveGoodWorld(path("w.bullet"));
+    std::ostringstream bytes;
+    bytes << std::ifstream(path("w.bullet"), std::ios::binary).rdbuf();
+    good_ = bytes.str();
+  }
+
+  // One line that names the file, after its name.
+  std::string refusal(const std::string& bytes) const {
+    std::ofstream(path("w.bullet"), std::ios::binary) << bytes;
+    const ProgramResult result = build();
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.output, "");
+    const std::string beginning = "ambient_preprocess: " + path("w.bullet") + ": ";
+    EXPECT_EQ(result.errors.find(beginning), 0u) << result.errors;
+    return result.errors.substr(std::min(beginning.size(), result.errors.size()));
+  }
+
+  std::string changed(std::size_t at, const std::string& part) const {
+    std::string bytes = good_;
+    return bytes.replace(at, part.size(), part);
+  }
+
+  std::string good_;
+};
+
+// Header: 12 bytes. Head of a chunk: code, length, pointer of 8 bytes, structure, count.
+TEST_F(DamagedWorld, IsRefusedBeforeBulletSeesIt) {
+  ASSERT_EQ(build().exit_code, 0);
+  const std::string all_ones(4, '\xff'), huge("\xff\xff\xff\x7f", 4);
+  EXPECT_EQ(refusal(good_.substr(0, 9)), "damaged: it ends within its header\n");
+  EXPECT_EQ(refusal(good_.substr(0, 12)), "damaged: it ends within the head of a chunk\n");
+  EXPECT_EQ(refusal(good_.substr(0, good_.size() / 2)).find("damaged: it ends within "), 0u);
+  EXPECT_EQ(refusal(good_.substr(0, good_.size() - 1)), "damaged: it ends within its DNA\n");
+  EXPECT_EQ(refusal(changed(6, "x")), "damaged: its header is not valid\n");
+  EXPECT_EQ(refusal(changed(8, "V")), "comes from a big-endian machine: not supported\n");
+  EXPECT_EQ(refusal(changed(7, "_")).find("damaged: "), 0u);
+  EXPECT_EQ(refusal(changed(16, all_ones)), "damaged: a chunk has a length of -1 bytes\n");
+  EXPECT_EQ(refusal(changed(16, huge)), "damaged: it ends within a chunk\n");
+  EXPECT_NE(refusal(changed(28, huge)).find("which it cannot hold"), std::string::npos);
+  EXPECT_NE(refusal(changed(32, huge)).find("which it cannot hold"), std::string::npos);
+  const std::size_t dna = good_.find("SDNANAME");
+  EXPECT_EQ(refusal(changed(dna, "sdna")), "damaged: its DNA is not where it should be\n");
+  EXPECT_EQ(refusal(changed(dna + 8, all_ones)), "damaged: the list of names has -1 entries\n");
+  EXPECT_EQ(refusal(changed(good_.find("STRC") + 8, all_ones)),
+            "damaged: its DNA refers to what it does not hold\n");
+}
+
+TEST_F(WorldBuild, ABodyWithAnEmptyNameIsOneWithoutAName) {
+  btBoxShape box(btVector3(1, 1, 1));
+  {
+    SavedWorld world;
+    world.add(box, 1, "");
+    world.name(box, "");
+    world.save(path("w.bullet"));
+  }
+  const ProgramResult result = build();
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(shapeOf(result, "body_0")["bodies"], json({"body 0"})) << result.output;
 }
 
 }  // namespace

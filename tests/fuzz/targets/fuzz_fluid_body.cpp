@@ -1,0 +1,37 @@
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fluid_body_file_header.h"
+#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "tests/fuzz/targets/fuzz_file.h"
+
+namespace ambient::test {
+namespace {
+
+// What is accepted can be written, and comes back the same.
+void readAndWrite(std::string_view bytes) {
+  mayRefuse([&] {
+    const FluidBody body = decodeFluidBody(bytes, "fuzz");
+    const std::string written = encodeFluidBody(body, "fuzz");
+    if (encodeFluidBody(decodeFluidBody(written, "fuzz"), "fuzz") != written) {
+      throw std::logic_error("a fluid body changed on its way through a file");
+    }
+  });
+}
+
+// Behind a header that fits, for the checksum keeps nearly every mutation out.
+void readAsPayload(std::string_view bytes) {
+  if (bytes.size() < kFileHeaderSize) return;
+  const std::string_view payload = bytes.substr(kFileHeaderSize);
+  std::string sealed = encodeFileHeader({kFormatVersion, payload.size(), fnv1a64(payload)});
+  sealed += payload;
+  readAndWrite(sealed);
+}
+
+}  // namespace
+}  // namespace ambient::test
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes = ambient::test::textOf(data, size);
+  ambient::test::readAndWrite(bytes);
+  ambient::test::readAsPayload(bytes);
+  return 0;
+}
