@@ -16,12 +16,6 @@ bool hasExtension(const std::filesystem::path& file, const std::string& extensio
   return own == extension;
 }
 
-void requireThreads(int threads) {
-  constexpr int kMost = 1024;
-  if (threads < 0) raiseInputError("--threads", threads, " is below 0 (0: all cores)");
-  if (threads > kMost) raiseInputError("--threads", threads, " is above ", kMost);
-}
-
 ShapeDescription describeInput(const std::filesystem::path& input, bool sheet) {
   if (!hasExtension(input, ".json")) {
     ShapeDescription mesh;

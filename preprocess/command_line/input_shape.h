@@ -10,9 +10,6 @@ namespace ambient {
 /// Whether a file name ends with an extension, ".json", in letters of either case.
 bool hasExtension(const std::filesystem::path& file, const std::string& extension);
 
-/// @throws std::runtime_error if the number of --threads is negative or absurd.
-void requireThreads(int threads);
-
 /// The shape that an INPUT of the command line stands for: a mesh file, or a JSON file with a
 /// shape.
 /// @throws std::runtime_error in one line that names the file.
