@@ -35,10 +35,18 @@ Matrix unpackMatrix(const Struct& packed) {
   return matrix;
 }
 
+// The verifier looks at the place of a vector's length only: its elements may lie anywhere.
+template <class T>
+T elementOf(const flatbuffers::Vector<T>& packed, std::size_t i) {
+  T value;
+  std::memcpy(&value, packed.Data() + i * sizeof value, sizeof value);
+  return flatbuffers::EndianScalar(value);
+}
+
 template <class T>
 std::vector<T> unpackVector(const flatbuffers::Vector<T>& packed) {
   std::vector<T> values(packed.size());
-  for (flatbuffers::uoffset_t i = 0; i < packed.size(); ++i) values[i] = packed.Get(i);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = elementOf(packed, i);
   return values;
 }
 
@@ -125,10 +133,10 @@ LoadLevel unpack(const file::LoadLevel& packed, const std::string& source) {
         " even terms and " + std::to_string(blocks.size()) +
         " cluster values, but must have 126 and a multiple of " + std::to_string(kBlockValues));
   for (flatbuffers::uoffset_t i = 0; i < even.size(); ++i)
-    level.even(i / level.even.cols(), i % level.even.cols()) = even.Get(i);
+    level.even(i / level.even.cols(), i % level.even.cols()) = elementOf(even, i);
   level.blocks.resize(blocks.size() / kBlockValues);
   if (!level.blocks.empty())
-    std::memcpy(level.blocks.data(), blocks.data(), level.blocks.size() * sizeof(ClusterBlock));
+    std::memcpy(level.blocks.data(), blocks.Data(), level.blocks.size() * sizeof(ClusterBlock));
   level.error = {packed.maximum_error(), packed.p99_error(), packed.rms_error(),
                  packed.broadside_error(), packed.friction_error()};
   level.cost = packed.cost();

@@ -33,8 +33,16 @@ bool isIndex(const std::string& token) {
          std::all_of(token.begin(), token.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
+/// A text that is not JSON is meant as a string. JSON's strings are of UTF-8.
 json parseValue(const std::string& text, const std::string& source) {
-  return json::accept(text) ? parseJson(text, source) : json(text);
+  if (json::accept(text)) return parseJson(text, source);
+  json value(text);
+  try {
+    static_cast<void>(value.dump());
+  } catch (const json::type_error&) {
+    throw SceneError(source, "the value is not valid UTF-8");
+  }
+  return value;
 }
 
 /// The element or member of `parent` that `token` names, made if a member is missing.

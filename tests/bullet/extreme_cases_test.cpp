@@ -54,7 +54,7 @@ TEST(ExtremeCase, AFeatherAt300MetresPerSecondIsSlowedAsItsDragSays) {
     for (int i = 1; i <= 30; ++i) {
       fluid.step(step);
       EXPECT_NEAR(speedOf(feather) / coastingSpeed(exact, 300, i * step), 1,
-                  byPrecision(1e-9, 2e-5))
+                  byPrecision(1e-6, 2e-5))  // loads are rounded to single
           << "step " << i << " of " << step;
     }
   }

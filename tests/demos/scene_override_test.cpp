@@ -58,6 +58,11 @@ TEST(SceneOverride, RejectsAnElementThatTheSceneDoesNotHave) {
             "--set medium.acceleration.0=1: medium.acceleration is not given and has no part 0");
 }
 
+TEST(SceneOverride, RejectsTextThatIsNotUtf8) {
+  EXPECT_EQ(complaintAbout(ballScene(), {{"model", "\xcf"}}),
+            "--set model: the value is not valid UTF-8");
+}
+
 TEST(SceneOverride, SplitsAtTheFirstEqualsSign) {
   const SceneOverride parsed = parseOverride("description=a=b");
   EXPECT_EQ(parsed.path, "description");
