@@ -3,6 +3,7 @@
 #include <BulletDynamics/Dynamics/btDynamicsWorld.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -54,6 +55,19 @@ void checkWorld(const btDynamicsWorld& world) {
   }
 }
 
+void checkFlight(const std::string& who, const FlightSettings& flight) {
+  if (!(flight.tolerance > 0) || !std::isfinite(flight.tolerance)) {
+    throw std::invalid_argument(who + " has a flight tolerance of " +
+                                std::to_string(flight.tolerance) +
+                                ", which must be positive and finite");
+  }
+  if (flight.max_substeps < 0) {
+    throw std::invalid_argument(who + " has max_substeps of " +
+                                std::to_string(flight.max_substeps) +
+                                ", which must be zero or positive");
+  }
+}
+
 }  // namespace
 
 AmbientRegistry::AmbientRegistry()
@@ -76,6 +90,7 @@ void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
   if (isAttached(body)) {
     throw std::invalid_argument(who + " is attached already; use setMedium() or detach it first");
   }
+  checkFlight(who, def.flight);
   auto ambient = std::make_unique<AmbientBody>();
   ambient->body = &body;
   ambient->def = std::move(def);

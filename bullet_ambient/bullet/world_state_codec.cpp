@@ -58,7 +58,22 @@ void checkAmbient(const ByteReader& reader, const AmbientState& ambient) {
   }
 }
 
+bool isFinite(const btVector3& v) {
+  return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
+}
+
+bool isFinite(const btTransform& pose) {
+  return isFinite(pose.getOrigin()) && isFinite(pose.getBasis()[0]) &&
+         isFinite(pose.getBasis()[1]) && isFinite(pose.getBasis()[2]);
+}
+
 void checkBody(const ByteReader& reader, const BodyState& body) {
+  if (!isFinite(body.pose) || !isFinite(body.interpolation_pose) ||
+      !isFinite(body.linear_velocity) || !isFinite(body.angular_velocity) ||
+      !isFinite(body.interpolation_linear_velocity) ||
+      !isFinite(body.interpolation_angular_velocity)) {
+    reader.fail("has a body whose pose or velocity is not finite");
+  }
   if (body.activation_state < ACTIVE_TAG || body.activation_state > FIXED_BASE_MULTI_BODY) {
     reader.fail("has a body of an unknown activation state");
   }

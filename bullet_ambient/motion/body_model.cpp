@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "bullet_ambient/force/level_loads.h"
 #include "bullet_ambient/force/passivity_guard.h"
@@ -51,6 +52,22 @@ void checkShape(const FluidBody& body) {
   }
   if (!body.centre_of_volume.allFinite()) {
     reject(body, "distance of its centre of volume [m]", body.centre_of_volume.norm(), "finite");
+  }
+}
+
+// Of a fluid body that was filled by hand: readers and builders have checked theirs.
+void checkFaces(const FluidBody& body) {
+  const FaceTable& faces = body.faces;
+  for (const std::vector<double>* column :
+       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
+        &faces.centroid_z, &faces.area}) {
+    if (column->size() != faces.size()) {
+      reject(body, "number of entries in a column of its faces",
+             static_cast<double>(column->size()), "the same in all columns");
+    }
+    for (const double entry : *column) {
+      if (!std::isfinite(entry)) reject(body, "an entry of its faces", entry, "finite");
+    }
   }
 }
 
@@ -116,6 +133,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
                         const FlowSettings& flow) {
   checkMass(fluid_body, mass);
   checkShape(fluid_body);
+  checkFaces(fluid_body);
   checkMedium(fluid_body, medium);
   checkFlow(fluid_body, flow);
   checkFrame(fluid_body, fluid_frame);

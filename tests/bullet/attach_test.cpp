@@ -45,6 +45,29 @@ TEST(Attach, RefusesAStaticBody) {
   expectSays(refusal(def, ball()), "mass 0");
 }
 
+TEST(Attach, RefusesFlightSettingsThatCannotBe) {
+  AttachDef def = ball();
+  def.flight.tolerance = 0;
+  expectSays(refusal({}, def), "tolerance");
+  def.flight.tolerance = kNaN;
+  expectSays(refusal({}, def), "tolerance");
+  def = ball();
+  def.flight.max_substeps = -1;
+  expectSays(refusal({}, def), "max_substeps of -1");
+}
+
+TEST(Attach, RefusesFacesThatDoNotFitTogether) {
+  AttachDef def = ball();
+  auto shape = std::make_shared<FluidBody>(*def.fluid_body);
+  shape->faces.normal_y.pop_back();
+  def.fluid_body = shape;
+  expectSays(refusal({}, def), "the same in all columns");
+  shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
+  shape->faces.area[3] = kNaN;
+  def.fluid_body = shape;
+  expectSays(refusal({}, def), "an entry of its faces is nan");
+}
+
 TEST(Attach, RefusesABodyThatCannotTurn) {
   BodyDef def;
   def.moments.setZero();

@@ -94,6 +94,12 @@ TEST_F(StateBytes, WithARightChecksumButWrongContentAreRefused) {
   wrong.bodies[2].inverse_mass = -1;
   expectSays(encodeState(wrong), "inverse mass");
   wrong = state;
+  wrong.bodies[0].pose.getOrigin().setX(std::numeric_limits<btScalar>::quiet_NaN());
+  expectSays(encodeState(wrong), "pose or velocity is not finite");
+  wrong = state;
+  wrong.bodies[1].angular_velocity.setZ(std::numeric_limits<btScalar>::infinity());
+  expectSays(encodeState(wrong), "pose or velocity is not finite");
+  wrong = state;
   wrong.contacts[0].points.resize(5);
   expectSays(encodeState(wrong), "more than 4 points");
   wrong = state;
