@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/mesh/primitives.h"
+#include "tests/mesh/mesh_fixtures.h"
+#include "tests/preprocess/command_line.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(CommandLine, BuildAndInspectPrintTheSameNumbers) {
+  const std::string mesh =
+      write("my cone.obj", objText(moved(makeConeMesh(0.5, 1, 300), {1, 2, 3})));
+  const json built = resultOf({"build", mesh, "-o", path("cone.ambient"), "--json"});
+  EXPECT_EQ(built["name"], "my cone");
+  EXPECT_EQ(built["faces"], 224);
+  EXPECT_EQ(built["vertices"], 114);
+  EXPECT_GT(built["seconds"].get<double>(), 0);
+  EXPECT_NEAR(built["volume"].get<double>(), 3.14159265 / 12, 0.02 * 3.14159265 / 12);
+  EXPECT_GT(built["area"].get<double>(), 0);
+  EXPECT_GE(built["asymmetry"].get<double>(), 0);
+  EXPECT_NEAR(built["origin"][0].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(built["origin"][2].get<double>(), 3 - 0.25, 2e-3);
+  EXPECT_EQ(built["centre_of_volume"], json({0.0, 0.0, 0.0}));
+  ASSERT_EQ(built["added_mass"].size(), 6u);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) EXPECT_EQ(built["added_mass"][i][j], built["added_mass"][j][i]);
+  }
+  json inspected = resultOf({"inspect", path("cone.ambient"), "--json"});
+  inspected["seconds"] = built["seconds"];
+  EXPECT_EQ(inspected, built);
+}
+
+TEST_F(CommandLine, NumbersAreThoseOfTheFileToTheLastBit) {
+  const std::string input = write("ball.json", sphereText());
+  const json built = resultOf({"build", input, "-o", path("ball.ambient"), "--json"});
+  const FluidBody body = readFluidBody(path("ball.ambient"));
+  EXPECT_EQ(built["volume"].get<double>(), body.volume);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      EXPECT_EQ(built["added_mass"][i][j].get<double>(), body.added_mass(i, j));
+    }
+  }
+}
+
+TEST_F(CommandLine, TablesSayWhatTheJsonSays) {
+  const std::string input = write("ball.json", sphereText());
+  const ProgramResult built = run({"build", input, "-o", path("ball.ambient")});
+  EXPECT_EQ(built.exit_code, 0);
+  EXPECT_EQ(built.errors, "");
+  for (const char* line : {"vertices          162", "faces             320",
+                           "volume            0.523598776 m^3", "added mass per unit density"}) {
+    EXPECT_NE(built.output.find(line), std::string::npos) << line << "\n" << built.output;
+  }
+  EXPECT_EQ(run({"inspect", path("ball.ambient")}).output, built.output);
+}
+
+TEST_F(CommandLine, BuildOptionsScaleShiftAndLimitThreads) {
+  const std::string mesh = write("box.obj", objText(makeBoxMesh({1, 2, 3}, 200)));
+  const Arguments common{"build", mesh, "-o", path("box.ambient"), "--panels", "600", "--json"};
+  const auto with = [&](const Arguments& more) {
+    Arguments arguments = common;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return resultOf(arguments);
+  };
+  const json plain = with({});
+  EXPECT_NEAR(plain["volume"].get<double>(), 48, 48e-6);
+  EXPECT_NEAR(with({"--scale", "0.1"})["volume"].get<double>(), 0.048, 0.048e-6);
+  const json shifted = with({"--origin", "-1,0.5,0"});
+  EXPECT_EQ(shifted["origin"], json({-1.0, 0.5, 0.0}));
+  EXPECT_NEAR(shifted["centre_of_volume"][0].get<double>(), 1, 1e-6);
+  EXPECT_EQ(with({"--origin", "centre-of-volume"})["origin"], plain["origin"]);
+  EXPECT_EQ(with({"--threads", "1", "--rebuild"})["added_mass"], plain["added_mass"]);
+}
+
+TEST_F(CommandLine, SheetsAreBuiltFromOpenMeshes) {
+  const std::string mesh = write("sheet.obj", objText(makeRectangularSheetMesh(1, 1, 288)));
+  const json sheet = resultOf({"build", mesh, "-o", path("s.ambient"), "--sheet", "--json"});
+  EXPECT_EQ(sheet["volume"], 0.0);
+  EXPECT_EQ(sheet["sheet"], true);
+  EXPECT_EQ(sheet["faces"], 288);
+  EXPECT_GT(sheet["added_mass"][5][5].get<double>(), 0.4);
+  EXPECT_NE(buildRefusal(mesh).find("not watertight: 48 boundary edges"), std::string::npos);
+}
+
+TEST_F(CommandLine, InsideOutMeshesAreTurnedWithAWarning) {
+  const std::string mesh = write("ball.obj", objText(insideOut(makeEllipsoidMesh({1, 1, 1}, 320))));
+  const ProgramResult built = run({"build", mesh, "-o", path("ball.ambient"), "--json"});
+  EXPECT_EQ(built.exit_code, 0);
+  EXPECT_EQ(built.errors, "warning: " + mesh +
+                              ": inside out, 320 of 320 triangles were turned round to point into "
+                              "the fluid\n");
+  EXPECT_GT(json::parse(built.output)["volume"].get<double>(), 4);
+}
+
+TEST_F(CommandLine, BuildReplacesTheOutputAtOnceOrNotAtAll) {
+  const std::string input = write("ball.json", sphereText());
+  write("out.ambient", "something older");
+  const std::string open = write("open.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
+  EXPECT_NE(buildRefusal(open), "");
+  EXPECT_EQ(bytesOfFile("out.ambient"), "something older");
+  resultOf({"build", input, "-o", path("out.ambient"), "--json"});
+  EXPECT_EQ(readFluidBody(path("out.ambient")).name, "ball");
+  EXPECT_EQ(fileCount(), 3u);
+}
+
+TEST_F(CommandLine, InterruptedBuildsLeaveNothing) {
+  // Some seconds of work, interrupted early and late.
+  const std::string input = write("ball.json", R"({"type":"sphere","radius":1,"faces":5000})");
+  for (const int milliseconds : {5, 150}) {
+    const ProgramResult result = interruptProgram(
+        AMBIENT_PREPROCESS, {"build", input, "-o", path("out.ambient")}, milliseconds);
+    EXPECT_EQ(result.exit_code, -1);
+    EXPECT_EQ(fileCount(), 1u);
+  }
+}
+
+TEST_F(CommandLine, BuildKeepsAFileThatIsStillRight) {
+  const std::string input = write("ball.json", sphereText());
+  const Arguments arguments{"build", input, "-o", path("ball.ambient"), "--json"};
+  json built = resultOf(arguments);
+  const auto time = std::filesystem::last_write_time(path("ball.ambient"));
+  json kept = resultOf(arguments);
+  EXPECT_EQ(std::filesystem::last_write_time(path("ball.ambient")), time);
+  kept["seconds"] = built["seconds"];
+  EXPECT_EQ(kept, built);
+  write("ball.json", R"({"type":"sphere","radius":0.6,"faces":320})");
+  EXPECT_GT(resultOf(arguments)["volume"].get<double>(), 1.5 * built["volume"].get<double>());
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "preprocess/mesh/primitives.h"
+#include "tests/mesh/mesh_fixtures.h"
+#include "tests/preprocess/command_line.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(CommandLine, BadMeshesAreRefusedInOneLineThatNamesTheFile) {
+  const TriangleMesh tetrahedron = unitTetrahedron();
+  const std::string missing = path("no such.obj");
+  EXPECT_EQ(buildRefusal(missing), missing + ": no such file");
+  const std::string foreign = write("notes.txt", "these are notes");
+  EXPECT_EQ(buildRefusal(foreign).find(foreign + ": cannot be read as a mesh: "), 0u);
+  const std::string open = write("open.obj", objText(withoutTriangle(tetrahedron, 3)));
+  EXPECT_EQ(buildRefusal(open).find(open + ": not watertight: 3 boundary edges, for example from "
+                                           "vertex "),
+            0u);
+  const std::string flat = write("flat.obj", objText(makeEllipsoidMesh({1, 1, 1e-7}, 320)));
+  EXPECT_EQ(buildRefusal(flat).find(flat + ": "), 0u);
+  std::string text = objText(tetrahedron);
+  text.replace(text.find("v 1 0 0"), 7, "v 1 nan 0");
+  const std::string nan = write("nan.obj", text);
+  EXPECT_EQ(buildRefusal(nan).find(nan + ": vertex "), 0u);
+  EXPECT_NE(buildRefusal(nan).find(" = nan, must be finite"), std::string::npos);
+  const std::string closed = write("closed.obj", objText(tetrahedron));
+  EXPECT_NE(buildRefusal(closed, {"--sheet"}).find("is closed: a sheet needs a boundary"),
+            std::string::npos);
+}
+
+TEST_F(CommandLine, BadShapesAreRefusedInOneLineThatNamesTheFile) {
+  const std::string typo = write("typo.json", R"({"type":"sphere","radios":1})");
+  EXPECT_EQ(buildRefusal(typo).find(typo + ": "), 0u);
+  const std::string negative = write("negative.json", R"({"type":"sphere","radius":-1})");
+  EXPECT_EQ(buildRefusal(negative).find(negative + ": radius = -1 in shape \"sphere\""), 0u);
+  const std::string lost = write("lost.json", R"({"type":"mesh","file":"lost.obj"})");
+  EXPECT_EQ(buildRefusal(lost), path("lost.obj") + ": no such file");
+  const std::string built = write("built.json", R"({"type":"fluid_body","file":"x.ambient"})");
+  EXPECT_EQ(buildRefusal(built), built + ": a shape \"fluid_body\" is built already");
+  const std::string ball = write("ball.json", sphereText());
+  EXPECT_EQ(buildRefusal(ball, {"--sheet"}), ball + ": --sheet needs a shape of type \"sheet\"");
+}
+
+TEST_F(CommandLine, BadValuesOfOptionsAreRefusedByName) {
+  const std::string ball = write("ball.json", sphereText());
+  EXPECT_EQ(buildRefusal(ball, {"--scale", "0"}), ball + ": scale = 0 is not positive and finite");
+  EXPECT_EQ(buildRefusal(ball, {"--scale", "nan"}),
+            ball + ": scale = nan is not positive and finite");
+  EXPECT_EQ(buildRefusal(ball, {"--threads", "-1"}), "--threads: -1 is below 0 (0: all cores)");
+  EXPECT_EQ(buildRefusal(ball, {"--threads", "1000"}), "--threads: 1000 is above 256");
+  EXPECT_EQ(buildRefusal(ball, {"--panels", "2000000"}),
+            ball + ": panels = 2000000 is above 1000000");
+  EXPECT_EQ(buildRefusal(ball, {"--solver", "sparse"}),
+            "--solver: \"sparse\" is neither dense nor hierarchical");
+  EXPECT_EQ(buildRefusal(ball, {"--memory", "-2"}),
+            "--memory: \"-2\" is not a number of gigabytes above 0");
+  EXPECT_NE(buildRefusal(ball, {"--memory", "0.001"}).find("GB of memory, more than the 0.001 GB"),
+            std::string::npos);
+  for (const char* origin : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf", "centre", "1,2,3x", "nan,0,0"}) {
+    EXPECT_EQ(buildRefusal(ball, {"--origin", origin}),
+              "--origin: \"" + std::string(origin) +
+                  "\" is neither centre-of-volume nor three finite numbers X,Y,Z");
+  }
+  const std::string nowhere = path("no folder/out.ambient");
+  EXPECT_EQ(refusal({"build", ball, "-o", nowhere}),
+            nowhere + ": the directory \"" + path("no folder") + "\" does not exist");
+  EXPECT_EQ(refusal({"build", ball, "-o", ball}), ball + ": the output would replace the input");
+  EXPECT_EQ(bytesOfFile("ball.json"), sphereText());
+}
+
+TEST_F(CommandLine, BadAmbientFilesAreRefusedByInspectAndLoads) {
+  resultOf({"build", write("ball.json", sphereText()), "-o", path("b.ambient"), "--json"});
+  const std::string bytes = bytesOfFile("b.ambient");
+  std::string flipped = bytes;
+  flipped[bytes.size() / 2] = static_cast<char>(flipped[bytes.size() / 2] ^ 1);
+  for (const std::string& file :
+       {path("missing.ambient"), write("empty.ambient", ""), write("foreign.ambient", "solid x"),
+        write("short.ambient", bytes.substr(0, bytes.size() / 2)),
+        write("flipped.ambient", flipped), write("mesh.obj", objText(unitTetrahedron()))}) {
+    EXPECT_NE(refusal({"inspect", file}).find(file), std::string::npos);
+    EXPECT_NE(refusal({"loads", file, "--twist", "0", "0", "0", "1", "0", "0", "--density", "1"})
+                  .find(file),
+              std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace ambient
