@@ -83,7 +83,8 @@ TEST_P(HierarchicalFlow, AgreesWithTheDenseSolver) {
     for (const int column : {0, 3})
       EXPECT_LT(blockError(flow.added_mass, dense.added_mass, row, column), 1e-4)
           << row << " " << column;
-  EXPECT_LT((flow.potential - dense.potential).norm(), 1e-3 * dense.potential.norm());
+  // Measured at most 2.5e-5; a far field that is off by 5 % shows here first.
+  EXPECT_LT((flow.potential - dense.potential).norm(), 1e-4 * dense.potential.norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, HierarchicalFlow, testing::ValuesIn(kCases),
