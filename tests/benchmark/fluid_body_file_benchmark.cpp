@@ -2,14 +2,16 @@
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "tests/fluid_body/example_body.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
 
 /// Argument: subdivision level; 2 makes 320 faces, 3 makes 1280.
 void readFile(benchmark::State& state) {
-  const test::TemporaryDirectory directory;
-  const auto file = directory / "body.ambient";
+  const TemporaryFolder folder;
+  const auto file = folder / "body.ambient";
   const FluidBody body = test::exampleBody(static_cast<int>(state.range(0)));
   writeFluidBody(body, file);
   for (auto _ : state) benchmark::DoNotOptimize(readFluidBody(file));
@@ -19,9 +21,9 @@ void readFile(benchmark::State& state) {
 BENCHMARK(readFile)->DenseRange(1, 5)->Unit(benchmark::kMicrosecond);
 
 void writeFile(benchmark::State& state) {
-  const test::TemporaryDirectory directory;
+  const TemporaryFolder folder;
   const FluidBody body = test::exampleBody(static_cast<int>(state.range(0)));
-  for (auto _ : state) writeFluidBody(body, directory / "body.ambient");
+  for (auto _ : state) writeFluidBody(body, folder / "body.ambient");
 }
 BENCHMARK(writeFile)->DenseRange(1, 5)->Unit(benchmark::kMicrosecond);
 

@@ -1,44 +1,28 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <fstream>
 
 #include "tests/demos/scene_text.h"
+#include "tests/support/run_program.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
 
-struct Outcome {
-  int exit_code = -1;
-  std::string output;
-  std::string messages;
-};
+using Arguments = std::vector<std::string>;
 
-std::string contentsOf(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-Outcome demo(const std::string& arguments) {
-  const TemporaryFolder folder;
-  const std::string out = folder.path() / "stdout", err = folder.path() / "stderr";
-  const int status = std::system(
-      (AMBIENT_DEMO_PROGRAM " " + arguments + " >" + out + " 2>" + err + " </dev/null").c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentsOf(out), contentsOf(err)};
+ProgramResult demo(const Arguments& arguments) {
+  return runProgram(AMBIENT_DEMO_PROGRAM, arguments);
 }
 
 /// A run that must fail with one line and leave nothing.
-void expectRefusal(const nlohmann::json& scene, const std::string& arguments,
-                   const std::string& message) {
+void expectRefusal(const nlohmann::json& scene, const Arguments& more, const std::string& message) {
   const TemporaryFolder input, output;
-  const auto file = writeScene(input, scene.dump());
-  const Outcome outcome =
-      demo(file.string() + " --out " + (output.path() / "a/b").string() + " " + arguments);
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.output, "");
-  EXPECT_NE(outcome.messages.find(message), std::string::npos) << outcome.messages;
-  EXPECT_EQ(outcome.messages.find('\n'), outcome.messages.size() - 1) << outcome.messages;
+  Arguments arguments{writeScene(input, scene.dump()), "--out", output / "a/b"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const ProgramResult result = demo(arguments);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.output, "");
+  EXPECT_NE(result.errors.find(message), std::string::npos) << result.errors;
+  EXPECT_EQ(result.errors.find('\n'), result.errors.size() - 1) << result.errors;
   EXPECT_TRUE(output.empty());
 }
 
@@ -50,77 +34,89 @@ nlohmann::json smallBall() {
 }
 
 TEST(AmbientDemo, ListsItsScenes) {
-  const Outcome outcome = demo("--list");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.output.find("plate_8cm "), std::string::npos);
-  EXPECT_EQ(outcome.messages, "");
+  const ProgramResult result = demo({"--list"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.output.find("plate_8cm "), std::string::npos);
+  EXPECT_EQ(result.errors, "");
 }
 
 TEST(AmbientDemo, WritesTrajectorySummaryAndFluidBodies) {
   const TemporaryFolder input, output;
   const auto file = writeScene(input, smallBall().dump());
-  const Outcome outcome =
-      demo(file.string() + " --quiet --out " + output.path().string() + " --set model=vacuum");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.messages;
-  EXPECT_EQ(outcome.output + outcome.messages, "");
-  const auto summary = nlohmann::json::parse(contentsOf(output.path() / "summary.json"));
+  const ProgramResult result =
+      demo({file, "--quiet", "--out", output.path(), "--set", "model=vacuum"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output + result.errors, "");
+  const auto summary = nlohmann::json::parse(readText(output / "summary.json"));
   EXPECT_EQ(summary["scene"], "ball");
   EXPECT_EQ(summary["model"], "vacuum");
-  EXPECT_EQ(contentsOf(output.path() / "trajectory.csv")
+  EXPECT_EQ(readText(output / "trajectory.csv")
                 .rfind("time,body,px,py,pz,qw,qx,qy,qz,wx,wy,wz,vx,vy,vz\n", 0),
             0u);
-  std::filesystem::remove(output.path() / "summary.json");
-  std::filesystem::remove(output.path() / "trajectory.csv");
-  std::filesystem::remove(output.path() / "geometry.json");
-  std::filesystem::remove_all(output.path() / "fluid_bodies");
+  std::filesystem::remove(output / "summary.json");
+  std::filesystem::remove(output / "trajectory.csv");
+  std::filesystem::remove(output / "geometry.json");
+  std::filesystem::remove_all(output / "fluid_bodies");
   EXPECT_TRUE(output.empty());
 }
 
 TEST(AmbientDemo, TheSameSceneGivesTheSameBytes) {
   const TemporaryFolder input, first, second;
   const auto file = writeScene(input, smallBall().dump());
-  demo(file.string() + " --quiet --out " + first.path().string() + " --set threads=1");
-  demo(file.string() + " --quiet --out " + second.path().string() + " --set threads=3");
-  const std::string bytes = contentsOf(first.path() / "trajectory.csv");
+  demo({file, "--quiet", "--out", first.path(), "--set", "threads=1"});
+  demo({file, "--quiet", "--out", second.path(), "--set", "threads=3"});
+  const std::string bytes = readText(first / "trajectory.csv");
   EXPECT_GT(bytes.size(), 100u);
-  EXPECT_EQ(bytes, contentsOf(second.path() / "trajectory.csv"));
+  EXPECT_EQ(bytes, readText(second / "trajectory.csv"));
 }
 
 TEST(AmbientDemo, RefusesBadScenes) {
   nlohmann::json scene = smallBall();
   scene["bodies"][0]["colour"] = "red";
-  expectRefusal(scene, "", "ball.json: unknown key \"colour\" in bodies[0]");
-  expectRefusal(smallBall(), "--set medium.density=-1", "medium.density is -1");
-  expectRefusal(smallBall(), "--set bodies.0.weight=1", "a scene has no such key");
+  expectRefusal(scene, {}, "ball.json: unknown key \"colour\" in bodies[0]");
+  expectRefusal(smallBall(), {"--set", "medium.density=-1"}, "medium.density is -1");
+  expectRefusal(smallBall(), {"--set", "bodies.0.weight=1"}, "a scene has no such key");
 }
 
 TEST(AmbientDemo, RefusesAMissingMesh) {
-  expectRefusal(smallBall(), R"(--set 'bodies.0.shape={"type": "mesh", "file": "gone.obj"}')",
+  expectRefusal(smallBall(), {"--set", R"(bodies.0.shape={"type": "mesh", "file": "gone.obj"})"},
                 "gone.obj");
 }
 
 TEST(AmbientDemo, StopsWithoutATraceWhenAStateIsNotFinite) {
-  expectRefusal(smallBall(), "--quiet --set 'bodies.0.linear_velocity=[1e200, 0, 0]'",
+  expectRefusal(smallBall(), {"--quiet", "--set", "bodies.0.linear_velocity=[1e200, 0, 0]"},
                 "body \"ball\": its state is not finite at t = 0.01 s");
 }
 
+TEST(AmbientDemo, LeavesNothingWhenItIsInterrupted) {
+  nlohmann::json scene = smallBall();
+  scene["model"] = "vacuum";  // nothing is prepared: the run begins at once
+  scene["duration"] = 1e7;
+  const TemporaryFolder input, output;
+  const ProgramResult result = interruptProgram(
+      AMBIENT_DEMO_PROGRAM, {writeScene(input, scene.dump()), "--out", output / "a"}, 1000);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.errors.find("interrupted"), std::string::npos) << result.errors;
+  EXPECT_TRUE(output.empty());
+}
+
 TEST(AmbientDemo, RefusesALinearDragThatIsNotPositive) {
-  expectRefusal(smallBall(), "--set model=uwrbd --set linear_drag_speed=0",
+  expectRefusal(smallBall(), {"--set", "model=uwrbd", "--set", "linear_drag_speed=0"},
                 "linear_drag_speed is 0; must be > 0 m/s");
 }
 
 TEST(AmbientDemo, RefusesAnUnknownScene) {
-  const Outcome outcome = demo("no_such_scene");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.messages.find("plate_8cm"), std::string::npos) << outcome.messages;
+  const ProgramResult result = demo({"no_such_scene"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.errors.find("plate_8cm"), std::string::npos) << result.errors;
 }
 
 TEST(AmbientDemo, BadUsageExitsWithTwo) {
-  EXPECT_EQ(demo("").exit_code, 2);
-  EXPECT_EQ(demo("plate_8cm --no-such-option").exit_code, 2);
-  EXPECT_EQ(demo("plate_8cm --set duration").exit_code, 2);
-  EXPECT_EQ(demo("plate_8cm plate_9cm").exit_code, 2);
-  EXPECT_EQ(demo("--help").exit_code, 0);
+  EXPECT_EQ(demo({}).exit_code, 2);
+  EXPECT_EQ(demo({"plate_8cm", "--no-such-option"}).exit_code, 2);
+  EXPECT_EQ(demo({"plate_8cm", "--set", "duration"}).exit_code, 2);
+  EXPECT_EQ(demo({"plate_8cm", "plate_9cm"}).exit_code, 2);
+  EXPECT_EQ(demo({"--help"}).exit_code, 0);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(FluidBodyCache, SolvesAShapeOnce) {
 
 TEST(FluidBodyCache, WritesNothingBeforeItIsSaved) {
   const TemporaryFolder folder;
-  FluidBodyCache cache(folder.path() / "cache");
+  FluidBodyCache cache(folder / "cache");
   cache.get(ball(1), "a");
   EXPECT_TRUE(folder.empty());
 }
@@ -66,16 +66,16 @@ TEST(FluidBodyCache, ReplacesADamagedFile) {
 
 TEST(FluidBodyCache, AnEditedMeshIsAnotherBody) {
   const TemporaryFolder folder;
-  const auto mesh = folder.path() / "tetrahedron.obj";
+  const auto mesh = folder / "tetrahedron.obj";
   const char* const triangles = "v 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   const ShapeDescription shape =
       readShape({{"type", "mesh"}, {"file", mesh.string()}}, "", "tetrahedron");
   std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\n" << triangles;
-  FluidBodyCache cache(folder.path() / "cache");
+  FluidBodyCache cache(folder / "cache");
   const double volume = cache.get(shape, "a")->volume;
   cache.save();
   std::ofstream(mesh) << "v 0 0 0\nv 3 0 0\n" << triangles;
-  FluidBodyCache next(folder.path() / "cache");
+  FluidBodyCache next(folder / "cache");
   EXPECT_NEAR(next.get(shape, "a")->volume, 3 * volume, 1e-9);
 }
 

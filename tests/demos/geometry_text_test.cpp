@@ -10,11 +10,6 @@ namespace {
 
 using nlohmann::json;
 
-Scene sceneFrom(const json& text) {
-  const TemporaryFolder folder;
-  return readScene(writeScene(folder, text.dump()));
-}
-
 /// A coarse ball whose centre of mass is off its centre, over a floor, hung from a hinge.
 json hungBall() {
   json scene = ballScene();

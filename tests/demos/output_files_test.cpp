@@ -3,34 +3,30 @@
 #include <gtest/gtest.h>
 
 #include "demos/simulation/trajectory_file.h"
-#include "tests/demos/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
 
-std::string contentsOf(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 TEST(OutputFile, HasItsNameOnlyAfterCommit) {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "a.txt";
+  const auto file = folder / "a.txt";
   {
     OutputFile output(file);
     output.write("text");
     EXPECT_FALSE(std::filesystem::exists(file));
     output.commit();
   }
-  EXPECT_EQ(contentsOf(file), "text");
+  EXPECT_EQ(readText(file), "text");
 }
 
 TEST(OutputFile, LeavesNothingWithoutCommitAndKeepsTheOldFile) {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "a.txt";
+  const auto file = folder / "a.txt";
   std::ofstream(file) << "old";
   { OutputFile(file).write("new"); }
-  EXPECT_EQ(contentsOf(file), "old");
+  EXPECT_EQ(readText(file), "old");
   std::filesystem::remove(file);
   EXPECT_TRUE(folder.empty());
 }
@@ -41,13 +37,13 @@ TEST(OutputFile, NamesAFileThatCannotBeWritten) {
 
 TEST(OutputFolder, VanishesWithItsParentsUnlessKept) {
   const TemporaryFolder folder;
-  { const OutputFolder output(folder.path() / "a/b/c"); }
+  { const OutputFolder output(folder / "a/b/c"); }
   EXPECT_TRUE(folder.empty());
   {
-    OutputFolder output(folder.path() / "a/b/c");
+    OutputFolder output(folder / "a/b/c");
     output.keep();
   }
-  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "a/b/c"));
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b/c"));
 }
 
 TEST(OutputFolder, KeepsAFolderThatWasThere) {
@@ -58,9 +54,9 @@ TEST(OutputFolder, KeepsAFolderThatWasThere) {
 
 TEST(OutputFolder, CannotBeAFile) {
   const TemporaryFolder folder;
-  std::ofstream(folder.path() / "a") << "x";
-  EXPECT_THROW(OutputFolder(folder.path() / "a"), std::runtime_error);
-  EXPECT_THROW(OutputFolder(folder.path() / "a/b"), std::runtime_error);
+  std::ofstream(folder / "a") << "x";
+  EXPECT_THROW(OutputFolder(folder / "a"), std::runtime_error);
+  EXPECT_THROW(OutputFolder(folder / "a/b"), std::runtime_error);
 }
 
 TEST(TrajectoryFile, RowsCarrySeventeenDigitsInTheOrderOfTheHeader) {

@@ -9,7 +9,7 @@
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/scene_run.h"
 #include "preprocess/builder/shape_builder.h"
-#include "tests/demos/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 
@@ -26,7 +26,7 @@ inline Scene readNamedScene(const std::string& name,
 /// Runs a scene with bodies prepared before; the trajectory file is thrown away.
 inline RunRecord runPrepared(const Scene& scene, const std::vector<PreparedBody>& bodies) {
   const TemporaryFolder folder;
-  TrajectoryFile file(folder.path() / "trajectory.csv");
+  TrajectoryFile file(folder / "trajectory.csv");
   return runScene(scene, bodies, file, true);
 }
 
@@ -49,7 +49,7 @@ inline Scene readCoarseScene(const std::string& name, const TemporaryFolder& fol
   settings.name = name;
   settings.origin = Vector3::Zero();
   settings.max_panels = 0;
-  const std::filesystem::path file = folder.path() / (name + ".ambient");
+  const std::filesystem::path file = folder / (name + ".ambient");
   if (!std::filesystem::exists(file))
     writeFluidBody(buildShape(readNamedScene(name, overrides).bodies[0].shape, settings).body,
                    file);

@@ -13,8 +13,8 @@ TEST(SceneLookup, FindsANameInTheFirstFolderThatHasIt) {
   writeScene(second, "{}", "a.json");
   writeScene(second, "{}", "b.json");
   const std::vector<std::filesystem::path> folders{first.path(), second.path()};
-  EXPECT_EQ(findScene("a", folders), first.path() / "a.json");
-  EXPECT_EQ(findScene("b", folders), second.path() / "b.json");
+  EXPECT_EQ(findScene("a", folders), first / "a.json");
+  EXPECT_EQ(findScene("b", folders), second / "b.json");
   EXPECT_EQ(listScenes(folders).size(), 2u);
 }
 

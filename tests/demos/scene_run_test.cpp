@@ -16,11 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-Scene sceneFrom(const json& text) {
-  const TemporaryFolder folder;
-  return readScene(writeScene(folder, text.dump()));
-}
-
 /// A small ball in a vacuum.
 json vacuumBall() {
   json scene = ballScene();
@@ -44,7 +39,7 @@ TEST(SceneRun, WritesOneRowPerBodyAndOutputTime) {
   text["duration"] = 0.12;
   const Scene scene = sceneFrom(text);
   const TemporaryFolder folder;
-  const auto path = folder.path() / "trajectory.csv";
+  const auto path = folder / "trajectory.csv";
   TrajectoryFile file(path);
   runScene(scene, prepare(scene), file, true);
   file.commit();
@@ -127,8 +122,8 @@ TEST(SceneRun, AFluidBodyFileMovesAsTheMeshItWasMadeFrom) {
   const Scene mesh = readNamedScene("plate_9cm", {{"duration", "1"}});
   ShapeBuildSettings settings;
   settings.name = "plate";
-  writeFluidBody(buildShape(mesh.bodies[0].shape, settings).body, folder.path() / "plate.ambient");
-  const json shape = {{"type", "fluid_body"}, {"file", (folder.path() / "plate.ambient").string()}};
+  writeFluidBody(buildShape(mesh.bodies[0].shape, settings).body, folder / "plate.ambient");
+  const json shape = {{"type", "fluid_body"}, {"file", (folder / "plate.ambient").string()}};
   const Scene file =
       readNamedScene("plate_9cm", {{"duration", "1"}, {"bodies.0.shape", shape.dump()}});
   // The file's frame has its origin at the centre of volume, which is 0 but for rounding.
@@ -156,12 +151,12 @@ void writeMovedMesh(const std::filesystem::path& file, const Vector3& offset) {
 TEST(SceneRun, TheOriginOfAMeshFileDoesNotMatter) {
   const TemporaryFolder folder;
   const Vector3 offset(0.5, -0.25, 0.125);
-  writeMovedMesh(folder.path() / "moved.obj", offset);
+  writeMovedMesh(folder / "moved.obj", offset);
   // The centre of mass is off the centre of volume, so that every lever counts.
   const Vector3 centre(0.01, 0.004, 0);
   Scene plain = readNamedScene("plate_10cm", {{"duration", "0.5"}});
   plain.bodies[0].centre_of_mass = centre;
-  const json shape = {{"type", "mesh"}, {"file", (folder.path() / "moved.obj").string()}};
+  const json shape = {{"type", "mesh"}, {"file", (folder / "moved.obj").string()}};
   Scene moved =
       readNamedScene("plate_10cm", {{"duration", "0.5"}, {"bodies.0.shape", shape.dump()}});
   moved.bodies[0].centre_of_mass = centre + offset;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "demos/scene/scene_reader.h"
-#include "tests/demos/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
 
@@ -24,9 +24,14 @@ inline nlohmann::json ballScene() {
 
 inline std::filesystem::path writeScene(const TemporaryFolder& folder, const std::string& text,
                                         const std::string& name = "ball.json") {
-  const std::filesystem::path file = folder.path() / name;
-  std::ofstream(file) << text;
+  const std::filesystem::path file = folder / name;
+  writeText(file, text);
   return file;
+}
+
+inline Scene sceneFrom(const nlohmann::json& text) {
+  const TemporaryFolder folder;
+  return readScene(writeScene(folder, text.dump()));
 }
 
 /// What reading the scene complains about, without the file's name; "" if it does not.

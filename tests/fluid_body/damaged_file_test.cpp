@@ -8,6 +8,8 @@
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "tests/fluid_body/example_body.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
@@ -106,11 +108,11 @@ TEST(DamagedFile, OfArbitraryBytesIsRefused) {
 }
 
 TEST(DamagedFile, ThatAnnouncesAHugePayloadAllocatesNothingForIt) {
-  const test::TemporaryDirectory directory;
+  const TemporaryFolder folder;
   for (const std::uint64_t size : {std::uint64_t{1} << 31, std::uint64_t{1} << 40,
                                    std::numeric_limits<std::uint64_t>::max()}) {
-    const auto file = directory / "huge.ambient";
-    test::writeBytes(file, encodeFileHeader({kFormatVersion, size, 0}));
+    const auto file = folder / "huge.ambient";
+    writeText(file, encodeFileHeader({kFormatVersion, size, 0}));
     const std::size_t before = test::allocatedBytes();
     EXPECT_EQ(test::refusalOf([&] { readFluidBody(file); }),
               file.string() + ": damaged: a payload of " + std::to_string(size) +
@@ -121,9 +123,9 @@ TEST(DamagedFile, ThatAnnouncesAHugePayloadAllocatesNothingForIt) {
 
 TEST(DamagedFile, OfGreatSizeIsRefusedBeforeItIsRead) {
   // Sparse: takes no room on the disk.
-  const test::TemporaryDirectory directory;
-  const auto file = directory / "large.ambient";
-  test::writeBytes(file, "no mark");
+  const TemporaryFolder folder;
+  const auto file = folder / "large.ambient";
+  writeText(file, "no mark");
   std::filesystem::resize_file(file, std::uintmax_t{1} << 36);
   const std::size_t before = test::allocatedBytes();
   EXPECT_NE(test::refusalOf([&] { readFluidBody(file); }).find("not a .ambient file"),

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "tests/fluid_body/example_body.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
@@ -39,16 +41,16 @@ void expectSame(const FluidBody& a, const FluidBody& b) {
   EXPECT_EQ(a.surface.triangles, b.surface.triangles);
 }
 
-std::ptrdiff_t entriesOf(const test::TemporaryDirectory& directory) {
-  const auto entries = std::filesystem::directory_iterator(directory.path());
+std::ptrdiff_t entriesOf(const TemporaryFolder& folder) {
+  const auto entries = std::filesystem::directory_iterator(folder.path());
   return std::distance(begin(entries), end(entries));
 }
 
 TEST(FluidBodyFile, GivesBackEveryFieldBitForBit) {
-  const test::TemporaryDirectory directory;
+  const TemporaryFolder folder;
   const FluidBody body = test::exampleBody();
-  writeFluidBody(body, directory / "body.ambient");
-  expectSame(readFluidBody(directory / "body.ambient"), body);
+  writeFluidBody(body, folder / "body.ambient");
+  expectSame(readFluidBody(folder / "body.ambient"), body);
 }
 
 TEST(FluidBodyFile, HasTheSameBytesForTheSameBody) {
@@ -96,57 +98,57 @@ TEST(FluidBodyFile, IsReadFromMemoryThatIsNotAligned) {
 }
 
 TEST(FluidBodyFile, ReplacesAnOldFileAndLeavesNothingElseBehind) {
-  const test::TemporaryDirectory directory;
-  const auto file = directory / "body.ambient";
-  test::writeBytes(file, "old");
+  const TemporaryFolder folder;
+  const auto file = folder / "body.ambient";
+  writeText(file, "old");
   writeFluidBody(test::exampleBody(), file);
-  EXPECT_EQ(test::bytesOf(file), encodeFluidBody(test::exampleBody(), "x"));
-  EXPECT_EQ(entriesOf(directory), 1);
+  EXPECT_EQ(readText(file), encodeFluidBody(test::exampleBody(), "x"));
+  EXPECT_EQ(entriesOf(folder), 1);
 }
 
 TEST(FluidBodyFile, KeepsTheOldFileIfTheBodyIsNotValid) {
-  const test::TemporaryDirectory directory;
-  const auto file = directory / "body.ambient";
-  test::writeBytes(file, "old");
+  const TemporaryFolder folder;
+  const auto file = folder / "body.ambient";
+  writeText(file, "old");
   FluidBody broken = test::exampleBody();
   broken.faces.area[3] = -1;
   const std::string refusal = refusalOf([&] { writeFluidBody(broken, file); });
   EXPECT_EQ(refusal, file.string() + ": area of face 3 is -1 m^2, but must not be negative");
-  EXPECT_EQ(test::bytesOf(file), "old");
-  EXPECT_EQ(entriesOf(directory), 1);
+  EXPECT_EQ(readText(file), "old");
+  EXPECT_EQ(entriesOf(folder), 1);
 }
 
 TEST(FluidBodyFile, SaysWhyItCannotBeWritten) {
-  const test::TemporaryDirectory directory;
-  const auto missing = directory / "nowhere/body.ambient";
+  const TemporaryFolder folder;
+  const auto missing = folder / "nowhere/body.ambient";
   EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), missing); }),
             missing.string() + ": cannot be written: No such file or directory");
-  const auto folder = directory / "folder";
-  std::filesystem::create_directory(folder);
-  EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), folder); }),
-            folder.string() + ": cannot be written: Is a directory");
-  const auto pipe = directory / "pipe";
+  const auto inner = folder / "folder";
+  std::filesystem::create_directory(inner);
+  EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), inner); }),
+            inner.string() + ": cannot be written: Is a directory");
+  const auto pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), pipe); }),
             pipe.string() + ": is not a regular file");
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
-  EXPECT_EQ(entriesOf(directory), 2);  // nothing half-written stays
+  EXPECT_EQ(entriesOf(folder), 2);  // nothing half-written stays
 }
 
 TEST(FluidBodyFile, SaysThatItIsMissingOrNoFile) {
-  const test::TemporaryDirectory directory;
-  const auto missing = directory / "missing.ambient";
+  const TemporaryFolder folder;
+  const auto missing = folder / "missing.ambient";
   EXPECT_EQ(refusalOf([&] { readFluidBody(missing); }), missing.string() + ": no such file");
-  EXPECT_EQ(refusalOf([&] { readFluidBody(directory.path()); }),
-            directory.path().string() + ": is a directory, not a .ambient file");
+  EXPECT_EQ(refusalOf([&] { readFluidBody(folder.path()); }),
+            folder.path().string() + ": is a directory, not a .ambient file");
   EXPECT_EQ(refusalOf([] { readFluidBody("/dev/null"); }), "/dev/null: is not a regular file");
 }
 
 TEST(FluidBodyFile, SaysThatItIsEmptyForeignOrTruncated) {
-  const test::TemporaryDirectory directory;
-  const auto file = directory / "f.ambient";
+  const TemporaryFolder folder;
+  const auto file = folder / "f.ambient";
   const auto refusalOfBytes = [&](const std::string& bytes) {
-    test::writeBytes(file, bytes);
+    writeText(file, bytes);
     return refusalOf([&] { readFluidBody(file); });
   };
   const std::string whole = encodeFluidBody(test::exampleBody(), "x");

@@ -1,19 +1,14 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <string>
 
 #include "preprocess/mesh/triangle_mesh.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
-
-inline void writeText(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-}
 
 inline std::string objText(const TriangleMesh& mesh) {
   std::ostringstream text;

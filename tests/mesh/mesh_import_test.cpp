@@ -7,9 +7,9 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/primitives.h"
-#include "tests/demos/temporary_folder.h"
 #include "tests/mesh/mesh_files.h"
 #include "tests/mesh/mesh_fixtures.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kSingle = std::numeric_limits<float>::epsilon();  // of coordin
 class MeshImport : public ::testing::Test {
  protected:
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path file = folder_.path() / name;
+    const std::filesystem::path file = folder_ / name;
     writeText(file, text);
     return file;
   }
@@ -62,7 +62,7 @@ TEST_F(MeshImport, ScalesInDouble) {
 }
 
 TEST_F(MeshImport, NodesPlaceTheirMeshes) {
-  const auto file = folder_.path() / "scene with nodes.gltf";
+  const auto file = folder_ / "scene with nodes.gltf";
   // The child is moved by 10 along z and doubled by its parent, which also holds the mesh itself.
   writeGltf(file, unitTetrahedron(),
             R"([{"mesh":0,"children":[1],"scale":[2,2,2]},{"mesh":0,"translation":[0,0,10]}])");
@@ -72,7 +72,7 @@ TEST_F(MeshImport, NodesPlaceTheirMeshes) {
 }
 
 TEST_F(MeshImport, MirroringNodesKeepNormalsOutward) {
-  const auto file = folder_.path() / "mirrored.gltf";
+  const auto file = folder_ / "mirrored.gltf";
   writeGltf(file, unitTetrahedron(), R"([{"mesh":0,"scale":[1,-1,1]}])");
   const CheckedMesh checked = checkMesh(importMesh(file).mesh, "mirrored");
   EXPECT_TRUE(checked.warnings.empty());
@@ -159,7 +159,7 @@ TEST_F(MeshImport, MeshesFarFromTheOriginAreWarnedAbout) {
 }
 
 TEST_F(MeshImport, MissingAndForeignFilesAreRefused) {
-  EXPECT_EQ(refusal(folder_.path() / "no such.obj"), "no such file");
+  EXPECT_EQ(refusal(folder_ / "no such.obj"), "no such file");
   EXPECT_EQ(refusal(folder_.path()), "is a directory, not a mesh file");
   EXPECT_EQ(refusal(write("empty.obj", "")), "the file is empty");
   const std::string unreadable = "cannot be read as a mesh: ";

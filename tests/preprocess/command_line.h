@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "tests/demos/temporary_folder.h"
 #include "tests/mesh/mesh_files.h"
-#include "tests/preprocess/run_program.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 
@@ -21,18 +19,14 @@ using Arguments = std::vector<std::string>;
 /// Runs ambient_preprocess in a folder of its own.
 class CommandLine : public ::testing::Test {
  protected:
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   std::string write(const std::string& name, const std::string& text) const {
     writeText(path(name), text);
     return path(name);
   }
 
-  std::string bytesOfFile(const std::string& name) const {
-    std::ostringstream bytes;
-    bytes << std::ifstream(path(name), std::ios::binary).rdbuf();
-    return bytes.str();
-  }
+  std::string bytesOfFile(const std::string& name) const { return readText(path(name)); }
 
   std::size_t fileCount() const {
     std::size_t count = 0;

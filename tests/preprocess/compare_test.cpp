@@ -7,8 +7,8 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/primitives.h"
-#include "tests/demos/temporary_folder.h"
-#include "tests/preprocess/run_program.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -24,7 +24,7 @@ class Compare : public ::testing::Test {
   }
 
   std::string write(const FluidBody& body, const char* name) const {
-    const std::string file = (folder_.path() / name).string();
+    const std::string file = (folder_ / name).string();
     writeFluidBody(body, file);
     return file;
   }

@@ -11,9 +11,9 @@
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/shape/shape_reader.h"
-#include "tests/demos/temporary_folder.h"
 #include "tests/mesh/mesh_files.h"
 #include "tests/mesh/mesh_fixtures.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -184,9 +184,9 @@ TEST(ShapeBuilder, DiscConvergesToLambWithSecondOrder) {
 TEST(ShapeBuilder, ProvenanceNamesTheFileAndHashesItsBytes) {
   const TemporaryFolder folder;
   const std::string text = objText(cone());
-  writeText(folder.path() / "c.obj", text);
+  writeText(folder / "c.obj", text);
   ShapeDescription shape;
-  shape.geometry = MeshShape{folder.path() / "c.obj", 1};
+  shape.geometry = MeshShape{folder / "c.obj", 1};
   shape.source = "c.obj";
   ShapeBuildSettings settings;
   settings.name = "c";
@@ -213,14 +213,14 @@ TEST(ShapeBuilder, CoarseMeshesAreWarnedAbout) {
 TEST(ShapeBuilder, FluidBodiesAreReadAsTheyAre) {
   const TemporaryFolder folder;
   const FluidBody body = build(cone());
-  writeFluidBody(body, folder.path() / "c.ambient");
+  writeFluidBody(body, folder / "c.ambient");
   ShapeDescription shape;
-  shape.geometry = FluidBodyShape{folder.path() / "c.ambient"};
+  shape.geometry = FluidBodyShape{folder / "c.ambient"};
   EXPECT_EQ(encodeFluidBody(buildShape(shape, {}).body, "read"), encodeFluidBody(body, "built"));
   ShapeBuildSettings settings;
   settings.scale = 2;
   EXPECT_EQ(messageOf([&] { buildShape(shape, settings); }),
-            (folder.path() / "c.ambient").string() + ": scale = 2: a fluid body keeps its size");
+            (folder / "c.ambient").string() + ": scale = 2: a fluid body keeps its size");
 }
 
 }  // namespace

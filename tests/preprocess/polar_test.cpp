@@ -10,9 +10,9 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/primitives.h"
-#include "tests/demos/temporary_folder.h"
 #include "tests/mesh/mesh_fixtures.h"
-#include "tests/preprocess/run_program.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -30,7 +30,7 @@ class Polar : public ::testing::Test {
     settings.name = "body";
     settings.max_panels = 0;
     settings.sheet = sheet;
-    const std::string file = (folder_.path() / "body.ambient").string();
+    const std::string file = (folder_ / "body.ambient").string();
     writeFluidBody(makeFluidBody(mesh, settings), file);
     return file;
   }

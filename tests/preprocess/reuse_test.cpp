@@ -9,8 +9,8 @@
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/shape/shape_reader.h"
-#include "tests/demos/temporary_folder.h"
 #include "tests/mesh/mesh_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -24,7 +24,7 @@ ShapeBuildSettings quick() {
 
 class Reuse : public ::testing::Test {
  protected:
-  Reuse() : mesh_(folder_.path() / "m.obj"), file_(folder_.path() / "m.ambient") {
+  Reuse() : mesh_(folder_ / "m.obj"), file_(folder_ / "m.ambient") {
     writeText(mesh_, objText(makeBoxMesh({1, 2, 3}, 100)));
     writeFluidBody(buildShape(shape(), quick()).body, file_);
   }

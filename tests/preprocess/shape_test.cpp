@@ -8,9 +8,9 @@
 #include "preprocess/shape/shape_mesh.h"
 #include "preprocess/shape/shape_reader.h"
 #include "preprocess/shape/shape_schema.h"
-#include "tests/demos/temporary_folder.h"
 #include "tests/mesh/mesh_files.h"
 #include "tests/mesh/mesh_fixtures.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient {
 namespace {
@@ -73,17 +73,17 @@ TEST(Shape, FacesSetTheResolution) {
 
 TEST(Shape, MeshesAreReadRelativeToTheFileThatNamesThem) {
   const TemporaryFolder folder;
-  std::filesystem::create_directory(folder.path() / "meshes");
-  writeText(folder.path() / "meshes" / "t.obj", objText(unitTetrahedron()));
-  writeText(folder.path() / "s.json", R"({"type":"mesh","file":"meshes/t.obj","scale":2})");
-  const ShapeDescription shape = readShapeFile(folder.path() / "s.json");
+  std::filesystem::create_directory(folder / "meshes");
+  writeText(folder / "meshes" / "t.obj", objText(unitTetrahedron()));
+  writeText(folder / "s.json", R"({"type":"mesh","file":"meshes/t.obj","scale":2})");
+  const ShapeDescription shape = readShapeFile(folder / "s.json");
   EXPECT_NEAR(computeMassProperties(makeShapeMesh(shape).mesh).volume, 8.0 / 6, 1e-6);
-  EXPECT_EQ(fileOf(shape), folder.path() / "meshes" / "t.obj");
+  EXPECT_EQ(fileOf(shape), folder / "meshes" / "t.obj");
 }
 
 TEST(Shape, OpenMeshesAreSheetsOnlyIfCalledSo) {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "open.obj";
+  const auto file = folder / "open.obj";
   writeText(file, objText(makeShapeMesh(shapeOf(R"({"type":"sheet","size":[1,1]})")).mesh));
   const auto read = [&](const std::string& type) {
     return makeShapeMesh(
@@ -138,7 +138,7 @@ TEST(Shape, ImpossibleValuesAreNamed) {
 TEST(Shape, FilesThatAreNotJsonAreRefused) {
   const TemporaryFolder folder;
   const auto refusalOf = [&](const std::string& text) {
-    const auto file = folder.path() / "s.json";
+    const auto file = folder / "s.json";
     writeText(file, text);
     const std::string message = messageOf([&] { readShapeFile(file); });
     EXPECT_EQ(message.find(file.string() + ": "), 0u) << message;
@@ -151,8 +151,8 @@ TEST(Shape, FilesThatAreNotJsonAreRefused) {
             "key \"radius\" is given twice in one object");
   const std::string deep(100000, '[');
   EXPECT_EQ(refusalOf(deep), "is nested deeper than 100 levels");
-  EXPECT_EQ(messageOf([&] { readShapeFile(folder.path() / "no.json"); }),
-            (folder.path() / "no.json").string() + ": no such file");
+  EXPECT_EQ(messageOf([&] { readShapeFile(folder / "no.json"); }),
+            (folder / "no.json").string() + ": no such file");
 }
 
 // Every type that the schema lists has a definition, and nothing else is defined as a shape.

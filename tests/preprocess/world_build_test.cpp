@@ -6,13 +6,13 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "tests/demos/temporary_folder.h"
-#include "tests/preprocess/run_program.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
@@ -56,7 +56,7 @@ class SavedWorld {
 
 class WorldBuild : public ::testing::Test {
  protected:
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   static ProgramResult run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "build");
@@ -187,14 +187,12 @@ class DamagedWorld : public WorldBuild {
  protected:
   void SetUp() override {
     saveGoodWorld(path("w.bullet"));
-    std::ostringstream bytes;
-    bytes << std::ifstream(path("w.bullet"), std::ios::binary).rdbuf();
-    good_ = bytes.str();
+    good_ = readText(path("w.bullet"));
   }
 
   // One line that names the file, after its name.
   std::string refusal(const std::string& bytes) const {
-    std::ofstream(path("w.bullet"), std::ios::binary) << bytes;
+    writeText(path("w.bullet"), bytes);
     const ProgramResult result = build();
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.output, "");

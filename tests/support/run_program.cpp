@@ -1,4 +1,4 @@
-#include "tests/preprocess/run_program.h"
+#include "tests/support/run_program.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -6,21 +6,14 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
-#include "tests/demos/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
-
-std::string textOf(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 // Between fork and exec: system calls only.
 [[noreturn]] void becomeProgram(const std::vector<char*>& argv, const char* output,
@@ -34,8 +27,8 @@ std::string textOf(const std::filesystem::path& file) {
 ProgramResult run(const std::string& program, const std::vector<std::string>& arguments,
                   int interrupt_after) {
   const TemporaryFolder folder;
-  const std::string output = (folder.path() / "output").string();
-  const std::string errors = (folder.path() / "errors").string();
+  const std::string output = (folder / "output").string();
+  const std::string errors = (folder / "errors").string();
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -51,7 +44,7 @@ ProgramResult run(const std::string& program, const std::vector<std::string>& ar
   }
   int status = 0;
   ::waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(output), textOf(errors)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(output), readText(errors)};
 }
 
 }  // namespace
