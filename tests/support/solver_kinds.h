@@ -21,8 +21,9 @@ namespace ambient::test {
 // One type for each constraint solver of Bullet: `Ambient` is it with bodies in a fluid, `Stock`
 // is Bullet's own. Both are constructed the same way.
 
-struct SequentialImpulse {
-  using Base = btSequentialImpulseConstraintSolver;
+template <class Solver>
+struct SolverKind {
+  using Base = Solver;
   struct Stock {
     Base solver;
   };
@@ -32,16 +33,10 @@ struct SequentialImpulse {
   };
 };
 
-struct ConjugateGradient {
-  using Base = btNNCGConstraintSolver;
-  struct Stock {
-    Base solver;
-  };
-  struct Ambient {
-    explicit Ambient(AmbientRegistry& registry) : solver(registry) {}
-    AmbientSolver<Base> solver;
-  };
-};
+using SequentialImpulse = SolverKind<btSequentialImpulseConstraintSolver>;
+using ConjugateGradient = SolverKind<btNNCGConstraintSolver>;
+using Multithreaded = SolverKind<btSequentialImpulseConstraintSolverMt>;
+using MultiBody = SolverKind<btMultiBodyConstraintSolver>;
 
 /// Contacts without extrapolation. Bullet's conjugate gradients skip the friction rows of a contact
 /// whose impulse their extrapolation has made negative, and may end there: stock bodies too are
@@ -56,28 +51,6 @@ struct ConjugateGradientForJoints {
     explicit Ambient(AmbientRegistry& registry) : solver(registry) {
       solver.m_onlyForNoneContact = true;
     }
-    AmbientSolver<Base> solver;
-  };
-};
-
-struct Multithreaded {
-  using Base = btSequentialImpulseConstraintSolverMt;
-  struct Stock {
-    Base solver;
-  };
-  struct Ambient {
-    explicit Ambient(AmbientRegistry& registry) : solver(registry) {}
-    AmbientSolver<Base> solver;
-  };
-};
-
-struct MultiBody {
-  using Base = btMultiBodyConstraintSolver;
-  struct Stock {
-    Base solver;
-  };
-  struct Ambient {
-    explicit Ambient(AmbientRegistry& registry) : solver(registry) {}
     AmbientSolver<Base> solver;
   };
 };
