@@ -26,7 +26,9 @@ MotionSample landingOf(const RunRecord& record, const Scene& scene, std::size_t 
 
 MotionSample landingOf(const std::string& name) {
   const Scene scene = readNamedScene(name);
-  return landingOf(runSharing(scene), scene);
+  const RunRecord record = runSharing(scene);
+  EXPECT_EQ(record.work[0].guarded, 0) << name;
+  return landingOf(record, scene);
 }
 
 struct PointState {
@@ -145,6 +147,16 @@ TEST(BasketballScene, DriftsWithTheTurnsPerSecond) {
     const Vector3 landing = landingOf(record, scene, i).position;
     EXPECT_NEAR(landing.x(), drift[i], std::max(0.02 * drift[i], 0.01)) << i << " turns";
     EXPECT_NEAR(landing.y(), scene.bodies[i].position.y(), 0.01) << i << " turns";
+  }
+}
+
+TEST(BasketballScene, TheGuardActsOnlyWhileTheBallsHardlyFall) {
+  const RunRecord whole = runSharing(readNamedScene("basketball_drop"));
+  const RunRecord start = runSharing(readNamedScene("basketball_drop", {{"duration", "0.1"}}));
+  EXPECT_EQ(whole.work[0].guarded, 0) << "without spin";
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_EQ(whole.work[i].guarded, start.work[i].guarded) << i << " turns";
+    EXPECT_LT(100 * whole.work[i].guarded, whole.work[i].load_evaluations) << i << " turns";
   }
 }
 
