@@ -5,6 +5,7 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/potential_flow/refined_flow.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 
 namespace ambient {
@@ -67,7 +68,7 @@ void requireUsualSize(const TriangleMesh& mesh, const BuildSettings& settings) {
   }
 }
 
-PotentialFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
+RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
   PotentialFlowSettings flow_settings;
   flow_settings.sheet = settings.sheet;
   flow_settings.max_panels = settings.max_panels;
@@ -75,7 +76,7 @@ PotentialFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings)
   flow_settings.solver = settings.solver;
   flow_settings.memory_limit = settings.memory_limit;
   try {
-    return solvePotentialFlow(mesh, flow_settings);
+    return solveRefinedFlow(mesh, flow_settings);
   } catch (const std::runtime_error& error) {
     raiseInputError(sourceOf(settings), error.what());
   }
@@ -99,7 +100,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   if (settings.added_mass) {
     body.added_mass = shiftOrigin(*settings.added_mass, origin);
   } else {
-    const PotentialFlow flow = solveFlow(mesh, settings);
+    const RefinedFlow flow = solveFlow(mesh, settings);
     body.added_mass = flow.added_mass;
     body.asymmetry = flow.asymmetry;
   }

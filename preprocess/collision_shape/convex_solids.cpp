@@ -46,12 +46,6 @@ TriangleMesh withVolume(TriangleMesh mesh, double volume) {
 
 double volumeOf(const TriangleMesh& mesh) { return computeMassProperties(mesh).volume; }
 
-Eigen::Vector3d normalOf(const TriangleMesh& mesh, Eigen::Index t) {
-  return (mesh.corner(t, 1) - mesh.corner(t, 0))
-      .cross(mesh.corner(t, 2) - mesh.corner(t, 0))
-      .normalized();
-}
-
 /// Sum of length times angle between the normals over all edges of a convex polyhedron, halved: the
 /// integral of its mean curvature.
 double meanCurvatureOf(const TriangleMesh& mesh) {

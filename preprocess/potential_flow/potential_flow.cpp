@@ -13,6 +13,7 @@
 #include "preprocess/potential_flow/hierarchical_solver.h"
 #include "preprocess/potential_flow/memory_limit.h"
 #include "preprocess/potential_flow/parallel_for.h"
+#include "preprocess/potential_flow/positive_part.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 #include "preprocess/potential_flow/vertex_projection.h"
 
@@ -141,13 +142,10 @@ UnitFlow solveUnitFlow(const PanelSurface& surface, const PotentialFlowSettings&
 /// Makes the inertia symmetric positive semi-definite; returns the lowest eigenvalue over the
 /// largest if it was negative, else 0.
 double removeNegativePart(Matrix6& K) {
-  K = symmetricPart(K);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(K);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(symmetricPart(K));
   const double lowest = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[5];
-  if (lowest >= 0 || largest <= 0) return 0;
-  K = symmetricPart(eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-                    eigen.eigenvectors().transpose());
-  return lowest / largest;
+  K = positivePart(K);
+  return lowest < 0 && largest > 0 ? lowest / largest : 0;
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 #include "preprocess/potential_flow/surface_refinement.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
-
-#include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
 namespace {
@@ -13,21 +11,13 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-// Limits that regular shapes never meet exactly, so that rounding does not decide: no regular
-// polygon turns by acos(0.75), no simple ratio of lengths is the inverse golden ratio.
-constexpr double kSharpCosine = 0.75;
+// No simple ratio of lengths is the inverse golden ratio, so that rounding does not decide.
 constexpr double kLongEdge = 0.61803398874989485;
 constexpr int kEdgeLevels = 4;
 constexpr int kUniformShare = 3;  // one part in so many of the triangles, before sharp edges
 
 /// One refinement: which edges (by number in MeshEdges::edges) are cut in the middle.
 using Marks = std::vector<bool>;
-
-Vector3d normalOf(const TriangleMesh& mesh, int t) {
-  return (mesh.corner(t, 1) - mesh.corner(t, 0))
-      .cross(mesh.corner(t, 2) - mesh.corner(t, 0))
-      .normalized();
-}
 
 bool isSharp(const TriangleMesh& mesh, const MeshEdges& edges, const EdgeGroup& edge, bool sheet) {
   if (edge.size() != 2) return true;
@@ -73,144 +63,96 @@ Marks markAcrossSharpEdges(const TriangleMesh& mesh, const MeshEdges& edges, boo
   return marks;
 }
 
-/// Cuts triangles along marked edges; neighbours stay matched because they share the marks.
-class Cutter {
- public:
-  Cutter(const TriangleMesh& mesh, const MeshEdges& edges, const Marks& marks)
-      : mesh_(mesh), middle_(mesh.triangleCount(), {-1, -1, -1}) {
-    for (Index v = 0; v < mesh.vertexCount(); ++v) vertices_.push_back(mesh.vertices.col(v));
-    for (std::size_t e = 0; e < marks.size(); ++e) {
-      if (!marks[e]) continue;
-      const EdgeGroup& group = edges.edges[e];
-      for (std::size_t k = group.first; k < group.last; ++k)
-        middle_[edges.half_edges[k].triangle][edges.half_edges[k].side] =
-            static_cast<int>(vertices_.size());
-      const HalfEdge& side = edges.half_edges[group.first];
-      vertices_.push_back((mesh.vertices.col(side.low) + mesh.vertices.col(side.high)) / 2);
-    }
-  }
-
-  TriangleMesh cut() {
-    for (Index t = 0; t < mesh_.triangleCount(); ++t) cutTriangle(t);
-    TriangleMesh result;
-    result.vertices.resize(3, static_cast<Index>(vertices_.size()));
-    result.triangles.resize(3, static_cast<Index>(triangles_.size()));
-    for (std::size_t v = 0; v < vertices_.size(); ++v) result.vertices.col(v) = vertices_[v];
-    for (std::size_t t = 0; t < triangles_.size(); ++t) result.triangles.col(t) = triangles_[t];
-    return result;
-  }
-
- private:
-  void cutTriangle(Index t) {
-    const std::array<int, 3>& middle = middle_[t];
-    const auto cuts = std::count_if(middle.begin(), middle.end(), [](int m) { return m >= 0; });
-    // Turn the triangle so that side 0 is the only cut one, or the only whole one.
-    int turn = 0;
-    while (cuts % 3 != 0 && (middle[turn] >= 0) != (cuts == 1)) ++turn;
-    const int a = mesh_.triangles(turn, t), b = mesh_.triangles((turn + 1) % 3, t),
-              c = mesh_.triangles((turn + 2) % 3, t);
-    const int ab = middle[turn], bc = middle[(turn + 1) % 3], ca = middle[(turn + 2) % 3];
-    switch (cuts) {
-      case 0:
-        add(a, b, c);
-        break;
-      case 1:
-        add(a, ab, c);
-        add(ab, b, c);
-        break;
-      case 2:
-        add(ca, bc, c);
-        addQuadrilateral(a, b, bc, ca);
-        break;
-      default:
-        add(a, ab, ca);
-        add(ab, b, bc);
-        add(ca, bc, c);
-        add(ab, bc, ca);
-    }
-  }
-
-  void add(int a, int b, int c) { triangles_.emplace_back(a, b, c); }
-
-  /// Along the shorter diagonal; among equal ones the choice follows the vertex numbers.
-  void addQuadrilateral(int a, int b, int c, int d) {
-    constexpr double kClearlyShorter = 0.99;
-    const double ac = (vertices_[a] - vertices_[c]).norm();
-    const double bd = (vertices_[b] - vertices_[d]).norm();
-    const bool along_ac = ac < kClearlyShorter * bd || (!(bd < kClearlyShorter * ac) && a < b);
-    if (along_ac) {
-      add(a, b, c);
-      add(a, c, d);
-    } else {
-      add(a, b, d);
-      add(b, c, d);
-    }
-  }
-
-  const TriangleMesh& mesh_;
-  std::vector<std::array<int, 3>> middle_;  ///< per triangle and side: the vertex that cuts it
-  std::vector<Vector3d> vertices_;
-  std::vector<Eigen::Vector3i> triangles_;
-};
-
-TriangleMesh cutLongEdges(const TriangleMesh& mesh) {
-  const MeshEdges edges = computeMeshEdges(mesh);
-  return Cutter(mesh, edges, markLongEdges(mesh, edges)).cut();
+DividedSurface cutLongEdges(const DividedSurface& surface) {
+  const MeshEdges edges = computeMeshEdges(surface.mesh);
+  return cutEdges(surface, edges, markLongEdges(surface.mesh, edges));
 }
 
 bool any(const Marks& marks) { return std::find(marks.begin(), marks.end(), true) != marks.end(); }
 
+/// Thinned across sharp edges up to so many times while at most `max_triangles` result; returns how
+/// often.
+int thinAcrossSharpEdges(bool sheet, int most_levels, int max_triangles, DividedSurface& surface) {
+  for (int level = 0; level < most_levels; ++level) {
+    const MeshEdges edges = computeMeshEdges(surface.mesh);
+    const Marks marks = markAcrossSharpEdges(surface.mesh, edges, sheet);
+    if (!any(marks)) return level;
+    DividedSurface finer = cutEdges(surface, edges, marks);
+    if (finer.mesh.triangleCount() > max_triangles) return level;
+    surface = std::move(finer);
+  }
+  return most_levels;
+}
+
+/// The surface before about the last halving of all its edges; null: it was not halved.
+const DividedSurface* beforeHalving(const std::vector<DividedSurface>& uniform) {
+  const auto last = static_cast<double>(uniform.back().mesh.triangleCount());
+  const DividedSurface* best = nullptr;
+  double least = std::log(1.6);  // of the ratio of triangles, from 4
+  for (const DividedSurface& surface : uniform) {
+    const auto count = static_cast<double>(surface.mesh.triangleCount());
+    const double distance = std::abs(std::log(last / (4 * count)));
+    if (distance >= least) continue;
+    least = distance;
+    best = &surface;
+  }
+  return best;
+}
+
 }  // namespace
 
 TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles) {
-  TriangleMesh fine = mesh;
-  while (fine.triangleCount() < least_triangles) fine = cutLongEdges(fine);
-  return fine;
+  DividedSurface fine = undivided(mesh);
+  while (fine.mesh.triangleCount() < least_triangles) fine = cutLongEdges(fine);
+  return fine.mesh;
 }
 
 TriangleMesh divideLongEdges(const TriangleMesh& mesh, double longest_edge) {
-  TriangleMesh fine = mesh;
+  DividedSurface fine = undivided(mesh);
   while (true) {
-    const MeshEdges edges = computeMeshEdges(fine);
-    const Marks marks = markLongerThan(longest_edge, fine, edges);
-    if (!any(marks)) return fine;
-    fine = Cutter(fine, edges, marks).cut();
+    const MeshEdges edges = computeMeshEdges(fine.mesh);
+    const Marks marks = markLongerThan(longest_edge, fine.mesh, edges);
+    if (!any(marks)) return fine.mesh;
+    fine = cutEdges(fine, edges, marks);
   }
 }
 
 TriangleMesh refineTowardsFirst(const TriangleMesh& mesh, Index vertex_count, int max_triangles) {
-  TriangleMesh fine = mesh;
+  DividedSurface fine = undivided(mesh);
   for (int level = 0; level < kEdgeLevels; ++level) {
-    const MeshEdges edges = computeMeshEdges(fine);
+    const MeshEdges edges = computeMeshEdges(fine.mesh);
     Marks marks;
     for (const EdgeGroup& edge : edges.edges) {
       const HalfEdge& side = edges.half_edges[edge.first];
       marks.push_back((side.low < vertex_count) != (side.high < vertex_count));
     }
-    TriangleMesh finer = Cutter(fine, edges, marks).cut();
-    if (finer.triangleCount() > max_triangles || !any(marks)) break;
+    DividedSurface finer = cutEdges(fine, edges, marks);
+    if (finer.mesh.triangleCount() > max_triangles || !any(marks)) break;
     fine = std::move(finer);
   }
-  return fine;
+  return fine.mesh;
+}
+
+SurfaceLevels refineInLevels(const TriangleMesh& mesh, bool sheet, int max_triangles) {
+  if (mesh.triangleCount() >= max_triangles) return {undivided(mesh), std::nullopt};
+  std::vector<DividedSurface> uniform = {undivided(mesh)};
+  while (true) {
+    DividedSurface finer = cutLongEdges(uniform.back());
+    if (kUniformShare * finer.mesh.triangleCount() > max_triangles) break;
+    uniform.push_back(std::move(finer));
+  }
+  SurfaceLevels levels{uniform.back(), std::nullopt};
+  const int thinned = thinAcrossSharpEdges(sheet, kEdgeLevels, max_triangles, levels.fine);
+  if (const DividedSurface* before = beforeHalving(uniform); before != nullptr && thinned > 0) {
+    DividedSurface coarse = *before;
+    thinAcrossSharpEdges(sheet, thinned - 1, max_triangles, coarse);
+    levels.coarse = std::move(coarse.mesh);
+  }
+  return levels;
 }
 
 TriangleMesh refineSurface(const TriangleMesh& mesh, bool sheet, int max_triangles) {
-  if (mesh.triangleCount() >= max_triangles) return mesh;
-  TriangleMesh fine = mesh;
-  while (true) {
-    TriangleMesh finer = cutLongEdges(fine);
-    if (kUniformShare * finer.triangleCount() > max_triangles) break;
-    fine = std::move(finer);
-  }
-  for (int level = 0; level < kEdgeLevels; ++level) {
-    const MeshEdges edges = computeMeshEdges(fine);
-    const Marks marks = markAcrossSharpEdges(fine, edges, sheet);
-    if (!any(marks)) break;
-    TriangleMesh finer = Cutter(fine, edges, marks).cut();
-    if (finer.triangleCount() > max_triangles) break;
-    fine = std::move(finer);
-  }
-  return fine;
+  return refineInLevels(mesh, sheet, max_triangles).fine.mesh;
 }
 
 }  // namespace ambient

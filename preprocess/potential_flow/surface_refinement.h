@@ -1,6 +1,8 @@
 #pragma once
 
-#include "preprocess/mesh/triangle_mesh.h"
+#include <optional>
+
+#include "preprocess/potential_flow/edge_cuts.h"
 
 namespace ambient {
 
@@ -11,6 +13,15 @@ namespace ambient {
 /// own. At most `max_triangles` result, or the mesh itself when it has more. Depends on the shape
 /// and the order of the mesh only, not on its place, size or attitude.
 TriangleMesh refineSurface(const TriangleMesh& mesh, bool sheet, int max_triangles);
+
+/// refineSurface() with what extrapolation needs.
+struct SurfaceLevels {
+  DividedSurface fine;
+  /// Edges twice as long and one level less across sharp edges; none where the faces were not
+  /// divided as a whole, or have no sharp edge.
+  std::optional<TriangleMesh> coarse;
+};
+SurfaceLevels refineInLevels(const TriangleMesh& mesh, bool sheet, int max_triangles);
 
 /// The same surface, its longest edges halved again and again until there are at least so many
 /// triangles, of similar size. Vertices of the mesh come first.

@@ -87,27 +87,27 @@ TEST(SurfaceRefinement, ThinsTrianglesAcrossSharpEdgesButNotAlongThem) {
   EXPECT_LT(nearestToAnEdge(fine, mesh.vertexCount()), 0.51 * nearestToAnEdge(mesh, 0));
 }
 
-TEST(RefinedFlow, CubeOf12TrianglesIsWithinHalfAPercent) {
+TEST(SurfaceRefinement, CubeOf12TrianglesIsWithinHalfAPercent) {
   const Matrix6 K = refinedAddedMassOf(makeBoxMesh({1, 1, 1}, 12));
   // 2496 panels; measured 2.4e-3.
   for (int k = 3; k < 6; ++k)
     EXPECT_LT(relativeError(K(k, k), 8 * reference::cubeAddedMassCoefficient()), 3e-3);
 }
 
-TEST(RefinedFlow, TetrahedronOf4TrianglesIsWithinHalfAPercent) {
+TEST(SurfaceRefinement, TetrahedronOf4TrianglesIsWithinHalfAPercent) {
   const Matrix6 K = refinedAddedMassOf(test::gradedTetrahedron(1));
   const double exact = reference::tetrahedronAddedMassCoefficient() * 8.0 / 3.0;
   // 2656 panels; measured 1.7e-3.
   for (int k = 3; k < 6; ++k) EXPECT_LT(relativeError(K(k, k), exact), 2.5e-3);
 }
 
-TEST(RefinedFlow, CoarseSheetIsWithinOnePercent) {
+TEST(SurfaceRefinement, CoarseSheetIsWithinOnePercent) {
   const Matrix6 K = refinedAddedMassOf(makeRectangularSheetMesh(2, 1, 16), kPanels, true);
   // 2216 panels; measured 3.7e-3, where the 16 triangles are off by 23 %.
   EXPECT_LT(relativeError(K(5, 5), reference::rectangleAddedMass(2).v_z), 6e-3);
 }
 
-TEST(RefinedFlow, ReturnsThePotentialAtTheVerticesOfTheMesh) {
+TEST(SurfaceRefinement, ReturnsThePotentialAtTheVerticesOfTheMesh) {
   const TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 192);
   PotentialFlowSettings settings;
   settings.max_panels = 1500;
@@ -120,7 +120,7 @@ TEST(RefinedFlow, ReturnsThePotentialAtTheVerticesOfTheMesh) {
     }
 }
 
-TEST(RefinedFlow, RotationAndSizeStayIdentities) {
+TEST(SurfaceRefinement, RotationAndSizeStayIdentities) {
   const TriangleMesh skew = test::skewBody(makeBoxMesh({0.5, 0.35, 0.6}, 48));
   // In a regular mesh all choices are between equals.
   const TriangleMesh cube = makeBoxMesh({1, 1, 1}, 12);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "preprocess/potential_flow/potential_flow.h"
+
+namespace ambient {
+
+/// The fluid's inertia of the body that a mesh stands for.
+struct RefinedFlow {
+  Matrix6 added_mass = Matrix6::Zero();  ///< per unit density, about the mesh's origin
+  double asymmetry = 0;                  ///< as PotentialFlow::asymmetry
+  Eigen::Index panels = 0;               ///< the most that equations were solved on
+};
+
+/// solvePotentialFlow() with three corrections that cost next to nothing. Where flat faces with
+/// sharp edges are divided, the result is extrapolated from two divisions, the coarser one with
+/// about a quarter of the panels. A closed mesh that turns gently stands for a smooth surface of
+/// the same volume: to first order its triangles bulge up to it. And what the symmetries of the
+/// body forbid is removed, however its faces are cut.
+/// @pre settings.true_volume == 0: the mesh has the volume of the body.
+/// @throws std::runtime_error as solvePotentialFlow().
+RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings);
+
+}  // namespace ambient

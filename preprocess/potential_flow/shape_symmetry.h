@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "bullet_ambient/spatial/vector_types.h"
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// Mirrors and half turns about the centre that map the solid to itself, whichever way its flat
+/// faces are cut into triangles: every edge that bends goes to one with the same faces, to 1e-7 of
+/// the size. Looked for along the axes of the mesh and the principal axes of its vertices. Cost
+/// O(T log T).
+std::vector<Eigen::Matrix3d> findSymmetries(const TriangleMesh& mesh,
+                                            const Eigen::Vector3d& centre);
+
+/// The inertia about that centre, rotation first, without what the symmetries forbid: the mean over
+/// each of them and none.
+Matrix6 symmetrised(Matrix6 inertia, const std::vector<Eigen::Matrix3d>& symmetries);
+
+}  // namespace ambient
