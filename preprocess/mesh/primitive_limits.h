@@ -8,7 +8,7 @@ namespace ambient {
 /// @throws std::runtime_error naming the shape, the size and its value.
 void requirePositiveSize(const std::string& shape, const std::string& what, double value);
 
-/// Refuses a number of faces below the least one the shape can be made of.
+/// Refuses a number of faces below the least one the shape can be made of, or above 1 000 000.
 /// @throws std::runtime_error naming the shape, the number and the limit.
 void requireFaces(const std::string& shape, int faces, int least);
 

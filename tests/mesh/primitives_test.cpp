@@ -212,6 +212,10 @@ TEST(Primitives, ImpossibleSizesAreRefusedByName) {
               makeBoxMesh({1, 1, 1}, 11);
             }),
             "box: faces = 11 is below the least possible number 12");
+  EXPECT_EQ(messageOf([] {
+              makeBoxMesh({1, 1, 1}, 1000000000);
+            }),
+            "box: faces = 1000000000 is above the largest number 1000000");
 }
 
 // Steiner's formula: V + m A + m^2 M + 4/3 pi m^3 with the integral M of the mean curvature.
