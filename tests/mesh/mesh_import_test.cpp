@@ -170,6 +170,20 @@ TEST_F(MeshImport, MissingAndForeignFilesAreRefused) {
   }
 }
 
+// Each of these ended or stopped the program, for assimp 5.2 crashes or never returns.
+TEST_F(MeshImport, DamagedFilesThatBringDownTheirReaderAreRefused) {
+  const std::string whole = plyText(unitTetrahedron());
+  const std::size_t end = whole.find("end_header");
+  for (const std::string& torn :
+       {whole.substr(0, end), whole.substr(0, end) + "end_headers\n", "PLY\nnoise " + whole}) {
+    EXPECT_EQ(refusal(write("torn.ply", torn)),
+              "cannot be read as a mesh: the header of the PLY file is damaged");
+  }
+  const std::string short_of_faces =
+      "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0\n1 0\n0 1 0\n3 0 2 1\n3 0 1 3\n; 0 3 2\n3 1 2 1\n";
+  EXPECT_NE(refusal(write("short.off", short_of_faces)), "");
+}
+
 TEST_F(MeshImport, FilesWithoutTrianglesAreRefused) {
   for (const auto& file : {write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
                            write("lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"),
