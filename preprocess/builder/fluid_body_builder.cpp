@@ -4,6 +4,7 @@
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/potential_flow/refined_flow.h"
 #include "preprocess/potential_flow/surface_refinement.h"
@@ -17,6 +18,13 @@ const std::string& sourceOf(const BuildSettings& settings) {
 
 MeshProperties massPropertiesOf(const TriangleMesh& mesh, bool sheet) {
   return sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
+}
+
+/// Uniform density between the surface and the cavities.
+MassDistribution uniformMassOf(const TriangleMesh& mesh, const MeshProperties& properties,
+                               const TriangleMesh& cavities) {
+  if (cavities.triangleCount() == 0) return properties.uniform;
+  return computeMassProperties(joinMeshes({mesh, cavities})).uniform;
 }
 
 TriangleMesh withTrueVolume(TriangleMesh mesh, const BuildSettings& settings) {
@@ -91,6 +99,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   TriangleMesh mesh = withTrueVolume(divideTriangles(source_mesh, settings.least_faces), settings);
   const MeshProperties properties = massPropertiesOf(mesh, settings.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
+  const MassDistribution uniform_mass = uniformMassOf(mesh, properties, settings.cavities);
   mesh.vertices.colwise() -= origin;
 
   FluidBody body;
@@ -107,9 +116,9 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   body.volume = properties.volume;
   body.area = settings.sheet ? 2 * properties.area : properties.area;
   body.origin = origin;
-  body.uniform_mass = aboutOrigin(properties.uniform, origin);
+  body.uniform_mass = aboutOrigin(uniform_mass, origin);
   body.surface_mass = aboutOrigin(properties.surface, origin);
-  body.centre_of_volume = body.uniform_mass.centre;
+  body.centre_of_volume = properties.uniform.centre - origin;
   body.faces = facesOf(mesh, settings.sheet);
   body.surface = surfaceOf(mesh);
   return body;

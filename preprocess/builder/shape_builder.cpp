@@ -7,6 +7,8 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/triangle_quality.h"
+#include "preprocess/potential_flow/ellipsoid_added_mass.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_mesh.h"
 
@@ -16,16 +18,63 @@ namespace {
 // Below this the faces, not the model, decide about the loads.
 constexpr Eigen::Index kCoarse = 100;
 
-std::string settingsText(const ShapeBuildSettings& settings, bool sheet) {
+// Panels are cut from triangles and keep their aspect; a cube with strips of an aspect of 1000 is
+// 7 % off in rotation.
+constexpr double kSkinny = 200;
+
+/// Semi-axes of a sphere or an ellipsoid.
+std::optional<Eigen::Vector3d> semiAxesOf(const ShapeDescription& shape) {
+  if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry)) {
+    return Eigen::Vector3d::Constant(sphere->radius);
+  }
+  if (const auto* ellipsoid = std::get_if<EllipsoidShape>(&shape.geometry)) {
+    return ellipsoid->semi_axes;
+  }
+  return std::nullopt;
+}
+
+/// A solver that is asked for by name is used, closed form or not.
+bool hasClosedForm(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
+  return semiAxesOf(shape).has_value() && settings.solver == FlowSolverKind::Automatic;
+}
+
+void warnOfMesh(CheckedMesh& checked, const ShapeDescription& shape, int least_faces) {
+  const auto warn = [&](const std::ostringstream& text) {
+    checked.warnings.push_back(shape.source + ": " + text.str());
+  };
+  std::ostringstream text;
+  text.precision(3);
+  if (std::max<Eigen::Index>(checked.mesh.triangleCount(), least_faces) < kCoarse) {
+    text << checked.mesh.triangleCount()
+         << " triangles are few: each has one sample of the slip velocity, so that loads in "
+            "rotation may be off by half; divide them (least faces 400)";
+    warn(text);
+  }
+  const TriangleQuality worst = findWorstTriangles(checked.mesh, 1).front();
+  if (worst.aspect > kSkinny && !fileOf(shape).empty()) {
+    text.str({});
+    text << "triangle " << worst.triangle << " at " << pointText(worst.barycentre) << " is "
+         << worst.aspect << " times as long as high: if the body is not that thin there, the added "
+         << "mass may be some per cent off (the report estimates its error)";
+    warn(text);
+  }
+}
+
+std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
   std::ostringstream text;
   text.precision(17);
-  text << (sheet ? "sheet" : "body") << ", scale " << settings.scale << ", origin ";
+  text << (isSheet(shape) ? "sheet" : "body") << ", scale " << settings.scale << ", origin ";
   if (settings.origin) {
     text << settings.origin->x() << "," << settings.origin->y() << "," << settings.origin->z();
   } else {
     text << "centre-of-volume";
   }
-  text << ", faces " << settings.least_faces << ", panels " << settings.max_panels;
+  text << ", faces " << settings.least_faces;
+  if (hasClosedForm(shape, settings)) {
+    text << ", closed form";
+    return text.str();
+  }
+  text << ", panels " << settings.max_panels;
   if (settings.solver == FlowSolverKind::Dense) text << ", dense";
   if (settings.solver == FlowSolverKind::Hierarchical) text << ", hierarchical";
   return text.str();
@@ -56,7 +105,7 @@ Provenance describeShape(const ShapeDescription& shape, const ShapeBuildSettings
   Provenance provenance;
   provenance.source = file.empty() ? shape.text : file.filename().string();
   provenance.source_hash = fnv1a64(file.empty() ? shape.text : readBytes(file));
-  provenance.settings = settingsText(effective, isSheet(shape));
+  provenance.settings = settingsText(shape, effective);
   provenance.generator = libraryVersion();
   return provenance;
 }
@@ -80,17 +129,19 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   }
   CheckedMesh checked = makeShapeMesh(shape);
   checked.mesh.vertices *= settings.scale;
-  if (std::max<Eigen::Index>(checked.mesh.triangleCount(), settings.least_faces) < kCoarse) {
-    checked.warnings.push_back(
-        shape.source + ": " + std::to_string(checked.mesh.triangleCount()) +
-        " triangles are few: each has one sample of the slip velocity, so that loads in "
-        "rotation may be off by half; divide them (least faces 400)");
-  }
+  checked.cavities.vertices *= settings.scale;
+  warnOfMesh(checked, shape, settings.least_faces);
   BuildSettings build;
   build.name = settings.name;
   build.source = shape.source;
   build.origin = settings.origin;
   build.sheet = isSheet(shape);
+  build.cavities = checked.cavities;
+  if (hasClosedForm(shape, settings)) {
+    // Spin about an axis of revolution moves nothing, but for rounding of either sign.
+    const Vector6 diagonal = ellipsoidAddedMass(settings.scale * *semiAxesOf(shape)).cwiseMax(0);
+    build.added_mass = diagonal.asDiagonal().toDenseMatrix();
+  }
   build.least_faces = settings.least_faces;
   build.max_panels = settings.max_panels;
   build.threads = settings.threads;

@@ -29,6 +29,7 @@ struct BuiltBody {
 };
 
 /// Makes the mesh of a shape and its fluid body; a FluidBodyShape is read from its file as it is.
+/// Spheres and ellipsoids get the closed form of their added mass, unless a solver is named.
 /// The provenance is the file and its hash, or the text of the shape.
 /// @throws std::runtime_error in one line that names the file or the shape's source. A fluid body
 /// can be neither moved nor scaled here.

@@ -7,6 +7,7 @@
 #include "preprocess/collision_shape/collision_solids.h"
 #include "preprocess/collision_shape/solid_contact.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/join_meshes.h"
 #include "preprocess/potential_flow/potential_flow.h"
 
 namespace ambient {
@@ -37,6 +38,7 @@ Provenance provenanceOf(const btCollisionShape& shape, const std::vector<Solid>&
   for (const Solid& solid : solids) {
     appendBytes(solid.mesh, bytes);
     appendBytes(solid.flow, bytes);
+    appendBytes(solid.cavities, bytes);
   }
   Provenance provenance;
   provenance.source = std::string("collision shape ") + shape.getName();
@@ -59,25 +61,11 @@ void requireGaps(const std::vector<Solid>& solids, const std::string& name) {
   }
 }
 
-TriangleMesh joined(const std::vector<Solid>& solids) {
-  Eigen::Index vertices = 0, triangles = 0;
-  for (const Solid& solid : solids) {
-    vertices += solid.mesh.vertexCount();
-    triangles += solid.mesh.triangleCount();
-  }
-  TriangleMesh mesh;
-  mesh.vertices.resize(3, vertices);
-  mesh.triangles.resize(3, triangles);
-  vertices = triangles = 0;
-  for (const Solid& solid : solids) {
-    const TriangleMesh& part = solid.mesh;
-    mesh.vertices.middleCols(vertices, part.vertexCount()) = part.vertices;
-    mesh.triangles.middleCols(triangles, part.triangleCount()) =
-        part.triangles.array() + static_cast<int>(vertices);
-    vertices += part.vertexCount();
-    triangles += part.triangleCount();
-  }
-  return mesh;
+/// One surface of all solids, or of all cavities.
+TriangleMesh joined(const std::vector<Solid>& solids, TriangleMesh Solid::*surface) {
+  std::vector<TriangleMesh> parts;
+  for (const Solid& solid : solids) parts.push_back(solid.*surface);
+  return joinMeshes(parts);
 }
 
 Matrix6 solvedAddedMass(const TriangleMesh& mesh, const CollisionShapeSettings& settings,
@@ -124,7 +112,8 @@ FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSetti
   build.provenance = provenanceOf(shape, solids, settings);
   requireGaps(solids, build.name);
   if (solids.size() == 1) build.added_mass = addedMassOf(solids.front(), settings, build.name);
-  return makeFluidBody(joined(solids), build);
+  build.cavities = joined(solids, &Solid::cavities);
+  return makeFluidBody(joined(solids, &Solid::mesh), build);
 }
 
 Provenance describeCollisionShape(const btCollisionShape& shape,

@@ -44,7 +44,7 @@ Eigen::Matrix3d axisAlong(int up_axis) {
 }
 
 Solid placed(Solid solid, const Eigen::Affine3d& pose) {
-  for (TriangleMesh* mesh : {&solid.mesh, &solid.flow, &solid.coarse_flow}) {
+  for (TriangleMesh* mesh : {&solid.mesh, &solid.flow, &solid.coarse_flow, &solid.cavities}) {
     mesh->vertices = (pose.linear() * mesh->vertices).colwise() + pose.translation();
   }
   if (solid.added_mass) {
@@ -149,7 +149,9 @@ class SolidCollector {
       appendCorners(shape, corners);
     }
     Solid solid;
-    solid.mesh = checkMesh(joinTriangles(corners), place.name).mesh;
+    CheckedMesh checked = checkMesh(joinTriangles(corners), place.name);
+    solid.mesh = std::move(checked.mesh);
+    solid.cavities = std::move(checked.cavities);
     solids_.push_back(placed(solid, place.pose));
   }
 

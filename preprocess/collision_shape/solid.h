@@ -13,6 +13,7 @@ struct Solid {
   TriangleMesh flow;  ///< the same body, finer, for the flow alone; without triangles: `mesh`
   TriangleMesh coarse_flow;  ///< and coarser: the error shrinks as 1 / `flow_ratio` from here on
   double flow_ratio = 0;     ///< to `flow`, so that the result can be extrapolated; 0: it is not
+  TriangleMesh cavities;     ///< closed, inside; they only matter to the uniform mass
   /// The closed form about the shape's origin, if there is one, per unit density.
   std::optional<Matrix6> added_mass;
 };

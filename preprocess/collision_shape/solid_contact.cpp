@@ -1,8 +1,8 @@
 #include "preprocess/collision_shape/solid_contact.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "preprocess/mesh/triangle_contact.h"
 #include "preprocess/mesh/winding_number.h"
 
 namespace ambient {
@@ -32,34 +32,6 @@ Box boxOf(const TriangleMesh& mesh, Index t) {
 
 double sizeOf(const Box& box) { return (box.high - box.low).maxCoeff(); }
 
-double sixfoldVolume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
-  return (b - a).cross(c - a).dot(d - a);
-}
-
-bool crosses(const Vector3d& p, const Vector3d& q, const TriangleMesh& mesh, Index t) {
-  const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-  if (sixfoldVolume(a, b, c, p) * sixfoldVolume(a, b, c, q) > 0) return false;
-  const double u = sixfoldVolume(p, q, a, b), v = sixfoldVolume(p, q, b, c),
-               w = sixfoldVolume(p, q, c, a);
-  return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
-}
-
-double distanceToSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
-  const double along = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (x - a - along * (b - a)).norm();
-}
-
-double distanceToTriangle(const Vector3d& x, const TriangleMesh& mesh, Index t) {
-  const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-  const Vector3d normal = (b - a).cross(c - a).normalized();
-  const auto isInside = [&](const Vector3d& from, const Vector3d& to) {
-    return (to - from).cross(x - from).dot(normal) >= 0;
-  };
-  if (isInside(a, b) && isInside(b, c) && isInside(c, a)) return std::abs((x - a).dot(normal));
-  return std::min(
-      {distanceToSegment(x, a, b), distanceToSegment(x, b, c), distanceToSegment(x, c, a)});
-}
-
 bool isInside(const Vector3d& x, const TriangleMesh& mesh) {
   double angle = 0;
   for (Index t = 0; t < mesh.triangleCount(); ++t) angle += solidAngle(mesh, t, x);
@@ -76,7 +48,7 @@ bool reaches(const TriangleMesh& a, const TriangleMesh& b, double gap) {
       if (!box.meets(boxOf(b, t), gap)) continue;
       for (int k = 0; k < 3; ++k) {
         if (distanceToTriangle(a.corner(s, k), b, t) < gap) return true;
-        if (crosses(a.corner(s, k), a.corner(s, (k + 1) % 3), b, t)) return true;
+        if (crossesTriangle(a.corner(s, k), a.corner(s, (k + 1) % 3), b, t)) return true;
       }
     }
   }

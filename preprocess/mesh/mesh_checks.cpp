@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mesh_shells.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
@@ -191,6 +192,7 @@ CheckedMesh withoutUnusedVertices(const TriangleMesh& mesh, const std::string& n
 
 void takeStep(CheckedMesh& so_far, CheckedMesh step) {
   so_far.mesh = std::move(step.mesh);
+  so_far.cavities = std::move(step.cavities);
   so_far.warnings.insert(so_far.warnings.end(), step.warnings.begin(), step.warnings.end());
 }
 

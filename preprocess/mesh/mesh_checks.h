@@ -15,7 +15,8 @@ struct MeshCheckSettings {
 /// Checks that a mesh can stand for a body (closed, manifold, outward oriented, enclosing a volume
 /// once) or for a sheet (every part open, manifold, one side throughout, with vertices inside the
 /// boundary). Orientation is mended and vertices that no triangle uses are left out, both with a
-/// warning. `name` begins every warning and error.
+/// warning. Cavities are taken out, for the fluid outside does not see them. `name` begins every
+/// warning and error.
 /// Cost O(T log T) and at most some 10^7 solid angles.
 /// @throws std::runtime_error in one line with the first of these that is found: no triangles, a
 /// coordinate that is not finite, an index out of range, a degenerate triangle (height below 1e-7

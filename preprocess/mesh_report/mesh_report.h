@@ -5,7 +5,7 @@
 
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
-#include "preprocess/mesh_report/mesh_shape_quality.h"
+#include "preprocess/mesh/triangle_quality.h"
 
 namespace ambient {
 

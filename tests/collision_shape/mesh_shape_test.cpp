@@ -45,6 +45,19 @@ TEST(MeshShape, GImpactMeshScales) {
   EXPECT_NEAR(makeFluidBody(shape, coarse()).volume, 4, 4 * kScalarRounding);
 }
 
+TEST(MeshShape, CavitiesDoNotDisplace) {
+  const TriangleMesh outside = makeBoxMesh({1, 1, 1}, 200);
+  btTriangleMesh triangles;
+  addTriangles(joined(outside, moved(insideOut(unitTetrahedron()), {-0.2, -0.2, -0.2})), triangles);
+  btGImpactMeshShape shape(&triangles);
+  shape.updateBound();
+  const FluidBody body = makeFluidBody(shape, coarse());
+  EXPECT_NEAR(body.volume, 8, 8 * kScalarRounding);
+  EXPECT_EQ(body.faces.size(), static_cast<std::size_t>(outside.triangleCount()));
+  // The tetrahedron's 1/6, its centre at 0.05.
+  EXPECT_NEAR(body.uniform_mass.centre.x(), -0.05 / 6 / (8 - 1.0 / 6), 1e-6);
+}
+
 TEST(MeshShape, OpenMeshesAreRefused) {
   btTriangleMesh triangles;
   addTriangles(withoutTriangle(unitTetrahedron(), 0), triangles);

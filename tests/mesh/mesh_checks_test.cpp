@@ -145,38 +145,69 @@ TEST(MeshChecks, OnlyThePartThatIsInsideOutIsTurned) {
             "thing.obj: inside out, 12 of 24 triangles were turned round to point into the fluid");
 }
 
-TEST(MeshChecks, CavitiesAreKeptAndTurnedWithTheirBody) {
+TEST(MeshChecks, CavitiesAreTakenOutWithAWarning) {
   const TriangleMesh hollow = joined(cube(2), insideOut(cube(1)));
-  EXPECT_TRUE(areEqual(checkMesh(hollow, "thing.obj").mesh, hollow));
-  const CheckedMesh turned = checkMesh(insideOut(hollow), "thing.obj");
-  EXPECT_NEAR(computeMassProperties(turned.mesh).volume, 64 - 8, 1e-12);
-  EXPECT_EQ(turned.warnings.size(), 1u);
-  const TriangleMesh nested_body = joined(hollow, cube(0.5));  // floats in the cavity
-  EXPECT_NEAR(computeMassProperties(checkMesh(nested_body, "thing.obj").mesh).volume, 57, 1e-12);
+  const std::string warning =
+      "thing.obj: 1 cavity of 12.5 % of the volume: the fluid outside does not see what is inside, "
+      "which stays dry and only counts as empty in the uniform mass";
+  for (const TriangleMesh& mesh : {hollow, insideOut(hollow)}) {
+    const CheckedMesh checked = checkMesh(mesh, "thing.obj");
+    EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 64, 1e-12);
+    EXPECT_NEAR(computeMassProperties(joined(checked.mesh, checked.cavities)).volume, 56, 1e-12);
+    EXPECT_EQ(checked.warnings.back(), warning);
+  }
+  const CheckedMesh nested = checkMesh(joined(hollow, cube(0.5)), "thing.obj");  // in the cavity
+  EXPECT_NEAR(computeMassProperties(nested.mesh).volume, 64, 1e-12);
+  EXPECT_NEAR(computeMassProperties(joined(nested.mesh, nested.cavities)).volume, 57, 1e-12);
 }
 
 TEST(MeshChecks, NestedPartsThatCountTwiceAreRefused) {
   EXPECT_EQ(refusal(joined(cube(2), cube(1))),
             "thing.obj: the part around triangle 12 at (-1, -1, -1) (12 triangles) lies inside "
             "another part and points outwards: its volume would count twice; leave it out, or turn "
-            "it round if it is a cavity filled with fluid");
+            "it round if it is a cavity");
 }
 
-TEST(MeshChecks, OverlappingPartsAreRefused) {
-  const TriangleMesh overlapping =
-      joined(makeBoxMesh({1, 1, 1}, 300), moved(makeBoxMesh({1, 1, 1}, 300), {1.3, 0.4, 0.3}));
-  const std::string message = refusal(overlapping);
-  EXPECT_NE(message.find("thing.obj: the volume contradicts itself: at triangle "),
-            std::string::npos)
-      << message;
-  EXPECT_NE(message.find("encloses the body side 2 times, must be 1"), std::string::npos);
+TEST(MeshChecks, PartsThatOverlapOrTouchAreRefused) {
+  const std::string message = "thing.obj: separate parts of the surface overlap or touch at triang";
+  const TriangleMesh box = makeBoxMesh({1, 1, 1}, 300);
+  const Eigen::Vector3d oblique(1.3, 0.4, 0.3), beside(2, 0, 0), shifted(2, 0.3, 0.2);
+  for (const Eigen::Vector3d& by : {oblique, beside, shifted}) {
+    EXPECT_EQ(refusal(joined(box, moved(box, by))).find(message), 0u) << by.transpose();
+    EXPECT_EQ(refusal(scaled(joined(box, moved(box, by)), 1e-60)).find(message), 0u);
+  }
+  EXPECT_EQ(refusal(joined(box, moved(box, {2.001, 0.3, 0.2}))), "no error");
+  EXPECT_EQ(refusal(joined(box, makeBoxMesh({3, 0.5, 0.5}, 300))).find(message), 0u) << "a cross";
+  const TriangleMesh same = joined(box, box);
+  EXPECT_EQ(refusal(same).find(message), 0u) << "one upon the other";
 }
 
-TEST(MeshChecks, OverlappingPartsOfLargeMeshesAreFoundBySample) {
+// A sample of points would miss so little.
+TEST(MeshChecks, SmallOverlapsOfLargePartsAreFound) {
   const TriangleMesh ball = makeEllipsoidMesh({1, 1, 1}, 20000);
-  EXPECT_EQ(refusal(joined(ball, moved(ball, {2.1, 0, 0}))), "no error");
-  EXPECT_NE(refusal(joined(ball, moved(ball, {1.2, 0.3, 0.4}))).find("contradicts itself"),
+  EXPECT_EQ(refusal(joined(ball, moved(ball, {2.001, 0, 0}))), "no error");
+  EXPECT_NE(refusal(joined(ball, moved(ball, {1.99, 0, 0}))).find("overlap or touch"),
             std::string::npos);
+}
+
+TEST(MeshChecks, SurfacesThatCrossThemselvesAreWarnedOf) {
+  // One corner of a cube is pulled through the opposite side.
+  TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 1200);
+  Eigen::Index corner = 0;
+  mesh.vertices.colwise().sum().maxCoeff(&corner);
+  mesh.vertices.col(corner) << 0.9, 0.9, -1.1;
+  const CheckedMesh checked = checkMesh(mesh, "thing.obj");
+  ASSERT_EQ(checked.warnings.size(), 1u);
+  EXPECT_EQ(checked.warnings[0].find("thing.obj: the surface crosses itself at triangle "), 0u)
+      << checked.warnings[0];
+}
+
+TEST(MeshChecks, TJunctionsAreRefusedAsOpen) {
+  // The side 0 1 2 of a tetrahedron is divided, its neighbour is not.
+  const TriangleMesh mesh = meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}},
+                                   {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+  EXPECT_NE(refusal(mesh).find("not watertight: 3 boundary edges"), std::string::npos)
+      << refusal(mesh);
 }
 
 TEST(MeshChecks, SurfacesThatEncloseNothingAreRefused) {

@@ -10,6 +10,7 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/primitives.h"
+#include "preprocess/potential_flow/ellipsoid_added_mass.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/mesh/mesh_files.h"
 #include "tests/mesh/mesh_fixtures.h"
@@ -151,14 +152,51 @@ TEST(FluidBodyBuilder, MeshesBeyondTheRangeOfADoubleAreRefused) {
 
 // Lamb, Hydrodynamics: sphere V/2 per axis, nothing in rotation.
 TEST(ShapeBuilder, SphereHasHalfItsVolumeAsAddedMass) {
-  const BuiltBody sphere = buildText(R"({"type":"sphere","radius":0.5})");
+  const std::string text = R"({"type":"sphere","radius":0.5})";
+  const BuiltBody sphere = buildText(text);
   const double volume = kPi / 6;
   EXPECT_TRUE(sphere.warnings.empty());
   EXPECT_NEAR(sphere.body.volume / volume, 1, 1e-13);
   Matrix6 expected = Matrix6::Zero();
   expected.bottomRightCorner<3, 3>() = volume / 2 * Matrix3::Identity();
-  // Discretisation at 1280 faces, measured 1e-5.
-  EXPECT_LT(relativeError(sphere.body.added_mass, expected), 3e-5);
+  EXPECT_LT(relativeError(sphere.body.added_mass, expected), 1e-14);
+  ShapeBuildSettings solved;
+  solved.solver = FlowSolverKind::Dense;
+  const double discretisation = relativeError(buildText(text, solved).body.added_mass, expected);
+  EXPECT_GT(discretisation, 1e-9);
+  EXPECT_LT(discretisation, 3e-5);  // at 1280 faces, measured 1e-5
+}
+
+TEST(ShapeBuilder, EllipsoidsHaveTheirClosedFormWhereverTheOriginIs) {
+  ShapeBuildSettings settings;
+  settings.scale = 2;
+  settings.origin = Eigen::Vector3d(0.3, -0.2, 0.1);
+  const FluidBody body =
+      buildText(R"({"type":"ellipsoid","semi_axes":[0.5,0.4,0.1],"faces":320})", settings).body;
+  const Matrix6 K = ellipsoidAddedMass({1, 0.8, 0.2}).asDiagonal();
+  EXPECT_LT(relativeError(body.added_mass, shiftOrigin(K, *settings.origin)), 1e-14);
+  EXPECT_EQ(body.provenance.settings.substr(body.provenance.settings.rfind(',')), ", closed form");
+  checkFluidBody(body, "ellipsoid");
+}
+
+// The fluid outside does not see a cavity; the uniform mass does.
+TEST(FluidBodyBuilder, CavitiesMatterToTheUniformMassOnly) {
+  const TriangleMesh outside = makeBoxMesh({1, 2, 3}, 200);
+  const TriangleMesh hole = moved(makeBoxMesh({0.5, 0.5, 0.5}, 48), {0.2, 0, 0});
+  BuildSettings settings;
+  settings.added_mass = Matrix6::Identity();
+  const FluidBody solid = build(outside, settings);
+  settings.cavities = insideOut(hole);
+  const FluidBody hollow = build(outside, settings);
+  EXPECT_EQ(hollow.volume, solid.volume);
+  EXPECT_EQ(hollow.faces.size(), solid.faces.size());
+  EXPECT_EQ(hollow.centre_of_volume, solid.centre_of_volume);
+  EXPECT_EQ(hollow.surface_mass.inertia, solid.surface_mass.inertia);
+  // 48 less 1 at 0.2 along x.
+  EXPECT_NEAR(hollow.uniform_mass.centre.x(), -0.2 / 47, 1e-12);
+  const double inertia = (48 * (4 + 9) / 3.0 - (0.25 + 0.25) / 3) / 47;
+  EXPECT_NEAR(hollow.uniform_mass.inertia(0, 0), inertia, 1e-12);
+  checkFluidBody(hollow, "hollow");
 }
 
 // Lamb section 102: a disc of radius a has 8/3 a^3 broadside and 16/45 a^5 about a diameter.
@@ -208,6 +246,23 @@ TEST(ShapeBuilder, CoarseMeshesAreWarnedAbout) {
   const BuiltBody ball = buildText(R"({"type":"sphere","radius":1,"faces":80})");
   ASSERT_EQ(ball.warnings.size(), 1u);
   EXPECT_EQ(ball.warnings[0].find("shape.json: 80 triangles are few"), 0u) << ball.warnings[0];
+}
+
+TEST(ShapeBuilder, SkinnyTrianglesOfFilesAreWarnedAbout) {
+  const TemporaryFolder folder;
+  ShapeDescription shape;
+  shape.geometry = MeshShape{folder.path() / "box.obj"};
+  shape.source = "box.obj";
+  ShapeBuildSettings settings;
+  settings.max_panels = 0;
+  const auto warningsOf = [&](double thickness) {
+    writeText(folder.path() / "box.obj", objText(makeBoxMesh({1, 1, thickness}, 200)));
+    return buildShape(shape, settings).warnings;
+  };
+  EXPECT_TRUE(warningsOf(0.1).empty());
+  const std::vector<std::string> warnings = warningsOf(0.0005);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find(" times as long as high"), std::string::npos) << warnings[0];
 }
 
 TEST(ShapeBuilder, FluidBodiesAreReadAsTheyAre) {

@@ -1,4 +1,4 @@
-#include "preprocess/mesh_report/mesh_shape_quality.h"
+#include "preprocess/mesh/triangle_quality.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// Two triangles without a common corner that meet.
+struct TrianglePair {
+  int first = 0, second = 0;
+};
+
+/// One example of each kind, if there is any.
+struct SurfaceCrossings {
+  std::optional<TrianglePair> between_parts, within_part;
+};
+
+/// Finds where a surface crosses itself, and where separate parts of it cross or come closer to
+/// each other than a millionth of its size; `part_of` each triangle. The search ends with the first
+/// pair of separate parts. Cost O(T log T) plus the pairs that overlap in one direction, some
+/// O(T^1.5) for even meshes.
+/// @pre coordinates finite, triangles with an area.
+SurfaceCrossings findSurfaceCrossings(const TriangleMesh& mesh, const std::vector<int>& part_of);
+
+}  // namespace ambient
