@@ -86,6 +86,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   BodyModel model = task.model;
   model.inverse_inertia =
       rotateAxes(lockedInverse(rotateAxes(model.inertia, R), factors), R.transpose());
+  model.has_diagonal_inertia = false;
   Twist relative = start.twist;
   relative.linear -= R.transpose() * s.ambient_velocity;
   const Vector6 x = relative.vector();
@@ -96,7 +97,10 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
     const SurfaceLoad load = computeSurfaceLoad(model, relative);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;
-    forced += (passiveKick(model, x, {x, load.wrench.vector()}, dt) - x) / dt;
+    const DualPair motion = pairOfTwist(model, x);
+    // Not the wrench itself, but what of it the locks let through.
+    const DualPair sample = pairOfTwist(model, model.inverse_inertia * load.wrench.vector());
+    forced += (passiveKick(motion, {motion, sample}, dt).twist - x) / dt;
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
   result.turn = classifyTurn(model, dt * (rates.acceleration(x) - forced), x, dt);

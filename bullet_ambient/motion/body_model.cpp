@@ -149,6 +149,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   }
   model.inverse_inertia = cholesky.solve(Eigen::Matrix<double, 6, 6>::Identity());
   model.inverse_inertia = 0.5 * (model.inverse_inertia + model.inverse_inertia.transpose()).eval();
+  model.has_diagonal_inertia = model.inertia.isDiagonal(0) && model.inverse_inertia.isDiagonal(0);
   model.mass = mass.mass;
   model.displaced_mass = medium.density * fluid_body.volume;
   model.centre_of_volume =

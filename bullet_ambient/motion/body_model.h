@@ -6,6 +6,7 @@
 #include "bullet_ambient/fluid_body/packed_faces.h"
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/medium.h"
+#include "bullet_ambient/motion/dual_pair.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -52,15 +53,16 @@ struct MassProperties {
 /// changes of either. Frame: body frame B at the centre of mass. Points into the fluid body and the
 /// flow settings that it was made of, which must outlive it.
 struct BodyModel {
-  Matrix6 inertia;                   ///< K = K_body + rho K_fluid, docs/theory.md eq. (3); SPD
-  Matrix6 inverse_inertia;           ///< K^-1
-  double mass = 0;                   ///< of the body without fluid [kg]
-  double displaced_mass = 0;         ///< m_f = rho volume [kg]
-  Vector3 centre_of_volume;          ///< in B [m]
-  FrameOffset fluid_frame;           ///< F in B
-  LoadSettings loads;                ///< how the faces are loaded
-  double reference_length = 0;       ///< sqrt(area) [m]
-  const FaceTable* faces = nullptr;  ///< in F
+  Matrix6 inertia;                    ///< K = K_body + rho K_fluid, docs/theory.md eq. (3); SPD
+  Matrix6 inverse_inertia;            ///< K^-1
+  bool has_diagonal_inertia = false;  ///< both are: three planes of symmetry
+  double mass = 0;                    ///< of the body without fluid [kg]
+  double displaced_mass = 0;          ///< m_f = rho volume [kg]
+  Vector3 centre_of_volume;           ///< in B [m]
+  FrameOffset fluid_frame;            ///< F in B
+  LoadSettings loads;                 ///< how the faces are loaded
+  double reference_length = 0;        ///< sqrt(area) [m]
+  const FaceTable* faces = nullptr;   ///< in F
   std::shared_ptr<const PackedFaces> packed_faces;  ///< the same; null: loads in double precision
   const LoadLevel* level = nullptr;                 ///< of reduced loads; null: all faces
   const SurfaceLoadModel* load_model = nullptr;     ///< null: pressure and friction
@@ -86,9 +88,22 @@ struct SurfaceLoad {
 };
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept;
 
+/// A twist with its momentum K x.
+inline DualPair pairOfTwist(const BodyModel& model, const Vector6& x) {
+  if (model.has_diagonal_inertia) return {x, model.inertia.diagonal().cwiseProduct(x)};
+  return {x, model.inertia * x};
+}
+
+/// A momentum, or wrench, with its twist, or acceleration, K^-1 m.
+inline DualPair pairOfMomentum(const BodyModel& model, const Vector6& m) {
+  if (model.has_diagonal_inertia) return {model.inverse_inertia.diagonal().cwiseProduct(m), m};
+  return {model.inverse_inertia * m, m};
+}
+
 /// Twice the kinetic energy of body and fluid, x.K x [J].
 inline double inertiaNormSquared(const BodyModel& model, const Vector6& x) {
-  return x.dot(model.inertia * x);
+  const DualPair pair = pairOfTwist(model, x);
+  return inner(pair, pair);
 }
 
 }  // namespace ambient

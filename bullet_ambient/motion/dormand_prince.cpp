@@ -64,7 +64,8 @@ class Pair {
     const Vector3 arm = end.position - equations_.start().position;
     const Momentum m{to_body * (error.angular - arm.cross(error.linear)), to_body * error.linear};
     const double change = std::sqrt(m.vector().dot(model.inverse_inertia * m.vector()));
-    const double scale = motionScale(task_, end.twist.vector());
+    const double scale =
+        std::sqrt(inertiaNormSquared(model, end.twist.vector())) + fallScale(task_);
     const double turn = 2 * error.orientation.norm() / next_.orientation.norm();
     const double shift = error.position.norm();
     const double length = model.reference_length;

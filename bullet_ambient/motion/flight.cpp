@@ -19,12 +19,11 @@ Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings,
          buoyancy(model.displaced_mass, model.centre_of_volume, gravity);
 }
 
-double motionScale(const FlightTask& task, const Vector6& x) {
+double fallScale(const FlightTask& task) {
   const BodyModel& model = task.model;
   const Surroundings& s = task.surroundings;
   const double pull = (s.applied.force / model.mass - s.ambient_acceleration).norm();
-  return std::sqrt(inertiaNormSquared(model, x)) +
-         std::sqrt(model.largest_mass * pull * model.reference_length);
+  return std::sqrt(model.largest_mass * pull * model.reference_length);
 }
 
 namespace {

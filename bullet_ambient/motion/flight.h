@@ -67,9 +67,10 @@ struct FlightTask {
   double duration;  ///< [s], > 0
 };
 
-/// What errors of the velocity are measured against: size of a twist x in the metric of K, and that
-/// of a body that falls by its own size, the denominator of docs/theory.md eq. (25) [sqrt(J)].
-double motionScale(const FlightTask& task, const Vector6& x);
+/// Size in the metric of K of the motion of a body that falls by its own size: it is added to that
+/// of its motion where errors of the velocity are compared with it, in the denominator of
+/// docs/theory.md eq. (25) [sqrt(J)].
+double fallScale(const FlightTask& task);
 
 /// Integrates Kirchhoff's equations with loads over the task's duration from `start` (twist
 /// absolute, in B). Works in the frame that moves with the ambient flow. Allocates nothing. The

@@ -17,76 +17,85 @@ constexpr double kAcceptance =
 
 Wrench turnedBy(const Quaternion& q, const Wrench& f) { return {q * f.torque, q * f.force}; }
 
+// One body on its way through the substeps of a step.
+struct Way {
+  MomentumState state;
+  FlightMemory memory;
+  FlightCount count;
+};
+
 // The part of one substep between its half flows: gravity and surface loads.
 class Kick {
  public:
-  Kick(const FlightTask& task, double duration) : task_(task), model_(task.model), h_(duration) {}
+  Kick(const FlightTask& task, double duration)
+      : task_(task), model_(task.model), h_(duration), fall_scale_(fallScale(task)) {}
 
   // Returns the error estimate of eq. (25).
-  double act(FlightResult& flight) const {
-    const Wrench external = externalWrench(model_, task_.surroundings, flight.state.orientation);
-    const Vector6 fall = h_ / 2 * (model_.inverse_inertia * external.vector());
-    const Vector6 x = flight.state.twist.vector() + fall;
-    const Loaded loaded = model_.has_surface_loads ? kickByLoads(flight, x) : Loaded{x, 0};
-    flight.state.twist = Twist::fromVector(loaded.x + fall);
-    ++flight.count.substeps;
-    return loaded.error;
+  double act(Way& way) const {
+    const Wrench external = externalWrench(model_, task_.surroundings, way.state.orientation);
+    const DualPair fall = h_ / 2 * pairOfMomentum(model_, external.vector());
+    DualPair& x = way.state.motion;
+    x += fall;
+    const double error = model_.has_surface_loads ? actByLoads(way) : 0;
+    x += fall;
+    ++way.count.substeps;
+    return error;
   }
 
  private:
-  struct Loaded {
-    Vector6 x;
-    double error;
-  };
-
   // Surface loads over the whole substep, predicted by those of the last one.
-  Loaded kickByLoads(FlightResult& flight, const Vector6& x) const {
-    const Quaternion& q = flight.state.orientation;
-    const Wrench guess = flight.memory.has_load ? turnedBy(q.conjugate(), flight.memory.load_W)
-                                                : evaluate(flight, x);
-    const Vector6 mid = passiveKick(model_, x, {x, guess.vector()}, h_ / 2);
-    const Wrench load = evaluate(flight, mid);
-    flight.memory.load_W = turnedBy(q, load);
-    flight.memory.has_load = true;
-    const Vector6 change = load.vector() - guess.vector();
-    return {passiveKick(model_, x, {mid, load.vector()}, h_), relativeError(x, change)};
+  double actByLoads(Way& way) const {
+    const Quaternion& q = way.state.orientation;
+    DualPair& x = way.state.motion;
+    const Wrench guess =
+        way.memory.has_load ? turnedBy(q.conjugate(), way.memory.load_W) : evaluate(way, x.twist);
+    const LoadSample before{x, pairOfMomentum(model_, guess.vector())};
+    const DualPair mid = passiveKick(x, before, h_ / 2);
+    const Wrench load = evaluate(way, mid.twist);
+    way.memory.load_W = turnedBy(q, load);
+    way.memory.has_load = true;
+    const LoadSample sample{mid, pairOfMomentum(model_, load.vector())};
+    const double error = relativeError(x, sample.load - before.load);
+    x = passiveKick(x, sample, h_);
+    return error;
   }
 
-  Wrench evaluate(FlightResult& flight, const Vector6& x) const {
+  Wrench evaluate(Way& way, const Vector6& x) const {
     const SurfaceLoad load = computeSurfaceLoad(model_, Twist::fromVector(x));
-    ++flight.count.load_evaluations;
-    flight.count.guarded += load.guarded;
+    ++way.count.load_evaluations;
+    way.count.guarded += load.guarded;
     return load.wrench;
   }
 
   // The floor keeps a body at the turning point of its swing from asking for ever smaller substeps:
   // speeds far below sqrt(g L) move it by little of its own size while gravity turns them over.
-  double relativeError(const Vector6& x, const Vector6& load_change) const {
-    const double change = h_ * std::sqrt(load_change.dot(model_.inverse_inertia * load_change));
-    const double scale = motionScale(task_, x);
+  double relativeError(const DualPair& x, const DualPair& load_change) const {
+    const double change = h_ * std::sqrt(inner(load_change, load_change));
+    const double scale = std::sqrt(inner(x, x)) + fall_scale_;
     return scale > 0 ? change / scale : 0;
   }
 
   const FlightTask& task_;
   const BodyModel& model_;
   double h_;
+  double fall_scale_;
 };
 
 // All substeps of length h; returns the largest error. The half flows between two kicks are one
 // flow: it is exact.
-double advance(const FlightTask& task, double h, int substeps, FlightResult& flight) {
+double advance(const FlightTask& task, double h, int substeps, Way& way) {
   const Kick kick(task, h);
   const double precision =
       task.model.has_surface_loads ? kFlowPrecision * task.settings.tolerance : kToRounding;
   const auto flow = [&](double duration) {
-    const Flow end = flowWithoutLoads(task.model, flight.state, duration, precision);
-    flight.state = end.state;
-    flight.count.coarse = flight.count.coarse || !end.is_precise;
+    const Flow end = flowWithoutLoads(task.model, way.state, duration, precision);
+    way.state = end.state;
+    way.count.coarse = way.count.coarse || !end.is_precise;
   };
   double error = 0;
   flow(h / 2);
   for (int i = 1; i <= substeps; ++i) {
-    error = std::max(error, kick.act(flight));
+    error = std::max(error, kick.act(way));
     flow(i < substeps ? h : h / 2);
   }
   return error;
@@ -108,21 +117,21 @@ int substepsFor(double duration, double substep, int most) {
 FlightResult flyLeapfrog(const FlightTask& task, const RigidState& start,
                          const FlightMemory& memory) noexcept {
   const int most = maxSubsteps(task);
+  const MomentumState begin = MomentumState::of(task.model, start);
   int substeps = substepsFor(task.duration, memory.substep, most);
   FlightCount spent;
   for (int attempt = 0;; ++attempt) {
-    FlightResult flight{start, memory, {}};
+    Way way{begin, memory, {}};
     const double h = task.duration / substeps;
-    const double ratio = advance(task, h, substeps, flight) / task.settings.tolerance;
+    const double ratio = advance(task, h, substeps, way) / task.settings.tolerance;
     const double next = ratio > 0 ? kSafety * h / std::sqrt(ratio) : 4 * h;
-    flight.memory.substep = std::min(next, 4 * h);
-    spent.substeps += flight.count.substeps;
-    spent.load_evaluations += flight.count.load_evaluations;
-    spent.guarded += flight.count.guarded;
+    way.memory.substep = std::min(next, 4 * h);
+    spent.substeps += way.count.substeps;
+    spent.load_evaluations += way.count.load_evaluations;
+    spent.guarded += way.count.guarded;
     if (!(ratio > kAcceptance) || attempt == kMaxRetries || substeps == most) {
-      spent.coarse = flight.count.coarse || (ratio > kAcceptance && substeps == most);
-      flight.count = spent;
-      return flight;
+      spent.coarse = way.count.coarse || (ratio > kAcceptance && substeps == most);
+      return {way.state.rigidState(), way.memory, spent};
     }
     substeps = std::max(substeps + 1, substepsFor(task.duration, next, most));
   }

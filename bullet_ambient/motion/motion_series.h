@@ -7,11 +7,12 @@ namespace ambient {
 
 /// Where a body starts and how long it moves.
 struct SeriesStart {
-  double inverse_inertia[6][6];  ///< K^-1, by columns
-  double momentum[6];            ///< (l, p) in body axes
-  double twist[6];               ///< (w, v) in body axes
-  double duration;               ///< [s]
-  double precision;              ///< a term below it, relative to the motion, is zero
+  const double* inverse_inertia;  ///< K^-1, 36 entries by columns
+  bool has_diagonal_inertia;      ///< only those on its diagonal are read, the others being 0
+  double momentum[6];             ///< (l, p) in body axes
+  double twist[6];                ///< (w, v) in body axes
+  double duration;                ///< [s]
+  double precision;               ///< of momentum and turn, relative to the motion
 };
 
 /// Where it is after `fraction` of the duration, the largest at which the series is precise.

@@ -2,8 +2,6 @@
 
 namespace ambient {
 
-SeriesEnd sumMotionSeriesAvx2(const SeriesStart& start) noexcept {
-  return MotionSeries(start).end();
-}
+SeriesEnd sumMotionSeriesAvx2(const SeriesStart& start) noexcept { return sumMotionSeries(start); }
 
 }  // namespace ambient

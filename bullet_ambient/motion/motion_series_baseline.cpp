@@ -3,7 +3,7 @@
 namespace ambient {
 
 SeriesEnd sumMotionSeriesBaseline(const SeriesStart& start) noexcept {
-  return MotionSeries(start).end();
+  return sumMotionSeries(start);
 }
 
 bool hasAvx2MotionSeries() noexcept {

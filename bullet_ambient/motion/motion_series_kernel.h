@@ -9,7 +9,7 @@
 namespace ambient {
 namespace {
 
-constexpr int kMaxOrder = 18;
+constexpr int kLeastOrder = 3, kMaxOrder = 18;
 
 /// Three numbers and a zero, in one register or in two. GCC and Clang have IEEE 754 arithmetic per
 /// lane for such types; without AVX they must not be passed with four lanes.
@@ -63,20 +63,52 @@ struct Cyclic {
 };
 inline Quad crossed(const Cyclic& a, const Cyclic& b) { return a.xyz * b.yzx - a.yzx * b.xyz; }
 
+/// K^-1, whose columns are split into those of w and of v.
+class FullInverse {
+ public:
+  explicit FullInverse(const double* inverse_inertia) {
+    for (int column = 0; column < 6; ++column) {
+      angular_[column] = quad(inverse_inertia + 6 * column);
+      linear_[column] = quad(inverse_inertia + 6 * column + 3);
+    }
+  }
+  Quad angular(Quad l, Quad p) const { return product(angular_, l, p); }
+  Quad linear(Quad l, Quad p) const { return product(linear_, l, p); }
+
+ private:
+  static Quad product(const Quad (&columns)[6], Quad l, Quad p) {
+    return (l[0] * columns[0] + l[1] * columns[1] + l[2] * columns[2]) +
+           (p[0] * columns[3] + p[1] * columns[4] + p[2] * columns[5]);
+  }
+
+  Quad angular_[6], linear_[6];
+};
+
+/// The same of a body with three planes of symmetry.
+class DiagonalInverse {
+ public:
+  explicit DiagonalInverse(const double* m)
+      : angular_(quad(m[0], m[7], m[14])), linear_(quad(m[21], m[28], m[35])) {}
+  Quad angular(Quad l, Quad) const { return angular_ * l; }
+  Quad linear(Quad, Quad p) const { return linear_ * p; }
+
+ private:
+  Quad angular_, linear_;
+};
+
 /// Kirchhoff's equations in body axes are bilinear, so that the coefficients of their power series
 /// follow from one another by sums of cross products (Jorba and Zou 2005 on such integrators):
 ///   l' = l x w + p x v,   p' = p x w,   (w, v) = K^-1 (l, p),
 ///   r' = r x w + v,       q' = 1/2 q w,
 /// r being the way from the start in body axes, y = y_0 + R r, and q the turn since the start.
 /// Coefficients are scaled to t = fraction of the duration.
+template <class Inverse>
 class MotionSeries {
  public:
   explicit MotionSeries(const SeriesStart& start)
-      : duration_(start.duration), precision_sq_(start.precision * start.precision) {
-    for (int column = 0; column < 6; ++column) {
-      to_angular_[column] = quad(start.inverse_inertia[column]);
-      to_linear_[column] = quad(start.inverse_inertia[column] + 3);
-    }
+      : duration_(start.duration),
+        precision_sq_(start.precision * start.precision),
+        inverse_(start.inverse_inertia) {
     const Quad zero = quad(0, 0, 0);
     Coefficient& first = c_[0];
     first.l.set(quad(start.momentum));
@@ -88,15 +120,14 @@ class MotionSeries {
     first.cosine = 1;
     energy_ = dot(first.l.xyz, first.w.xyz) + dot(first.p.xyz, first.v.xyz);
     size_sq_[0] = 1;
-    double size = 1;
     do {
       addTerm();
-      size = larger(size_sq_[order_], size_sq_[order_ - 1]);
-    } while (!(size <= precision_sq_) && order_ < kMaxOrder);
+      is_precise_ = isRestBelowPrecision();
+    } while (!is_precise_ && order_ < kMaxOrder);
   }
 
   SeriesEnd end() const {
-    const double fraction = reach();
+    const double fraction = is_precise_ ? 1 : reach();
     Quad l = c_[order_].l.xyz, p = c_[order_].p.xyz, r = c_[order_].r.xyz;
     Quad turn = c_[order_].turn.xyz;
     double cosine = c_[order_].cosine;
@@ -139,31 +170,32 @@ class MotionSeries {
     Coefficient& next = c_[k + 1];
     next.l.set(step * rotated(l));
     next.p.set(step * rotated(p));
+    next.w.set(inverse_.angular(next.l.xyz, next.p.xyz));
+    next.v.set(inverse_.linear(next.l.xyz, next.p.xyz));
     next.r.set(step * (rotated(r) + c_[k].v.xyz));
     next.turn.set(step / 2 * (rotated(turn) + scaled));
     next.cosine = -step / 2 * (along[0] + along[1] + along[2]);
-    setTwist(next);
     ++order_;
     const double energy = dot(next.l.xyz, next.w.xyz) + dot(next.p.xyz, next.v.xyz);
     size_sq_[order_] =
         larger(energy / energy_, dot(next.turn.xyz, next.turn.xyz) + next.cosine * next.cosine);
+    growth_sq_ = larger(growth_sq_, size_sq_[order_] / size_sq_[k]);
   }
 
-  static Quad transformed(const Quad (&columns)[6], Quad l, Quad p) {
-    return (l[0] * columns[0] + l[1] * columns[1] + l[2] * columns[2]) +
-           (p[0] * columns[3] + p[1] * columns[4] + p[2] * columns[5]);
-  }
-
-  void setTwist(Coefficient& c) const {
-    const Quad l = c.l.xyz, p = c.p.xyz;
-    c.w.set(transformed(to_angular_, l, p));
-    c.v.set(transformed(to_linear_, l, p));
+  // The next term is taken to grow at most as any before it, from the last term or, in case that
+  // happens to vanish, over two terms from the one before. Where every second term vanishes there
+  // is no such growth, and two small terms in a row must do. The first term says too little: a
+  // body that a small disturbance turns out of its course has small terms that grow fast.
+  bool isRestBelowPrecision() const {
+    const double last = size_sq_[order_], before = size_sq_[order_ - 1];
+    if (larger(last, before) <= precision_sq_) return true;
+    return order_ >= kLeastOrder &&
+           larger(last, before * growth_sq_ / (order_ * order_)) * growth_sq_ <= precision_sq_;
   }
 
   // Largest fraction of the duration at which the series is precise.
   double reach() const {
     const double last = reachOfTerm(order_);
-    if (order_ == 1) return last;
     const double before = reachOfTerm(order_ - 1);
     return before < last ? before : last;
   }
@@ -177,10 +209,17 @@ class MotionSeries {
   double precision_sq_;
   double energy_;
   int order_ = 0;
-  Quad to_angular_[6], to_linear_[6];  // columns of K^-1
+  bool is_precise_ = false;
+  double growth_sq_ = 0;  // largest ratio of a term to the one before it
+  Inverse inverse_;
   Coefficient c_[kMaxOrder + 1];
   double size_sq_[kMaxOrder + 1];  // in the norms of K^-1 and of the quaternion
 };
+
+SeriesEnd sumMotionSeries(const SeriesStart& start) {
+  return start.has_diagonal_inertia ? MotionSeries<DiagonalInverse>(start).end()
+                                    : MotionSeries<FullInverse>(start).end();
+}
 
 }  // namespace
 }  // namespace ambient

@@ -66,7 +66,9 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;
     // dt K^-1 F to first order, but it cannot reverse the motion however long the step.
-    impulse += passiveKick(model, x, {x, load.wrench.vector()}, dt) - x;
+    const DualPair motion = pairOfTwist(model, x);
+    const DualPair sample = pairOfMomentum(model, load.wrench.vector());
+    impulse += passiveKick(motion, {motion, sample}, dt).twist - x;
   }
   const Vector6 gyroscopic =
       dt * (model.inverse_inertia * gyroscopicWrench(model.inertia, relative).vector());

@@ -11,7 +11,9 @@ namespace ambient {
 namespace {
 
 using test::Arbitrary;
+using test::flowWithoutLoads;
 using test::FreeBody;
+using test::RigidFlow;
 
 constexpr int kBodies = 12;
 constexpr double kDuration = 2;  // [s]
@@ -132,9 +134,9 @@ TEST(FlowWithoutLoads, OfTwoHalvesIsTheFlowOfTheWhole) {
   for (unsigned seed = 0; seed < kBodies; ++seed) {
     FreeBody body = bodyWithCoupledInertia(seed);
     setInMotion(body, seed, 10);
-    const RigidState half = flowWithoutLoads(body.model(), body.state, 0.02).state;
-    const RigidState twice = flowWithoutLoads(body.model(), half, 0.02).state;
-    const RigidState once = flowWithoutLoads(body.model(), body.state, 0.04).state;
+    const RigidState once = flowWithoutLoads(body, 0.04).state;
+    body.state = flowWithoutLoads(body, 0.02).state;
+    const RigidState twice = flowWithoutLoads(body, 0.02).state;
     EXPECT_LT((twice.position - once.position).norm(), 1e-13) << seed;
     EXPECT_LT(test::angleBetween(twice.orientation, once.orientation), 1e-13) << seed;
     EXPECT_LT((twice.twist.vector() - once.twist.vector()).norm(), 1e-12) << seed;
@@ -147,7 +149,7 @@ TEST(FlowWithoutLoads, KeepsWorldMomentumThroughManyTurns) {
   inertia.bottomRightCorner<3, 3>().setIdentity();
   FreeBody ball({test::shapeWithoutFaces(inertia)});
   ball.state.twist = {{0, 0, 1e6}, {1, 2, 3}};
-  const RigidState end = flowWithoutLoads(ball.model(), ball.state, 0.1).state;
+  const RigidState end = flowWithoutLoads(ball, 0.1).state;
   // Rounding is relative to the whole motion, of size 1e6, and adds up over a thousand series.
   EXPECT_LT((end.orientation * end.twist.linear - Vector3(1, 2, 3)).norm(), 1e6 * 1e-14);
   EXPECT_LT((end.position - Vector3(0.1, 0.2, 0.3)).norm(), 1e5 * 1e-14);
@@ -159,7 +161,7 @@ TEST(FlowWithoutLoads, NeverGainsEnergyHoweverLong) {
       FreeBody body = bodyWithCoupledInertia(seed);
       setInMotion(body, seed, 100);
       const double before = body.kineticEnergy();
-      body.state = flowWithoutLoads(body.model(), body.state, duration).state;
+      body.state = flowWithoutLoads(body, duration).state;
       ASSERT_TRUE(body.state.isFinite()) << seed << " over " << duration;
       EXPECT_LE(body.kineticEnergy(), before * (1 + 1e-12)) << seed << " over " << duration;
     }
@@ -170,9 +172,9 @@ TEST(FlowWithoutLoads, IsPreciseForHundredsOfRadiansAndTellsWhenItIsNot) {
   FreeBody body = bodyWithCoupledInertia(3);
   body.state.twist = {{100, 20, -30}, {1, 2, 3}};
   const double energy = body.kineticEnergy();
-  const Flow far = flowWithoutLoads(body.model(), body.state, 1);
+  const RigidFlow far = flowWithoutLoads(body, 1);
   EXPECT_TRUE(far.is_precise);
-  const Flow too_far = flowWithoutLoads(body.model(), body.state, 30);
+  const RigidFlow too_far = flowWithoutLoads(body, 30);
   EXPECT_FALSE(too_far.is_precise);
   body.state = far.state;
   EXPECT_NEAR(body.kineticEnergy(), energy, 1e-11 * energy);
@@ -183,7 +185,7 @@ TEST(FlowWithoutLoads, IsPreciseForHundredsOfRadiansAndTellsWhenItIsNot) {
 TEST(FlowWithoutLoads, LeavesABodyAtRestWhereItIs) {
   FreeBody body = bodyWithCoupledInertia(3);
   body.state.position = {1, 2, 3};
-  const RigidState end = flowWithoutLoads(body.model(), body.state, 1e6).state;
+  const RigidState end = flowWithoutLoads(body, 1e6).state;
   EXPECT_EQ(end.position, body.state.position);
   EXPECT_EQ(end.orientation.coeffs(), body.state.orientation.coeffs());
   EXPECT_EQ(end.twist.vector(), Vector6(Vector6::Zero()));

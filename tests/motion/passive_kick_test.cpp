@@ -18,15 +18,23 @@ FreeBody bodyWithCoupledInertia(Arbitrary& arbitrary) {
   return FreeBody({test::shapeWithoutFaces(arbitrary.positiveDefinite())});
 }
 
+// A twist and a wrench as the kick takes them.
+Vector6 kicked(const FreeBody& body, const Vector6& x, const Vector6& sampled_twist,
+               const Vector6& wrench, double duration) {
+  const LoadSample sample{pairOfTwist(body.model(), sampled_twist),
+                          pairOfMomentum(body.model(), wrench)};
+  return passiveKick(pairOfTwist(body.model(), x), sample, duration).twist;
+}
+
 TEST(PassiveKick, NeverGainsEnergyHoweverLongAndStrong) {
   Arbitrary arbitrary(1);
   for (int i = 0; i < 2000; ++i) {
     const FreeBody body = bodyWithCoupledInertia(arbitrary);
     const Vector6 x = arbitrary.twist(10, 10).vector();
-    const LoadSample load{arbitrary.twist(10, 10).vector(),
-                          std::pow(10.0, arbitrary.between(-10, 30)) * arbitrary.twist().vector()};
+    const Vector6 sampled = arbitrary.twist(10, 10).vector();
+    const Vector6 load = std::pow(10.0, arbitrary.between(-10, 30)) * arbitrary.twist().vector();
     const double duration = std::pow(10.0, arbitrary.between(-6, 6));
-    const Vector6 end = passiveKick(body.model(), x, load, duration);
+    const Vector6 end = kicked(body, x, sampled, load, duration);
     ASSERT_TRUE(end.allFinite());
     // Rounding of a rotation in the norm of K.
     EXPECT_LE(inertiaNormSquared(body.model(), end),
@@ -42,7 +50,7 @@ TEST(PassiveKick, IsTheLoadTimesTheTimeAtFirst) {
     Vector6 F = arbitrary.twist().vector();
     if (F.dot(x) > 0) F = -F;  // a load that brakes
     constexpr double kTime = 1e-6;
-    const Vector6 change = passiveKick(body.model(), x, {x, F}, kTime) - x;
+    const Vector6 change = kicked(body, x, x, F, kTime) - x;
     const Vector6 expected = kTime * (body.model().inverse_inertia * F);
     // Second order in the time; rates are of the order of |K^-1 F| / |x|, up to some hundred here.
     EXPECT_LT((change - expected).norm(), 1e-3 * expected.norm());
@@ -60,7 +68,7 @@ TEST(PassiveKick, IsTheExactQuadraticDecayForDragAlone) {
   constexpr double c = 0.3;
   const Vector6 drag = -c * sampled_speed * (body.model().inertia * along);
   for (const double time : {1e-9, 1.0, 1e3, 1e9}) {
-    const Vector6 end = passiveKick(body.model(), x, {along, drag}, time);
+    const Vector6 end = kicked(body, x, along, drag, time);
     EXPECT_LT((end - x / (1 + c * speed * time)).norm(), 1e-14 * x.norm()) << time;
   }
 }
@@ -75,7 +83,7 @@ TEST(PassiveKick, TurnsWithoutLossUnderLiftAlone) {
   lift -= x * (x.dot(K * lift) / x.dot(K * x));  // acceleration across the motion
   const double rate = std::sqrt(lift.dot(K * lift) / x.dot(K * x));
   for (const double angle : {0.1, 1.0, 10.0}) {
-    const Vector6 end = passiveKick(body.model(), x, {x, K * lift}, angle / rate);
+    const Vector6 end = kicked(body, x, x, K * lift, angle / rate);
     const Vector6 expected = std::cos(angle) * x + std::sin(angle) / rate * lift;
     EXPECT_LT((end - expected).norm(), 1e-13 * x.norm()) << angle;
   }
@@ -89,10 +97,9 @@ TEST(PassiveKick, OfTwoHalvesIsTheKickOfTheWhole) {
   const Vector6 x = arbitrary.twist().vector();
   Vector6 a = arbitrary.twist().vector();
   a -= x * (x.dot(K * a) / x.dot(K * x));
-  const LoadSample load{x, K * (a - 0.4 * x)};
-  const Vector6 once = passiveKick(body.model(), x, load, 0.8);
-  const Vector6 twice =
-      passiveKick(body.model(), passiveKick(body.model(), x, load, 0.4), load, 0.4);
+  const Vector6 load = K * (a - 0.4 * x);
+  const Vector6 once = kicked(body, x, x, load, 0.8);
+  const Vector6 twice = kicked(body, kicked(body, x, x, load, 0.4), x, load, 0.4);
   EXPECT_LT((twice - once).norm(), 1e-14 * x.norm());
 }
 
@@ -101,7 +108,7 @@ TEST(PassiveKick, TakesNoPowerFromALoadThatWouldGiveIt) {
   const FreeBody body = bodyWithCoupledInertia(arbitrary);
   const Vector6 x = arbitrary.twist().vector();
   const Vector6 pushing = body.model().inertia * x;
-  EXPECT_LT((passiveKick(body.model(), x, {x, pushing}, 1.0) - x).norm(), 1e-14 * x.norm());
+  EXPECT_LT((kicked(body, x, x, pushing, 1.0) - x).norm(), 1e-14 * x.norm());
 }
 
 TEST(PassiveKick, LeavesMotionAloneWithoutLoadOrWithoutSample) {
@@ -110,9 +117,9 @@ TEST(PassiveKick, LeavesMotionAloneWithoutLoadOrWithoutSample) {
   const Vector6 x = arbitrary.twist().vector();
   const Vector6 F = arbitrary.twist().vector();
   const Vector6 zero = Vector6::Zero();
-  EXPECT_EQ(passiveKick(body.model(), x, {x, zero}, 1e6), x);
-  EXPECT_EQ(passiveKick(body.model(), x, {zero, F}, 1e6), x);
-  EXPECT_EQ(passiveKick(body.model(), zero, {x, F}, 1e6), zero);
+  EXPECT_EQ(kicked(body, x, x, zero, 1e6), x);
+  EXPECT_EQ(kicked(body, x, zero, F, 1e6), x);
+  EXPECT_EQ(kicked(body, zero, x, F, 1e6), zero);
 }
 
 TEST(PassiveKick, DoesNotHideALoadThatIsNotFinite) {
@@ -120,7 +127,7 @@ TEST(PassiveKick, DoesNotHideALoadThatIsNotFinite) {
   const FreeBody body = bodyWithCoupledInertia(arbitrary);
   const Vector6 x = arbitrary.twist().vector();
   const Vector6 broken = Vector6::Constant(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_FALSE(passiveKick(body.model(), x, {x, broken}, 1.0).allFinite());
+  EXPECT_FALSE(kicked(body, x, x, broken, 1.0).allFinite());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/motion/kirchhoff.h"
+#include "bullet_ambient/motion/kirchhoff_flow.h"
 
 namespace ambient::test {
 
@@ -75,6 +76,18 @@ inline FluidBody shapeWithoutFaces(const Matrix6& added_mass, double volume = 1)
   shape.volume = volume;
   shape.area = std::pow(volume, 2.0 / 3.0);
   return shape;
+}
+
+/// The flow without loads of a body for `duration` [s].
+struct RigidFlow {
+  RigidState state;
+  bool is_precise;
+};
+inline RigidFlow flowWithoutLoads(const FreeBody& body, double duration,
+                                  double precision = kToRounding) {
+  const MomentumState start = MomentumState::of(body.model(), body.state);
+  const Flow flow = ambient::flowWithoutLoads(body.model(), start, duration, precision);
+  return {flow.state.rigidState(), flow.is_precise};
 }
 
 /// Angle between two orientations [rad].
