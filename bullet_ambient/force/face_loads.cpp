@@ -47,7 +47,7 @@ SumFaces sumFacesFor(InstructionSet instruction_set) noexcept {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") ? sumFacesAvx512
                                                                                    : nullptr;
   if (instruction_set == InstructionSet::kAvx2)
-    return __builtin_cpu_supports("avx2") ? sumFacesAvx2 : nullptr;
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? sumFacesAvx2 : nullptr;
 #endif
   return instruction_set == InstructionSet::kBaseline ? sumFacesBaseline : nullptr;
 }

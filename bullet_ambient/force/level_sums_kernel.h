@@ -61,8 +61,8 @@ void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& 
     const Floats spread_sq = b1 * b1 + b2 * b2 + kLeastSpread;
     const Floats excess = attachedExcess(a, spread_sq);
     const Vectors c = load(block.centroid, lane);
-    const Vectors u = v + cross(w, c);
-    const Vectors t = u - dot(g.force, u) * g.force;
+    const Vectors u = plusCross(v, w, c);
+    const Vectors t = lessProduct(u, dot(g.force, u), g.force);
     const Floats slip_sq = dot(t, t);
     const Floats by_slip = excess * slip_sq;
     const Floats by_normal = excess * (a * a + spread_sq);
@@ -74,7 +74,7 @@ void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& 
       const Floats area = load(block.area + lane) * (0.5f + excess);
       const Vectors f = ((area * slip_sq) * inverseThreeFifths(slip_sq)) * t;
       friction_force = friction_force + f;
-      friction_torque = friction_torque + cross(c, f);
+      friction_torque = plusCross(friction_torque, c, f);
     }
   }
   pressure_sums.set(torque, force, lane);

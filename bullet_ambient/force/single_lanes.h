@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
 
 // What the kernels in single precision share: vectors of lanes, and their sums. Included by what is
 // compiled once per instruction set. Written with the vector types of GCC and Clang, which have the
@@ -33,6 +36,42 @@ inline Floats load(const float* from) {
 
 inline void store(float* to, Floats f) { __builtin_memcpy(to, &f, sizeof f); }
 
+#if defined(__AVX512F__)
+inline Floats plusProduct(Floats c, Floats a, Floats b) { return _mm512_fmadd_ps(a, b, c); }
+inline Floats lessProduct(Floats c, Floats a, Floats b) { return _mm512_fnmadd_ps(a, b, c); }
+#elif defined(__AVX2__)
+inline Floats plusProduct(Floats c, Floats a, Floats b) { return _mm256_fmadd_ps(a, b, c); }
+inline Floats lessProduct(Floats c, Floats a, Floats b) { return _mm256_fnmadd_ps(a, b, c); }
+#else
+/// a b + c, rounded once.
+inline float fused(float a, float b, float c) {
+#if defined(__FP_FAST_FMAF)
+  return __builtin_fmaf(a, b, c);
+#else
+  // In double the product is exact. Its sum with c is rounded to odd, which the second rounding,
+  // to float, does not see (Boldo and Melquiond 2008).
+  const double product = static_cast<double>(a) * static_cast<double>(b);
+  const double addend = static_cast<double>(c);
+  double sum = product + addend;
+  const double part = sum - product;
+  const double error = (product - (sum - part)) + (addend - part);  // of the sum, exact
+  std::int64_t bits;
+  __builtin_memcpy(&bits, &sum, sizeof bits);
+  if (error != 0 && bits % 2 == 0) bits += (error > 0) == (sum > 0) ? 1 : -1;
+  __builtin_memcpy(&sum, &bits, sizeof bits);
+  return static_cast<float>(sum);
+#endif
+}
+
+/// c + a b and c - a b, each rounded once. That halves the work on processors which have an
+/// instruction for it, x86 since 2013, and takes thirty times as long on others.
+inline Floats plusProduct(Floats c, Floats a, Floats b) {
+  for (int lane = 0; lane < kWidth; ++lane) c[lane] = fused(a[lane], b[lane], c[lane]);
+  return c;
+}
+inline Floats lessProduct(Floats c, Floats a, Floats b) { return plusProduct(c, -a, b); }
+#endif
+
 struct Vectors {
   Floats x, y, z;
 };
@@ -44,11 +83,21 @@ inline Vectors broadcast(const float v[3]) {
   return {Floats{} + v[0], Floats{} + v[1], Floats{} + v[2]};
 }
 inline Vectors operator+(Vectors a, Vectors b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vectors operator-(Vectors a, Vectors b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vectors operator*(Floats s, Vectors a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Floats dot(Vectors a, Vectors b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vectors cross(Vectors a, Vectors b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+inline Vectors plusProduct(Vectors c, Floats s, Vectors a) {
+  return {plusProduct(c.x, s, a.x), plusProduct(c.y, s, a.y), plusProduct(c.z, s, a.z)};
+}
+inline Vectors lessProduct(Vectors c, Floats s, Vectors a) {
+  return {lessProduct(c.x, s, a.x), lessProduct(c.y, s, a.y), lessProduct(c.z, s, a.z)};
+}
+inline Floats dot(Vectors a, Vectors b) {
+  return plusProduct(plusProduct(a.x * b.x, a.y, b.y), a.z, b.z);
+}
+/// c + a x b
+inline Vectors plusCross(Vectors c, Vectors a, Vectors b) {
+  return {lessProduct(plusProduct(c.x, a.y, b.z), a.z, b.y),
+          lessProduct(plusProduct(c.y, a.z, b.x), a.x, b.z),
+          lessProduct(plusProduct(c.z, a.x, b.y), a.y, b.x)};
 }
 
 /// Sums of a wrench over one run of blocks, one per lane.
@@ -68,16 +117,21 @@ inline Floats inverseThreeFifths(Floats x) {
   constexpr float kOffset = 152.48f * 0x1p23f;
   Ints bits;
   __builtin_memcpy(&bits, &x, sizeof bits);
-  bits = __builtin_convertvector(kOffset - __builtin_convertvector(bits, Floats) * 0.2f, Ints);
+  const auto constant = [](float value) { return Floats{} + value; };
+  const auto line = [&](float at_zero, float fall, Floats z) {
+    return lessProduct(constant(at_zero), constant(fall), z);
+  };
+  bits = __builtin_convertvector(line(kOffset, 0.2f, __builtin_convertvector(bits, Floats)), Ints);
   Floats r;
   __builtin_memcpy(&r, &bits, sizeof r);
-  const Floats cube = r * r * r;
+  const Floats square = r * r;
+  const Floats cube = square * r;
   // x r^5 lies in [1.399, 1.885]; the minimax polynomial of its power -3/5 leaves 1.1e-7.
-  const Floats z = (x * cube) * (r * r) - 1.625f;
+  const Floats z = plusProduct(constant(-1.625f), x * cube, square);
   const Floats z2 = z * z;
-  return cube *
-         ((0.747288029f - 0.275921004f * z) +
-          z2 * ((0.135814669f - 0.0725031383f * z) + z2 * (0.0412350679f - 0.0221427742f * z)));
+  const Floats high =
+      plusProduct(line(0.135814669f, 0.0725031383f, z), z2, line(0.0412350679f, 0.0221427742f, z));
+  return cube * plusProduct(line(0.747288029f, 0.275921004f, z), z2, high);
 }
 
 /// Sums of a wrench over all runs.

@@ -18,8 +18,9 @@ struct SingleMotion {
 };
 
 /// The sums of FaceSums over `count` blocks. Face i is summed into lane i mod 16, over 16 blocks in
-/// single and over the rest in double precision; no operation is fused: all instruction sets give
-/// the same bits.
+/// single and over the rest in double precision. Which products are fused with their sums is
+/// written out, and computed alike where a processor cannot fuse: all instruction sets give the
+/// same bits.
 using SumBlocks = FaceSums (*)(const FaceBlock* blocks, std::size_t count, const SingleMotion&,
                                bool with_friction) noexcept;
 
