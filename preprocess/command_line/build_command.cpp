@@ -12,6 +12,7 @@
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/input_shape.h"
+#include "preprocess/command_line/output_place.h"
 #include "preprocess/command_line/solver_options.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
@@ -34,19 +35,6 @@ std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
                     "numbers X,Y,Z");
   }
   return origin;
-}
-
-// Found out before the work, not after it.
-void requireWritablePlace(const fs::path& output, const fs::path& input) {
-  std::error_code error;
-  const fs::path folder = output.parent_path().empty() ? "." : output.parent_path();
-  if (!fs::is_directory(folder, error)) {
-    raiseInputError(output.string(), "the directory ", folder, " does not exist");
-  }
-  if (fs::is_directory(output, error)) raiseInputError(output.string(), "is a directory");
-  if (fs::equivalent(output, input, error)) {
-    raiseInputError(output.string(), "the output would replace the input");
-  }
 }
 
 ShapeBuildSettings settingsOf(const BuildArguments& arguments) {

@@ -66,7 +66,8 @@ struct CompareArguments {
 
 /// ambient_preprocess report
 struct ReportArguments {
-  std::string input;  ///< as of build
+  std::string input;    ///< as of build
+  std::string picture;  ///< an SVG file of the potential to write; empty: none
   double scale = 1;
   bool sheet = false;
   int panels = kDefaultPanels;

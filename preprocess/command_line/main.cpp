@@ -141,6 +141,10 @@ CLI::App* addReport(CLI::App& app, ReportArguments& arguments) {
   report->add_option("--scale", arguments.scale, "Multiplies all lengths (default 1)")
       ->type_name("S");
   report->add_flag("--sheet", arguments.sheet, "The mesh is an open surface of zero thickness");
+  report
+      ->add_option("--picture", arguments.picture,
+                   "Also draw the potential on the surface into this file")
+      ->type_name("OUT.svg");
   report->add_option("--panels", arguments.panels, "As for build (default 4200)")->type_name("N");
   report->add_option("--threads", arguments.threads, "0: all cores (default)")->type_name("N");
   report->add_flag("--json", arguments.json, "Print one JSON object instead of a table");

@@ -1,5 +1,5 @@
 #include <cmath>
-#include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <sstream>
 
@@ -7,9 +7,11 @@
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/json_numbers.h"
+#include "preprocess/command_line/output_place.h"
 #include "preprocess/command_line/solver_options.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh_report/mesh_report.h"
+#include "preprocess/mesh_report/potential_picture.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
@@ -23,7 +25,7 @@ ordered_json levelJson(const FlowLevel& level) {
   return {{"panels", level.panels},
           {"seconds", level.seconds},
           {"asymmetry", level.asymmetry},
-          {"condition", level.condition},
+          {"condition", level.condition > 0 ? ordered_json(level.condition) : ordered_json()},
           {"added_mass", matrixJson(level.added_mass)}};
 }
 
@@ -44,6 +46,8 @@ std::string asJson(const MeshReport& report, const TriangleMesh& mesh) {
     text["rotation_error"] = report.rotation_error;
     text["translation_error"] = report.translation_error;
     text["extrapolated"] = matrixJson(report.extrapolated);
+  } else {
+    text["other"] = nullptr;
   }
   if (report.thinnest) {
     text["thinnest"] = {{"thickness", report.thinnest->thickness},
@@ -67,8 +71,12 @@ std::string asTable(const MeshReport& report, const TriangleMesh& mesh) {
   text.precision(3);
   const auto level = [&](const char* label, const FlowLevel& flow) {
     text << label << flow.panels << " panels, " << flow.seconds << " s, ";
-    if (flow.condition > 0) text << "condition " << flow.condition << ", ";
-    text << "asymmetry " << flow.asymmetry << "\n";
+    if (flow.condition > 0) {
+      text << "condition " << flow.condition;
+    } else {
+      text << "condition not known (solved iteratively)";
+    }
+    text << ", asymmetry " << flow.asymmetry << "\n";
   };
   text << "mesh             " << mesh.vertexCount() << " vertices, " << mesh.triangleCount()
        << " faces\n";
@@ -92,6 +100,12 @@ std::string asTable(const MeshReport& report, const TriangleMesh& mesh) {
   return text.str();
 }
 
+void writePicture(const MeshReport& report, bool sheet, const std::string& file) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << potentialPicture(report.surface, report.potential, sheet) << std::flush;
+  if (!stream) raiseInputError(file, "cannot be written");
+}
+
 }  // namespace
 
 void runReport(const ReportArguments& arguments) {
@@ -104,6 +118,12 @@ void runReport(const ReportArguments& arguments) {
   }
   if (arguments.panels > kMostDivisions) {
     raiseInputError("--panels", arguments.panels, " is above ", kMostDivisions);
+  }
+  if (!arguments.picture.empty()) {
+    if (!hasExtension(arguments.picture, ".svg")) {
+      raiseInputError("--picture", "\"", arguments.picture, "\" does not end in .svg");
+    }
+    requireWritablePlace(arguments.picture, arguments.input);
   }
   const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
   CheckedMesh checked = makeShapeMesh(shape);
@@ -122,6 +142,7 @@ void runReport(const ReportArguments& arguments) {
       raiseInputError(arguments.input, error.what());
     }
   }
+  if (!arguments.picture.empty()) writePicture(report, settings.sheet, arguments.picture);
   std::cout << (arguments.json ? asJson(report, checked.mesh) : asTable(report, checked.mesh));
 }
 

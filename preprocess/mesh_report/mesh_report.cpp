@@ -1,6 +1,7 @@
 #include "preprocess/mesh_report/mesh_report.h"
 
 #include <chrono>
+#include <utility>
 
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/potential_flow/potential_flow.h"
@@ -9,16 +10,22 @@
 namespace ambient {
 namespace {
 
-FlowLevel solveLevel(const TriangleMesh& mesh, int max_panels, const MeshReportSettings& settings) {
+struct SolvedLevel {
+  FlowLevel level;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> potential;
+};
+
+/// On the triangles of the surface.
+SolvedLevel solveLevel(const TriangleMesh& surface, const MeshReportSettings& settings) {
   PotentialFlowSettings flow_settings;
   flow_settings.sheet = settings.sheet;
-  flow_settings.max_panels = max_panels;
   flow_settings.threads = settings.threads;
   const auto start = std::chrono::steady_clock::now();
-  const PotentialFlow flow = solvePotentialFlow(mesh, flow_settings);
+  PotentialFlow flow = solvePotentialFlow(surface, flow_settings);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return {flow.panels, seconds.count(), flow.added_mass, flow.asymmetry,
-          flow.reciprocal_condition > 0 ? 1 / flow.reciprocal_condition : 0};
+  return {{flow.panels, seconds.count(), flow.added_mass, flow.asymmetry,
+           flow.reciprocal_condition > 0 ? 1 / flow.reciprocal_condition : 0},
+          std::move(flow.potential)};
 }
 
 /// A solution on clearly fewer panels, or on about four times as many if there is none.
@@ -27,14 +34,14 @@ std::optional<FlowLevel> solveOther(const TriangleMesh& mesh, const FlowLevel& b
   constexpr int kMostPanels = 8000;
   for (const int divisor : {2, 3}) {
     const auto fewer = static_cast<int>(built.panels / divisor);
-    const Eigen::Index panels = refineSurface(mesh, settings.sheet, fewer).triangleCount();
-    if (5 * panels <= 4 * built.panels) return solveLevel(mesh, fewer, settings);
+    const TriangleMesh coarser = refineSurface(mesh, settings.sheet, fewer);
+    if (5 * coarser.triangleCount() <= 4 * built.panels) return solveLevel(coarser, settings).level;
   }
   const auto panels = static_cast<int>(built.panels);
   const TriangleMesh more =
       divideTriangles(refineSurface(mesh, settings.sheet, settings.max_panels), 3 * panels);
   if (more.triangleCount() > kMostPanels) return std::nullopt;
-  return solveLevel(more, 0, settings);
+  return solveLevel(more, settings).level;
 }
 
 double blockError(const Matrix6& error, const Matrix6& value, int first) {
@@ -54,7 +61,10 @@ MeshReport makeMeshReport(const TriangleMesh& mesh, const MeshReportSettings& se
   report.worst_triangles = findWorstTriangles(mesh, settings.worst_triangles);
   if (!settings.sheet) report.thinnest = findThinnestPart(mesh);
 
-  report.built = solveLevel(centred, settings.max_panels, settings);
+  report.surface = refineSurface(centred, settings.sheet, settings.max_panels);
+  SolvedLevel solved = solveLevel(report.surface, settings);
+  report.built = solved.level;
+  report.potential = std::move(solved.potential);
   report.extrapolated = report.built.added_mass;
   report.other = solveOther(centred, report.built, settings);
   if (!report.other) return report;

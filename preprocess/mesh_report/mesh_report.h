@@ -21,6 +21,9 @@ struct FlowLevel {
 /// What one should know about a mesh before its fluid body is trusted.
 struct MeshReport {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< centre of volume, of a sheet of area [m]
+  TriangleMesh surface;                              ///< the panels of `built`, about the origin
+  /// On the vertices of `surface`, as in PotentialFlow.
+  Eigen::Matrix<double, Eigen::Dynamic, 6> potential;
   FlowLevel built;  ///< the solution that a fluid body gets at these settings
   /// Another one on fewer or, if the mesh itself is too fine for that, on more panels.
   std::optional<FlowLevel> other;

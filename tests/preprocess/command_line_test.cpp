@@ -54,6 +54,19 @@ TEST_F(CommandLine, ReportEstimatesTheErrorOfAMesh) {
             "--panels: -1 is below 0 (0: no division)");
 }
 
+TEST_F(CommandLine, ReportDrawsThePotential) {
+  const std::string mesh = write("box.obj", objText(makeBoxMesh({1, 2, 3}, 48)));
+  resultOf({"report", mesh, "--panels", "200", "--picture", path("box.svg"), "--json"});
+  const std::string picture = bytesOfFile("box.svg");
+  EXPECT_EQ(picture.find("<svg "), 0u);
+  EXPECT_NE(picture.find("</svg>"), std::string::npos);
+  EXPECT_NE(picture.find("moves along z at 1 m/s"), std::string::npos);
+  EXPECT_EQ(refusal({"report", mesh, "--picture", path("box.png")}),
+            "--picture: \"" + path("box.png") + "\" does not end in .svg");
+  EXPECT_EQ(refusal({"report", mesh, "--picture", path("none/box.svg")}),
+            path("none/box.svg") + ": the directory \"" + path("none") + "\" does not exist");
+}
+
 TEST_F(CommandLine, MistypedCommandsAreCorrected) {
   EXPECT_EQ(run({"bild"}).errors,
             "ambient_preprocess: unknown command 'bild'; did you mean 'build'?\n");
