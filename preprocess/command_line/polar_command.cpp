@@ -152,12 +152,15 @@ std::array<double, 6> coefficientsAt(double attack, double side_slip, const Flui
 void runPolar(const PolarArguments& arguments) {
   const AngleRange attack = parseRange("--attack", arguments.attack);
   const AngleRange side_slip = parseRange("--side-slip", arguments.side_slip);
+  constexpr double kMostRows = 1e6;
+  if (static_cast<double>(attack.count()) * side_slip.count() > kMostRows) {
+    raiseInputError("--side-slip", attack.count(), " angles of attack times ", side_slip.count(),
+                    " of side-slip are more than ", kMostRows);
+  }
   const Matrix3 axes = parseAxes(arguments.forward, arguments.up);
   const LoadSettings settings = settingsOf(arguments);
   const FluidBody body = readFluidBody(arguments.file);
   const Reference reference = referenceOf(arguments, body, axes);
-  std::fprintf(stderr, "reference area %.9g m^2, reference length %.9g m\n", reference.area,
-               reference.length);
   std::string text = "attack,side_slip,C_L,C_D,C_Y,C_l,C_m,C_n\n";
   for (int j = 0; j < side_slip.count(); ++j) {
     for (int i = 0; i < attack.count(); ++i) {
@@ -166,7 +169,7 @@ void runPolar(const PolarArguments& arguments) {
       for (const double value : coefficients) {
         if (std::isfinite(value)) continue;
         raiseInputError(arguments.file, "a coefficient at an angle of attack of ", attack[i],
-                        " degrees is ", value, ": speed or reference is too large or too small");
+                        " degrees is not finite: speed or reference is too large or too small");
       }
       char cell[40];
       std::snprintf(cell, sizeof cell, "%.10g,%.10g", attack[i], side_slip[j]);
@@ -178,6 +181,8 @@ void runPolar(const PolarArguments& arguments) {
       text += "\n";
     }
   }
+  std::fprintf(stderr, "reference area %.9g m^2, reference length %.9g m\n", reference.area,
+               reference.length);
   std::cout << text;
 }
 

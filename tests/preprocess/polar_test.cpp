@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -128,6 +129,7 @@ TEST_F(Polar, BadAnglesAndAxesAreRefused) {
     const ProgramResult result = run(file, more);
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.output, "");
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
     return result.errors;
   };
   for (const char* range : {"a", "0:10", "0:10:0", "10:0:1", "0:1:1:1", "nan", "0:1e9:1e-9"}) {
@@ -137,6 +139,14 @@ TEST_F(Polar, BadAnglesAndAxesAreRefused) {
   EXPECT_EQ(refusal({"--up", "w"}),
             "ambient_preprocess: --up: \"w\" is none of x, y, z, -x, -y, -z\n");
   EXPECT_EQ(refusal({"--up", "-x"}), "ambient_preprocess: --up: -x is along --forward x\n");
+  EXPECT_EQ(
+      refusal({"--attack", "0:90:0.001", "--side-slip", "0:90:1"}),
+      "ambient_preprocess: --side-slip: 90001 angles of attack times 91 of side-slip are more "
+      "than 1000000\n");
+  EXPECT_EQ(refusal({"--speed", "1e200"}),
+            "ambient_preprocess: " + file +
+                ": a coefficient at an angle of attack of -90 degrees "
+                "is not finite: speed or reference is too large or too small\n");
   EXPECT_EQ(refusal({"--speed", "0"}),
             "ambient_preprocess: --speed: 0 must be finite and positive\n");
 }
