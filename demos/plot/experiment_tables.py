@@ -64,7 +64,7 @@ def copter_row(numbers, scene):
 
 def seed_row(numbers):
     spin, descent = numbers.late_spin("winged_seed"), numbers.late_descent("winged_seed")
-    ours = f"autorotates: {spin:.0f} rad/s, {descent:.2f} m/s down; see below"
+    ours = f"autorotates: {spin:.0f} rad/s, {descent:.2f} m/s down"
     # Lee, Lee and Sohn 2014, Acer palmatum.
     return "`winged_seed`", "not reproduced", ours, "131 rad/s, 1.2 m/s down"
 

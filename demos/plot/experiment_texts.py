@@ -10,7 +10,9 @@ contacts and joints. Every number of "this library" in the tables and every pict
 from the logs of that very run, in `out`. `demos/run NAME` runs one scene of [data/scenes](../data/scenes). The tests in
 [tests/demos](../tests/demos) run the same scenes. A dash means that nothing is known or published.
 
-The same command writes `out/experiments.html`: every run in 3D, to be played, scrubbed and turned in a browser.
+The command rewrites this page and its pictures, which git tracks. The convergence is taken from the last
+`demos/run --convergence` in `out`; where there was none, that section stays as it is. The command also writes
+`out/experiments.html`: every run in 3D, to be played, scrubbed and turned in a browser.
 """
 
 DIFFERENCES = """## Where the model is known to differ from reality
@@ -23,29 +25,35 @@ DIFFERENCES = """## Where the model is known to differ from reality
 - **Football.** The moments of inertia are those quoted for a real ball, 0.00194 kg m² about the long axis and 0.00321
   across it (after Rae 2003 and Brody 1985; the originals were not at hand); a shell of this shape has 0.00209 and
   0.00342, a solid 0.00118 and 0.00220. With the shell the axis comes within 10.4°, with the solid within 7.7°. At the
-  height of the throw the range is Rae's, but later: 2.8 s is the time of a throw without lift, and the model's ball, its
-  nose above its path, has lift. On the ground that adds up to 1 m and 0.4 s more than in the paper.
+  height of the throw the range is Rae's, but later: 2.8 s is the time of a throw without lift, and the model's ball,
+  its nose above its path, has lift. On the ground that adds up to 1 m and 0.4 s more than in the paper.
 - **Basketball.** The drifts are those without skin friction. With it they are 14.0, 28.5 and 44.3 m.
 - **Bouncing.** Bullet applies restitution to the contact as a step finds it: with 0.8 a ball leaves with 0.8 to 0.98 of
   its speed, stock or in a fluid.
 - **Propellers.** A propeller of 4 g or less without a stick turns over in flight; the scene has 8 g. Under water it
   spins up and then turns over as well.
-- **Paper copter.** A sheet without thickness: one strip of 80 g/m² paper, slit and folded, with a clip of 0.5 g. Its folds
-  fall off outwards by 40°, which gives the wings a pitch. With 35° some releases, and with horizontal folds all, end
-  tilted by 30° to 60° and hardly spinning: one wing is broadside to the air, where the model has no pressure. The fat
-  proxy of the paper is `paper_copter_proxy`, without stem; with less pitch than 30° or less coning than 45° it keeps
-  nutating.
+- **Paper copter.** A sheet without thickness: one strip of 80 g/m² paper, slit and folded, with a clip of 0.5 g. Its
+  folds fall off outwards by 40°, which gives the wings a pitch. With 35° some releases, and with horizontal folds all,
+  end tilted by 30° to 60° and hardly spinning: one wing is broadside to the air, where the model has no pressure. The
+  fat proxy of the paper is `paper_copter_proxy`, without stem; with less pitch than 30° or less coning than 45° it
+  keeps nutating.
 - **Bunny.** Released on its back it finds another screw: 2.5 rad/s and 0.27 m/s.
-- **Winged seed.** The paper could not make one autorotate. In this model a steady autorotation exists and is stable over
-  a wide range: spun by hand at 230 rad/s, a maple's shape with a flat wing and 70 % of its mass in the nut keeps turning
-  at 180 rad/s and falls at 0.5 m/s. With the scene's seed the centre of mass may lie from 3 mm farther back to 4 mm
-  farther forward on the chord of 11 mm, which gives 0.51 to 1.22 m/s. From rest that state is seldom reached: by the
-  maple's shape in none of 24 releases in random directions (it falls at 6 m/s), by the scene's in 7. The scene's values
-  were found by a random search: the nut at the trailing edge, half of the mass in it and a third in the vein of the leading
-  edge, the wing pitched by 5.6° and drooping by 3.7°. Time steps from 1 to 4 ms
-  give the same flight, and so do masses that differ by 1e-7 to 4e-4. A real seed, of a
-  smaller kind, turns at 131 rad/s and falls at 1.2 m/s (Lee, Lee, Sohn: Experiments in Fluids 55, 2014).
+- **Winged seed.** The paper could not make one autorotate. In this model a steady autorotation exists and is stable
+  over a wide range: spun by hand at 230 rad/s, a maple's shape with a flat wing and 70 % of its mass in the nut keeps
+  turning at 180 rad/s and falls at 0.5 m/s. With the scene's seed the centre of mass may lie from 3 mm farther back to
+  4 mm farther forward on the chord of 11 mm, which gives 0.51 to 1.22 m/s. From rest that state is seldom reached: by
+  the maple's shape in none of 24 releases in random directions (it falls at 6 m/s), by the scene's in 7. The scene's
+  values were found by a random search: the nut at the trailing edge, half of the mass in it and a third in the vein of
+  the leading edge, the wing pitched by 5.6° and drooping by 3.7°. Time steps from 1 to 4 ms give the same flight, and
+  so do masses that differ by 1e-7 to 4e-4. A real seed, of a smaller kind, turns at 131 rad/s and falls at 1.2 m/s
+  (Lee, Lee, Sohn: Experiments in Fluids 55, 2014).
 - Plates are chaotic: compare modes, not positions; how far they can be trusted is in [data](../data/README.md).
+"""
+
+CONTACTS_END = """
+How far the cards of `cards_in_wind` are carried is chance. On top of an exactly flat card n·u is zero, so that rounding
+decides by eq. (13) of [theory](theory.md#4-surface-loads) whether the wind lifts it: with half the step one of the
+three cards stays where it is, with an eighth of it all three, and with a tolerance of 1e-6 at that step none.
 """
 
 RIVALS = """## Beside other models
@@ -53,8 +61,8 @@ RIVALS = """## Beside other models
 All with the same inertia and the same integrator; `--set model=NAME` does it for any scene.
 
 - `vacuum`: stock Bullet.
-- `uwrbd`: linear drag after [Weissmann 2012](theory.md#references) with λ = 1: the traction −ρ c u. Its free parameter
-  c is `linear_drag_speed`, 1 m/s.
+- `uwrbd`: "Underwater Rigid Body Dynamics" ([Weissmann 2012](theory.md#references)): linear drag with λ = 1, the
+  traction −ρ c u. Its free parameter c is `linear_drag_speed`, 1 m/s.
 - `gwtf`: a **stand-in** for "Going with the Flow" (Soliman et al. 2024), whose rule per face no public source gives:
   momentum flux on windward faces, −½ ρ A max(n·u, 0) u.
 
@@ -79,9 +87,10 @@ changes its mean speed by up to 9 %. `demos/run --convergence` repeats the runs.
 
 COST = """## Cost
 
-The paper's table of computation times, then this library. Preparing: processor time of one thread, from the shape to the
-fluid body; where the file's triangles are few, the flow is solved on up to 4200 panels. Step: one step of one body in
-the Bullet world, and the same without a fluid (density 0, same integrator), least of 15 runs on one core. The paper's
-steps are 0.01 to 0.03 s on a faster processor and in Python, here they are 1/240 s, so compare ratios; the paper's ratio
-is to its own rigid bodies with as many substeps, here it is to Bullet's step.
+Each cell has the value of the paper's table of computation times first, then that of this library (paper; ours).
+Preparing: processor time of one thread, from the shape to the fluid body; where the file's triangles are few, the flow
+is solved on up to 4200 panels. Step: one step of one body in the Bullet world, and the same without a fluid (density 0,
+same integrator), least of 15 runs on one core. The paper's steps are 0.01 to 0.03 s on a faster processor and in
+Python, here they are 1/240 s, so compare ratios; the paper's ratio is to its own rigid bodies with as many substeps,
+here it is to Bullet's step.
 """

@@ -3,6 +3,7 @@
 
 import argparse
 import json
+import re
 from pathlib import Path
 
 import matplotlib
@@ -12,7 +13,7 @@ matplotlib.use("Agg")
 from attitudes import draw_attitudes, draw_spinners
 from experiment_numbers import Numbers
 from experiment_tables import contact_rows, paper_rows, rival_rows, table
-from experiment_texts import CONVERGENCE, COST, DIFFERENCES, HEAD, RIVALS, RIVALS_END
+from experiment_texts import CONTACTS_END, CONVERGENCE, COST, DIFFERENCES, HEAD, RIVALS, RIVALS_END
 from falling_plates import PlanarFall, draw_falls
 from paths import draw_drop, draw_overlay
 from runs import Run
@@ -25,7 +26,7 @@ class Page:
     """The text so far; pictures go into DOCS/images."""
 
     def __init__(self, docs):
-        self.docs, self.parts = docs, []
+        self.docs, self.file, self.parts = docs, docs / "experiments.md", []
 
     def add(self, text):
         self.parts.append(text.strip("\n"))
@@ -34,8 +35,15 @@ class Page:
         figure.savefig(self.docs / "images" / f"{name}.png", dpi=60)
         self.add(f"![{caption}](images/{name}.png)")
 
+    def keep(self, heading):
+        """Adds the section as it stands in the file, if it does."""
+        old = self.file.read_text() if self.file.exists() else ""
+        section = re.search(rf"^{re.escape(heading)}\n(?:(?!## ).*\n)*", old, re.MULTILINE)
+        if section:
+            self.add(section[0])
+
     def write(self):
-        (self.docs / "experiments.md").write_text("\n\n".join(self.parts) + "\n")
+        self.file.write_text("\n\n".join(self.parts) + "\n")
 
 
 def add_experiments(page, numbers, runs):
@@ -73,16 +81,21 @@ def read_study(out, name):
     return json.loads(file.read_text()) if file.exists() else None
 
 
+def add_study(page, text, head, rows):
+    """Without rows the section stays as it is."""
+    if rows is None:
+        page.keep(text.splitlines()[0])
+    else:
+        page.add(text)
+        page.add(table(head, rows))
+
+
 def add_studies(page, out):
     convergence, cost = read_study(out, "convergence"), read_study(out, "cost")
-    if convergence:
-        page.add(CONVERGENCE)
-        head = ("scene", "number", "as it is", "half the step", "half the mesh size", "tolerance")
-        page.add(table(head, convergence_rows(convergence)))
-    if cost:
-        page.add(COST)
-        head = ("paper's name", "scene", "faces", "preparing, once", "substeps", "without a fluid", "step", "ratio")
-        page.add(table(head, cost_rows(cost)))
+    head = ("scene", "number", "as it is", "half the step", "half the mesh size", "tolerance")
+    add_study(page, CONVERGENCE, head, convergence and convergence_rows(convergence))
+    head = ("paper's name", "scene", "faces", "preparing, once", "substeps", "without a fluid", "step", "ratio")
+    add_study(page, COST, head, cost and cost_rows(cost))
 
 
 def write(out, docs):
@@ -94,6 +107,7 @@ def write(out, docs):
     add_rivals(page, numbers, runs)
     page.add("## Contacts and joints")
     page.add(table(("scene", "quantity", "this library"), contact_rows(numbers)))
+    page.add(CONTACTS_END)
     add_studies(page, out)
     page.add(DIFFERENCES)
     page.write()
