@@ -1,7 +1,6 @@
 #include "preprocess/potential_flow/curvature_correction.h"
 
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/potential_flow/face_bulges.h"
 #include "preprocess/potential_flow/panel.h"
 #include "preprocess/potential_flow/quadrature_rules.h"
 
@@ -33,9 +32,8 @@ Matrix36 velocitiesAt(const Vector3d& x) {
 }  // namespace
 
 CurvatureCorrection computeCurvatureCorrection(
-    const TriangleMesh& mesh, const DividedSurface& panels,
+    const TriangleMesh& mesh, const std::vector<FaceBulge>& bulges, const DividedSurface& panels,
     const Eigen::Matrix<double, Eigen::Dynamic, 6>& potential) {
-  const std::vector<FaceBulge> bulges = estimateBulges(mesh);
   CurvatureCorrection correction;
   if (bulges.empty()) return correction;
   for (Index t = 0; t < panels.mesh.triangleCount(); ++t) {

@@ -1,5 +1,6 @@
 #include "preprocess/potential_flow/refined_flow.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bullet_ambient/spatial/inertia.h"
@@ -21,10 +22,20 @@ Matrix6 extrapolated(const Matrix6& fine, const Matrix6& coarse, double panel_ra
   return fine + (fine - coarse) / (std::pow(panel_ratio, kOrder / 2) - 1);
 }
 
+/// Whether all triangles but a few stand for a part of a smooth surface. To divide them would
+/// resolve the flow around facets that the body does not have.
+bool isSmooth(const std::vector<FaceBulge>& bulges) {
+  const auto flat = std::count(bulges.begin(), bulges.end(), FaceBulge{0, 0, 0});
+  return 20 * static_cast<std::size_t>(flat) < bulges.size();
+}
+
 }  // namespace
 
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
-  const SurfaceLevels levels = refineInLevels(mesh, settings.sheet, settings.max_panels);
+  const std::vector<FaceBulge> bulges =
+      settings.sheet ? std::vector<FaceBulge>() : estimateBulges(mesh);
+  const SurfaceLevels levels =
+      refineInLevels(mesh, settings.sheet, isSmooth(bulges) ? 0 : settings.max_panels);
   PotentialFlowSettings undivided_settings = settings;
   undivided_settings.max_panels = 0;
   const PotentialFlow flow = solvePotentialFlow(levels.fine.mesh, undivided_settings);
@@ -41,7 +52,7 @@ RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettin
   double stretch = 1;
   if (!settings.sheet) {
     const CurvatureCorrection correction =
-        computeCurvatureCorrection(mesh, levels.fine, flow.potential);
+        computeCurvatureCorrection(mesh, bulges, levels.fine, flow.potential);
     refined.added_mass += correction.added_mass;
     stretch = std::cbrt(properties.volume / (properties.volume + correction.volume));
   }

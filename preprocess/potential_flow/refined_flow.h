@@ -13,9 +13,10 @@ struct RefinedFlow {
 
 /// solvePotentialFlow() with three corrections that cost next to nothing. Where flat faces with
 /// sharp edges are divided, the result is extrapolated from two divisions, the coarser one with
-/// about a quarter of the panels. A closed mesh that turns gently stands for a smooth surface of
-/// the same volume: to first order its triangles bulge up to it. And what the symmetries of the
-/// body forbid is removed, however its faces are cut.
+/// about a quarter of the panels. A closed mesh of one piece without sharp edges stands for a
+/// smooth body of the same volume: to first order its triangles bulge up to it; if all of it is
+/// curved, its own triangles are the panels. And what the symmetries of the body forbid is removed,
+/// however its faces are cut.
 /// @pre settings.true_volume == 0: the mesh has the volume of the body.
 /// @throws std::runtime_error as solvePotentialFlow().
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings);

@@ -75,7 +75,7 @@ TEST(FaceBulges, FlatSidesOfARoundedBoxStayFlat) {
   mesh.vertices += corners;  // a box of 2 m, rounded by 0.1 m
   const double r = 0.1, volume = 8 + 24 * r + 6 * kPi * r * r + 4 * kPi / 3 * r * r * r;
   const CurvatureCorrection correction = computeCurvatureCorrection(
-      mesh, undivided(mesh), Eigen::MatrixXd::Zero(mesh.vertexCount(), 6));
+      mesh, estimateBulges(mesh), undivided(mesh), Eigen::MatrixXd::Zero(mesh.vertexCount(), 6));
   const double missing = volume - test::volumeOf(mesh);
   EXPECT_GE(correction.volume, 0);
   EXPECT_LT(correction.volume, 0.5 * missing);
@@ -85,7 +85,7 @@ TEST(CurvatureCorrection, MakesTheSphereOfItsPolyhedron) {
   const TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 320);
   const PotentialFlow flow = solvePotentialFlow(mesh);
   const CurvatureCorrection correction =
-      computeCurvatureCorrection(mesh, undivided(mesh), flow.potential);
+      computeCurvatureCorrection(mesh, estimateBulges(mesh), undivided(mesh), flow.potential);
   EXPECT_NEAR((test::volumeOf(mesh) + correction.volume) / (4 * kPi / 3), 1, 2e-3);
   for (int k = 3; k < 6; ++k) {
     EXPECT_GT(relativeError(flow.added_mass(k, k), 2 * kPi / 3), 0.02);
@@ -99,7 +99,8 @@ TEST(CurvatureCorrection, DividingTheFlatTrianglesChangesLittle) {
   const SurfaceLevels levels = refineInLevels(mesh, false, 1000);
   ASSERT_GT(levels.fine.mesh.triangleCount(), 3 * mesh.triangleCount());
   const auto correctionOf = [&](const DividedSurface& surface) {
-    return computeCurvatureCorrection(mesh, surface, solvePotentialFlow(surface.mesh).potential);
+    return computeCurvatureCorrection(mesh, estimateBulges(mesh), surface,
+                                      solvePotentialFlow(surface.mesh).potential);
   };
   const CurvatureCorrection own = correctionOf(undivided(mesh)), fine = correctionOf(levels.fine);
   EXPECT_NEAR(fine.volume, own.volume, 1e-12);

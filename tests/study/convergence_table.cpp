@@ -6,10 +6,10 @@
 
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/potential_flow/surface_refinement.h"
-#include "tests/reference/body_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/reference/sheet_added_mass.h"
 #include "tests/study/accuracy_case.h"
+#include "tests/study/known_added_mass.h"
 #include "tests/study/study_meshes.h"
 
 namespace ambient::study {
@@ -32,15 +32,8 @@ Sequence smoothBody() {
   return sequence;
 }
 
-Vector6 cubeAddedMass() {
-  Vector6 exact;
-  exact << Vector3::Constant(reference::cubeRotationalAddedMass()),
-      Vector3::Constant(8 * reference::cubeAddedMassCoefficient());
-  return exact;
-}
-
 Sequence uniformCube() {
-  Sequence sequence{"cube, triangles of equal size", false, {}, cubeAddedMass()};
+  Sequence sequence{"cube, triangles of equal size", false, {}, cubeAddedMass().diagonal()};
   TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 12);
   for (int level = 0; level < 4; ++level) {
     mesh = divideTriangles(mesh, 4 * static_cast<int>(mesh.triangleCount()));
@@ -50,14 +43,16 @@ Sequence uniformCube() {
 }
 
 Sequence refinedCube() {
-  Sequence sequence{"cube of 12 triangles, panels made by the solver", false, {}, cubeAddedMass()};
+  Sequence sequence{
+      "cube of 12 triangles, panels made by the solver", false, {}, cubeAddedMass().diagonal()};
   for (const int panels : {300, 1000, 2400, 4200})
     sequence.meshes.push_back(refineSurface(makeBoxMesh({1, 1, 1}, 12), false, panels));
   return sequence;
 }
 
 Sequence gradedCube() {
-  Sequence sequence{"cube, triangles graded towards the edges", false, {}, cubeAddedMass()};
+  Sequence sequence{
+      "cube, triangles graded towards the edges", false, {}, cubeAddedMass().diagonal()};
   for (const int faces : {192, 432, 1200, 3072})
     sequence.meshes.push_back(makeBoxMesh({1, 1, 1}, faces));
   return sequence;
