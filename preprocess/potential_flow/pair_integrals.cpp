@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "preprocess/potential_flow/block_product.h"
 #include "preprocess/potential_flow/panel_pair.h"
 #include "preprocess/potential_flow/parallel_for.h"
 #include "preprocess/potential_flow/quadrature_rules.h"
@@ -98,31 +99,36 @@ double PairIntegrals::entry(Index t, Index s) const {
   return nearBlock(row, column)(t - leaf(row).first, s - leaf(column).first);
 }
 
+void PairIntegrals::addNear(int t, int s, const FieldRows& x, FieldRows& y) const {
+  const Block block = t <= s ? nearBlock(t, s) : nearBlock(s, t);
+  const Index stride = block.outerStride();
+  const MatrixBlock view = t <= s
+                               ? MatrixBlock{block.data(), block.rows(), block.cols(), 1, stride}
+                               : MatrixBlock{block.data(), block.cols(), block.rows(), stride, 1};
+  addBlockProduct(view, x.row(leaf(s).first).data(), static_cast<int>(x.cols()), y.data());
+}
+
 MatrixXf PairIntegrals::apply(const MatrixXf& x) const {
   const Index fields = x.cols(), terms = panel_harmonics_.rows();
   const auto leaves = static_cast<Index>(tree_.leaves.size());
   MatrixXf multipoles(terms, fields * static_cast<Index>(tree_.clusters.size())), locals;
+  FieldRows rows = FieldRows::Zero(x.rows(), fields <= kFieldGroup ? kFieldGroup : 3 * kFieldGroup);
   parallelFor(threads_, leaves, [&](Index k) {
     const PanelCluster& c = leaf(static_cast<int>(k));
     multipoles.middleCols(tree_.leaves[k] * fields, fields).noalias() =
         panel_harmonics_.middleCols(c.first, c.count) * x.middleRows(c.first, c.count);
+    rows.block(c.first, 0, c.count, fields) = x.middleRows(c.first, c.count);
   });
   expansions_.computeLocals(multipoles, fields, locals);
   MatrixXf y(x.rows(), fields);
   parallelFor(threads_, leaves, [&](Index k) {
-    const int t = static_cast<int>(k);
-    const PanelCluster& c = leaf(t);
+    const PanelCluster& c = leaf(static_cast<int>(k));
+    FieldRows near = FieldRows::Zero(c.count, rows.cols());
+    for (const int s : pairs_.near[k]) addNear(static_cast<int>(k), s, rows, near);
     auto part = y.middleRows(c.first, c.count);
     part.noalias() = panel_harmonics_.middleCols(c.first, c.count).transpose() *
                      locals.middleCols(tree_.leaves[k] * fields, fields);
-    for (const int s : pairs_.near[k]) {
-      const auto source = x.middleRows(leaf(s).first, leaf(s).count);
-      if (t <= s) {
-        part.noalias() += nearBlock(t, s) * source;
-      } else {
-        part.noalias() += nearBlock(s, t).transpose() * source;
-      }
-    }
+    part += near.leftCols(fields);
   });
   return y;
 }

@@ -12,7 +12,7 @@ class PairIntegrals {
  public:
   PairIntegrals(const PanelTree& tree, const ClusterPairs& pairs, int degree, int threads);
 
-  /// I x for several columns at once; the same bits for every number of threads.
+  /// I x for several columns at once, at most 24; the same bits for every number of threads.
   Eigen::MatrixXf apply(const Eigen::MatrixXf& x) const;
 
   /// I(t, s). @pre their leaves are near, as those of panels that touch are.
@@ -23,12 +23,15 @@ class PairIntegrals {
 
  private:
   using Block = Eigen::Map<const Eigen::MatrixXf>;
+  using FieldRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   void fillNear(int t, int s);
   void fillLeafHarmonics(int leaf);
   /// Entries between leaves t <= s.
   std::size_t nearOffset(int t, int s) const;
   Block nearBlock(int t, int s) const;
+  /// y += I x for the rows of leaf t and the columns of leaf s.
+  void addNear(int t, int s, const FieldRows& x, FieldRows& y) const;
   const PanelCluster& leaf(int k) const { return tree_.clusters[tree_.leaves[k]]; }
 
   const PanelTree& tree_;

@@ -17,6 +17,9 @@ namespace {
 // 3.2, docs/accuracy.md.
 constexpr double kOrder = 2.25;
 
+// On compact panels, as smooth bodies have them, expansions pay earlier than kMostDensePanels.
+constexpr Eigen::Index kMostDenseSmoothPanels = 2000;
+
 /// To panels of no size, from the added mass on both levels.
 Matrix6 extrapolated(const Matrix6& fine, const Matrix6& coarse, double panel_ratio) {
   return fine + (fine - coarse) / (std::pow(panel_ratio, kOrder / 2) - 1);
@@ -34,10 +37,14 @@ bool isSmooth(const std::vector<FaceBulge>& bulges) {
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   const std::vector<FaceBulge> bulges =
       settings.sheet ? std::vector<FaceBulge>() : estimateBulges(mesh);
+  const bool smooth = isSmooth(bulges);
   const SurfaceLevels levels =
-      refineInLevels(mesh, settings.sheet, isSmooth(bulges) ? 0 : settings.max_panels);
+      refineInLevels(mesh, settings.sheet, smooth ? 0 : settings.max_panels);
   PotentialFlowSettings undivided_settings = settings;
   undivided_settings.max_panels = 0;
+  if (smooth && settings.solver == FlowSolverKind::Automatic &&
+      mesh.triangleCount() > kMostDenseSmoothPanels)
+    undivided_settings.solver = FlowSolverKind::Hierarchical;
   const PotentialFlow flow = solvePotentialFlow(levels.fine.mesh, undivided_settings);
   RefinedFlow refined{flow.added_mass, flow.asymmetry, flow.panels};
   if (levels.coarse) {
