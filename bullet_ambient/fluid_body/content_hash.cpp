@@ -29,6 +29,7 @@ std::uint64_t contentHash(const FluidBody& body) {
     bytes.append(reinterpret_cast<const char*>(level.blocks.data()),
                  level.blocks.size() * sizeof(ClusterBlock));
   }
+  if (body.sphere_radius > 0) append(&body.sphere_radius, 1);
   return fnv1a64(bytes);
 }
 

@@ -69,6 +69,7 @@ FluidBody scaled(const FluidBody& body, double factor) {
                                       &result.faces.centroid_z, &result.surface.vertices})
     scale(*column, factor);
   scale(result.faces.area, factor * factor);
+  result.sphere_radius *= factor;
   for (LoadLevel& level : result.levels) {
     level.centre *= factor;
     level.length *= factor;

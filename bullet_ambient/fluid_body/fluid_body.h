@@ -65,6 +65,9 @@ struct FluidBody {
   FaceTable faces;
   Surface surface;
   std::vector<LoadLevel> levels;  ///< of reduced loads; may be empty
+  /// Of a body that is a sphere about its centre of volume [m]: its loads are those of the smooth
+  /// sphere, and faces and levels are not evaluated. 0: any other shape.
+  double sphere_radius = 0;
 };
 
 /// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x is the slip velocity of fully attached

@@ -180,6 +180,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   check.notNegative(body.asymmetry, "asymmetry");
   check.notNegative(body.volume, "volume");
   check.notNegative(body.area, "area");
+  check.notNegative(body.sphere_radius, "radius of the sphere");
   check.finiteMatrix(body.centre_of_volume, "centre of volume");
   check.finiteMatrix(body.origin, "origin");
   checkAddedMass(body, check);

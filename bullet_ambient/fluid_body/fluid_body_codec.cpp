@@ -163,10 +163,13 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
   const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
   const auto origin = packMatrix<file::Vector3>(body.origin);
+  flatbuffers::Optional<double> sphere_radius = flatbuffers::nullopt;
+  if (body.sphere_radius > 0) sphere_radius = body.sphere_radius;
   file::FinishFluidBodyBuffer(
-      builder, file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry,
-                                     body.volume, body.area, &centre_of_volume, &origin,
-                                     uniform_mass, surface_mass, faces, surface, levels));
+      builder,
+      file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry, body.volume,
+                            body.area, &centre_of_volume, &origin, uniform_mass, surface_mass,
+                            faces, surface, levels, sphere_radius));
 }
 
 FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
@@ -186,6 +189,7 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   if (packed.levels())
     for (const file::LoadLevel* level : *packed.levels())
       body.levels.push_back(unpack(*level, source));
+  body.sphere_radius = packed.sphere_radius().value_or(0);
   return body;
 }
 
@@ -207,6 +211,12 @@ std::size_t payloadBound(const FluidBody& body) {
          body.provenance.generator.size();
 }
 
+/// The oldest that can say it: older programs read what they can.
+std::uint32_t versionFor(const FluidBody& body) {
+  if (body.sphere_radius > 0) return kFormatVersion;
+  return body.levels.empty() ? 1 : 2;
+}
+
 bool isAligned(const char* address) {
   return reinterpret_cast<std::uintptr_t>(address) % alignof(double) == 0;
 }
@@ -223,9 +233,7 @@ std::string encodeFluidBody(const FluidBody& body, const std::string& source) {
   packInto(builder, body);
   const std::string_view payload(reinterpret_cast<const char*>(builder.GetBufferPointer()),
                                  builder.GetSize());
-  // Older programs read what has no levels.
-  const std::uint32_t version = body.levels.empty() ? 1 : kFormatVersion;
-  std::string bytes = encodeFileHeader({version, payload.size(), fnv1a64(payload)});
+  std::string bytes = encodeFileHeader({versionFor(body), payload.size(), fnv1a64(payload)});
   bytes += payload;
   return bytes;
 }

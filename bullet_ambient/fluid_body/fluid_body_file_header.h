@@ -15,7 +15,7 @@ namespace ambient {
 //   24 payload checksum uint64, FNV-1a
 
 constexpr std::size_t kFileHeaderSize = 32;
-constexpr std::uint32_t kFormatVersion = 2;  ///< the newest that can be read
+constexpr std::uint32_t kFormatVersion = 3;  ///< the newest that can be read
 /// FlatBuffers addresses less than 2 GiB.
 constexpr std::uint64_t kPayloadLimit = (std::uint64_t{1} << 31) - 1 - (std::uint64_t{1} << 16);
 

@@ -47,6 +47,9 @@ void checkShape(const FluidBody& body) {
   if (!(body.volume >= 0) || !std::isfinite(body.volume)) {
     reject(body, "volume [m^3]", body.volume, "zero or positive and finite");
   }
+  if (!(body.sphere_radius >= 0) || !std::isfinite(body.sphere_radius)) {
+    reject(body, "radius of the sphere [m]", body.sphere_radius, "zero or positive and finite");
+  }
   if (!(body.area >= 0) || !std::isfinite(body.area)) {
     reject(body, "wetted area [m^2]", body.area, "zero or positive and finite");
   }
@@ -96,6 +99,23 @@ const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
     best = &level;
   }
   return best;
+}
+
+// The cheapest way to the loads that the body, its medium and its settings allow.
+void planLoads(const FluidBody& body, const FlowSettings& flow, BodyModel& model) {
+  model.load_model = flow.model.get();
+  if (!(model.loads.density > 0)) return;
+  model.has_surface_loads = model.load_model || body.sphere_radius > 0 || body.faces.size() > 0;
+  if (model.load_model) return;
+  if (body.sphere_radius > 0) {
+    model.sphere_radius = body.sphere_radius;
+    if (needsSphereTable(model.loads))
+      model.sphere_table = sharedSphereTable(model.loads.separation_cosine);
+    return;
+  }
+  model.level = chooseLevel(body, flow);
+  if (!model.level && flow.precision == LoadPrecision::kSingle)
+    model.packed_faces = sharedPackedFaces(body.faces);
 }
 
 void checkFrame(const FluidBody& body, const FrameOffset& frame) {
@@ -160,11 +180,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   model.reference_length = std::sqrt(fluid_body.area);
   model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
   model.faces = &fluid_body.faces;
-  model.load_model = flow.model.get();
-  if (!model.load_model) model.level = chooseLevel(fluid_body, flow);
-  if (!model.load_model && !model.level && flow.precision == LoadPrecision::kSingle)
-    model.packed_faces = sharedPackedFaces(fluid_body.faces);
-  model.has_surface_loads = medium.density > 0 && (model.load_model || fluid_body.faces.size() > 0);
+  planLoads(fluid_body, flow, model);
   return model;
 }
 
@@ -175,7 +191,18 @@ static FaceLoads computeLoads(const BodyModel& model, const Twist& x_F) noexcept
                             : computeFaceLoads(*model.faces, length, x_F, model.loads);
 }
 
+// A sphere looks the same in all axes: the frame F plays no part.
+static Wrench computeSphereLoad(const BodyModel& model, const Twist& x) noexcept {
+  const Twist at_centre{x.angular, x.at(model.centre_of_volume)};
+  Wrench load = computeSphereLoads(model.sphere_table.get(), model.sphere_radius,
+                                   model.reference_length, at_centre, model.loads)
+                    .total();
+  load.torque += model.centre_of_volume.cross(load.force);
+  return load;
+}
+
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept {
+  if (model.sphere_radius > 0) return {computeSphereLoad(model, relative_twist), false};
   const Twist x_F = model.fluid_frame.toF(relative_twist);
   if (model.load_model) {
     const Wrench load_F = model.load_model->load(*model.faces, x_F, model.loads);

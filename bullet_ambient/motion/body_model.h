@@ -6,6 +6,7 @@
 #include "bullet_ambient/fluid_body/packed_faces.h"
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/medium.h"
+#include "bullet_ambient/force/sphere_loads.h"
 #include "bullet_ambient/motion/dual_pair.h"
 #include "bullet_ambient/spatial/inertia.h"
 
@@ -65,8 +66,10 @@ struct BodyModel {
   const FaceTable* faces = nullptr;   ///< in F
   std::shared_ptr<const PackedFaces> packed_faces;  ///< the same; null: loads in double precision
   const LoadLevel* level = nullptr;                 ///< of reduced loads; null: all faces
+  double sphere_radius = 0;  ///< of a smooth sphere about centre_of_volume [m]; 0: faces
+  std::shared_ptr<const SphereTable> sphere_table;  ///< null where it needs none
   const SurfaceLoadModel* load_model = nullptr;     ///< null: pressure and friction
-  bool has_surface_loads = false;  ///< there are faces or a load model, and a fluid
+  bool has_surface_loads = false;  ///< there are faces, a sphere or a load model, and a fluid
 
   double largest_mass = 0;  ///< largest eigenvalue of K's translation block [kg]
 };

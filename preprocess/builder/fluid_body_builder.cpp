@@ -121,6 +121,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   body.centre_of_volume = properties.uniform.centre - origin;
   body.faces = facesOf(mesh, settings.sheet);
   body.surface = surfaceOf(mesh);
+  body.sphere_radius = settings.sphere_radius;
   return body;
 }
 

@@ -30,6 +30,7 @@ struct BuildSettings {
   double true_volume = 0;  ///< of the smooth body the mesh stands for [m^3]: the mesh is scaled
                            ///< about its centre of volume to enclose as much. 0: taken as it is
   TriangleMesh cavities;   ///< closed surfaces inside, as in CheckedMesh: empty in the uniform mass
+  double sphere_radius = 0;  ///< of a mesh that stands for a sphere [m]; 0: any other shape
   /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
   std::optional<Matrix6> added_mass;
   int least_faces = 0;  ///< the mesh is divided into at least so many triangles for the loads

@@ -147,6 +147,8 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   build.threads = settings.threads;
   build.memory_limit = settings.memory_limit;
   build.solver = settings.solver;
+  if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry))
+    build.sphere_radius = settings.scale * sphere->radius;
   build.provenance = describeShape(shape, settings);
   return {makeFluidBody(checked.mesh, build), checked.warnings};
 }

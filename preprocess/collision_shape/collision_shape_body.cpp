@@ -111,7 +111,10 @@ FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSetti
   build.threads = settings.threads;
   build.provenance = provenanceOf(shape, solids, settings);
   requireGaps(solids, build.name);
-  if (solids.size() == 1) build.added_mass = addedMassOf(solids.front(), settings, build.name);
+  if (solids.size() == 1) {
+    build.added_mass = addedMassOf(solids.front(), settings, build.name);
+    build.sphere_radius = solids.front().sphere_radius;
+  }
   build.cavities = joined(solids, &Solid::cavities);
   return makeFluidBody(joined(solids, &Solid::mesh), build);
 }

@@ -140,6 +140,8 @@ Solid makeEllipsoidSolid(const HullBall& ball, const SolidResolution& resolution
   solid.mesh.vertices.colwise() += ball.centre;
   const Matrix6 about_centre = ellipsoidAddedMass(ball.semi_axes).asDiagonal();
   solid.added_mass = shiftOrigin(about_centre, -ball.centre);
+  const Eigen::Vector3d& semi_axes = ball.semi_axes;
+  if (semi_axes == Eigen::Vector3d::Constant(semi_axes[0])) solid.sphere_radius = semi_axes[0];
   return solid;
 }
 

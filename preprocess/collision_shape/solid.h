@@ -16,6 +16,7 @@ struct Solid {
   TriangleMesh cavities;     ///< closed, inside; they only matter to the uniform mass
   /// The closed form about the shape's origin, if there is one, per unit density.
   std::optional<Matrix6> added_mass;
+  double sphere_radius = 0;  ///< of a sphere [m]; 0: any other shape
 };
 
 }  // namespace ambient

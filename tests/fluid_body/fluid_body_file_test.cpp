@@ -169,7 +169,7 @@ TEST(FluidBodyFile, SaysThatItIsOfANewerVersion) {
   std::string bytes = encodeFluidBody(test::exampleBody(), "x");
   bytes[8] = 7;
   EXPECT_EQ(refusalOf([&] { decodeFluidBody(bytes, "f.ambient"); }),
-            "f.ambient: format version 7 is newer than this program reads, limit 2");
+            "f.ambient: format version 7 is newer than this program reads, limit 3");
 }
 
 TEST(FluidBodyFile, SaysThatAByteWasChanged) {

@@ -1,0 +1,99 @@
+#include "bullet_ambient/force/sphere_loads.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/force/fifth_root.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+bool hasFriction(const LoadSettings& settings) noexcept {
+  return settings.skin_friction && settings.viscosity > 0;
+}
+
+/// A twist in units of V + W, W = R |w|, with the directions of SphereIntegrals.
+struct SphereMotion {
+  double speed;        ///< V + W [m/s]; 0: at rest, or not finite
+  Vector3 linear;      ///< v / (V + W)
+  Vector3 equatorial;  ///< R w / (V + W)
+  Vector3 e, a, b;
+  double spin_share, cosine;
+
+  SphereMotion(const Twist& twist, double radius) noexcept {
+    linear = twist.linear;
+    equatorial = radius * twist.angular;
+    const double V = linear.norm(), W = equatorial.norm();
+    speed = V + W;
+    if (!(speed > 0) || !std::isfinite(speed)) {
+      speed = 0;
+      return;
+    }
+    linear /= speed;
+    equatorial /= speed;
+    const Vector3 spin = W > 0 ? Vector3(equatorial / (W / speed)) : Vector3(Vector3::Zero());
+    e = V > 0 ? Vector3(linear / (V / speed)) : spin;  // a sphere that only spins: any will do
+    spin_share = W / speed;
+    cosine = std::clamp(e.dot(spin), -1.0, 1.0);
+    a = spin - cosine * e;
+    b = e.cross(spin);
+  }
+
+  /// A polar or axial vector from its factors, which are for |cosine|. Mirrored in the plane of e
+  /// and b, a spin against the velocity becomes one along it.
+  Vector3 polar(const Vector3& factors) const noexcept {
+    return factors[0] * e + (cosine < 0 ? -factors[1] : factors[1]) * a + factors[2] * b;
+  }
+  Vector3 axial(const Vector3& factors) const noexcept {
+    const double sign = cosine < 0 ? -1 : 1;
+    return sign * factors[0] * e + factors[1] * a + sign * factors[2] * b;
+  }
+};
+
+/// The integral of |t|^2 n over the lee half, in units as in SphereIntegrals; eq. (45).
+Vector3 leeHalf(const SphereMotion& motion) noexcept {
+  const double spin_along = motion.equatorial.dot(motion.e);
+  const Vector3 across = motion.equatorial - spin_along * motion.e;
+  const double along =
+      motion.linear.squaredNorm() / 2 + spin_along * spin_along / 2 + across.squaredNorm() * 3 / 4;
+  return kPi * (4.0 / 3 * motion.linear.cross(motion.equatorial) - along * motion.e +
+                0.5 * spin_along * across);
+}
+
+}  // namespace
+
+bool needsSphereTable(const LoadSettings& settings) noexcept {
+  return settings.separation_cosine != 0 || hasFriction(settings);
+}
+
+FaceLoads computeSphereLoads(const SphereTable* table, double radius, double reference_length,
+                             const Twist& relative_twist, const LoadSettings& settings) noexcept {
+  FaceLoads loads;
+  const bool half = settings.separation_cosine == 0;
+  const SphereMotion motion(relative_twist, radius);
+  // Nothing is attached where nothing moves along its normal.
+  if (motion.speed == 0 || (half && motion.linear.isZero(0))) return loads;
+  const SphereIntegrals integrals =
+      table ? table->at(motion.spin_share, std::abs(motion.cosine)) : SphereIntegrals{};
+  const double pressure = 0.5 * settings.density * motion.speed * motion.speed * radius * radius;
+  Vector3 detached;
+  if (half) {
+    detached = leeHalf(motion);
+  } else {
+    Vector3 factors = integrals.detached;
+    factors[0] = std::min(factors[0], 0.0);  // by itself but for the interpolation
+    detached = motion.polar(factors);
+  }
+  const Vector3 everywhere = 8 * kPi / 3 * motion.linear.cross(motion.equatorial);
+  loads.pressure.force = pressure * (detached - everywhere);
+  if (!hasFriction(settings)) return loads;
+  const double reynolds = settings.density * motion.speed * reference_length / settings.viscosity;
+  const double friction = -pressure * 0.0576 * inverseFifthRoot(reynolds);
+  loads.friction.force = friction * motion.polar(integrals.friction_force);
+  loads.friction.torque = friction * radius * motion.axial(integrals.friction_torque);
+  return loads;
+}
+
+}  // namespace ambient
