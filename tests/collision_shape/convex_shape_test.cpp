@@ -34,6 +34,7 @@ TEST(ConvexShape, SphereHasTheClosedForm) {
   expected.bottomRightCorner<3, 3>().diagonal().setConstant(volume / 2);
   EXPECT_LT((ball.added_mass - expected).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_GT(ball.faces.size(), 1000u);
+  EXPECT_EQ(ball.sphere_radius, 0.75);
   checkFluidBody(ball, "ball");
 }
 

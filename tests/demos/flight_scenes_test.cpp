@@ -150,14 +150,9 @@ TEST(BasketballScene, DriftsWithTheTurnsPerSecond) {
   }
 }
 
-TEST(BasketballScene, TheGuardActsOnlyWhileTheBallsHardlyFall) {
-  const RunRecord whole = runSharing(readNamedScene("basketball_drop"));
-  const RunRecord start = runSharing(readNamedScene("basketball_drop", {{"duration", "0.1"}}));
-  EXPECT_EQ(whole.work[0].guarded, 0) << "without spin";
-  for (std::size_t i = 1; i < 4; ++i) {
-    EXPECT_EQ(whole.work[i].guarded, start.work[i].guarded) << i << " turns";
-    EXPECT_LT(100 * whole.work[i].guarded, whole.work[i].load_evaluations) << i << " turns";
-  }
+TEST(BasketballScene, TheGuardIsSilent) {
+  const RunRecord record = runSharing(readNamedScene("basketball_drop"));
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(record.work[i].guarded, 0) << i << " turns";
 }
 
 TEST(BasketballScene, DoesNotDriftInAVacuum) {

@@ -180,5 +180,16 @@ TEST(FluidBodyFile, SaysThatAByteWasChanged) {
                 " byte payload does not match");
 }
 
+TEST(FluidBodyFile, KeepsTheRadiusOfASphereInAVersionOfItsOwn) {
+  FluidBody body = test::exampleBody();
+  const std::string plain = encodeFluidBody(body, "f.ambient");
+  body.sphere_radius = 0.1;
+  const std::string bytes = encodeFluidBody(body, "f.ambient");
+  EXPECT_EQ(plain[8], 1);
+  EXPECT_EQ(bytes[8], 3);
+  EXPECT_EQ(decodeFluidBody(plain, "f.ambient").sphere_radius, 0);
+  EXPECT_EQ(decodeFluidBody(bytes, "f.ambient").sphere_radius, 0.1);
+}
+
 }  // namespace
 }  // namespace ambient

@@ -199,6 +199,12 @@ TEST(FluidBodyBuilder, CavitiesMatterToTheUniformMassOnly) {
   checkFluidBody(hollow, "hollow");
 }
 
+TEST(ShapeBuilder, OnlyASphereIsMarkedAsOne) {
+  EXPECT_EQ(buildText(R"({"type":"sphere","radius":0.5,"faces":80})").body.sphere_radius, 0.5);
+  EXPECT_EQ(
+      buildText(R"({"type":"capsule","radius":0.5,"height":1,"faces":80})").body.sphere_radius, 0);
+}
+
 // Lamb section 102: a disc of radius a has 8/3 a^3 broadside and 16/45 a^5 about a diameter.
 TEST(ShapeBuilder, DiscConvergesToLambWithSecondOrder) {
   const double a = 0.5, broadside = 8.0 / 3 * a * a * a, turning = 16.0 / 45 * std::pow(a, 5);
