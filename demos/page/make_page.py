@@ -11,10 +11,13 @@ import os
 import sys
 from pathlib import Path
 
+HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent / "plot"))
+
+from files import reading, writing
 from page_data import pack
 from tables import tables_as_html
 
-HERE = Path(__file__).resolve().parent
 THREE = Path("/usr/share/javascript/three")
 LIBRARY = [THREE / "three.min.js", THREE / "examples/js/controls/OrbitControls.js"]
 SCRIPTS = [HERE / f"{name}.js" for name in ("motion", "slip", "body_view", "run_view", "player")]
@@ -28,13 +31,18 @@ def script(file):
     return f"<script>\n{LICENCE if file in LIBRARY else ''}{text}</script>"
 
 
+def read_tables(file):
+    with reading(file, "a Markdown file"):
+        return tables_as_html(file.read_text(encoding="utf-8"))
+
+
 def make_page(folders, tables):
     for file in LIBRARY:
         if not file.exists():
             sys.exit(f"{file}: is missing; the Debian package libjs-three has it")
     parts = {
         "@STYLE@": (HERE / "page.css").read_text(),
-        "@TABLES@": tables_as_html(tables.read_text()) if tables else "",
+        "@TABLES@": read_tables(tables) if tables else "",
         "@RUNS@": json.dumps(pack(folders), separators=(",", ":")).replace("</", "<\\/"),
         "@SCRIPTS@": "\n".join(map(script, LIBRARY + SCRIPTS)),
     }
@@ -53,8 +61,9 @@ def main():
     arguments = parser.parse_args()
     page = make_page(arguments.runs, arguments.tables)
     partial = arguments.output.with_name(f".{arguments.output.name}.{os.getpid()}.partial")
-    partial.write_text(page, encoding="utf-8")
-    partial.replace(arguments.output)
+    with writing(arguments.output):
+        partial.write_text(page, encoding="utf-8")
+        partial.replace(arguments.output)
     print(f"Page: {arguments.output.resolve()}")
 
 

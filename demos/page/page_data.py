@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from files import reading
 
 # Samples per second that the page interpolates between.
 RATE = 60
@@ -70,13 +71,18 @@ def pack_bodies(folder, summary, geometry, shapes):
     return bodies
 
 
+def read_run(folder, shapes):
+    with reading(folder, "a folder of results of ambient_demo"):
+        summary = json.loads((folder / "summary.json").read_text())
+        geometry = json.loads((folder / "geometry.json").read_text())
+        return summary, geometry, pack_bodies(folder, summary, geometry, shapes)
+
+
 def pack(folders):
     """Runs of scenes in the order given; a folder SCENE-MODEL is a rival of that scene's run."""
     shapes, runs, rivals = Shapes(), {}, []
     for folder in map(Path, folders):
-        summary = json.loads((folder / "summary.json").read_text())
-        geometry = json.loads((folder / "geometry.json").read_text())
-        bodies = pack_bodies(folder, summary, geometry, shapes)
+        summary, geometry, bodies = read_run(folder, shapes)
         scene, model = summary["scene"], summary["model"]
         if folder.name == f"{scene}-{model}":
             rivals.append((scene, {"model": model, "bodies": bodies}))

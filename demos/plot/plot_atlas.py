@@ -5,7 +5,6 @@ Each cell is the worst of the runs that fall into it: the largest relative rise 
 """
 
 import argparse
-import csv
 import math
 
 import matplotlib
@@ -13,6 +12,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from files import read_table, writing
 from matplotlib.colors import LogNorm
 
 SETTINGS = ("free", "falling", "on a plane", "on a joint")
@@ -49,8 +49,8 @@ def main():
     parser.add_argument("atlas", metavar="ATLAS.csv")
     parser.add_argument("-o", "--output", required=True, metavar="PICTURE")
     arguments = parser.parse_args()
-    with open(arguments.atlas, newline="", encoding="utf-8") as file:
-        runs = list(csv.DictReader(file))
+    columns = ["setting", "energy_rise", *(column for pair in MAPS for column, _, _ in pair)]
+    runs = read_table(arguments.atlas, "a table of stability_atlas", columns)
     figure, panels = plt.subplots(len(MAPS), len(SETTINGS), figsize=(11, 6), layout="constrained")
     for row, (horizontal, vertical) in zip(panels, MAPS):
         for axes, setting in zip(row, SETTINGS):
@@ -59,7 +59,8 @@ def main():
             axes.set_title(f"{setting}: {len(chosen)} runs", fontsize=9)
         row[0].set_ylabel(vertical[1])
     figure.colorbar(image, ax=panels, label="worst relative rise of the energy in 2 s", shrink=0.7)
-    figure.savefig(arguments.output, dpi=80)
+    with writing(arguments.output):
+        figure.savefig(arguments.output, dpi=80)
 
 
 if __name__ == "__main__":

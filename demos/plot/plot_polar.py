@@ -6,12 +6,12 @@ other way round, if that has more values. The last panel is the drag polar.
 """
 
 import argparse
-import csv
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from files import read_table, reading, writing
 
 ANGLES = {"attack": "angle of attack α [°]", "side_slip": "side-slip β [°]"}
 LABELS = {"C_L": "lift $C_L$", "C_D": "drag $C_D$", "C_Y": "side force $C_Y$", "C_l": "roll $C_l$",
@@ -20,11 +20,10 @@ MOST_LINES = 12
 
 
 def read(file):
-    with open(file, newline="", encoding="utf-8") as stream:
-        rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
-    if not rows or set(rows[0]) != set(ANGLES) | set(LABELS):
-        raise SystemExit(f"{file}: not a table of ambient_preprocess polar")
-    return rows
+    kind = "a table of ambient_preprocess polar"
+    rows = read_table(file, kind, [*ANGLES, *LABELS])
+    with reading(file, kind):
+        return [{key: float(value) for key, value in row.items()} for row in rows]
 
 
 def values(rows, key):
@@ -71,7 +70,8 @@ def main():
         along, across = across, along
     figure = plt.figure(figsize=(12, 5.6), layout="constrained")
     draw(figure, rows, along, across)
-    figure.savefig(arguments.output, dpi=120)
+    with writing(arguments.output):
+        figure.savefig(arguments.output, dpi=120)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ import matplotlib
 matplotlib.use("Agg")
 
 from falling_plates import PlanarFall, draw_falls
+from files import writing
 from paths import draw_paths
 from runs import Run
 
@@ -26,7 +27,8 @@ def main():
         figure = draw_falls([PlanarFall(run) for run in runs])
     else:
         figure = draw_paths(runs)
-    figure.savefig(arguments.output, dpi=100)
+    with writing(arguments.output):
+        figure.savefig(arguments.output, dpi=100)
     print(f"\nPicture: {Path(arguments.output).resolve()}")
 
 

@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+from files import reading
 
 
 class Track:
@@ -39,7 +40,10 @@ class Run:
     """One folder of results."""
 
     def __init__(self, folder):
-        folder = Path(folder)
+        with reading(folder, "a folder of results of ambient_demo"):
+            self.read(Path(folder))
+
+    def read(self, folder):
         self.summary = json.loads((folder / "summary.json").read_text())
         self.name = self.summary["scene"]
         rows = {}
