@@ -44,13 +44,21 @@ inline Floats attachedExcess(Floats a, Floats spread_sq) {
   return z * (0.63661977f - 0.13661977f * (z * z));
 }
 
-template <bool kFriction>
+/// By how much the normal velocity may be negative where the flow is attached, eq. (13).
+inline Floats reach(float cosine, Vectors u) {
+  constexpr float kLeastSquare = 1e-30f;  // keeps the root of a cluster at rest finite
+  const Floats u_sq = dot(u, u) + kLeastSquare;
+  return cosine * (u_sq * inverseRoot(u_sq));
+}
+
+template <bool kRightAngle, bool kFriction>
 void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& motion, int lane,
              WrenchLanes& pressure_sums, WrenchLanes& friction_sums) {
   // Of a motion whose components are at most 1: keeps the switch of a flat cluster finite.
   constexpr float kLeastSpread = 1e-14f;
   const Vectors w = broadcast(motion.angular);
   const Vectors v = broadcast(motion.linear);
+  const float cosine = __builtin_sqrtf(motion.signed_cosine_sq);  // |cos(alpha)|
   Vectors torque = {}, force = {}, friction_torque = {}, friction_force = {};
   for (std::size_t i = 0; i < count; ++i) {
     const ClusterBlock& block = blocks[i];
@@ -59,13 +67,14 @@ void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& 
     const Floats b1 = dot(load(block.spread[0], lane), w, v);
     const Floats b2 = dot(load(block.spread[1], lane), w, v);
     const Floats spread_sq = b1 * b1 + b2 * b2 + kLeastSpread;
-    const Floats excess = attachedExcess(a, spread_sq);
     const Vectors c = load(block.centroid, lane);
     const Vectors u = plusCross(v, w, c);
+    const Floats excess = attachedExcess(kRightAngle ? a : a + reach(cosine, u), spread_sq);
     const Vectors t = lessProduct(u, dot(g.force, u), g.force);
     const Floats slip_sq = dot(t, t);
-    const Floats by_slip = excess * slip_sq;
-    const Floats by_normal = excess * (a * a + spread_sq);
+    const Floats part = kRightAngle ? excess : excess - 0.5f;
+    const Floats by_slip = part * slip_sq;
+    const Floats by_normal = part * (a * a + spread_sq);
     const Sixes slip = load(block.by_slip, lane);
     const Sixes normal = load(block.by_normal, lane);
     torque = torque + (by_slip * slip.torque + by_normal * normal.torque);
@@ -81,11 +90,11 @@ void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& 
   if (kFriction) friction_sums.set(friction_torque, friction_force, lane);
 }
 
-template <bool kFriction>
+template <bool kRightAngle, bool kFriction>
 FaceSums sumClusters(const ClusterBlock* blocks, std::size_t count, const SingleMotion& motion) {
   WrenchLanes pressure_lanes, friction_lanes;
   for (int lane = 0; lane < kLanes; lane += kWidth)
-    sumLane<kFriction>(blocks, count, motion, lane, pressure_lanes, friction_lanes);
+    sumLane<kRightAngle, kFriction>(blocks, count, motion, lane, pressure_lanes, friction_lanes);
   FaceSums sums = {};
   WrenchTotal pressure, friction;
   pressure.add(pressure_lanes);
@@ -99,8 +108,11 @@ FaceSums sumClusters(const ClusterBlock* blocks, std::size_t count, const Single
 
 FaceSums sumClusters(const ClusterBlock* blocks, std::size_t count, const SingleMotion& motion,
                      bool with_friction) {
-  return with_friction ? sumClusters<true>(blocks, count, motion)
-                       : sumClusters<false>(blocks, count, motion);
+  if (motion.signed_cosine_sq == 0)
+    return with_friction ? sumClusters<true, true>(blocks, count, motion)
+                         : sumClusters<true, false>(blocks, count, motion);
+  return with_friction ? sumClusters<false, true>(blocks, count, motion)
+                       : sumClusters<false, false>(blocks, count, motion);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -21,6 +22,8 @@ namespace ambient {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kRightAngle = 1.5707963267948966;
 
 std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
   if (text == "centre-of-volume") return std::nullopt;
@@ -50,26 +53,40 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   return settings;
 }
 
+double separationAngleOf(const BuildArguments& arguments) {
+  const double angle = arguments.separation_angle;
+  // An angle given with a few digits is still a right or a straight one.
+  constexpr double kDigits = 1e-6;
+  if (!(angle >= kRightAngle * (1 - kDigits) && angle <= 2 * kRightAngle * (1 + kDigits)))
+    raiseInputError("--separation-angle", angle, " rad must lie between pi/2 and pi");
+  return std::clamp(angle, kRightAngle, 2 * kRightAngle);
+}
+
 Provenance describeBody(const ShapeDescription& shape, const ShapeBuildSettings& settings,
-                        const std::vector<int>& levels) {
+                        const BuildArguments& arguments) {
   Provenance provenance = describeShape(shape, settings);
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    provenance.settings += (i == 0 ? "; levels " : ",") + std::to_string(levels[i]);
+  if (arguments.levels.empty()) return provenance;
+  std::ostringstream text;
+  text.precision(17);
+  for (const int clusters : arguments.levels)
+    text << (text.tellp() == 0 ? "; levels " : ",") << clusters;
+  text << ", separation angle " << separationAngleOf(arguments);
+  provenance.settings += text.str();
   return provenance;
 }
 
 FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings& settings,
-                        const std::vector<int>& levels, const fs::path& output) {
+                        const BuildArguments& arguments) {
   BuiltBody built;
   {
     const ElapsedDisplay display("building " + settings.name);
     built = buildShape(shape, settings);
-    built.body.levels = buildLoadLevels(built.body, levels);
-    built.body.provenance.settings = describeBody(shape, settings, levels).settings;
+    built.body.levels = buildLoadLevels(built.body, arguments.levels, separationAngleOf(arguments));
+    built.body.provenance.settings = describeBody(shape, settings, arguments).settings;
   }
   for (const std::string& warning : built.warnings) std::cerr << "warning: " << warning << "\n";
   const BlockedSignals until_renamed;
-  writeFluidBody(built.body, output);
+  writeFluidBody(built.body, arguments.output);
   return built.body;
 }
 
@@ -84,17 +101,17 @@ int runBuild(const BuildArguments& arguments) {
       raiseInputError("--levels", clusters, " clusters are not ", kFewestClusters, " to ",
                       kMostClusters);
   }
+  separationAngleOf(arguments);
   if (arguments.no_margins) raiseInputError("--no-margins", "only worlds have margins");
   const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
   const ShapeBuildSettings settings = settingsOf(arguments);
   requireWritablePlace(arguments.output, arguments.input);
   std::optional<FluidBody> body;
   if (!arguments.rebuild) {
-    body = readIfSame(arguments.output, settings.name,
-                      describeBody(shape, settings, arguments.levels));
+    body = readIfSame(arguments.output, settings.name, describeBody(shape, settings, arguments));
   }
   const bool is_reused = body.has_value();
-  if (!body) body = buildAndWrite(shape, settings, arguments.levels, arguments.output);
+  if (!body) body = buildAndWrite(shape, settings, arguments);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (is_reused && !arguments.json) {
     std::cerr << arguments.output << ": nothing has changed since it was built\n";

@@ -18,6 +18,7 @@ struct BuildArguments {
   int least_faces = 0;                      ///< the mesh is divided into at least so many
   int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
   std::vector<int> levels;                  ///< of reduced loads: their numbers of clusters
+  double separation_angle = 1.5707963267948966;  ///< of the levels, from pi/2 to pi [rad]
   int threads = 0;                          ///< 0: all cores
   std::string solver;                       ///< dense or hierarchical; empty: by the panels
   std::string memory;                       ///< for the flow [GB]; empty: what is available

@@ -41,10 +41,13 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
       ->type_name("N");
   build
       ->add_option("--levels", arguments.levels,
-                   "Levels of reduced loads at a separation angle of pi/2, of so many clusters "
-                   "each (default none)")
+                   "Levels of reduced loads, of so many clusters each (default none)")
       ->delimiter(',')
       ->type_name("N,N,...");
+  build
+      ->add_option("--separation-angle", arguments.separation_angle,
+                   "For which the levels are fitted (default pi/2)")
+      ->type_name("RAD");
   build
       ->add_option("--panels", arguments.panels,
                    "Panels for the flow, at most; the faces stay those of the mesh (default 4200; "

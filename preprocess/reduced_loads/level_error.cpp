@@ -25,11 +25,12 @@ struct Sample {
 
 class Comparison {
  public:
-  Comparison(const LoadLevel& level, const FaceTable& faces) : level_(level), faces_(faces) {}
+  Comparison(const LoadLevel& level, const FaceTable& faces)
+      : level_(level), faces_(faces), cosine_(separationCosine(level.separation_angle)) {}
 
   /// Of the pressure, relative to S.
   double error(const Vector6& x) const {
-    const LoadSettings settings{1, 0, 0, false};
+    const LoadSettings settings{1, 0, cosine_, false};
     double scale = 0;
     for (std::size_t i = 0; i < faces_.size(); ++i) scale += faces_.area[i] * slipSquared(x, i);
     return ratio(difference(x, settings).pressure, 0.5 * scale);
@@ -37,14 +38,14 @@ class Comparison {
 
   /// Of the pressure, relative to itself.
   double relativeError(const Vector6& x) const {
-    const LoadSettings settings{1, 0, 0, false};
+    const LoadSettings settings{1, 0, cosine_, false};
     const FaceLoads exact = computeFaceLoads(faces_, 1, Twist::fromVector(x), settings);
     return ratio(difference(x, settings).pressure, exact.pressure.vector().norm());
   }
 
   /// Of the friction, relative to that on all faces together.
   double frictionError(const Vector6& x) const {
-    const LoadSettings settings{1, 1, 0, true};
+    const LoadSettings settings{1, 1, cosine_, true};
     double scale = 0;
     for (std::size_t i = 0; i < faces_.size(); ++i)
       scale += faces_.area[i] * std::pow(slipSquared(x, i), 0.9);
@@ -73,6 +74,7 @@ class Comparison {
 
   const LoadLevel& level_;
   const FaceTable& faces_;
+  double cosine_;
 };
 
 double percentile99(std::vector<Sample>& samples) {

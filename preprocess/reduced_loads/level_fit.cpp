@@ -25,8 +25,8 @@ Vector6 momentOf(const FaceTable& faces, std::size_t i) {
   return moment;
 }
 
-// Half of what all faces would do if all were attached: it needs no terminator.
-Eigen::Matrix<double, 6, 21> evenPart(const FaceTable& faces) {
+// A share of what all faces would do if all were attached: it needs no terminator.
+Eigen::Matrix<double, 6, 21> evenPart(const FaceTable& faces, double share) {
   Eigen::Matrix<double, 6, 21> even = Eigen::Matrix<double, 6, 21>::Zero();
   for (std::size_t i = 0; i < faces.size(); ++i) {
     FaceTable face;
@@ -37,7 +37,7 @@ Eigen::Matrix<double, 6, 21> evenPart(const FaceTable& faces) {
     int next = 0;
     for (int a = 0; a < 6; ++a)
       for (int b = a; b < 6; ++b) products[next++] = (a == b ? 1 : 2) * square(a, b);
-    even += 0.5 * faces.area[i] * momentOf(faces, i) * products;
+    even += share * faces.area[i] * momentOf(faces, i) * products;
   }
   return even;
 }
@@ -75,12 +75,12 @@ Cluster describe(const FaceTable& faces, const std::vector<std::size_t>& members
 }
 
 // The two functions of a cluster, as level_sums_kernel.h evaluates them.
-Eigen::Vector2d functionsOf(const Cluster& cluster, const Vector6& x) {
+Eigen::Vector2d functionsOf(const Cluster& cluster, const Vector6& x, double cosine) {
   const double a = cluster.switching.dot(x);
   const double spread_sq = (cluster.spread * x).squaredNorm() + 1e-14;
-  const double z = std::clamp(a / (2 * std::sqrt(spread_sq)), -1.0, 1.0);
-  const double excess = z * (0.63661977 - 0.13661977 * z * z);
   const Vector3 u = x.tail<3>() + x.head<3>().cross(cluster.centroid);
+  const double z = std::clamp((a - cosine * u.norm()) / (2 * std::sqrt(spread_sq)), -1.0, 1.0);
+  const double excess = z * (0.63661977 - 0.13661977 * z * z) - (cosine == 0 ? 0 : 0.5);
   const Vector3 n = cluster.switching.tail<3>();
   const Vector3 t = u - n.dot(u) * n;
   return excess * Eigen::Vector2d(t.squaredNorm(), cluster.curvature * (a * a + spread_sq));
@@ -111,20 +111,20 @@ Wrenches suggestedWrenches(const std::vector<Cluster>& clusters) {
 }
 
 Wrenches fitWrenches(const FaceTable& faces, const LoadLevel& even,
-                     const std::vector<Cluster>& clusters) {
+                     const std::vector<Cluster>& clusters, double cosine) {
   const auto unknowns = static_cast<Eigen::Index>(2 * clusters.size());
   const Eigen::Index samples = std::max<Eigen::Index>(kLeastSamples, kSamplesPerUnknown * unknowns);
   Eigen::MatrixXd functions(samples, unknowns);
   Wrenches rest(samples, 6);
   const Matrix6 slip_square = slipSquare(faces);
-  const LoadSettings settings{kDensity, 0, 0, false};
+  const LoadSettings settings{kDensity, 0, cosine, false};
   ArbitraryNumbers numbers(kSeed);
   for (Eigen::Index s = 0; s < samples; ++s) {
     const Vector6 x = sampleMotion(numbers);
     const double weight = 1 / x.dot(slip_square * x);
     for (std::size_t k = 0; k < clusters.size(); ++k)
       functions.row(s).segment<2>(static_cast<Eigen::Index>(2 * k)) =
-          weight * functionsOf(clusters[k], x);
+          weight * functionsOf(clusters[k], x, cosine);
     const Twist twist = Twist::fromVector(x);
     rest.row(s) = -weight * (computeFaceLoads(faces, 1, twist, settings).pressure.vector() -
                              computeLevelLoads(even, 1, twist, settings).pressure.vector());
@@ -155,14 +155,17 @@ void store(const Cluster& cluster, const Vector6& by_slip, const Vector6& by_nor
 
 }  // namespace
 
-LoadLevel fitLevel(const FaceTable& faces, const FaceClusters& face_clusters) {
+LoadLevel fitLevel(const FaceTable& faces, const FaceClusters& face_clusters,
+                   double separation_angle) {
+  const double cosine = separationCosine(separation_angle);
   LoadLevel level;
+  level.separation_angle = separation_angle;
   level.clusters = static_cast<int>(face_clusters.size());
-  level.even = evenPart(faces);
+  level.even = evenPart(faces, cosine == 0 ? 0.5 : 1);
   std::vector<Cluster> clusters;
   for (const std::vector<std::size_t>& members : face_clusters)
     clusters.push_back(describe(faces, members));
-  const Wrenches wrenches = fitWrenches(faces, level, clusters);
+  const Wrenches wrenches = fitWrenches(faces, level, clusters, cosine);
   constexpr std::size_t kBlock = ClusterBlock::kClusters;
   level.blocks.resize((clusters.size() + kBlock - 1) / kBlock);
   for (std::size_t k = 0; k < clusters.size(); ++k) {

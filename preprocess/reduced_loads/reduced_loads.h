@@ -10,12 +10,13 @@ namespace ambient {
 /// cheaper.
 constexpr int kFewestClusters = 16, kMostClusters = 1024;
 
-/// Reduced levels of a shape's loads at a separation angle of pi/2, one per number of clusters,
+/// Reduced levels of a shape's loads at a separation angle [rad], one per number of clusters,
 /// with their errors; docs/theory.md section "Reduced loads". A level does not get more clusters
 /// than there are faces. The same bits on every run. Cost: about 1 s for 200 clusters, growing with
 /// the square of the clusters and with the faces.
 /// @throws std::invalid_argument, naming body, value and limit, for a number of clusters out of
-/// range or a body without faces that have an area.
-std::vector<LoadLevel> buildLoadLevels(const FluidBody& body, const std::vector<int>& clusters);
+/// range, an angle outside [pi/2, pi] or a body without faces that have an area.
+std::vector<LoadLevel> buildLoadLevels(const FluidBody& body, const std::vector<int>& clusters,
+                                       double separation_angle = 1.5707963267948966);
 
 }  // namespace ambient

@@ -47,27 +47,49 @@ double slipScale(const FluidBody& body, const Twist& x) {
   return 0.5 * kAir.density * scale;
 }
 
-TEST(ReducedLoads, HaveTheErrorThatTheyState) {
+class ReducedLoadsAtAngle : public testing::TestWithParam<double> {};  // over pi/2
+
+TEST_P(ReducedLoadsAtAngle, HaveTheErrorThatTheyState) {
   const FluidBody body = oblate(3);
-  const LoadLevel level = buildLoadLevels(body, {96}).front();
+  const double separation_angle = GetParam() * std::acos(0.0);
+  const LoadLevel level = buildLoadLevels(body, {96}, separation_angle).front();
+  const LoadSettings settings{1.2, 0, separationCosine(separation_angle), false};
+  EXPECT_EQ(level.separation_angle, separation_angle);
   EXPECT_EQ(level.clusters, 96);
-  EXPECT_LT(level.error.p99, 0.015);
+  EXPECT_LT(level.error.p99, GetParam() == 1 ? 0.015 : 0.04);
   EXPECT_LT(level.error.p99, level.error.maximum);
   EXPECT_LT(level.error.rms, level.error.p99);
-  EXPECT_LT(level.error.friction, 0.05);
+  EXPECT_LT(level.error.friction, GetParam() == 1 ? 0.05 : 0.1);  // measured 0.084 at most
   test::Arbitrary arbitrary(61);  // another sampler, of the same kind
   std::vector<double> errors;
   for (int i = 0; i < 1000; ++i) {
     const double angle = arbitrary.between(0, std::acos(0.0));
     const Twist x{std::sin(angle) / level.length * arbitrary.vector().normalized(),
                   std::cos(angle) * arbitrary.vector().normalized()};
-    Vector6 error = reduced(level, x) - allFaces(body, x);
+    Vector6 error = computeLevelLoads(level, 1, x, settings).pressure.vector() -
+                    computeFaceLoads(body.faces, 1, x, settings).pressure.vector();
     error.head<3>() /= level.length;
     errors.push_back(error.norm() / slipScale(body, x));
   }
   std::sort(errors.begin(), errors.end());
   EXPECT_NEAR(errors[990], level.error.p99, 0.25 * level.error.p99);
   EXPECT_LT(errors.back(), level.error.maximum);
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, ReducedLoadsAtAngle, testing::Values(1, 1.2, 1.5));
+
+TEST(ReducedLoads, AreExactWhereAllFacesAreAttached) {
+  const FluidBody body = oblate();
+  const double pi = 2 * std::acos(0.0);
+  const LoadLevel level = buildLoadLevels(body, {32}, pi).front();
+  const LoadSettings settings{1.2, 0, separationCosine(pi), false};
+  test::Arbitrary arbitrary(63);
+  for (int i = 0; i < 50; ++i) {
+    const Twist x = arbitrary.twist();
+    const Vector6 error = computeLevelLoads(level, 1, x, settings).pressure.vector() -
+                          computeFaceLoads(body.faces, 1, x, settings).pressure.vector();
+    EXPECT_LT(error.norm(), 1e-3 * slipScale(body, x));  // faces that move along their normals
+  }
 }
 
 TEST(ReducedLoads, HaveTheExactEvenPart) {
@@ -132,6 +154,8 @@ TEST(ReducedLoads, RefuseWhatCannotBe) {
   EXPECT_THROW(buildLoadLevels(oblate(), {15}), std::invalid_argument);
   EXPECT_THROW(buildLoadLevels(oblate(), {1025}), std::invalid_argument);
   EXPECT_THROW(buildLoadLevels(FluidBody{}, {16}), std::invalid_argument);
+  EXPECT_THROW(buildLoadLevels(oblate(), {16}, 1), std::invalid_argument);
+  EXPECT_THROW(buildLoadLevels(oblate(), {16}, 4), std::invalid_argument);
 }
 
 TEST(ReducedLoads, OfDamagedLevelsAreRefused) {
@@ -155,15 +179,19 @@ TEST(ReducedLoads, OfDamagedLevelsAreRefused) {
 
 TEST(ReducedLoads, HaveTheSameBitsWithEveryInstructionSet) {
   const LoadLevel level = buildLoadLevels(oblate(), {40}).front();
-  const SingleMotion motion{{0.75f, -0.5f, 0.3f}, {0.25f, 0.4f, -1.0f}, 0, 1};
+  const SingleMotion at_right_angle{{0.75f, -0.5f, 0.3f}, {0.25f, 0.4f, -1.0f}, 0, 1};
+  SingleMotion beyond = at_right_angle;
+  beyond.signed_cosine_sq = 0.5f;
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
     const SumClusters kernel = sumClustersFor(set);
     if (!kernel) continue;
-    for (const bool friction : {false, true}) {
-      const FaceSums a = kernel(level.blocks.data(), level.blocks.size(), motion, friction);
-      const FaceSums b =
-          sumClustersBaseline(level.blocks.data(), level.blocks.size(), motion, friction);
-      EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
+    for (const SingleMotion& motion : {at_right_angle, beyond}) {
+      for (const bool friction : {false, true}) {
+        const FaceSums a = kernel(level.blocks.data(), level.blocks.size(), motion, friction);
+        const FaceSums b =
+            sumClustersBaseline(level.blocks.data(), level.blocks.size(), motion, friction);
+        EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
+      }
     }
   }
 }
