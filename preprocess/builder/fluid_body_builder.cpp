@@ -6,6 +6,7 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/usual_size.h"
 #include "preprocess/potential_flow/refined_flow.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 
@@ -63,19 +64,6 @@ MassDistribution aboutOrigin(MassDistribution mass, const Eigen::Vector3d& origi
   return mass;
 }
 
-// Far beyond these sizes areas, volumes and moments leave the range of a double.
-constexpr double kSmallestSize = 1e-9, kLargestSize = 1e9;  // [m]
-
-void requireUsualSize(const TriangleMesh& mesh, const BuildSettings& settings) {
-  const Eigen::Vector3d extents =
-      mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff();
-  const double size = extents.norm();
-  if (!(size >= kSmallestSize && size <= kLargestSize)) {
-    raiseInputError(sourceOf(settings), "the diagonal of its bounding box is ", size,
-                    " m; it must be ", kSmallestSize, " m to ", kLargestSize, " m");
-  }
-}
-
 RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
   PotentialFlowSettings flow_settings;
   flow_settings.sheet = settings.sheet;
@@ -95,7 +83,7 @@ RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
 std::string libraryVersion() { return "bullet_ambient " AMBIENT_VERSION; }
 
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
-  requireUsualSize(source_mesh, settings);
+  requireUsualSize(source_mesh, settings.sheet, sourceOf(settings));
   TriangleMesh mesh = withTrueVolume(divideTriangles(source_mesh, settings.least_faces), settings);
   const MeshProperties properties = massPropertiesOf(mesh, settings.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);

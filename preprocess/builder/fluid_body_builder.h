@@ -49,7 +49,8 @@ struct BuildSettings {
 /// solvePotentialFlow().
 /// @pre the mesh passed checkMesh() as a body or as a sheet.
 /// @throws std::runtime_error in one line that begins with the source, if the mesh is smaller than
-/// 1e-9 m or larger than 1e9 m, or the flow cannot be solved or needs more memory than there is.
+/// 1e-9 m or larger than 1e9 m or too narrow, or the flow cannot be solved or needs more memory
+/// than there is.
 FluidBody makeFluidBody(const TriangleMesh& mesh, const BuildSettings& settings);
 
 }  // namespace ambient

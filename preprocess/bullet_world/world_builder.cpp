@@ -6,6 +6,7 @@
 #include "preprocess/builder/reuse.h"
 #include "preprocess/bullet_world/world_file.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
+#include "preprocess/mesh/input_error.h"
 
 namespace ambient {
 namespace {
@@ -36,6 +37,10 @@ WorldBuild buildWorld(const std::filesystem::path& file, const std::filesystem::
                       const WorldBuildSettings& settings,
                       const std::function<void(const std::string&)>& onBegin) {
   const WorldFile world(file);
+  std::error_code no_folder;
+  std::filesystem::create_directories(folder, no_folder);
+  if (no_folder)
+    raiseInputError(folder.string(), "the folder cannot be made: ", no_folder.message());
   WorldBuild built;
   built.lost_bodies = world.lostBodies();
   for (const WorldShape& shape : world.dynamicShapes()) {

@@ -38,9 +38,9 @@ struct WorldBuild {
 };
 
 /// Makes `folder`/<name>.ambient of every distinct collision shape of a dynamic body in a .bullet
-/// file. A shape that fails does not stop the others and leaves its file as it was. `onBegin` is
-/// called with the name of each shape before its turn.
-/// @throws std::runtime_error in one line that names the file, if it cannot be read.
+/// file; the folder is made if there is none. A shape that fails does not stop the others and
+/// leaves its file as it was. `onBegin` is called with the name of each shape before its turn.
+/// @throws std::runtime_error in one line that names the file, if it cannot be read, or the folder.
 WorldBuild buildWorld(const std::filesystem::path& file, const std::filesystem::path& folder,
                       const WorldBuildSettings& settings,
                       const std::function<void(const std::string&)>& onBegin);

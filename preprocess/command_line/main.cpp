@@ -154,6 +154,20 @@ CLI::App* addReport(CLI::App& app, ReportArguments& arguments) {
   return report;
 }
 
+/// Names of files and keys may hold anything; a message is one line all the same.
+std::string inOneLine(const std::string& message) {
+  std::string line;
+  for (const char c : message) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x20 && code != 0x7f) {
+      line += c;
+    } else {
+      line += c == '\n' ? "\\n" : "?";
+    }
+  }
+  return line;
+}
+
 /// A sentence about a first word that is no command, if there is one.
 std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};
@@ -203,7 +217,7 @@ int run(int argc, char** argv) {
     std::cerr << "ambient_preprocess: there is not enough memory for an input of this size\n";
     return kBadInput;
   } catch (const std::exception& error) {
-    std::cerr << "ambient_preprocess: " << error.what() << "\n";
+    std::cerr << "ambient_preprocess: " << inOneLine(error.what()) << "\n";
     return kBadInput;
   }
   return 0;

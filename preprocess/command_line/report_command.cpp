@@ -10,6 +10,7 @@
 #include "preprocess/command_line/output_place.h"
 #include "preprocess/command_line/solver_options.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/usual_size.h"
 #include "preprocess/mesh_report/mesh_report.h"
 #include "preprocess/mesh_report/potential_picture.h"
 #include "preprocess/shape/shape_mesh.h"
@@ -128,6 +129,7 @@ void runReport(const ReportArguments& arguments) {
   const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
   CheckedMesh checked = makeShapeMesh(shape);
   checked.mesh.vertices *= arguments.scale;
+  requireUsualSize(checked.mesh, isSheet(shape), shape.source);
   for (const std::string& warning : checked.warnings) std::cerr << "warning: " << warning << "\n";
   MeshReportSettings settings;
   settings.sheet = isSheet(shape);

@@ -34,14 +34,11 @@ void requireWorldOptions(const BuildArguments& arguments) {
   }
 }
 
-fs::path folderFor(const std::string& output) {
+void requireFolder(const fs::path& output) {
   std::error_code error;
   if (fs::exists(output, error) && !fs::is_directory(output, error)) {
-    raiseInputError(output, "is a file; the output of a world is a folder");
+    raiseInputError(output.string(), "is a file; the output of a world is a folder");
   }
-  fs::create_directories(output, error);
-  if (error) raiseInputError(output, "the folder cannot be made: ", error.message());
-  return output;
 }
 
 const char* wordFor(Status status) {
@@ -99,11 +96,11 @@ int runWorldBuild(const BuildArguments& arguments) {
   std::error_code error;
   if (!fs::is_regular_file(arguments.input, error))
     raiseInputError(arguments.input, "no such file");
-  const fs::path folder = folderFor(arguments.output);
+  requireFolder(arguments.output);
   WorldBuild built;
   {
     std::unique_ptr<ElapsedDisplay> display;
-    built = buildWorld(arguments.input, folder, settings, [&](const std::string& shape) {
+    built = buildWorld(arguments.input, arguments.output, settings, [&](const std::string& shape) {
       display.reset();
       display = std::make_unique<ElapsedDisplay>("building " + shape);
     });

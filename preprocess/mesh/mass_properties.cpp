@@ -1,7 +1,5 @@
 #include "preprocess/mesh/mass_properties.h"
 
-#include <cassert>
-
 namespace ambient {
 namespace {
 
@@ -71,7 +69,6 @@ MassAndDistribution distributionOf(const TriangleMesh& mesh, MomentsOf momentsOf
   const Eigen::Vector3d middle =
       (mesh.vertices.rowwise().minCoeff() + mesh.vertices.rowwise().maxCoeff()) / 2;
   const Moments about_middle = sumMoments(mesh, middle, momentsOf);
-  assert(about_middle.mass > 0);
   const Eigen::Vector3d centre = middle + about_middle.first / about_middle.mass;
   const Moments moments = sumMoments(mesh, centre, momentsOf);
   const Eigen::Vector3d residue = moments.first / moments.mass;

@@ -44,6 +44,26 @@ TEST_F(CommandLine, BadShapesAreRefusedInOneLineThatNamesTheFile) {
   EXPECT_EQ(buildRefusal(ball, {"--sheet"}), ball + ": --sheet needs a shape of type \"sheet\"");
 }
 
+TEST_F(CommandLine, ShapesBeyondWhatCanBeSolvedAreRefused) {
+  const auto refusalOf = [&](const std::string& shape) {
+    const std::string file = write("shape.json", shape),
+                      message = buildRefusal(file, {"--panels", "0"});
+    EXPECT_EQ(refusal({"report", file, "--panels", "0"}), message);
+    EXPECT_EQ(message.find(file + ": "), 0u) << message;
+    return message.substr(std::min(message.size(), file.size() + 2));
+  };
+  EXPECT_EQ(refusalOf(R"({"type":"sphere","radius":1e300})"),
+            "the diagonal of its bounding box is not finite; it must be 1e-9 m to 1e9 m");
+  EXPECT_EQ(refusalOf(R"({"type":"box","half_sizes":[1,1,1e-12],"faces":48})")
+                .find("it is too thin: its volume over its area^1.5 is "),
+            0u);
+  EXPECT_EQ(refusalOf(R"({"type":"sheet","size":[1e-200,1],"faces":50})"),
+            "it is too narrow: its area over the square of its size must be at least 1e-12");
+  EXPECT_EQ(refusalOf("{\"type\":\"sphere\",\"radius\":1,\"a\\nb\":2}")
+                .find("unknown key \"a\\nb\" in shape"),
+            0u);
+}
+
 TEST_F(CommandLine, BadValuesOfOptionsAreRefusedByName) {
   const std::string ball = write("ball.json", sphereText());
   EXPECT_EQ(buildRefusal(ball, {"--scale", "0"}), ball + ": scale = 0 is not positive and finite");

@@ -175,6 +175,8 @@ TEST_F(WorldBuild, OtherFilesAndOptionsAreRefused) {
   EXPECT_EQ(build().errors, "ambient_preprocess: " + path("w.bullet") +
                                 ": is not a .bullet file: it does not begin with BULLET\n");
   EXPECT_EQ(build().exit_code, 1);
+  EXPECT_EQ(run({path("w.bullet"), "-o", path("x")}).exit_code, 1);
+  EXPECT_FALSE(std::filesystem::exists(path("x")));
   EXPECT_EQ(build({"--scale", "2"}).errors,
             "ambient_preprocess: --scale: has no meaning for a world: its shapes keep frame and "
             "size\n");

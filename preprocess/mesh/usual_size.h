@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// Checks that a mesh has a size that can be computed with: neither tiny nor huge, and so wide and
+/// thick that its triangles have normals. Cost O(T).
+/// @throws std::runtime_error in one line that begins with `source`, if its diagonal is not 1e-9 m
+/// to 1e9 m, its area over the diagonal's square is below 1e-12 or, unless it is a sheet, its
+/// volume over its area^1.5 below 1e-6.
+void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source);
+
+}  // namespace ambient
