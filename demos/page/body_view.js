@@ -4,6 +4,8 @@
 const PATH_COLOURS = ['#1f6feb', '#d9480f', '#2b8a3e', '#9c36b5', '#c2255c', '#5c7cfa', '#e8a400', '#0b7285'];
 // Pieces of the path's line between two samples.
 const PATH_PIECES = 4;
+// Bodies of this library are drawn after those of rivals, which would else cover them where they start.
+const OWN_FACES = 1, OWN_EDGES = 2, JOINTS = 3;
 const RIVAL_COLOURS = { vacuum: '#495057', uwrbd: '#d6336c', gwtf: '#e8590c' };
 
 class BodyView {
@@ -18,6 +20,10 @@ class BodyView {
     this.mesh = new THREE.Mesh(this.geometry, this.makeMaterial(colour, isRival));
     this.edges = new THREE.LineSegments(makeEdges(shape),
       new THREE.LineBasicMaterial({ color: 0x223344, transparent: true, opacity: isRival ? 0.25 : 0.5 }));
+    if (!isRival) {
+      this.mesh.renderOrder = OWN_FACES;
+      this.edges.renderOrder = OWN_EDGES;
+    }
     this.solid = new THREE.Group();
     this.solid.add(this.mesh, this.edges);
     this.group.add(this.solid);
@@ -27,9 +33,13 @@ class BodyView {
   makeMaterial(colour, isRival) {
     // Behind its edges. Sheets have the triangles of both sides.
     const common = { flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
-    if (isRival) return new THREE.MeshLambertMaterial({ ...common, color: colour, transparent: true, opacity: 0.55 });
+    if (isRival) {
+      return new THREE.MeshLambertMaterial(
+        { ...common, color: colour, transparent: true, opacity: 0.35, depthWrite: false });
+    }
     if (this.isStatic) return new THREE.MeshLambertMaterial({ ...common, color: 0xd3dae1 });
-    return new THREE.MeshLambertMaterial({ ...common, vertexColors: THREE.VertexColors });
+    // Opaque; only what is transparent is drawn after the rivals.
+    return new THREE.MeshLambertMaterial({ ...common, vertexColors: THREE.VertexColors, transparent: true });
   }
 
   moveTo(time, magnification) {
@@ -67,6 +77,17 @@ class BodyView {
       for (let face = 0; face < this.slip.faces; ++face) largest = Math.max(largest, this.slip.speed(face, twist));
     }
     return largest;
+  }
+
+  // The box that the body sweeps, in the axes that `toView` leads to.
+  swept(toView) {
+    const box = new THREE.Box3();
+    const radius = this.radius();
+    for (let i = 0; i < this.motion.count; ++i) {
+      const place = this.motion.positionOf(i).applyQuaternion(toView);
+      box.expandByPoint(place.clone().addScalar(radius)).expandByPoint(place.addScalar(-radius));
+    }
+    return box;
   }
 
   radius() {

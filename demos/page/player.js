@@ -2,8 +2,11 @@
 // The page: choice of the scene, time, overlays and what they show.
 
 const SPEEDS = [0.01, 0.03, 0.1, 0.25, 0.5, 1, 2, 4];
-const MODELS = { vacuum: 'vacuum (stock Bullet)', uwrbd: 'UWRBD: linear drag', gwtf: 'GwtF stand-in: windward flux' };
-const element = (id) => document.getElementById(id);
+const MODELS = {
+  vacuum: 'vacuum (stock Bullet)',
+  uwrbd: 'Underwater Rigid Body Dynamics: linear drag',
+  gwtf: 'stand-in for Going with the Flow: windward flux',
+};
 
 function decodeBase64(text, Type) {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
@@ -37,24 +40,14 @@ class Player {
     this.playing = false;
     this.changed = true;
     this.lastFrame = null;
+    this.scenes = new SceneList(data.runs, (i) => this.select(i));
     this.makeChoices();
     this.listen();
-    const wanted = data.runs.findIndex((run) => `#${run.name}` === location.hash);
-    this.select(Math.max(wanted, 0));
+    this.select(this.scenes.wanted());
     requestAnimationFrame((now) => this.frame(now));
   }
 
   makeChoices() {
-    this.data.runs.forEach((run, i) => {
-      const button = document.createElement('button');
-      button.textContent = run.name.replace(/_/g, ' ');
-      button.setAttribute('role', 'option');
-      button.addEventListener('click', () => {
-        button.blur();  // the space bar plays from now on
-        this.select(i);
-      });
-      element('scenes').append(button);
-    });
     for (const speed of SPEEDS) element('speed').append(new Option(`${speed} ×`, speed, speed === 1, speed === 1));
     element('legend-bar').style.background = colourGradient();
   }
@@ -86,20 +79,19 @@ class Player {
 
   select(index) {
     this.run = this.data.runs[index];
-    [...element('scenes').children].forEach((button, i) => button.setAttribute('aria-selected', i === index));
-    history.replaceState(null, '', `#${this.run.name}`);
+    this.scenes.show(index);
     this.view.followed = null;
     this.view.show(this.run, this.data.shapes);
     this.largestMagnification = Math.max(20, 3 * this.view.naturalMagnification);
-    element('title').textContent = this.run.name.replace(/_/g, ' ');
-    element('description').textContent = this.run.description;
     element('time').max = this.run.duration;
     element('legend-ticks').replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((share) => {
       const tick = document.createElement('span');
       tick.textContent = digits(share * this.view.slipScale);
       return tick;
     }));
-    element('scale').textContent = `grid: ${digits(this.view.gridStep)} m`;
+    const flow = this.view.mediumVelocity.length();
+    element('flow').hidden = flow === 0;
+    element('flow').textContent = `flow of ${digits(flow)} m/s`;
     this.makeViewChoices();
     this.makeOverlays();
     this.setTime(0);
@@ -109,7 +101,7 @@ class Player {
 
   makeViewChoices() {
     const moving = this.view.moving();
-    const choices = moving.map((view, i) => new Option(`follow ${view.body.name.replace(/_/g, ' ')}`, i));
+    const choices = moving.map((view, i) => new Option(`follow ${words(view.body.name)}`, i));
     element('view').replaceChildren(new Option('whole path', -1), ...choices);
   }
 
@@ -122,7 +114,8 @@ class Player {
       box.id = `rival-${rival.model}`;
       box.addEventListener('change', () => {
         this.view.showRival(rival.model, box.checked);
-        this.changed = true;
+        if (!this.view.followed) this.view.lookAt(null, this.time);
+        this.setMagnification(this.view.magnification);
       });
       const mark = document.createElement('i');
       mark.style.background = RIVAL_COLOURS[rival.model];
@@ -142,7 +135,10 @@ class Player {
   setMagnification(factor) {
     this.view.magnification = factor;
     element('size').value = Math.log(factor) / Math.log(this.largestMagnification);
-    element('factor').textContent = digits(factor, 2);
+    const shown = digits(factor, 2);
+    element('factor').textContent = shown;
+    const magnified = shown === '1' ? '' : ` · bodies drawn ${shown} times their size`;
+    element('scale').textContent = `grid: ${digits(this.view.gridStep)} m${magnified}`;
     this.changed = true;
   }
 
@@ -173,13 +169,18 @@ class Player {
   draw() {
     this.changed = false;
     const slip = this.view.moveTo(this.time);
-    const shown = this.view.followed || this.view.moving()[0];
-    const { motion } = shown;
-    const name = this.view.moving().length > 1 ? `${shown.body.name.replace(/_/g, ' ')}: ` : '';
     element('clock').textContent = `${this.time.toFixed(3)} / ${digits(this.run.duration)} s`;
-    element('numbers').textContent = `${name}speed ${digits(motion.velocity.length())} m/s`
-      + ` · spin ${digits(motion.spin.length())} rad/s · largest slip ${digits(slip)} m/s`;
+    element('numbers').textContent = this.numbers(slip);
     this.view.render();
+  }
+
+  numbers(slip) {
+    const moving = this.view.moving();
+    if (moving.length === 0) return 'no body moves';
+    const { body, motion } = this.view.followed || moving[0];
+    const name = moving.length > 1 ? `${words(body.name)}: ` : '';
+    return `${name}speed ${digits(motion.velocity.length())} m/s`
+      + ` · spin ${digits(motion.spin.length())} rad/s · largest slip ${digits(slip)} m/s`;
   }
 
   // Pose of a body of the shown run at the shown time, for tests: position [m], orientation x, y, z, w.
@@ -190,10 +191,25 @@ class Player {
   }
 }
 
+function makeRenderer(canvas) {
+  try {
+    return new THREE.WebGLRenderer({ canvas, antialias: true, logarithmicDepthBuffer: true });
+  } catch (error) {
+    return null;
+  }
+}
+
 function start() {
   const canvas = element('canvas');
-  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, logarithmicDepthBuffer: true });
-  window.player = new Player(readData(), new RunView(renderer, canvas));
+  const data = readData();
+  const renderer = makeRenderer(canvas);
+  if (renderer) {
+    window.player = new Player(data, new RunView(renderer, canvas));
+  } else {
+    element('viewer').classList.add('without-picture');
+    const scenes = new SceneList(data.runs, (i) => scenes.show(i));
+    scenes.show(scenes.wanted());
+  }
 }
 
 start();

@@ -4,6 +4,7 @@
 class RunView {
   constructor(renderer, canvas) {
     this.renderer = renderer;
+    this.renderer.autoClear = false;
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(0xeef2f6);
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
@@ -16,6 +17,7 @@ class RunView {
     this.scene.add(sun);
     this.world = new THREE.Group();
     this.scene.add(this.world);
+    this.flow = new FlowArrow();
     this.bodies = [];
     this.rivals = {};
     this.followed = null;
@@ -31,6 +33,7 @@ class RunView {
     const up = new THREE.Vector3().fromArray(run.gravity).multiplyScalar(-1);
     if (up.length() === 0) up.set(0, 0, 1);
     this.world.quaternion.setFromUnitVectors(up.normalize(), new THREE.Vector3(0, 1, 0));
+    this.flow.show(this.viewed(this.mediumVelocity));
     const makeViews = (bodies, colour) => bodies.map((body, i) => {
       const pathColour = colour || PATH_COLOURS[i % PATH_COLOURS.length];
       const view = new BodyView(body, shapes[body.shape], pathColour, Boolean(colour));
@@ -46,13 +49,12 @@ class RunView {
     this.slipScale = roundUp(largest, [1, 1.2, 1.6, 2, 2.4, 3.2, 4, 5, 6, 8, 10]);
     this.world.updateMatrixWorld();
     this.measure();
-    this.addGrid();
+    this.frame();
   }
 
   clear() {
     for (const view of this.allViews()) view.dispose();
     this.world.children.slice().forEach((child) => this.world.remove(child));
-    if (this.grid) this.scene.remove(this.grid);
     this.bodies = [];
     this.rivals = {};
   }
@@ -61,26 +63,35 @@ class RunView {
 
   moving() { return this.bodies.filter((view) => !view.isStatic); }
 
-  // The box that the moving bodies sweep, y up, and a magnification that keeps them visible in it.
+  // The moving bodies; all of them if none moves.
+  subjects() { return this.moving().length > 0 ? this.moving() : this.bodies; }
+
+  sweptBy(views) {
+    return views.reduce((box, view) => box.union(view.swept(this.world.quaternion)), new THREE.Box3());
+  }
+
+  // The box that the bodies sweep, y up, and a magnification that keeps them visible in it.
   measure() {
-    this.box = new THREE.Box3();
-    let least = Infinity;
-    for (const view of this.moving()) {
-      const radius = view.radius();
-      least = Math.min(least, radius);
-      for (let i = 0; i < view.motion.count; ++i) {
-        const place = view.motion.positionOf(i).applyQuaternion(this.world.quaternion);
-        this.box.expandByPoint(place.clone().addScalar(radius)).expandByPoint(place.addScalar(-radius));
-      }
-    }
-    this.span = this.box.getSize(new THREE.Vector3()).length();
-    const wanted = 0.03 * this.span / least;
+    this.ownBox = this.sweptBy(this.subjects());
+    const span = this.ownBox.getSize(new THREE.Vector3()).length();
+    const wanted = 0.03 * span / Math.min(...this.subjects().map((view) => view.radius()));
     // Bodies that meet others keep their size.
     const canMeet = this.bodies.length > this.moving().length || this.run.joints.length > 0;
     this.naturalMagnification = canMeet ? 1 : Math.max(1, wanted);
   }
 
-  addGrid() {
+  // The box that is looked at: visible rivals are in it, unless they leave what this library's bodies sweep by more
+  // than its size, as a plate that falls in a vacuum.
+  frame() {
+    const rivals = Object.values(this.rivals).flat().filter((view) => view.group.visible);
+    const most = this.ownBox.clone().expandByScalar(this.ownBox.getSize(new THREE.Vector3()).length());
+    this.box = this.sweptBy(rivals).intersect(most).union(this.ownBox);
+    this.span = this.box.getSize(new THREE.Vector3()).length();
+    this.makeGrid();
+  }
+
+  makeGrid() {
+    if (this.grid) this.scene.remove(this.grid);
     const size = this.box.getSize(new THREE.Vector3());
     this.gridStep = roundUp(Math.max(size.x, size.z, this.span / 4) / 12);
     const cells = 2 * Math.ceil(Math.max(size.x, size.z, this.span / 4) / this.gridStep / 2 + 2);
@@ -93,8 +104,9 @@ class RunView {
 
   // Of the lowest place that a body reaches, or of the floor under the bodies.
   groundHeight() {
-    const lowest = Math.min(...this.moving().map((view) => this.lowestCentre(view)));
     let height = this.box.min.y;
+    if (this.moving().length === 0) return height;
+    const lowest = Math.min(...this.moving().map((view) => this.lowestCentre(view)));
     for (const view of this.bodies.filter((candidate) => candidate.isStatic)) {
       view.moveTo(0, 1);
       view.group.updateMatrixWorld(true);
@@ -106,7 +118,7 @@ class RunView {
 
   lowestCentre(view) {
     const heights = Array.from({ length: view.motion.count },
-      (_, i) => view.motion.positionOf(i).applyQuaternion(this.world.quaternion).y);
+      (_, i) => this.viewed(view.motion.positionOf(i)).y);
     return Math.min(...heights);
   }
 
@@ -120,7 +132,9 @@ class RunView {
       const material = new THREE.PointsMaterial({ color: 0xc92a2a, size: 7, sizeAttenuation: false });
       // Inside of bodies, and yet to be seen.
       Object.assign(material, { depthTest: false, transparent: true });
-      view.solid.add(new THREE.Points(new THREE.BufferGeometry().setFromPoints([point]), material));
+      const dot = new THREE.Points(new THREE.BufferGeometry().setFromPoints([point]), material);
+      dot.renderOrder = JOINTS;
+      view.solid.add(dot);
     }
   }
 
@@ -139,10 +153,11 @@ class RunView {
     this.controls.update();
   }
 
-  // A direction from which the path shows its width.
+  // A direction from which the flow, or else the path, goes across the picture.
   broadside() {
-    const size = this.box.getSize(new THREE.Vector3());
-    return size.x >= size.z ? new THREE.Vector3(0.3, 0.25, 1).normalize() : new THREE.Vector3(1, 0.25, 0.3).normalize();
+    const flow = this.viewed(this.mediumVelocity);
+    const size = Math.hypot(flow.x, flow.z) > 0 ? flow : this.box.getSize(new THREE.Vector3());
+    return Math.abs(size.x) >= Math.abs(size.z) ? new THREE.Vector3(0.3, 0.25, 1).normalize() : new THREE.Vector3(1, 0.25, 0.3).normalize();
   }
 
   fittingDistance() {
@@ -158,7 +173,10 @@ class RunView {
     this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
   }
 
-  placeOf(view) { return view.motion.position.clone().applyQuaternion(this.world.quaternion); }
+  // In the axes of the camera's scene.
+  viewed(vector) { return vector.clone().applyQuaternion(this.world.quaternion); }
+
+  placeOf(view) { return this.viewed(view.motion.position); }
 
   // Returns the largest slip now [m/s].
   moveTo(time) {
@@ -175,6 +193,7 @@ class RunView {
 
   showRival(model, visible) {
     for (const view of this.rivals[model]) view.group.visible = visible;
+    this.frame();
   }
 
   render() {
@@ -190,6 +209,8 @@ class RunView {
     this.camera.near = 0.01 * distance;
     this.camera.far = 10 * (distance + this.span);
     this.camera.updateProjectionMatrix();
+    this.renderer.clear();
     this.renderer.render(this.scene, this.camera);
+    this.flow.render(this.renderer, this.camera, this.controls.target);
   }
 }

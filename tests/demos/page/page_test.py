@@ -32,10 +32,15 @@ def run_scene(folder, scene, *changes):
     subprocess.run([DEMO, ROOT / f"data/scenes/{scene}.json", "--quiet", "--out", folder, *settings], check=True)
 
 
-def start_browser(profile):
+def make_page(page, *arguments):
+    generator = [sys.executable, "-B", ROOT / "demos/page/make_page.py", *arguments, "-o", page]
+    subprocess.run(generator, check=True, stdout=subprocess.DEVNULL)
+
+
+def start_browser(profile, *switches):
     options = webdriver.ChromeOptions()
     options.binary_location = "/usr/bin/chromium"
-    for switch in [*SWITCHES, f"--user-data-dir={profile}"]:
+    for switch in [*SWITCHES, *switches, f"--user-data-dir={profile}"]:
         options.add_argument(switch)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
@@ -66,13 +71,12 @@ class PageTest(unittest.TestCase):
             run_scene(cls.out / f"golf_dimpled_spin-{model}", "golf_dimpled_spin", f"model={model}", *golf)
         run_scene(cls.out / "ball_on_bottom", "ball_on_bottom", "duration=0.5")
         run_scene(cls.out / "flap_in_current", "flap_in_current", "duration=0.3")
-        page = cls.out / "page.html"
-        generator = [sys.executable, "-B", ROOT / "demos/page/make_page.py", *sorted(cls.out.iterdir()), "-o", page]
-        subprocess.run([*generator, "--tables", ROOT / "docs/experiments.md"], check=True, stdout=subprocess.DEVNULL)
+        cls.page = cls.out / "page.html"
+        make_page(cls.page, *sorted(cls.out.iterdir()), "--tables", ROOT / "docs/experiments.md")
         cls.browser = start_browser(cls.out / "profile")
         cls.addClassCleanup(cls.browser.quit)
         cls.browser.set_script_timeout(20)
-        cls.browser.get(page.as_uri())
+        cls.browser.get(cls.page.as_uri())
 
     def setUp(self):
         self.choose("golf dimpled spin")
@@ -163,6 +167,67 @@ class PageTest(unittest.TestCase):
         box.click()
         self.assertGreater(orange(self.pixels()), 30)
 
+    def test_rivals_do_not_cover_the_body(self):
+        """All of them are at the same place in the beginning."""
+        self.browser.execute_script("player.view.lookAt(player.view.bodies[0], 0)")
+        self.scrub(0)
+
+        def middle():
+            picture = self.pixels()
+            row, column = picture.shape[0] // 2, picture.shape[1] // 2
+            return picture[row - 20 : row + 20, column - 20 : column + 20]
+
+        with_rivals = middle()
+        for model in ("vacuum", "gwtf"):
+            self.browser.find_element(By.ID, f"rival-{model}").click()
+        np.testing.assert_array_equal(with_rivals, middle())
+
+    def test_visible_rivals_are_in_the_frame(self):
+        largest = """const { view } = player;
+            return Math.max(...view.allViews().map(({ motion }) => {
+              const places = Array.from({ length: motion.count },
+                (_, i) => view.viewed(motion.positionOf(i)).project(view.camera));
+              return Math.max(...places.map(({ x, y }) => Math.max(Math.abs(x), Math.abs(y))));
+            }))"""
+        farthest = "return [player.view.box.max.x, player.view.ownBox.max.x]"
+        self.pixels()
+        self.assertLess(self.browser.execute_script(largest), 1)
+        framed, own = self.browser.execute_script(farthest)
+        self.assertGreater(framed, own)
+        for model in ("vacuum", "gwtf"):
+            self.browser.find_element(By.ID, f"rival-{model}").click()
+        framed, own = self.browser.execute_script(farthest)
+        self.assertEqual(framed, own)
+
+    def test_a_flow_has_an_arrow_and_its_speed(self):
+        def blue(picture):
+            """Pixels like the arrow, below and left of the middle."""
+            part = picture[picture.shape[0] // 2 :, : picture.shape[1] // 3]
+            return np.sum(part[:, :, 2] - part[:, :, 0] > 0.25)
+
+        self.choose("ball on bottom")
+        self.assertEqual(blue(self.pixels()), 0)
+        self.assertFalse(self.browser.find_element(By.ID, "flow").is_displayed())
+        self.choose("flap in current")
+        self.assertGreater(blue(self.pixels()), 100)
+        self.assertIn("flow of 1 m/s", self.browser.find_element(By.ID, "legend").text)
+
+    def test_says_how_much_bodies_are_magnified(self):
+        scale = lambda: self.browser.find_element(By.ID, "scale").text
+        self.assertRegex(scale(), r"bodies drawn \d+ times their size")
+        self.choose("flap in current")
+        self.assertNotIn("drawn", scale())
+
+    def test_a_run_without_moving_bodies_is_shown(self):
+        run_scene(self.out / "still", "plate_8cm", "duration=0.1", "bodies.0.mass=0")
+        make_page(self.out / "still.html", self.out / "still")
+        self.addCleanup(self.browser.get, self.page.as_uri())
+        self.browser.get((self.out / "still.html").as_uri())
+        self.assertEqual(self.browser.find_element(By.ID, "numbers").text, "no body moves")
+        picture = self.pixels()
+        row, column = picture.shape[0] // 2, picture.shape[1] // 2
+        self.assertGreater(np.abs(picture[row, column] - np.array([0xEE, 0xF2, 0xF6]) / 255).max(), 0.1)
+
     def test_plays_and_pauses(self):
         time = lambda: self.browser.execute_script("return player.time")
         button = self.browser.find_element(By.ID, "play")
@@ -190,6 +255,20 @@ class PageTest(unittest.TestCase):
         picture = self.pixels()
         middle = picture[picture.shape[0] // 2, picture.shape[1] // 2]
         self.assertGreater(np.abs(middle - np.array([0xEE, 0xF2, 0xF6]) / 255).max(), 0.2)
+
+    def test_without_webgl_scenes_and_tables_are_readable(self):
+        browser = start_browser(self.out / "second profile", "--disable-3d-apis")
+        self.addCleanup(browser.quit)
+        browser.get(self.page.as_uri())
+        text = lambda name: browser.find_element(By.ID, name).text
+        self.assertIn("no WebGL", text("no-picture"))
+        self.assertFalse(browser.find_element(By.ID, "play").is_displayed())
+        buttons = browser.find_elements(By.CSS_SELECTOR, "#scenes button")
+        next(button for button in buttons if button.text == "ball on bottom").click()
+        self.assertEqual(text("title"), "ball on bottom")
+        self.assertGreater(len(text("description")), 10)
+        self.assertIn("golf_dimpled_spin", text("tables"))
+        self.assertFalse([entry for entry in browser.get_log("browser") if "Uncaught" in entry["message"]])
 
 
 if __name__ == "__main__":
