@@ -16,7 +16,7 @@ sys.path.append(str(HERE.parent / "plot"))
 
 from files import reading, writing
 from page_data import pack
-from tables import tables_as_html
+from sections import sections_as_html
 
 THREE = Path("/usr/share/javascript/three")
 LIBRARY = [THREE / "three.min.js", THREE / "examples/js/controls/OrbitControls.js"]
@@ -31,9 +31,9 @@ def script(file):
     return f"<script>\n{LICENCE if file in LIBRARY else ''}{text}</script>"
 
 
-def read_tables(file):
+def read_sections(file):
     with reading(file, "a Markdown file"):
-        return tables_as_html(file.read_text(encoding="utf-8"))
+        return sections_as_html(file.read_text(encoding="utf-8"))
 
 
 def make_page(folders, tables):
@@ -42,7 +42,7 @@ def make_page(folders, tables):
             sys.exit(f"{file}: is missing; the Debian package libjs-three has it")
     parts = {
         "@STYLE@": (HERE / "page.css").read_text(),
-        "@TABLES@": read_tables(tables) if tables else "",
+        "@TABLES@": read_sections(tables) if tables else "",
         "@RUNS@": json.dumps(pack(folders), separators=(",", ":")).replace("</", "<\\/"),
         "@SCRIPTS@": "\n".join(map(script, LIBRARY + SCRIPTS)),
     }
@@ -57,7 +57,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("runs", nargs="+", type=Path, metavar="RUN")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE")
-    parser.add_argument("--tables", type=Path, metavar="MARKDOWN", help="show the tables of this file below")
+    parser.add_argument("--tables", type=Path, metavar="MARKDOWN", help="show the sections of this file below")
     arguments = parser.parse_args()
     page = make_page(arguments.runs, arguments.tables)
     partial = arguments.output.with_name(f".{arguments.output.name}.{os.getpid()}.partial")

@@ -110,6 +110,12 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.browser.execute_script("return performance.getEntriesByType('resource').length"), 0)
         self.assertIn("golf_dimpled_spin", self.browser.find_element(By.ID, "tables").text)
 
+    def test_text_around_the_tables_is_shown(self):
+        text = self.browser.find_element(By.ID, "tables").text
+        for words in ("(paper; ours)", "Underwater Rigid Body Dynamics", "Where the model is known to differ"):
+            self.assertIn(words, text)
+        self.assertNotRegex(text, r"\*\*|\]\(|^\||<b>|&[a-z]+;")
+
     def test_every_scene_is_drawn(self):
         for title in ("ball on bottom", "flap in current", "golf dimpled spin"):
             self.choose(title)
