@@ -55,6 +55,7 @@ struct AmbientBody {
   bool has_flown = false;   ///< free flight was computed in this substep and awaits the action
   int world_index = -1;     ///< where the body stood in its world's array when it was solved
   RigidState end;           ///< where it ends
+  Twist end_W;              ///< its twist in world axes
   Twist effective_W;        ///< constant twist that Bullet integrates onto the end pose
   double length_scale = 0;  ///< lengths whose rounding the end position carries [m]
   Twist turning_W;          ///< turning part of the velocity that the rows were solved against

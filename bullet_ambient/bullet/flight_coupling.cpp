@@ -22,8 +22,20 @@ Twist worldTwist(const RigidState& state) {
   return {state.orientation * state.twist.angular, state.orientation * state.twist.linear};
 }
 
-bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start) {
-  const Twist now = worldTwist(start);
+Twist bulletTwist(const btRigidBody& body) {
+  return {toVector3(body.getAngularVelocity()), toVector3(body.getLinearVelocity())};
+}
+
+bool isWithinRounding(const Vector3& a, const Vector3& b) {
+  constexpr double kRounding = 1e-12;
+  return (a - b).squaredNorm() <= kRounding * kRounding * b.squaredNorm();
+}
+
+bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start, const Twist& now) {
+  if (isWithinRounding(now.angular, ambient.left_W.angular) &&
+      isWithinRounding(now.linear, ambient.left_W.linear)) {
+    return false;
+  }
   const Quaternion to_body = start.orientation.conjugate();
   Vector6 change;
   change << to_body * (now.angular - ambient.left_W.angular),
@@ -39,11 +51,10 @@ bool reachedEnd(const AmbientBody& ambient) {
   return (position - ambient.end.position).norm() <= rounding * ambient.length_scale;
 }
 
-bool fitsBullet(const RigidState& state) {
+bool fitsBullet(const RigidState& state, const Twist& twist_W) {
   constexpr auto kLargest = static_cast<double>(std::numeric_limits<btScalar>::max());
-  const Twist twist = worldTwist(state);
-  return state.isFinite() && state.position.norm() < kLargest && twist.linear.norm() < kLargest &&
-         twist.angular.norm() < kLargest;
+  return state.isFinite() && state.position.norm() < kLargest && twist_W.linear.norm() < kLargest &&
+         twist_W.angular.norm() < kLargest;
 }
 
 }  // namespace
@@ -85,7 +96,8 @@ bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
 Twist beginFlight(AmbientBody& ambient, double time_step) noexcept {
   const RigidState start = readState(*ambient.body);
   const Surroundings surroundings = readSurroundings(ambient);
-  if (wasMovedByOthers(ambient, start)) ambient.memory.has_load = false;
+  const Twist before = bulletTwist(*ambient.body);
+  if (wasMovedByOthers(ambient, start, before)) ambient.memory.has_load = false;
   const FlightResult flight =
       fly({ambient.model, surroundings, ambient.def.flight, time_step}, start, ambient.memory);
   ambient.counters.substeps += flight.count.substeps;
@@ -94,7 +106,8 @@ Twist beginFlight(AmbientBody& ambient, double time_step) noexcept {
   ambient.counters.coarse += flight.count.coarse;
   // Who sets a bound of substeps has chosen what is too long.
   ambient.was_coarse = flight.count.coarse && ambient.def.flight.max_substeps == 0;
-  if (!fitsBullet(flight.state)) {
+  ambient.end_W = worldTwist(flight.state);
+  if (!fitsBullet(flight.state, ambient.end_W)) {
     ++ambient.counters.rejected;
     ambient.memory = {};
     ambient.has_flown = false;
@@ -106,7 +119,6 @@ Twist beginFlight(AmbientBody& ambient, double time_step) noexcept {
   const Quaternion turn = (flight.state.orientation * start.orientation.conjugate()).normalized();
   ambient.effective_W = {rotationVector(turn) / time_step,
                          (flight.state.position - start.position) / time_step};
-  const Twist before = worldTwist(start);
   ambient.length_scale = flight.state.position.norm() + ambient.model.reference_length +
                          time_step * before.linear.norm();
   return {ambient.effective_W.angular - before.angular, ambient.effective_W.linear - before.linear};
@@ -120,7 +132,7 @@ void endFlight(AmbientBody& ambient, double time_step) noexcept {
     end.setRotation(toBullet(ambient.end.orientation));
     body.setCenterOfMassTransform(end);
   }
-  const Twist end = worldTwist(ambient.end);
+  const Twist& end = ambient.end_W;
   // Added, not set: impulses that other actions have applied meanwhile survive.
   body.setAngularVelocity(body.getAngularVelocity() +
                           toBullet(Vector3(end.angular - ambient.effective_W.angular)));

@@ -92,7 +92,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   const Vector6 x = relative.vector();
 
   RowVelocity result;
-  Vector6 forced = model.inverse_inertia * externalWrench(model, s, start.orientation).vector();
+  Vector6 forced = model.inverse_inertia * externalWrench(model, s, R).vector();
   if (model.has_surface_loads) {
     const SurfaceLoad load = computeSurfaceLoad(model, relative);
     result.count.load_evaluations = 1;

@@ -10,9 +10,8 @@
 
 namespace ambient {
 
-Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings,
-                      const Quaternion& orientation) {
-  const Quaternion to_body = orientation.conjugate();
+Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings, const Matrix3& R) {
+  const auto to_body = R.transpose();
   const Vector3 force = surroundings.applied.force - model.mass * surroundings.ambient_acceleration;
   const Vector3 gravity = to_body * (surroundings.gravity - surroundings.ambient_acceleration);
   return Wrench{to_body * surroundings.applied.torque, to_body * force} +

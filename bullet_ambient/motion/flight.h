@@ -55,9 +55,8 @@ struct FlightResult {
 };
 
 /// Weight, buoyancy and inertial forces of the ambient acceleration in B, docs/theory.md eq. (18)
-/// and (19).
-Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings,
-                      const Quaternion& orientation);
+/// and (19), for the orientation R, B to W.
+Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings, const Matrix3& R);
 
 /// One body over one step.
 struct FlightTask {

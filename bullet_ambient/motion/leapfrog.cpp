@@ -15,7 +15,10 @@ constexpr double kFlowPrecision = 1e-6;  // of the tolerance: the flow adds noth
 constexpr double kAcceptance =
     2;  // a step is repeated when its error exceeds the tolerance by this factor
 
-Wrench turnedBy(const Quaternion& q, const Wrench& f) { return {q * f.torque, q * f.force}; }
+Wrench toWorld(const Matrix3& R, const Wrench& f) { return {R * f.torque, R * f.force}; }
+Wrench toBody(const Matrix3& R, const Wrench& f) {
+  return {R.transpose() * f.torque, R.transpose() * f.force};
+}
 
 // One body on its way through the substeps of a step.
 struct Way {
@@ -32,11 +35,12 @@ class Kick {
 
   // Returns the error estimate of eq. (25).
   double act(Way& way) const {
-    const Wrench external = externalWrench(model_, task_.surroundings, way.state.orientation);
+    const Matrix3 R = way.state.orientation.toRotationMatrix();
+    const Wrench external = externalWrench(model_, task_.surroundings, R);
     const DualPair fall = h_ / 2 * pairOfMomentum(model_, external.vector());
     DualPair& x = way.state.motion;
     x += fall;
-    const double error = model_.has_surface_loads ? actByLoads(way) : 0;
+    const double error = model_.has_surface_loads ? actByLoads(way, R) : 0;
     x += fall;
     ++way.count.substeps;
     return error;
@@ -44,15 +48,14 @@ class Kick {
 
  private:
   // Surface loads over the whole substep, predicted by those of the last one.
-  double actByLoads(Way& way) const {
-    const Quaternion& q = way.state.orientation;
+  double actByLoads(Way& way, const Matrix3& R) const {
     DualPair& x = way.state.motion;
     const Wrench guess =
-        way.memory.has_load ? turnedBy(q.conjugate(), way.memory.load_W) : evaluate(way, x.twist);
+        way.memory.has_load ? toBody(R, way.memory.load_W) : evaluate(way, x.twist);
     const LoadSample before{x, pairOfMomentum(model_, guess.vector())};
     const DualPair mid = passiveKick(x, before, h_ / 2);
     const Wrench load = evaluate(way, mid.twist);
-    way.memory.load_W = turnedBy(q, load);
+    way.memory.load_W = toWorld(R, load);
     way.memory.has_load = true;
     const LoadSample sample{mid, pairOfMomentum(model_, load.vector())};
     const double error = relativeError(x, sample.load - before.load);

@@ -19,7 +19,7 @@ MomentumEquations::MomentumEquations(const FlightTask& task, const RigidState& s
 MomentumPhase MomentumEquations::rate(const MomentumPhase& s) const {
   const RigidState state = stateOf(s);
   const Quaternion& q = state.orientation;
-  Wrench wrench = externalWrench(task_.model, task_.surroundings, q);
+  Wrench wrench = externalWrench(task_.model, task_.surroundings, q.toRotationMatrix());
   if (task_.model.has_surface_loads) {
     const SurfaceLoad load = computeSurfaceLoad(task_.model, state.twist);
     ++count_.load_evaluations;

@@ -118,7 +118,7 @@ class MotionSeries {
     first.r.set(zero);
     first.turn.set(zero);
     first.cosine = 1;
-    energy_ = dot(first.l.xyz, first.w.xyz) + dot(first.p.xyz, first.v.xyz);
+    per_energy_ = 1 / (dot(first.l.xyz, first.w.xyz) + dot(first.p.xyz, first.v.xyz));
     size_sq_[0] = 1;
     do {
       addTerm();
@@ -154,9 +154,13 @@ class MotionSeries {
 
   void addTerm() {
     const int k = order_;
+    // r and the vector part of q begin with a term that is zero, the cosine with 1.
+    Quad l = crossed(c_[0].l, c_[k].w) + crossed(c_[0].p, c_[k].v);
+    Quad p = crossed(c_[0].p, c_[k].w);
+    Quad scaled = c_[k].w.xyz;
     const Quad zero = quad(0, 0, 0);
-    Quad l = zero, p = zero, r = zero, turn = zero, along = zero, scaled = zero;
-    for (int i = 0; i <= k; ++i) {
+    Quad r = zero, turn = zero, along = zero;
+    for (int i = 1; i <= k; ++i) {
       const Coefficient& a = c_[i];
       const Coefficient& b = c_[k - i];
       l = l + (crossed(a.l, b.w) + crossed(a.p, b.v));
@@ -178,7 +182,7 @@ class MotionSeries {
     ++order_;
     const double energy = dot(next.l.xyz, next.w.xyz) + dot(next.p.xyz, next.v.xyz);
     size_sq_[order_] =
-        larger(energy / energy_, dot(next.turn.xyz, next.turn.xyz) + next.cosine * next.cosine);
+        larger(energy * per_energy_, dot(next.turn.xyz, next.turn.xyz) + next.cosine * next.cosine);
     growth_sq_ = larger(growth_sq_, size_sq_[order_] / size_sq_[k]);
   }
 
@@ -207,7 +211,7 @@ class MotionSeries {
 
   double duration_;
   double precision_sq_;
-  double energy_;
+  double per_energy_;
   int order_ = 0;
   bool is_precise_ = false;
   double growth_sq_ = 0;  // largest ratio of a term to the one before it

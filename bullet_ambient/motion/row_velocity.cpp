@@ -59,8 +59,8 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   relative.linear -= start.orientation.conjugate() * s.ambient_velocity;
   const Vector6 x = relative.vector();
 
-  Vector6 impulse =
-      dt * (model.inverse_inertia * externalWrench(model, s, start.orientation).vector());
+  Vector6 impulse = dt * (model.inverse_inertia *
+                          externalWrench(model, s, start.orientation.toRotationMatrix()).vector());
   if (model.has_surface_loads) {
     const SurfaceLoad load = computeSurfaceLoad(model, relative);
     result.count.load_evaluations = 1;

@@ -14,7 +14,7 @@ FlightResult flySymplecticEuler(const FlightTask& task, const RigidState& start)
   const double h = task.duration / flight.count.substeps;
   RigidState& s = flight.state;
   for (int i = 0; i < flight.count.substeps; ++i) {
-    Wrench wrench = externalWrench(model, task.surroundings, s.orientation) +
+    Wrench wrench = externalWrench(model, task.surroundings, s.orientation.toRotationMatrix()) +
                     gyroscopicWrench(model.inertia, s.twist);
     if (model.has_surface_loads) {
       const SurfaceLoad load = computeSurfaceLoad(model, s.twist);

@@ -214,7 +214,7 @@ TEST_F(Drawing, TheTotalIsTheWrenchThatTheFlightSees) {
   Surroundings s = readSurroundings(ambient());
   s.applied = {Vector3::Zero(), ambient().model.mass * s.ambient_acceleration};  // buoyancy alone
   const Wrench total = computeSurfaceLoad(ambient().model, relativeTwist()).wrench +
-                       externalWrench(ambient().model, s, state.orientation);
+                       externalWrench(ambient().model, s, state.orientation.toRotationMatrix());
   const Vector3 force = state.orientation * total.force;
   const Vector3 torque = state.orientation * total.torque;
   EXPECT_LT((recorder.sumOf(fluid_colours::kForce) - force).norm(), tolerance * force.norm());
