@@ -5,13 +5,13 @@ One panel per body, one line per method over the faces of the mesh.
 """
 
 import argparse
-import csv
 import math
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from files import read_table, writing
 
 COLUMNS = 3
 # Line, marker and colour per method; a family has one colour.
@@ -41,8 +41,8 @@ def main():
     parser.add_argument("table", metavar="TABLE.csv")
     parser.add_argument("-o", "--output", required=True, metavar="PICTURE")
     arguments = parser.parse_args()
-    with open(arguments.table, newline="", encoding="utf-8") as file:
-        runs = list(csv.DictReader(file))
+    columns = ("case", "method", "processor_seconds", "error")
+    runs = read_table(arguments.table, "a table of potential_flow_study", columns)
     cases = list(dict.fromkeys(run["case"] for run in runs))
     rows = math.ceil(len(cases) / COLUMNS)
     figure, panels = plt.subplots(rows, COLUMNS, figsize=(12, 3.2 * rows + 0.4), squeeze=False, sharex=True)
@@ -57,7 +57,8 @@ def main():
     handles, labels = panels.flat[0].get_legend_handles_labels()
     figure.tight_layout(rect=(0, 0.05, 1, 1))
     figure.legend(handles, labels, loc="lower center", ncol=len(STYLES), fontsize=8)
-    figure.savefig(arguments.output, dpi=80)
+    with writing(arguments.output):
+        figure.savefig(arguments.output, dpi=80)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ sys.path += [str(DEMOS / "plot"), str(DEMOS / "page")]
 from experiments import Page, add_studies
 
 RUNS = ("plot/plot_runs.py", "page/make_page.py")
-TABLES = ("plot/plot_atlas.py", "plot/plot_work_precision.py", "plot/plot_polar.py")
+TABLES = [f"plot/plot_{name}.py" for name in ("atlas", "work_precision", "polar", "added_mass_cost")]
 WORK_PRECISION = "case,method,microseconds_per_second,position_error\nplate,fast,10,0.1\n"
 
 
