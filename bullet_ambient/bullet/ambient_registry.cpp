@@ -31,8 +31,8 @@ const char* sentence(AmbientRegistry::Complaint complaint) {
              "are not physical; it moves as in a vacuum until they are valid again";
     case Complaint::kCoarse:
       return "bullet_ambient: a step was too long for the motion of a body in fluid: its error "
-             "stayed above the tolerance at the largest number of substeps; take shorter steps of "
-             "the world or raise FlightSettings::max_substeps";
+             "stayed above the tolerance at the largest number of substeps; raise "
+             "FlightSettings::max_substeps, or take shorter steps of the world";
     case Complaint::kCount:
       break;
   }
@@ -83,9 +83,14 @@ void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
     throw std::invalid_argument("attach: the fluid body is null; load one with readFluidBody()");
   }
   const std::string who = "attach: body with fluid body '" + def.fluid_body->name + "'";
-  if (body.isStaticOrKinematicObject() || !(body.getInvMass() > 0)) {
+  if (body.isStaticOrKinematicObject()) {
     throw std::invalid_argument(
         who + " is static or kinematic (mass 0); only dynamic bodies feel a fluid");
+  }
+  if (!(body.getInvMass() > 0)) {
+    throw std::invalid_argument(who + " has an inverse mass of " +
+                                std::to_string(body.getInvMass()) +
+                                "; must be positive and finite");
   }
   if (isAttached(body)) {
     throw std::invalid_argument(who + " is attached already; use setMedium() or detach it first");

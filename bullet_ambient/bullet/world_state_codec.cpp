@@ -18,12 +18,30 @@ constexpr std::size_t kBodySize = 200;  // at least [bytes]
 
 using Hashes = std::map<const FluidBody*, std::uint64_t>;
 
+std::uint64_t hashOf(const FluidBody& fluid_body, Hashes& hashes) {
+  const auto [entry, is_new] = hashes.try_emplace(&fluid_body, 0);
+  if (is_new) entry->second = contentHash(fluid_body);
+  return entry->second;
+}
+
+// What decodeState() finds by one name must be one fluid body.
+void requireOneContentPerName(const WorldState& state, Hashes& hashes) {
+  std::map<std::string, std::uint64_t> named;
+  for (const BodyState& body : state.bodies) {
+    if (!body.ambient) continue;
+    const FluidBody& fluid_body = *body.ambient->def.fluid_body;
+    const std::uint64_t hash = hashOf(fluid_body, hashes);
+    if (named.try_emplace(fluid_body.name, hash).first->second != hash) {
+      throw std::runtime_error("encodeState: two different fluid bodies have the name '" +
+                               fluid_body.name + "', by which they are found again; rename one");
+    }
+  }
+}
+
 void writeAmbient(ByteWriter& writer, const AmbientState& ambient, Hashes& hashes) {
-  const FluidBody* fluid_body = ambient.def.fluid_body.get();
-  const auto [entry, is_new] = hashes.try_emplace(fluid_body, 0);
-  if (is_new) entry->second = contentHash(*fluid_body);
-  writer.text(fluid_body->name);
-  writer.number(entry->second);
+  const FluidBody& fluid_body = *ambient.def.fluid_body;
+  writer.text(fluid_body.name);
+  writer.number(hashOf(fluid_body, hashes));
   transferSettings(writer, ambient.def);
   transferFlight(writer, ambient);
 }
@@ -36,9 +54,7 @@ std::shared_ptr<const FluidBody> findFluidBody(ByteReader& reader, const FluidBo
   reader.number(hash);
   std::shared_ptr<const FluidBody> found = lookup ? lookup(name) : nullptr;
   if (!found) reader.fail("needs the fluid body '" + name + "', which is not known here");
-  const auto [entry, is_new] = hashes.try_emplace(found.get(), 0);
-  if (is_new) entry->second = contentHash(*found);
-  if (entry->second != hash) {
+  if (hashOf(*found, hashes) != hash) {
     reader.fail("was saved with another content of the fluid body '" + name + "'");
   }
   return found;
@@ -132,6 +148,7 @@ void checkHeader(ByteReader& reader) {
 std::string encodeState(const WorldState& state) {
   ByteWriter payload;
   Hashes hashes;
+  requireOneContentPerName(state, hashes);
   payload.number(static_cast<std::uint32_t>(state.bodies.size()));
   for (const BodyState& body : state.bodies) {
     transferBody(payload, body);

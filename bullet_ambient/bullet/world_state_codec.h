@@ -15,7 +15,8 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 using FluidBodyLookup = std::function<std::shared_ptr<const FluidBody>(const std::string& name)>;
 
 /// A saved state as bytes: little-endian, with version, precision and checksum, the same state
-/// gives the same bytes. Bodies of one name must share one fluid body.
+/// gives the same bytes.
+/// @throws std::runtime_error if two fluid bodies of one name have different contents.
 std::string encodeState(const WorldState& state);
 
 /// The state that encodeState() was given, bit for bit; `source` stands for it in messages.

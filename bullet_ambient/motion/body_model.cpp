@@ -126,8 +126,11 @@ void checkFrame(const FluidBody& body, const FrameOffset& frame) {
   constexpr double kRounding = 1e-6;  // of a rotation that was stored as float
   const Matrix3 rest = frame.rotation * frame.rotation.transpose() - Matrix3::Identity();
   const double error = rest.cwiseAbs().maxCoeff();
-  if (!(error <= kRounding) || !(frame.rotation.determinant() > 0)) {
-    reject(body, "error of its frame's rotation matrix", error, "at most 1e-6, right-handed");
+  if (!(error <= kRounding))
+    reject(body, "error of its frame's rotation matrix", error, "at most 1e-6");
+  if (!(frame.rotation.determinant() > 0)) {
+    reject(body, "determinant of its frame's rotation matrix", frame.rotation.determinant(),
+           "1: a rotation, not a mirror");
   }
 }
 

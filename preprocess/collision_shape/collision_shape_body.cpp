@@ -18,7 +18,18 @@ std::string nameOf(const btCollisionShape& shape, const CollisionShapeSettings& 
   return settings.name.empty() ? shape.getName() : settings.name;
 }
 
+void requireUsable(const CollisionShapeSettings& settings, const std::string& name) {
+  const auto require = [&](const char* what, int value, int least) {
+    if (value >= least && value <= kMostDivisions) return;
+    raiseInputError(name, what, " = ", value, " is not between ", least, " and ", kMostDivisions);
+  };
+  require("faces", settings.faces, 1);
+  require("max_panels", settings.max_panels, 0);
+  require("threads", settings.threads, 0);
+}
+
 std::vector<Solid> solidsOf(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
+  requireUsable(settings, nameOf(shape, settings));
   SolidResolution resolution;
   resolution.faces = settings.faces;
   resolution.flow_faces = std::max(settings.faces, settings.max_panels);

@@ -31,7 +31,7 @@ struct CollisionShapeSettings {
 /// where a margin rounds them, 3 %; docs/preprocessor.md has the table.
 /// @throws std::runtime_error in one line that begins with the name: a plane, a height field, a
 /// static triangle mesh, an empty or flat shape, a size that is not positive and finite, a mesh
-/// that is not closed, children that touch or overlap.
+/// that is not closed, children that touch or overlap, settings that cannot be.
 FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSettings& settings = {});
 
 /// Where makeFluidBody() says that its result came from: the kind of the shape, a hash of its

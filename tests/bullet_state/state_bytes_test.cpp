@@ -48,6 +48,21 @@ TEST_F(StateBytes, CarryTheStateBitForBit) {
   EXPECT_EQ(scene.motion() == other.motion(), true);
 }
 
+TEST_F(StateBytes, NameEveryFluidBodyOnce) {
+  FluidBody other = *state.bodies[0].ambient->def.fluid_body;
+  other.volume *= 2;
+  state.bodies.push_back(state.bodies[0]);
+  state.bodies.back().ambient->def.fluid_body = std::make_shared<FluidBody>(other);
+  try {
+    encodeState(state);
+    ADD_FAILURE() << "not refused";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("have the name '" + other.name + "'"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(StateBytes, AreRefusedWhenTheyAreCutShort) {
   for (std::size_t size = 0; size < bytes.size(); size += size < 200 ? 1 : 97) {
     ASSERT_NE(refusal(bytes.substr(0, size), scene.lookup()), "") << size;

@@ -27,6 +27,21 @@ TEST(RefusedShape, PlanesFieldsAndEmptyShapesAreNoBodies) {
             "thing: a height field (HEIGHTFIELD) encloses no volume and cannot move in a fluid");
 }
 
+TEST(RefusedShape, SettingsThatCannotBeAreNamed) {
+  const auto refusal = [](int CollisionShapeSettings::*setting, int value) {
+    CollisionShapeSettings settings = coarse();
+    settings.name = "thing";
+    settings.*setting = value;
+    return messageOf([&] { makeFluidBody(btBoxShape(btVector3(1, 1, 1)), settings); });
+  };
+  EXPECT_EQ(refusal(&CollisionShapeSettings::faces, 1000000000),
+            "thing: faces = 1000000000 is not between 1 and 1000000");
+  EXPECT_EQ(refusal(&CollisionShapeSettings::max_panels, -1),
+            "thing: max_panels = -1 is not between 0 and 1000000");
+  EXPECT_EQ(refusal(&CollisionShapeSettings::threads, -1),
+            "thing: threads = -1 is not between 0 and 1000000");
+}
+
 TEST(RefusedShape, StaticTriangleMeshesAreToldWhatToUse) {
   btTriangleMesh triangles;
   triangles.addTriangle(btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(0, 1, 0));

@@ -91,7 +91,8 @@ TEST(BodyModel, RejectsInputThatIsNotPhysicalInOneSentence) {
       {[](Input& i) { i.frame.translation.x() = kInfinity; }, "centre of mass [m] is inf",
        "finite"},
       {[](Input& i) { i.frame.rotation *= 2; }, "rotation matrix is 3", "1e-6"},
-      {[](Input& i) { i.frame.rotation(2, 2) = -1; }, "rotation matrix is 0", "right-handed"},
+      {[](Input& i) { i.frame.rotation(2, 2) = -1; },
+       "determinant of its frame's rotation matrix is -1", "1: a rotation, not a mirror"},
   };
   for (const BadInput& bad : cases) {
     Input input;
