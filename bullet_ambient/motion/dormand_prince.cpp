@@ -79,9 +79,9 @@ class Pair {
     return std::sqrt(inertiaNormSquared(task_.model, equations_.stateOf(phase).twist.vector()));
   }
   double pushOn(const MomentumPhase& phase) const {
-    const Quaternion orientation = equations_.stateOf(phase).orientation;
-    const DualPair push = pairOfMomentum(
-        task_.model, externalWrench(task_.model, task_.surroundings, orientation).vector());
+    const Matrix3 R = equations_.stateOf(phase).orientation.toRotationMatrix();
+    const DualPair push =
+        pairOfMomentum(task_.model, externalWrench(task_.model, task_.surroundings, R).vector());
     return std::sqrt(inner(push, push));
   }
 
