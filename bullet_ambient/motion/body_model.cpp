@@ -134,6 +134,18 @@ void checkFrame(const FluidBody& body, const FrameOffset& frame) {
   }
 }
 
+// K as it was before the frame change, whose rounding leaves an asymmetry and, where symmetry makes
+// a coupling vanish, something close to zero.
+Matrix6 withoutRounding(const Matrix6& inertia) {
+  constexpr double kRounding = 1e-14;
+  Matrix6 K = 0.5 * (inertia + inertia.transpose());
+  const Vector6 size = K.diagonal().cwiseAbs().cwiseSqrt();
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      if (i != j && std::abs(K(i, j)) <= kRounding * size[i] * size[j]) K(i, j) = 0;
+  return K;
+}
+
 }  // namespace
 
 void checkMedium(const FluidBody& body, const Medium& medium) {
@@ -163,8 +175,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   BodyModel model;
   model.inertia = rigidBodyInertia(mass.mass, mass.inertia) +
                   medium.density * fluid_frame.inertiaToB(fluid_body.added_mass);
-  // The rounding of the frame change must not leave an asymmetry in K.
-  model.inertia = 0.5 * (model.inertia + model.inertia.transpose()).eval();
+  model.inertia = withoutRounding(model.inertia);
   const Eigen::LLT<Eigen::Matrix<double, 6, 6>> cholesky(model.inertia);
   if (cholesky.info() != Eigen::Success || !model.inertia.allFinite()) {
     reject(fluid_body, "largest entry of body and added inertia",

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -49,9 +50,12 @@ TEST_F(StateBytes, CarryTheStateBitForBit) {
 }
 
 TEST_F(StateBytes, NameEveryFluidBodyOnce) {
-  FluidBody other = *state.bodies[0].ambient->def.fluid_body;
+  const auto in_fluid = std::find_if(state.bodies.begin(), state.bodies.end(),
+                                     [](const BodyState& body) { return body.ambient; });
+  const BodyState twin = *in_fluid;
+  FluidBody other = *twin.ambient->def.fluid_body;
   other.volume *= 2;
-  state.bodies.push_back(state.bodies[0]);
+  state.bodies.push_back(twin);
   state.bodies.back().ambient->def.fluid_body = std::make_shared<FluidBody>(other);
   try {
     encodeState(state);

@@ -34,7 +34,9 @@ TEST(CompoundShape, OneChildIsTheChildInItsPlace) {
   compound.addChildShape(somewhere(), &capsule);
   const FluidBody child = makeFluidBody(capsule, coarse());
   const FluidBody body = makeFluidBody(compound, coarse());
-  const double tolerance = 20 * kScalarRounding + 1e-10;
+  // In its own frame the capsule's planes of symmetry are found and what they forbid, 1e-9, is
+  // removed; about an oblique axis there is no telling which planes to look for.
+  const double tolerance = 20 * kScalarRounding + 5e-9;
   EXPECT_LT(differenceOf(body.added_mass, transformed(child.added_mass, somewhere())), tolerance);
   EXPECT_LT((body.centre_of_volume - toVector3(somewhere().getOrigin())).norm(), 1e-6);
   EXPECT_EQ(body.origin, Vector3::Zero());

@@ -132,7 +132,7 @@ void FuzzScene::changeShape() {
   if (chance(0.5)) {
     const double factor = arbitrary_.between(0.5, 2);
     auto larger = std::make_shared<FluidBody>(scaled(*shape, factor));
-    larger->name += " times " + std::to_string(fluid_bodies_.size());
+    larger->name += " scaled " + std::to_string(++scaled_count_);
     shape = larger;
     if (fluid_bodies_.size() < 12) fluid_bodies_.push_back(larger);
   }

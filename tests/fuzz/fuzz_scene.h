@@ -84,6 +84,7 @@ class FuzzScene {
   bool is_repeatable_ = false;
 
   std::vector<std::shared_ptr<const FluidBody>> fluid_bodies_;
+  int scaled_count_ = 0;  ///< fluid bodies that were made by scaling; names are not used again
   btBoxShape floor_shape_{btVector3(30, 30, 1)};
   btBoxShape box_{btVector3(btScalar(0.4), btScalar(0.3), btScalar(0.2))};
   btSphereShape ball_{btScalar(0.3)};
