@@ -6,6 +6,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other) {
   substeps += other.substeps;
   load_evaluations += other.load_evaluations;
+  faces += other.faces;
   guarded += other.guarded;
   coarse += other.coarse;
   rows += other.rows;

@@ -25,9 +25,10 @@ struct AttachDef {
 
 /// What was computed for one body since it was attached.
 struct AmbientCounters {
-  long long substeps = 0;          ///< of free flight
-  long long load_evaluations = 0;  ///< passes over all faces
-  long long guarded = 0;           ///< load evaluations in which the passivity guard acted
+  long long substeps = 0;  ///< of free flight
+  long long load_evaluations = 0;
+  long long faces = 0;    ///< faces or clusters summed in them; a sphere has none
+  long long guarded = 0;  ///< load evaluations in which the passivity guard acted
   long long coarse =
       0;  ///< steps whose error stayed above the tolerance at the largest substep count
   long long rows = 0;      ///< constraint rows rewritten
@@ -65,6 +66,12 @@ struct AmbientBody {
 
   bool isInFluid() const { return def.medium.density > 0; }
 };
+
+/// Counts evaluations of the loads on a body.
+inline void countLoads(AmbientBody& ambient, int evaluations) noexcept {
+  ambient.counters.load_evaluations += evaluations;
+  ambient.counters.faces += static_cast<long long>(evaluations) * facesPerLoad(ambient.model);
+}
 
 /// Pose and twist of a btRigidBody, its twist in body axes.
 RigidState readState(const btRigidBody& body);

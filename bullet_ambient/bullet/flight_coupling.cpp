@@ -101,7 +101,7 @@ Twist beginFlight(AmbientBody& ambient, double time_step) noexcept {
   const FlightResult flight =
       fly({ambient.model, surroundings, ambient.def.flight, time_step}, start, ambient.memory);
   ambient.counters.substeps += flight.count.substeps;
-  ambient.counters.load_evaluations += flight.count.load_evaluations;
+  countLoads(ambient, flight.count.load_evaluations);
   ambient.counters.guarded += flight.count.guarded;
   ambient.counters.coarse += flight.count.coarse;
   // Who sets a bound of substeps has chosen what is too long.

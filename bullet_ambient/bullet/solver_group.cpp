@@ -138,7 +138,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   const AxisFactors factors = axisFactors(body);
   RowVelocity row = member.is_locked ? computeLockedVelocity(task, start, factors)
                                      : computeRowVelocity(task, start);
-  ambient.counters.load_evaluations += row.count.load_evaluations;
+  countLoads(ambient, row.count.load_evaluations);
   ambient.counters.guarded += row.count.guarded;
   if (!row.change_W.vector().allFinite()) {
     ++ambient.counters.rejected;

@@ -43,6 +43,7 @@ void transferFlight(Stream& s, State& state) {
   transferMatrix(s, state.left_W.linear);
   s.number(state.counters.substeps);
   s.number(state.counters.load_evaluations);
+  s.number(state.counters.faces);
   s.number(state.counters.guarded);
   s.number(state.counters.coarse);
   s.number(state.counters.rows);

@@ -20,7 +20,7 @@ struct SphereIntegrals {
 /// Those integrals over the share of spin W / (V + W) and the cosine between spin and velocity, by
 /// cubic interpolation between nodes of quadrature. Errors over pi, measured: 1e-4 rms, 6e-4 at
 /// most for alpha of 1.5 pi/2; at angles closer to pi/2 (but for pi/2 itself: 1e-4) 1e-4 rms and up
-/// to 3e-3 where the detached surface closes, 5e-4 and 1.4e-2 at 1.01 pi/2. 60 kB.
+/// to 6e-3 where the detached surface closes, 5e-4 and 1.4e-2 at 1.01 pi/2. 60 kB.
 class SphereTable {
  public:
   /// Cost: 50 ms, 15 ms at alpha = pi/2.

@@ -232,4 +232,9 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
   return {guarded.wrench, guarded.acted};
 }
 
+int facesPerLoad(const BodyModel& model) noexcept {
+  if (!model.has_surface_loads || model.sphere_radius > 0) return 0;
+  return model.level ? model.level->clusters : static_cast<int>(model.faces->size());
+}
+
 }  // namespace ambient

@@ -91,6 +91,9 @@ struct SurfaceLoad {
 };
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept;
 
+/// Faces or clusters that one evaluation of the surface loads sums; 0 for a sphere.
+int facesPerLoad(const BodyModel& model) noexcept;
+
 /// A twist with its momentum K x.
 inline DualPair pairOfTwist(const BodyModel& model, const Vector6& x) {
   if (model.has_diagonal_inertia) return {x, model.inertia.diagonal().cwiseProduct(x)};

@@ -10,20 +10,20 @@ namespace ambient {
 
 /// ambient_preprocess build
 struct BuildArguments {
-  std::string input;                        ///< a mesh, or a JSON file with a shape
-  std::string output;                       ///< the .ambient file
-  double scale = 1;                         ///< multiplies all lengths
-  std::string origin = "centre-of-volume";  ///< or x,y,z in the mesh's frame [m]
-  bool sheet = false;                       ///< the mesh is an open surface of zero thickness
-  int least_faces = 0;                      ///< the mesh is divided into at least so many
-  int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
-  std::vector<int> levels;                  ///< of reduced loads: their numbers of clusters
+  std::string input;                             ///< a mesh, or a JSON file with a shape
+  std::string output;                            ///< the .ambient file
+  double scale = 1;                              ///< multiplies all lengths
+  std::string origin = "centre-of-volume";       ///< or x,y,z in the mesh's frame [m]
+  bool sheet = false;                            ///< the mesh is an open surface of zero thickness
+  int least_faces = 0;                           ///< the mesh is divided into at least so many
+  int panels = kDefaultPanels;                   ///< at most so many for the flow; 0: the triangles
+  std::vector<int> levels;                       ///< of reduced loads: their numbers of clusters
   double separation_angle = 1.5707963267948966;  ///< of the levels, from pi/2 to pi [rad]
-  int threads = 0;                          ///< 0: all cores
-  std::string solver;                       ///< dense or hierarchical; empty: by the panels
-  std::string memory;                       ///< for the flow [GB]; empty: what is available
-  bool no_margins = false;                  ///< of a world: hulls and cones without their margins
-  bool rebuild = false;                     ///< also where nothing has changed
+  int threads = 0;                               ///< 0: all cores
+  std::string solver;                            ///< dense or hierarchical; empty: by the panels
+  std::string memory;                            ///< for the flow [GB]; empty: what is available
+  bool no_margins = false;  ///< of a world: hulls and cones without their margins
+  bool rebuild = false;     ///< also where nothing has changed
   bool json = false;
 };
 

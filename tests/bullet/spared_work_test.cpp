@@ -25,6 +25,7 @@ AmbientCounters countStep(FluidWorld& fluid) {
   AmbientCounters step;
   step.substeps = after.substeps - before.substeps;
   step.load_evaluations = after.load_evaluations - before.load_evaluations;
+  step.faces = after.faces - before.faces;
   step.rows = after.rows - before.rows;
   return step;
 }
@@ -32,6 +33,7 @@ AmbientCounters countStep(FluidWorld& fluid) {
 void expectNothing(const AmbientCounters& step) {
   EXPECT_EQ(step.substeps, 0);
   EXPECT_EQ(step.load_evaluations, 0);
+  EXPECT_EQ(step.faces, 0);
   EXPECT_EQ(step.rows, 0);
 }
 
@@ -55,6 +57,21 @@ TEST(SparedWork, ABodyWithoutFacesHasNoLoadsToEvaluate) {
   const AmbientCounters step = countStep(fluid);
   EXPECT_GT(step.substeps, 0);
   EXPECT_EQ(step.load_evaluations, 0);
+}
+
+TEST(SparedWork, EveryEvaluationSumsEveryFaceButOfASphereNone) {
+  FluidWorld fluid;
+  FluidBody shape = meshedEllipsoid(kSemiAxes, 1);
+  fluid.add(bodyAt(0), shape, air());
+  const AmbientCounters by_faces = countStep(fluid);
+  EXPECT_GT(by_faces.load_evaluations, 0);
+  EXPECT_EQ(by_faces.faces, by_faces.load_evaluations * static_cast<long long>(shape.faces.size()));
+  FluidWorld other;
+  shape.sphere_radius = 0.2;
+  other.add(bodyAt(0), shape, air());
+  const AmbientCounters by_radius = countStep(other);
+  EXPECT_GT(by_radius.load_evaluations, 0);
+  EXPECT_EQ(by_radius.faces, 0);
 }
 
 TEST(SparedWork, AFreeBodyHasNoRowsToRewrite) {
