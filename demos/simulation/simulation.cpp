@@ -10,11 +10,11 @@
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/rivals/linear_drag.h"
 #include "demos/rivals/windward_flux.h"
 #include "demos/simulation/collision_shape.h"
 #include "demos/simulation/joint.h"
-#include "demos/simulation/principal_frame.h"
 
 namespace ambient {
 namespace {

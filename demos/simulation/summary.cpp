@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/analysis/falling_mode.h"
 #include "demos/analysis/path_summary.h"
-#include "demos/simulation/principal_frame.h"
 
 namespace ambient {
 namespace {

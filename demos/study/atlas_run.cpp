@@ -8,7 +8,7 @@
 
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
-#include "demos/simulation/principal_frame.h"
+#include "bullet_ambient/spatial/principal_frame.h"
 
 namespace ambient {
 namespace {

@@ -1,4 +1,4 @@
-#include "demos/simulation/principal_frame.h"
+#include "bullet_ambient/spatial/principal_frame.h"
 
 #include <gtest/gtest.h>
 
