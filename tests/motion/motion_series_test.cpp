@@ -23,6 +23,7 @@ FreeBody movingBody(unsigned seed) {
   return body;
 }
 
+// Points into the body.
 SeriesStart startOf(const FreeBody& body, double duration) {
   SeriesStart start;
   start.inverse_inertia = body.model().inverse_inertia.data();
@@ -39,7 +40,8 @@ TEST(MotionSeries, HasTheSameBitsWithEveryInstructionSet) {
   if (!hasAvx2MotionSeries()) GTEST_SKIP() << "this processor has no AVX2";
   for (unsigned seed = 0; seed < 200; ++seed) {
     for (const double duration : {1e-3, 1.0 / 60, 3.0}) {
-      const SeriesStart start = startOf(movingBody(seed), duration);
+      const FreeBody body = movingBody(seed);
+      const SeriesStart start = startOf(body, duration);
       const SeriesEnd baseline = sumMotionSeriesBaseline(start);
       const SeriesEnd avx2 = sumMotionSeriesAvx2(start);
       EXPECT_EQ(std::memcmp(&baseline, &avx2, sizeof baseline), 0) << seed << " over " << duration;
