@@ -49,7 +49,7 @@ TEST(ChildProcess, SurvivesCrashesAndEndlessLoops) {
             }),
             "was killed, perhaps for want of memory");
   EXPECT_EQ(failure([]() -> std::string {
-              for (volatile int i = 0;; i = i + 1) {
+              for (volatile unsigned i = 0;; i = i + 1) {
               }
             }),
             "took more than 1 s of processor time");
