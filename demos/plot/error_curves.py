@@ -1,0 +1,58 @@
+"""Error over cost: one panel per case, one line per method."""
+
+import argparse
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from files import read_table, writing
+
+
+class ErrorCurves:
+    """`styles` has line, marker and colour per method; `cost` and `error` are columns of the table."""
+
+    def __init__(self, styles, cost, error, largest_error=math.inf):
+        self.styles, self.cost, self.error, self.largest_error = styles, cost, error, largest_error
+
+    def draw_case(self, axes, runs, case):
+        for method, (line, marker, colour) in self.styles.items():
+            chosen = [run for run in runs if run["case"] == case and run["method"] == method]
+            points = [(float(run[self.cost]), float(run[self.error])) for run in chosen]
+            points = [(cost, error) for cost, error in points if math.isfinite(error) and error > 0]
+            if points:
+                axes.loglog(*zip(*points), line, marker=marker, color=colour, markersize=3.5, linewidth=1, label=method)
+        axes.set_ylim(top=min(axes.get_ylim()[1], self.largest_error))
+        axes.set_title(case, fontsize=9)
+        axes.grid(True, which="major", linewidth=0.3)
+        axes.tick_params(labelsize=7)
+
+    def draw(self, runs, columns, cost_label, error_label):
+        cases = list(dict.fromkeys(run["case"] for run in runs))
+        rows = math.ceil(len(cases) / columns)
+        figure, panels = plt.subplots(rows, columns, figsize=(12.5, 3 * rows + 0.4), squeeze=False)
+        for axes, case in zip(panels.flat, cases):
+            self.draw_case(axes, runs, case)
+        for axes in panels.flat[len(cases):]:
+            axes.axis("off")
+        for row in panels:
+            row[0].set_ylabel(error_label, fontsize=8)
+        for axes in panels[-1]:
+            axes.set_xlabel(cost_label, fontsize=8)
+        legends = (axes.get_legend_handles_labels() for axes in panels.flat)
+        handles, labels = max(legends, key=lambda pair: len(pair[1]))
+        figure.tight_layout(rect=(0, 0.05, 1, 1))
+        figure.legend(handles, labels, loc="lower center", ncol=len(self.styles), fontsize=8)
+        return figure
+
+    def run(self, description, kind, columns, cost_label, error_label):
+        """The whole program: a table in, a picture out."""
+        parser = argparse.ArgumentParser(description=description)
+        parser.add_argument("table", metavar="TABLE.csv")
+        parser.add_argument("-o", "--output", required=True, metavar="PICTURE")
+        arguments = parser.parse_args()
+        runs = read_table(arguments.table, kind, ("case", "method", self.cost, self.error))
+        figure = self.draw(runs, columns, cost_label, error_label)
+        with writing(arguments.output):
+            figure.savefig(arguments.output, dpi=80)
