@@ -127,9 +127,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (const auto* fluid_body = std::get_if<FluidBodyShape>(&shape.geometry)) {
     return readBody(*fluid_body, settings);
   }
-  CheckedMesh checked = makeShapeMesh(shape);
-  checked.mesh.vertices *= settings.scale;
-  checked.cavities.vertices *= settings.scale;
+  CheckedMesh checked = makeShapeMesh(shape, settings.scale);
   warnOfMesh(checked, shape, settings.least_faces);
   BuildSettings build;
   build.name = settings.name;

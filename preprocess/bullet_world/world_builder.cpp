@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/builder/body_extents.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/bullet_world/world_file.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
@@ -28,6 +29,7 @@ void build(const WorldShape& shape, const WorldBuildSettings& settings, WorldSha
     writeFluidBody(*body, result.file);
   }
   result.faces = body->faces.size();
+  result.extents = extentsOf(*body);
   result.volume = body->volume;
 }
 

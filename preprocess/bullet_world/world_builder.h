@@ -28,7 +28,8 @@ struct WorldShapeResult {
   std::string message;  ///< why it failed
   double seconds = 0;
   std::size_t faces = 0;
-  double volume = 0;  ///< [m^3]
+  Vector3 extents = Vector3::Zero();  ///< of the bounding box [m]
+  double volume = 0;                  ///< [m^3]
 };
 
 /// What became of a world.

@@ -69,9 +69,7 @@ TriangleMesh joinTriangles(const Points& corners) {
   const TriangleMesh mesh = makeTriangleMesh(corners, triangles);
   if (corners.empty()) return mesh;
   constexpr double kWeld = 1e-6;
-  return weldVertices(
-      mesh,
-      kWeld * (mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff()).norm());
+  return weldVertices(mesh, kWeld * mesh.extents().norm());
 }
 
 void appendCorners(const btGImpactShapeInterface& part, Points& corners) {

@@ -200,9 +200,7 @@ Solid makeHullSolid(const Points& points, double margin, const SolidResolution& 
     return withVolume(makeHullMesh(pointsWithin(hull, margin, n), name),
                       volumeWithin(hull, margin));
   };
-  const Eigen::Vector3d extent =
-      hull.vertices.rowwise().maxCoeff() - hull.vertices.rowwise().minCoeff();
-  const double share = margin / extent.minCoeff();
+  const double share = margin / hull.extents().minCoeff();
   // The more corners, the smaller the angles that are left to be rounded; and the narrower the
   // rounded edges, the less their form matters.
   constexpr double kNarrow = 0.05, kTiny = 0.01;

@@ -41,9 +41,7 @@ bool areInSpace(const TriangleMesh& mesh) {
     volume += a.dot(b.cross(c)) / 6;
     area += (b - a).cross(c - a).norm() / 2;
   }
-  const Eigen::Vector3d extent =
-      mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff();
-  return volume > kLeastThickness * extent.maxCoeff() * area;
+  return volume > kLeastThickness * mesh.extents().maxCoeff() * area;
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "preprocess/builder/body_extents.h"
 #include "preprocess/command_line/json_numbers.h"
+#include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
 namespace {
@@ -92,6 +94,7 @@ std::string reportJson(const FluidBody& body, std::optional<double> seconds) {
                       {"vertices", body.surface.vertices.size() / 3},
                       {"faces", body.surface.triangles.size() / 3},
                       {"sheet", isSheet(body)},
+                      {"size", vectorJson(extentsOf(body))},
                       {"volume", body.volume},
                       {"area", body.area},
                       {"origin", vectorJson(body.origin)},
@@ -117,6 +120,7 @@ std::string reportTable(const FluidBody& body, const std::string& file) {
   table.row("made by", body.provenance.generator);
   table.row("vertices", body.surface.vertices.size() / 3);
   table.row("faces", body.surface.triangles.size() / 3, isSheet(body) ? ", a sheet" : "");
+  table.row("size", extentsText(extentsOf(body)));
   table.row("volume", body.volume, " m^3");
   table.row("area", body.area, isSheet(body) ? " m^2, both sides" : " m^2");
   table.row("origin", vectorText(body.origin), " m in the mesh's frame");

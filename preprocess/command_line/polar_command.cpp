@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/force/face_loads.h"
+#include "preprocess/builder/body_extents.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/mesh/input_error.h"
 
@@ -80,23 +81,12 @@ double silhouetteAlong(const Vector3& axis, const FaceTable& faces) {
   return sum / 2;
 }
 
-double extentAlong(const Vector3& axis, const FluidBody& body) {
-  double low = 0, high = 0;
-  const std::vector<double>& v = body.surface.vertices;
-  for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
-    const double along = Vector3(v[i], v[i + 1], v[i + 2]).dot(axis);
-    low = i == 0 ? along : std::min(low, along);
-    high = i == 0 ? along : std::max(high, along);
-  }
-  return high - low;
-}
-
 Reference referenceOf(const PolarArguments& arguments, const FluidBody& body, const Matrix3& axes) {
   Reference reference;
   reference.area = arguments.reference_area > 0 ? arguments.reference_area
                                                 : silhouetteAlong(axes.col(2), body.faces);
-  reference.length =
-      arguments.reference_length > 0 ? arguments.reference_length : extentAlong(axes.col(0), body);
+  reference.length = arguments.reference_length > 0 ? arguments.reference_length
+                                                    : axes.col(0).cwiseAbs().dot(extentsOf(body));
   if (!(reference.area > 0)) {
     raiseInputError(arguments.file, "has no area seen along --up: give --reference-area");
   }

@@ -40,6 +40,7 @@ std::string asJson(const MeshReport& report, const TriangleMesh& mesh) {
   }
   ordered_json text{{"vertices", mesh.vertexCount()},
                     {"faces", mesh.triangleCount()},
+                    {"size", vectorJson(mesh.extents())},
                     {"origin", vectorJson(report.origin)},
                     {"built", levelJson(report.built)}};
   if (report.other) {
@@ -80,7 +81,7 @@ std::string asTable(const MeshReport& report, const TriangleMesh& mesh) {
     text << ", asymmetry " << flow.asymmetry << "\n";
   };
   text << "mesh             " << mesh.vertexCount() << " vertices, " << mesh.triangleCount()
-       << " faces\n";
+       << " faces, " << extentsText(mesh.extents()) << "\n";
   level("flow             ", report.built);
   if (report.other) {
     level("compared with    ", *report.other);
@@ -127,8 +128,7 @@ void runReport(const ReportArguments& arguments) {
     requireWritablePlace(arguments.picture, arguments.input);
   }
   const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
-  CheckedMesh checked = makeShapeMesh(shape);
-  checked.mesh.vertices *= arguments.scale;
+  const CheckedMesh checked = makeShapeMesh(shape, arguments.scale);
   requireUsualSize(checked.mesh, isSheet(shape), shape.source);
   for (const std::string& warning : checked.warnings) std::cerr << "warning: " << warning << "\n";
   MeshReportSettings settings;

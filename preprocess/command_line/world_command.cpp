@@ -8,6 +8,7 @@
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
 namespace {
@@ -56,6 +57,7 @@ ordered_json shapeJson(const WorldShapeResult& shape) {
     report["message"] = shape.message;
   } else {
     report["faces"] = shape.faces;
+    report["size"] = vectorJson(shape.extents);
     report["volume"] = shape.volume;
   }
   return report;
@@ -74,12 +76,13 @@ std::string worldTable(const WorldBuild& built) {
     text.resize(width, ' ');
     return text;
   };
-  std::string text = name("shape") + "  bodies  result   faces    volume [m^3]  time [s]\n";
+  std::string text = name("shape") + "  bodies  result   faces    volume [m^3]  time [s]  size\n";
   for (const WorldShapeResult& shape : built.shapes) {
     char row[96];
-    std::snprintf(row, sizeof row, "  %6zu  %-6s  %6zu  %14.6g  %8.2f\n", shape.bodies.size(),
+    std::snprintf(row, sizeof row, "  %6zu  %-6s  %6zu  %14.6g  %8.2f  ", shape.bodies.size(),
                   wordFor(shape.status), shape.faces, shape.volume, shape.seconds);
-    text += name(shape.name) + row;
+    const bool is_made = shape.status != Status::kFailed;
+    text += name(shape.name) + row + (is_made ? extentsText(shape.extents) : "-") + "\n";
   }
   return text;
 }

@@ -42,8 +42,7 @@ std::string resolutionWarning(const TriangleMesh& mesh, double diagonal) {
 
 void weld(ImportedMesh& imported, const std::string& name) {
   TriangleMesh& mesh = imported.mesh;
-  const double diagonal =
-      (mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff()).norm();
+  const double diagonal = mesh.extents().norm();
   const std::string warning = resolutionWarning(mesh, diagonal);
   if (!warning.empty()) imported.warnings.push_back(name + ": " + warning);
   const Eigen::Index before = mesh.triangleCount();

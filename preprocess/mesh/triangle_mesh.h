@@ -16,6 +16,10 @@ struct TriangleMesh {
   Eigen::Vector3d corner(Eigen::Index triangle, int k) const {
     return vertices.col(triangles(k, triangle));
   }
+  /// Sizes of the bounding box along the axes [m]. @pre there are vertices.
+  Eigen::Vector3d extents() const {
+    return vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff();
+  }
 };
 
 }  // namespace ambient

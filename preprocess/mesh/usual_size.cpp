@@ -1,6 +1,7 @@
 #include "preprocess/mesh/usual_size.h"
 
 #include <cmath>
+#include <sstream>
 
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -27,12 +28,28 @@ void requireUsualWidth(const MeshProperties& properties, double size, bool sheet
 // Far beyond these sizes areas, volumes and moments leave the range of a double.
 constexpr double kSmallestSize = 1e-9, kLargestSize = 1e9;  // [m]
 
+// Beyond these a file's unit is likelier to be another one than the body to be of that size.
+constexpr double kSmallestLikely = 1e-4, kLargestLikely = 100;  // [m]
+
 }  // namespace
 
+std::string extentsText(const Eigen::Vector3d& extents) {
+  std::ostringstream text;
+  text.precision(4);
+  text << extents.x() << " x " << extents.y() << " x " << extents.z() << " m";
+  return text.str();
+}
+
+std::string unlikelySizeWarning(const TriangleMesh& mesh, const std::string& source) {
+  const double size = mesh.extents().maxCoeff();
+  if (size >= kSmallestLikely && size <= kLargestLikely) return {};
+  return source + ": its size is " + extentsText(mesh.extents()) +
+         (size > kLargestLikely ? ": if the file is in millimetres, scale it by 0.001"
+                                : ": if the file is not in metres, scale it");
+}
+
 void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source) {
-  const Eigen::Vector3d extents =
-      mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff();
-  const double size = extents.norm();
+  const double size = mesh.extents().norm();
   if (!(size >= kSmallestSize && size <= kLargestSize)) {
     const std::string limits = "; it must be 1e-9 m to 1e9 m";
     const std::string what = "the diagonal of its bounding box is ";

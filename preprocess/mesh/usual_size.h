@@ -13,4 +13,11 @@ namespace ambient {
 /// volume over its area^1.5 below 1e-6.
 void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source);
 
+/// "1 x 2 x 3 m"
+std::string extentsText(const Eigen::Vector3d& extents);
+
+/// One line that begins with `source`, if the longest extent is above 100 m or below 0.1 mm: a
+/// mesh in millimetres looks like that. Else empty.
+std::string unlikelySizeWarning(const TriangleMesh& mesh, const std::string& source);
+
 }  // namespace ambient

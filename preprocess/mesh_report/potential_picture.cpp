@@ -135,8 +135,7 @@ std::string potentialPicture(const TriangleMesh& surface,
       "moves along x at 1 m/s",   "moves along y at 1 m/s",   "moves along z at 1 m/s"};
   const Eigen::Matrix3d camera = makeCamera();
   const std::vector<SeenTriangle> triangles = sortSeen(seenFrom(camera, surface), sheet);
-  const double size =
-      (surface.vertices.rowwise().maxCoeff() - surface.vertices.rowwise().minCoeff()).norm();
+  const double size = surface.extents().norm();
   const double width = 3 * kCell, height = 2 * (kCell + kCaption) + kCaption;
   std::string text = format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%g\" height=\"%g\" viewBox=\"0 0 %g %g\" "

@@ -7,6 +7,7 @@
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/mesh_import.h"
 #include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
 namespace {
@@ -84,6 +85,17 @@ struct FileFinder {
   }
 };
 
+CheckedMesh makeUnscaledMesh(const ShapeDescription& shape) {
+  try {
+    return std::visit(MeshMaker{shape.faces}, shape.geometry);
+  } catch (const std::runtime_error& error) {
+    // Messages about a file begin with it already.
+    const bool names_file = !fileOf(shape).empty() || shape.source.empty();
+    if (names_file) throw;
+    raiseInputError(shape.source, error.what());
+  }
+}
+
 }  // namespace
 
 bool isSheet(const ShapeDescription& shape) {
@@ -96,15 +108,15 @@ std::filesystem::path fileOf(const ShapeDescription& shape) {
   return std::visit(FileFinder{}, shape.geometry);
 }
 
-CheckedMesh makeShapeMesh(const ShapeDescription& shape) {
-  try {
-    return std::visit(MeshMaker{shape.faces}, shape.geometry);
-  } catch (const std::runtime_error& error) {
-    // Messages about a file begin with it already.
-    const bool names_file = !fileOf(shape).empty() || shape.source.empty();
-    if (names_file) throw;
-    raiseInputError(shape.source, error.what());
-  }
+CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale) {
+  CheckedMesh checked = makeUnscaledMesh(shape);
+  checked.mesh.vertices *= scale;
+  checked.cavities.vertices *= scale;
+  // Shapes are described in metres; what the unit of a file is, is not known.
+  if (fileOf(shape).empty()) return checked;
+  const std::string warning = unlikelySizeWarning(checked.mesh, fileOf(shape).string());
+  if (!warning.empty()) checked.warnings.push_back(warning);
+  return checked;
 }
 
 }  // namespace ambient

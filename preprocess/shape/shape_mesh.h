@@ -15,8 +15,10 @@ std::filesystem::path fileOf(const ShapeDescription& shape);
 /// ones with the volume of the smooth body (elliptic sheets: the area) instead of vertices on its
 /// surface: a ball of 1280 triangles would displace 1 % too little, and carry so much less added
 /// mass.
-/// @pre the shape is not a FluidBodyShape
+/// All lengths are multiplied by `scale`; a file whose mesh is then of a size that another unit
+/// than the metre would explain is warned of.
+/// @pre the shape is not a FluidBodyShape; the scale is positive and finite
 /// @throws std::runtime_error in one line that begins with the shape's source.
-CheckedMesh makeShapeMesh(const ShapeDescription& shape);
+CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale = 1);
 
 }  // namespace ambient

@@ -75,6 +75,31 @@ TEST_F(CommandLine, BuildOptionsScaleShiftAndLimitThreads) {
   EXPECT_EQ(with({"--threads", "1", "--rebuild"})["added_mass"], plain["added_mass"]);
 }
 
+TEST_F(CommandLine, MeshesInMillimetresAreWarnedOfAndSizesShown) {
+  const std::string mesh = write("box.obj", objText(makeBoxMesh({100, 50, 20}, 200)));
+  const Arguments build{"build", mesh, "-o", path("box.ambient"), "--panels", "0"};
+  const std::string warning = "warning: " + mesh +
+                              ": its size is 200 x 100 x 40 m: if the file is in millimetres, "
+                              "scale it by 0.001\n";
+  const ProgramResult built = run(build);
+  EXPECT_EQ(built.exit_code, 0);
+  EXPECT_EQ(built.errors, warning);
+  EXPECT_NE(built.output.find("\n  size              200 x 100 x 40 m\n"), std::string::npos);
+  const ProgramResult report = run({"report", mesh, "--panels", "0"});
+  EXPECT_EQ(report.errors, warning);
+  EXPECT_NE(report.output.find(" faces, 200 x 100 x 40 m\n"), std::string::npos);
+  Arguments scaled = build;
+  scaled.insert(scaled.end(), {"--scale", "0.001", "--json"});
+  const json size = resultOf(scaled)["size"];
+  EXPECT_NEAR(size[0].get<double>(), 0.2, 1e-7);
+  EXPECT_NEAR(size[1].get<double>(), 0.1, 1e-7);
+  EXPECT_NEAR(size[2].get<double>(), 0.04, 1e-7);
+  scaled[scaled.size() - 2] = "1e-7";
+  EXPECT_EQ(run(scaled).errors, "warning: " + mesh +
+                                    ": its size is 2e-05 x 1e-05 x 4e-06 m: if the file is not in "
+                                    "metres, scale it\n");
+}
+
 TEST_F(CommandLine, SheetsAreBuiltFromOpenMeshes) {
   const std::string mesh = write("sheet.obj", objText(makeRectangularSheetMesh(1, 1, 288)));
   const json sheet = resultOf({"build", mesh, "-o", path("s.ambient"), "--sheet", "--json"});

@@ -104,6 +104,7 @@ TEST_F(WorldBuild, EveryShapeOfADynamicBodyGetsItsFile) {
   ASSERT_EQ(json::parse(result.output)["shapes"].size(), 3u) << result.output;
   EXPECT_EQ(shapeOf(result, "crate")["bodies"], json({"crate 1", "crate 2"}));
   EXPECT_EQ(shapeOf(result, "crate")["status"], "built");
+  EXPECT_EQ(shapeOf(result, "crate")["size"], json({1.0, 0.5, 2.0}));
   EXPECT_NEAR(readFluidBody(path("out/crate.ambient")).volume, 1, 1e-6);
   const FluidBody ball = readFluidBody(path("out/_._ball.ambient"));
   EXPECT_NEAR(ball.volume, std::acos(-1.0) / 6, 1e-12);
