@@ -25,7 +25,8 @@ struct WorldShapeResult {
   std::vector<std::string> bodies;
   std::filesystem::path file;  ///< the .ambient file
   Status status = Status::kFailed;
-  std::string message;  ///< why it failed
+  std::string message;                ///< why it failed
+  std::vector<std::string> warnings;  ///< about a shape that was built, one line each
   double seconds = 0;
   std::size_t faces = 0;
   Vector3 extents = Vector3::Zero();  ///< of the bounding box [m]

@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cstdio>
+#include <sstream>
 
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "preprocess/collision_shape/collision_solids.h"
@@ -65,11 +67,31 @@ void requireGaps(const std::vector<Solid>& solids, const std::string& name) {
   for (std::size_t i = 0; i < solids.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!areInContact(solids[i].mesh, solids[j].mesh)) continue;
-      raiseInputError(name, "parts ", j, " and ", i, " of the compound shape overlap or touch; ",
-                      "leave a gap of ", kLeastGap,
-                      " of the smaller one's size, or make one hull or mesh of them");
+      raiseInputError(name, solids[j].part, " and ", solids[i].part, " overlap or touch, and the ",
+                      "flow needs the surface of their union: make the fluid body of one closed ",
+                      "mesh or one convex hull of them (the collision shape may stay as it is), ",
+                      "or leave a gap of ", kLeastGap, " of the smaller one's size");
     }
   }
+}
+
+/// What a user should know about the body, one line each.
+void reportSolids(const std::vector<Solid>& solids, double volume,
+                  const CollisionShapeSettings& settings, const std::string& name) {
+  constexpr double kMuch = 0.1;
+  double margins = 0;
+  for (const Solid& solid : solids) {
+    margins += solid.margin_volume;
+    for (const std::string& warning : solid.warnings) settings.report(warning);
+  }
+  if (margins <= kMuch * (volume - margins)) return;
+  std::ostringstream text;
+  text.precision(4);
+  text << name << ": the margin that Bullet collides with is part of the body: its volume is "
+       << volume << " m^3, without the margin it would be " << volume - margins
+       << " m^3; set a smaller margin, or leave margins out (CollisionShapeSettings::margins, "
+       << "--no-margins)";
+  settings.report(text.str());
 }
 
 /// One surface of all solids, or of all cavities.
@@ -113,6 +135,10 @@ std::optional<Matrix6> addedMassOf(const Solid& solid, const CollisionShapeSetti
 
 }  // namespace
 
+CollisionShapeSettings::CollisionShapeSettings()
+    : report([](const std::string& text) { std::fprintf(stderr, "warning: %s\n", text.c_str()); }) {
+}
+
 FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
   const std::vector<Solid> solids = solidsOf(shape, settings);
   BuildSettings build;
@@ -127,7 +153,9 @@ FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSetti
     build.sphere_radius = solids.front().sphere_radius;
   }
   build.cavities = joined(solids, &Solid::cavities);
-  return makeFluidBody(joined(solids, &Solid::mesh), build);
+  const FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
+  if (settings.report) reportSolids(solids, body.volume, settings, build.name);
+  return body;
 }
 
 Provenance describeCollisionShape(const btCollisionShape& shape,

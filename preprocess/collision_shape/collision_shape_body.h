@@ -2,6 +2,7 @@
 
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
+#include <functional>
 #include <string>
 
 #include "bullet_ambient/bullet/precision_check.h"
@@ -13,12 +14,18 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// How a fluid body is made from a collision shape.
 struct CollisionShapeSettings {
+  CollisionShapeSettings();
+
   std::string name;     ///< of the body, begins every message; empty: the shape's name
   bool margins = true;  ///< convex hulls and cones are as large as Bullet collides with them,
                         ///< margin included; false: as they were given
   int faces = 1300;     ///< triangles aimed at, where the shape has no mesh of its own
   int max_panels = kDefaultPanels;  ///< as in BuildSettings
   int threads = 0;                  ///< 0: all cores; the result does not depend on it
+  /// Receives one line for everything a user should know about a body that was made: margins that
+  /// add more than a tenth to its volume, triangles that were turned round. Default: standard
+  /// error; null: nobody.
+  std::function<void(const std::string&)> report;
 };
 
 /// The fluid body of a collision shape, whose frame F is that of the shape: a btRigidBody with the

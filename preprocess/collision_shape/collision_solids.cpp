@@ -21,12 +21,6 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// A shape, where it is, and what begins messages about it.
-struct Place {
-  Eigen::Affine3d pose;
-  std::string name;
-};
-
 Eigen::Affine3d toPose(const btTransform& transform) {
   Eigen::Affine3d pose = Eigen::Affine3d::Identity();
   for (int i = 0; i < 3; ++i) {
@@ -35,6 +29,18 @@ Eigen::Affine3d toPose(const btTransform& transform) {
   pose.translation() = toVector3(transform.getOrigin());
   return pose;
 }
+
+/// A shape, where it is, and what begins messages about it.
+struct Place {
+  Eigen::Affine3d pose;
+  std::string name;
+  std::string part = {};  ///< "child 1: child 0" in a compound
+
+  Place child(int i, const btTransform& transform) const {
+    const std::string number = ": child " + std::to_string(i);
+    return {pose * toPose(transform), name + number, (part + number).substr(part.empty() ? 2 : 0)};
+  }
+};
 
 /// Turns the z axis to axis x, y or z.
 Eigen::Matrix3d axisAlong(int up_axis) {
@@ -47,6 +53,7 @@ Solid placed(Solid solid, const Eigen::Affine3d& pose) {
   for (TriangleMesh* mesh : {&solid.mesh, &solid.flow, &solid.coarse_flow, &solid.cavities}) {
     mesh->vertices = (pose.linear() * mesh->vertices).colwise() + pose.translation();
   }
+  solid.margin_volume *= pose.linear().determinant();
   if (solid.added_mass) {
     const double scale = std::cbrt(pose.linear().determinant());
     const Matrix3 turn = pose.linear() / scale;
@@ -106,19 +113,23 @@ class SolidCollector {
       case GIMPACT_SHAPE_PROXYTYPE:
         return addGImpact(static_cast<const btGImpactShapeInterface&>(shape), place);
       default:
-        solids_.push_back(placed(makeConvex(shape, place.name), place.pose));
+        take(makeConvex(shape, place.name), shape, place);
     }
   }
 
   std::vector<Solid> solids() const { return solids_; }
 
  private:
+  void take(const Solid& solid, const btCollisionShape& shape, const Place& place) {
+    solids_.push_back(placed(solid, place.pose));
+    if (!place.part.empty()) solids_.back().part = place.part + " (" + shape.getName() + ")";
+  }
+
   void addCompound(const btCompoundShape& compound, const Place& place) {
     const int count = compound.getNumChildShapes();
     if (count == 0) raiseInputError(place.name, "a compound shape without children is empty");
     for (int i = 0; i < count; ++i) {
-      add(*compound.getChildShape(i), {place.pose * toPose(compound.getChildTransform(i)),
-                                       place.name + ": child " + std::to_string(i)});
+      add(*compound.getChildShape(i), place.child(i, compound.getChildTransform(i)));
     }
   }
 
@@ -126,15 +137,14 @@ class SolidCollector {
     const auto factor = static_cast<double>(scaled.getUniformScalingFactor());
     if (!(factor > 0))
       raiseInputError(place.name, "the scaling factor ", factor, " is not positive");
-    add(*scaled.getChildShape(), {place.pose * Eigen::Scaling(factor), place.name});
+    add(*scaled.getChildShape(), {place.pose * Eigen::Scaling(factor), place.name, place.part});
   }
 
   void addGImpact(const btGImpactShapeInterface& shape, const Place& place) {
     if (shape.getGImpactShapeType() == CONST_GIMPACT_COMPOUND_SHAPE) {
       const auto& compound = static_cast<const btGImpactCompoundShape&>(shape);
       for (int i = 0; i < compound.getNumChildShapes(); ++i) {
-        add(*compound.getChildShape(i), {place.pose * toPose(compound.getChildTransform(i)),
-                                         place.name + ": child " + std::to_string(i)});
+        add(*compound.getChildShape(i), place.child(i, compound.getChildTransform(i)));
       }
       return;
     }
@@ -150,7 +160,8 @@ class SolidCollector {
     CheckedMesh checked = checkMesh(joinTriangles(corners), place.name);
     solid.mesh = std::move(checked.mesh);
     solid.cavities = std::move(checked.cavities);
-    solids_.push_back(placed(solid, place.pose));
+    solid.warnings = std::move(checked.warnings);
+    take(solid, shape, place);
   }
 
   Solid makeConvex(const btCollisionShape& shape, const std::string& name) const {

@@ -188,7 +188,9 @@ Solid makeConeSolid(double radius, double height, double margin, const SolidReso
     return withVolume(makeRoundedConeMesh(radius, height, margin, std::max(faces, kLeastFaces)),
                       volume);
   };
-  return smoothSolid(make(resolution.faces), make(resolution.flow_faces));
+  Solid solid = smoothSolid(make(resolution.faces), make(resolution.flow_faces));
+  solid.margin_volume = volume - kPi * radius * radius * height / 3;
+  return solid;
 }
 
 Solid makeHullSolid(const Points& points, double margin, const SolidResolution& resolution,
@@ -196,9 +198,9 @@ Solid makeHullSolid(const Points& points, double margin, const SolidResolution& 
   const TriangleMesh hull = makeHullMesh(points, name);
   if (margin <= 0) return solidOf(evenlyDivided(hull, resolution.faces));
   requireSize(name, "the margin", margin);
+  const double volume = volumeWithin(hull, margin);
   const auto roundedWith = [&](int n) {
-    return withVolume(makeHullMesh(pointsWithin(hull, margin, n), name),
-                      volumeWithin(hull, margin));
+    return withVolume(makeHullMesh(pointsWithin(hull, margin, n), name), volume);
   };
   const double share = margin / hull.extents().minCoeff();
   // The more corners, the smaller the angles that are left to be rounded; and the narrower the
@@ -210,6 +212,7 @@ Solid makeHullSolid(const Points& points, double margin, const SolidResolution& 
                                                : 0;
   const int coarse = std::min(fine, 2);
   Solid solid = solidOf(evenlyDivided(roundedWith(fine), resolution.faces));
+  solid.margin_volume = volume - volumeOf(hull);
   if (resolution.flow_faces > solid.mesh.triangleCount()) {
     // All corners of the rounded hull lie on edges that are sharp from afar. Few directions on
     // narrow ones leave panels for the sides.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
@@ -17,6 +19,9 @@ struct Solid {
   /// The closed form about the shape's origin, if there is one, per unit density.
   std::optional<Matrix6> added_mass;
   double sphere_radius = 0;  ///< of a sphere [m]; 0: any other shape
+  double margin_volume = 0;  ///< what Bullet's margin adds to it [m^3]
+  std::string part;  ///< in its compound: "child 1: child 0 (Box)"; empty: a shape of its own
+  std::vector<std::string> warnings;  ///< what a user should know about it, one line each
 };
 
 }  // namespace ambient

@@ -110,6 +110,8 @@ int runWorldBuild(const BuildArguments& arguments) {
   }
   int failed = 0;
   for (const WorldShapeResult& shape : built.shapes) {
+    for (const std::string& warning : shape.warnings)
+      std::cerr << "warning: " << arguments.input << ": " << warning << "\n";
     if (shape.status != Status::kFailed) continue;
     ++failed;
     std::cerr << arguments.input << ": " << shape.message << "\n";

@@ -58,6 +58,43 @@ TEST(HullShape, MarginMakesTheHullLarger) {
   }
 }
 
+TEST(HullShape, MarginsThatAddMoreThanATenthAreReported) {
+  btConvexHullShape hull;
+  addCube(hull, btScalar(0.1));
+  std::vector<std::string> reports;
+  CollisionShapeSettings settings = coarse();
+  settings.name = "cube";
+  settings.report = [&](const std::string& text) { reports.push_back(text); };
+  hull.setMargin(btScalar(0.04));  // Bullet's default
+  makeFluidBody(hull, settings);
+  ASSERT_EQ(reports.size(), 1u);
+  // Steiner: 0.008 + 0.04 0.24 + 3 pi 0.2 0.04^2 + 4/3 pi 0.04^3 m^3.
+  EXPECT_EQ(reports.front(),
+            "cube: the margin that Bullet collides with is part of the body: its volume is 0.02088 "
+            "m^3, without the margin it would be 0.008 m^3; set a smaller margin, or leave margins "
+            "out (CollisionShapeSettings::margins, --no-margins)");
+  btTransform moved = btTransform::getIdentity();
+  moved.setOrigin(btVector3(1, 2, 3));
+  btCompoundShape compound;
+  compound.addChildShape(moved, &hull);
+  btUniformScalingShape larger(&hull, 2);
+  makeFluidBody(compound, settings);
+  makeFluidBody(larger, settings);
+  ASSERT_EQ(reports.size(), 3u);
+  EXPECT_EQ(reports[1], reports[0]);
+  EXPECT_NE(reports[2].find("its volume is 0.1671 m^3, without the margin it would be 0.064 m^3"),
+            std::string::npos);
+  hull.setMargin(btScalar(0.003));  // 9.2 %
+  makeFluidBody(hull, settings);
+  settings.margins = false;
+  hull.setMargin(btScalar(0.04));
+  makeFluidBody(hull, settings);
+  settings.report = nullptr;
+  settings.margins = true;
+  makeFluidBody(hull, settings);
+  EXPECT_EQ(reports.size(), 3u);
+}
+
 // Converging to about 1.18 and 5.04 from below, as the panels get more.
 TEST(HullShape, RoundedCubeIsWithinThreePercentInRotation) {
   btConvexHullShape hull;
