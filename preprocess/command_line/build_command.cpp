@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -13,17 +12,14 @@
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/input_shape.h"
+#include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
-#include "preprocess/command_line/solver_options.h"
-#include "preprocess/mesh/input_error.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 
 namespace ambient {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kRightAngle = 1.5707963267948966;
 
 std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
   if (text == "centre-of-volume") return std::nullopt;
@@ -34,7 +30,7 @@ std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
   const bool is_point = !stream.fail() && comma_1 == ',' && comma_2 == ',' &&
                         stream.peek() == std::istringstream::traits_type::eof();
   if (!is_point || !origin.allFinite()) {
-    raiseInputError("--origin", "\"", text, "\" is neither centre-of-volume nor three finite ",
+    raiseUsageError("--origin", "\"", text, "\" is neither centre-of-volume nor three finite ",
                     "numbers X,Y,Z");
   }
   return origin;
@@ -49,17 +45,8 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   settings.max_panels = arguments.panels;
   settings.threads = arguments.threads;
   settings.solver = parseSolver(arguments.solver);
-  settings.memory_limit = parseMemory(arguments.memory);
+  settings.memory_limit = 1e9 * arguments.memory.value_or(0);
   return settings;
-}
-
-double separationAngleOf(const BuildArguments& arguments) {
-  const double angle = arguments.separation_angle;
-  // An angle given with a few digits is still a right or a straight one.
-  constexpr double kDigits = 1e-6;
-  if (!(angle >= kRightAngle * (1 - kDigits) && angle <= 2 * kRightAngle * (1 + kDigits)))
-    raiseInputError("--separation-angle", angle, " rad must lie between pi/2 and pi");
-  return std::clamp(angle, kRightAngle, 2 * kRightAngle);
 }
 
 Provenance describeBody(const ShapeDescription& shape, const ShapeBuildSettings& settings,
@@ -70,7 +57,7 @@ Provenance describeBody(const ShapeDescription& shape, const ShapeBuildSettings&
   text.precision(17);
   for (const int clusters : arguments.levels)
     text << (text.tellp() == 0 ? "; levels " : ",") << clusters;
-  text << ", separation angle " << separationAngleOf(arguments);
+  text << ", separation angle " << separationAngleOf(arguments.separation_angle);
   provenance.settings += text.str();
   return provenance;
 }
@@ -81,7 +68,8 @@ FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings&
   {
     const ElapsedDisplay display("building " + settings.name);
     built = buildShape(shape, settings);
-    built.body.levels = buildLoadLevels(built.body, arguments.levels, separationAngleOf(arguments));
+    built.body.levels = buildLoadLevels(built.body, arguments.levels,
+                                        separationAngleOf(arguments.separation_angle));
     built.body.provenance.settings = describeBody(shape, settings, arguments).settings;
   }
   for (const std::string& warning : built.warnings) std::cerr << "warning: " << warning << "\n";
@@ -90,21 +78,29 @@ FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings&
   return built.body;
 }
 
+void requireValues(const BuildArguments& arguments) {
+  requirePositive("--scale", arguments.scale);
+  requireDivisions("--least-faces", arguments.least_faces);
+  requireDivisions("--panels", arguments.panels);
+  requireThreads(arguments.threads);
+  if (arguments.memory) requirePositive("--memory", *arguments.memory, " GB");
+  for (const int clusters : arguments.levels) {
+    if (clusters < kFewestClusters || clusters > kMostClusters)
+      raiseUsageError("--levels", clusters, " clusters are not ", kFewestClusters, " to ",
+                      kMostClusters);
+  }
+  separationAngleOf(arguments.separation_angle);
+}
+
 }  // namespace
 
 int runBuild(const BuildArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  requireThreads(arguments.threads);
+  requireValues(arguments);
   if (hasExtension(arguments.input, ".bullet")) return runWorldBuild(arguments);
-  for (const int clusters : arguments.levels) {
-    if (clusters < kFewestClusters || clusters > kMostClusters)
-      raiseInputError("--levels", clusters, " clusters are not ", kFewestClusters, " to ",
-                      kMostClusters);
-  }
-  separationAngleOf(arguments);
-  if (arguments.no_margins) raiseInputError("--no-margins", "only worlds have margins");
-  const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
+  if (arguments.no_margins) raiseUsageError("--no-margins", "only worlds have margins");
   const ShapeBuildSettings settings = settingsOf(arguments);
+  const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
   requireWritablePlace(arguments.output, arguments.input);
   std::optional<FluidBody> body;
   if (!arguments.rebuild) {

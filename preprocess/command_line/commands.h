@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct BuildArguments {
   double separation_angle = 1.5707963267948966;  ///< of the levels, from pi/2 to pi [rad]
   int threads = 0;                               ///< 0: all cores
   std::string solver;                            ///< dense or hierarchical; empty: by the panels
-  std::string memory;                            ///< for the flow [GB]; empty: what is available
+  std::optional<double> memory;                  ///< for the flow [GB]; none: what is available
   bool no_margins = false;  ///< of a world: hulls and cones without their margins
   bool rebuild = false;     ///< also where nothing has changed
   bool json = false;
@@ -78,8 +79,8 @@ struct ReportArguments {
 
 /// Each of these does one command, with its result on standard output, messages and progress on
 /// standard error.
-/// @throws std::runtime_error in one line that names the file or the option, the value and the
-/// limit.
+/// @throws UsageError in one line that names the option, the value and the limit.
+/// @throws std::runtime_error in one line that names the file, the entity and the limit.
 /// @returns the exit status, where bad input need not be the end.
 int runBuild(const BuildArguments& arguments);
 /// build of a .bullet file into a folder; 1 if a shape failed.

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/force/face_loads.h"
+#include "preprocess/command_line/body_loads.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/json_numbers.h"
-#include "preprocess/mesh/input_error.h"
+#include "preprocess/command_line/option_values.h"
 
 namespace ambient {
 namespace {
@@ -62,11 +62,12 @@ double loadDifference(const FluidBody& a, const FluidBody& b) {
   if (!(length > 0)) return 0;
   LoadSettings settings;
   settings.density = 2;  // dynamic pressure 1 at speed 1
+  const BodyLoads loads_on_a(a, settings), loads_on_b(b, settings);
   double largest = 0;
   for (int i = 0; i < kMotions; ++i) {
     const Twist twist = testTwist(i, kMotions, length);
-    const Wrench of_a = computeFaceLoads(a.faces, length, twist, settings).pressure;
-    const Wrench of_b = computeFaceLoads(b.faces, length, twist, settings).pressure;
+    const Wrench of_a = loads_on_a.at(twist).pressure;
+    const Wrench of_b = loads_on_b.at(twist).pressure;
     largest = std::max({largest, (of_a.force - of_b.force).norm() / (length * length),
                         (of_a.torque - of_b.torque).norm() / (length * length * length)});
   }
@@ -110,9 +111,7 @@ std::string comparisonTable(const std::vector<Difference>& differences, double t
 }  // namespace
 
 int runCompare(const CompareArguments& arguments) {
-  if (!std::isfinite(arguments.tolerance) || arguments.tolerance < 0) {
-    raiseInputError("--tolerance", arguments.tolerance, " must be finite and not negative");
-  }
+  requireNotNegative("--tolerance", arguments.tolerance);
   const FluidBody a = readFluidBody(arguments.first), b = readFluidBody(arguments.second);
   const std::vector<Difference> differences = differencesOf(a, b);
   const bool is_same =

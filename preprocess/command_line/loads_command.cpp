@@ -1,39 +1,25 @@
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <limits>
-#include <sstream>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/force/face_loads.h"
+#include "preprocess/command_line/body_loads.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/json_numbers.h"
+#include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
-void requireNotNegative(const char* option, double value, const char* unit) {
-  if (std::isfinite(value) && value >= 0) return;
-  raiseInputError(option, value, " ", unit, " must be finite and not negative");
-}
-
 LoadSettings settingsOf(const LoadsArguments& arguments) {
-  requireNotNegative("--density", arguments.density, "kg/m^3");
-  requireNotNegative("--viscosity", arguments.viscosity, "Pa s");
-  const double angle = arguments.separation_angle;
-  // An angle given with a few digits is still a right or a straight one.
-  constexpr double kDigits = 1e-6;
-  if (!(angle >= kPi / 2 * (1 - kDigits) && angle <= kPi * (1 + kDigits))) {
-    raiseInputError("--separation-angle", angle, " rad must lie between pi/2 and pi");
-  }
+  requireNotNegative("--density", arguments.density, " kg/m^3");
+  requireNotNegative("--viscosity", arguments.viscosity, " Pa s");
   LoadSettings settings;
   settings.density = arguments.density;
   settings.viscosity = arguments.viscosity;
-  settings.separation_cosine = separationCosine(std::clamp(angle, kPi / 2, kPi));
+  settings.separation_cosine = separationCosine(separationAngleOf(arguments.separation_angle));
   settings.skin_friction = !arguments.no_friction;
   return settings;
 }
@@ -43,7 +29,7 @@ Twist twistOf(const LoadsArguments& arguments) {
   for (int i = 0; i < 6; ++i) {
     twist[i] = arguments.twist[i];
     if (!std::isfinite(twist[i])) {
-      raiseInputError("--twist", "number ", i + 1, " is ", twist[i], ", must be finite");
+      raiseUsageError("--twist", "number ", i + 1, " is ", twist[i], ", must be finite");
     }
   }
   return Twist::fromVector(twist);
@@ -83,7 +69,7 @@ void runLoads(const LoadsArguments& arguments) {
   const LoadSettings settings = settingsOf(arguments);
   const Twist twist = twistOf(arguments);
   const FluidBody body = readFluidBody(arguments.file);
-  const FaceLoads loads = computeFaceLoads(body.faces, std::sqrt(body.area), twist, settings);
+  const FaceLoads loads = BodyLoads(body, settings).at(twist);
   if (!loads.total().vector().allFinite()) {
     raiseInputError(arguments.file, "the loads of this motion are beyond the largest number, ",
                     std::numeric_limits<double>::max());

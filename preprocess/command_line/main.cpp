@@ -9,6 +9,7 @@
 
 #include "preprocess/command_line/closest_word.h"
 #include "preprocess/command_line/commands.h"
+#include "preprocess/command_line/option_values.h"
 
 namespace ambient {
 namespace {
@@ -213,6 +214,9 @@ int run(int argc, char** argv) {
     if (report->parsed()) runReport(report_arguments);
     if (polar->parsed()) runPolar(polar_arguments);
     if (compare->parsed()) return runCompare(compare_arguments);
+  } catch (const UsageError& error) {
+    std::cerr << "ambient_preprocess: " << inOneLine(error.what()) << "\n";
+    return kBadUsage;
   } catch (const std::bad_alloc&) {
     std::cerr << "ambient_preprocess: there is not enough memory for an input of this size\n";
     return kBadInput;

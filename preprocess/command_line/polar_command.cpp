@@ -7,16 +7,15 @@
 #include <string>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/force/face_loads.h"
 #include "preprocess/builder/body_extents.h"
+#include "preprocess/command_line/body_loads.h"
 #include "preprocess/command_line/commands.h"
-#include "preprocess/mesh/input_error.h"
+#include "preprocess/command_line/option_values.h"
 
 namespace ambient {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kRightAngle = kPi / 2;
 
 /// Angles [degrees] of one variable.
 struct AngleRange {
@@ -38,7 +37,7 @@ AngleRange parseRange(const std::string& option, const std::string& text) {
   constexpr int kMostAngles = 100000;
   if (!is_read || !std::isfinite(range.from) || !std::isfinite(range.to) || !(range.step > 0) ||
       range.to < range.from || (range.to - range.from) / range.step > kMostAngles) {
-    raiseInputError(option, "\"", text, "\" is neither an angle nor FROM:TO:STEP in degrees, with ",
+    raiseUsageError(option, "\"", text, "\" is neither an angle nor FROM:TO:STEP in degrees, with ",
                     "STEP above 0, TO not below FROM and at most ", kMostAngles, " angles");
   }
   return range;
@@ -50,7 +49,7 @@ Matrix3 parseAxes(const std::string& forward, const std::string& up) {
     const bool has_sign = text.size() == 2 && (text[0] == '-' || text[0] == '+');
     const char letter = text.empty() ? ' ' : text.back();
     if ((text.size() != 1 && !has_sign) || letter < 'x' || letter > 'z') {
-      raiseInputError(option, "\"", text, "\" is none of x, y, z, -x, -y, -z");
+      raiseUsageError(option, "\"", text, "\" is none of x, y, z, -x, -y, -z");
     }
     Vector3 axis = Vector3::Zero();
     axis[letter - 'x'] = text[0] == '-' ? -1 : 1;
@@ -60,7 +59,7 @@ Matrix3 parseAxes(const std::string& forward, const std::string& up) {
   axes.col(0) = axisOf("--forward", forward);
   axes.col(2) = axisOf("--up", up);
   if (axes.col(0).dot(axes.col(2)) != 0) {
-    raiseInputError("--up", up, " is along --forward ", forward);
+    raiseUsageError("--up", up, " is along --forward ", forward);
   }
   axes.col(1) = axes.col(2).cross(axes.col(0));
   return axes;
@@ -73,7 +72,9 @@ struct Reference {
 
 /// Half the area projected along an axis, both sides counted: the silhouette of a convex body or of
 /// a flat sheet.
-double silhouetteAlong(const Vector3& axis, const FaceTable& faces) {
+double silhouetteAlong(const Vector3& axis, const FluidBody& body) {
+  if (body.sphere_radius > 0) return kPi * body.sphere_radius * body.sphere_radius;
+  const FaceTable& faces = body.faces;
   double sum = 0;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     sum += faces.area[i] * std::abs(faces.normal(i).dot(axis));
@@ -81,12 +82,17 @@ double silhouetteAlong(const Vector3& axis, const FaceTable& faces) {
   return sum / 2;
 }
 
+double extentAlong(const Vector3& axis, const FluidBody& body) {
+  if (body.sphere_radius > 0) return 2 * body.sphere_radius;
+  return axis.cwiseAbs().dot(extentsOf(body));
+}
+
 Reference referenceOf(const PolarArguments& arguments, const FluidBody& body, const Matrix3& axes) {
   Reference reference;
-  reference.area = arguments.reference_area > 0 ? arguments.reference_area
-                                                : silhouetteAlong(axes.col(2), body.faces);
-  reference.length = arguments.reference_length > 0 ? arguments.reference_length
-                                                    : axes.col(0).cwiseAbs().dot(extentsOf(body));
+  reference.area =
+      arguments.reference_area > 0 ? arguments.reference_area : silhouetteAlong(axes.col(2), body);
+  reference.length =
+      arguments.reference_length > 0 ? arguments.reference_length : extentAlong(axes.col(0), body);
   if (!(reference.area > 0)) {
     raiseInputError(arguments.file, "has no area seen along --up: give --reference-area");
   }
@@ -97,40 +103,29 @@ Reference referenceOf(const PolarArguments& arguments, const FluidBody& body, co
 }
 
 LoadSettings settingsOf(const PolarArguments& arguments) {
-  const auto require = [](const char* option, double value, bool may_be_zero) {
-    if (std::isfinite(value) && (value > 0 || (may_be_zero && value == 0))) return;
-    raiseInputError(
-        option, value,
-        may_be_zero ? " must be finite and not negative" : " must be finite and positive");
-  };
-  require("--density", arguments.density, false);
-  require("--speed", arguments.speed, false);
-  require("--viscosity", arguments.viscosity, true);
-  require("--reference-area", arguments.reference_area, true);
-  require("--reference-length", arguments.reference_length, true);
-  constexpr double kDigits = 1e-6;
-  const double angle = arguments.separation_angle;
-  if (!(angle >= kRightAngle * (1 - kDigits) && angle <= kPi * (1 + kDigits))) {
-    raiseInputError("--separation-angle", angle, " rad must lie between pi/2 and pi");
-  }
+  requirePositive("--density", arguments.density);
+  requirePositive("--speed", arguments.speed);
+  requireNotNegative("--viscosity", arguments.viscosity);
+  requireNotNegative("--reference-area", arguments.reference_area);
+  requireNotNegative("--reference-length", arguments.reference_length);
   LoadSettings settings;
   settings.density = arguments.density;
   settings.viscosity = arguments.viscosity;
-  settings.separation_cosine = separationCosine(std::clamp(angle, kRightAngle, kPi));
+  settings.separation_cosine = separationCosine(separationAngleOf(arguments.separation_angle));
   return settings;
 }
 
 /// C_L, C_D, C_Y, C_l, C_m, C_n at one attitude; forward, left and up axes.
-std::array<double, 6> coefficientsAt(double attack, double side_slip, const FluidBody& body,
-                                     const Matrix3& axes, const LoadSettings& settings,
-                                     const Reference& reference, double speed) {
+std::array<double, 6> coefficientsAt(double attack, double side_slip, const BodyLoads& loads,
+                                     const Matrix3& axes, const PolarArguments& arguments,
+                                     const Reference& reference) {
   const double ca = std::cos(attack), sa = std::sin(attack);
   const double cb = std::cos(side_slip), sb = std::sin(side_slip);
   const Vector3 motion(ca * cb, -sb, -sa * cb), lift(sa, 0, ca);
   const Vector3 side = motion.cross(lift);  // to the right
-  const Twist twist{Vector3::Zero(), axes * motion * speed};
-  const Wrench load = computeFaceLoads(body.faces, std::sqrt(body.area), twist, settings).total();
-  const double scale = 0.5 * settings.density * speed * speed * reference.area;
+  const Twist twist{Vector3::Zero(), axes * motion * arguments.speed};
+  const Wrench load = loads.at(twist).total();
+  const double scale = 0.5 * arguments.density * arguments.speed * arguments.speed * reference.area;
   const Vector3 force = axes.transpose() * load.force / scale;
   const Vector3 moment = axes.transpose() * load.torque / (scale * reference.length);
   return {force.dot(lift), -force.dot(motion), force.dot(side),
@@ -144,18 +139,19 @@ void runPolar(const PolarArguments& arguments) {
   const AngleRange side_slip = parseRange("--side-slip", arguments.side_slip);
   constexpr double kMostRows = 1e6;
   if (static_cast<double>(attack.count()) * side_slip.count() > kMostRows) {
-    raiseInputError("--side-slip", attack.count(), " angles of attack times ", side_slip.count(),
+    raiseUsageError("--side-slip", attack.count(), " angles of attack times ", side_slip.count(),
                     " of side-slip are more than ", kMostRows);
   }
   const Matrix3 axes = parseAxes(arguments.forward, arguments.up);
   const LoadSettings settings = settingsOf(arguments);
   const FluidBody body = readFluidBody(arguments.file);
+  const BodyLoads loads(body, settings);
   const Reference reference = referenceOf(arguments, body, axes);
   std::string text = "attack,side_slip,C_L,C_D,C_Y,C_l,C_m,C_n\n";
   for (int j = 0; j < side_slip.count(); ++j) {
     for (int i = 0; i < attack.count(); ++i) {
       const auto coefficients = coefficientsAt(attack[i] * kPi / 180, side_slip[j] * kPi / 180,
-                                               body, axes, settings, reference, arguments.speed);
+                                               loads, axes, arguments, reference);
       for (const double value : coefficients) {
         if (std::isfinite(value)) continue;
         raiseInputError(arguments.file, "a coefficient at an angle of attack of ", attack[i],

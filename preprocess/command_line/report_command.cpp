@@ -1,4 +1,3 @@
-#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -7,8 +6,8 @@
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/json_numbers.h"
+#include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
-#include "preprocess/command_line/solver_options.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/usual_size.h"
 #include "preprocess/mesh_report/mesh_report.h"
@@ -111,19 +110,12 @@ void writePicture(const MeshReport& report, bool sheet, const std::string& file)
 }  // namespace
 
 void runReport(const ReportArguments& arguments) {
-  if (!std::isfinite(arguments.scale) || arguments.scale <= 0) {
-    raiseInputError("--scale", arguments.scale, " is not positive and finite");
-  }
+  requirePositive("--scale", arguments.scale);
+  requireDivisions("--panels", arguments.panels);
   requireThreads(arguments.threads);
-  if (arguments.panels < 0) {
-    raiseInputError("--panels", arguments.panels, " is below 0 (0: no division)");
-  }
-  if (arguments.panels > kMostDivisions) {
-    raiseInputError("--panels", arguments.panels, " is above ", kMostDivisions);
-  }
   if (!arguments.picture.empty()) {
     if (!hasExtension(arguments.picture, ".svg")) {
-      raiseInputError("--picture", "\"", arguments.picture, "\" does not end in .svg");
+      raiseUsageError("--picture", "\"", arguments.picture, "\" does not end in .svg");
     }
     requireWritablePlace(arguments.picture, arguments.input);
   }

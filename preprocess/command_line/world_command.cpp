@@ -7,6 +7,7 @@
 #include "preprocess/bullet_world/world_builder.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/json_numbers.h"
+#include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/usual_size.h"
 
@@ -19,20 +20,18 @@ using Status = WorldShapeResult::Status;
 
 void requireWorldOptions(const BuildArguments& arguments) {
   const auto refuse = [](const char* option) {
-    raiseInputError(option, "has no meaning for a world: its shapes keep frame and size");
+    raiseUsageError(option, "has no meaning for a world: its shapes keep frame and size");
+  };
+  const auto refuseForMany = [](const char* option) {
+    raiseUsageError(option, "is for one mesh, not for a world");
   };
   if (arguments.scale != 1) refuse("--scale");
   if (arguments.origin != "centre-of-volume") refuse("--origin");
   if (arguments.sheet) refuse("--sheet");
   if (arguments.least_faces != 0) refuse("--least-faces");
-  if (!arguments.solver.empty()) raiseInputError("--solver", "is for one mesh, not for a world");
-  if (!arguments.memory.empty()) raiseInputError("--memory", "is for one mesh, not for a world");
-  if (arguments.panels < 0) {
-    raiseInputError("--panels", arguments.panels, " is below 0 (0: no division)");
-  }
-  if (arguments.panels > kMostDivisions) {
-    raiseInputError("--panels", arguments.panels, " is above ", kMostDivisions);
-  }
+  if (!arguments.levels.empty()) refuseForMany("--levels");
+  if (!arguments.solver.empty()) refuseForMany("--solver");
+  if (arguments.memory) refuseForMany("--memory");
 }
 
 void requireFolder(const fs::path& output) {

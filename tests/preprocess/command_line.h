@@ -48,9 +48,25 @@ class CommandLine : public ::testing::Test {
   }
 
   /// Bad input: exit code 1, nothing on standard output, one line on standard error.
-  static std::string refusal(const Arguments& arguments) {
+  static std::string refusal(const Arguments& arguments) { return lineOf(arguments, 1); }
+
+  /// A value that an option cannot have: the same with exit code 2.
+  static std::string usageRefusal(const Arguments& arguments) { return lineOf(arguments, 2); }
+
+  /// build of bad input, which must leave nothing behind.
+  std::string buildRefusal(const std::string& input, const Arguments& more = {}) const {
+    return withoutTrace(refusal, input, more);
+  }
+  std::string buildUsageRefusal(const std::string& input, const Arguments& more) const {
+    return withoutTrace(usageRefusal, input, more);
+  }
+
+  TemporaryFolder folder_;
+
+ private:
+  static std::string lineOf(const Arguments& arguments, int exit_code) {
     const ProgramResult result = run(arguments);
-    EXPECT_EQ(result.exit_code, 1) << result.errors;
+    EXPECT_EQ(result.exit_code, exit_code) << result.errors;
     EXPECT_EQ(result.output, "");
     EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
     const std::string beginning = "ambient_preprocess: ";
@@ -58,17 +74,15 @@ class CommandLine : public ::testing::Test {
     return result.errors.substr(beginning.size(), result.errors.size() - beginning.size() - 1);
   }
 
-  /// build of bad input, which must leave nothing behind.
-  std::string buildRefusal(const std::string& input, const Arguments& more = {}) const {
+  std::string withoutTrace(std::string (*refusalOf)(const Arguments&), const std::string& input,
+                           const Arguments& more) const {
     const std::size_t before = fileCount();
     Arguments arguments{"build", input, "-o", path("out.ambient")};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const std::string message = refusal(arguments);
+    const std::string message = refusalOf(arguments);
     EXPECT_EQ(fileCount(), before) << "a file was left behind";
     return message;
   }
-
-  TemporaryFolder folder_;
 };
 
 /// A sphere that is quick to solve.

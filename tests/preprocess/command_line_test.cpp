@@ -23,7 +23,17 @@ TEST_F(CommandLine, BadUsageEndsWithTwo) {
            {"build", ball, "-o", path("out.ambient"), "--scale", "large"},
            {"build", ball, "-o", path("out.ambient"), "--threads", "1.5"},
            {"build", ball, ball, "-o", path("out.ambient")},
+           {"build", ball, "-o", path("out.ambient"), "--memory", "much"},
+           {"build", ball, "-o", path("out.ambient"), "--threads", "99999999999999999999"},
+           {"build", ball, "-o", path("out.ambient"), "--levels", "16,x"},
            {"inspect"},
+           {"inspect", ball, "--jsn"},
+           {"report"},
+           {"report", ball, "--panels", "many"},
+           {"polar"},
+           {"polar", ball, "--speed", "fast"},
+           {"compare", ball},
+           {"compare", ball, ball, "--tolerance", "small"},
            {"loads", "x.ambient"},
            {"loads", "x.ambient", "--density", "1"},
            {"loads", "x.ambient", "--density", "1", "--twist", "1", "2", "3", "4", "5"},
@@ -50,7 +60,7 @@ TEST_F(CommandLine, ReportEstimatesTheErrorOfAMesh) {
   EXPECT_NE(table.output.find("\nestimated error  "), std::string::npos) << table.output;
   const std::string open = write("open.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
   EXPECT_EQ(refusal({"report", open}).find(open + ": not watertight"), 0u);
-  EXPECT_EQ(refusal({"report", mesh, "--panels", "-1"}),
+  EXPECT_EQ(usageRefusal({"report", mesh, "--panels", "-1"}),
             "--panels: -1 is below 0 (0: no division)");
 }
 
@@ -61,7 +71,7 @@ TEST_F(CommandLine, ReportDrawsThePotential) {
   EXPECT_EQ(picture.find("<svg "), 0u);
   EXPECT_NE(picture.find("</svg>"), std::string::npos);
   EXPECT_NE(picture.find("moves along z at 1 m/s"), std::string::npos);
-  EXPECT_EQ(refusal({"report", mesh, "--picture", path("box.png")}),
+  EXPECT_EQ(usageRefusal({"report", mesh, "--picture", path("box.png")}),
             "--picture: \"" + path("box.png") + "\" does not end in .svg");
   EXPECT_EQ(refusal({"report", mesh, "--picture", path("none/box.svg")}),
             path("none/box.svg") + ": the directory \"" + path("none") + "\" does not exist");

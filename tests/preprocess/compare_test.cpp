@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -77,6 +78,9 @@ TEST_F(Compare, EveryBlockIsSeenByItself) {
   other.uniform_mass.centre.x() += 0.01;
   EXPECT_GT(differenceIn(other)["uniform_mass"].get<double>(), 1e-3);
   other = body_;
+  other.sphere_radius = std::cbrt(body_.volume / 4);
+  EXPECT_GT(differenceIn(other)["pressure"].get<double>(), 1e-2) << "loaded as a sphere";
+  other = body_;
   other.faces.area[3] *= 2;
   EXPECT_GT(differenceIn(other)["pressure"].get<double>(), 1e-3);
 }
@@ -87,7 +91,7 @@ TEST_F(Compare, ToleranceDecides) {
   EXPECT_EQ(compare(other, {"--tolerance", "0.01"}).exit_code, 0);
   EXPECT_EQ(compare(other, {"--tolerance", "1e-4"}).exit_code, 1);
   const ProgramResult bad = compare(other, {"--tolerance", "-1"});
-  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_EQ(bad.exit_code, 2);
   EXPECT_EQ(bad.errors, "ambient_preprocess: --tolerance: -1 must be finite and not negative\n");
 }
 

@@ -12,7 +12,8 @@ namespace {
 using nlohmann::json;
 
 TEST_F(CommandLine, LoadsAreThoseOfTheForceModel) {
-  resultOf({"build", write("ball.json", sphereText()), "-o", path("b.ambient"), "--json"});
+  const std::string box = write("box.json", R"({"type":"box","half_sizes":[1,2,3],"faces":300})");
+  resultOf({"build", box, "-o", path("b.ambient"), "--panels", "0", "--json"});
   const json loads =
       resultOf({"loads", path("b.ambient"), "--twist", "0.1", "-2", ".3", "-1e-1", "-.5", "6",
                 "--density", "1.2", "--viscosity", "1.8e-5", "--separation-angle", "2", "--json"});
@@ -38,9 +39,9 @@ TEST_F(CommandLine, LoadsSeparateAtARightAngleByDefault) {
   const Arguments motion{"loads", path("b.ambient"), "--twist", "0",     "0", "0", "0", "0",
                          "2",     "--density",       "3",       "--json"};
   const json loads = resultOf(motion);
-  // C_D = 1/2 on pi R^2 (sin^4(alpha) / 2, integrated); 0.1 % from the facets.
-  const double drag = 0.5 * 3 * 2 * 2 * 0.5 * 3.14159265358979 * 0.25;
-  EXPECT_NEAR(loads["pressure"][5].get<double>(), -drag, 2e-3 * drag);
+  // C_D = 1/2 on pi R^2 (sin^4(alpha) / 2, integrated), the facets play no part.
+  const double drag = 0.5 * 3 * 2 * 2 * 0.5 * 3.14159265358979324 * 0.25;
+  EXPECT_NEAR(loads["pressure"][5].get<double>(), -drag, 1e-12 * drag);
   EXPECT_EQ(loads["friction"][5].get<double>(), 0) << "no viscosity, no friction";
   Arguments right_angle = motion;
   right_angle.insert(right_angle.end(), {"--separation-angle", "1.5707963"});
@@ -48,6 +49,24 @@ TEST_F(CommandLine, LoadsSeparateAtARightAngleByDefault) {
   Arguments without = motion;
   without.insert(without.end(), {"--viscosity", "1e-3", "--no-friction"});
   EXPECT_EQ(resultOf(without), loads);
+}
+
+TEST_F(CommandLine, LoadsOnASphereAboutAnotherOriginAreThoseAtItsCentre) {
+  const std::string ball = write("ball.json", sphereText());
+  resultOf({"build", ball, "-o", path("b.ambient"), "--json"});
+  resultOf({"build", ball, "-o", path("off.ambient"), "--origin", "0,0,-2", "--json"});
+  const auto loadsOf = [&](const std::string& file, const char* vx) {
+    return resultOf({"loads", path(file), "--twist", "0", "3", "1", vx, "0", "5", "--density", "2",
+                     "--viscosity", "1e-3", "--separation-angle", "2.2", "--json"})["total"];
+  };
+  // The centre is at (0, 0, 2): it moves with v + w x r, 6 m/s more along x.
+  const json centred = loadsOf("b.ambient", "7"), off = loadsOf("off.ambient", "1");
+  const auto at = [](const json& loads, int i) { return loads[i].get<double>(); };
+  for (int i = 3; i < 6; ++i) EXPECT_NEAR(at(off, i), at(centred, i), 1e-12) << i;
+  EXPECT_NEAR(at(off, 0), at(centred, 0) - 2 * at(centred, 4), 1e-12);
+  EXPECT_NEAR(at(off, 1), at(centred, 1) + 2 * at(centred, 3), 1e-12);
+  EXPECT_NEAR(at(off, 2), at(centred, 2), 1e-12);
+  EXPECT_GT(std::abs(at(centred, 3)), 1);
 }
 
 TEST_F(CommandLine, LoadsPrintATable) {
@@ -65,7 +84,7 @@ TEST_F(CommandLine, BadLoadsAreRefusedByName) {
     Arguments arguments{"loads", path("b.ambient"), "--twist", "0", "0", "0", "1", "0",
                         "0",     "--density",       density};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return refusal(arguments);
+    return usageRefusal(arguments);
   };
   EXPECT_EQ(with({}, "-1"), "--density: -1 kg/m^3 must be finite and not negative");
   EXPECT_EQ(with({}, "inf"), "--density: inf kg/m^3 must be finite and not negative");
@@ -74,8 +93,8 @@ TEST_F(CommandLine, BadLoadsAreRefusedByName) {
             "--separation-angle: 1.5 rad must lie between pi/2 and pi");
   EXPECT_EQ(with({"--separation-angle", "4"}),
             "--separation-angle: 4 rad must lie between pi/2 and pi");
-  EXPECT_EQ(refusal({"loads", path("b.ambient"), "--twist", "0", "0", "0", "nan", "0", "0",
-                     "--density", "1"}),
+  EXPECT_EQ(usageRefusal({"loads", path("b.ambient"), "--twist", "0", "0", "0", "nan", "0", "0",
+                          "--density", "1"}),
             "--twist: number 4 is nan, must be finite");
 }
 

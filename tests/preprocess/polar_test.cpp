@@ -94,6 +94,19 @@ TEST_F(Polar, ObliqueSpheroidAgreesWithQuadrature) {
   EXPECT_NEAR(row[kPitch], -torque_y, 5e-3);
 }
 
+TEST_F(Polar, ASphereHasHalfOfItsSilhouetteAtEveryAngle) {
+  BuildSettings settings;
+  settings.max_panels = 0;
+  settings.sphere_radius = 0.5;
+  const std::string file = (folder_ / "ball.ambient").string();
+  writeFluidBody(makeFluidBody(makeEllipsoidMesh({0.5, 0.5, 0.5}, 80), settings), file);
+  for (const Row& row : polar(file, {"--attack", "-90:90:45", "--side-slip", "0:30:15"})) {
+    EXPECT_NEAR(row[kDrag], 0.5, 1e-9);
+    for (const Column column : {kLift, kSide, kRoll, kPitch, kYaw})
+      EXPECT_NEAR(row[column], 0, 1e-9) << column;
+  }
+}
+
 TEST_F(Polar, SideSlipAndOtherAxesAreTheSameBodyTurned) {
   const TriangleMesh wing = moved(makeBoxMesh({1, 3, 0.2}, 800), {0.3, 0.4, 0.5});
   const std::vector<std::string> angles{"--attack", "20", "--side-slip", "-15"};
@@ -125,9 +138,9 @@ TEST_F(Polar, WindFromTheRightPushesToTheLeft) {
 
 TEST_F(Polar, BadAnglesAndAxesAreRefused) {
   const std::string file = write(makeBoxMesh({1, 1, 1}, 12));
-  const auto refusal = [&](const std::vector<std::string>& more) {
+  const auto refusal = [&](const std::vector<std::string>& more, int exit_code = 2) {
     const ProgramResult result = run(file, more);
-    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.exit_code, exit_code);
     EXPECT_EQ(result.output, "");
     EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
     return result.errors;
@@ -143,7 +156,7 @@ TEST_F(Polar, BadAnglesAndAxesAreRefused) {
       refusal({"--attack", "0:90:0.001", "--side-slip", "0:90:1"}),
       "ambient_preprocess: --side-slip: 90001 angles of attack times 91 of side-slip are more "
       "than 1000000\n");
-  EXPECT_EQ(refusal({"--speed", "1e200"}),
+  EXPECT_EQ(refusal({"--speed", "1e200"}, 1),
             "ambient_preprocess: " + file +
                 ": a coefficient at an angle of attack of -90 degrees "
                 "is not finite: speed or reference is too large or too small\n");

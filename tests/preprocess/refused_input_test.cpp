@@ -66,25 +66,38 @@ TEST_F(CommandLine, ShapesBeyondWhatCanBeSolvedAreRefused) {
 
 TEST_F(CommandLine, BadValuesOfOptionsAreRefusedByName) {
   const std::string ball = write("ball.json", sphereText());
-  EXPECT_EQ(buildRefusal(ball, {"--scale", "0"}), ball + ": scale = 0 is not positive and finite");
-  EXPECT_EQ(buildRefusal(ball, {"--scale", "nan"}),
-            ball + ": scale = nan is not positive and finite");
-  EXPECT_EQ(buildRefusal(ball, {"--threads", "-1"}), "--threads: -1 is below 0 (0: all cores)");
-  EXPECT_EQ(buildRefusal(ball, {"--threads", "1000"}), "--threads: 1000 is above 256");
-  EXPECT_EQ(buildRefusal(ball, {"--panels", "2000000"}),
-            ball + ": panels = 2000000 is above 1000000");
-  EXPECT_EQ(buildRefusal(ball, {"--solver", "sparse"}),
-            "--solver: \"sparse\" is neither dense nor hierarchical");
-  EXPECT_EQ(buildRefusal(ball, {"--memory", "-2"}),
-            "--memory: \"-2\" is not a number of gigabytes above 0");
+  const auto refused = [&](const char* option, const char* value) {
+    const std::string message = buildUsageRefusal(ball, {option, value});
+    const std::string beginning = std::string(option) + ": ";
+    EXPECT_EQ(message.find(beginning), 0u) << message;
+    return message.substr(std::min(message.size(), beginning.size()));
+  };
+  for (const char* scale : {"0", "-1", "nan", "inf"})
+    EXPECT_EQ(refused("--scale", scale), std::string(scale) + " must be finite and positive");
+  EXPECT_EQ(refused("--scale", "1e400"), "inf must be finite and positive");
+  EXPECT_EQ(refused("--threads", "-1"), "-1 is below 0 (0: all cores)");
+  EXPECT_EQ(refused("--threads", "1000"), "1000 is above 256");
+  for (const char* option : {"--panels", "--least-faces"}) {
+    EXPECT_EQ(refused(option, "2000000"), "2000000 is above 1000000");
+    EXPECT_EQ(refused(option, "-1"), "-1 is below 0 (0: no division)");
+  }
+  EXPECT_EQ(refused("--levels", "15"), "15 clusters are not 16 to 1024");
+  EXPECT_EQ(refused("--separation-angle", "1.5"), "1.5 rad must lie between pi/2 and pi");
+  EXPECT_EQ(refused("--solver", "sparse"), "\"sparse\" is neither dense nor hierarchical");
+  EXPECT_EQ(refused("--memory", "-2"), "-2 GB must be finite and positive");
+  EXPECT_EQ(buildUsageRefusal(ball, {"--no-margins"}), "--no-margins: only worlds have margins");
+  for (const char* origin : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf", "centre", "1,2,3x", "nan,0,0"}) {
+    EXPECT_EQ(refused("--origin", origin), "\"" + std::string(origin) +
+                                               "\" is neither centre-of-volume nor three finite "
+                                               "numbers X,Y,Z");
+  }
+}
+
+TEST_F(CommandLine, WhatDoesNotFitTheMachineIsRefused) {
+  const std::string ball = write("ball.json", sphereText());
   EXPECT_NE(buildRefusal(ball, {"--solver", "dense", "--memory", "0.001"})
                 .find("GB of memory, more than the 0.001 GB"),
             std::string::npos);
-  for (const char* origin : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf", "centre", "1,2,3x", "nan,0,0"}) {
-    EXPECT_EQ(buildRefusal(ball, {"--origin", origin}),
-              "--origin: \"" + std::string(origin) +
-                  "\" is neither centre-of-volume nor three finite numbers X,Y,Z");
-  }
   const std::string nowhere = path("no folder/out.ambient");
   EXPECT_EQ(refusal({"build", ball, "-o", nowhere}),
             nowhere + ": the directory \"" + path("no folder") + "\" does not exist");

@@ -198,6 +198,9 @@ TEST_F(WorldBuild, OtherFilesAndOptionsAreRefused) {
   EXPECT_EQ(build().exit_code, 1);
   EXPECT_EQ(run({path("w.bullet"), "-o", path("x")}).exit_code, 1);
   EXPECT_FALSE(std::filesystem::exists(path("x")));
+  EXPECT_EQ(build({"--scale", "2"}).exit_code, 2);
+  EXPECT_EQ(build({"--levels", "16"}).errors,
+            "ambient_preprocess: --levels: is for one mesh, not for a world\n");
   EXPECT_EQ(build({"--scale", "2"}).errors,
             "ambient_preprocess: --scale: has no meaning for a world: its shapes keep frame and "
             "size\n");

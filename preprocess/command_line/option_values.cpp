@@ -1,0 +1,47 @@
+#include "preprocess/command_line/option_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "preprocess/builder/fluid_body_builder.h"
+
+namespace ambient {
+
+void requirePositive(const char* option, double value, const char* unit) {
+  if (std::isfinite(value) && value > 0) return;
+  raiseUsageError(option, value, unit, " must be finite and positive");
+}
+
+void requireNotNegative(const char* option, double value, const char* unit) {
+  if (std::isfinite(value) && value >= 0) return;
+  raiseUsageError(option, value, unit, " must be finite and not negative");
+}
+
+void requireThreads(int threads) {
+  constexpr int kMostThreads = 256;
+  if (threads < 0) raiseUsageError("--threads", threads, " is below 0 (0: all cores)");
+  if (threads > kMostThreads) raiseUsageError("--threads", threads, " is above ", kMostThreads);
+}
+
+void requireDivisions(const char* option, int count) {
+  if (count < 0) raiseUsageError(option, count, " is below 0 (0: no division)");
+  if (count > kMostDivisions) raiseUsageError(option, count, " is above ", kMostDivisions);
+}
+
+double separationAngleOf(double angle) {
+  constexpr double kStraight = 3.14159265358979323846, kRight = kStraight / 2;
+  // An angle given with a few digits is still a right or a straight one.
+  constexpr double kDigits = 1e-6;
+  if (!(angle >= kRight * (1 - kDigits) && angle <= kStraight * (1 + kDigits)))
+    raiseUsageError("--separation-angle", angle, " rad must lie between pi/2 and pi");
+  return std::clamp(angle, kRight, kStraight);
+}
+
+FlowSolverKind parseSolver(const std::string& name) {
+  if (name.empty()) return FlowSolverKind::Automatic;
+  if (name == "dense") return FlowSolverKind::Dense;
+  if (name == "hierarchical") return FlowSolverKind::Hierarchical;
+  raiseUsageError("--solver", "\"", name, "\" is neither dense nor hierarchical");
+}
+
+}  // namespace ambient
