@@ -8,6 +8,7 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/usual_size.h"
 #include "preprocess/potential_flow/refined_flow.h"
+#include "preprocess/potential_flow/solver_revision.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 
 namespace ambient {
@@ -80,7 +81,9 @@ RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
 
 }  // namespace
 
-std::string libraryVersion() { return "bullet_ambient " AMBIENT_VERSION; }
+std::string libraryVersion() {
+  return "bullet_ambient " AMBIENT_VERSION ", solver revision " + std::to_string(kSolverRevision);
+}
 
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
   requireUsualSize(source_mesh, settings.sheet, sourceOf(settings));

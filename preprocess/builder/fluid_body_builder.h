@@ -16,7 +16,7 @@ constexpr int kMostDivisions = 1000000;
 /// within 1 % of the largest entry of each block of the added mass, in one to two seconds.
 constexpr int kDefaultPanels = 4200;
 
-/// This library and its version, as fluid bodies name it.
+/// This library, its version and the revision of its solver, as fluid bodies name it.
 std::string libraryVersion();
 
 /// How a fluid body is made from a mesh.

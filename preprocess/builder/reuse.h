@@ -8,9 +8,9 @@
 
 namespace ambient {
 
-/// The fluid body of a file, if it can be read, has that name, and was made by the same program and
-/// version from the same source with the same settings, so that building it anew would give the
-/// same.
+/// The fluid body of a file, if it can be read, has that name, and was made by the same program,
+/// version and revision of the solver from the same source with the same settings, so that building
+/// it anew would give the same.
 std::optional<FluidBody> readIfSame(const std::filesystem::path& file, const std::string& name,
                                     const Provenance& provenance);
 

@@ -8,6 +8,7 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/primitives.h"
+#include "preprocess/potential_flow/solver_revision.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/mesh/mesh_files.h"
 #include "tests/support/temporary_folder.h"
@@ -76,6 +77,20 @@ TEST_F(Reuse, OtherSettingsAreNot) {
   EXPECT_TRUE(isSame(shape(), settings)) << "threads and memory do not change the result";
   settings.solver = FlowSolverKind::Hierarchical;
   EXPECT_FALSE(isSame(shape(), settings));
+}
+
+TEST_F(Reuse, AnotherRevisionOfTheSolverIsNot) {
+  FluidBody body = readFluidBody(file_);
+  std::string& generator = body.provenance.generator;
+  const std::string revision = "solver revision " + std::to_string(kSolverRevision);
+  const std::size_t at = generator.find(revision);
+  ASSERT_NE(at, std::string::npos) << generator;
+  generator.replace(at, revision.size(), "solver revision " + std::to_string(kSolverRevision - 1));
+  writeFluidBody(body, file_);
+  EXPECT_FALSE(isSame(shape(), quick()));
+  generator.erase(at - 2);  // as programs wrote it before there were revisions
+  writeFluidBody(body, file_);
+  EXPECT_FALSE(isSame(shape(), quick()));
 }
 
 TEST_F(Reuse, OtherProgramsAndDamagedFilesAreNot) {
