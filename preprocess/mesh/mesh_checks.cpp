@@ -142,30 +142,16 @@ void requireManifoldVertices(const TriangleMesh& mesh, const MeshEdges& edges,
 
 void requireSheet(const TriangleMesh& mesh, const MeshEdges& edges, const std::string& name) {
   const MeshComponents components = computeMeshComponents(mesh, edges);
-  std::vector<bool> is_open(components.count, false), is_on_boundary(mesh.vertexCount(), false);
-  std::vector<bool> has_inside(components.count, false);
+  std::vector<bool> is_open(components.count, false);
   for (const EdgeGroup& edge : edges.edges) {
-    if (edge.size() != 1) continue;
-    const HalfEdge& half_edge = edges.half_edges[edge.first];
-    is_open[components.component_of[half_edge.triangle]] = true;
-    is_on_boundary[half_edge.low] = is_on_boundary[half_edge.high] = true;
+    if (edge.size() == 1)
+      is_open[components.component_of[edges.half_edges[edge.first].triangle]] = true;
   }
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    const int component = components.component_of[t];
-    if (!is_open[component]) {
-      raiseInputError(name, "the surface around triangle ", t, " at vertex ",
-                      vertexText(mesh, mesh.triangles(0, t)),
-                      " is closed: a sheet needs a boundary (a closed surface is a body)");
-    }
-    for (int k = 0; k < 3; ++k) {
-      if (!is_on_boundary[mesh.triangles(k, t)]) has_inside[component] = true;
-    }
-  }
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    if (has_inside[components.component_of[t]]) continue;
-    raiseInputError(name, "the sheet around triangle ", t, " at vertex ",
+    if (is_open[components.component_of[t]]) continue;
+    raiseInputError(name, "the surface around triangle ", t, " at vertex ",
                     vertexText(mesh, mesh.triangles(0, t)),
-                    " has no vertex inside its boundary: divide its triangles");
+                    " is closed: a sheet needs a boundary (a closed surface is a body)");
   }
 }
 
@@ -197,6 +183,22 @@ void takeStep(CheckedMesh& so_far, CheckedMesh step) {
 }
 
 }  // namespace
+
+bool hasVerticesInside(const TriangleMesh& sheet) {
+  const MeshEdges edges = computeMeshEdges(sheet);
+  const MeshComponents components = computeMeshComponents(sheet, edges);
+  std::vector<bool> is_on_boundary(sheet.vertexCount(), false);
+  std::vector<bool> has_inside(components.count, false);
+  for (const EdgeGroup& edge : edges.edges) {
+    const HalfEdge& half_edge = edges.half_edges[edge.first];
+    if (edge.size() == 1) is_on_boundary[half_edge.low] = is_on_boundary[half_edge.high] = true;
+  }
+  for (Eigen::Index t = 0; t < sheet.triangleCount(); ++t) {
+    for (int k = 0; k < 3; ++k)
+      if (!is_on_boundary[sheet.triangles(k, t)]) has_inside[components.component_of[t]] = true;
+  }
+  return std::find(has_inside.begin(), has_inside.end(), false) == has_inside.end();
+}
 
 CheckedMesh checkMesh(const TriangleMesh& mesh, const std::string& name,
                       const MeshCheckSettings& settings) {

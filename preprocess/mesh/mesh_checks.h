@@ -13,11 +13,10 @@ struct MeshCheckSettings {
 };
 
 /// Checks that a mesh can stand for a body (closed, manifold, outward oriented, enclosing a volume
-/// once) or for a sheet (every part open, manifold, one side throughout, with vertices inside the
-/// boundary). Orientation is mended and vertices that no triangle uses are left out, both with a
-/// warning. Cavities are taken out, for the fluid outside does not see them. `name` begins every
-/// warning and error.
-/// Cost O(T log T) and at most some 10^7 solid angles.
+/// once) or for a sheet (every part open, manifold, one side throughout). Orientation is mended and
+/// vertices that no triangle uses are left out, both with a warning. Cavities are taken out, for
+/// the fluid outside does not see them. `name` begins every warning and error. Cost O(T log T) and
+/// at most some 10^7 solid angles.
 /// @throws std::runtime_error in one line with the first of these that is found: no triangles, a
 /// coordinate that is not finite, an index out of range, a degenerate triangle (height below 1e-7
 /// of its longest edge), two triangles on the same corners, boundary edges (their number and one
@@ -25,5 +24,9 @@ struct MeshCheckSettings {
 /// orientConsistently() and orientOutward() refuse.
 CheckedMesh checkMesh(const TriangleMesh& mesh, const std::string& name,
                       const MeshCheckSettings& settings = {});
+
+/// Whether every part of a sheet has a vertex inside its boundary: the flow around a sheet is
+/// solved for there. Cost O(T log T).
+bool hasVerticesInside(const TriangleMesh& sheet);
 
 }  // namespace ambient

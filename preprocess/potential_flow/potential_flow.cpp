@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/potential_flow/dense_solver.h"
 #include "preprocess/potential_flow/hierarchical_solver.h"
 #include "preprocess/potential_flow/memory_limit.h"
@@ -95,10 +96,11 @@ UnitFlow solveClosed(FlowSolver& solver) {
   return flow;
 }
 
-void requireUnknowns(const PanelSurface& sheet) {
-  if (numberUnknowns(sheet).count > 0) return;
-  throw std::runtime_error("potential flow: the sheet of " + std::to_string(sheet.panelCount()) +
-                           " triangles has no vertex inside its boundary; it needs at least 1");
+void requireUnknowns(const TriangleMesh& sheet) {
+  if (hasVerticesInside(sheet)) return;
+  throw std::runtime_error("potential flow: the sheet of " + std::to_string(sheet.triangleCount()) +
+                           " panels, or a part of it, has no vertex inside its boundary: it must "
+                           "be divided into more panels");
 }
 
 void requireClosed(const PanelSurface& surface) {
@@ -118,11 +120,7 @@ bool isHierarchical(FlowSolverKind solver, Index panels) {
 }
 
 UnitFlow solveUnitFlow(const PanelSurface& surface, const PotentialFlowSettings& settings) {
-  if (settings.sheet) {
-    requireUnknowns(surface);
-  } else {
-    requireClosed(surface);
-  }
+  if (!settings.sheet) requireClosed(surface);
   const int threads = threadCount(settings.threads);
   const double limit = memoryLimit(settings.memory_limit);
   double bytes = 0;
@@ -159,8 +157,9 @@ PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSe
             << " m^3; it must not be below 0";
     throw std::runtime_error(message.str());
   }
-  const PanelSurface surface =
-      makePanelSurface(refineSurface(mesh, settings.sheet, settings.max_panels), settings.sheet);
+  const TriangleMesh panels = refineSurface(mesh, settings.sheet, settings.max_panels);
+  if (settings.sheet) requireUnknowns(panels);
+  const PanelSurface surface = makePanelSurface(panels, settings.sheet);
   UnitFlow unit = solveUnitFlow(surface, settings);
 
   PotentialFlow flow;

@@ -55,8 +55,9 @@ struct PotentialFlow {
 /// @pre the mesh passed checkMesh(): closed, manifold and outward oriented (or a manifold open
 /// sheet).
 /// @throws std::runtime_error for no triangles, a triangle without area, an open or inside-out
-/// surface that is not a sheet, a sheet without vertices inside its boundary, a true volume below
-/// 0, a linear system that cannot be solved, or more memory than the limit, with the reason.
+/// surface that is not a sheet, a sheet with a part without vertices inside its boundary, a true
+/// volume below 0, a linear system that cannot be solved, or more memory than the limit, with the
+/// reason.
 PotentialFlow solvePotentialFlow(const TriangleMesh& mesh,
                                  const PotentialFlowSettings& settings = {});
 

@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/potential_flow/curvature_correction.h"
 #include "preprocess/potential_flow/positive_part.h"
 #include "preprocess/potential_flow/shape_symmetry.h"
@@ -47,7 +48,7 @@ RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettin
     undivided_settings.solver = FlowSolverKind::Hierarchical;
   const PotentialFlow flow = solvePotentialFlow(levels.fine.mesh, undivided_settings);
   RefinedFlow refined{flow.added_mass, flow.asymmetry, flow.panels};
-  if (levels.coarse) {
+  if (levels.coarse && (!settings.sheet || hasVerticesInside(*levels.coarse))) {
     const PotentialFlow coarse = solvePotentialFlow(*levels.coarse, undivided_settings);
     refined.added_mass =
         extrapolated(flow.added_mass, coarse.added_mass,

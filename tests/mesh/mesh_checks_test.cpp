@@ -273,12 +273,14 @@ TEST(MeshChecks, SheetsMustBeOpenInEveryPart) {
   EXPECT_NE(refusal(mixed, {true}).find(ending), std::string::npos);
 }
 
-TEST(MeshChecks, SheetsNeedAVertexInside) {
+TEST(MeshChecks, VerticesInsideEveryPartOfASheetAreSeen) {
   const TriangleMesh square =
       meshOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
-  EXPECT_EQ(refusal(square, {true}),
-            "thing.obj: the sheet around triangle 0 at vertex 0 (0, 0, 0) has no vertex inside its "
-            "boundary: divide its triangles");
+  EXPECT_EQ(checkMesh(square, "thing.obj", {true}).mesh.triangleCount(), 2);
+  EXPECT_FALSE(hasVerticesInside(square));
+  const TriangleMesh fine = makeRectangularSheetMesh(1, 1, 100);
+  EXPECT_TRUE(hasVerticesInside(fine));
+  EXPECT_FALSE(hasVerticesInside(joined(fine, moved(square, {5, 0, 0}))));
 }
 
 TEST(MeshChecks, SheetsKeepTheSideOfMostTriangles) {

@@ -50,8 +50,11 @@ TEST(PotentialFlowInput, SheetNeedsAVertexInside) {
   const TriangleMesh mesh =
       meshOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
   EXPECT_EQ(complaint(mesh, settings),
-            "potential flow: the sheet of 2 triangles has no vertex inside its boundary; it needs "
-            "at least 1");
+            "potential flow: the sheet of 2 panels, or a part of it, has no vertex inside its "
+            "boundary: it must be divided into more panels");
+  EXPECT_EQ(complaint(joined(makeRectangularSheetMesh(1, 1, 50), moved(mesh, {3, 0, 0})), settings)
+                .find("potential flow: the sheet of "),
+            0u);
 }
 
 TEST(PotentialFlowInput, NegativeTrueVolumeIsRefused) {

@@ -14,6 +14,7 @@
 #include "preprocess/shape/shape_reader.h"
 #include "tests/mesh/mesh_files.h"
 #include "tests/mesh/mesh_fixtures.h"
+#include "tests/reference/sheet_added_mass.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {
@@ -92,6 +93,30 @@ TEST(FluidBodyBuilder, FacesCloseTheSurface) {
   EXPECT_LT(area_vector.norm(), 1e-15 * 10);
   EXPECT_NEAR(volume / body.volume, 1, 1e-13);
   EXPECT_NEAR(area / body.area, 1, 1e-13);
+}
+
+TEST(FluidBodyBuilder, TwoTrianglesAreASheet) {
+  TriangleMesh square;
+  square.vertices.resize(3, 4);
+  square.vertices << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
+  square.triangles.resize(3, 2);
+  square.triangles << 0, 0, 1, 2, 2, 3;
+  BuildSettings settings;
+  settings.name = "square";
+  settings.sheet = true;
+  settings.max_panels = 1000;
+  const FluidBody sheet = makeFluidBody(square, settings);
+  EXPECT_EQ(sheet.faces.size(), 4u);
+  const reference::SheetAddedMass exact = reference::rectangleAddedMass(1);
+  // Measured 6e-4 and 3e-4.
+  EXPECT_NEAR(sheet.added_mass(0, 0) / exact.w_x, 1, 1e-3);
+  EXPECT_NEAR(sheet.added_mass(5, 5) / exact.v_z, 1, 5e-4);
+  settings.max_panels = 32;  // the coarser division has no vertex inside
+  EXPECT_NEAR(makeFluidBody(square, settings).added_mass(5, 5) / exact.v_z, 1, 0.2);
+  settings.max_panels = 0;
+  EXPECT_EQ(messageOf([&] { makeFluidBody(square, settings); }),
+            "square: potential flow: the sheet of 2 panels, or a part of it, has no vertex inside "
+            "its boundary: it must be divided into more panels");
 }
 
 TEST(FluidBodyBuilder, SheetsHaveTwoSidesAndNoVolume) {
