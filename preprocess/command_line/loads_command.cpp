@@ -70,7 +70,8 @@ void runLoads(const LoadsArguments& arguments) {
   const Twist twist = twistOf(arguments);
   const FluidBody body = readFluidBody(arguments.file);
   const FaceLoads loads = BodyLoads(body, settings).at(twist);
-  if (!loads.total().vector().allFinite()) {
+  const double dynamic_pressure = settings.density * twist.vector().squaredNorm();
+  if (!std::isfinite(dynamic_pressure) || !loads.total().vector().allFinite()) {
     raiseInputError(arguments.file, "the loads of this motion are beyond the largest number, ",
                     std::numeric_limits<double>::max());
   }

@@ -169,6 +169,15 @@ std::string inOneLine(const std::string& message) {
   return line;
 }
 
+/// A sentence about an argument without letters, which CLI11 takes for 0 where it should be a
+/// number: mostly a variable of the shell that is not set.
+std::string emptyArgument(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (*argv[i] == '\0') return "argument " + std::to_string(i) + " is empty";
+  }
+  return {};
+}
+
 /// A sentence about a first word that is no command, if there is one.
 std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};
@@ -198,7 +207,8 @@ int run(int argc, char** argv) {
   const CLI::App* report = addReport(app, report_arguments);
   const CLI::App* polar = addPolar(app, polar_arguments);
   const CLI::App* compare = addCompare(app, compare_arguments);
-  if (const std::string message = unknownCommand(app, argc, argv); !message.empty()) {
+  for (const std::string& message : {emptyArgument(argc, argv), unknownCommand(app, argc, argv)}) {
+    if (message.empty()) continue;
     std::cerr << "ambient_preprocess: " << message << "\n";
     return kBadUsage;
   }

@@ -147,13 +147,14 @@ void runPolar(const PolarArguments& arguments) {
   const FluidBody body = readFluidBody(arguments.file);
   const BodyLoads loads(body, settings);
   const Reference reference = referenceOf(arguments, body, axes);
+  const double dynamic_pressure = 0.5 * arguments.density * arguments.speed * arguments.speed;
   std::string text = "attack,side_slip,C_L,C_D,C_Y,C_l,C_m,C_n\n";
   for (int j = 0; j < side_slip.count(); ++j) {
     for (int i = 0; i < attack.count(); ++i) {
       const auto coefficients = coefficientsAt(attack[i] * kPi / 180, side_slip[j] * kPi / 180,
                                                loads, axes, arguments, reference);
       for (const double value : coefficients) {
-        if (std::isfinite(value)) continue;
+        if (std::isfinite(value) && std::isfinite(dynamic_pressure)) continue;
         raiseInputError(arguments.file, "a coefficient at an angle of attack of ", attack[i],
                         " degrees is not finite: speed or reference is too large or too small");
       }

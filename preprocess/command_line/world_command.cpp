@@ -34,6 +34,14 @@ void requireWorldOptions(const BuildArguments& arguments) {
   if (arguments.memory) refuseForMany("--memory");
 }
 
+void requireFile(const fs::path& input) {
+  std::error_code error;
+  if (!fs::exists(input, error)) raiseInputError(input.string(), "no such file");
+  if (fs::is_directory(input, error))
+    raiseInputError(input.string(), "is a directory, not a .bullet file");
+  if (!fs::is_regular_file(input, error)) raiseInputError(input.string(), "is not a regular file");
+}
+
 void requireFolder(const fs::path& output) {
   std::error_code error;
   if (fs::exists(output, error) && !fs::is_directory(output, error)) {
@@ -95,9 +103,7 @@ int runWorldBuild(const BuildArguments& arguments) {
   settings.max_panels = arguments.panels;
   settings.threads = arguments.threads;
   settings.reuse = !arguments.rebuild;
-  std::error_code error;
-  if (!fs::is_regular_file(arguments.input, error))
-    raiseInputError(arguments.input, "no such file");
+  requireFile(arguments.input);
   requireFolder(arguments.output);
   WorldBuild built;
   {

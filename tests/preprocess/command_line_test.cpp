@@ -46,6 +46,13 @@ TEST_F(CommandLine, BadUsageEndsWithTwo) {
   }
 }
 
+TEST_F(CommandLine, EmptyArgumentsAreNotZero) {
+  EXPECT_EQ(usageRefusal(
+                {"loads", "x.ambient", "--density", "", "--twist", "0", "0", "0", "1", "0", "0"}),
+            "argument 4 is empty");
+  EXPECT_EQ(usageRefusal({"inspect", ""}), "argument 2 is empty");
+}
+
 TEST_F(CommandLine, ReportEstimatesTheErrorOfAMesh) {
   const std::string mesh = write("box.obj", objText(makeBoxMesh({1, 2, 3}, 12)));
   const json report = resultOf({"report", mesh, "--scale", "0.1", "--panels", "800", "--json"});

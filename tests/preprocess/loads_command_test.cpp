@@ -96,6 +96,13 @@ TEST_F(CommandLine, BadLoadsAreRefusedByName) {
   EXPECT_EQ(usageRefusal({"loads", path("b.ambient"), "--twist", "0", "0", "0", "nan", "0", "0",
                           "--density", "1"}),
             "--twist: number 4 is nan, must be finite");
+  EXPECT_NE(refusal({"loads", path("b.ambient"), "--twist", "0", "0", "0", "1e200", "0", "0",
+                     "--density", "1"})
+                .find("beyond the largest number"),
+            std::string::npos);
+  const std::string overflow =
+      refusal({"polar", path("b.ambient"), "--speed", "1e200", "--attack", "0"});
+  EXPECT_NE(overflow.find("speed or reference is too large"), std::string::npos) << overflow;
 }
 
 }  // namespace

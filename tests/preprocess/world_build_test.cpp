@@ -204,6 +204,10 @@ TEST_F(WorldBuild, OtherFilesAndOptionsAreRefused) {
   EXPECT_EQ(build({"--scale", "2"}).errors,
             "ambient_preprocess: --scale: has no meaning for a world: its shapes keep frame and "
             "size\n");
+  std::filesystem::create_directory(path("folder.bullet"));
+  EXPECT_EQ(
+      run({path("folder.bullet"), "-o", path("x")}).errors,
+      "ambient_preprocess: " + path("folder.bullet") + ": is a directory, not a .bullet file\n");
   EXPECT_EQ(run({path("no.bullet"), "-o", path("x")}).errors,
             "ambient_preprocess: " + path("no.bullet") + ": no such file\n");
   EXPECT_FALSE(std::filesystem::exists(path("x")));
