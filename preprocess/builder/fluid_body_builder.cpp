@@ -65,6 +65,17 @@ MassDistribution aboutOrigin(MassDistribution mass, const Eigen::Vector3d& origi
   return mass;
 }
 
+/// Farther off, the digits that are left of the coordinates would not do.
+void requireNearOrigin(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
+                       const std::string& source) {
+  constexpr double kFarthest = 1e6;
+  const double size = mesh.extents().norm();
+  const double distance = (mesh.vertices.colwise() - origin).cwiseAbs().maxCoeff();
+  if (distance <= kFarthest * size) return;
+  raiseInputError(source, "the body reaches ", distance, " m from its origin, more than ",
+                  kFarthest, " times its size of ", size, " m");
+}
+
 RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
   PotentialFlowSettings flow_settings;
   flow_settings.sheet = settings.sheet;
@@ -90,6 +101,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   TriangleMesh mesh = withTrueVolume(divideTriangles(source_mesh, settings.least_faces), settings);
   const MeshProperties properties = massPropertiesOf(mesh, settings.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
+  requireNearOrigin(mesh, origin, sourceOf(settings));
   const MassDistribution uniform_mass = uniformMassOf(mesh, properties, settings.cavities);
   mesh.vertices.colwise() -= origin;
 

@@ -27,9 +27,9 @@ void requireReadableFile(const std::filesystem::path& file) {
 }
 
 // Single precision relative to the origin, as the file gives it, may be coarse relative to the
-// body.
-std::string resolutionWarning(const TriangleMesh& mesh, double diagonal) {
-  constexpr double kCoarse = 1e-4;
+// body. Refuses what would be a staircase.
+std::string resolutionWarning(const TriangleMesh& mesh, double diagonal, const std::string& name) {
+  constexpr double kCoarse = 1e-4, kTooCoarse = 0.01;
   const double farthest = mesh.vertices.cwiseAbs().maxCoeff();
   const double resolution = std::numeric_limits<float>::epsilon() * farthest / diagonal;
   if (resolution < kCoarse) return {};
@@ -37,14 +37,15 @@ std::string resolutionWarning(const TriangleMesh& mesh, double diagonal) {
   warning.precision(3);
   warning << "lies " << farthest / diagonal << " times its size from the origin, where single "
           << "precision resolves only " << resolution << " of its size: move it to the origin";
-  return warning.str();
+  if (resolution > kTooCoarse) raiseInputError(name, warning.str());
+  return name + ": " + warning.str();
 }
 
 void weld(ImportedMesh& imported, const std::string& name) {
   TriangleMesh& mesh = imported.mesh;
   const double diagonal = mesh.extents().norm();
-  const std::string warning = resolutionWarning(mesh, diagonal);
-  if (!warning.empty()) imported.warnings.push_back(name + ": " + warning);
+  const std::string warning = resolutionWarning(mesh, diagonal, name);
+  if (!warning.empty()) imported.warnings.push_back(warning);
   const Eigen::Index before = mesh.triangleCount();
   mesh = weldVertices(mesh, kWeldTolerance * diagonal);
   if (mesh.triangleCount() == before) return;

@@ -156,6 +156,12 @@ TEST_F(MeshImport, MeshesFarFromTheOriginAreWarnedAbout) {
   EXPECT_NE(far.warnings[0].find("single precision resolves only 0.00688 of its size"),
             std::string::npos)
       << far.warnings[0];
+  const std::string file = write("far.obj", objText(moved(mesh, {1e6, 0, 0})));
+  const std::string message = messageOf([&] { importMesh(file); });
+  EXPECT_EQ(message.find(file + ": lies "), 0u) << message;
+  EXPECT_NE(message.find("resolves only 0.0688 of its size: move it to the origin"),
+            std::string::npos)
+      << message;
 }
 
 TEST_F(MeshImport, MissingAndForeignFilesAreRefused) {

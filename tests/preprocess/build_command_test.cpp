@@ -100,6 +100,16 @@ TEST_F(CommandLine, MeshesInMillimetresAreWarnedOfAndSizesShown) {
                                     "metres, scale it\n");
 }
 
+TEST_F(CommandLine, SlenderShapesAreWarnedOf) {
+  const auto warningsOf = [&](const std::string& shape) {
+    return run({"build", write("s.json", shape), "-o", path("s.ambient"), "--panels", "0"}).errors;
+  };
+  EXPECT_EQ(warningsOf(R"({"type":"sheet","size":[0.001,1],"faces":400})"),
+            "warning: " + path("s.json") +
+                ": it is 1000 times as long as wide: the added mass is some per cent off\n");
+  EXPECT_EQ(warningsOf(R"({"type":"sheet","size":[0.01,1],"faces":400})"), "");
+}
+
 TEST_F(CommandLine, SheetsAreBuiltFromOpenMeshes) {
   const std::string mesh = write("sheet.obj", objText(makeRectangularSheetMesh(1, 1, 288)));
   const json sheet = resultOf({"build", mesh, "-o", path("s.ambient"), "--sheet", "--json"});

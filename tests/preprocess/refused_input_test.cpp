@@ -93,6 +93,16 @@ TEST_F(CommandLine, BadValuesOfOptionsAreRefusedByName) {
   }
 }
 
+TEST_F(CommandLine, OriginsFarFromTheBodyAreRefused) {
+  const std::string box = write("box.json", R"({"type":"box","half_sizes":[1,2,2],"faces":48})");
+  EXPECT_EQ(buildRefusal(box, {"--origin", "1e308,0,0"}),
+            box +
+                ": the body reaches 1e+308 m from its origin, more than 1000000 times its size of "
+                "6 m");
+  EXPECT_EQ(buildRefusal(box, {"--origin", "0,0,7e6"}).find(box + ": the body reaches 7000002 m"),
+            0u);
+}
+
 TEST_F(CommandLine, WhatDoesNotFitTheMachineIsRefused) {
   const std::string ball = write("ball.json", sphereText());
   EXPECT_NE(buildRefusal(ball, {"--solver", "dense", "--memory", "0.001"})
