@@ -12,17 +12,6 @@ SumClusters fastestSumClusters() noexcept {
   return sumClustersBaseline;
 }
 
-using Products = Eigen::Matrix<double, 21, 1>;
-
-// x_i x_j, i <= j, in the order of LoadLevel::even.
-Products productsOf(const Vector6& x) noexcept {
-  Products products;
-  int next = 0;
-  for (int i = 0; i < 6; ++i)
-    for (int j = i; j < 6; ++j) products[next++] = x[i] * x[j];
-  return products;
-}
-
 }  // namespace
 
 SumClusters sumClustersFor(InstructionSet instruction_set) noexcept {
@@ -35,23 +24,19 @@ SumClusters sumClustersFor(InstructionSet instruction_set) noexcept {
   return instruction_set == InstructionSet::kBaseline ? sumClustersBaseline : nullptr;
 }
 
-FaceLoads computeLevelLoads(const LoadLevel& level, double reference_length,
-                            const Twist& relative_twist, const LoadSettings& settings) noexcept {
+Wrench computeLevelLoad(const LoadLevel& level, double reference_length,
+                        const Twist& relative_twist, const LoadSettings& settings) noexcept {
   static const SumClusters sum_clusters = fastestSumClusters();
   const double length = level.length;
   const ScaledMotion motion =
       scaledMotion(relative_twist.angular, relative_twist.at(level.centre), length);
-  const double reynolds = frictionReynolds(settings, motion.speed, reference_length);
-  FaceSums sums = sum_clusters(level.blocks.data(), level.blocks.size(),
-                               singleMotion(motion, settings.separation_cosine), reynolds > 0);
-  Vector6 x;
-  x << motion.angular, motion.linear;
-  const Vector6 even = level.even * productsOf(x);
-  for (int row = 0; row < 6; ++row) sums.pressure[row] += even[row];
-  FaceLoads loads = scaledLoads(sums, settings, motion.speed, length * length, length, reynolds);
-  for (Wrench* wrench : {&loads.pressure, &loads.friction})
-    wrench->torque += level.centre.cross(wrench->force);
-  return loads;
+  const Vector3 &w = motion.angular, &v = motion.linear;
+  const LoadSums sums = sum_clusters({level.blocks.data(), level.blocks.size(), level.even.data()},
+                                     {w.x(), w.y(), w.z(), v.x(), v.y(), v.z()},
+                                     singleMotion(motion, settings, reference_length));
+  Wrench load = scaledLoad(sums, settings.density, motion.unit.speed, length * length, length);
+  load.torque += level.centre.cross(load.force);
+  return load;
 }
 
 }  // namespace ambient

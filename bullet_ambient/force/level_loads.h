@@ -5,11 +5,11 @@
 
 namespace ambient {
 
-/// computeFaceLoads() on the clusters of a level, docs/theory.md eq. (40) to (43), with the error
-/// that the level states. Arguments as there; `settings.separation_cosine` must be that of the
-/// level. The pressure may feed energy to the body: guard it. Cost: level.cost faces, whatever the
-/// mesh; allocates nothing. The same bits on every machine.
-FaceLoads computeLevelLoads(const LoadLevel& level, double reference_length,
-                            const Twist& relative_twist, const LoadSettings& settings) noexcept;
+/// The total of computeFaceLoads() on the clusters of a level, docs/theory.md eq. (40) to (43),
+/// with the error that the level states. Arguments as there; `settings.separation_cosine` must be
+/// that of the level. The pressure may feed energy to the body: guard it. Cost: level.cost faces,
+/// whatever the mesh; allocates nothing. The same bits on every machine.
+Wrench computeLevelLoad(const LoadLevel& level, double reference_length,
+                        const Twist& relative_twist, const LoadSettings& settings) noexcept;
 
 }  // namespace ambient

@@ -9,14 +9,22 @@ namespace ambient {
 
 // The sums over clusters behind computeLevelLoads(); the rules of single_sums.h.
 
-/// Pressure: the clusters' share of eq. (42), without the even part. Friction as in FaceSums.
-using SumClusters = FaceSums (*)(const ClusterBlock* blocks, std::size_t count, const SingleMotion&,
-                                 bool with_friction) noexcept;
+/// What a LoadLevel holds.
+struct LevelColumns {
+  const ClusterBlock* blocks;
+  std::size_t count;
+  const double* even;  ///< 6 x 21, column by column
+};
 
-FaceSums sumClustersBaseline(const ClusterBlock*, std::size_t, const SingleMotion&, bool) noexcept;
+/// Eq. (42) and (43) without -rho/2, in units of length and speed. `x`: the motion again.
+using SumClusters = LoadSums (*)(const LevelColumns&, const double (&x)[6],
+                                 const SingleMotion&) noexcept;
+
+LoadSums sumClustersBaseline(const LevelColumns&, const double (&x)[6],
+                             const SingleMotion&) noexcept;
 #if defined(__x86_64__)
-FaceSums sumClustersAvx2(const ClusterBlock*, std::size_t, const SingleMotion&, bool) noexcept;
-FaceSums sumClustersAvx512(const ClusterBlock*, std::size_t, const SingleMotion&, bool) noexcept;
+LoadSums sumClustersAvx2(const LevelColumns&, const double (&x)[6], const SingleMotion&) noexcept;
+LoadSums sumClustersAvx512(const LevelColumns&, const double (&x)[6], const SingleMotion&) noexcept;
 #endif
 
 /// The kernel for an instruction set; null if this processor does not have it.

@@ -2,9 +2,9 @@
 
 namespace ambient {
 
-FaceSums sumClustersBaseline(const ClusterBlock* blocks, std::size_t count,
-                             const SingleMotion& motion, bool with_friction) noexcept {
-  return sumClusters(blocks, count, motion, with_friction);
+LoadSums sumClustersBaseline(const LevelColumns& level, const double (&x)[6],
+                             const SingleMotion& motion) noexcept {
+  return sumClusters(level, x, motion);
 }
 
 }  // namespace ambient

@@ -10,16 +10,17 @@ namespace {
 
 static_assert(ClusterBlock::kClusters == kLanes, "a block has one cluster per lane");
 
-/// 1 / sqrt(x) of normal x > 0 to 2e-7, without a division.
+/// 1 / sqrt(x) of normal x > 0 to 8e-7, without a division.
 inline Floats inverseRoot(Floats x) {
   Ints bits;
   __builtin_memcpy(&bits, &x, sizeof bits);
-  bits = 0x5f375a86 - (bits >> 1);  // Lomont 2003
+  bits = 0x5f376908 - (bits >> 1);
   Floats r;
   __builtin_memcpy(&r, &bits, sizeof r);
   const Floats half = 0.5f * x;
-  for (int newton = 0; newton < 3; ++newton) r = r * (1.5f - half * r * r);
-  return r;
+  // Newton's step has 3/2 and errs to one side; a little more halves the error. Moroz et al. 2018.
+  r = r * lessProduct(Floats{} + 1.50087896f, half * r, r);
+  return r * lessProduct(Floats{} + 1.5000006f, half * r, r);
 }
 
 struct Sixes {
@@ -32,7 +33,9 @@ inline Sixes load(const float (&rows)[6][kLanes], int lane) {
 }
 
 inline Floats dot(const Sixes& a, const Vectors& w, const Vectors& v) {
-  return dot(a.torque, w) + dot(a.force, v);
+  const Floats turning = dot(a.torque, w);
+  return plusProduct(plusProduct(plusProduct(turning, a.force.x, v.x), a.force.y, v.y), a.force.z,
+                     v.z);
 }
 
 /// Attached part of a cluster less one half: of a disc at the distance z of the terminator from its
@@ -41,7 +44,7 @@ inline Floats attachedExcess(Floats a, Floats spread_sq) {
   Floats z = (0.5f * a) * inverseRoot(spread_sq);
   z = z > 1.0f ? Floats{} + 1.0f : z;
   z = z < -1.0f ? Floats{} - 1.0f : z;
-  return z * (0.63661977f - 0.13661977f * (z * z));
+  return z * lessProduct(Floats{} + 0.63661977f, Floats{} + 0.13661977f, z * z);
 }
 
 /// By how much the normal velocity may be negative where the flow is attached, eq. (13).
@@ -53,20 +56,20 @@ inline Floats reach(float cosine, Vectors u) {
 
 template <bool kRightAngle, bool kFriction>
 void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& motion, int lane,
-             WrenchLanes& pressure_sums, WrenchLanes& friction_sums) {
+             WrenchLanes& sums) {
   // Of a motion whose components are at most 1: keeps the switch of a flat cluster finite.
   constexpr float kLeastSpread = 1e-14f;
   const Vectors w = broadcast(motion.angular);
   const Vectors v = broadcast(motion.linear);
-  const float cosine = __builtin_sqrtf(motion.signed_cosine_sq);  // |cos(alpha)|
-  Vectors torque = {}, force = {}, friction_torque = {}, friction_force = {};
+  const float cosine = kRightAngle ? 0 : __builtin_sqrtf(motion.signed_cosine_sq);  // |cos(alpha)|
+  Vectors torque = {}, force = {};
   for (std::size_t i = 0; i < count; ++i) {
     const ClusterBlock& block = blocks[i];
     const Sixes g = load(block.switching, lane);
     const Floats a = dot(g, w, v);
     const Floats b1 = dot(load(block.spread[0], lane), w, v);
     const Floats b2 = dot(load(block.spread[1], lane), w, v);
-    const Floats spread_sq = b1 * b1 + b2 * b2 + kLeastSpread;
+    const Floats spread_sq = plusProduct(plusProduct(Floats{} + kLeastSpread, b1, b1), b2, b2);
     const Vectors c = load(block.centroid, lane);
     const Vectors u = plusCross(v, w, c);
     const Floats excess = attachedExcess(kRightAngle ? a : a + reach(cosine, u), spread_sq);
@@ -74,45 +77,61 @@ void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& 
     const Floats slip_sq = dot(t, t);
     const Floats part = kRightAngle ? excess : excess - 0.5f;
     const Floats by_slip = part * slip_sq;
-    const Floats by_normal = part * (a * a + spread_sq);
+    const Floats by_normal = part * plusProduct(spread_sq, a, a);
     const Sixes slip = load(block.by_slip, lane);
     const Sixes normal = load(block.by_normal, lane);
-    torque = torque + (by_slip * slip.torque + by_normal * normal.torque);
-    force = force + (by_slip * slip.force + by_normal * normal.force);
+    torque = plusProduct(plusProduct(torque, by_slip, slip.torque), by_normal, normal.torque);
+    force = plusProduct(plusProduct(force, by_slip, slip.force), by_normal, normal.force);
     if (kFriction) {
-      const Floats area = load(block.area + lane) * (0.5f + excess);
+      const Floats area = (load(block.area + lane) * motion.friction) * (0.5f + excess);
       const Vectors f = ((area * slip_sq) * inverseThreeFifths(slip_sq)) * t;
-      friction_force = friction_force + f;
-      friction_torque = plusCross(friction_torque, c, f);
+      force = force + f;
+      torque = plusCross(torque, c, f);
     }
   }
-  pressure_sums.set(torque, force, lane);
-  if (kFriction) friction_sums.set(friction_torque, friction_force, lane);
+  sums.set(torque, force, lane);
+}
+
+/// Adds T(x, x) of eq. (40). No operation is fused.
+inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums) {
+  constexpr int kProducts = 21;
+  double products[kProducts];
+  for (int i = 0, next = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) products[next++] = x[i] * x[j];
+  double part[8];
+  for (int row = 0; row < 6; row += kHalf) {
+    // A column has 6 rows. What is read beyond them is the next column: the last one has none.
+    Doubles a = {}, b = {};
+    for (int k = 0; k < kProducts - 1; k += 2) {
+      a = a + products[k] * load(even + 6 * k + row);
+      b = b + products[k + 1] * load(even + 6 * k + 6 + row);
+    }
+    store(part + row, a + b);
+  }
+  const double* last = even + 6 * (kProducts - 1);
+  for (int row = 0; row < 6; ++row)
+    sums.wrench[row] += part[row] + products[kProducts - 1] * last[row];
 }
 
 template <bool kRightAngle, bool kFriction>
-FaceSums sumClusters(const ClusterBlock* blocks, std::size_t count, const SingleMotion& motion) {
-  WrenchLanes pressure_lanes, friction_lanes;
+LoadSums sumClusters(const LevelColumns& level, const double (&x)[6], const SingleMotion& motion) {
+  WrenchLanes lanes;
   for (int lane = 0; lane < kLanes; lane += kWidth)
-    sumLane<kRightAngle, kFriction>(blocks, count, motion, lane, pressure_lanes, friction_lanes);
-  FaceSums sums = {};
-  WrenchTotal pressure, friction;
-  pressure.add(pressure_lanes);
-  pressure.sumLanes(sums.pressure);
-  if (kFriction) {
-    friction.add(friction_lanes);
-    friction.sumLanes(sums.friction);
-  }
+    sumLane<kRightAngle, kFriction>(level.blocks, level.count, motion, lane, lanes);
+  WrenchTotal total;
+  total.add(lanes);
+  LoadSums sums = total.sum();
+  addEvenPart(level.even, x, sums);
   return sums;
 }
 
-FaceSums sumClusters(const ClusterBlock* blocks, std::size_t count, const SingleMotion& motion,
-                     bool with_friction) {
+LoadSums sumClusters(const LevelColumns& level, const double (&x)[6], const SingleMotion& motion) {
+  const bool friction = motion.friction > 0;
   if (motion.signed_cosine_sq == 0)
-    return with_friction ? sumClusters<true, true>(blocks, count, motion)
-                         : sumClusters<true, false>(blocks, count, motion);
-  return with_friction ? sumClusters<false, true>(blocks, count, motion)
-                       : sumClusters<false, false>(blocks, count, motion);
+    return friction ? sumClusters<true, true>(level, x, motion)
+                    : sumClusters<true, false>(level, x, motion);
+  return friction ? sumClusters<false, true>(level, x, motion)
+                  : sumClusters<false, false>(level, x, motion);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <immintrin.h>
 #endif
 
+#include "bullet_ambient/force/single_sums.h"
+
 // What the kernels in single precision share: vectors of lanes, and their sums. Included by what is
 // compiled once per instruction set. Written with the vector types of GCC and Clang, which have the
 // +, -, *, > and ?: of IEEE 754 per lane.
@@ -104,9 +106,13 @@ inline Vectors plusCross(Vectors c, Vectors a, Vectors b) {
 struct WrenchLanes {
   float lanes[6][kLanes];
 
-  void set(Vectors torque, Vectors force, int lane) {
-    const Floats rows[6] = {torque.x, torque.y, torque.z, force.x, force.y, force.z};
-    for (int row = 0; row < 6; ++row) store(lanes[row] + lane, rows[row]);
+  void set(const Vectors& torque, const Vectors& force, int lane) {
+    store(lanes[0] + lane, torque.x);
+    store(lanes[1] + lane, torque.y);
+    store(lanes[2] + lane, torque.z);
+    store(lanes[3] + lane, force.x);
+    store(lanes[4] + lane, force.y);
+    store(lanes[5] + lane, force.z);
   }
 };
 
@@ -134,9 +140,25 @@ inline Floats inverseThreeFifths(Floats x) {
   return cube * plusProduct(line(0.747288029f, 0.275921004f, z), z2, high);
 }
 
-/// Sums of a wrench over all runs.
+constexpr int kHalf = kWidth / 2;
+using Doubles = double __attribute__((vector_size(kHalf * sizeof(double))));
+
+inline Doubles load(const double* from) {
+  Doubles d;
+  __builtin_memcpy(&d, from, sizeof d);
+  return d;
+}
+
+inline void store(double* to, Doubles d) { __builtin_memcpy(to, &d, sizeof d); }
+
+/// Sums of a wrench over all runs, one per lane.
 struct WrenchTotal {
-  double lanes[6][kLanes] = {};
+  double lanes[6][kLanes];
+
+  WrenchTotal() {
+    for (double(&row)[kLanes] : lanes)
+      for (int lane = 0; lane < kLanes; lane += kHalf) store(row + lane, Doubles{});
+  }
 
   void add(const WrenchLanes& run) {
     for (int row = 0; row < 6; ++row)
@@ -144,11 +166,19 @@ struct WrenchTotal {
         lanes[row][lane] += static_cast<double>(run.lanes[row][lane]);
   }
 
-  void sumLanes(double wrench[6]) {
-    for (int width = kLanes / 2; width > 0; width /= 2)
-      for (int row = 0; row < 6; ++row)
-        for (int lane = 0; lane < width; ++lane) lanes[row][lane] += lanes[row][lane + width];
-    for (int row = 0; row < 6; ++row) wrench[row] = lanes[row][0];
+  LoadSums sum() const {
+    LoadSums sums;
+    for (int row = 0; row < 6; ++row) sums.wrench[row] = sumLanes(lanes[row]);
+    return sums;
+  }
+
+ private:
+  static double sumLanes(const double* row) {
+    double folded[8];
+    for (int lane = 0; lane < 8; lane += kHalf)
+      store(folded + lane, load(row + lane) + load(row + lane + 8));
+    const double* f = folded;
+    return ((f[0] + f[4]) + (f[2] + f[6])) + ((f[1] + f[5]) + (f[3] + f[7]));
   }
 };
 

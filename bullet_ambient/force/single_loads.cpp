@@ -23,15 +23,14 @@ SumBlocks sumBlocksFor(InstructionSet instruction_set) noexcept {
   return instruction_set == InstructionSet::kBaseline ? sumBlocksBaseline : nullptr;
 }
 
-FaceLoads computeFaceLoads(const PackedFaces& faces, double reference_length,
-                           const Twist& relative_twist, const LoadSettings& settings) noexcept {
+Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
+                       const Twist& relative_twist, const LoadSettings& settings) noexcept {
   static const SumBlocks sum_blocks = fastestSumBlocks();
   const double length = faces.lengthUnit();
   const ScaledMotion motion = scaledMotion(relative_twist.angular, relative_twist.linear, length);
-  const double reynolds = frictionReynolds(settings, motion.speed, reference_length);
-  const FaceSums sums = sum_blocks(faces.blocks().data(), faces.blocks().size(),
-                                   singleMotion(motion, settings.separation_cosine), reynolds > 0);
-  return scaledLoads(sums, settings, motion.speed, faces.areaUnit(), length, reynolds);
+  const LoadSums sums = sum_blocks(faces.blocks().data(), faces.blocks().size(),
+                                   singleMotion(motion, settings, reference_length));
+  return scaledLoad(sums, settings.density, motion.unit.speed, faces.areaUnit(), length);
 }
 
 }  // namespace ambient

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/fifth_root.h"
@@ -9,57 +11,75 @@
 
 namespace ambient {
 
-/// A motion in units of a length [m] and of a speed that makes all components at most 1, a power of
-/// two.
+/// A unit of speed: a power of 32, so that the unit of C_f is a power of two as well.
+struct SpeedUnit {
+  double speed;                ///< [m/s]
+  double inverse;              ///< 1 / speed
+  double inverse_fifth_power;  ///< speed^(-1/5)
+};
+
+/// The smallest unit above a speed, with exponents of two between -1000 and 1000; 1 m/s if the
+/// speed is not positive and finite.
+inline SpeedUnit speedUnitAbove(double speed) noexcept {
+  if (!(speed > 0) || !std::isfinite(speed)) return {1, 1, 1};
+  constexpr int kBias = 1023;
+  const double normal = std::clamp(speed, 0x1p-1000, 0x1p999);
+  std::uint64_t bits;
+  std::memcpy(&bits, &normal, sizeof bits);
+  const int fifth = (static_cast<int>(bits >> 52) - kBias + 1005) / 5 - 200;
+  const auto powerOfTwo = [](int exponent) {
+    const std::uint64_t power_bits = static_cast<std::uint64_t>(exponent + kBias) << 52;
+    double power;
+    std::memcpy(&power, &power_bits, sizeof power);
+    return power;
+  };
+  return {powerOfTwo(5 * fifth), powerOfTwo(-5 * fifth), powerOfTwo(-fifth)};
+}
+
+/// A motion in units of a length [m] and of a speed that makes all components at most 1.
 struct ScaledMotion {
   Vector3 angular, linear;
-  double speed;  ///< [m/s]
+  SpeedUnit unit;
 };
 
 inline ScaledMotion scaledMotion(const Vector3& angular, const Vector3& linear,
                                  double length) noexcept {
   const Vector3 turning = length * angular;
-  const double largest = std::max(turning.cwiseAbs().maxCoeff(), linear.cwiseAbs().maxCoeff());
-  const bool has_size = largest > 0 && std::isfinite(largest);
-  const double speed =
-      has_size ? std::ldexp(1.0, std::clamp(std::ilogb(largest) + 1, -1000, 1000)) : 1;
-  return {turning / speed, linear / speed, speed};
+  const SpeedUnit unit =
+      speedUnitAbove(std::max(turning.cwiseAbs().maxCoeff(), linear.cwiseAbs().maxCoeff()));
+  return {unit.inverse * turning, unit.inverse * linear, unit};
 }
 
-inline SingleMotion singleMotion(const ScaledMotion& motion, double cosine) noexcept {
+/// C_f of a face that slips with the unit of speed, eq. (16); 0 without friction. At most 1e30
+/// (Re < 1e-153), which keeps single precision finite. Only the last factor waits for the motion.
+inline double frictionAtUnitSpeed(const LoadSettings& settings, const SpeedUnit& unit,
+                                  double reference_length) noexcept {
+  if (!settings.skin_friction || !(settings.viscosity > 0)) return 0;
+  const double reynolds_per_speed = settings.density * reference_length / settings.viscosity;
+  if (!(reynolds_per_speed > 0)) return 0;
+  return std::min(0.0576 * inverseFifthRoot(reynolds_per_speed) * unit.inverse_fifth_power, 1e30);
+}
+
+inline SingleMotion singleMotion(const ScaledMotion& motion, const LoadSettings& settings,
+                                 double reference_length) noexcept {
   const Eigen::Vector3f w = motion.angular.cast<float>();
   const Eigen::Vector3f v = motion.linear.cast<float>();
+  const double cosine = settings.separation_cosine;
   return {{w.x(), w.y(), w.z()},
           {v.x(), v.y(), v.z()},
           static_cast<float>(-cosine * std::abs(cosine)),
-          static_cast<float>(1 - cosine * cosine)};
+          static_cast<float>(1 - cosine * cosine),
+          static_cast<float>(frictionAtUnitSpeed(settings, motion.unit, reference_length))};
 }
 
-/// Reynolds number of a face that slips with the unit of speed; 0 without friction.
-inline double frictionReynolds(const LoadSettings& settings, double speed,
-                               double reference_length) noexcept {
-  return settings.skin_friction && settings.viscosity > 0
-             ? settings.density * speed * reference_length / settings.viscosity
-             : 0;
-}
-
-/// A wrench from sums in units of length and speed.
-inline Wrench scaledWrench(const double (&sums)[6], double factor, double length) noexcept {
-  const double turning = factor * length;
-  return {{turning * sums[0], turning * sums[1], turning * sums[2]},
-          {factor * sums[3], factor * sums[4], factor * sums[5]}};
-}
-
-/// Both loads; eq. (15) to (17). `area` is the unit of area [m^2].
-inline FaceLoads scaledLoads(const FaceSums& sums, const LoadSettings& settings, double speed,
-                             double area, double length, double reynolds) noexcept {
-  const double pressure = -0.5 * settings.density * speed * speed * area;
-  FaceLoads loads;
-  loads.pressure = scaledWrench(sums.pressure, pressure, length);
-  if (reynolds > 0)
-    loads.friction =
-        scaledWrench(sums.friction, pressure * 0.0576 * inverseFifthRoot(reynolds), length);
-  return loads;
+/// A load from sums in units of length, of speed and of `area` [m^2]; eq. (15) and (17).
+inline Wrench scaledLoad(const LoadSums& sums, double density, double speed, double area,
+                         double length) noexcept {
+  const double force = -0.5 * density * speed * speed * area;
+  const double torque = force * length;
+  const double(&s)[6] = sums.wrench;
+  return {{torque * s[0], torque * s[1], torque * s[2]},
+          {force * s[3], force * s[4], force * s[5]}};
 }
 
 }  // namespace ambient

@@ -2,9 +2,9 @@
 
 namespace ambient {
 
-FaceSums sumBlocksAvx512(const FaceBlock* blocks, std::size_t count, const SingleMotion& motion,
-                         bool with_friction) noexcept {
-  return sumBlocks(blocks, count, motion, with_friction);
+LoadSums sumBlocksAvx512(const FaceBlock* blocks, std::size_t count,
+                         const SingleMotion& motion) noexcept {
+  return sumBlocks(blocks, count, motion);
 }
 
 }  // namespace ambient

@@ -26,10 +26,10 @@ inline Floats strengthWhereAttached(Floats normal_speed, Floats strength, Floats
 /// kWidth lanes of a run; docs/theory.md eq. (12) to (17).
 template <bool kRightAngle, bool kFriction>
 void sumRun(const FaceBlock* blocks, int count, const SingleMotion& motion, int lane,
-            WrenchLanes& pressure, WrenchLanes& friction) {
+            WrenchLanes& sums) {
   const Vectors w = broadcast(motion.angular);
   const Vectors v = broadcast(motion.linear);
-  Vectors torque = {}, force = {}, friction_torque = {}, friction_force = {};
+  Vectors torque = {}, force = {};
   for (int k = 0; k < count; ++k) {
     const FaceBlock& block = blocks[k];
     const Vectors n = load(block.normal, lane);
@@ -40,44 +40,39 @@ void sumRun(const FaceBlock* blocks, int count, const SingleMotion& motion, int 
     const Floats speed_sq = dot(t, t);
     const Floats strength = strengthWhereAttached<kRightAngle>(
         normal_speed, load(block.area + lane) * speed_sq, speed_sq, motion);
-    force = plusProduct(force, strength, n);
-    torque = plusProduct(torque, strength, load(block.moment, lane));
     if (kFriction) {
-      const Vectors f = (strength * inverseThreeFifths(speed_sq)) * t;
-      friction_force = friction_force + f;
-      friction_torque = plusCross(friction_torque, c, f);
+      const Floats along = (strength * motion.friction) * inverseThreeFifths(speed_sq);
+      const Vectors f = plusProduct(strength * n, along, t);
+      force = force + f;
+      torque = plusCross(torque, c, f);
+    } else {
+      force = plusProduct(force, strength, n);
+      torque = plusProduct(torque, strength, load(block.moment, lane));
     }
   }
-  pressure.set(torque, force, lane);
-  if (kFriction) friction.set(friction_torque, friction_force, lane);
+  sums.set(torque, force, lane);
 }
 
 template <bool kRightAngle, bool kFriction>
-FaceSums sumBlocks(const FaceBlock* blocks, std::size_t count, const SingleMotion& motion) {
-  WrenchLanes pressure_run, friction_run;
-  WrenchTotal pressure, friction;
+LoadSums sumBlocks(const FaceBlock* blocks, std::size_t count, const SingleMotion& motion) {
+  WrenchLanes run;
+  WrenchTotal total;
   for (std::size_t begin = 0; begin < count; begin += kRun) {
     const int size = static_cast<int>(count - begin < kRun ? count - begin : kRun);
-    for (int lane = 0; lane < kLanes; lane += kWidth) {
-      sumRun<kRightAngle, kFriction>(blocks + begin, size, motion, lane, pressure_run,
-                                     friction_run);
-    }
-    pressure.add(pressure_run);
-    if (kFriction) friction.add(friction_run);
+    for (int lane = 0; lane < kLanes; lane += kWidth)
+      sumRun<kRightAngle, kFriction>(blocks + begin, size, motion, lane, run);
+    total.add(run);
   }
-  FaceSums sums = {};
-  pressure.sumLanes(sums.pressure);
-  if (kFriction) friction.sumLanes(sums.friction);
-  return sums;
+  return total.sum();
 }
 
-FaceSums sumBlocks(const FaceBlock* blocks, std::size_t count, const SingleMotion& motion,
-                   bool with_friction) {
+LoadSums sumBlocks(const FaceBlock* blocks, std::size_t count, const SingleMotion& motion) {
+  const bool friction = motion.friction > 0;
   if (motion.signed_cosine_sq == 0)
-    return with_friction ? sumBlocks<true, true>(blocks, count, motion)
-                         : sumBlocks<true, false>(blocks, count, motion);
-  return with_friction ? sumBlocks<false, true>(blocks, count, motion)
-                       : sumBlocks<false, false>(blocks, count, motion);
+    return friction ? sumBlocks<true, true>(blocks, count, motion)
+                    : sumBlocks<true, false>(blocks, count, motion);
+  return friction ? sumBlocks<false, true>(blocks, count, motion)
+                  : sumBlocks<false, false>(blocks, count, motion);
 }
 
 }  // namespace

@@ -198,11 +198,11 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   return model;
 }
 
-static FaceLoads computeLoads(const BodyModel& model, const Twist& x_F) noexcept {
+static Wrench computeLoad(const BodyModel& model, const Twist& x_F) noexcept {
   const double length = model.reference_length;
-  if (model.level) return computeLevelLoads(*model.level, length, x_F, model.loads);
-  return model.packed_faces ? computeFaceLoads(*model.packed_faces, length, x_F, model.loads)
-                            : computeFaceLoads(*model.faces, length, x_F, model.loads);
+  if (model.level) return computeLevelLoad(*model.level, length, x_F, model.loads);
+  return model.packed_faces ? computeFaceLoad(*model.packed_faces, length, x_F, model.loads)
+                            : computeFaceLoads(*model.faces, length, x_F, model.loads).total();
 }
 
 // A sphere looks the same in all axes: the frame F plays no part.
@@ -224,7 +224,7 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
         removePositivePower(model.fluid_frame.toB(load_F), relative_twist, model.inertia);
     return {guarded.wrench, guarded.acted};
   }
-  const Wrench wrench = model.fluid_frame.toB(computeLoads(model, x_F).total());
+  const Wrench wrench = model.fluid_frame.toB(computeLoad(model, x_F));
   // At alpha = pi/2 no face can push its body along: eq. (15) and (17) are dissipative term by
   // term. The fitted wrenches of clusters can.
   if (model.loads.separation_cosine == 0 && !model.level) return {wrench, false};

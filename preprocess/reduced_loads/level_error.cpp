@@ -33,23 +33,23 @@ class Comparison {
     const LoadSettings settings{1, 0, cosine_, false};
     double scale = 0;
     for (std::size_t i = 0; i < faces_.size(); ++i) scale += faces_.area[i] * slipSquared(x, i);
-    return ratio(difference(x, settings).pressure, 0.5 * scale);
+    return ratio(difference(x, settings), 0.5 * scale);
   }
 
   /// Of the pressure, relative to itself.
   double relativeError(const Vector6& x) const {
     const LoadSettings settings{1, 0, cosine_, false};
     const FaceLoads exact = computeFaceLoads(faces_, 1, Twist::fromVector(x), settings);
-    return ratio(difference(x, settings).pressure, exact.pressure.vector().norm());
+    return ratio(difference(x, settings), exact.pressure.vector().norm());
   }
 
   /// Of the friction, relative to that on all faces together.
   double frictionError(const Vector6& x) const {
-    const LoadSettings settings{1, 1, cosine_, true};
+    const LoadSettings without{1, 0, cosine_, false}, with{1, 1, cosine_, true};
     double scale = 0;
     for (std::size_t i = 0; i < faces_.size(); ++i)
       scale += faces_.area[i] * std::pow(slipSquared(x, i), 0.9);
-    return ratio(difference(x, settings).friction, 0.5 * 0.0576 * scale);
+    return ratio(difference(x, with) + -1.0 * difference(x, without), 0.5 * 0.0576 * scale);
   }
 
  private:
@@ -63,13 +63,10 @@ class Comparison {
     return (u - n.dot(u) * n).squaredNorm();
   }
 
-  FaceLoads difference(const Vector6& x, const LoadSettings& settings) const {
+  Wrench difference(const Vector6& x, const LoadSettings& settings) const {
     const Twist twist = Twist::fromVector(x);
-    FaceLoads loads = computeLevelLoads(level_, 1, twist, settings);
-    const FaceLoads exact = computeFaceLoads(faces_, 1, twist, settings);
-    loads.pressure += -1.0 * exact.pressure;
-    loads.friction += -1.0 * exact.friction;
-    return loads;
+    return computeLevelLoad(level_, 1, twist, settings) +
+           -1.0 * computeFaceLoads(faces_, 1, twist, settings).total();
   }
 
   const LoadLevel& level_;

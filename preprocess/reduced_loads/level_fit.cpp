@@ -127,7 +127,7 @@ Wrenches fitWrenches(const FaceTable& faces, const LoadLevel& even,
           weight * functionsOf(clusters[k], x, cosine);
     const Twist twist = Twist::fromVector(x);
     rest.row(s) = -weight * (computeFaceLoads(faces, 1, twist, settings).pressure.vector() -
-                             computeLevelLoads(even, 1, twist, settings).pressure.vector());
+                             computeLevelLoad(even, 1, twist, settings).vector());
   }
   const Wrenches suggested = suggestedWrenches(clusters);
   rest -= functions * suggested;

@@ -54,12 +54,14 @@ void sumBlocksKernel(benchmark::State& state, InstructionSet set, bool friction,
   const PackedFaces faces(
       test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0)))));
   const auto cosine = static_cast<float>(separationCosine(angle * kRightAngle));
-  SingleMotion motion{
-      {0.3f, -0.2f, 0.5f}, {0.4f, 0.1f, -0.2f}, -cosine * std::abs(cosine), 1 - cosine * cosine};
+  SingleMotion motion{{0.3f, -0.2f, 0.5f},
+                      {0.4f, 0.1f, -0.2f},
+                      -cosine * std::abs(cosine),
+                      1 - cosine * cosine,
+                      friction ? 0.003f : 0.0f};
   for (auto _ : state) {
     benchmark::DoNotOptimize(motion);
-    benchmark::DoNotOptimize(
-        sum_blocks(faces.blocks().data(), faces.blocks().size(), motion, friction));
+    benchmark::DoNotOptimize(sum_blocks(faces.blocks().data(), faces.blocks().size(), motion));
   }
   reportPerFace(state, faces.size());
 }
@@ -103,7 +105,7 @@ void singleLoads(benchmark::State& state, bool friction) {
   Twist twist = someTwist();
   for (auto _ : state) {
     benchmark::DoNotOptimize(twist);
-    benchmark::DoNotOptimize(computeFaceLoads(packed, length, twist, settings));
+    benchmark::DoNotOptimize(computeFaceLoad(packed, length, twist, settings));
   }
   reportPerFace(state, faces.size());
 }
@@ -119,7 +121,7 @@ void levelLoads(benchmark::State& state, bool friction) {
   Twist twist = someTwist();
   for (auto _ : state) {
     benchmark::DoNotOptimize(twist);
-    benchmark::DoNotOptimize(computeLevelLoads(level, 1, twist, settings));
+    benchmark::DoNotOptimize(computeLevelLoad(level, 1, twist, settings));
   }
 }
 BENCHMARK_CAPTURE(levelLoads, pressure, false)->ArgsProduct({{3}, {48, 96, 200, 400}});
