@@ -7,7 +7,7 @@
 
 namespace ambient {
 
-// The sums over clusters behind computeLevelLoads(); the rules of single_sums.h.
+// The sums over clusters behind computeLevelLoad(); the rules of single_sums.h.
 
 /// What a LoadLevel holds.
 struct LevelColumns {
