@@ -50,6 +50,15 @@ std::string asJson(const MeshReport& report, const TriangleMesh& mesh) {
   } else {
     text["other"] = nullptr;
   }
+  if (report.build) {
+    text["build"] = {{"panels", report.build->panels},
+                     {"coarse_panels", report.build->coarse_panels},
+                     {"rotation_error", report.build->rotation_error},
+                     {"translation_error", report.build->translation_error},
+                     {"added_mass", matrixJson(report.build->added_mass)}};
+  } else {
+    text["build"] = nullptr;
+  }
   if (report.thinnest) {
     text["thinnest"] = {{"thickness", report.thinnest->thickness},
                         {"triangle", report.thinnest->triangle},
@@ -82,12 +91,22 @@ std::string asTable(const MeshReport& report, const TriangleMesh& mesh) {
   text << "mesh             " << mesh.vertexCount() << " vertices, " << mesh.triangleCount()
        << " faces, " << extentsText(mesh.extents()) << "\n";
   level("flow             ", report.built);
+  const auto errors = [&](const char* label, double rotation, double translation) {
+    text << label << 100 * rotation << " % in rotation, " << 100 * translation
+         << " % in translation";
+  };
   if (report.other) {
     level("compared with    ", *report.other);
-    text << "estimated error  " << 100 * report.rotation_error << " % in rotation, "
-         << 100 * report.translation_error << " % in translation\n";
+    errors("estimated error  ", report.rotation_error, report.translation_error);
+    text << "\n";
   } else {
     text << "estimated error  none: the mesh is too large to be solved on more panels\n";
+  }
+  if (report.build) {
+    errors("error of build   ", report.build->rotation_error, report.build->translation_error);
+    text << ", the difference to a build on " << report.build->coarse_panels << " panels\n";
+  } else {
+    text << "error of build   not known: it does not divide this mesh\n";
   }
   if (report.thinnest) {
     text << "thinnest part    " << report.thinnest->thickness << " m, "

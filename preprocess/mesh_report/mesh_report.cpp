@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/refined_flow.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 
 namespace ambient {
@@ -49,6 +49,30 @@ double blockError(const Matrix6& error, const Matrix6& value, int first) {
   return scale > 0 ? error.block<3, 3>(first, first).cwiseAbs().maxCoeff() / scale : 0;
 }
 
+/// A build, compared with one on about half or a third of its panels.
+std::optional<BuildEstimate> estimateBuild(const TriangleMesh& mesh,
+                                           const MeshReportSettings& settings) {
+  if (settings.max_panels <= mesh.triangleCount()) return std::nullopt;
+  PotentialFlowSettings flow_settings;
+  flow_settings.sheet = settings.sheet;
+  flow_settings.threads = settings.threads;
+  const auto solve = [&](int panels) {
+    flow_settings.max_panels = panels;
+    return solveRefinedFlow(mesh, flow_settings);
+  };
+  const RefinedFlow fine = solve(settings.max_panels);
+  if (fine.panels == mesh.triangleCount()) return std::nullopt;
+  for (const int divisor : {2, 3}) {
+    const RefinedFlow coarse = solve(static_cast<int>(fine.panels) / divisor);
+    if (5 * coarse.panels > 4 * fine.panels) continue;
+    const Matrix6 difference = fine.added_mass - coarse.added_mass;
+    return BuildEstimate{fine.panels, coarse.panels, fine.added_mass,
+                         blockError(difference, fine.added_mass, 0),
+                         blockError(difference, fine.added_mass, 3)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 MeshReport makeMeshReport(const TriangleMesh& mesh, const MeshReportSettings& settings) {
@@ -61,6 +85,7 @@ MeshReport makeMeshReport(const TriangleMesh& mesh, const MeshReportSettings& se
   report.worst_triangles = findWorstTriangles(mesh, settings.worst_triangles);
   if (!settings.sheet) report.thinnest = findThinnestPart(mesh);
 
+  report.build = estimateBuild(centred, settings);
   report.surface = refineSurface(centred, settings.sheet, settings.max_panels);
   SolvedLevel solved = solveLevel(report.surface, settings);
   report.built = solved.level;
