@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace ambient {
 
 /// Sixteen faces in single precision, component by component: what the load kernels read. Plain
@@ -11,6 +13,21 @@ struct alignas(64) FaceBlock {
   float centroid[3][kFaces];  ///< c, components in [-1, 1]
   float moment[3][kFaces];    ///< c x n
   float area[kFaces];         ///< in [0, 1]
+};
+
+/// Where the (c x n, n) of the faces of sixteen blocks lie, block by block: the normal velocity of
+/// a face is its product with the motion. Rounded away from the faces.
+struct alignas(64) FaceBounds {
+  static constexpr int kBlocks = 16;
+  float middle[6][kBlocks];
+  float reach[6][kBlocks];  ///< to either side
+};
+
+/// The blocks of a shape with their bounds.
+struct FaceBlocks {
+  const FaceBlock* blocks;
+  const FaceBounds* bounds;
+  std::size_t count;  ///< of blocks
 };
 
 }  // namespace ambient

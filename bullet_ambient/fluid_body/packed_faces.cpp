@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
+#include <numeric>
 #include <unordered_map>
 
 namespace ambient {
@@ -27,32 +28,101 @@ void setColumn(float (&column)[3][FaceBlock::kFaces], std::size_t i, const Vecto
   for (int axis = 0; axis < 3; ++axis) column[axis][i] = static_cast<float>(v[axis]);
 }
 
+using Order = std::vector<std::uint32_t>;
+
+// Sorts faces by halves, across the widest of their coordinates, until a block is left.
+class BlockOrder {
+ public:
+  BlockOrder(const FaceTable& faces, double length_unit) {
+    coordinates_.reserve(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      coordinates_.emplace_back();
+      coordinates_.back() << faces.normal(i), faces.centroid(i) / length_unit;
+    }
+  }
+
+  void sort(Order::iterator begin, Order::iterator end) const {
+    constexpr std::ptrdiff_t kFaces = FaceBlock::kFaces;
+    const std::ptrdiff_t blocks = (end - begin + kFaces - 1) / kFaces;
+    if (blocks <= 1) return std::sort(begin, end);
+    const auto middle = begin + (blocks + 1) / 2 * kFaces;
+    const Eigen::Index axis = widestAxis(begin, end);
+    std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
+      const double x = coordinates_[a][axis], y = coordinates_[b][axis];
+      return x < y || (x == y && a < b);
+    });
+    sort(begin, middle);
+    sort(middle, end);
+  }
+
+ private:
+  Eigen::Index widestAxis(Order::iterator begin, Order::iterator end) const {
+    Vector6 low = coordinates_[*begin], high = low;
+    for (auto face = begin; face != end; ++face) {
+      low = low.cwiseMin(coordinates_[*face]);
+      high = high.cwiseMax(coordinates_[*face]);
+    }
+    Eigen::Index axis = 0;
+    (high - low).maxCoeff(&axis);
+    return axis;
+  }
+
+  std::vector<Vector6> coordinates_;
+};
+
 }  // namespace
 
 PackedFaces::PackedFaces(const FaceTable& faces)
-    : size_(faces.size()),
+    : order_(faces.size()),
       length_unit_(unitFor(std::max({largestOf(faces.centroid_x), largestOf(faces.centroid_y),
                                      largestOf(faces.centroid_z)}))),
       area_unit_(unitFor(largestOf(faces.area))) {
+  std::iota(order_.begin(), order_.end(), 0u);
+  BlockOrder(faces, length_unit_).sort(order_.begin(), order_.end());
+  const std::size_t count = (size() + FaceBlock::kFaces - 1) / FaceBlock::kFaces;
+  for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
+  bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero
+  for (std::size_t block = 0; block < count; ++block) setBounds(block);
+}
+
+FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) const {
   constexpr std::size_t kFaces = FaceBlock::kFaces;
-  blocks_.resize((size_ + kFaces - 1) / kFaces);  // all zero
-  for (std::size_t i = 0; i < size_; ++i) {
-    FaceBlock& block = blocks_[i / kFaces];
-    const Vector3 normal = faces.normal(i);
-    const Vector3 centroid = faces.centroid(i) / length_unit_;
-    setColumn(block.normal, i % kFaces, normal);
-    setColumn(block.centroid, i % kFaces, centroid);
-    setColumn(block.moment, i % kFaces, centroid.cross(normal));
-    block.area[i % kFaces] = static_cast<float>(faces.area[i] / area_unit_);
+  FaceBlock packed = {};
+  for (std::size_t i = 0; i < std::min(kFaces, size() - block * kFaces); ++i) {
+    const std::size_t face = order_[block * kFaces + i];
+    const Vector3 normal = faces.normal(face);
+    const Vector3 centroid = faces.centroid(face) / length_unit_;
+    setColumn(packed.normal, i, normal);
+    setColumn(packed.centroid, i, centroid);
+    setColumn(packed.moment, i, centroid.cross(normal));
+    packed.area[i] = static_cast<float>(faces.area[face] / area_unit_);
+  }
+  return packed;
+}
+
+void PackedFaces::setBounds(std::size_t block) {
+  constexpr std::size_t kFaces = FaceBlock::kFaces;
+  // What single precision makes of a normal velocity, whose terms are at most 1 and sqrt(3).
+  constexpr float kRounding = 4e-6f;
+  const FaceBlock& of = blocks_[block];
+  const auto size = static_cast<std::ptrdiff_t>(std::min(kFaces, order_.size() - block * kFaces));
+  FaceBounds& bounds = bounds_[block / FaceBounds::kBlocks];
+  for (int row = 0; row < 6; ++row) {
+    const float* values = row < 3 ? of.moment[row] : of.normal[row - 3];
+    const auto [low, high] = std::minmax_element(values, values + size);
+    bounds.middle[row][block % FaceBounds::kBlocks] = 0.5f * (*low + *high);
+    bounds.reach[row][block % FaceBounds::kBlocks] = 0.5f * (*high - *low) + kRounding;
   }
 }
 
 bool PackedFaces::isOf(const FaceTable& faces) const {
-  if (faces.size() != size_) return false;
-  const PackedFaces other(faces);
-  return other.length_unit_ == length_unit_ && other.area_unit_ == area_unit_ &&
-         (size_ == 0 || std::memcmp(static_cast<const void*>(other.blocks_.data()), blocks_.data(),
-                                    blocks_.size() * sizeof(FaceBlock)) == 0);
+  if (faces.size() != size()) return false;
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    const FaceBlock packed = packBlock(faces, block);
+    if (std::memcmp(static_cast<const void*>(&packed), &blocks_[block], sizeof packed) != 0)
+      return false;
+  }
+  return true;
 }
 
 std::shared_ptr<const PackedFaces> sharedPackedFaces(const FaceTable& faces) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -8,30 +9,35 @@
 
 namespace ambient {
 
-/// The faces of a shape for loads in single precision: 40 bytes per face, in frame F. The units are
+/// The faces of a shape for loads in single precision: 47 bytes per face, in frame F. The units are
 /// powers of two, so that a shape of any size that is a power of two times another has the same
-/// bits.
+/// bits. Faces that are alike in normal and place share a block: where the flow is detached from
+/// all of it, it is left out.
 class PackedFaces {
  public:
+  /// Cost: O(F log F), 0.1 us per face.
   explicit PackedFaces(const FaceTable& faces);
 
-  /// Whether it was made of these very faces. Cost O(F), as much as making it.
+  /// Whether it was made of these very faces. Cost: O(F), some ns per face.
   bool isOf(const FaceTable& faces) const;
 
-  const std::vector<FaceBlock>& blocks() const { return blocks_; }
-  std::size_t size() const { return size_; }
+  FaceBlocks blocks() const { return {blocks_.data(), bounds_.data(), blocks_.size()}; }
+  std::size_t size() const { return order_.size(); }
   double lengthUnit() const { return length_unit_; }  ///< [m]
   double areaUnit() const { return area_unit_; }      ///< [m^2]
 
  private:
+  FaceBlock packBlock(const FaceTable& faces, std::size_t block) const;
+  void setBounds(std::size_t block);
+
+  std::vector<std::uint32_t> order_;  ///< of the faces in the blocks
   std::vector<FaceBlock> blocks_;
-  std::size_t size_ = 0;
+  std::vector<FaceBounds> bounds_;
   double length_unit_ = 1, area_unit_ = 1;
 };
 
 /// The packed faces of a table: made at the first call, and shared by all who ask for those of the
-/// same table while any of them lives. May be called from several threads. Cost O(F), some ns per
-/// face.
+/// same table while any of them lives. May be called from several threads. Cost as above.
 std::shared_ptr<const PackedFaces> sharedPackedFaces(const FaceTable& faces);
 
 }  // namespace ambient

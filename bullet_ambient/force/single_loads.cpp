@@ -28,8 +28,8 @@ Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
   static const SumBlocks sum_blocks = fastestSumBlocks();
   const double length = faces.lengthUnit();
   const ScaledMotion motion = scaledMotion(relative_twist.angular, relative_twist.linear, length);
-  const LoadSums sums = sum_blocks(faces.blocks().data(), faces.blocks().size(),
-                                   singleMotion(motion, settings, reference_length));
+  const LoadSums sums =
+      sum_blocks(faces.blocks(), singleMotion(motion, settings, reference_length));
   return scaledLoad(sums, settings.density, motion.unit.speed, faces.areaUnit(), length);
 }
 

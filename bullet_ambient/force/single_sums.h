@@ -24,16 +24,16 @@ struct LoadSums {
   double wrench[6];
 };
 
-/// The sums over `count` blocks. Face i is summed into lane i mod 16, over 16 blocks in single and
-/// over the rest in double precision. Which products are fused with their sums is written out, and
-/// computed alike where a processor cannot fuse: all instruction sets give the same bits.
-using SumBlocks = LoadSums (*)(const FaceBlock* blocks, std::size_t count,
-                               const SingleMotion&) noexcept;
+/// The sums over blocks, but for those whose bounds say that the flow is detached. Face i of a
+/// block is summed into lane i, over 16 blocks in single and over the rest in double precision.
+/// Which products are fused with their sums is written out, and computed alike where a processor
+/// cannot fuse: all instruction sets give the same bits.
+using SumBlocks = LoadSums (*)(const FaceBlocks&, const SingleMotion&) noexcept;
 
-LoadSums sumBlocksBaseline(const FaceBlock*, std::size_t, const SingleMotion&) noexcept;
+LoadSums sumBlocksBaseline(const FaceBlocks&, const SingleMotion&) noexcept;
 #if defined(__x86_64__)
-LoadSums sumBlocksAvx2(const FaceBlock*, std::size_t, const SingleMotion&) noexcept;
-LoadSums sumBlocksAvx512(const FaceBlock*, std::size_t, const SingleMotion&) noexcept;
+LoadSums sumBlocksAvx2(const FaceBlocks&, const SingleMotion&) noexcept;
+LoadSums sumBlocksAvx512(const FaceBlocks&, const SingleMotion&) noexcept;
 #endif
 
 /// The kernel for an instruction set; null if this processor does not have it.

@@ -2,9 +2,8 @@
 
 namespace ambient {
 
-LoadSums sumBlocksAvx2(const FaceBlock* blocks, std::size_t count,
-                       const SingleMotion& motion) noexcept {
-  return sumBlocks(blocks, count, motion);
+LoadSums sumBlocksAvx2(const FaceBlocks& faces, const SingleMotion& motion) noexcept {
+  return sumBlocks(faces, motion);
 }
 
 }  // namespace ambient

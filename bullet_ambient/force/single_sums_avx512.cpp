@@ -2,9 +2,8 @@
 
 namespace ambient {
 
-LoadSums sumBlocksAvx512(const FaceBlock* blocks, std::size_t count,
-                         const SingleMotion& motion) noexcept {
-  return sumBlocks(blocks, count, motion);
+LoadSums sumBlocksAvx512(const FaceBlocks& faces, const SingleMotion& motion) noexcept {
+  return sumBlocks(faces, motion);
 }
 
 }  // namespace ambient

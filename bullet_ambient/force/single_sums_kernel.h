@@ -8,8 +8,10 @@
 namespace ambient {
 namespace {
 
-constexpr std::size_t kRun = 16;  ///< blocks that are summed in single precision
+constexpr int kRun = 16;      ///< blocks that are summed in single precision
+constexpr int kChoice = 256;  ///< blocks that are chosen from at a time
 static_assert(FaceBlock::kFaces == kLanes, "a block has one face per lane");
+static_assert(FaceBounds::kBlocks == kLanes, "bounds are those of one block per lane");
 
 /// docs/theory.md eq. (13) without a root, as in face_sums_kernel.h.
 template <bool kRightAngle>
@@ -23,15 +25,15 @@ inline Floats strengthWhereAttached(Floats normal_speed, Floats strength, Floats
   return excess > zero ? strength : zero;
 }
 
-/// kWidth lanes of a run; docs/theory.md eq. (12) to (17).
+/// kWidth lanes of a run of chosen blocks; docs/theory.md eq. (12) to (17).
 template <bool kRightAngle, bool kFriction>
-void sumRun(const FaceBlock* blocks, int count, const SingleMotion& motion, int lane,
-            WrenchLanes& sums) {
+void sumRun(const FaceBlock* blocks, const int* chosen, int count, const SingleMotion& motion,
+            int lane, WrenchLanes& sums) {
   const Vectors w = broadcast(motion.angular);
   const Vectors v = broadcast(motion.linear);
   Vectors torque = {}, force = {};
   for (int k = 0; k < count; ++k) {
-    const FaceBlock& block = blocks[k];
+    const FaceBlock& block = blocks[chosen[k]];
     const Vectors n = load(block.normal, lane);
     const Vectors c = load(block.centroid, lane);
     const Vectors u = plusCross(v, w, c);
@@ -53,26 +55,86 @@ void sumRun(const FaceBlock* blocks, int count, const SingleMotion& motion, int 
   sums.set(torque, force, lane);
 }
 
+/// For each block of some bounds: -1 if a face of it may move into the fluid, else 0.
+inline void markAttached(const FaceBounds& bounds, const SingleMotion& motion,
+                         std::int32_t (&marks)[kLanes]) {
+  const float* const x[2] = {motion.angular, motion.linear};
+  for (int lane = 0; lane < kLanes; lane += kWidth) {
+    Floats middle = {}, reach = {};
+    for (int row = 0; row < 6; ++row) {
+      const Floats speed = Floats{} + x[row / 3][row % 3];
+      middle = plusProduct(middle, load(bounds.middle[row] + lane), speed);
+      reach = plusProduct(reach, load(bounds.reach[row] + lane), speed > 0.0f ? speed : -speed);
+    }
+    const Ints mark = middle + reach > 0.0f;
+    __builtin_memcpy(marks + lane, &mark, sizeof mark);
+  }
+}
+
+/// Those of `size` blocks that the flow may be attached to. Returns how many.
+inline int chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion& motion,
+                        int (&chosen)[kChoice]) {
+  int count = 0;
+  for (int first = 0; first < size; first += kLanes) {
+    std::int32_t marks[kLanes];
+    markAttached(bounds[first / kLanes], motion, marks);
+    const int end = size - first < kLanes ? size - first : kLanes;
+    for (int i = 0; i < end; ++i) {
+      chosen[count] = first + i;
+      count -= marks[i];
+    }
+  }
+  return count;
+}
+
 template <bool kRightAngle, bool kFriction>
-LoadSums sumBlocks(const FaceBlock* blocks, std::size_t count, const SingleMotion& motion) {
+void sumChosen(const FaceBlock* blocks, const int* chosen, int count, const SingleMotion& motion,
+               WrenchTotal& total) {
   WrenchLanes run;
+  for (int lane = 0; lane < kLanes; lane += kWidth)
+    sumRun<kRightAngle, kFriction>(blocks, chosen, count, motion, lane, run);
+  total.add(run);
+}
+
+inline int atMost(std::size_t count, int limit) {
+  return count < static_cast<std::size_t>(limit) ? static_cast<int>(count) : limit;
+}
+
+/// Chosen blocks. Beyond a right angle the flow is attached to nearly all.
+template <bool kFriction>
+LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   WrenchTotal total;
-  for (std::size_t begin = 0; begin < count; begin += kRun) {
-    const int size = static_cast<int>(count - begin < kRun ? count - begin : kRun);
-    for (int lane = 0; lane < kLanes; lane += kWidth)
-      sumRun<kRightAngle, kFriction>(blocks + begin, size, motion, lane, run);
-    total.add(run);
+  int chosen[kChoice];
+  for (std::size_t begin = 0; begin < faces.count; begin += kChoice) {
+    const int count = chooseBlocks(faces.bounds + begin / kLanes,
+                                   atMost(faces.count - begin, kChoice), motion, chosen);
+    for (int first = 0; first < count; first += kRun)
+      sumChosen<true, kFriction>(faces.blocks + begin, chosen + first,
+                                 count - first < kRun ? count - first : kRun, motion, total);
   }
   return total.sum();
 }
 
-LoadSums sumBlocks(const FaceBlock* blocks, std::size_t count, const SingleMotion& motion) {
-  const bool friction = motion.friction > 0;
-  if (motion.signed_cosine_sq == 0)
-    return friction ? sumBlocks<true, true>(blocks, count, motion)
-                    : sumBlocks<true, false>(blocks, count, motion);
-  return friction ? sumBlocks<false, true>(blocks, count, motion)
-                  : sumBlocks<false, false>(blocks, count, motion);
+template <bool kRightAngle, bool kFriction>
+LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
+  static constexpr int kAll[kRun] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  WrenchTotal total;
+  for (std::size_t begin = 0; begin < faces.count; begin += kRun)
+    sumChosen<kRightAngle, kFriction>(faces.blocks + begin, kAll, atMost(faces.count - begin, kRun),
+                                      motion, total);
+  return total.sum();
+}
+
+template <bool kFriction>
+LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
+  constexpr std::size_t kFewest = 12;  // to choose from: below, that costs more than it saves
+  if (motion.signed_cosine_sq != 0) return sumAll<false, kFriction>(faces, motion);
+  return faces.count < kFewest ? sumAll<true, kFriction>(faces, motion)
+                               : sumWhereAttached<kFriction>(faces, motion);
+}
+
+LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
+  return motion.friction > 0 ? sumBlocks<true>(faces, motion) : sumBlocks<false>(faces, motion);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ void sumBlocksKernel(benchmark::State& state, InstructionSet set, bool friction,
                       friction ? 0.003f : 0.0f};
   for (auto _ : state) {
     benchmark::DoNotOptimize(motion);
-    benchmark::DoNotOptimize(sum_blocks(faces.blocks().data(), faces.blocks().size(), motion));
+    benchmark::DoNotOptimize(sum_blocks(faces.blocks(), motion));
   }
   reportPerFace(state, faces.size());
 }
