@@ -3,6 +3,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <optional>
 
 #include "bullet_ambient/motion/rotation.h"
 
@@ -57,6 +58,54 @@ bool fitsBullet(const RigidState& state, const Twist& twist_W) {
          twist_W.angular.norm() < kLargest;
 }
 
+// Where a flight begins.
+struct Departure {
+  RigidState state;
+  Twist twist_W;  // as Bullet has it
+  Surroundings surroundings;
+  bool was_moved;
+};
+
+Departure departureOf(const AmbientBody& ambient) {
+  Departure departure{readState(*ambient.body), bulletTwist(*ambient.body),
+                      readSurroundings(ambient), false};
+  departure.was_moved = wasMovedByOthers(ambient, departure.state, departure.twist_W);
+  return departure;
+}
+
+void count(AmbientBody& ambient, const FlightCount& count) {
+  ambient.counters.substeps += count.substeps;
+  countLoads(ambient, count.load_evaluations);
+  ambient.counters.guarded += count.guarded;
+  ambient.counters.coarse += count.coarse;
+  // Who sets a bound of substeps has chosen what is too long.
+  ambient.was_coarse = count.coarse && ambient.def.flight.max_substeps == 0;
+}
+
+// Keeps the end of a flight. Returns the velocity change of eq. (29).
+Twist arrive(AmbientBody& ambient, const Departure& departure, const FlightResult& flight,
+             double time_step) {
+  count(ambient, flight.count);
+  const RigidState& start = departure.state;
+  const Twist& before = departure.twist_W;
+  ambient.end_W = worldTwist(flight.state);
+  if (!fitsBullet(flight.state, ambient.end_W)) {
+    ++ambient.counters.rejected;
+    ambient.memory = {};
+    ambient.has_flown = false;
+    return {};
+  }
+  ambient.memory = flight.memory;
+  ambient.end = flight.state;
+  ambient.has_flown = true;
+  const Quaternion turn = (flight.state.orientation * start.orientation.conjugate()).normalized();
+  ambient.effective_W = {rotationVector(turn) / time_step,
+                         (flight.state.position - start.position) / time_step};
+  ambient.length_scale = flight.state.position.norm() + ambient.model.reference_length +
+                         time_step * before.linear.norm();
+  return {ambient.effective_W.angular - before.angular, ambient.effective_W.linear - before.linear};
+}
+
 }  // namespace
 
 bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
@@ -93,35 +142,22 @@ bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
   return true;
 }
 
-Twist beginFlight(AmbientBody& ambient, double time_step) noexcept {
-  const RigidState start = readState(*ambient.body);
-  const Surroundings surroundings = readSurroundings(ambient);
-  const Twist before = bulletTwist(*ambient.body);
-  if (wasMovedByOthers(ambient, start, before)) ambient.memory.has_load = false;
-  const FlightResult flight =
-      fly({ambient.model, surroundings, ambient.def.flight, time_step}, start, ambient.memory);
-  ambient.counters.substeps += flight.count.substeps;
-  countLoads(ambient, flight.count.load_evaluations);
-  ambient.counters.guarded += flight.count.guarded;
-  ambient.counters.coarse += flight.count.coarse;
-  // Who sets a bound of substeps has chosen what is too long.
-  ambient.was_coarse = flight.count.coarse && ambient.def.flight.max_substeps == 0;
-  ambient.end_W = worldTwist(flight.state);
-  if (!fitsBullet(flight.state, ambient.end_W)) {
-    ++ambient.counters.rejected;
-    ambient.memory = {};
-    ambient.has_flown = false;
-    return {};
+void beginFlights(AmbientBody* const* bodies, int count, double time_step,
+                  Twist* changes_W) noexcept {
+  Departure departures[kFlightsTogether];
+  std::optional<Flight> flights[kFlightsTogether];
+  Flight* all[kFlightsTogether] = {};
+  for (int i = 0; i < count; ++i) {
+    AmbientBody& ambient = *bodies[i];
+    Departure& departure = departures[i];
+    departure = departureOf(ambient);
+    if (departure.was_moved) ambient.memory.has_load = false;
+    const FlightTask task{ambient.model, departure.surroundings, ambient.def.flight, time_step};
+    all[i] = &flights[i].emplace(Flight{task, {departure.state, ambient.memory, {}}});
   }
-  ambient.memory = flight.memory;
-  ambient.end = flight.state;
-  ambient.has_flown = true;
-  const Quaternion turn = (flight.state.orientation * start.orientation.conjugate()).normalized();
-  ambient.effective_W = {rotationVector(turn) / time_step,
-                         (flight.state.position - start.position) / time_step};
-  ambient.length_scale = flight.state.position.norm() + ambient.model.reference_length +
-                         time_step * before.linear.norm();
-  return {ambient.effective_W.angular - before.angular, ambient.effective_W.linear - before.linear};
+  flyTogether(all, count);
+  for (int i = 0; i < count; ++i)
+    changes_W[i] = arrive(*bodies[i], departures[i], all[i]->body, time_step);
 }
 
 void endFlight(AmbientBody& ambient, double time_step) noexcept {

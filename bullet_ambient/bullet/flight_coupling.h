@@ -14,10 +14,11 @@ bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
 /// it; returns whether it did.
 bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
 
-/// Flies the body over `time_step` [s] and keeps where it ends. Returns the velocity change in
-/// world axes that makes Bullet's integrateTransform reach that pose, docs/theory.md eq. (29). If
-/// the flight is not finite, has_flown is false and nothing is kept.
-Twist beginFlight(AmbientBody& ambient, double time_step) noexcept;
+/// Flies up to kFlightsTogether bodies over `time_step` [s] and keeps where they end. Writes the
+/// velocity changes in world axes that make Bullet's integrateTransform reach those poses,
+/// docs/theory.md eq. (29). If a flight is not finite, its has_flown is false and nothing is kept.
+void beginFlights(AmbientBody* const* bodies, int count, double time_step,
+                  Twist* changes_W) noexcept;
 
 /// After Bullet has moved the body: gives it the velocity of the end of its flight, and the pose
 /// itself where Bullet limits the rotation per step.

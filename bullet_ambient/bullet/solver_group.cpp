@@ -1,5 +1,7 @@
 #include "bullet_ambient/bullet/solver_group.h"
 
+#include <algorithm>
+
 #include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/row_velocity.h"
@@ -251,19 +253,24 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
   members_.clear();
 }
 
-// Flights touch nothing but their own body, so that any thread may compute them.
+// Flights touch nothing but their own body, so that any thread may compute them. Side by side they
+// are quicker, but few bodies are better spread over the threads.
 void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
-  const auto fly = [&](int i) {
-    const Member& flier = *fliers_[static_cast<std::size_t>(i)];
-    const Twist change_W = beginFlight(*flier.ambient, time_step_);
-    setExternalImpulse(solver_bodies[flier.solver_body], change_W);
+  constexpr int kLeastGroups = 8;
+  const int count = static_cast<int>(fliers_.size());
+  TaskRunner* runner = registry_->taskRunner();
+  const int together =
+      runner ? std::clamp(count / kLeastGroups, 1, kFlightsTogether) : kFlightsTogether;
+  const auto fly = [&](int group) {
+    const int first = group * together;
+    flyTogether(first, std::min(together, count - first), solver_bodies);
   };
   const FlightTasks flights(fly);
-  const int count = static_cast<int>(fliers_.size());
-  if (TaskRunner* runner = registry_->taskRunner()) {
-    runner->runAll(flights, count);
+  const int groups = (count + together - 1) / together;
+  if (runner) {
+    runner->runAll(flights, groups);
   } else {
-    for (int i = 0; i < count; ++i) flights.run(i);
+    for (int i = 0; i < groups; ++i) flights.run(i);
   }
   for (const Member* flier : fliers_) {
     const AmbientBody& ambient = *flier->ambient;
@@ -271,6 +278,16 @@ void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
     if (ambient.was_coarse) registry_->complain(AmbientRegistry::Complaint::kCoarse);
   }
   fliers_.clear();
+}
+
+void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept {
+  AmbientBody* bodies[kFlightsTogether] = {};
+  Twist changes_W[kFlightsTogether];
+  const Member* const* fliers = fliers_.data() + first;
+  for (int i = 0; i < count; ++i) bodies[i] = fliers[i]->ambient;
+  beginFlights(bodies, count, time_step_, changes_W);
+  for (int i = 0; i < count; ++i)
+    setExternalImpulse(solver_bodies[fliers[i]->solver_body], changes_W[i]);
 }
 
 SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {

@@ -77,6 +77,7 @@ class SolverGroup {
   void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
   void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
   void flyFreely(SolverBodies& solver_bodies) noexcept;
+  void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
   Member* memberOf(int solver_body) noexcept;
 
   AmbientRegistry* registry_ = nullptr;

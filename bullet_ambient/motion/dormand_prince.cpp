@@ -143,11 +143,13 @@ FlightResult flyDormandPrince(const FlightTask& task, const RigidState& start,
   }
   flight.state = pair.state();
   if (left > 0) {
-    const FlightCount spent = count;
-    flight = flyLeapfrog({task.model, task.surroundings, task.settings, left}, flight.state, {});
-    flight.count.substeps += spent.substeps;
-    flight.count.load_evaluations += spent.load_evaluations;
-    flight.count.guarded += spent.guarded;
+    Flight rest{{task.model, task.surroundings, task.settings, left}, {flight.state, {}, {}}};
+    Flight* const rests[] = {&rest};
+    flyLeapfrog(rests, 1);
+    flight.state = rest.body.state;
+    flight.count.substeps += rest.body.count.substeps;
+    flight.count.load_evaluations += rest.body.count.load_evaluations;
+    flight.count.guarded += rest.body.count.guarded;
     flight.count.coarse = true;
   }
   flight.memory = {};

@@ -49,7 +49,7 @@ struct FlightCount {
 };
 
 struct FlightResult {
-  RigidState state;  ///< at the end; twist absolute, in B
+  RigidState state;  ///< twist absolute, in B
   FlightMemory memory;
   FlightCount count;
 };
@@ -76,5 +76,18 @@ double fallScale(const FlightTask& task);
 /// result is not finite if the input or a load is not: check before use.
 FlightResult fly(const FlightTask& task, const RigidState& start,
                  const FlightMemory& memory) noexcept;
+
+/// A task and where the body is: at the start before flyTogether(), at the end after it.
+struct Flight {
+  FlightTask task;
+  FlightResult body;
+};
+
+/// As many bodies as flyTogether() moves side by side.
+constexpr int kFlightsTogether = 8;
+
+/// fly() for each of several bodies, with the same bits. Up to kFlightsTogether of them that the
+/// passive leapfrog moves take little more time than one, besides their loads.
+void flyTogether(Flight* const* flights, int count) noexcept;
 
 }  // namespace ambient

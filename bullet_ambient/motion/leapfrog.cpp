@@ -3,106 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/motion/kirchhoff_flow.h"
-#include "bullet_ambient/motion/passive_kick.h"
 
 namespace ambient {
 namespace {
+
+static_assert(kFlightsTogether == kFlightLanes);
 
 constexpr int kMaxRetries = 2;
 constexpr double kSafety = 0.9;
 constexpr double kFlowPrecision = 1e-6;  // of the tolerance: the flow adds nothing to the error
 constexpr double kAcceptance =
     2;  // a step is repeated when its error exceeds the tolerance by this factor
-
-Wrench toWorld(const Matrix3& R, const Wrench& f) { return {R * f.torque, R * f.force}; }
-Wrench toBody(const Matrix3& R, const Wrench& f) {
-  return {R.transpose() * f.torque, R.transpose() * f.force};
-}
-
-// One body on its way through the substeps of a step.
-struct Way {
-  MomentumState state;
-  FlightMemory memory;
-  FlightCount count;
-};
-
-// The part of one substep between its half flows: gravity and surface loads.
-class Kick {
- public:
-  Kick(const FlightTask& task, double duration)
-      : task_(task), model_(task.model), h_(duration), fall_scale_(fallScale(task)) {}
-
-  // Returns the error estimate of eq. (25).
-  double act(Way& way) const {
-    const Matrix3 R = way.state.orientation.toRotationMatrix();
-    const Wrench external = externalWrench(model_, task_.surroundings, R);
-    const DualPair fall = h_ / 2 * pairOfMomentum(model_, external.vector());
-    DualPair& x = way.state.motion;
-    x += fall;
-    const double error = model_.has_surface_loads ? actByLoads(way, R) : 0;
-    x += fall;
-    ++way.count.substeps;
-    return error;
-  }
-
- private:
-  // Surface loads over the whole substep, predicted by those of the last one.
-  double actByLoads(Way& way, const Matrix3& R) const {
-    DualPair& x = way.state.motion;
-    const Wrench guess =
-        way.memory.has_load ? toBody(R, way.memory.load_W) : evaluate(way, x.twist);
-    const LoadSample before{x, pairOfMomentum(model_, guess.vector())};
-    const DualPair mid = passiveKick(x, before, h_ / 2);
-    const Wrench load = evaluate(way, mid.twist);
-    way.memory.load_W = toWorld(R, load);
-    way.memory.has_load = true;
-    const LoadSample sample{mid, pairOfMomentum(model_, load.vector())};
-    const double error = relativeError(x, sample.load - before.load);
-    x = passiveKick(x, sample, h_);
-    return error;
-  }
-
-  Wrench evaluate(Way& way, const Vector6& x) const {
-    const SurfaceLoad load = computeSurfaceLoad(model_, Twist::fromVector(x));
-    ++way.count.load_evaluations;
-    way.count.guarded += load.guarded;
-    return load.wrench;
-  }
-
-  // The floor keeps a body at the turning point of its swing from asking for ever smaller substeps:
-  // speeds far below sqrt(g L) move it by little of its own size while gravity turns them over.
-  double relativeError(const DualPair& x, const DualPair& load_change) const {
-    const double change = h_ * std::sqrt(inner(load_change, load_change));
-    const double scale = std::sqrt(inner(x, x)) + fall_scale_;
-    return scale > 0 ? change / scale : 0;
-  }
-
-  const FlightTask& task_;
-  const BodyModel& model_;
-  double h_;
-  double fall_scale_;
-};
-
-// All substeps of length h; returns the largest error. The half flows between two kicks are one
-// flow: it is exact.
-double advance(const FlightTask& task, double h, int substeps, Way& way) {
-  const Kick kick(task, h);
-  const double precision =
-      task.model.has_surface_loads ? kFlowPrecision * task.settings.tolerance : kToRounding;
-  const auto flow = [&](double duration) {
-    const Flow end = flowWithoutLoads(task.model, way.state, duration, precision);
-    way.state = end.state;
-    way.count.coarse = way.count.coarse || !end.is_precise;
-  };
-  double error = 0;
-  flow(h / 2);
-  for (int i = 1; i <= substeps; ++i) {
-    error = std::max(error, kick.act(way));
-    flow(i < substeps ? h : h / 2);
-  }
-  return error;
-}
 
 int maxSubsteps(const FlightTask& task) {
   if (task.settings.max_substeps > 0) return task.settings.max_substeps;
@@ -115,29 +28,142 @@ int substepsFor(double duration, double substep, int most) {
   return wanted < most ? std::max(1, static_cast<int>(wanted)) : most;
 }
 
+// One body on its way through a step.
+struct Way {
+  Flight* flight;
+  int most;       // substeps
+  int substeps;   // of this attempt
+  bool is_done;   // an attempt was accepted
+  bool has_load;  // load_W is there to guess the next one from
+  double error;   // largest of this attempt
+};
+
+// Several bodies over one step, side by side.
+class Leapfrog {
+ public:
+  Leapfrog(Flight* const* flights, int count) : kernel_(fastestFlightKernel()), count_(count) {
+    lanes_.has_diagonal_inertia = true;
+    for (int i = 0; i < count; ++i) begin(i, *flights[i]);
+  }
+
+  void fly() {
+    for (int attempt = 0; attempt <= kMaxRetries; ++attempt) {
+      int substeps = 0;
+      for (int i = 0; i < count_; ++i) {
+        if (ways_[i].is_done) continue;
+        restart(i);
+        substeps = std::max(substeps, ways_[i].substeps);
+      }
+      if (substeps == 0) return;
+      advance(substeps);
+      for (int i = 0; i < count_; ++i)
+        if (!ways_[i].is_done) judge(i, attempt);
+    }
+  }
+
+ private:
+  void begin(int i, Flight& flight) {
+    const FlightTask& task = flight.task;
+    const BodyModel& model = task.model;
+    setModel(lanes_, i, model);
+    setSurroundings(lanes_, i, task);
+    lanes_.has_diagonal_inertia = lanes_.has_diagonal_inertia && model.has_diagonal_inertia;
+    lanes_.has_loads = lanes_.has_loads || model.has_surface_loads;
+    lanes_.precision[i] =
+        model.has_surface_loads ? kFlowPrecision * task.settings.tolerance : kToRounding;
+    const int most = maxSubsteps(task);
+    ways_[i] = {&flight, most,  substepsFor(task.duration, flight.body.memory.substep, most),
+                false,   false, 0};
+    flight.body.count = {};
+  }
+
+  void restart(int i) {
+    Way& way = ways_[i];
+    const FlightMemory& memory = way.flight->body.memory;
+    setState(lanes_, i, way.flight->task.model, way.flight->body.state);
+    set(lanes_.load_W, i, memory.load_W);
+    way.has_load = memory.has_load;
+    way.error = 0;
+    lanes_.kick_time[i] = way.flight->task.duration / way.substeps;
+    lanes_.is_coarse[i] = 0;
+  }
+
+  // All substeps. The half flows between two kicks are one flow: it is exact.
+  void advance(int substeps) {
+    for (int i = 0; i < count_; ++i) {
+      lanes_.active[i] = ways_[i].is_done ? 0 : 1;
+      lanes_.flow_time[i] = lanes_.kick_time[i] / 2;
+    }
+    kernel_.flow(lanes_);
+    for (int substep = 1; substep <= substeps; ++substep) {
+      kick();
+      for (int i = 0; i < count_; ++i)
+        lanes_.flow_time[i] = lanes_.kick_time[i] / (substep < ways_[i].substeps ? 1 : 2);
+      kernel_.flow(lanes_);
+      for (int i = 0; i < count_; ++i)
+        if (substep == ways_[i].substeps) lanes_.active[i] = 0;
+    }
+  }
+
+  // Gravity and surface loads over the whole substep; those of the last one predict the motion in
+  // its middle.
+  void kick() {
+    kernel_.fall(lanes_);
+    if (lanes_.has_loads) {
+      evaluate(lanes_.twist_B, lanes_.guess_B, [](const Way& way) { return !way.has_load; });
+      kernel_.sample(lanes_);
+      evaluate(lanes_.sample_twist, lanes_.load_B, [](const Way&) { return true; });
+    }
+    kernel_.kick(lanes_);
+    for (int i = 0; i < count_; ++i) {
+      if (!(lanes_.active[i] > 0)) continue;
+      Way& way = ways_[i];
+      ++way.flight->body.count.substeps;
+      way.error = std::max(way.error, lanes_.error[i]);
+      way.has_load = way.flight->task.model.has_surface_loads;
+    }
+  }
+
+  template <class Condition>
+  void evaluate(const FlightLane* twists, FlightLane* loads, const Condition& wants) {
+    for (int i = 0; i < count_; ++i) {
+      const BodyModel& model = ways_[i].flight->task.model;
+      if (!(lanes_.active[i] > 0) || !model.has_surface_loads || !wants(ways_[i])) continue;
+      const SurfaceLoad load = computeSurfaceLoad(model, twistOf(twists, i));
+      set(loads, i, load.wrench);
+      FlightCount& count = ways_[i].flight->body.count;
+      ++count.load_evaluations;
+      count.guarded += load.guarded;
+    }
+  }
+
+  // Accepts the attempt, or asks for one with more substeps.
+  void judge(int i, int attempt) {
+    Way& way = ways_[i];
+    const FlightTask& task = way.flight->task;
+    const double h = lanes_.kick_time[i];
+    const double ratio = way.error / task.settings.tolerance;
+    const double next = ratio > 0 ? kSafety * h / std::sqrt(ratio) : 4 * h;
+    if (!(ratio > kAcceptance) || attempt == kMaxRetries || way.substeps == way.most) {
+      FlightResult& result = way.flight->body;
+      result.state = stateOf(lanes_, i);
+      result.memory = {wrenchOf(lanes_.load_W, i), way.has_load, std::min(next, 4 * h)};
+      result.count.coarse =
+          lanes_.is_coarse[i] > 0 || (ratio > kAcceptance && way.substeps == way.most);
+      way.is_done = true;
+      return;
+    }
+    way.substeps = std::max(way.substeps + 1, substepsFor(task.duration, next, way.most));
+  }
+
+  const FlightKernel& kernel_;
+  int count_;
+  FlightLanes lanes_{};
+  Way ways_[kFlightLanes];
+};
+
 }  // namespace
 
-FlightResult flyLeapfrog(const FlightTask& task, const RigidState& start,
-                         const FlightMemory& memory) noexcept {
-  const int most = maxSubsteps(task);
-  const MomentumState begin = MomentumState::of(task.model, start);
-  int substeps = substepsFor(task.duration, memory.substep, most);
-  FlightCount spent;
-  for (int attempt = 0;; ++attempt) {
-    Way way{begin, memory, {}};
-    const double h = task.duration / substeps;
-    const double ratio = advance(task, h, substeps, way) / task.settings.tolerance;
-    const double next = ratio > 0 ? kSafety * h / std::sqrt(ratio) : 4 * h;
-    way.memory.substep = std::min(next, 4 * h);
-    spent.substeps += way.count.substeps;
-    spent.load_evaluations += way.count.load_evaluations;
-    spent.guarded += way.count.guarded;
-    if (!(ratio > kAcceptance) || attempt == kMaxRetries || substeps == most) {
-      spent.coarse = way.count.coarse || (ratio > kAcceptance && substeps == most);
-      return {way.state.rigidState(), way.memory, spent};
-    }
-    substeps = std::max(substeps + 1, substepsFor(task.duration, next, most));
-  }
-}
+void flyLeapfrog(Flight* const* flights, int count) noexcept { Leapfrog(flights, count).fly(); }
 
 }  // namespace ambient

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <memory>
@@ -47,15 +48,26 @@ Cost compare(const Step& stock, const Step& ambient, int turns, int steps_per_tu
           fastest * 1e6};
 }
 
+// Turns, and which scenes: those whose name contains the text.
+struct Plan {
+  std::string filter;
+  int turns = 60;
+
+  bool has(const std::string& scene) const { return scene.find(filter) != std::string::npos; }
+};
+
 void print(const std::string& scene, const Cost& cost) {
-  std::printf("%-44s %6.2f  (%.2f to %.2f)  stock %9.1f us\n", scene.c_str(), cost.ratio, cost.low,
+  std::printf("%-56s %6.2f  (%.2f to %.2f)  stock %9.1f us\n", scene.c_str(), cost.ratio, cost.low,
               cost.high, cost.stock_micros);
   std::fflush(stdout);
 }
 
 constexpr double kStep = 1.0 / 240;
 
-void comparePiles(double part, int turns) {
+void comparePiles(double part, const Plan& plan) {
+  const std::string scene =
+      "pile of 512, " + std::to_string(static_cast<int>(100 * part)) + " % in fluid";
+  if (!plan.has(scene)) return;
   btSequentialImpulseConstraintSolver stock_solver;
   Pile stock(stock_solver, nullptr, 0, {});
   AmbientRegistry registry;
@@ -65,8 +77,7 @@ void comparePiles(double part, int turns) {
     pile->keepAwake();
     for (int i = 0; i < 480; ++i) pile->step(kStep);
   }
-  print("pile of 512, " + std::to_string(static_cast<int>(100 * part)) + " % in fluid",
-        compare([&] { stock.step(kStep); }, [&] { ambient.step(kStep); }, turns, 4));
+  print(scene, compare([&] { stock.step(kStep); }, [&] { ambient.step(kStep); }, plan.turns, 4));
 }
 
 // Bodies that meet nothing.
@@ -111,16 +122,17 @@ class Flock {
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
-void compareFlocks(const std::string& name, const FluidBody& shape, int turns,
+void compareFlocks(const std::string& name, const FluidBody& shape, const Plan& plan,
                    const FlowSettings& flow = {}) {
+  const std::string scene = "100 bodies in flight, " + name;
+  if (!plan.has(scene)) return;
   constexpr int kCount = 100;
   btSequentialImpulseConstraintSolver stock_solver;
   Flock stock(stock_solver, nullptr, shape, flow, kCount);
   AmbientRegistry registry;
   AmbientSolver<> ambient_solver(registry);
   Flock ambient(ambient_solver, &registry, shape, flow, kCount);
-  print("100 bodies in flight, " + name,
-        compare([&] { stock.step(); }, [&] { ambient.step(); }, turns, 20));
+  print(scene, compare([&] { stock.step(); }, [&] { ambient.step(); }, plan.turns, 20));
 }
 
 // Triangles between meridians and circles of latitude: 2 meridians (bands - 1) faces.
@@ -152,12 +164,12 @@ FluidBody latticeEllipsoid(const Vector3& semi_axes, int meridians, int bands) {
   return shape;
 }
 
-void compareReduced(FluidBody shape, int turns) {
+void compareReduced(FluidBody shape, const Plan& plan) {
   const std::string faces = std::to_string(shape.faces.size()) + " faces";
   FlowSettings flow;
-  compareFlocks(faces + ", default", shape, turns, flow);
+  compareFlocks(faces + ", default", shape, plan, flow);
   flow.precision = LoadPrecision::kDouble;
-  compareFlocks(faces + ", double precision", shape, turns, flow);
+  compareFlocks(faces + ", double precision", shape, plan, flow);
   flow.precision = LoadPrecision::kSingle;
   shape.levels = buildLoadLevels(shape, {48, 96, 144, 200, 400});
   for (const double error : {0.01, 0.02, 0.03}) {
@@ -169,24 +181,33 @@ void compareReduced(FluidBody shape, int turns) {
         clusters = level.clusters;
     const std::string used = clusters ? std::to_string(clusters) + " clusters" : "all faces";
     compareFlocks(faces + ", " + std::to_string(static_cast<int>(100 * error)) + " %: " + used,
-                  shape, turns, flow);
+                  shape, plan, flow);
   }
 }
 
-void run() {
+void run(const Plan& plan) {
   std::printf("Bullet in %s; ratio to stock: median (quartiles)\n",
               sizeof(btScalar) == 8 ? "float64" : "float32");
-  for (const double part : {0.0, 0.1, 1.0}) comparePiles(part, 60);
+  for (const double part : {0.0, 0.1, 1.0}) comparePiles(part, plan);
   const Vector3 semi_axes(0.3, 0.2, 0.1);
-  compareFlocks("no faces", facelessEllipsoid(semi_axes), 60);
+  compareFlocks("no faces", facelessEllipsoid(semi_axes), plan);
   for (const int level : {2, 3})
     compareFlocks(std::to_string(20 << (2 * level)) + " faces", meshedEllipsoid(semi_axes, level),
-                  60);
-  compareReduced(latticeEllipsoid(semi_axes, 25, 11), 60);
-  compareReduced(meshedEllipsoid(semi_axes, 4), 60);
+                  plan);
+  compareReduced(latticeEllipsoid(semi_axes, 25, 11), plan);
+  compareReduced(meshedEllipsoid(semi_axes, 4), plan);
 }
 
 }  // namespace
 }  // namespace ambient::test
 
-int main() { ambient::test::run(); }
+int main(int argc, char** argv) {
+  if (argc > 3) {
+    std::fprintf(stderr, "usage: %s [PART OF THE NAMES OF SCENES [TURNS]]\n", argv[0]);
+    return 2;
+  }
+  ambient::test::Plan plan;
+  if (argc > 1) plan.filter = argv[1];
+  if (argc > 2) plan.turns = std::max(1, std::atoi(argv[2]));
+  ambient::test::run(plan);
+}

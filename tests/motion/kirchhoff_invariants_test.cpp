@@ -13,7 +13,6 @@ namespace {
 using test::Arbitrary;
 using test::flowWithoutLoads;
 using test::FreeBody;
-using test::RigidFlow;
 
 constexpr int kBodies = 12;
 constexpr double kDuration = 2;  // [s]
@@ -172,9 +171,9 @@ TEST(FlowWithoutLoads, IsPreciseForHundredsOfRadiansAndTellsWhenItIsNot) {
   FreeBody body = bodyWithCoupledInertia(3);
   body.state.twist = {{100, 20, -30}, {1, 2, 3}};
   const double energy = body.kineticEnergy();
-  const RigidFlow far = flowWithoutLoads(body, 1);
+  const Flow far = flowWithoutLoads(body, 1);
   EXPECT_TRUE(far.is_precise);
-  const RigidFlow too_far = flowWithoutLoads(body, 30);
+  const Flow too_far = flowWithoutLoads(body, 30);
   EXPECT_FALSE(too_far.is_precise);
   body.state = far.state;
   EXPECT_NEAR(body.kineticEnergy(), energy, 1e-11 * energy);

@@ -79,15 +79,9 @@ inline FluidBody shapeWithoutFaces(const Matrix6& added_mass, double volume = 1)
 }
 
 /// The flow without loads of a body for `duration` [s].
-struct RigidFlow {
-  RigidState state;
-  bool is_precise;
-};
-inline RigidFlow flowWithoutLoads(const FreeBody& body, double duration,
-                                  double precision = kToRounding) {
-  const MomentumState start = MomentumState::of(body.model(), body.state);
-  const Flow flow = ambient::flowWithoutLoads(body.model(), start, duration, precision);
-  return {flow.state.rigidState(), flow.is_precise};
+inline Flow flowWithoutLoads(const FreeBody& body, double duration,
+                             double precision = kToRounding) {
+  return ambient::flowWithoutLoads(body.model(), body.state, duration, precision);
 }
 
 /// Angle between two orientations [rad].

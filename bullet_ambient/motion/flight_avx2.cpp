@@ -1,0 +1,7 @@
+#include "bullet_ambient/motion/flight_kernel.h"
+
+namespace ambient {
+
+const FlightKernel& avx2FlightKernel() noexcept { return kKernel; }
+
+}  // namespace ambient

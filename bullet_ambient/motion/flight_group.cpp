@@ -1,0 +1,71 @@
+#include "bullet_ambient/motion/flight_group.h"
+
+namespace ambient {
+namespace {
+
+void setSymmetric(FlightLane (&to)[kSymmetricEntries], int body, const Matrix6& m,
+                  bool is_diagonal) noexcept {
+  for (int row = 0; row < 6; ++row) {
+    to[symmetricEntry(row, row)][body] = m(row, row);
+    if (is_diagonal) continue;
+    for (int column = row + 1; column < 6; ++column)
+      to[symmetricEntry(row, column)][body] = m(row, column);
+  }
+}
+
+}  // namespace
+
+const FlightKernel* flightKernelFor(InstructionSet instruction_set) noexcept {
+#if defined(__x86_64__)
+  const bool is_here = sumFacesFor(instruction_set) != nullptr;
+  if (instruction_set == InstructionSet::kAvx512) return is_here ? &avx512FlightKernel() : nullptr;
+  if (instruction_set == InstructionSet::kAvx2) return is_here ? &avx2FlightKernel() : nullptr;
+#endif
+  return instruction_set == InstructionSet::kBaseline ? &baselineFlightKernel() : nullptr;
+}
+
+const FlightKernel& fastestFlightKernel() noexcept {
+  static const FlightKernel& fastest = [&]() -> const FlightKernel& {
+    for (const InstructionSet set : {InstructionSet::kAvx512, InstructionSet::kAvx2})
+      if (const FlightKernel* kernel = flightKernelFor(set)) return *kernel;
+    return baselineFlightKernel();
+  }();
+  return fastest;
+}
+
+void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept {
+  setSymmetric(lanes.inertia, body, model.inertia, model.has_diagonal_inertia);
+  setSymmetric(lanes.inverse_inertia, body, model.inverse_inertia, model.has_diagonal_inertia);
+  set(lanes.centre_of_volume_B, body, model.centre_of_volume);
+}
+
+void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept {
+  const BodyModel& model = task.model;
+  const Surroundings& s = task.surroundings;
+  set(lanes.torque_W, body, s.applied.torque);
+  set(lanes.force_W, body, Vector3(s.applied.force - model.mass * s.ambient_acceleration));
+  set(lanes.buoyancy_W, body,
+      Vector3(-model.displaced_mass * (s.gravity - s.ambient_acceleration)));
+  lanes.fall_scale[body] = fallScale(task);
+}
+
+void setState(FlightLanes& lanes, int body, const BodyModel& model,
+              const RigidState& state) noexcept {
+  for (int i = 0; i < 4; ++i) lanes.orientation[i][body] = state.orientation.coeffs()[i];
+  set(lanes.position_W, body, state.position);
+  const DualPair motion = pairOfTwist(model, state.twist.vector());
+  for (int i = 0; i < 6; ++i) {
+    lanes.twist_B[i][body] = motion.twist[i];
+    lanes.momentum_B[i][body] = motion.momentum[i];
+  }
+}
+
+RigidState stateOf(const FlightLanes& lanes, int body) noexcept {
+  RigidState state;
+  for (int i = 0; i < 4; ++i) state.orientation.coeffs()[i] = lanes.orientation[i][body];
+  state.position = vectorOf(lanes.position_W, body);
+  state.twist = twistOf(lanes.twist_B, body);
+  return state;
+}
+
+}  // namespace ambient

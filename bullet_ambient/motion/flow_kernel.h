@@ -1,0 +1,219 @@
+#pragma once
+
+#include "bullet_ambient/motion/spatial_lanes.h"
+
+// See lanes.h for who may include this.
+
+namespace ambient {
+namespace {
+
+/// Kirchhoff's equations in body axes are bilinear, so that the coefficients of their power series
+/// follow from one another by sums of cross products (Jorba and Zou 2005 on such integrators):
+///   l' = l x w + p x v,   p' = p x w,   (w, v) = K^-1 (l, p),
+///   r' = r x w + v,       q' = 1/2 q w,
+/// r being the way from the start in body axes, y = y_0 + R r, and q the turn since the start.
+/// Coefficients are scaled to t = fraction of the duration. Each body has as many terms as it
+/// needs; further ones are zero.
+template <class Inverse>
+class MotionSeries {
+ public:
+  /// `moves`: which bodies are wanted.
+  MotionSeries(const Inverse& inverse, const Pairs& start, const Lanes& duration,
+               const Lanes& precision, const Mask& moves)
+      : inverse_(inverse), duration_(duration), precision_sq_(precision * precision) {
+    const Vectors zero = zeroVectors();
+    c_[0] = {start, zero, {zero, all(1)}};
+    const Lanes energy = inner(start, start);
+    per_energy_ = 1 / (energy > Lanes{} ? energy : all(1));
+    is_open_ = moves;
+    do {
+      addTerm();
+      is_open_ = is_open_ & ~isRestBelowPrecision();
+    } while (order_ < kMaxOrder && anyOf(is_open_));
+  }
+
+  struct End {
+    Lanes fraction;  // of the duration, the largest at which the series is precise
+    Spatials momentum;
+    Vectors way;
+    Orientations turn;  // not normalised
+  };
+  End end() const {
+    const Lanes fraction = reach();
+    const Coefficient& last = c_[order_];
+    End sum{fraction, last.motion.momentum, last.way, last.turn};
+    for (int k = order_ - 1; k >= 0; --k) {
+      const Coefficient& c = c_[k];
+      sum.momentum = c.motion.momentum + fraction * sum.momentum;
+      sum.way = c.way + fraction * sum.way;
+      sum.turn = {c.turn.u + fraction * sum.turn.u, c.turn.w + fraction * sum.turn.w};
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr int kLeastOrder = 3, kMaxOrder = 18;
+
+  struct Coefficient {
+    Pairs motion;
+    Vectors way;
+    Orientations turn;
+  };
+
+  void addTerm() {
+    const int k = order_;
+    // The way and the vector part of the turn begin with a term that is zero, its cosine with 1.
+    const Spatials& latest = c_[k].motion.twist;
+    const Spatials& first = c_[0].motion.momentum;
+    Vectors l = cross(first.angular, latest.angular) + cross(first.linear, latest.linear);
+    Vectors p = cross(first.linear, latest.angular);
+    Vectors turn = latest.angular;
+    Vectors way = latest.linear;
+    Lanes cosine = Lanes{};
+    for (int i = 1; i <= k; ++i) {
+      const Coefficient& a = c_[i];
+      const Spatials& b = c_[k - i].motion.twist;
+      const Spatials& m = a.motion.momentum;
+      l = l + (cross(m.angular, b.angular) + cross(m.linear, b.linear));
+      p = p + cross(m.linear, b.angular);
+      way = way + cross(a.way, b.angular);
+      turn = turn + (cross(a.turn.u, b.angular) + a.turn.w * b.angular);
+      cosine = cosine - dot(a.turn.u, b.angular);
+    }
+    // Nothing is added to a series that is precise.
+    const Lanes step = is_open_ ? (1.0 / (k + 1)) * duration_ : Lanes{};
+    Coefficient& next = c_[k + 1];
+    next.motion.momentum = step * Spatials{l, p};
+    next.motion.twist = inverse_ * next.motion.momentum;
+    next.way = step * way;
+    const Lanes half = 0.5 * step;
+    next.turn = {half * turn, half * cosine};
+    ++order_;
+    const Lanes size_before = size_sq_;
+    size_sq_ = larger(inner(next.motion, next.motion) * per_energy_,
+                      dot(next.turn.u, next.turn.u) + next.turn.w * next.turn.w);
+    const Lanes growth_sq = size_sq_ / (size_before > Lanes{} ? size_before : all(1));
+    growth_sq_ = is_open_ ? larger(growth_sq, growth_sq_) : growth_sq_;
+    last_sq_ = is_open_ ? size_sq_ : last_sq_;
+    before_sq_ = is_open_ ? size_before : before_sq_;
+  }
+
+  // The next term is taken to grow at most as any before it, from the last term or, in case that
+  // happens to vanish, over two terms from the one before. Where every second term vanishes there
+  // is no such growth, and two small terms in a row must do. The first term says too little: a
+  // body that a small disturbance turns out of its course has small terms that grow fast.
+  Mask isRestBelowPrecision() const {
+    const Mask are_small = larger(last_sq_, before_sq_) <= precision_sq_;
+    if (order_ < kLeastOrder) return are_small;
+    const double per_order_sq = 1.0 / (order_ * order_);
+    const Lanes next = larger(last_sq_, before_sq_ * growth_sq_ * per_order_sq) * growth_sq_;
+    return are_small | (next <= precision_sq_);
+  }
+
+  Lanes reach() const {
+    Lanes fraction = all(1);
+    if (!anyOf(is_open_)) return fraction;
+    for (int i = 0; i < kWidth; ++i) {
+      if (!is_open_[i]) continue;
+      const double last = reachOfTerm(order_, last_sq_[i] / precision_sq_[i]);
+      const double before = reachOfTerm(order_ - 1, before_sq_[i] / precision_sq_[i]);
+      fraction[i] = before < last ? before : last;
+    }
+    return fraction;
+  }
+
+  static double reachOfTerm(int k, double excess) {
+    return excess > 1 ? ::pow(excess, -0.5 / k) : 1.0;
+  }
+
+  const Inverse& inverse_;
+  Lanes duration_;
+  Lanes precision_sq_;
+  Lanes per_energy_;
+  Mask is_open_;  // more terms are needed
+  int order_ = 0;
+  // Of terms, in the norms of K^-1 and of the quaternion.
+  Lanes size_sq_ = all(1), last_sq_ = all(1), before_sq_ = all(1);
+  Lanes growth_sq_ = Lanes{};  // largest ratio of a term to the one before it
+  Coefficient c_[kMaxOrder + 1];
+};
+
+struct Motions {
+  Orientations orientation;
+  Vectors position_W;
+  Pairs motion;  // in B
+};
+inline Motions select(const Mask& mask, const Motions& a, const Motions& b) {
+  return {select(mask, a.orientation, b.orientation), select(mask, a.position_W, b.position_W),
+          select(mask, a.motion, b.motion)};
+}
+
+/// Turns with the present angular velocity. World momentum stays: it gives the twist in the end.
+template <class Inverse>
+Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duration) {
+  const Vectors rotation = duration * start.motion.twist.angular;
+  const Lanes angle = squareRoot(dot(rotation, rotation));
+  Lanes cosine = all(1), scale = all(0.5);
+  for (int i = 0; i < kWidth; ++i) {
+    if (!(angle[i] > 0)) continue;
+    cosine[i] = ::cos(angle[i] / 2);
+    scale[i] = ::sin(angle[i] / 2) / angle[i];
+  }
+  const Vectors way_W = start.orientation.toWorld(duration * start.motion.twist.linear);
+  const Spatials& m = start.motion.momentum;
+  const Vectors p_W = start.orientation.toWorld(m.linear);
+  const Vectors l_W = start.orientation.toWorld(m.angular) - cross(way_W, p_W);
+  Motions end;
+  end.orientation = normalized(start.orientation * Orientations{scale * rotation, cosine});
+  end.position_W = start.position_W + way_W;
+  end.motion.momentum = {end.orientation.toBody(l_W), end.orientation.toBody(p_W)};
+  end.motion.twist = inverse * end.motion.momentum;
+  return end;
+}
+
+/// flowWithoutLoads(), docs/theory.md eq. (22), of the active bodies.
+template <class Matrices>
+void flow(FlightLanes& bodies, int at, const Mask& active) {
+  constexpr int kMaxPieces = 1024;  // series per call
+  const Lanes zero = Lanes{};
+  const Matrices inverse(bodies.inverse_inertia, at);
+  const Lanes precision = load(bodies.precision + at);
+  Motions now{{load(bodies.orientation, at), load(bodies.orientation[3] + at)},
+              load(bodies.position_W, at),
+              {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)}};
+  const Motions start = now;
+  const Lanes energy = inner(now.motion, now.motion);
+  const Mask moves = active & (energy > zero);
+  Lanes left = moves ? load(bodies.flow_time + at) : zero;
+  for (int i = 0; i < kMaxPieces && anyOf(left > zero); ++i) {
+    const Mask is_left = left > zero;
+    const auto end = MotionSeries<Matrices>(inverse, now.motion, left, precision, is_left).end();
+    Motions next;
+    next.orientation = normalized(now.orientation * end.turn);
+    next.position_W = now.position_W + next.orientation.toWorld(end.way);
+    next.motion = {inverse * end.momentum, end.momentum};
+    now = select(is_left, next, now);
+    left = left - end.fraction * left;
+  }
+  const Mask is_left = left > zero;
+  if (anyOf(is_left)) {
+    now = select(is_left, coast(inverse, now, left), now);
+    store(bodies.is_coarse + at, is_left ? all(1) : load(bodies.is_coarse + at));
+  }
+  // The motion is scaled down to the energy that it had. That is x.K x of the twist that was
+  // rounded last: K^-1 K is the identity only up to the condition of K.
+  now.motion.momentum = Matrices(bodies.inertia, at) * now.motion.twist;
+  const Lanes after = inner(now.motion, now.motion);
+  const Mask has_gained = after > energy;
+  const Lanes scale = has_gained ? squareRoot(energy / (has_gained ? after : all(1))) : all(1);
+  now.motion = scale * now.motion;
+  now = select(moves, now, start);
+  store(bodies.orientation, at, now.orientation.u);
+  store(bodies.orientation[3] + at, now.orientation.w);
+  store(bodies.position_W, at, now.position_W);
+  store6(bodies.twist_B, at, now.motion.twist);
+  store6(bodies.momentum_B, at, now.motion.momentum);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <math.h>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+// One body per lane, in double. Included by what is compiled once per instruction set: nothing here
+// may share an inline function with the rest of the program. Written with the vector types of GCC
+// and Clang, which have the operators of IEEE 754 per lane. No operation is fused and lanes do not
+// mix: all instruction sets give the same bits, whoever flies beside a body.
+
+#if defined(__FAST_MATH__)
+#error "-ffast-math reorders operations; bodies must move by the same bits everywhere"
+#endif
+
+namespace ambient {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kWidth = 8;
+#elif defined(__AVX2__)
+constexpr int kWidth = 4;
+#else
+constexpr int kWidth = 2;
+#endif
+
+using Lanes = double __attribute__((vector_size(kWidth * sizeof(double))));
+using Mask = decltype(Lanes{} < Lanes{});
+
+inline Lanes load(const double* from) {
+  Lanes a;
+  __builtin_memcpy(&a, from, sizeof a);
+  return a;
+}
+inline void store(double* to, const Lanes& a) { __builtin_memcpy(to, &a, sizeof a); }
+
+inline Lanes all(double value) { return value - Lanes{}; }
+
+inline bool anyOf(const Mask& mask) {
+  decltype(mask[0] | mask[0]) any = 0;
+  for (int i = 0; i < kWidth; ++i) any |= mask[i];
+  return any != 0;
+}
+
+inline Lanes squareRoot(const Lanes& a) {
+#if defined(__AVX512F__)
+  return _mm512_maskz_sqrt_pd(0xff, a);  // the plain one warns of GCC 12's own header
+#elif defined(__AVX2__)
+  return _mm256_sqrt_pd(a);
+#elif defined(__x86_64__)
+  return _mm_sqrt_pd(a);
+#else
+  Lanes root;
+  for (int i = 0; i < kWidth; ++i) root[i] = ::sqrt(a[i]);
+  return root;
+#endif
+}
+
+/// The larger of both; the second where the first is not a number.
+inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+
+/// c_0 + c_1 x + c_2 x^2 + ...
+template <int kTerms>
+Lanes polynomial(const double (&c)[kTerms], const Lanes& x) {
+  Lanes sum = all(c[kTerms - 1]);
+  for (int i = kTerms - 2; i >= 0; --i) sum = c[i] + x * sum;
+  return sum;
+}
+
+/// log(1 + z) / z for z >= 0.
+inline Lanes logarithmRatio(const Lanes& z) {
+  // 2/(2 + z) artanh(s)/s; the next term is below rounding.
+  constexpr double kSmall = 0.1;
+  static constexpr double kSeries[] = {1, 1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9, 1.0 / 11, 1.0 / 13};
+  const Lanes scale = 1 / (2 + z);
+  const Lanes s = z * scale;
+  Lanes ratio = 2 * scale * polynomial(kSeries, s * s);
+  if (!anyOf(!(z <= all(kSmall)))) return ratio;
+  for (int i = 0; i < kWidth; ++i)
+    if (!(z[i] <= kSmall)) ratio[i] = ::log1p(z[i]) / z[i];
+  return ratio;
+}
+
+/// tan(x) for x >= 0.
+inline Lanes tangent(const Lanes& x) {
+  constexpr double kSmall = 0.1;  // the next term is below rounding
+  static constexpr double kSeries[] = {
+      1.0,         1.0 / 3,         2.0 / 15,          17.0 / 315,
+      62.0 / 2835, 1382.0 / 155925, 21844.0 / 6081075, 929569.0 / 638512875};
+  Lanes t = x * polynomial(kSeries, x * x);
+  if (!anyOf(!(x <= all(kSmall)))) return t;
+  for (int i = 0; i < kWidth; ++i)
+    if (!(x[i] <= kSmall)) t[i] = ::tan(x[i]);
+  return t;
+}
+
+}  // namespace
+}  // namespace ambient
