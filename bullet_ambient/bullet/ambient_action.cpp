@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/free_flight.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {

@@ -14,16 +14,6 @@ bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
 /// it; returns whether it did.
 bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
 
-/// Flies up to kFlightsTogether bodies over `time_step` [s] and keeps where they end. Writes the
-/// velocity changes in world axes that make Bullet's integrateTransform reach those poses,
-/// docs/theory.md eq. (29). If a flight is not finite, its has_flown is false and nothing is kept.
-void beginFlights(AmbientBody* const* bodies, int count, double time_step,
-                  Twist* changes_W) noexcept;
-
-/// After Bullet has moved the body: gives it the velocity of the end of its flight, and the pose
-/// itself where Bullet limits the rotation per step.
-void endFlight(AmbientBody& ambient, double time_step) noexcept;
-
 /// For a body that rows have moved to `solved_W` while it turns fast: bounds the kinetic energy
 /// that it may have in its next pose, docs/theory.md eq. (31).
 void boundEnergy(AmbientBody& ambient, const Twist& solved_W) noexcept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/free_flight.h"
 #include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/row_velocity.h"
 

@@ -89,7 +89,7 @@ void flyTogether(Flight* const* flights, int count) noexcept {
 
 FlightResult fly(const FlightTask& task, const RigidState& start,
                  const FlightMemory& memory) noexcept {
-  Flight flight{task, {start, memory, {}}};
+  Flight flight(task, start, memory);
   Flight* const flights[] = {&flight};
   flyTogether(flights, 1);
   return flight.body;

@@ -79,6 +79,9 @@ FlightResult fly(const FlightTask& task, const RigidState& start,
 
 /// A task and where the body is: at the start before flyTogether(), at the end after it.
 struct Flight {
+  Flight(const FlightTask& given, const RigidState& start, const FlightMemory& memory)
+      : task(given), body{start, memory, {}} {}
+
   FlightTask task;
   FlightResult body;
 };

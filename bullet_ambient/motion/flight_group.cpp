@@ -36,23 +36,23 @@ const FlightKernel& fastestFlightKernel() noexcept {
 void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept {
   setSymmetric(lanes.inertia, body, model.inertia, model.has_diagonal_inertia);
   setSymmetric(lanes.inverse_inertia, body, model.inverse_inertia, model.has_diagonal_inertia);
-  set(lanes.centre_of_volume_B, body, model.centre_of_volume);
+  setLane(lanes.centre_of_volume_B, body, model.centre_of_volume);
 }
 
 void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept {
   const BodyModel& model = task.model;
   const Surroundings& s = task.surroundings;
-  set(lanes.torque_W, body, s.applied.torque);
-  set(lanes.force_W, body, Vector3(s.applied.force - model.mass * s.ambient_acceleration));
-  set(lanes.buoyancy_W, body,
-      Vector3(-model.displaced_mass * (s.gravity - s.ambient_acceleration)));
+  setLane(lanes.torque_W, body, s.applied.torque);
+  setLane(lanes.force_W, body, Vector3(s.applied.force - model.mass * s.ambient_acceleration));
+  setLane(lanes.buoyancy_W, body,
+          Vector3(-model.displaced_mass * (s.gravity - s.ambient_acceleration)));
   lanes.fall_scale[body] = fallScale(task);
 }
 
 void setState(FlightLanes& lanes, int body, const BodyModel& model,
               const RigidState& state) noexcept {
-  for (int i = 0; i < 4; ++i) lanes.orientation[i][body] = state.orientation.coeffs()[i];
-  set(lanes.position_W, body, state.position);
+  setLane(lanes.orientation, body, state.orientation);
+  setLane(lanes.way_W, body, Vector3(0, 0, 0));
   const DualPair motion = pairOfTwist(model, state.twist.vector());
   for (int i = 0; i < 6; ++i) {
     lanes.twist_B[i][body] = motion.twist[i];
@@ -60,12 +60,9 @@ void setState(FlightLanes& lanes, int body, const BodyModel& model,
   }
 }
 
-RigidState stateOf(const FlightLanes& lanes, int body) noexcept {
-  RigidState state;
-  for (int i = 0; i < 4; ++i) state.orientation.coeffs()[i] = lanes.orientation[i][body];
-  state.position = vectorOf(lanes.position_W, body);
-  state.twist = twistOf(lanes.twist_B, body);
-  return state;
+RigidState stateOf(const FlightLanes& lanes, int body, const Vector3& start) noexcept {
+  return {orientationOf(lanes.orientation, body), start + vectorOf(lanes.way_W, body),
+          twistOf(lanes.twist_B, body)};
 }
 
 }  // namespace ambient

@@ -18,24 +18,35 @@ void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexc
 /// Its twist relative to the frame that moves with the ambient flow, in B.
 void setState(FlightLanes& lanes, int body, const BodyModel& model,
               const RigidState& state) noexcept;
-RigidState stateOf(const FlightLanes& lanes, int body) noexcept;
+/// `start`: the position at which it was set.
+RigidState stateOf(const FlightLanes& lanes, int body, const Vector3& start) noexcept;
 
-/// Three or six values of one body.
-inline void set(FlightLane* to, int body, const Vector3& a) noexcept {
+/// Values of one body.
+inline void setLane(FlightLane* to, int body, const Vector3& a) noexcept {
   for (int i = 0; i < 3; ++i) to[i][body] = a[i];
+}
+inline void setLane(FlightLane* to, int body, const Wrench& f) noexcept {
+  setLane(to, body, f.torque);
+  setLane(to + 3, body, f.force);
+}
+inline void setLane(FlightLane* to, int body, const Twist& x) noexcept {
+  setLane(to, body, x.angular);
+  setLane(to + 3, body, x.linear);
+}
+inline void setLane(FlightLane* to, int body, const Quaternion& q) noexcept {
+  for (int i = 0; i < 4; ++i) to[i][body] = q.coeffs()[i];
 }
 inline Vector3 vectorOf(const FlightLane* from, int body) noexcept {
   return {from[0][body], from[1][body], from[2][body]};
-}
-inline void set(FlightLane* to, int body, const Wrench& f) noexcept {
-  set(to, body, f.torque);
-  set(to + 3, body, f.force);
 }
 inline Wrench wrenchOf(const FlightLane* from, int body) noexcept {
   return {vectorOf(from, body), vectorOf(from + 3, body)};
 }
 inline Twist twistOf(const FlightLane* from, int body) noexcept {
   return {vectorOf(from, body), vectorOf(from + 3, body)};
+}
+inline Quaternion orientationOf(const FlightLane* from, int body) noexcept {
+  return {from[3][body], from[0][body], from[1][body], from[2][body]};
 }
 
 }  // namespace ambient

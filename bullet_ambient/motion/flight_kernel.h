@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/motion/flow_kernel.h"
 #include "bullet_ambient/motion/passive_kick_kernel.h"
+#include "bullet_ambient/motion/pose_kernel.h"
 
 // Included once by each flight_<instruction set>.cpp, which is compiled for that set.
 
@@ -95,6 +96,40 @@ struct KickStep {
   }
 };
 
+// Twice the kinetic energy, and the energy of position: all forces are constant over the step.
+struct Energies {
+  Lanes kinetic2, potential;
+};
+inline Energies energies(const FlightLanes& bodies, int at) {
+  const Pairs x = motionOf(bodies, at);
+  const Vectors buoyancy = load(bodies.buoyancy_W, at);
+  const Vectors arm = orientationOf(bodies, at).toWorld(load(bodies.centre_of_volume_B, at));
+  const Vectors force = load(bodies.force_W, at) + buoyancy;
+  return {inner(x, x), Lanes{} - dot(force, load(bodies.way_W, at)) - dot(buoyancy, arm)};
+}
+
+struct MeasureStep {
+  template <class>
+  static void act(FlightLanes& bodies, int at, const Mask&) {
+    const Energies now = energies(bodies, at);
+    store(bodies.energy + at, 0.5 * now.kinetic2 + now.potential);
+  }
+};
+
+struct BoundStep {
+  template <class>
+  static void act(FlightLanes& bodies, int at, const Mask& active) {
+    const Lanes zero = Lanes{};
+    const Vectors torque = load(bodies.torque_W, at);
+    const Energies now = energies(bodies, at);
+    const Lanes allowed = larger(2 * (load(bodies.energy + at) - now.potential), zero);
+    const Mask gains = active & (now.kinetic2 > allowed) & (dot(torque, torque) == zero);
+    if (!anyOf(gains)) return;
+    const Lanes scale = squareRoot(gains ? allowed / now.kinetic2 : all(1));
+    setMotion(bodies, at, gains, scale * motionOf(bodies, at));
+  }
+};
+
 // Of all lanes that are in use; `Matrices` as simple as all bodies allow.
 template <class Step>
 void forAll(FlightLanes& bodies) noexcept {
@@ -109,8 +144,14 @@ void forAll(FlightLanes& bodies) noexcept {
   }
 }
 
-constexpr FlightKernel kKernel{forAll<FlowStep>, forAll<FallStep>, forAll<SampleStep>,
-                               forAll<KickStep>};
+constexpr FlightKernel kKernel{depart,
+                               arrive,
+                               forAll<FlowStep>,
+                               forAll<FallStep>,
+                               forAll<SampleStep>,
+                               forAll<KickStep>,
+                               forAll<MeasureStep>,
+                               forAll<BoundStep>};
 
 }  // namespace
 }  // namespace ambient

@@ -31,8 +31,9 @@ struct alignas(64) FlightLanes {
 
   // Pose and motion.
   FlightLane orientation[4];  ///< (x, y, z, w), B to W
-  FlightLane position_W[3];
+  FlightLane way_W[3];        ///< from where the step began
   FlightLane twist_B[6], momentum_B[6];
+  FlightLane energy;  ///< of body and fluid, with that of position, when last measured, eq. (25a)
 
   FlightLane flow_time;  ///< of the next flow
   FlightLane kick_time;  ///< of the next kick
@@ -49,8 +50,31 @@ struct alignas(64) FlightLanes {
   FlightLane error;  ///< of the kick, docs/theory.md eq. (25)
 };
 
-/// The steps of a substep; each acts on all active bodies.
+/// Poses and velocities as a world has them, to be turned into body axes.
+struct alignas(64) DepartureLanes {
+  FlightLane rotation[9];  ///< B to W, row by row; orthogonal up to its rounding
+  FlightLane twist_W[6];
+
+  FlightLane orientation[4];  ///< result: unit, (x, y, z, w)
+  FlightLane twist_B[6];      ///< result
+};
+
+/// From poses at the start and states at the end to velocities in world axes.
+struct alignas(64) ArrivalLanes {
+  FlightLane start_orientation[4], start_position[3];
+  FlightLane orientation[4], position[3], twist_B[6];
+  double duration;  ///< > 0
+
+  FlightLane twist_W[6];  ///< result: at the end
+  FlightLane mean_W[6];   ///< result: constant twist that takes the start to the end, by at most
+                          ///< half a turn, eq. (29)
+};
+
+/// What is done to many bodies at once; the steps of a substep act on all active ones.
 struct FlightKernel {
+  void (*depart)(DepartureLanes&) noexcept;
+  void (*arrive)(ArrivalLanes&) noexcept;
+
   /// Motion without loads over flow_time, eq. (22). Energy, world momentum and angular momentum
   /// stay up to the precision, and the energy never grows. Power series of as many terms as are
   /// needed for that; a body that turns by more than about 500 rad gets a cruder rest of the way
@@ -63,6 +87,10 @@ struct FlightKernel {
   /// From load_B: the whole kick, eq. (23), its error, load_W, and the other half of gravity's
   /// part.
   void (*kick)(FlightLanes&) noexcept;
+  /// Measures the energy.
+  void (*measure)(FlightLanes&) noexcept;
+  /// Scales motions down to the energy that was measured, where no torque is applied, eq. (25a).
+  void (*bound)(FlightLanes&) noexcept;
 };
 
 /// No operation is fused, and bodies do not mix: all instruction sets give the same bits, whoever

@@ -140,11 +140,11 @@ class MotionSeries {
 
 struct Motions {
   Orientations orientation;
-  Vectors position_W;
+  Vectors way_W;
   Pairs motion;  // in B
 };
 inline Motions select(const Mask& mask, const Motions& a, const Motions& b) {
-  return {select(mask, a.orientation, b.orientation), select(mask, a.position_W, b.position_W),
+  return {select(mask, a.orientation, b.orientation), select(mask, a.way_W, b.way_W),
           select(mask, a.motion, b.motion)};
 }
 
@@ -165,7 +165,7 @@ Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duratio
   const Vectors l_W = start.orientation.toWorld(m.angular) - cross(way_W, p_W);
   Motions end;
   end.orientation = normalized(start.orientation * Orientations{scale * rotation, cosine});
-  end.position_W = start.position_W + way_W;
+  end.way_W = start.way_W + way_W;
   end.motion.momentum = {end.orientation.toBody(l_W), end.orientation.toBody(p_W)};
   end.motion.twist = inverse * end.motion.momentum;
   return end;
@@ -179,7 +179,7 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   const Matrices inverse(bodies.inverse_inertia, at);
   const Lanes precision = load(bodies.precision + at);
   Motions now{{load(bodies.orientation, at), load(bodies.orientation[3] + at)},
-              load(bodies.position_W, at),
+              load(bodies.way_W, at),
               {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)}};
   const Motions start = now;
   const Lanes energy = inner(now.motion, now.motion);
@@ -190,7 +190,7 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
     const auto end = MotionSeries<Matrices>(inverse, now.motion, left, precision, is_left).end();
     Motions next;
     next.orientation = normalized(now.orientation * end.turn);
-    next.position_W = now.position_W + next.orientation.toWorld(end.way);
+    next.way_W = now.way_W + next.orientation.toWorld(end.way);
     next.motion = {inverse * end.momentum, end.momentum};
     now = select(is_left, next, now);
     left = left - end.fraction * left;
@@ -210,7 +210,7 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   now = select(moves, now, start);
   store(bodies.orientation, at, now.orientation.u);
   store(bodies.orientation[3] + at, now.orientation.w);
-  store(bodies.position_W, at, now.position_W);
+  store(bodies.way_W, at, now.way_W);
   store6(bodies.twist_B, at, now.motion.twist);
   store6(bodies.momentum_B, at, now.motion.momentum);
 }

@@ -14,7 +14,7 @@ Flow flowWithoutLoads(const BodyModel& model, const RigidState& state, double du
   lanes.flow_time[0] = duration;
   lanes.precision[0] = precision;
   fastestFlightKernel().flow(lanes);
-  return {stateOf(lanes, 0), !(lanes.is_coarse[0] > 0)};
+  return {stateOf(lanes, 0, state.position), !(lanes.is_coarse[0] > 0)};
 }
 
 }  // namespace ambient

@@ -81,8 +81,8 @@ class Leapfrog {
     Way& way = ways_[i];
     const FlightMemory& memory = way.flight->body.memory;
     setState(lanes_, i, way.flight->task.model, way.flight->body.state);
-    set(lanes_.load_W, i, memory.load_W);
-    way.has_load = memory.has_load;
+    way.has_load = memory.has_load && way.flight->task.model.has_surface_loads;
+    setLane(lanes_.load_W, i, way.has_load ? memory.load_W : Wrench{});
     way.error = 0;
     lanes_.kick_time[i] = way.flight->task.duration / way.substeps;
     lanes_.is_coarse[i] = 0;
@@ -94,6 +94,7 @@ class Leapfrog {
       lanes_.active[i] = ways_[i].is_done ? 0 : 1;
       lanes_.flow_time[i] = lanes_.kick_time[i] / 2;
     }
+    if (lanes_.has_loads) kernel_.measure(lanes_);
     kernel_.flow(lanes_);
     for (int substep = 1; substep <= substeps; ++substep) {
       kick();
@@ -103,6 +104,18 @@ class Leapfrog {
       for (int i = 0; i < count_; ++i)
         if (substep == ways_[i].substeps) lanes_.active[i] = 0;
     }
+    boundEnergy();
+  }
+
+  // Loads only take energy. Gravity and flow in turns err to second order, on either side: a body
+  // with loads keeps to the lower one, eq. (25a).
+  void boundEnergy() {
+    if (!lanes_.has_loads) return;
+    for (int i = 0; i < count_; ++i) {
+      const bool has_loads = ways_[i].flight->task.model.has_surface_loads;
+      lanes_.active[i] = !ways_[i].is_done && has_loads ? 1 : 0;
+    }
+    kernel_.bound(lanes_);
   }
 
   // Gravity and surface loads over the whole substep; those of the last one predict the motion in
@@ -130,7 +143,7 @@ class Leapfrog {
       const BodyModel& model = ways_[i].flight->task.model;
       if (!(lanes_.active[i] > 0) || !model.has_surface_loads || !wants(ways_[i])) continue;
       const SurfaceLoad load = computeSurfaceLoad(model, twistOf(twists, i));
-      set(loads, i, load.wrench);
+      setLane(loads, i, load.wrench);
       FlightCount& count = ways_[i].flight->body.count;
       ++count.load_evaluations;
       count.guarded += load.guarded;
@@ -146,7 +159,7 @@ class Leapfrog {
     const double next = ratio > 0 ? kSafety * h / std::sqrt(ratio) : 4 * h;
     if (!(ratio > kAcceptance) || attempt == kMaxRetries || way.substeps == way.most) {
       FlightResult& result = way.flight->body;
-      result.state = stateOf(lanes_, i);
+      result.state = stateOf(lanes_, i, result.state.position);
       result.memory = {wrenchOf(lanes_.load_W, i), way.has_load, std::min(next, 4 * h)};
       result.count.coarse =
           lanes_.is_coarse[i] > 0 || (ratio > kAcceptance && way.substeps == way.most);

@@ -55,7 +55,8 @@ inline Orientations operator*(const Orientations& a, const Orientations& b) {
   return {a.w * b.u + b.w * a.u + cross(a.u, b.u), a.w * b.w - dot(a.u, b.u)};
 }
 inline Orientations normalized(const Orientations& q) {
-  const Lanes scale = 1 / squareRoot(dot(q.u, q.u) + q.w * q.w);
+  const Lanes size_sq = dot(q.u, q.u) + q.w * q.w;
+  const Lanes scale = 1 / squareRoot(size_sq > Lanes{} ? size_sq : all(1));
   return {scale * q.u, scale * q.w};
 }
 inline Orientations select(const Mask& mask, const Orientations& a, const Orientations& b) {

@@ -52,11 +52,13 @@ FlightLanes arbitraryLanes(unsigned seed, double time) {
 }
 
 void substep(const FlightKernel& kernel, FlightLanes& lanes) {
+  kernel.measure(lanes);
   kernel.flow(lanes);
   kernel.fall(lanes);
   kernel.sample(lanes);
   kernel.kick(lanes);
   kernel.flow(lanes);
+  kernel.bound(lanes);
 }
 
 // Of a body, all that a substep changes.
@@ -66,7 +68,7 @@ std::vector<double> lane(const FlightLanes& lanes, int body) {
     for (int i = 0; i < count; ++i) values.push_back(from[i][body]);
   };
   add(lanes.orientation, 4);
-  add(lanes.position_W, 3);
+  add(lanes.way_W, 3);
   add(lanes.twist_B, 6);
   add(lanes.momentum_B, 6);
   add(lanes.load_W, 6);
@@ -162,8 +164,8 @@ TEST(FlyTogether, HasTheBitsOfEachFlightAlone) {
   std::vector<Flight*> all;
   flights.reserve(kCount);
   for (const FreeBody& body : bodies) {
-    flights.push_back({{body.model(), body.surroundings, body.settings, 1.0 / 60},
-                       {body.state, FlightMemory{}, FlightCount{}}});
+    flights.emplace_back(FlightTask{body.model(), body.surroundings, body.settings, 1.0 / 60},
+                         body.state, FlightMemory{});
     all.push_back(&flights.back());
   }
   int most_substeps = 0;

@@ -1,0 +1,175 @@
+#include "bullet_ambient/bullet/free_flight.h"
+
+#include <limits>
+#include <optional>
+
+#include "bullet_ambient/motion/flight_group.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+// A velocity that others changed by more than this part since the last flight makes its history
+// worthless.
+constexpr double kSameVelocity = 1e-3;
+constexpr double kBulletMaxTurn =
+    3.14159265358979323846 / 4;  // [rad] per step in integrateTransform
+
+// Bodies before their flight.
+struct Departures {
+  Twist twists_W[kFlightsTogether];  // as Bullet has them
+  RigidState states[kFlightsTogether];
+  Surroundings surroundings[kFlightsTogether];
+};
+
+void readDepartures(AmbientBody* const* bodies, int count, Departures& departures) {
+  DepartureLanes lanes{};
+  for (int i = 0; i < count; ++i) {
+    const btRigidBody& body = *bodies[i]->body;
+    const btMatrix3x3& rotation = body.getWorldTransform().getBasis();
+    for (int row = 0; row < 3; ++row)
+      setLane(lanes.rotation + 3 * row, i, toVector3(rotation[row]));
+    departures.twists_W[i] = {toVector3(body.getAngularVelocity()),
+                              toVector3(body.getLinearVelocity())};
+    setLane(lanes.twist_W, i, departures.twists_W[i]);
+  }
+  fastestFlightKernel().depart(lanes);
+  for (int i = 0; i < count; ++i) {
+    const Vector3 position = toVector3(bodies[i]->body->getWorldTransform().getOrigin());
+    departures.states[i] = {orientationOf(lanes.orientation, i), position,
+                            twistOf(lanes.twist_B, i)};
+    departures.surroundings[i] = readSurroundings(*bodies[i]);
+  }
+}
+
+bool isWithinRounding(const Vector3& a, const Vector3& b) {
+  constexpr double kRounding = 1e-12;
+  return (a - b).squaredNorm() <= kRounding * kRounding * b.squaredNorm();
+}
+
+bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start, const Twist& now) {
+  if (isWithinRounding(now.angular, ambient.left_W.angular) &&
+      isWithinRounding(now.linear, ambient.left_W.linear)) {
+    return false;
+  }
+  const Quaternion to_body = start.orientation.conjugate();
+  const Twist change{to_body * (now.angular - ambient.left_W.angular),
+                     to_body * (now.linear - ambient.left_W.linear)};
+  return inertiaNormSquared(ambient.model, change.vector()) >
+         kSameVelocity * kSameVelocity * inertiaNormSquared(ambient.model, start.twist.vector());
+}
+
+// Twists in world axes: at the end, and the mean one.
+struct Arrivals {
+  Twist ends_W[kFlightsTogether];
+  Twist means_W[kFlightsTogether];
+};
+
+void computeArrivals(const Departures& departures, const Flight* const* flights, int count,
+                     double time_step, Arrivals& arrivals) {
+  ArrivalLanes lanes{};
+  lanes.duration = time_step;
+  for (int i = 0; i < count; ++i) {
+    const RigidState &start = departures.states[i], &end = flights[i]->body.state;
+    setLane(lanes.start_orientation, i, start.orientation);
+    setLane(lanes.start_position, i, start.position);
+    setLane(lanes.orientation, i, end.orientation);
+    setLane(lanes.position, i, end.position);
+    setLane(lanes.twist_B, i, end.twist);
+  }
+  fastestFlightKernel().arrive(lanes);
+  for (int i = 0; i < count; ++i) {
+    arrivals.ends_W[i] = twistOf(lanes.twist_W, i);
+    arrivals.means_W[i] = twistOf(lanes.mean_W, i);
+  }
+}
+
+bool fitsBullet(const RigidState& state, const Twist& twist_W) {
+  constexpr auto kLargest = static_cast<double>(std::numeric_limits<btScalar>::max());
+  return state.isFinite() && state.position.norm() < kLargest && twist_W.linear.norm() < kLargest &&
+         twist_W.angular.norm() < kLargest;
+}
+
+void add(const FlightCount& count, AmbientBody& ambient) {
+  ambient.counters.substeps += count.substeps;
+  countLoads(ambient, count.load_evaluations);
+  ambient.counters.guarded += count.guarded;
+  ambient.counters.coarse += count.coarse;
+  // Who sets a bound of substeps has chosen what is too long.
+  ambient.was_coarse = count.coarse && ambient.def.flight.max_substeps == 0;
+}
+
+// Keeps the end of a flight if it is one.
+void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, double length_scale,
+          AmbientBody& ambient) {
+  add(flight.count, ambient);
+  ambient.has_flown = fitsBullet(flight.state, end_W);
+  if (!ambient.has_flown) {
+    ++ambient.counters.rejected;
+    ambient.memory = {};
+    return;
+  }
+  ambient.memory = flight.memory;
+  ambient.end = flight.state;
+  ambient.end_W = end_W;
+  ambient.effective_W = mean_W;
+  ambient.length_scale = length_scale;
+}
+
+// Within rounding of where the flight ends, or did a continuous collision stop the body on its way?
+bool reachedEnd(const AmbientBody& ambient) {
+  const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
+  const double rounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  return (position - ambient.end.position).norm() <= rounding * ambient.length_scale;
+}
+
+}  // namespace
+
+void beginFlights(AmbientBody* const* bodies, int count, double time_step,
+                  Twist* changes_W) noexcept {
+  Departures departures;
+  readDepartures(bodies, count, departures);
+  std::optional<Flight> flights[kFlightsTogether];
+  Flight* all[kFlightsTogether] = {};
+  for (int i = 0; i < count; ++i) {
+    AmbientBody& ambient = *bodies[i];
+    const RigidState& start = departures.states[i];
+    if (wasMovedByOthers(ambient, start, departures.twists_W[i])) ambient.memory.has_load = false;
+    const FlightTask task{ambient.model, departures.surroundings[i], ambient.def.flight, time_step};
+    all[i] = &flights[i].emplace(task, start, ambient.memory);
+  }
+  flyTogether(all, count);
+  Arrivals arrivals;
+  computeArrivals(departures, all, count, time_step, arrivals);
+  for (int i = 0; i < count; ++i) {
+    AmbientBody& ambient = *bodies[i];
+    const FlightResult& flight = all[i]->body;
+    const Twist &mean_W = arrivals.means_W[i], &before_W = departures.twists_W[i];
+    const double length_scale = flight.state.position.norm() + ambient.model.reference_length +
+                                time_step * before_W.linear.norm();
+    keep(flight, arrivals.ends_W[i], mean_W, length_scale, ambient);
+    changes_W[i] = {};
+    if (ambient.has_flown)
+      changes_W[i] = {mean_W.angular - before_W.angular, mean_W.linear - before_W.linear};
+  }
+}
+
+void endFlight(AmbientBody& ambient, double time_step) noexcept {
+  btRigidBody& body = *ambient.body;
+  if (ambient.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) &&
+      reachedEnd(ambient)) {
+    btTransform end = body.getWorldTransform();
+    end.setRotation(toBullet(ambient.end.orientation));
+    body.setCenterOfMassTransform(end);
+  }
+  const Twist& end = ambient.end_W;
+  // Added, not set: impulses that other actions have applied meanwhile survive.
+  body.setAngularVelocity(body.getAngularVelocity() +
+                          toBullet(Vector3(end.angular - ambient.effective_W.angular)));
+  body.setLinearVelocity(body.getLinearVelocity() +
+                         toBullet(Vector3(end.linear - ambient.effective_W.linear)));
+  ambient.left_W = end;
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/bullet/precision_check.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// Flies up to kFlightsTogether bodies over `time_step` [s] and keeps where they end. Writes the
+/// velocity changes in world axes that make Bullet's integrateTransform reach those poses,
+/// docs/theory.md eq. (29). If a flight is not finite, its has_flown is false and nothing is kept.
+void beginFlights(AmbientBody* const* bodies, int count, double time_step,
+                  Twist* changes_W) noexcept;
+
+/// After Bullet has moved the body: gives it the velocity of the end of its flight, and the pose
+/// itself where Bullet limits the rotation per step.
+void endFlight(AmbientBody& ambient, double time_step) noexcept;
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient
