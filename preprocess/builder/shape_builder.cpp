@@ -9,6 +9,7 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/triangle_quality.h"
 #include "preprocess/potential_flow/ellipsoid_added_mass.h"
+#include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_mesh.h"
 
@@ -18,8 +19,8 @@ namespace {
 // Below this the faces, not the model, decide about the loads.
 constexpr Eigen::Index kCoarse = 100;
 
-// Panels are cut from triangles and keep their aspect; a cube with strips of an aspect of 1000 is
-// 7 % off in rotation, a sheet of 1000 : 1 4 % in translation.
+// Panels are cut from triangles and keep their aspect: a sheet of 1000 : 1 is 4 % off in
+// translation.
 constexpr double kSkinny = 200;
 
 /// Longest extent over the middle one.
@@ -45,19 +46,27 @@ bool hasClosedForm(const ShapeDescription& shape, const ShapeBuildSettings& sett
   return semiAxesOf(shape).has_value() && settings.solver == FlowSolverKind::Automatic;
 }
 
-void warnOfMesh(CheckedMesh& checked, const ShapeDescription& shape, int least_faces) {
+/// The triangle of largest aspect of those that panels are cut from.
+TriangleQuality worstForPanels(const TriangleMesh& mesh, bool sheet, int max_panels) {
+  const TriangleQuality worst = findWorstTriangles(mesh, 1).front();
+  if (worst.aspect <= kSkinny) return worst;
+  return findWorstTriangles(mergeFlatTriangles(mesh, sheet, max_panels), 1).front();
+}
+
+void warnOfMesh(CheckedMesh& checked, const ShapeDescription& shape,
+                const ShapeBuildSettings& settings) {
   const auto warn = [&](const std::ostringstream& text) {
     checked.warnings.push_back(shape.source + ": " + text.str());
   };
   std::ostringstream text;
   text.precision(3);
-  if (std::max<Eigen::Index>(checked.mesh.triangleCount(), least_faces) < kCoarse) {
+  if (std::max<Eigen::Index>(checked.mesh.triangleCount(), settings.least_faces) < kCoarse) {
     text << checked.mesh.triangleCount()
          << " triangles are few: each has one sample of the slip velocity, so that loads in "
             "rotation may be off by half; divide them (least faces 400)";
     warn(text);
   }
-  const TriangleQuality worst = findWorstTriangles(checked.mesh, 1).front();
+  const TriangleQuality worst = worstForPanels(checked.mesh, isSheet(shape), settings.max_panels);
   if (worst.aspect > kSkinny && !fileOf(shape).empty()) {
     text.str({});
     text << "triangle " << worst.triangle << " at " << pointText(worst.barycentre) << " is "
@@ -140,7 +149,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
     return readBody(*fluid_body, settings);
   }
   CheckedMesh checked = makeShapeMesh(shape, settings.scale);
-  warnOfMesh(checked, shape, settings.least_faces);
+  warnOfMesh(checked, shape, settings);
   BuildSettings build;
   build.name = settings.name;
   build.source = shape.source;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/potential_flow/refined_flow.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 
@@ -85,13 +86,14 @@ MeshReport makeMeshReport(const TriangleMesh& mesh, const MeshReportSettings& se
   report.worst_triangles = findWorstTriangles(mesh, settings.worst_triangles);
   if (!settings.sheet) report.thinnest = findThinnestPart(mesh);
 
-  report.build = estimateBuild(centred, settings);
-  report.surface = refineSurface(centred, settings.sheet, settings.max_panels);
+  const TriangleMesh basis = mergeFlatTriangles(centred, settings.sheet, settings.max_panels);
+  report.build = estimateBuild(basis, settings);
+  report.surface = refineSurface(basis, settings.sheet, settings.max_panels);
   SolvedLevel solved = solveLevel(report.surface, settings);
   report.built = solved.level;
   report.potential = std::move(solved.potential);
   report.extrapolated = report.built.added_mass;
-  report.other = solveOther(centred, report.built, settings);
+  report.other = solveOther(basis, report.built, settings);
   if (!report.other) return report;
   // K(P) = K + c / P.
   const auto built = static_cast<double>(report.built.panels),

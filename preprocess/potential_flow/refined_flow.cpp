@@ -7,6 +7,7 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/potential_flow/curvature_correction.h"
+#include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/potential_flow/positive_part.h"
 #include "preprocess/potential_flow/shape_symmetry.h"
 #include "preprocess/potential_flow/surface_refinement.h"
@@ -39,8 +40,10 @@ RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettin
   const std::vector<FaceBulge> bulges =
       settings.sheet ? std::vector<FaceBulge>() : estimateBulges(mesh);
   const bool smooth = isSmooth(bulges);
+  const TriangleMesh basis =
+      bulges.empty() ? mergeFlatTriangles(mesh, settings.sheet, settings.max_panels) : mesh;
   const SurfaceLevels levels =
-      refineInLevels(mesh, settings.sheet, smooth ? 0 : settings.max_panels);
+      refineInLevels(basis, settings.sheet, smooth ? 0 : settings.max_panels);
   PotentialFlowSettings undivided_settings = settings;
   undivided_settings.max_panels = 0;
   if (smooth && settings.solver == FlowSolverKind::Automatic &&

@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 
 namespace ambient::study {
@@ -87,7 +88,8 @@ AccuracyRow measureAccuracy(const AccuracyCase& one, const Reference& reference)
   const Matrix6 K = builtAddedMass(one.mesh, one.sheet(), kDefaultPanels);
   const double seconds = processorSeconds() - begin;
   AccuracyRow row = compareAddedMass(K, reference, one.symmetry);
-  row.panels = refineSurface(one.mesh, one.sheet(), kDefaultPanels).triangleCount();
+  const TriangleMesh basis = mergeFlatTriangles(one.mesh, one.sheet(), kDefaultPanels);
+  row.panels = refineSurface(basis, one.sheet(), kDefaultPanels).triangleCount();
   row.processor_seconds = seconds;
   return row;
 }

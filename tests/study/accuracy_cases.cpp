@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "preprocess/mesh/primitives.h"
+#include "preprocess/potential_flow/surface_refinement.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/reference/sheet_added_mass.h"
@@ -127,6 +128,8 @@ void addFlatSidedBodies(std::vector<AccuracyCase>& cases) {
   };
   add("cube", makeBoxMesh({1, 1, 1}, 12), known(cubeAddedMass()));
   add("cube", meshOf(BoxShape{{1, 1, 1}}), known(cubeAddedMass()));
+  add("cube, equal triangles", divideTriangles(makeBoxMesh({1, 1, 1}, 12), 3072),
+      known(cubeAddedMass()));
   const auto addBox = [&](const std::string& name, const Eigen::Vector3d& half_sizes) {
     const auto make = [half_sizes](int faces) { return makeBoxMesh(half_sizes, faces); };
     for (const int faces : {12, 1300})
