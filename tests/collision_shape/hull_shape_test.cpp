@@ -75,10 +75,10 @@ TEST(HullShape, MarginsThatAddMoreThanATenthAreReported) {
             "out (CollisionShapeSettings::margins, --no-margins)");
   btTransform moved = btTransform::getIdentity();
   moved.setOrigin(btVector3(1, 2, 3));
+  btUniformScalingShape larger(&hull, 2);
   btCompoundShape compound;
-  compound.addChildShape(moved, &hull);
-  btUniformScalingShape larger(&compound, 2);
-  makeFluidBody(larger, settings);
+  compound.addChildShape(moved, &larger);
+  makeFluidBody(compound, settings);
   ASSERT_EQ(reports.size(), 2u);
   EXPECT_NE(reports[1].find("its volume is 0.1671 m^3, without the margin it would be 0.064 m^3"),
             std::string::npos)
