@@ -19,7 +19,7 @@ namespace {
 // Below this the faces, not the model, decide about the loads.
 constexpr Eigen::Index kCoarse = 100;
 
-// Panels are cut from triangles and keep their aspect: a sheet of 1000 : 1 is 4 % off in
+// Panels are cut from triangles and keep their aspect: a cylinder of 1000 : 1 is 1.5 % off in
 // translation.
 constexpr double kSkinny = 200;
 
@@ -76,7 +76,7 @@ void warnOfMesh(CheckedMesh& checked, const ShapeDescription& shape,
   } else if (const double slenderness = slendernessOf(checked.mesh); slenderness > kSkinny) {
     text.str({});
     text << "it is " << std::lround(slenderness)
-         << " times as long as wide: the added mass is some per cent off";
+         << " times as long as wide: the added mass may be some per cent off";
     warn(text);
   }
 }
