@@ -15,8 +15,10 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// How a btRigidBody meets the fluid.
 struct AttachDef {
-  std::shared_ptr<const FluidBody> fluid_body;  ///< shared by all bodies of one shape
-  Medium medium;
+  /// Shared by all bodies of one shape. It does not follow its collision shape: after
+  /// setLocalScaling(), which Bullet tells nobody, call AmbientRegistry::setFluidBody().
+  std::shared_ptr<const FluidBody> fluid_body;
+  Medium medium;  ///< default: vacuum, in which the body moves as in stock Bullet
   FlowSettings flow;
   FlightSettings flight;
   FrameOffset

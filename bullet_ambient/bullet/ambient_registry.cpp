@@ -33,6 +33,8 @@ const char* sentence(AmbientRegistry::Complaint complaint) {
       return "bullet_ambient: a step was too long for the motion of a body in fluid: its error "
              "stayed above the tolerance at the largest number of substeps; raise "
              "FlightSettings::max_substeps, or take shorter steps of the world";
+    case Complaint::kInertia:  // these name the body: complainOfOddities()
+    case Complaint::kEmpty:
     case Complaint::kCount:
       break;
   }
@@ -101,7 +103,30 @@ void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
   ambient->def = std::move(def);
   rebuildModel(*ambient);
   if (ambient->isInFluid()) body.activate();
+  complainOfOddities(*ambient);
   insert(std::move(ambient));
+}
+
+// Of what can be computed, but hardly was meant.
+void AmbientRegistry::complainOfOddities(const AmbientBody& ambient) {
+  constexpr double kRounding = 1e-3;
+  const FluidBody& shape = *ambient.def.fluid_body;
+  const std::string who = "bullet_ambient: body with fluid body '" + shape.name + "' ";
+  const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
+  const double largest = moments.maxCoeff(), others = moments.sum() - largest;
+  if (largest > (1 + kRounding) * others) {
+    const std::string text = who + "has a principal moment of inertia of " +
+                             std::to_string(largest) + " kg m^2, but no rigid body has one above " +
+                             std::to_string(others) + " kg m^2, the sum of the other two";
+    complain(Complaint::kInertia, text.c_str());
+  }
+  const bool has_loads =
+      shape.faces.size() > 0 || shape.sphere_radius > 0 || ambient.def.flow.model;
+  if (ambient.isInFluid() && !has_loads && !(shape.volume > 0) && shape.added_mass.isZero(0)) {
+    const std::string text =
+        who + "feels no fluid: without faces, volume and added mass its shape is empty";
+    complain(Complaint::kEmpty, text.c_str());
+  }
 }
 
 void AmbientRegistry::insert(std::unique_ptr<AmbientBody> ambient) {
@@ -204,11 +229,15 @@ AmbientBody& AmbientRegistry::require(const btRigidBody& body) const {
 }
 
 void AmbientRegistry::complain(Complaint complaint) noexcept {
+  complain(complaint, sentence(complaint));
+}
+
+void AmbientRegistry::complain(Complaint complaint, const char* text) noexcept {
   bool& done = complained_[static_cast<int>(complaint)];
   if (done) return;
   done = true;
   try {
-    if (report_) report_(sentence(complaint));
+    if (report_) report_(text);
   } catch (...) {
     // A user's callback that throws must not unwind through Bullet's solver.
   }

@@ -60,7 +60,8 @@ class AmbientRegistry {
   AmbientCounters counters() const;
 
   /// Receives one sentence the first time something cannot be right: the action or the solver is
-  /// missing from the world, a step's result was not finite, a step was too long for a motion.
+  /// missing from the world, a step's result was not finite, a step was too long for a motion, a
+  /// body was attached whose moments of inertia no rigid body has, or whose fluid body is empty.
   /// Default: standard error.
   void setReport(std::function<void(const std::string&)> report);
 
@@ -77,12 +78,23 @@ class AmbientRegistry {
   const std::vector<std::unique_ptr<AmbientBody>>& bodies() const { return bodies_; }
   /// Takes over a body with a model, in place of what is attached at its address.
   void insert(std::unique_ptr<AmbientBody> ambient);
-  enum class Complaint { kNoAction, kNoSolver, kNotFinite, kNotPhysical, kCoarse, kCount };
+  enum class Complaint {
+    kNoAction,
+    kNoSolver,
+    kNotFinite,
+    kNotPhysical,
+    kCoarse,
+    kInertia,
+    kEmpty,
+    kCount
+  };
   void complain(Complaint complaint) noexcept;
 
  private:
   AmbientBody& require(const btRigidBody& body) const;
   void replaceDef(AmbientBody& ambient, AttachDef def);
+  void complainOfOddities(const AmbientBody& ambient);
+  void complain(Complaint complaint, const char* text) noexcept;
 
   std::vector<std::unique_ptr<AmbientBody>> bodies_;  // in the order of attachment
   std::unordered_map<const btCollisionObject*, AmbientBody*> by_object_;

@@ -13,10 +13,9 @@ namespace {
 
 constexpr double kRightAngle = 1.5707963267948966;
 
-// One evaluation with friction, in faces. Measured with AVX-512: 394, 496, 688 for 48, 96, 200
-// clusters; with AVX2, whose faces are dearer: 310, 408, 643. A level that is taken is cheaper with
-// both.
-double costOf(int clusters) { return 300 + 2 * clusters; }
+// One evaluation, in faces that cost as much. Measured by face_loads_benchmark with AVX-512 for 48,
+// 96 and 200 clusters: 80, 190, 420 with friction, 280, 385, 640 without.
+double costOf(int clusters) { return 100 + 2 * clusters; }
 
 // The faces about the centre of their area, in units of their mean distance from it.
 struct CentredFaces {

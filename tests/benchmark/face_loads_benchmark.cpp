@@ -6,6 +6,7 @@
 #include "bullet_ambient/force/level_loads.h"
 #include "bullet_ambient/force/single_loads.h"
 #include "bullet_ambient/force/single_sums.h"
+#include "bullet_ambient/force/sphere_loads.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/support/geodesic.h"
 
@@ -113,19 +114,36 @@ BENCHMARK_CAPTURE(singleLoads, pressure, false)->DenseRange(0, 5);
 BENCHMARK_CAPTURE(singleLoads, friction, true)->DenseRange(0, 5);
 
 /// Arguments: subdivision level of the mesh, clusters.
-void levelLoads(benchmark::State& state, bool friction) {
+void levelLoads(benchmark::State& state, bool friction, double angle) {
   FluidBody body;
   body.faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
-  const LoadLevel level = buildLoadLevels(body, {static_cast<int>(state.range(1))}).front();
-  const LoadSettings settings{1.204, 1.82e-5, 0, friction};
+  const LoadLevel level =
+      buildLoadLevels(body, {static_cast<int>(state.range(1))}, angle * kRightAngle).front();
+  const LoadSettings settings{1.204, 1.82e-5, separationCosine(angle * kRightAngle), friction};
   Twist twist = someTwist();
   for (auto _ : state) {
     benchmark::DoNotOptimize(twist);
     benchmark::DoNotOptimize(computeLevelLoad(level, 1, twist, settings));
   }
 }
-BENCHMARK_CAPTURE(levelLoads, pressure, false)->ArgsProduct({{3}, {48, 96, 200, 400}});
-BENCHMARK_CAPTURE(levelLoads, friction, true)->ArgsProduct({{3}, {48, 96, 200, 400}});
+BENCHMARK_CAPTURE(levelLoads, pressure, false, 1.0)->ArgsProduct({{3}, {48, 96, 200}});
+BENCHMARK_CAPTURE(levelLoads, friction, true, 1.0)->ArgsProduct({{3}, {48, 96, 200}});
+BENCHMARK_CAPTURE(levelLoads, friction_1_5, true, 1.5)->ArgsProduct({{3}, {48, 96}});
+
+void sphereLoads(benchmark::State& state, bool friction, double angle) {
+  const LoadSettings settings{1.204, 1.82e-5, separationCosine(angle * kRightAngle), friction};
+  const auto table =
+      needsSphereTable(settings) ? sharedSphereTable(settings.separation_cosine) : nullptr;
+  Twist twist = someTwist();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(twist);
+    benchmark::DoNotOptimize(computeSphereLoads(table.get(), 0.5, 1, twist, settings));
+  }
+}
+BENCHMARK_CAPTURE(sphereLoads, pressure, false, 1.0);
+BENCHMARK_CAPTURE(sphereLoads, friction, true, 1.0);
+BENCHMARK_CAPTURE(sphereLoads, pressure_1_5, false, 1.5);
+BENCHMARK_CAPTURE(sphereLoads, friction_1_5, true, 1.5);
 
 void fifthRoot(benchmark::State& state) {
   double x = 1.7;

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "tests/bullet/fluid_world.h"
 
@@ -72,6 +73,42 @@ TEST(Attach, RefusesABodyThatCannotTurn) {
   BodyDef def;
   def.moments.setZero();
   expectSays(refusal(def, ball()), "angular factor");
+}
+
+// What is said when a body is attached, twice.
+std::vector<std::string> saidAbout(const BodyDef& body_def, const AttachDef& def) {
+  FluidWorld fluid;
+  std::vector<std::string> said;
+  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  for (int i = 0; i < 2; ++i) fluid.registry.attach(fluid.add(body_def), def);
+  return said;
+}
+
+TEST(Attach, ReportsMomentsOfInertiaOfNoRigidBodyOnce) {
+  AttachDef def = ball();
+  BodyDef sheet;
+  sheet.moments = {1, 2, 3};
+  EXPECT_TRUE(saidAbout(sheet, def).empty());
+  BodyDef odd;
+  odd.moments = {1, 10, 1};
+  const std::vector<std::string> said = saidAbout(odd, def);
+  ASSERT_EQ(said.size(), 1u);
+  expectSays(said[0], "inertia of 10.0");
+  expectSays(said[0], "above 2.0");
+}
+
+TEST(Attach, ReportsAnEmptyFluidBodyOnce) {
+  AttachDef def;
+  auto empty = std::make_shared<FluidBody>();
+  empty->name = "hollow";
+  def.fluid_body = empty;
+  EXPECT_TRUE(saidAbout({}, def).empty());  // in vacuum nothing is expected of it
+  def.medium = air();
+  const std::vector<std::string> said = saidAbout({}, def);
+  ASSERT_EQ(said.size(), 1u);
+  expectSays(said[0], "'hollow' feels no fluid");
+  empty->volume = 1;
+  EXPECT_TRUE(saidAbout({}, def).empty());
 }
 
 TEST(Attach, RefusesTheSameBodyTwice) {
