@@ -19,8 +19,8 @@ namespace {
 // Below this the faces, not the model, decide about the loads.
 constexpr Eigen::Index kCoarse = 100;
 
-// Panels are cut from triangles and keep their aspect: a cylinder of 1000 : 1 is 1.5 % off in
-// translation.
+// Panels are cut from triangles and keep their aspect: an elliptic sheet of 1000 : 1 is 7 % off in
+// rotation.
 constexpr double kSkinny = 200;
 
 /// Longest extent over the middle one.

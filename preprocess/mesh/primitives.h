@@ -21,11 +21,11 @@ TriangleMesh makeEllipsoidMesh(const Eigen::Vector3d& semi_axes, int faces);
 TriangleMesh makeBoxMesh(const Eigen::Vector3d& half_sizes, int faces);
 
 /// Circular cylinder about z, radius and full height [m], graded towards the rims. At least 48
-/// faces, slender ones up to 336.
+/// faces, slender ones up to 304.
 TriangleMesh makeCylinderMesh(double radius, double height, int faces);
 
 /// Capsule about z: radius and height of the cylindrical part [m], as btCapsuleShapeZ. At least 48
-/// faces, slender ones up to 336.
+/// faces, slender ones up to 304.
 TriangleMesh makeCapsuleMesh(double radius, double height, int faces);
 
 /// Cone about z, apex at +height/2, base at -height/2 [m], graded towards the rim. At least 16

@@ -112,7 +112,7 @@ double gradedRadius(double radius, int k, int n) {
 // Rows on the side per ring of the base, at equal cell size on both sides of the rim; limited on
 // very slender bodies, which would otherwise leave no triangles for the circumference.
 double rowsPerRing(double length, double radius) {
-  constexpr double kMost = 20;
+  constexpr double kMost = 18;
   return std::min(std::sqrt(length / radius), kMost);
 }
 
