@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -41,6 +42,8 @@ struct BuildSettings {
   double memory_limit = 0;  ///< for the flow, bytes; 0: what the machine has available
   FlowSolverKind solver = FlowSolverKind::Automatic;
   Provenance provenance;  ///< copied; an empty generator becomes this library and its version
+  /// Receives in one line what is doubtful about the result; null: nothing is said.
+  std::function<void(const std::string&)> warn = nullptr;
 };
 
 /// Everything the fluid needs to know of a shape: mass properties, added mass, faces. The axes of F

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
@@ -169,7 +170,10 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry))
     build.sphere_radius = settings.scale * sphere->radius;
   build.provenance = describeShape(shape, settings);
-  return {makeFluidBody(checked.mesh, build), checked.warnings};
+  if (!fileOf(shape).empty())
+    build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
+  FluidBody body = makeFluidBody(checked.mesh, build);
+  return {std::move(body), checked.warnings};
 }
 
 }  // namespace ambient

@@ -6,6 +6,7 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/mesh/triangle_quality.h"
 #include "preprocess/potential_flow/curvature_correction.h"
 #include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/potential_flow/positive_part.h"
@@ -27,6 +28,23 @@ Matrix6 extrapolated(const Matrix6& fine, const Matrix6& coarse, double panel_ra
   return fine + (fine - coarse) / (std::pow(panel_ratio, kOrder / 2) - 1);
 }
 
+/// Relative to the largest entry of its block, the larger one of rotation and translation.
+double changeOf(const Matrix6& before, const Matrix6& after) {
+  double largest = 0;
+  for (const int block : {0, 3}) {
+    const Matrix3 now = after.block<3, 3>(block, block);
+    const double change = (now - before.block<3, 3>(block, block)).cwiseAbs().maxCoeff();
+    const double size = now.cwiseAbs().maxCoeff();
+    if (size > 0) largest = std::max(largest, change / size);
+  }
+  return largest;
+}
+
+// Cylinders of 16 strips as long as wide are extrapolated by 1 % and come out 0.5 % off, those of
+// 32 by 4 and 3 %. Those of 64 change by 21 % with a level across the rims and are 10 % off.
+constexpr double kLargeChange = 0.02;
+constexpr double kLongTriangle = 8;  // aspect
+
 /// Whether all triangles but a few stand for a part of a smooth surface. To divide them would
 /// resolve the flow around facets that the body does not have.
 bool isSmooth(const std::vector<FaceBulge>& bulges) {
@@ -36,7 +54,8 @@ bool isSmooth(const std::vector<FaceBulge>& bulges) {
 
 }  // namespace
 
-RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings,
+                             bool check_panels) {
   const std::vector<FaceBulge> bulges =
       settings.sheet ? std::vector<FaceBulge>() : estimateBulges(mesh);
   const bool smooth = isSmooth(bulges);
@@ -56,6 +75,15 @@ RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettin
     refined.added_mass =
         extrapolated(flow.added_mass, coarse.added_mass,
                      static_cast<double>(flow.panels) / static_cast<double>(coarse.panels));
+  }
+  if (check_panels && !smooth && !settings.sheet &&
+      findWorstTriangles(basis, 1).front().aspect > kLongTriangle) {
+    double change = changeOf(flow.added_mass, refined.added_mass);
+    if (levels.less_thinned) {
+      const PotentialFlow other = solvePotentialFlow(*levels.less_thinned, undivided_settings);
+      change = changeOf(other.added_mass, flow.added_mass);
+    }
+    refined.is_coarse = change > kLargeChange;
   }
   const MeshProperties properties =
       settings.sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);

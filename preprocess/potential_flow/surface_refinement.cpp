@@ -134,20 +134,20 @@ TriangleMesh refineTowardsFirst(const TriangleMesh& mesh, Index vertex_count, in
 }
 
 SurfaceLevels refineInLevels(const TriangleMesh& mesh, bool sheet, int max_triangles) {
-  if (mesh.triangleCount() >= max_triangles) return {undivided(mesh), std::nullopt};
+  if (mesh.triangleCount() >= max_triangles) return {undivided(mesh), std::nullopt, std::nullopt};
   std::vector<DividedSurface> uniform = {undivided(mesh)};
   while (true) {
     DividedSurface finer = cutLongEdges(uniform.back());
     if (kUniformShare * finer.mesh.triangleCount() > max_triangles) break;
     uniform.push_back(std::move(finer));
   }
-  SurfaceLevels levels{uniform.back(), std::nullopt};
+  SurfaceLevels levels{uniform.back(), std::nullopt, std::nullopt};
   const int thinned = thinAcrossSharpEdges(sheet, kEdgeLevels, max_triangles, levels.fine);
-  if (const DividedSurface* before = beforeHalving(uniform); before != nullptr && thinned > 0) {
-    DividedSurface coarse = *before;
-    thinAcrossSharpEdges(sheet, thinned - 1, max_triangles, coarse);
-    levels.coarse = std::move(coarse.mesh);
-  }
+  if (thinned == 0) return levels;
+  const DividedSurface* before = beforeHalving(uniform);
+  DividedSurface other = before ? *before : uniform.back();
+  thinAcrossSharpEdges(sheet, thinned - 1, max_triangles, other);
+  (before ? levels.coarse : levels.less_thinned) = std::move(other.mesh);
   return levels;
 }
 

@@ -20,6 +20,8 @@ struct SurfaceLevels {
   /// Edges twice as long and one level less across sharp edges; none where the faces were not
   /// divided as a whole, or have no sharp edge.
   std::optional<TriangleMesh> coarse;
+  /// In place of a coarse one: as the fine one, but a level less across sharp edges.
+  std::optional<TriangleMesh> less_thinned;
 };
 SurfaceLevels refineInLevels(const TriangleMesh& mesh, bool sheet, int max_triangles);
 

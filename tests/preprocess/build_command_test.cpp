@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <sstream>
+
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/mesh/mesh_fixtures.h"
@@ -108,6 +111,43 @@ TEST_F(CommandLine, SlenderShapesAreWarnedOf) {
             "warning: " + path("s.json") +
                 ": it is 1000 times as long as wide: the added mass may be some per cent off\n");
   EXPECT_EQ(warningsOf(R"({"type":"sheet","size":[0.01,1],"faces":400})"), "");
+}
+
+// A cylinder as CAD programs cut it: strips from rim to rim and caps like fans.
+std::string cylinderOfStrips(int strips) {
+  std::string vertices, triangles;
+  const auto add = [](std::string& to, const char* key, const auto& a, const auto& b,
+                      const auto& c) {
+    std::ostringstream line;
+    line << key << ' ' << a << ' ' << b << ' ' << c << '\n';
+    to += line.str();
+  };
+  for (const double z : {-0.5, 0.5})
+    for (int i = 0; i < strips; ++i) {
+      const double angle = 2 * std::acos(-1.0) * i / strips;
+      add(vertices, "v", 0.5 * std::cos(angle), 0.5 * std::sin(angle), z);
+    }
+  for (const double z : {-0.5, 0.5}) add(vertices, "v", 0, 0, z);
+  for (int i = 1; i <= strips; ++i) {
+    const int next = i % strips + 1;
+    add(triangles, "f", i, next, strips + next);
+    add(triangles, "f", i, strips + next, strips + i);
+    add(triangles, "f", 2 * strips + 1, next, i);
+    add(triangles, "f", 2 * strips + 2, strips + i, strips + next);
+  }
+  return vertices + triangles;
+}
+
+TEST_F(CommandLine, RoundBodiesOfLongTrianglesAreWarnedOf) {
+  const auto errorsOf = [&](const std::string& name, const std::string& text) {
+    return run({"build", write(name, text), "-o", path("out.ambient"), "--panels", "1000"}).errors;
+  };
+  EXPECT_EQ(errorsOf("strips.obj", cylinderOfStrips(32)),
+            "warning: " + path("strips.obj") +
+                ": its long triangles leave too few panels across its edges: the added mass may be "
+                "some, at worst tens of per cent off; cut them into shorter ones, or give more "
+                "panels (panels 67200)\n");
+  EXPECT_EQ(errorsOf("even.obj", objText(makeCylinderMesh(0.5, 1, 400))), "");
 }
 
 TEST_F(CommandLine, SheetsAreBuiltFromOpenMeshes) {
