@@ -85,7 +85,7 @@ RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
   flow_settings.solver = settings.solver;
   flow_settings.memory_limit = settings.memory_limit;
   try {
-    return solveRefinedFlow(mesh, flow_settings, settings.warn != nullptr);
+    return solveRefinedFlow(mesh, flow_settings);
   } catch (const std::runtime_error& error) {
     raiseInputError(sourceOf(settings), error.what());
   }
@@ -117,10 +117,8 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
     if (flow.is_coarse && settings.warn) {
       settings.warn(
           sourceOf(settings) +
-          ": its long triangles leave too few panels across its edges: the added mass may "
-          "be some, at worst tens of per cent off; cut them into shorter ones, or give "
-          "more panels (panels " +
-          std::to_string(16 * std::max(settings.max_panels, kDefaultPanels)) + ")");
+          ": its long triangles leave too few panels across its edges: the added mass may be some, "
+          "at worst tens of per cent off; cut them into shorter ones, or give more panels");
     }
     body.added_mass = flow.added_mass;
     body.asymmetry = flow.asymmetry;

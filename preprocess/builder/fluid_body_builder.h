@@ -35,8 +35,9 @@ struct BuildSettings {
   /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
   std::optional<Matrix6> added_mass;
   int least_faces = 0;  ///< the mesh is divided into at least so many triangles for the loads
-  /// The flow is solved on up to so many panels, finer than the mesh where that helps; the faces
-  /// remain those of the mesh. 0: on the triangles of the mesh.
+  /// The flow is solved on up to so many panels, finer than the mesh where that helps, and on four
+  /// times as many where long triangles need them; the faces remain those of the mesh. 0: on the
+  /// triangles of the mesh.
   int max_panels = kDefaultPanels;
   int threads = 0;          ///< 0: all cores; the result does not depend on it, bit for bit
   double memory_limit = 0;  ///< for the flow, bytes; 0: what the machine has available

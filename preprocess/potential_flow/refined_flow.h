@@ -9,22 +9,20 @@ struct RefinedFlow {
   Matrix6 added_mass = Matrix6::Zero();  ///< per unit density, about the mesh's origin
   double asymmetry = 0;                  ///< as PotentialFlow::asymmetry
   Eigen::Index panels = 0;               ///< the most that equations were solved on
-  /// Long triangles between the sharp edges of a round body left too few panels across them: some,
-  /// at worst tens of per cent of the largest entry in rotation.
+  /// Long triangles left too few panels across sharp edges, also of those added: some, at worst
+  /// tens of per cent of the largest entry in rotation.
   bool is_coarse = false;
 };
 
-/// solvePotentialFlow() with three corrections that cost next to nothing. Where flat faces with
-/// sharp edges are divided, the result is extrapolated from two divisions, the coarser one with
-/// about a quarter of the panels. A closed mesh of one piece without sharp edges stands for a
-/// smooth body of the same volume: to first order its triangles bulge up to it; if all of it is
-/// curved, its own triangles are the panels. And what the symmetries of the body forbid is removed,
-/// however its faces are cut.
-/// With `check_panels` is_coarse is found out, which takes another solution where there are long
-/// triangles.
+/// solvePotentialFlow() with corrections that cost next to nothing. Where flat faces with sharp
+/// edges are divided, the result is extrapolated from two divisions, the coarser one with about a
+/// quarter of the panels. A closed mesh of one piece without sharp edges stands for a smooth body
+/// of the same volume: to first order its triangles bulge up to it; if all of it is curved, its own
+/// triangles are the panels. And what the symmetries of the body forbid is removed, however its
+/// faces are cut. A mesh of long triangles on which two divisions disagree gets four times as many
+/// panels, unless the dense solver was asked for.
 /// @pre settings.true_volume == 0: the mesh has the volume of the body.
 /// @throws std::runtime_error as solvePotentialFlow().
-RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings,
-                             bool check_panels = false);
+RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings);
 
 }  // namespace ambient
