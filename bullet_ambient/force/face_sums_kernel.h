@@ -1,39 +1,19 @@
 #pragma once
 
+#include "bullet_ambient/force/double_lanes.h"
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/fifth_root.h"
 
-// Included once by each face_sums_<instruction set>.cpp, which is compiled for that set. Written
-// with the vector types of GCC and Clang, which have the +, -, *, > and ?: of IEEE 754 per lane.
-
-#if defined(__FAST_MATH__)
-#error "-ffast-math reorders the sums over faces; they must have the same bits everywhere"
-#endif
+// Included once by each face_sums_<instruction set>.cpp, which is compiled for that set.
 
 namespace ambient {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kWidth = 8;
-#elif defined(__AVX2__)
-constexpr int kWidth = 4;
-#else
-constexpr int kWidth = 2;
-#endif
 constexpr int kLanes = 8;
 /// Faces whose intermediate results are held on the stack at a time.
 constexpr int kBlock = 256;
 
-using Doubles = double __attribute__((vector_size(kWidth * sizeof(double))));
 using Bits = std::uint64_t __attribute__((vector_size(kWidth * sizeof(std::uint64_t))));
-
-inline Doubles load(const double* from) {
-  Doubles d;
-  __builtin_memcpy(&d, from, sizeof d);
-  return d;
-}
-
-inline void store(double* to, Doubles d) { __builtin_memcpy(to, &d, sizeof d); }
 
 struct Vectors {
   Doubles x, y, z;

@@ -5,35 +5,16 @@
 #include <immintrin.h>
 #endif
 
-// One body per lane, in double. Included by what is compiled once per instruction set: nothing here
-// may share an inline function with the rest of the program. Written with the vector types of GCC
-// and Clang, which have the operators of IEEE 754 per lane. No operation is fused and lanes do not
-// mix: all instruction sets give the same bits, whoever flies beside a body.
+#include "bullet_ambient/force/double_lanes.h"
 
-#if defined(__FAST_MATH__)
-#error "-ffast-math reorders operations; bodies must move by the same bits everywhere"
-#endif
+// One body per lane; the rules of double_lanes.h. No operation is fused and lanes do not mix: all
+// instruction sets give the same bits, whoever flies beside a body.
 
 namespace ambient {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kWidth = 8;
-#elif defined(__AVX2__)
-constexpr int kWidth = 4;
-#else
-constexpr int kWidth = 2;
-#endif
-
-using Lanes = double __attribute__((vector_size(kWidth * sizeof(double))));
+using Lanes = Doubles;
 using Mask = decltype(Lanes{} < Lanes{});
-
-inline Lanes load(const double* from) {
-  Lanes a;
-  __builtin_memcpy(&a, from, sizeof a);
-  return a;
-}
-inline void store(double* to, const Lanes& a) { __builtin_memcpy(to, &a, sizeof a); }
 
 inline Lanes all(double value) { return value - Lanes{}; }
 
