@@ -24,9 +24,9 @@ std::vector<PreparedBody> prepareOnce(const Scene& scene) {
   return prepareBodies(scene, cache);
 }
 
-// The first seconds of a scene; long enough for the bodies to meet what they meet.
+// The first second of a scene.
 GoldenRecord recordMotion(const std::filesystem::path& file) {
-  const Scene scene = readScene(file, {{"duration", "2"}});
+  const Scene scene = readScene(file, {{"duration", "1"}});
   const RunRecord run = runPrepared(scene, prepareOnce(scene));
   GoldenTrace trace;
   for (const std::vector<MotionSample>& body : run.motion)

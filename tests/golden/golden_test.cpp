@@ -28,8 +28,8 @@ const GoldenRecord* find(const std::string& name) {
   return found == records.end() ? nullptr : &*found;
 }
 
-// Where the machine's mathematical functions round differently: what contacts make of one such
-// rounding within a second, in Bullet's float or double, and tumbling plates within two.
+// Where the machine's mathematical functions round differently: what contacts and tumbling plates
+// make of that within a second, in Bullet's float or double.
 constexpr double kOtherMachine = AMBIENT_GOLDEN_TOLERANCE;
 
 class GoldenRuns : public ::testing::TestWithParam<GoldenRun> {};
