@@ -1,7 +1,6 @@
 #include "bullet_ambient/motion/body_model.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include "bullet_ambient/force/level_loads.h"
 #include "bullet_ambient/force/passivity_guard.h"
 #include "bullet_ambient/force/single_loads.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 namespace {
@@ -23,8 +23,7 @@ namespace {
 }
 
 Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return symmetricEigen(symmetric).values;
 }
 
 void checkMass(const FluidBody& body, const MassProperties& mass) {

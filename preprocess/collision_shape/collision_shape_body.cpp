@@ -1,11 +1,11 @@
 #include "preprocess/collision_shape/collision_shape_body.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
 
 #include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/collision_shape/collision_solids.h"
 #include "preprocess/collision_shape/solid_contact.h"
 #include "preprocess/mesh/input_error.h"
@@ -116,9 +116,9 @@ Matrix6 solvedAddedMass(const TriangleMesh& mesh, const CollisionShapeSettings& 
 /// The nearest symmetric positive semi-definite matrix: extrapolation may leave a tiny negative
 /// eigenvalue where the true inertia vanishes.
 Matrix6 withoutNegativePart(const Matrix6& K) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(K);
-  const Matrix6 positive = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-                           eigen.eigenvectors().transpose();
+  const SymmetricEigen<6> eigen = symmetricEigen<6>(K);
+  const Matrix6 positive =
+      eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
   return (positive + positive.transpose()) / 2;
 }
 
