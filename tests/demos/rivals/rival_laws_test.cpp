@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "demos/rivals/linear_drag.h"
 #include "demos/rivals/windward_flux.h"
 #include "tests/support/ellipsoid_body.h"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kRadius = 0.11;
 constexpr double kDensity = 1.204;
-const double kPi = std::acos(-1.0);
 
 Wrench loadOnBall(const SurfaceLoadModel& model, const Twist& twist) {
   LoadSettings settings;
