@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/motion/body_model.h"
+#include "bullet_ambient/force/flow_settings.h"
 
 namespace ambient {
 
@@ -9,15 +9,7 @@ namespace ambient {
 /// traction -rho c u [Pa] wherever the surface moves with velocity u = v + w x z. The speed c [m/s]
 /// is the method's free parameter. On a sphere: force -rho c A v, torque -2/3 rho c A R^2 w,
 /// whatever the other of the two is; hence no lift.
-class LinearDrag : public SurfaceLoadModel {
- public:
-  /// @throws std::invalid_argument if `drag_speed` [m/s] is not positive and finite.
-  explicit LinearDrag(double drag_speed);
-  Wrench load(const FaceTable& faces, const Twist& relative_twist,
-              const LoadSettings& settings) const noexcept override;
-
- private:
-  double drag_speed_;
-};
+/// @throws std::invalid_argument if `drag_speed` [m/s] is not positive and finite.
+LoadLaw linearDrag(double drag_speed);
 
 }  // namespace ambient

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/motion/body_model.h"
+#include "bullet_ambient/force/flow_settings.h"
 
 namespace ambient {
 
@@ -8,10 +8,6 @@ namespace ambient {
 /// = v + w x c_i of the face. A stand-in for the lift and drag per face of Soliman et al. 2024
 /// ("GwtF"), whose own rule no public source gives; it behaves as Padilla et al. 2025 report of it.
 /// On a sphere: C_D = 1, side force pi/3 rho R^3 v x w, against Magnus'.
-class WindwardFlux : public SurfaceLoadModel {
- public:
-  Wrench load(const FaceTable& faces, const Twist& relative_twist,
-              const LoadSettings& settings) const noexcept override;
-};
+LoadLaw windwardFlux();
 
 }  // namespace ambient

@@ -132,8 +132,9 @@ BENCHMARK_CAPTURE(levelLoads, friction_1_5, true, 1.5)->ArgsProduct({{3}, {48, 9
 
 void sphereLoads(benchmark::State& state, bool friction, double angle) {
   const LoadSettings settings{1.204, 1.82e-5, separationCosine(angle * kRightAngle), friction};
-  const auto table =
-      needsSphereTable(settings) ? sharedSphereTable(settings.separation_cosine) : nullptr;
+  const auto table = needsSphereTable(settings)
+                         ? std::make_unique<SphereTable>(settings.separation_cosine)
+                         : nullptr;
   Twist twist = someTwist();
   for (auto _ : state) {
     benchmark::DoNotOptimize(twist);
