@@ -84,7 +84,7 @@ void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& 
     force = plusProduct(plusProduct(force, by_slip, slip.force), by_normal, normal.force);
     if (kFriction) {
       const Floats area = (load(block.area + lane) * motion.friction) * (0.5f + excess);
-      const Vectors f = ((area * slip_sq) * inverseThreeFifths(slip_sq)) * t;
+      const Vectors f = ((area * slip_sq) * slipPower(slip_sq)) * t;
       force = force + f;
       torque = plusCross(torque, c, f);
     }

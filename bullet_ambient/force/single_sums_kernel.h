@@ -43,7 +43,7 @@ void sumRun(const FaceBlock* blocks, const int* chosen, int count, const SingleM
     const Floats strength = strengthWhereAttached<kRightAngle>(
         normal_speed, load(block.area + lane) * speed_sq, speed_sq, motion);
     if (kFriction) {
-      const Floats along = (strength * motion.friction) * inverseThreeFifths(speed_sq);
+      const Floats along = (strength * motion.friction) * slipPower(speed_sq);
       const Vectors f = plusProduct(strength * n, along, t);
       force = force + f;
       torque = plusCross(torque, c, f);

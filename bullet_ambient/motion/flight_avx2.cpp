@@ -2,6 +2,6 @@
 
 namespace ambient {
 
-const FlightKernel& avx2FlightKernel() noexcept { return kKernel; }
+const FlightKernel kFlightKernelAvx2 = kKernel;
 
 }  // namespace ambient

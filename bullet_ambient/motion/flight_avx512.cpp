@@ -2,6 +2,6 @@
 
 namespace ambient {
 
-const FlightKernel& avx512FlightKernel() noexcept { return kKernel; }
+const FlightKernel kFlightKernelAvx512 = kKernel;
 
 }  // namespace ambient

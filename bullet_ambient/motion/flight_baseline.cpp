@@ -2,6 +2,6 @@
 
 namespace ambient {
 
-const FlightKernel& baselineFlightKernel() noexcept { return kKernel; }
+const FlightKernel kFlightKernelBaseline = kKernel;
 
 }  // namespace ambient
