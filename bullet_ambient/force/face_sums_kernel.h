@@ -4,7 +4,8 @@
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/skin_friction.h"
 
-// Included once by each face_sums_<instruction set>.cpp, which is compiled for that set.
+// Included once by each face_sums_<instruction set>.cpp, which is compiled for that set and names
+// the AMBIENT_KERNEL.
 
 namespace ambient {
 namespace {
@@ -176,7 +177,10 @@ FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion) {
   return sums;
 }
 
-FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion, bool with_friction) {
+}  // namespace
+
+FaceSums AMBIENT_KERNEL(const FaceColumns& faces, const FaceMotion& motion,
+                        bool with_friction) noexcept {
   if (motion.signed_cosine_sq == 0)
     return with_friction ? sumFaces<true, true>(faces, motion)
                          : sumFaces<true, false>(faces, motion);
@@ -184,5 +188,4 @@ FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion, bool with_
                        : sumFaces<false, false>(faces, motion);
 }
 
-}  // namespace
 }  // namespace ambient

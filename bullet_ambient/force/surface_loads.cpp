@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "bullet_ambient/fluid_body/rejection.h"
 #include "bullet_ambient/force/level_loads.h"
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/single_loads.h"
@@ -15,59 +14,49 @@ namespace {
 /// The length in the Reynolds number, docs/theory.md eq. (16).
 double referenceLength(const FluidBody& body) { return std::sqrt(body.area); }
 
-/// At alpha = pi/2 no face can push its body along: eq. (15) and (17) are dissipative term by term.
-bool mayPush(const LoadSettings& settings) { return settings.separation_cosine != 0; }
-
-class DoubleLoads final : public SurfaceLoads {
+/// Eq. (13) to (17) by one of the ways to sum them.
+template <class Table,
+          Wrench (*kSum)(const Table&, double, const Twist&, const LoadSettings&) noexcept>
+class SummedLoads : public SurfaceLoads {
  public:
-  DoubleLoads(std::shared_ptr<const FluidBody> body, const LoadSettings& settings)
-      : body_(std::move(body)), length_(referenceLength(*body_)), settings_(settings) {}
+  SummedLoads(std::shared_ptr<const Table> table, std::size_t faces, double length,
+              const LoadSettings& settings)
+      : table_(std::move(table)),
+        faces_(static_cast<int>(faces)),
+        length_(length),
+        settings_(settings) {}
 
-  Wrench load(const Twist& x) const noexcept override { return parts(x).total(); }
+  Wrench load(const Twist& x) const noexcept override {
+    return kSum(*table_, length_, x, settings_);
+  }
+  int faces() const noexcept override { return faces_; }
+  /// At alpha = pi/2 no face can push its body along: both laws are dissipative term by term.
+  bool needsGuard() const noexcept override { return settings_.separation_cosine != 0; }
+
+ protected:
+  std::shared_ptr<const Table> table_;
+  int faces_;
+  double length_;
+  LoadSettings settings_;
+};
+
+Wrench sumInDouble(const FaceTable& faces, double length, const Twist& x,
+                   const LoadSettings& settings) noexcept {
+  return computeFaceLoads(faces, length, x, settings).total();
+}
+
+using SingleLoads = SummedLoads<PackedFaces, computeFaceLoad>;
+
+struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
+  using SummedLoads::SummedLoads;
   FaceLoads parts(const Twist& x) const noexcept override {
-    return computeFaceLoads(body_->faces, length_, x, settings_);
+    return computeFaceLoads(*table_, length_, x, settings_);
   }
-  int faces() const noexcept override { return static_cast<int>(body_->faces.size()); }
-  bool needsGuard() const noexcept override { return mayPush(settings_); }
-
- private:
-  std::shared_ptr<const FluidBody> body_;
-  double length_;
-  LoadSettings settings_;
 };
 
-class SingleLoads final : public SurfaceLoads {
- public:
-  SingleLoads(std::shared_ptr<const PackedFaces> faces, double length, const LoadSettings& settings)
-      : faces_(std::move(faces)), length_(length), settings_(settings) {}
-
-  Wrench load(const Twist& x) const noexcept override {
-    return computeFaceLoad(*faces_, length_, x, settings_);
-  }
-  int faces() const noexcept override { return static_cast<int>(faces_->size()); }
-  bool needsGuard() const noexcept override { return mayPush(settings_); }
-
- private:
-  std::shared_ptr<const PackedFaces> faces_;
-  double length_;
-  LoadSettings settings_;
-};
-
-/// The fitted wrenches of clusters may push at any angle.
-class LevelLoads final : public SurfaceLoads {
- public:
-  LevelLoads(std::shared_ptr<const LoadLevel> level, double length, const LoadSettings& settings)
-      : level_(std::move(level)), length_(length), settings_(settings) {}
-
-  Wrench load(const Twist& x) const noexcept override {
-    return computeLevelLoad(*level_, length_, x, settings_);
-  }
-  int faces() const noexcept override { return level_->clusters; }
-
- private:
-  std::shared_ptr<const LoadLevel> level_;
-  double length_;
-  LoadSettings settings_;
+struct LevelLoads final : SummedLoads<LoadLevel, computeLevelLoad> {
+  using SummedLoads::SummedLoads;
+  bool needsGuard() const noexcept override { return true; }  // fitted wrenches may push
 };
 
 class SphereLoads final : public SurfaceLoads {
@@ -156,14 +145,16 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
   if (!(settings.density > 0)) return nullptr;
   if (flow.law) return flow.law(body, settings);
   if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, settings, tables);
-  if (body->faces.size() == 0) return nullptr;
   const double length = referenceLength(*body);
   if (const LoadLevel* level = chooseLevel(*body, flow))
-    return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level), length,
-                                        settings);
+    return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level),
+                                        level->clusters, length, settings);
+  const std::size_t faces = body->faces.size();
+  if (faces == 0) return nullptr;
   if (flow.precision == LoadPrecision::kSingle)
-    return std::make_shared<SingleLoads>(tables.packedFaces(body), length, settings);
-  return std::make_shared<DoubleLoads>(body, settings);
+    return std::make_shared<SingleLoads>(tables.packedFaces(body), faces, length, settings);
+  return std::make_shared<DoubleLoads>(std::shared_ptr<const FaceTable>(body, &body->faces), faces,
+                                       length, settings);
 }
 
 }  // namespace ambient

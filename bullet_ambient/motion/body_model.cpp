@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "bullet_ambient/fluid_body/rejection.h"
-#include "bullet_ambient/force/passivity_guard.h"
 #include "bullet_ambient/force/surface_loads.h"
 
 namespace ambient {
@@ -127,8 +125,7 @@ SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twi
   const Wrench wrench =
       model.load_frame.toB(model.loads->load(model.load_frame.toF(relative_twist)));
   if (!model.loads->needsGuard()) return {wrench, false};
-  const GuardedWrench guarded = removePositivePower(wrench, relative_twist, model.inertia);
-  return {guarded.wrench, guarded.acted};
+  return removePositivePower(wrench, relative_twist, model.inertia);
 }
 
 }  // namespace ambient

@@ -4,6 +4,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/medium.h"
+#include "bullet_ambient/force/passivity_guard.h"
 #include "bullet_ambient/motion/dual_pair.h"
 #include "bullet_ambient/spatial/inertia.h"
 
@@ -44,10 +45,6 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
 
 /// Pressure and friction on the body in B for a twist relative to the ambient flow, after the
 /// passivity guard; docs/theory.md eq. (13) to (17) and (20).
-struct SurfaceLoad {
-  Wrench wrench;
-  bool guarded = false;  ///< the guard removed a positive power
-};
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept;
 
 /// A twist with its momentum K x.

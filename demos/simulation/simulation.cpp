@@ -11,8 +11,7 @@
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
 #include "bullet_ambient/spatial/principal_frame.h"
-#include "demos/rivals/linear_drag.h"
-#include "demos/rivals/windward_flux.h"
+#include "demos/rivals/rival_laws.h"
 #include "demos/simulation/collision_shape.h"
 #include "demos/simulation/joint.h"
 

@@ -1,5 +1,7 @@
 #include <benchmark/benchmark.h>
 
+#include <memory>
+
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/level_loads.h"

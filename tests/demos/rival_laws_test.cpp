@@ -1,13 +1,13 @@
 // The laws of the models that the demos compare with, on a sphere.
 
+#include "demos/rivals/rival_laws.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
 #include "bullet_ambient/force/surface_loads.h"
-#include "demos/rivals/linear_drag.h"
-#include "demos/rivals/windward_flux.h"
 #include "tests/support/ellipsoid_body.h"
 
 namespace ambient {
