@@ -45,9 +45,8 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                           {v.x(), v.y(), v.z()},
                           -cosine * std::abs(cosine),
                           1 - cosine * cosine};
-  const double reynolds_per_speed =
-      settings.viscosity > 0 ? settings.density * reference_length / settings.viscosity : 0;
-  const bool with_friction = settings.skin_friction && reynolds_per_speed > 0;
+  const double reynolds_per_speed = settings.reynoldsPerSpeed(reference_length);
+  const bool with_friction = reynolds_per_speed > 0;
 
   const FaceSums sums = sum_faces(columnsOf(faces), motion, with_friction);
   const double half_density = 0.5 * settings.density;
