@@ -6,12 +6,11 @@
 #include <set>
 #include <sstream>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "demos/scene/scene_error.h"
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 /// Collects where in which file something is wrong, so that each check is one line.
 class Checker {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "demos/scene/scene_checks.h"
 #include "demos/scene/scene_schema.h"
 #include "preprocess/shape/json_text.h"
@@ -13,8 +14,6 @@ namespace ambient {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kPi = 3.141592653589793;
 
 Vector3 toVector(const json& v) {
   return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};

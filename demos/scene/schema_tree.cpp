@@ -37,7 +37,7 @@ std::vector<SchemaNode> expand(const SchemaNode& start) {
   return nodes;
 }
 
-bool isIndex(const std::string& token) {
+bool isItemIndex(const std::string& token) {
   return !token.empty() &&
          std::all_of(token.begin(), token.end(), [](unsigned char c) { return std::isdigit(c); });
 }
@@ -50,7 +50,7 @@ void appendChildren(const SchemaNode& parent, const std::string& token,
   if (properties != parent.node->end() && properties->contains(token))
     children.push_back({parent.document, &properties->at(token)});
   const auto items = parent.node->find("items");
-  if (items == parent.node->end() || !isIndex(token)) return;
+  if (items == parent.node->end() || !isItemIndex(token)) return;
   if (items->is_object()) children.push_back({parent.document, &*items});
   if (items->is_array() && std::stoul(token) < items->size())
     children.push_back({parent.document, &items->at(std::stoul(token))});

@@ -8,6 +8,7 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/potential_flow/ellipsoid_added_mass.h"
@@ -19,8 +20,6 @@
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Lengths in units of the body, so that all entries of K are comparable.
 double relativeError(const Matrix6& a, const Matrix6& b) {

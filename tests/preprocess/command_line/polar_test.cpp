@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
@@ -17,8 +18,6 @@
 
 namespace ambient {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 /// One row of the CSV.
 using Row = std::array<double, 8>;

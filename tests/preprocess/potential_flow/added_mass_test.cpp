@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/support/graded_meshes.h"
@@ -17,8 +18,6 @@ using Eigen::Vector3d;
 using test::addedMassOf;
 using test::differenceOf;
 using test::skewBody;
-
-const double kPi = std::acos(-1.0);
 
 double lowestEigenvalue(const Matrix6& K) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(K);

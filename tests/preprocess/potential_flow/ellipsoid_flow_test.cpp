@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/ellipsoid_added_mass.h"
@@ -15,8 +16,6 @@ namespace {
 using Eigen::Vector3d;
 using test::addedMassOf;
 using test::relativeError;
-
-const double kPi = std::acos(-1.0);
 
 double volumeOf(const Vector3d& semi_axes) { return 4.0 / 3.0 * kPi * semi_axes.prod(); }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/shape/shape_mesh.h"
@@ -14,8 +15,6 @@
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 ShapeDescription shapeOf(const std::string& text) {
   return readShape(nlohmann::json::parse(text), "folder", "scene.json: body \"b\"");

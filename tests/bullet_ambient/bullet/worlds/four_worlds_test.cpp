@@ -16,8 +16,6 @@ namespace {
 const Vector3 kSemiAxes{0.3, 0.25, 0.2};
 const Vector3 kCentreOfVolume{0.01, -0.02, 0.03};  // from the centre of mass: coupled
 const Twist kSpin{Vector3(0.3, 0.2, 1), Vector3::Zero()};
-constexpr double kStep = 1.0 / 120;
-
 // Boxes that fit round an ellipsoid of water.
 class Tank {
  public:
@@ -33,7 +31,7 @@ class Tank {
     for (const auto& body : bodies_) host_->world().removeRigidBody(body.get());
   }
 
-  void step(int count) { host_->step(kStep, count); }
+  void step(int count) { host_->step(kWorldStep, count); }
   const btRigidBody& flying() const { return *flying_; }
   const btRigidBody& tethered() const { return *tethered_; }
   const btRigidBody& sinking() const { return *sinking_; }

@@ -14,10 +14,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kStep = 1.0 / 120;
 constexpr double kRadius = 0.4;
-
-btScalar bt(double value) { return static_cast<btScalar>(value); }
 
 class SoftScene {
  public:
@@ -52,7 +49,7 @@ class SoftScene {
     host_->registry.attach(*body_, def);
     return *body_;
   }
-  void step(int count) { host_->step(kStep, count); }
+  void step(int count) { host_->step(kWorldStep, count); }
 
  private:
   btSoftRigidDynamicsWorld& soft_world() { return *host_->softWorld(); }
