@@ -31,11 +31,24 @@ bool hasAwakeMember(const btCollisionWorld& world, const AmbientRegistry& regist
 bool isStillIn(const btCollisionWorld& world, const AmbientRegistry& registry,
                const AmbientBody& ambient) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  int index = ambient.world_index;
+  int index = ambient.outcome.world_index;
   if (index < 0 || index >= objects.size() || objects[index] != ambient.body) {
     index = objects.findLinearSearch(ambient.body);
   }
   return index < objects.size() && registry.find(objects[index]) == &ambient;
+}
+
+bool isComplete(Outcome kind, const AmbientBody& ambient) {
+  return kind == Outcome::kStock || (kind == Outcome::kRows && !ambient.outcome.rows.energy_bound);
+}
+
+void complete(Outcome kind, AmbientBody& ambient, double time_step) {
+  if (kind == Outcome::kFlown) {
+    endFlight(ambient, time_step);
+  } else {
+    limitEnergy(ambient);
+  }
+  if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
 }
 
 }  // namespace
@@ -50,16 +63,11 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   world_ = world;
   bool any_solved = false;
   for (const auto& ambient : registry_.bodies()) {
-    if (!std::exchange(ambient->was_solved, false)) continue;
+    const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotMet);
+    if (kind == Outcome::kNotMet) continue;
     any_solved = true;
-    const bool has_flown = std::exchange(ambient->has_flown, false);
-    const bool is_adrift = std::exchange(ambient->is_adrift, false);
-    const bool is_bounded = ambient->energy_bound >= 0;
-    if (!(has_flown || is_adrift || is_bounded) || !isStillIn(*world, registry_, *ambient))
-      continue;
-    if (has_flown) endFlight(*ambient, static_cast<double>(time_step));
-    if (is_bounded) limitEnergy(*ambient);
-    if (is_adrift) keepAwakeWhileMoving(*ambient);
+    if (isComplete(kind, *ambient) || !isStillIn(*world, registry_, *ambient)) continue;
+    complete(kind, *ambient, static_cast<double>(time_step));
   }
   if (isSolverMissing(*world, any_solved)) {
     registry_.complain(AmbientRegistry::Complaint::kNoSolver);

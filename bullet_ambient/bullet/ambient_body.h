@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/substep_outcome.h"
 #include "bullet_ambient/bullet/velocity_basis.h"
 #include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/flight.h"
@@ -39,7 +40,7 @@ struct AmbientCounters {
   AmbientCounters& operator+=(const AmbientCounters& other);
 };
 
-/// One attached body: its model and what the solver hands to the action within a substep.
+/// One attached body.
 struct AmbientBody {
   btRigidBody* body = nullptr;  ///< may have been destroyed: look it up in a world first
   int instance = 0;             ///< instanceNumber() of the body that was attached
@@ -51,20 +52,7 @@ struct AmbientBody {
   FlightMemory memory;
   Twist left_W;  ///< velocity after the last flight, world axes
   AmbientCounters counters;
-
-  bool was_solved = false;  ///< the solver met the body in this substep
-  bool is_adrift = false;   ///< no row has moved it in this substep
-  bool was_coarse = false;  ///< the last flight's error stayed above the tolerance
-  bool has_flown = false;   ///< free flight was computed in this substep and awaits the action
-  int world_index = -1;     ///< where the body stood in its world's array when it was solved
-  RigidState end;           ///< where it ends
-  Twist end_W;              ///< its twist in world axes
-  Twist effective_W;        ///< constant twist that Bullet integrates onto the end pose
-  double length_scale = 0;  ///< lengths whose rounding the end position carries [m]
-  Twist turning_W;          ///< turning part of the velocity that the rows were solved against
-  Turn turn = Turn::kSlow;  ///< of a body with rows near
-  double energy_bound =
-      -1;  ///< twice the kinetic energy that rows may leave the body with [J]; < 0: none
+  SubstepOutcome outcome;
 
   bool isInFluid() const { return def.medium.density > 0; }
 };

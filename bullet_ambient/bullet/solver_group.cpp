@@ -1,6 +1,7 @@
 #include "bullet_ambient/bullet/solver_group.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/bullet/free_flight.h"
@@ -57,6 +58,19 @@ void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& fact
   solver_body.m_angularFactor.setValue(1, 1, 1);
   solver_body.m_linearFactor.setValue(1, 1, 1);
   solver_body.internalSetInvMass(btVector3(1, 1, 1) * body.getInvMass());
+}
+
+// Velocity changes back into Bullet's basis.
+void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) {
+  const bool is_adrift = isUntouched(b);
+  ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
+  if (!is_adrift) {
+    fromBasis(row_body.basis, b.internalGetDeltaAngularVelocity(),
+              b.internalGetDeltaLinearVelocity());
+    fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
+  }
+  ambient.memory = {};
+  if (row_body.turn != Turn::kSlow) boundEnergy(ambient, solvedVelocity(b), row_body.turning_W);
 }
 
 // A function of the item as a task; holds no memory of its own.
@@ -149,10 +163,10 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
     row.change_W = {};
   }
   setExternalImpulse(solver_body, row.change_W);
-  ambient.turning_W = row.turning_W;
-  ambient.turn = row.turn;
 
   RowBody& row_body = row_bodies_.add(member.solver_body);
+  row_body.turning_W = row.turning_W;
+  row_body.turn = row.turn;
   row_body.inverse_inertia = body.getInvInertiaTensorWorld();
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
@@ -230,25 +244,19 @@ void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
 void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
   restoreFeedbackJacobians(joints);
   for (const Member& member : members_) {
-    btSolverBody& b = solver_bodies[member.solver_body];
+    btSolverBody& solver_body = solver_bodies[member.solver_body];
     const RowBody* row_body = row_bodies_.find(member.solver_body);
-    if (row_body) member.ambient->counters.rows += row_body->rows;
-    AmbientBody& ambient = *member.ambient;
-    ambient.is_adrift = isUntouched(b);
-    if (!ambient.is_adrift) {
-      fromBasis(row_body->basis, b.internalGetDeltaAngularVelocity(),
-                b.internalGetDeltaLinearVelocity());
-      fromBasis(row_body->basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
-    }
     // Rows that are near have allowed the velocity that they were solved against; a flight with a
     // fast turn would take the body elsewhere.
-    const bool may_fly = !member.is_locked && !(row_body && ambient.turn != Turn::kSlow);
-    if (ambient.is_adrift && may_fly) {
+    const bool may_fly = !row_body || (!member.is_locked && row_body->turn == Turn::kSlow);
+    if (row_body) member.ambient->counters.rows += row_body->rows;
+    if (may_fly && isUntouched(solver_body)) {
       fliers_.push_back(&member);
-      continue;
+    } else {
+      // Whatever can move a body was there when those with rows were found.
+      assert(row_body);
+      finishRows(*member.ambient, *row_body, solver_body);
     }
-    ambient.memory = {};
-    if (ambient.turn != Turn::kSlow) boundEnergy(ambient, solvedVelocity(b));
   }
   flyFreely(solver_bodies);
   members_.clear();
@@ -274,9 +282,10 @@ void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
     for (int i = 0; i < groups; ++i) flights.run(i);
   }
   for (const Member* flier : fliers_) {
-    const AmbientBody& ambient = *flier->ambient;
-    if (!ambient.has_flown) registry_->complain(AmbientRegistry::Complaint::kNotFinite);
-    if (ambient.was_coarse) registry_->complain(AmbientRegistry::Complaint::kCoarse);
+    const SubstepOutcome& outcome = flier->ambient->outcome;
+    if (outcome.kind != Outcome::kFlown)
+      registry_->complain(AmbientRegistry::Complaint::kNotFinite);
+    if (outcome.flight.is_too_long) registry_->complain(AmbientRegistry::Complaint::kCoarse);
   }
   fliers_.clear();
 }

@@ -109,7 +109,7 @@ TEST_F(Lifetime, NothingTouchesABodyThatAnotherActionHasDestroyed) {
   EXPECT_TRUE(storage.isUntouched());
   // The removal moved the other body within the world's array; its flight was completed all the
   // same.
-  EXPECT_FALSE(fluid.registry.find(&other)->has_flown);
+  EXPECT_EQ(fluid.registry.find(&other)->outcome.kind, Outcome::kNotMet);
   fluid.world.removeAction(&destroyer);
 }
 
