@@ -2,8 +2,8 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
-#include <memory>
-
+#include "bullet_ambient/bullet/ambient_counters.h"
+#include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/substep_outcome.h"
@@ -13,32 +13,6 @@
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
-
-/// How a btRigidBody meets the fluid.
-struct AttachDef {
-  /// Shared by all bodies of one shape. It does not follow its collision shape: after
-  /// setLocalScaling(), which Bullet tells nobody, call AmbientRegistry::setFluidBody().
-  std::shared_ptr<const FluidBody> fluid_body;
-  Medium medium;  ///< default: vacuum, in which the body moves as in stock Bullet
-  FlowSettings flow;
-  FlightSettings flight;
-  FrameOffset
-      fluid_frame;  ///< frame F of the fluid body in the btRigidBody's frame (centre of mass)
-};
-
-/// What was computed for one body since it was attached.
-struct AmbientCounters {
-  long long substeps = 0;  ///< of free flight
-  long long load_evaluations = 0;
-  long long faces = 0;    ///< faces or clusters summed in them; a sphere has none
-  long long guarded = 0;  ///< load evaluations in which the passivity guard acted
-  long long coarse =
-      0;  ///< steps whose error stayed above the tolerance at the largest substep count
-  long long rows = 0;      ///< constraint rows rewritten
-  long long rejected = 0;  ///< steps whose result was not finite and was not taken over
-
-  AmbientCounters& operator+=(const AmbientCounters& other);
-};
 
 /// One attached body.
 struct AmbientBody {

@@ -16,9 +16,9 @@ Twist worldTwist(const RigidState& state) {
 
 }  // namespace
 
-bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
+bool prepareStep(AmbientBody& ambient, Complaints& complaints) noexcept {
   SubstepOutcome& outcome = ambient.outcome;
-  if (outcome.kind == Outcome::kFlown) registry.complain(AmbientRegistry::Complaint::kNoAction);
+  if (outcome.kind == Outcome::kFlown) complaints.say(Complaint::kNoAction);
   outcome.kind = Outcome::kStock;
   outcome.world_index = ambient.body->getWorldArrayIndex();
   outcome.rows = {};
@@ -29,12 +29,12 @@ bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
     rebuildModel(ambient);
     return true;
   } catch (const std::exception&) {
-    registry.complain(AmbientRegistry::Complaint::kNotPhysical);
+    complaints.say(Complaint::kNotPhysical);
     return false;
   }
 }
 
-bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
+bool stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   btRigidBody& body = *ambient.body;
   if (toVector3(body.getLinearVelocity()).allFinite() &&
       toVector3(body.getAngularVelocity()).allFinite()) {
@@ -44,7 +44,7 @@ bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
   body.setAngularVelocity({0, 0, 0});
   ambient.memory = {};
   ++ambient.counters.rejected;
-  registry.complain(AmbientRegistry::Complaint::kNotFinite);
+  complaints.say(Complaint::kNotFinite);
   return true;
 }
 

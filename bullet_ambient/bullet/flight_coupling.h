@@ -1,6 +1,7 @@
 #pragma once
 
-#include "bullet_ambient/bullet/ambient_registry.h"
+#include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/bullet/complaints.h"
 #include "bullet_ambient/bullet/precision_check.h"
 
 namespace ambient {
@@ -8,11 +9,11 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// The solver meets the body: begins its outcome, and says whether the fluid acts on it. Rebuilds a
 /// stale model, and reports an action that is missing.
-bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
+bool prepareStep(AmbientBody& ambient, Complaints& complaints) noexcept;
 
 /// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports
 /// it; returns whether it did.
-bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
+bool stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
 
 /// For a body that rows have moved to `solved_W` while it turns fast: bounds the kinetic energy
 /// that it may have in its next pose, docs/theory.md eq. (31). `turning_W`: the turning part of the

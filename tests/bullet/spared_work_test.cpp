@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "tests/bullet/fluid_world.h"
 #include "tests/support/ellipsoid_body.h"
 
@@ -127,7 +128,7 @@ TEST(SparedWork, BodiesOfOneShapeShareItsData) {
     def.medium = air();
     fluid.registry.attach(fluid.add(bodyAt(2.0 * i)), def);
   }
-  for (const auto& ambient : fluid.registry.bodies()) {
+  for (const auto& ambient : bodiesOf(fluid.registry).all()) {
     EXPECT_EQ(ambient->model.faces, &shape->faces);
   }
   EXPECT_LT(sizeof(AmbientBody), 3000U);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/motion/rotation.h"
 #include "tests/bullet/fluid_world.h"
 
@@ -106,8 +107,8 @@ TEST(ShapeScaling, ARefusedFluidBodyLeavesTheOldOne) {
   broken->added_mass(3, 3) = -1e6;
   EXPECT_THROW(fluid.registry.setFluidBody(body, broken), std::invalid_argument);
   EXPECT_EQ(fluid.registry.inertia(body), before);
-  EXPECT_EQ(fluid.registry.find(&body)->model.faces,
-            &fluid.registry.find(&body)->def.fluid_body->faces);
+  EXPECT_EQ(bodiesOf(fluid.registry).find(&body)->model.faces,
+            &bodiesOf(fluid.registry).find(&body)->def.fluid_body->faces);
   fluid.step(kTimeStep);
 }
 
