@@ -7,6 +7,7 @@
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/complaints.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/force/load_tables.h"
 
 namespace ambient {
 
@@ -35,6 +36,7 @@ class AmbientBodies {
   void clear();
 
   Complaints complaints;
+  LoadTables load_tables;  ///< what the loads of bodies share
   TaskRunner* task_runner = nullptr;
 
  private:

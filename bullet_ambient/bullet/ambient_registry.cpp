@@ -38,19 +38,18 @@ void sayOddities(const AmbientBody& ambient, Complaints& complaints) {
                              std::to_string(others) + " kg m^2, the sum of the other two";
     complaints.say(Complaint::kInertia, text.c_str());
   }
-  const bool has_loads =
-      shape.faces.size() > 0 || shape.sphere_radius > 0 || ambient.def.flow.model;
-  if (ambient.isInFluid() && !has_loads && !(shape.volume > 0) && shape.added_mass.isZero(0)) {
+  if (ambient.isInFluid() && !ambient.model.loads && !(shape.volume > 0) &&
+      shape.added_mass.isZero(0)) {
     const std::string text =
         who + "feels no fluid: without faces, volume and added mass its shape is empty";
     complaints.say(Complaint::kEmpty, text.c_str());
   }
 }
 
-void replaceDef(AmbientBody& ambient, AttachDef def) {
+void replaceDef(AmbientBody& ambient, AttachDef def, LoadTables& tables) {
   std::swap(ambient.def, def);
   try {
-    refreshModel(ambient);
+    refreshModel(ambient, tables);
   } catch (...) {
     std::swap(ambient.def, def);
     throw;
@@ -94,7 +93,7 @@ void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
   auto ambient = std::make_unique<AmbientBody>();
   ambient->body = &body;
   ambient->def = std::move(def);
-  rebuildModel(*ambient);
+  refreshModel(*ambient, bodies_->load_tables);
   if (ambient->isInFluid()) body.activate();
   sayOddities(*ambient, bodies_->complaints);
   bodies_->insert(std::move(ambient));
@@ -113,7 +112,7 @@ void AmbientRegistry::setMedium(const btRigidBody& body, const Medium& medium) {
   if (medium.density != before.density || medium.viscosity != before.viscosity) {
     AttachDef def = ambient.def;
     def.medium = medium;
-    replaceDef(ambient, std::move(def));
+    replaceDef(ambient, std::move(def), bodies_->load_tables);
   } else if (medium.velocity != before.velocity || medium.acceleration != before.acceleration) {
     ambient.def.medium = medium;
     ambient.body->activate();
@@ -133,7 +132,7 @@ void AmbientRegistry::setFluidBody(const btRigidBody& body,
   AttachDef def = ambient.def;
   def.fluid_body = std::move(fluid_body);
   def.fluid_frame = fluid_frame;
-  replaceDef(ambient, std::move(def));
+  replaceDef(ambient, std::move(def), bodies_->load_tables);
 }
 
 const Medium& AmbientRegistry::medium(const btRigidBody& body) const {

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/force/flow_settings.h"
 #include "bullet_ambient/force/medium.h"
-#include "bullet_ambient/motion/body_model.h"
 #include "bullet_ambient/motion/flight_settings.h"
 #include "bullet_ambient/spatial/frame_offset.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/force/level_loads.h"
+#include "bullet_ambient/force/skin_friction.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 
 namespace ambient {
@@ -48,8 +49,9 @@ class Comparison {
     const LoadSettings without{1, 0, cosine_, false}, with{1, 1, cosine_, true};
     double scale = 0;
     for (std::size_t i = 0; i < faces_.size(); ++i)
-      scale += faces_.area[i] * std::pow(slipSquared(x, i), 0.9);
-    return ratio(difference(x, with) + -1.0 * difference(x, without), 0.5 * 0.0576 * scale);
+      scale += faces_.area[i] * std::pow(slipSquared(x, i), 1 + kReynoldsExponent / 2);
+    return ratio(difference(x, with) + -1.0 * difference(x, without),
+                 0.5 * kFrictionCoefficient * scale);
   }
 
  private:

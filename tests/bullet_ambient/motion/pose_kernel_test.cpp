@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979323846;
 class PoseKernels : public ::testing::TestWithParam<InstructionSet> {
  protected:
   void SetUp() override {
-    kernel_ = flightKernelFor(GetParam());
+    kernel_ = kFlightKernels.of(GetParam());
     if (!kernel_) GTEST_SKIP() << "this processor does not have the instructions";
   }
 
@@ -131,8 +131,8 @@ TEST_P(PoseKernels, HaveTheBitsOfTheBaseline) {
     ArrivalLanes other_arrival = arrival;
     kernel_->depart(departure);
     kernel_->arrive(arrival);
-    baselineFlightKernel().depart(other_departure);
-    baselineFlightKernel().arrive(other_arrival);
+    kFlightKernelBaseline.depart(other_departure);
+    kFlightKernelBaseline.arrive(other_arrival);
     EXPECT_EQ(std::memcmp(departure.orientation, other_departure.orientation,
                           sizeof departure.orientation),
               0);
