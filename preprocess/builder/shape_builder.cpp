@@ -8,6 +8,7 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/triangle_quality.h"
 #include "preprocess/potential_flow/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/flat_merging.h"
