@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "demos/scene/scene_error.h"
+#include "preprocess/mesh/input_error.h"
 
 namespace ambient {
 namespace {
@@ -24,11 +24,11 @@ class Checker {
     std::ostringstream text;
     text.precision(12);
     text << place_ << key << " is " << value << "; must be " << limit;
-    throw SceneError(file_, text.str());
+    raiseInputError(file_, text.str());
   }
 
   void require(bool holds, const std::string& sentence) const {
-    if (!holds) throw SceneError(file_, place_ + sentence);
+    if (!holds) raiseInputError(file_, place_, sentence);
   }
 
  private:

@@ -155,7 +155,7 @@ std::string modelName(FluidModel model) {
 Scene readScene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides) {
   json document = parseJson(readBytes(file), file.string());
   for (const SceneOverride& change : overrides) applyOverride(document, change, file.string());
-  validateAgainstSchema(document, file.string());
+  sceneSchema().check(document, file.string());
   Scene scene = toScene(document, file);
   checkScene(scene);
   removeRounding(scene);
