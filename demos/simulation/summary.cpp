@@ -84,10 +84,6 @@ json toJson(const FluidBody& body) {
           {"area", body.area},          {"settings", body.provenance.settings}};
 }
 
-std::string integratorName(Integrator integrator) {
-  return integrator == Integrator::kRungeKutta4 ? "rk4" : "leapfrog";
-}
-
 }  // namespace
 
 std::string makeSummary(const Scene& scene, const std::vector<PreparedBody>& bodies,
