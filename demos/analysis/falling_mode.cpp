@@ -5,10 +5,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
+
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 std::vector<Vector3> worldNormals(const std::vector<MotionSample>& samples, const Vector3& normal) {
   std::vector<Vector3> normals;

@@ -6,12 +6,11 @@
 #include <set>
 #include <sstream>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 std::string number(double value) {
   std::ostringstream text;

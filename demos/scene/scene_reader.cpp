@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "demos/scene/scene_checks.h"
 #include "demos/scene/scene_schema.h"
 #include "preprocess/shape/json_text.h"
@@ -15,8 +16,6 @@ namespace ambient {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kPi = 3.141592653589793;
 
 Vector3 toVector(const json& v) {
   return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};

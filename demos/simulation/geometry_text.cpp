@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "demos/simulation/body_surface.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
@@ -21,7 +20,7 @@ bool hasTwoSides(const BodyDef& def, const PreparedBody& prepared) {
 }
 
 json toJson(const BodyDef& def, const PreparedBody& prepared) {
-  const Surface surface = makeBodySurface(def, prepared);
+  const Surface surface = moved(prepared.surface, -prepared.centre_of_mass);
   return {{"name", def.name},
           {"mass", static_cast<float>(prepared.mass)},
           {"separation_angle", static_cast<float>(def.flow.separation_angle)},
