@@ -4,7 +4,7 @@ namespace ambient {
 
 /// Sixteen clusters of faces, component by component: what the kernels of reduced loads read. Plain
 /// data only, as FaceBlock. Lengths and areas in units of the level's length; points from its
-/// centre. docs/theory.md eq. (40) to (43).
+/// centre. docs/theory.md eq. (36) to (39).
 struct alignas(64) ClusterBlock {
   static constexpr int kClusters = 16;
   static constexpr int kRows = 34;

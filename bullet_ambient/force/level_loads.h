@@ -5,7 +5,7 @@
 
 namespace ambient {
 
-/// The total of computeFaceLoads() on the clusters of a level, docs/theory.md eq. (40) to (43),
+/// The total of computeFaceLoads() on the clusters of a level, docs/theory.md eq. (36) to (39),
 /// with the error that the level states. Arguments as there; `settings.separation_cosine` must be
 /// that of the level. The pressure may feed energy to the body: guard it. Cost: level.cost faces,
 /// whatever the mesh; allocates nothing. The same bits on every machine.

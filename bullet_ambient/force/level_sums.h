@@ -16,7 +16,7 @@ struct LevelColumns {
   const double* even;  ///< 6 x 21, column by column
 };
 
-/// Eq. (42) and (43) without -rho/2, in units of length and speed. `x`: the motion again.
+/// Eq. (38) and (39) without -rho/2, in units of length and speed. `x`: the motion again.
 using SumClusters = LoadSums (*)(const LevelColumns&, const double (&x)[6],
                                  const SingleMotion&) noexcept;
 

@@ -39,7 +39,7 @@ inline Floats dot(const Sixes& a, const Vectors& w, const Vectors& v) {
 }
 
 /// Attached part of a cluster less one half: of a disc at the distance z of the terminator from its
-/// centre, in radii; eq. (41).
+/// centre, in radii; eq. (37).
 inline Floats attachedExcess(Floats a, Floats spread_sq) {
   Floats z = (0.5f * a) * inverseRoot(spread_sq);
   z = z > 1.0f ? Floats{} + 1.0f : z;
@@ -92,7 +92,7 @@ void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& 
   sums.set(torque, force, lane);
 }
 
-/// Adds T(x, x) of eq. (40). No operation is fused.
+/// Adds T(x, x) of eq. (36). No operation is fused.
 inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums) {
   constexpr int kProducts = 21;
   double products[kProducts];

@@ -52,7 +52,7 @@ struct SphereMotion {
   }
 };
 
-/// The integral of |t|^2 n over the lee half, in units as in SphereIntegrals; eq. (45).
+/// The integral of |t|^2 n over the lee half, in units as in SphereIntegrals; eq. (41).
 Vector3 leeHalf(const SphereMotion& motion) noexcept {
   const double spin_along = motion.equatorial.dot(motion.e);
   const Vector3 across = motion.equatorial - spin_along * motion.e;

@@ -12,7 +12,7 @@ bool needsSphereTable(const LoadSettings& settings) noexcept;
 /// Pressure and friction on a smooth sphere, about its centre and for the twist there: what
 /// computeFaceLoads() tends to as the faces of a mesh become fine. Pressure at alpha = pi/2 is
 /// exact, the rest as exact as SphereTable. Takes energy from the body for every motion and angle,
-/// up to rounding. docs/theory.md eq. (44) to (46). Radius [m]; reference_length as there.
+/// up to rounding. docs/theory.md eq. (40) to (42). Radius [m]; reference_length as there.
 /// @pre `table` is of the separation angle, or null where none is needed.
 FaceLoads computeSphereLoads(const SphereTable* table, double radius, double reference_length,
                              const Twist& relative_twist, const LoadSettings& settings) noexcept;

@@ -8,7 +8,7 @@
 namespace ambient {
 
 /// What the flow leaves on a smooth sphere that spins, for one separation angle; docs/theory.md eq.
-/// (44) to (46). In units of the radius and of V + W, V the speed of the centre and W that of the
+/// (40) to (42). In units of the radius and of V + W, V the speed of the centre and W that of the
 /// equator. Each vector is given by its factors of e = v / V, a = w / |w| - (e.w / |w|) e and e x
 /// a.
 struct SphereIntegrals {

@@ -2,6 +2,6 @@
 
 namespace ambient {
 
-constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace ambient

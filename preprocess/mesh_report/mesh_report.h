@@ -6,6 +6,7 @@
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/triangle_quality.h"
+#include "preprocess/potential_flow/potential_flow.h"
 
 namespace ambient {
 

@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kTolerance = 1e-7;  // of the size, and of normals
+constexpr double kMirrorTolerance = 1e-7;  // of the size, and of normals
 
 /// The edges at which the surface bends, with the normal of the triangle on their left.
 class BentEdges {
@@ -28,7 +28,7 @@ class BentEdges {
       const bool bent =
           edge.size() != 2 ||
           normalOf(mesh, side[0].triangle).cross(normalOf(mesh, side[1].triangle)).norm() >
-              kTolerance;
+              kMirrorTolerance;
       for (std::size_t k = 0; bent && k < edge.size(); ++k) add(mesh, side[k]);
     }
     placeVertices(mesh, centre);
@@ -46,7 +46,8 @@ class BentEdges {
       std::pair<int, int> ends(image[edge.first.first], image[edge.first.second]);
       if (mirrors) std::swap(ends.first, ends.second);
       const auto found = normals_.find(ends);
-      return found != normals_.end() && (found->second - turn * edge.second).norm() < kTolerance;
+      return found != normals_.end() &&
+             (found->second - turn * edge.second).norm() < kMirrorTolerance;
     });
   }
 
@@ -69,7 +70,7 @@ class BentEdges {
 
   /// The vertex at a place; -1: none.
   int vertexAt(const Vector3d& place) const {
-    const double reach = kTolerance * size_, along = place.dot(direction_);
+    const double reach = kMirrorTolerance * size_, along = place.dot(direction_);
     auto candidate =
         std::lower_bound(along_.begin(), along_.end(), std::pair<double, int>(along - reach, -1));
     for (; candidate != along_.end() && candidate->first <= along + reach; ++candidate)

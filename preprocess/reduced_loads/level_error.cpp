@@ -11,7 +11,7 @@
 namespace ambient {
 namespace {
 
-constexpr std::uint64_t kSeed = 2;
+constexpr std::uint64_t kMotionSeed = 2;
 constexpr int kSamples = 4000, kFrictionSamples = 400, kBroadsideSamples = 200;
 constexpr std::size_t kAscents = 24;
 constexpr int kAscentSteps = 120;
@@ -118,7 +118,7 @@ double broadsideError(const Comparison& comparison, const FaceTable& faces,
 
 LoadLevelError measureError(const LoadLevel& level, const FaceTable& faces) {
   const Comparison comparison(level, faces);
-  ArbitraryNumbers numbers(kSeed);
+  ArbitraryNumbers numbers(kMotionSeed);
   std::vector<Sample> samples(kSamples);
   LoadLevelError error;
   double square = 0;

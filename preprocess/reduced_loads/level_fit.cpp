@@ -86,7 +86,7 @@ Eigen::Vector2d functionsOf(const Cluster& cluster, const Vector6& x, double cos
   return excess * Eigen::Vector2d(t.squaredNorm(), cluster.curvature * (a * a + spread_sq));
 }
 
-// Square root of S over the sampled motions, eq. (40), as a quadratic form.
+// Square root of S over the sampled motions, eq. (36), as a quadratic form.
 Matrix6 slipSquare(const FaceTable& faces) {
   const auto slip = computeSlipMatrix(faces);
   Matrix6 square = Matrix6::Zero();

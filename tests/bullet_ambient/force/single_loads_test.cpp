@@ -1,0 +1,213 @@
+#include "bullet_ambient/force/single_loads.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/force/single_sums.h"
+#include "bullet_ambient/spatial/pi.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/support/geodesic.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+FaceTable firstFaces(const FaceTable& faces, std::size_t count) {
+  FaceTable first;
+  for (std::size_t i = 0; i < count; ++i)
+    first.add(faces.normal(i), faces.centroid(i), faces.area[i]);
+  return first;
+}
+
+std::string bitsOf(const LoadSums& sums) {
+  std::string bytes(sizeof sums, '\0');
+  std::memcpy(bytes.data(), &sums, sizeof sums);
+  return bytes;
+}
+
+SingleMotion motionFor(float cosine, float friction) {
+  return {{0.75f, -0.5f, 0.3f},
+          {0.25f, 0.4f, -1.0f},
+          -cosine * std::abs(cosine),
+          1 - cosine * cosine,
+          friction};
+}
+
+TEST(SingleSums, HaveTheSameBitsWithEveryInstructionSet) {
+  test::Arbitrary arbitrary(51);
+  const FaceTable body = arbitrary.body(3);
+  std::vector<SumBlocks> kernels;
+  for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512})
+    if (const SumBlocks kernel = sumBlocksFor(set)) kernels.push_back(kernel);
+  if (kernels.empty()) GTEST_SKIP() << "this processor has the baseline only";
+  for (const std::size_t count : {0, 1, 7, 15, 16, 17, 255, 256, 257, 1000}) {
+    const PackedFaces faces(firstFaces(body, count));
+    for (const float cosine : {0.0f, -0.3f, -1.0f})
+      for (const float friction : {0.0f, 0.03f})
+        for (const SumBlocks kernel : kernels)
+          EXPECT_EQ(bitsOf(kernel(faces.blocks(), motionFor(cosine, friction))),
+                    bitsOf(sumBlocksBaseline(faces.blocks(), motionFor(cosine, friction))))
+              << count << " faces, cosine " << cosine;
+  }
+}
+
+TEST(SingleSums, LeaveOutNoFaceThatTheFlowIsAttachedTo) {
+  test::Arbitrary arbitrary(57);
+  const FaceTable body = arbitrary.body(3);
+  const PackedFaces packed(body);
+  const FaceBlocks faces = packed.blocks();
+  std::vector<FaceBounds> wide(faces.bounds, faces.bounds + (faces.count + 15) / 16);
+  for (FaceBounds& bounds : wide)
+    for (float(&row)[FaceBounds::kBlocks] : bounds.reach)
+      for (float& reach : row) reach = 4;
+  int left_out = 0;
+  for (int i = 0; i < 200; ++i) {
+    SingleMotion motion = motionFor(0, 0.03f);
+    for (int axis = 0; axis < 3; ++axis) {
+      motion.angular[axis] =
+          static_cast<float>(arbitrary.between(-1, 1)) * (i % 2 == 0 ? 1 : 0.01f);
+      motion.linear[axis] = static_cast<float>(arbitrary.between(-1, 1));
+    }
+    const LoadSums some = sumBlocksBaseline(faces, motion);
+    const LoadSums all = sumBlocksBaseline({faces.blocks, wide.data(), faces.count}, motion);
+    // Runs end after other blocks: other roundings.
+    double largest = 0;
+    for (const double value : all.wrench) largest = std::max(largest, std::abs(value));
+    for (int row = 0; row < 6; ++row)
+      EXPECT_NEAR(some.wrench[row], all.wrench[row], 2e-6 * largest) << i;
+    if (bitsOf(some) != bitsOf(all)) ++left_out;
+  }
+  EXPECT_GT(left_out, 100);
+}
+
+// The scale of rounding errors: sum A |u_s| |u|, of torques times the size of the body, 1.
+double errorScale(const FaceTable& faces, const Twist& x, double density) {
+  double scale = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Vector3 u = x.at(faces.centroid(i));
+    const Vector3 n = faces.normal(i);
+    scale += faces.area[i] * (u - n.dot(u) * n).norm() * u.norm();
+  }
+  return 0.5 * density * scale;
+}
+
+bool isNearSeparation(const FaceTable& faces, const Twist& x, double cosine) {
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Vector3 u = x.at(faces.centroid(i));
+    if (std::abs(faces.normal(i).dot(u) - cosine * u.norm()) < 1e-6 * u.norm()) return true;
+  }
+  return false;
+}
+
+double singleError(const FaceTable& body, const Twist& x, const LoadSettings& settings) {
+  return (computeFaceLoad(PackedFaces(body), 1, x, settings).vector() -
+          computeFaceLoads(body, 1, x, settings).total().vector())
+      .norm();
+}
+
+TEST(SingleLoads, AreThoseOfDoublePrecisionToRounding) {
+  test::Arbitrary arbitrary(52);
+  double worst_pressure = 0, worst_total = 0, worst_friction = 0;
+  int compared = 0;
+  for (int i = 0; i < 200; ++i) {
+    const FaceTable body = arbitrary.body(i % 4);
+    const Twist x = arbitrary.twist(2, 3);
+    const double alpha = i % 2 == 0 ? kPi / 2 : arbitrary.between(kPi / 2, kPi);
+    LoadSettings settings{1.3, 1e-3, separationCosine(alpha), false};
+    if (isNearSeparation(body, x, settings.separation_cosine)) continue;
+    ++compared;
+    const double scale = errorScale(body, x, settings.density);
+    worst_pressure = std::max(worst_pressure, singleError(body, x, settings) / scale);
+    settings.skin_friction = true;
+    worst_total = std::max(worst_total, singleError(body, x, settings) / scale);
+    settings.viscosity = 1e30;  // friction is 10^5 times the pressure
+    const double friction = computeFaceLoads(body, 1, x, settings).friction.vector().norm();
+    worst_friction = std::max(worst_friction, singleError(body, x, settings) / friction);
+  }
+  EXPECT_GT(compared, 150);
+  EXPECT_LT(worst_pressure, 1e-6);
+  EXPECT_LT(worst_total, 1e-6);
+  EXPECT_LT(worst_friction, 2e-6);
+  RecordProperty("pressure", std::to_string(worst_pressure * 1e9) + "e-9");
+  RecordProperty("total", std::to_string(worst_total * 1e9) + "e-9");
+  RecordProperty("friction", std::to_string(worst_friction * 1e9) + "e-9");
+}
+
+TEST(SingleLoads, OfAPlateBroadsideLoseNothingToItsNormalVelocity) {
+  FaceTable plate;
+  plate.add(Vector3::UnitZ(), {0.1, 0.2, 0}, 0.5);
+  const LoadSettings settings{1.3, 1e-3, 0, true};
+  for (const double incidence : {1e-1, 1e-2, 1e-3}) {
+    const Twist x{Vector3::Zero(), {std::sin(incidence), 0, std::cos(incidence)}};
+    const Vector6 exact = computeFaceLoads(plate, 1, x, settings).total().vector();
+    const Vector6 single = computeFaceLoad(PackedFaces(plate), 1, x, settings).vector();
+    EXPECT_LT((single - exact).norm(), 1e-6 * exact.norm()) << incidence;
+  }
+}
+
+TEST(SingleLoads, ScaleWithTheMotionAndTheBodyOverTheWholeRange) {
+  test::Arbitrary arbitrary(53);
+  const FaceTable body = arbitrary.body(1);
+  const Twist x = arbitrary.twist();
+  const LoadSettings settings{1.3, 0, -0.5, false};
+  const Vector6 load = computeFaceLoad(PackedFaces(body), 1, x, settings).vector();
+  for (const double factor : {0x1p-400, 0x1p-40, 0x1p40, 0x1p400}) {
+    const Twist scaled{factor * x.angular, factor * x.linear};
+    const Vector6 by_motion = computeFaceLoad(PackedFaces(body), 1, scaled, settings).vector();
+    EXPECT_EQ(by_motion, factor * factor * load);
+  }
+  for (const double factor : {0x1p-100, 0x1p100}) {
+    FaceTable larger;
+    for (std::size_t i = 0; i < body.size(); ++i)
+      larger.add(body.normal(i), factor * body.centroid(i), factor * factor * body.area[i]);
+    const Twist same{x.angular / factor, x.linear};
+    const Wrench by_size = computeFaceLoad(PackedFaces(larger), 1, same, settings);
+    EXPECT_EQ(by_size.force, factor * factor * load.tail<3>());
+    EXPECT_EQ(by_size.torque, factor * factor * factor * load.head<3>());
+  }
+}
+
+TEST(SingleLoads, VanishWithoutMotionFacesOrDensity) {
+  test::Arbitrary arbitrary(54);
+  const PackedFaces body(arbitrary.body());
+  const Twist x = arbitrary.twist();
+  for (const double cosine : {0.0, -0.5, -1.0}) {
+    const LoadSettings settings{1.3, 1e-3, cosine, true};
+    const LoadSettings vacuum{0, 1e-3, cosine, true};
+    EXPECT_EQ(computeFaceLoad(body, 1, Twist{}, settings).vector(), Vector6::Zero());
+    EXPECT_EQ(computeFaceLoad(PackedFaces(FaceTable{}), 1, x, settings).vector(), Vector6::Zero());
+    EXPECT_EQ(computeFaceLoad(body, 1, x, vacuum).vector(), Vector6::Zero());
+  }
+}
+
+TEST(SingleLoads, OfAMotionThatIsNotFiniteAreNotFiniteOrZero) {
+  test::Arbitrary arbitrary(55);
+  const PackedFaces body(arbitrary.body());
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (int component = 0; component < 6; ++component) {
+      Vector6 x = arbitrary.twist().vector();
+      x[component] = bad;
+      const Vector6 load =
+          computeFaceLoad(body, 1, Twist::fromVector(x), {1.3, 1e-3, -0.5, true}).vector();
+      EXPECT_TRUE(!load.allFinite() || load == Vector6::Zero());
+    }
+}
+
+TEST(SingleLoads, AllocateNothing) {
+  test::Arbitrary arbitrary(56);
+  const PackedFaces body(arbitrary.body(2));
+  const Twist x = arbitrary.twist();
+  const std::size_t before = test::allocationCount();
+  const Wrench load = computeFaceLoad(body, 1, x, {1.3, 1e-3, -0.5, true});
+  EXPECT_EQ(test::allocationCount(), before);
+  EXPECT_NE(load.vector(), Vector6::Zero());
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,198 @@
+#include "bullet_ambient/force/sphere_loads.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bullet_ambient/spatial/pi.h"
+#include "tests/reference/sphere_loads.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kDensity = 1.7, kViscosity = 2e-5, kSpeed = 3.5, kRadius = 0.6;
+const double kLength = std::sqrt(4 * kPi) * kRadius;
+const double kPressureUnit = 0.5 * kDensity * kSpeed * kSpeed * kPi * kRadius * kRadius;
+const double kFrictionUnit =
+    kPressureUnit * 0.0576 * std::pow(kDensity * kSpeed * kLength / kViscosity, -0.2);
+constexpr double kAngles[] = {1, 1.01, 1.1, 1.2, 1.5, 1.8, 2};  // over pi/2
+
+class Sphere {
+ public:
+  explicit Sphere(double right_angles, bool friction = true)
+      : settings_{kDensity, kViscosity, separationCosine(right_angles * kPi / 2), friction} {
+    if (needsSphereTable(settings_)) table_ = sharedSphereTable(settings_.separation_cosine);
+  }
+  FaceLoads loads(const Twist& twist) const {
+    return computeSphereLoads(table_.get(), kRadius, kLength, twist, settings_);
+  }
+  FaceLoads loadsOf(const FaceTable& faces, const Twist& twist) const {
+    return computeFaceLoads(faces, kLength, twist, settings_);
+  }
+
+ private:
+  LoadSettings settings_;
+  std::shared_ptr<const SphereTable> table_;
+};
+
+// A smooth sphere as points of equal area on a spiral.
+FaceTable spiralOfPoints(int points) {
+  FaceTable faces;
+  const double golden = kPi * (3 - std::sqrt(5.0));
+  for (int i = 0; i < points; ++i) {
+    const double z = 1 - (2 * i + 1.0) / points, r = std::sqrt(1 - z * z);
+    const Vector3 n(r * std::cos(golden * i), r * std::sin(golden * i), z);
+    faces.add(n, kRadius * n, 4 * kPi * kRadius * kRadius / points);
+  }
+  return faces;
+}
+
+// The speeds of centre and equator add up to kSpeed.
+Twist arbitraryTwist(test::Arbitrary& arbitrary) {
+  const double share = arbitrary.between(0, 1);
+  const Vector3 spin = arbitrary.vector().normalized() * (share * kSpeed / kRadius);
+  return {spin, arbitrary.vector().normalized() * ((1 - share) * kSpeed)};
+}
+
+double distance(const Wrench& a, const Wrench& b) {
+  return std::hypot((a.force - b.force).norm(), (a.torque - b.torque).norm() / kRadius);
+}
+
+TEST(SphereLoads, AreThoseOfManyFacesForAnySpinAndAngle) {
+  const FaceTable points = spiralOfPoints(50000);
+  for (const double angle : kAngles) {
+    test::Arbitrary arbitrary(7);
+    const Sphere sphere(angle);
+    double pressure_sq = 0, friction_sq = 0;
+    constexpr int kMotions = 100;
+    for (int i = 0; i < kMotions; ++i) {
+      const Twist twist = arbitraryTwist(arbitrary);
+      const FaceLoads found = sphere.loads(twist), expected = sphere.loadsOf(points, twist);
+      const double pressure = distance(found.pressure, expected.pressure) / kPressureUnit;
+      const double friction = distance(found.friction, expected.friction) / kFrictionUnit;
+      // The points' own: at pi/2, where the pressure is exact, 1e-3.
+      EXPECT_LT(std::max(pressure, friction), 8e-3) << angle;
+      pressure_sq += pressure * pressure / kMotions;
+      friction_sq += friction * friction / kMotions;
+    }
+    EXPECT_LT(std::sqrt(std::max(pressure_sq, friction_sq)), 1e-3) << angle;
+  }
+}
+
+struct SpinningSphere {
+  double angle;  ///< separation angle over pi/2
+  double S, drag, lift;
+};
+
+class SpinningSphereLoads : public testing::TestWithParam<SpinningSphere> {};
+
+TEST_P(SpinningSphereLoads, HaveTheCoefficientsOfTheSmoothSphere) {
+  const SpinningSphere& p = GetParam();
+  const Sphere sphere(p.angle, false);
+  const Vector3 velocity(kSpeed, 0, 0), spin(0, 0, p.S * kSpeed / kRadius);
+  for (const double sense : {1, -1}) {
+    const Wrench load = sphere.loads({sense * spin, velocity}).pressure;
+    const double tolerance = (p.angle == 1 ? 1e-14 : 1.5e-4) * (1 + p.S) * (1 + p.S);
+    EXPECT_NEAR(-load.force.x() / kPressureUnit, p.drag, tolerance);
+    EXPECT_NEAR(sense * load.force.y() / kPressureUnit, p.lift, tolerance);
+    EXPECT_NEAR(load.force.z() / kPressureUnit, 0, tolerance);
+    EXPECT_EQ(load.torque.norm(), 0);
+  }
+}
+
+// Semi-analytic one-dimensional integrals over the smooth sphere, uncertainty 1e-9.
+INSTANTIATE_TEST_SUITE_P(
+    References, SpinningSphereLoads,
+    testing::Values(SpinningSphere{1.2, 0.05, 0.41030868939497217, 0.10924556955800413},
+                    SpinningSphere{1.2, 0.3, 0.4535413294905215, 0.659658610174517},
+                    SpinningSphere{1.2, 0.75, 0.680247184574195, 1.7056466285939358},
+                    SpinningSphere{1.2, 1, 0.8797399046128874, 2.3439487185667836},
+                    SpinningSphere{1.2, 2, 1.9440341791417017, 5.442007597625046},
+                    SpinningSphere{1.5, 0.1, 0.12499882616636354, 0.26888423014766705},
+                    SpinningSphere{1.5, 0.5, 0.12423471792022862, 1.347072801167785},
+                    SpinningSphere{1.5, 1, 0.11048543456039825, 2.7107184175196286}));
+
+std::vector<SpinningSphere> closedForms() {
+  std::vector<SpinningSphere> cases;
+  for (const double S : {0.0, 0.05, 0.1, 0.3, 0.5, 1.0, 2.0, 50.0}) {
+    const reference::DragAndLift expected = reference::spinningSphereAtRightAngle(S);
+    cases.push_back({1, S, expected.drag, expected.lift});
+  }
+  for (const double S : {2.0, 3.0}) {
+    const reference::DragAndLift expected = reference::fullyAttachedSpinningSphere(S);
+    cases.push_back({1.5, S, expected.drag, expected.lift});
+  }
+  for (const double angle : kAngles)
+    cases.push_back({angle, 0, reference::sphereDragCoefficient(angle * kPi / 2), 0});
+  return cases;
+}
+INSTANTIATE_TEST_SUITE_P(ClosedForms, SpinningSphereLoads, testing::ValuesIn(closedForms()));
+
+TEST(SphereLoads, FrictionIsThatOfTheClosedForms) {
+  const reference::SphereInFluid fluid{kRadius, kDensity, kViscosity};
+  for (const double angle : kAngles) {
+    const Sphere sphere(angle);
+    const double drag = reference::sphereFrictionDrag(fluid, kSpeed, angle * kPi / 2);
+    const Wrench moving = sphere.loads({Vector3::Zero(), Vector3(0, -kSpeed, 0)}).friction;
+    EXPECT_NEAR(moving.force.y(), drag, 1e-5 * drag) << angle;
+    EXPECT_LT(moving.torque.norm(), 1e-12 * kRadius * drag);
+    if (angle == 1) continue;
+    const double torque = reference::sphereFrictionTorque(fluid, 9);
+    const Wrench spinning = sphere.loads({Vector3(0, 0, 9), Vector3::Zero()}).friction;
+    EXPECT_NEAR(spinning.torque.z(), -torque, 1e-4 * torque) << angle;
+    EXPECT_LT(spinning.force.norm(), 1e-12 * torque / kRadius);
+  }
+}
+
+TEST(SphereLoads, NeverFeedEnergyToTheBody) {
+  for (const double angle : kAngles) {
+    const Sphere sphere(angle);
+    test::Arbitrary arbitrary(8);
+    for (int i = 0; i < 5000; ++i) {
+      const Twist twist = arbitraryTwist(arbitrary);
+      const FaceLoads loads = sphere.loads(twist);
+      EXPECT_LE(power(loads.pressure, twist), 1e-14 * kPressureUnit * kSpeed) << angle;
+      EXPECT_LT(power(loads.friction, twist), 0) << angle;
+    }
+  }
+}
+
+TEST(SphereLoads, TurnWithTheMotionAndGrowWithItsPowers) {
+  test::Arbitrary arbitrary(9);
+  const Sphere sphere(1.5);
+  for (int i = 0; i < 50; ++i) {
+    const Twist twist = arbitraryTwist(arbitrary);
+    const Matrix3 turn = arbitrary.rotation();
+    const FaceLoads loads = sphere.loads(twist);
+    const FaceLoads turned = sphere.loads({3 * (turn * twist.angular), 3 * (turn * twist.linear)});
+    const double friction = std::pow(3, 1.8);
+    const auto expected = [&](const Wrench& load, double factor) {
+      return Wrench{factor * (turn * load.torque), factor * (turn * load.force)};
+    };
+    EXPECT_LT(distance(turned.pressure, expected(loads.pressure, 9)), 1e-11 * kPressureUnit);
+    EXPECT_LT(distance(turned.friction, expected(loads.friction, friction)), 1e-11 * kFrictionUnit);
+  }
+}
+
+TEST(SphereLoads, AreNoneAtRestAndNeverNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double angle : {1.0, 1.5}) {
+    const Sphere sphere(angle);
+    const Vector3 zero = Vector3::Zero();
+    EXPECT_EQ(sphere.loads({zero, zero}).total().vector().norm(), 0);
+    if (angle == 1) {
+      EXPECT_EQ(sphere.loads({Vector3(0, 9, 0), zero}).total().vector().norm(), 0);
+    }
+    for (const double size : {1e-300, 1e-150, 1e150, 1e300, nan}) {
+      for (const Twist& twist : {Twist{Vector3(size, 0, 0), zero}, Twist{zero, Vector3(0, size, 0)},
+                                 Twist{Vector3(0, 1, 0), Vector3(size, size, 0)}})
+        EXPECT_TRUE(sphere.loads(twist).total().vector().allFinite()) << size;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,149 @@
+#include "demos/analysis/falling_mode.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "bullet_ambient/spatial/pi.h"
+
+namespace ambient {
+namespace {
+
+const Vector3 kGravity(0, 0, -9.81);
+
+/// A plate that falls at 0.5 m/s and drifts at 0.3 m/s, its tilt about y a function of time.
+std::vector<MotionSample> fallWithTilt(const std::function<double(double)>& tilt,
+                                       double duration = 8) {
+  std::vector<MotionSample> samples;
+  constexpr double kStep = 0.01;
+  for (int i = 0; i * kStep <= duration + kStep / 2; ++i) {
+    MotionSample sample;
+    sample.time = i * kStep;
+    sample.position = Vector3(0.3, 0, -0.5) * sample.time;
+    sample.orientation = Eigen::AngleAxisd(tilt(sample.time), Eigen::Vector3d::UnitY());
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+Fall analyse(const std::vector<MotionSample>& samples) {
+  return analyseFall(samples, Vector3::UnitZ(), kGravity);
+}
+
+double degrees(double angle) { return angle * kPi / 180; }
+
+TEST(FallingMode, SwingingIsFlutter) {
+  // Broadside at 0.25, 0.75, ... s: 16 times in 8 s, 15 half cycles between them.
+  const Fall fall =
+      analyse(fallWithTilt([](double t) { return degrees(60) * std::cos(2 * kPi * t); }));
+  EXPECT_EQ(fall.mode, FallingMode::kFlutter);
+  EXPECT_EQ(fall.swings, 15);
+  EXPECT_EQ(fall.overturns, 0);
+  EXPECT_EQ(fall.turns, 0);
+  EXPECT_NEAR(fall.largest_swing, degrees(60), 1e-12);
+}
+
+TEST(FallingMode, SwingingBeyondTheVerticalIsStillFlutter) {
+  const Fall fall =
+      analyse(fallWithTilt([](double t) { return degrees(120) * std::cos(2 * kPi * t); }));
+  EXPECT_EQ(fall.mode, FallingMode::kFlutter);
+  EXPECT_EQ(fall.overturns, 0);
+}
+
+TEST(FallingMode, TurningOnIsTumblingEitherWay) {
+  for (const double sign : {1.0, -1.0}) {
+    // From 85 degrees on, 10 half turns in 8 s, broadside 10 times: 9 overturns.
+    const Fall fall =
+        analyse(fallWithTilt([&](double t) { return degrees(85) + sign * 10 * kPi * t / 8; }));
+    EXPECT_EQ(fall.mode, FallingMode::kTumbling);
+    EXPECT_EQ(fall.overturns, 9);
+    EXPECT_EQ(fall.swings, 0);
+    EXPECT_EQ(fall.turns, 4.5);
+  }
+}
+
+TEST(FallingMode, TurningThenSwingingIsMixed) {
+  // Overturned at 1, ..., 6 half turns; then 8 returns to 6 half turns.
+  const double swing = degrees(50);
+  const double phase = std::asin(0.3 / swing);
+  const auto tilt = [&](double t) {
+    return t < 4 ? 0.3 + 6 * kPi * t / 4 : 6 * kPi + swing * std::sin(2 * kPi * (t - 4) + phase);
+  };
+  const Fall fall = analyse(fallWithTilt(tilt));
+  EXPECT_EQ(fall.mode, FallingMode::kMixed);
+  EXPECT_EQ(fall.overturns, 5);
+  EXPECT_EQ(fall.swings, 8);
+}
+
+TEST(FallingMode, EventsCarryTheirTimes) {
+  // Broadside at 0.25 + k / 2 s; samples are 0.01 s apart.
+  const Fall fall =
+      analyse(fallWithTilt([](double t) { return degrees(60) * std::cos(2 * kPi * t); }));
+  ASSERT_EQ(fall.events.size(), 15u);
+  for (std::size_t k = 0; k < fall.events.size(); ++k) {
+    EXPECT_FALSE(fall.events[k].is_overturn);
+    EXPECT_NEAR(fall.events[k].time, 0.75 + 0.5 * static_cast<double>(k), 0.0101);
+  }
+}
+
+TEST(FallingMode, OneSwingAmongManyOverturnsIsTumbling) {
+  const auto tilt = [](double t) {
+    if (t < 4) return 20.5 * kPi * t / 4;
+    return 20.5 * kPi + (t - 4) * (t - 4.5) * 10 * kPi;
+  };
+  const Fall fall = analyse(fallWithTilt(tilt));
+  EXPECT_GE(fall.swings, 1);
+  EXPECT_LE(fall.swings, kPureShare * (fall.swings + fall.overturns));
+  EXPECT_EQ(fall.mode, FallingMode::kTumbling);
+}
+
+TEST(FallingMode, WobblesBelowTheThresholdAreSteady) {
+  const Fall fall =
+      analyse(fallWithTilt([](double t) { return degrees(9) * std::cos(2 * kPi * t); }));
+  EXPECT_EQ(fall.mode, FallingMode::kSteady);
+  EXPECT_EQ(fall.swings, 0);
+}
+
+TEST(FallingMode, FlutterThatDiesOutEarlyIsSteady) {
+  const Fall fall = analyse(
+      fallWithTilt([](double t) { return degrees(80) * std::exp(-t) * std::cos(2 * kPi * t); }));
+  EXPECT_GT(fall.swings, 0);
+  EXPECT_EQ(fall.mode, FallingMode::kSteady);
+}
+
+TEST(FallingMode, APlateThatDoesNotTurnIsSteady) {
+  const Fall fall = analyse(fallWithTilt([](double) { return 0.3; }));
+  EXPECT_EQ(fall.mode, FallingMode::kSteady);
+  EXPECT_TRUE(fall.swing_axis.isZero());
+}
+
+TEST(FallingMode, SpeedsAreThoseOfTheSecondHalf) {
+  auto samples = fallWithTilt([](double) { return 0.0; });
+  for (std::size_t i = 0; i < samples.size() / 2; ++i) samples[i].position *= 0.1;
+  const Fall fall = analyse(samples);
+  EXPECT_NEAR(fall.descent_speed, 0.5, 1e-12);
+  EXPECT_NEAR(fall.drift_speed, 0.3, 1e-12);
+}
+
+TEST(FallingMode, DoesNotDependOnDirectionsInTheWorld) {
+  // The same fall with gravity along -x and the plate's normal along its y axis.
+  const Quaternion turn(
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()));
+  const Quaternion normal_to_z(
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()));
+  auto samples = fallWithTilt([](double t) { return degrees(85) - 2 * kPi * t; });
+  const Fall expected = analyse(samples);
+  for (MotionSample& sample : samples) {
+    sample.position = turn * sample.position;
+    sample.orientation = turn * sample.orientation * normal_to_z;
+  }
+  const Fall fall = analyseFall(samples, Vector3::UnitY(), turn * kGravity);
+  EXPECT_EQ(fall.mode, expected.mode);
+  EXPECT_EQ(fall.overturns, expected.overturns);
+  EXPECT_NEAR(fall.descent_speed, expected.descent_speed, 1e-12);
+  EXPECT_NEAR(fall.drift_speed, expected.drift_speed, 1e-12);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,62 @@
+// The laws of the models that the demos compare with, on a sphere.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "bullet_ambient/spatial/pi.h"
+#include "demos/rivals/linear_drag.h"
+#include "demos/rivals/windward_flux.h"
+#include "tests/support/ellipsoid_body.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kRadius = 0.11;
+constexpr double kDensity = 1.204;
+
+Wrench loadOnBall(const SurfaceLoadModel& model, const Twist& twist) {
+  LoadSettings settings;
+  settings.density = kDensity;
+  return model.load(test::gaussSphere(kRadius).faces, twist, settings);
+}
+
+TEST(LinearDrag, OfASphereIsForceByVelocityAndTorqueBySpin) {
+  const double drag_speed = 0.7;
+  const Twist twist{{5, -3, 60}, {30, 4, -2}};
+  const Wrench load = loadOnBall(LinearDrag(drag_speed), twist);
+  const double area = 4 * kPi * kRadius * kRadius;
+  const Vector3 force = -kDensity * drag_speed * area * twist.linear;
+  const Vector3 torque =
+      -2.0 / 3 * kDensity * drag_speed * area * kRadius * kRadius * twist.angular;
+  EXPECT_LE((load.force - force).norm(), 1e-12 * force.norm());
+  EXPECT_LE((load.torque - torque).norm(), 1e-12 * torque.norm());
+}
+
+TEST(LinearDrag, RefusesASpeedThatIsNotPositive) {
+  for (const double speed : {0.0, -1.0, std::nan("")})
+    EXPECT_THROW(LinearDrag{speed}, std::invalid_argument);
+}
+
+TEST(WindwardFlux, OfASphereHasDragOneAndASideForceAgainstMagnus) {
+  // With v along z the faces' rule integrates the windward half exactly.
+  const double speed = 30, spin = 60;
+  const Twist twist{{spin, 0, 0}, {0, 0, speed}};
+  const Wrench load = loadOnBall(WindwardFlux(), twist);
+  const double drag = 0.5 * kDensity * speed * speed * kPi * kRadius * kRadius;
+  const double side = kPi / 3 * kDensity * std::pow(kRadius, 3) * speed * spin;
+  // Magnus' force is along w x v = -y.
+  EXPECT_LE((load.force - Vector3(0, side, -drag)).norm(), 1e-12 * drag);
+  const double torque = -3.0 / 8 * kPi * kDensity * speed * std::pow(kRadius, 4) * spin;
+  EXPECT_LE((load.torque - Vector3(torque, 0, 0)).norm(), 1e-12 * std::abs(torque));
+}
+
+TEST(WindwardFlux, TakesPowerFromEveryMotion) {
+  for (const Twist& twist : {Twist{{1, 2, 3}, {0, 0, 0}}, Twist{{-40, 5, 90}, {3, -7, 1}},
+                             Twist{{0, 0, 0}, {0.1, 0.2, 0.3}}})
+    EXPECT_LE(power(loadOnBall(WindwardFlux(), twist), twist), 0);
+}
+
+}  // namespace
+}  // namespace ambient
