@@ -7,6 +7,8 @@
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/velocity_basis.h"
+#include "bullet_ambient/force/load_tables.h"
+#include "bullet_ambient/force/surface_loads.h"
 #include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/flight.h"
 
@@ -72,7 +74,8 @@ struct AmbientBody {
 /// Counts evaluations of the loads on a body.
 inline void countLoads(AmbientBody& ambient, int evaluations) noexcept {
   ambient.counters.load_evaluations += evaluations;
-  ambient.counters.faces += static_cast<long long>(evaluations) * facesPerLoad(ambient.model);
+  if (evaluations > 0)
+    ambient.counters.faces += static_cast<long long>(evaluations) * ambient.model.loads->faces();
 }
 
 /// Pose and twist of a btRigidBody, its twist in body axes.
@@ -84,17 +87,17 @@ AxisFactors axisFactors(const btRigidBody& body);
 /// Gravity, applied forces and torques, and the ambient flow at the start of a step.
 Surroundings readSurroundings(const AmbientBody& ambient);
 
-/// Builds model and velocity basis from the body's mass properties as they are now.
+/// Builds model and velocity basis from the body's mass properties as they are now; the loads stay.
 /// @throws std::invalid_argument as makeBodyModel().
 void rebuildModel(AmbientBody& ambient);
 
 /// Whether setMassProps was called since the model was built.
 bool isModelStale(const AmbientBody& ambient);
 
-/// Rebuilds the model if the body is dynamic at present, or else when it next is: until then, it
-/// has one of unit mass and inertia.
-/// @throws std::invalid_argument as rebuildModel().
-void refreshModel(AmbientBody& ambient);
+/// Makes the loads, and builds the model if the body is dynamic at present, or else when it next
+/// is: until then, it has one of unit mass and inertia. What throws changes nothing.
+/// @throws std::invalid_argument as makeSurfaceLoads() and makeBodyModel().
+void refreshModel(AmbientBody& ambient, LoadTables& tables);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

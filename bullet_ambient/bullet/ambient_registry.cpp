@@ -101,7 +101,7 @@ void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
   auto ambient = std::make_unique<AmbientBody>();
   ambient->body = &body;
   ambient->def = std::move(def);
-  rebuildModel(*ambient);
+  refreshModel(*ambient, load_tables_);
   if (ambient->isInFluid()) body.activate();
   complainOfOddities(*ambient);
   insert(std::move(ambient));
@@ -120,9 +120,8 @@ void AmbientRegistry::complainOfOddities(const AmbientBody& ambient) {
                              std::to_string(others) + " kg m^2, the sum of the other two";
     complain(Complaint::kInertia, text.c_str());
   }
-  const bool has_loads =
-      shape.faces.size() > 0 || shape.sphere_radius > 0 || ambient.def.flow.model;
-  if (ambient.isInFluid() && !has_loads && !(shape.volume > 0) && shape.added_mass.isZero(0)) {
+  if (ambient.isInFluid() && !ambient.model.loads && !(shape.volume > 0) &&
+      shape.added_mass.isZero(0)) {
     const std::string text =
         who + "feels no fluid: without faces, volume and added mass its shape is empty";
     complain(Complaint::kEmpty, text.c_str());
@@ -181,7 +180,7 @@ void AmbientRegistry::setFluidBody(const btRigidBody& body,
 void AmbientRegistry::replaceDef(AmbientBody& ambient, AttachDef def) {
   std::swap(ambient.def, def);
   try {
-    refreshModel(ambient);
+    refreshModel(ambient, load_tables_);
   } catch (...) {
     std::swap(ambient.def, def);
     throw;

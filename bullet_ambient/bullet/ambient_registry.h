@@ -89,6 +89,8 @@ class AmbientRegistry {
     kCount
   };
   void complain(Complaint complaint) noexcept;
+  /// What the loads of its bodies share.
+  LoadTables& loadTables() { return load_tables_; }
 
  private:
   AmbientBody& require(const btRigidBody& body) const;
@@ -98,6 +100,7 @@ class AmbientRegistry {
 
   std::vector<std::unique_ptr<AmbientBody>> bodies_;  // in the order of attachment
   std::unordered_map<const btCollisionObject*, AmbientBody*> by_object_;
+  LoadTables load_tables_;
   TaskRunner* task_runner_ = nullptr;
   std::function<void(const std::string&)> report_;
   bool complained_[static_cast<int>(Complaint::kCount)] = {};

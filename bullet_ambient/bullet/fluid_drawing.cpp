@@ -33,20 +33,22 @@ class Arrows {
   btIDebugDraw& drawer_;
 };
 
-void drawFaces(const BodyModel& model, const Twist& relative, const FluidDrawing& what,
+void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
                const Arrows& arrows) {
-  const FrameOffset& frame = model.fluid_frame;
+  const FaceTable& faces = ambient.def.fluid_body->faces;
+  const FrameOffset& frame = ambient.def.fluid_frame;
+  const LoadSettings settings = loadSettings(ambient.def.medium, ambient.def.flow);
+  const double length = ambient.model.reference_length;
   const Twist x_F = frame.toF(relative);
-  const double normal_length = what.normal_length * model.reference_length;
-  for (std::size_t i = 0; i < model.faces->size(); ++i) {
-    const FaceFlow flow =
-        computeFaceFlow(*model.faces, i, model.reference_length, x_F, model.loads);
-    const Vector3 at = frame.rotation * model.faces->centroid(i) + frame.translation;
+  const double normal_length = what.normal_length * length;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const FaceFlow flow = computeFaceFlow(faces, i, length, x_F, settings);
+    const Vector3 at = frame.rotation * faces.centroid(i) + frame.translation;
     const auto draw = [&](double scale, const Vector3& vector_F, const btVector3& colour) {
       arrows.draw(at, scale * (frame.rotation * vector_F), colour);
     };
     if (what.separation) {
-      draw(normal_length, model.faces->normal(i),
+      draw(normal_length, faces.normal(i),
            flow.is_attached ? fluid_colours::kAttached : fluid_colours::kSeparated);
     }
     if (!flow.is_attached) continue;
@@ -73,7 +75,7 @@ void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDra
   const Arrows arrows(state, drawer);
   Twist relative = state.twist;
   relative.linear -= to_body * s.ambient_velocity;
-  if (what.drawsFaces()) drawFaces(model, relative, what, arrows);
+  if (what.drawsFaces()) drawFaces(ambient, relative, what, arrows);
 
   const Vector3& centre = model.centre_of_volume;
   const Wrench lift =
@@ -82,7 +84,8 @@ void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDra
     arrows.draw(centre, what.length_per_force * lift.force, fluid_colours::kBuoyancy);
   }
   if (what.total_wrench) {
-    const Wrench total = computeSurfaceLoad(model, relative).wrench + lift;
+    Wrench total = lift;
+    if (model.loads) total += computeSurfaceLoad(model, relative).wrench;
     arrows.draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
     arrows.draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
   }

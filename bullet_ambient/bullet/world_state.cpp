@@ -40,8 +40,9 @@ void checkContacts(const WorldState& state) {
 }
 
 // Models are built before anything is changed, so that a medium that is refused changes nothing.
-std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(
-    const WorldState& state, const std::vector<btRigidBody*>& bodies) {
+std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(const WorldState& state,
+                                                            const std::vector<btRigidBody*>& bodies,
+                                                            LoadTables& tables) {
   std::vector<std::unique_ptr<AmbientBody>> result;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     result.emplace_back();
@@ -55,7 +56,7 @@ std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(
     AmbientBody built;
     built.body = &with_mass;
     built.def = saved.def;
-    refreshModel(built);
+    refreshModel(built, tables);
     result.back() = std::make_unique<AmbientBody>(built);
     AmbientBody& ambient = *result.back();
     ambient.body = bodies[i];
@@ -105,7 +106,7 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegist
   checkCount("rigid bodies", state.bodies.size(), bodies.size());
   checkCount("joints", state.joints.size(), static_cast<std::size_t>(world.getNumConstraints()));
   checkContacts(state);
-  auto ambient_bodies = makeAmbientBodies(state, bodies);
+  auto ambient_bodies = makeAmbientBodies(state, bodies, registry.loadTables());
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     registry.detach(*bodies[i]);

@@ -84,4 +84,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& face
 /// @throws std::invalid_argument if the factor is not positive and finite.
 FluidBody scaled(const FluidBody& body, double factor);
 
+/// @throws std::invalid_argument: one line that names the fluid body, the value and the limit.
+[[noreturn]] void reject(const FluidBody& body, const std::string& what, double value,
+                         const char* limit);
+
 }  // namespace ambient

@@ -1,10 +1,10 @@
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 namespace {
@@ -57,9 +57,7 @@ class Checker {
     if (!(asymmetry <= kRounding))
       fail(what, " is not symmetric: off by ", asymmetry, " of its largest entry, limit ",
            kRounding);
-    const double lowest = Eigen::SelfAdjointEigenSolver<Aligned>(scaled, Eigen::EigenvaluesOnly)
-                              .eigenvalues()
-                              .minCoeff();
+    const double lowest = symmetricEigen(scaled).values[0];
     if (!(lowest >= -kRounding))
       fail(what, " is not positive semi-definite: lowest eigenvalue ", lowest,
            " of its largest entry, limit ", -kRounding);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/force/fifth_root.h"
+#include "bullet_ambient/force/skin_friction.h"
 
 namespace ambient {
 namespace {
@@ -90,7 +90,7 @@ FaceLoads computeSphereLoads(const SphereTable* table, double radius, double ref
   loads.pressure.force = pressure * (detached - everywhere);
   if (!hasFriction(settings)) return loads;
   const double reynolds = settings.density * motion.speed * reference_length / settings.viscosity;
-  const double friction = -pressure * 0.0576 * inverseFifthRoot(reynolds);
+  const double friction = -pressure * kFrictionCoefficient * reynoldsPower(reynolds);
   loads.friction.force = friction * motion.polar(integrals.friction_force);
   loads.friction.torque = friction * radius * motion.axial(integrals.friction_torque);
   return loads;

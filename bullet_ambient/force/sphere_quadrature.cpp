@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/force/fifth_root.h"
+#include "bullet_ambient/force/skin_friction.h"
 
 namespace ambient {
 namespace {
@@ -51,7 +51,7 @@ class Meridian {
       const Vector3 t = slip(n);
       const double t_sq = t.squaredNorm();
       if (attached) {
-        const Vector3 friction = area * t_sq * inverseFifthRoot(t_sq * t_sq * t_sq) * t;
+        const Vector3 friction = area * t_sq * reynoldsPower(t_sq * t_sq * t_sq) * t;
         sums.friction_force += friction;
         sums.friction_torque += n.cross(friction);
       } else {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/force/flow_settings.h"
 #include "bullet_ambient/force/medium.h"
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/spatial/vector_types.h"

@@ -1,12 +1,12 @@
 #include "demos/scene/scene_checks.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
 
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {
@@ -63,9 +63,7 @@ void checkMass(const BodyDef& body, const Checker& check) {
 void checkInertia(const BodyDef& body, const Checker& check) {
   if (!body.inertia) return;
   check.require(body.mass > 0, "inertia is given, but mass is 0, a static body");
-  const Eigen::Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(*body.inertia, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::Vector3d principal = symmetricEigen<3>(*body.inertia).values;
   const std::string moments = "inertia has the principal moments " + number(principal[0]) + ", " +
                               number(principal[1]) + ", " + number(principal[2]) + " kg m^2; ";
   constexpr double kRounding = 1e-9;

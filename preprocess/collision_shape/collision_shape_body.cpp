@@ -5,11 +5,11 @@
 #include <sstream>
 
 #include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/collision_shape/collision_solids.h"
 #include "preprocess/collision_shape/solid_contact.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
-#include "preprocess/potential_flow/positive_part.h"
 #include "preprocess/potential_flow/potential_flow.h"
 
 namespace ambient {
@@ -110,6 +110,15 @@ Matrix6 solvedAddedMass(const TriangleMesh& mesh, const CollisionShapeSettings& 
   }
 }
 
+/// The nearest symmetric positive semi-definite matrix: extrapolation may leave a tiny negative
+/// eigenvalue where the true inertia vanishes.
+Matrix6 withoutNegativePart(const Matrix6& K) {
+  const SymmetricEigen<6> eigen = symmetricEigen<6>(K);
+  const Matrix6 positive =
+      eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
+  return (positive + positive.transpose()) / 2;
+}
+
 /// The added mass of a single solid about the shape's origin, if it is not that of its mesh.
 std::optional<Matrix6> addedMassOf(const Solid& solid, const CollisionShapeSettings& settings,
                                    const std::string& name) {
@@ -118,7 +127,7 @@ std::optional<Matrix6> addedMassOf(const Solid& solid, const CollisionShapeSetti
   const Matrix6 fine = solvedAddedMass(solid.flow, settings, name);
   if (solid.flow_ratio == 0) return fine;
   const Matrix6 coarse = solvedAddedMass(solid.coarse_flow, settings, name);
-  return positivePart(fine + (fine - coarse) / (solid.flow_ratio - 1));
+  return withoutNegativePart(fine + (fine - coarse) / (solid.flow_ratio - 1));
 }
 
 }  // namespace

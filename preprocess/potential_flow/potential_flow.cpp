@@ -1,6 +1,5 @@
 #include "preprocess/potential_flow/potential_flow.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/potential_flow/dense_solver.h"
 #include "preprocess/potential_flow/hierarchical_solver.h"
@@ -140,8 +140,8 @@ UnitFlow solveUnitFlow(const PanelSurface& surface, const PotentialFlowSettings&
 /// Makes the inertia symmetric positive semi-definite; returns the lowest eigenvalue over the
 /// largest if it was negative, else 0.
 double removeNegativePart(Matrix6& K) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(symmetricPart(K));
-  const double lowest = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[5];
+  const auto values = symmetricEigen<6>(symmetricPart(K)).values;
+  const double lowest = values[0], largest = values[5];
   K = positivePart(K);
   return lowest < 0 && largest > 0 ? lowest / largest : 0;
 }

@@ -176,7 +176,10 @@ TEST_F(Lifetime, AStaticBodyHasTheModelOfItsNewFluidBody) {
   const WorldState state = saveState(fluid.world, fluid.registry);
   restoreState(state, fluid.world, fluid.registry);
   const AmbientBody& ambient = *fluid.registry.find(&body);
-  EXPECT_EQ(ambient.model.faces, &ambient.def.fluid_body->faces);
+  const auto loads = makeSurfaceLoads(ambient.def.fluid_body, water(), ambient.def.flow,
+                                      fluid.registry.loadTables());
+  const Twist twist{{1, 2, 3}, {3, 1, 2}};
+  EXPECT_EQ(ambient.model.loads->load(twist).vector(), loads->load(twist).vector());
   EXPECT_TRUE(fluid.registry.inertia(body).allFinite());
   EXPECT_NEAR(ambient.model.displaced_mass, water().density * 8 * ball().volume, 1e-6);
   fluid.world.removeRigidBody(&body);
