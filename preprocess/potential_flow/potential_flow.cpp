@@ -151,12 +151,6 @@ double removeNegativePart(Matrix6& K) {
 PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   if (mesh.triangleCount() == 0)
     throw std::runtime_error("potential flow: the mesh has 0 triangles; it needs at least 1");
-  if (settings.true_volume < 0) {
-    std::ostringstream message;
-    message << "potential flow: the true volume is " << settings.true_volume
-            << " m^3; it must not be below 0";
-    throw std::runtime_error(message.str());
-  }
   const TriangleMesh panels = refineSurface(mesh, settings.sheet, settings.max_panels);
   if (settings.sheet) requireUnknowns(panels);
   const PanelSurface surface = makePanelSurface(panels, settings.sheet);
@@ -168,9 +162,7 @@ PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSe
   flow.reciprocal_condition = unit.reciprocal_condition;
   flow.iterations = unit.iterations;
   flow.removed_eigenvalue = removeNegativePart(unit.inertia);
-  const double size = settings.true_volume > 0 && !settings.sheet
-                          ? std::cbrt(settings.true_volume / surface.volume)
-                          : surface.length;
+  const double size = surface.length;
   flow.added_mass = symmetricPart(shiftOrigin(scaleShape(unit.inertia, size), -surface.centre));
   // The mesh's vertices come first. A rotation about its origin moves the centre c with w x c.
   const auto own = unit.potential.topRows(mesh.vertexCount());
