@@ -1,11 +1,11 @@
 #include "bullet_ambient/force/face_loads.h"
 
-#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/fifth_root.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 namespace {
@@ -17,10 +17,10 @@ SumFaces fastestSumFaces() noexcept {
 }
 
 FaceColumns columnsOf(const FaceTable& faces) noexcept {
-  for ([[maybe_unused]] const std::vector<double>* column :
+  for (const std::vector<double>* column :
        {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
         &faces.centroid_z})
-    assert(column->size() == faces.size());
+    AMBIENT_ASSERT(column->size() == faces.size());
   return {{faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
           {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
           faces.area.data(),

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "demos/scene/schema_text.h"
 #include "preprocess/shape/shape_schema.h"
 
@@ -66,6 +67,7 @@ std::vector<SchemaNode> expandAll(const std::vector<SchemaNode>& nodes) {
 }  // namespace
 
 const json& schemaDocument(const std::string& name) {
+  AMBIENT_ASSERT(name == "scene.schema.json" || name == "shape.schema.json");
   static const json scene = json::parse(kSceneSchemaText);
   return name == "shape.schema.json" ? shapeSchema() : scene;
 }

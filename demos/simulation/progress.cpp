@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -23,6 +25,7 @@ Progress::~Progress() {
 }
 
 void Progress::update(double share) {
+  AMBIENT_ASSERT(share >= 0 && share <= 1);
   if (!active_ || Clock::now() < next_) return;
   next_ = Clock::now() + kInterval;
   shown_ = true;

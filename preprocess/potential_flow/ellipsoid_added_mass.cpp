@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -26,6 +28,7 @@ double integralD(Vector3 arguments) {
 }  // namespace
 
 Vector6 ellipsoidAddedMass(const Vector3& semi_axes) {
+  AMBIENT_ASSERT(semi_axes.minCoeff() > 0 && semi_axes.allFinite());
   const double size = semi_axes.maxCoeff();
   const Vector3 axes = semi_axes / size, squares = axes.cwiseAbs2();
   const double volume = 4 * kPi / 3 * axes.prod();
