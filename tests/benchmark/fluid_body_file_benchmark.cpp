@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "tests/fluid_body/example_body.h"
+#include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_files.h"
 

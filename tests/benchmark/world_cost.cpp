@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "preprocess/reduced_loads/reduced_loads.h"
-#include "tests/pile/pile_scene.h"
+#include "tests/bullet_ambient/bullet/pile/pile_scene.h"
 #include "tests/support/ellipsoid_body.h"
 
 namespace ambient::test {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/demos/scene_text.h"
+#include "tests/demos/scene/scene_text.h"
 #include "tests/support/run_program.h"
 #include "tests/support/text_files.h"
 

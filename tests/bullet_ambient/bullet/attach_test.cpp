@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+namespace ambient::test {
+namespace {
+
+const double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+AttachDef ball(const Medium& medium = air()) {
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
+  def.medium = medium;
+  return def;
+}
+
+// The sentence that attach() refuses with; empty if it does not.
+std::string refusal(const BodyDef& body_def, const AttachDef& def) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add(body_def);
+  try {
+    fluid.registry.attach(body, def);
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(fluid.registry.size(), 0u);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return {};
+}
+
+void expectSays(const std::string& sentence, const char* words) {
+  EXPECT_NE(sentence.find(words), std::string::npos) << "said: " << sentence;
+}
+
+TEST(Attach, TakesADynamicBody) { EXPECT_EQ(refusal({}, ball()), ""); }
+
+TEST(Attach, RefusesANullFluidBody) { expectSays(refusal({}, AttachDef{}), "fluid body is null"); }
+
+TEST(Attach, RefusesAStaticBody) {
+  BodyDef def;
+  def.mass = 0;
+  expectSays(refusal(def, ball()), "mass 0");
+}
+
+TEST(Attach, RefusesFlightSettingsThatCannotBe) {
+  AttachDef def = ball();
+  def.flight.tolerance = 0;
+  expectSays(refusal({}, def), "tolerance");
+  def.flight.tolerance = kNaN;
+  expectSays(refusal({}, def), "tolerance");
+  def = ball();
+  def.flight.max_substeps = -1;
+  expectSays(refusal({}, def), "max_substeps of -1");
+}
+
+TEST(Attach, RefusesFacesThatDoNotFitTogether) {
+  AttachDef def = ball();
+  auto shape = std::make_shared<FluidBody>(*def.fluid_body);
+  shape->faces.normal_y.pop_back();
+  def.fluid_body = shape;
+  expectSays(refusal({}, def), "the same in all columns");
+  shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
+  shape->faces.area[3] = kNaN;
+  def.fluid_body = shape;
+  expectSays(refusal({}, def), "an entry of its faces is nan");
+}
+
+TEST(Attach, RefusesABodyThatCannotTurn) {
+  BodyDef def;
+  def.moments.setZero();
+  expectSays(refusal(def, ball()), "angular factor");
+}
+
+// What is said when a body is attached, twice.
+std::vector<std::string> saidAbout(const BodyDef& body_def, const AttachDef& def) {
+  FluidWorld fluid;
+  std::vector<std::string> said;
+  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  for (int i = 0; i < 2; ++i) fluid.registry.attach(fluid.add(body_def), def);
+  return said;
+}
+
+TEST(Attach, ReportsMomentsOfInertiaOfNoRigidBodyOnce) {
+  AttachDef def = ball();
+  BodyDef sheet;
+  sheet.moments = {1, 2, 3};
+  EXPECT_TRUE(saidAbout(sheet, def).empty());
+  BodyDef odd;
+  odd.moments = {1, 10, 1};
+  const std::vector<std::string> said = saidAbout(odd, def);
+  ASSERT_EQ(said.size(), 1u);
+  expectSays(said[0], "inertia of 10.0");
+  expectSays(said[0], "above 2.0");
+}
+
+TEST(Attach, ReportsAnEmptyFluidBodyOnce) {
+  AttachDef def;
+  auto empty = std::make_shared<FluidBody>();
+  empty->name = "hollow";
+  def.fluid_body = empty;
+  EXPECT_TRUE(saidAbout({}, def).empty());  // in vacuum nothing is expected of it
+  def.medium = air();
+  const std::vector<std::string> said = saidAbout({}, def);
+  ASSERT_EQ(said.size(), 1u);
+  expectSays(said[0], "'hollow' feels no fluid");
+  empty->volume = 1;
+  EXPECT_TRUE(saidAbout({}, def).empty());
+}
+
+TEST(Attach, RefusesTheSameBodyTwice) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add({}, meshedEllipsoid(Vector3::Ones(), 1), air());
+  try {
+    fluid.registry.attach(body, ball());
+    FAIL() << "attached twice";
+  } catch (const std::invalid_argument& error) {
+    expectSays(error.what(), "attached already");
+  }
+  EXPECT_EQ(fluid.registry.size(), 1u);
+}
+
+TEST(Attach, RefusesAMediumThatIsNotPhysical) {
+  expectSays(refusal({}, ball({-1, 0, Vector3::Zero(), Vector3::Zero()})),
+             "density of the medium [kg/m^3] is -1");
+  expectSays(refusal({}, ball({kNaN, 0, Vector3::Zero(), Vector3::Zero()})), "density");
+  expectSays(refusal({}, ball({1, -2, Vector3::Zero(), Vector3::Zero()})), "viscosity");
+  expectSays(refusal({}, ball({1, 0, Vector3::Constant(kNaN), Vector3::Zero()})), "must be finite");
+}
+
+TEST(Attach, RefusesASeparationAngleOutsideOfItsRange) {
+  AttachDef def = ball();
+  def.flow.separation_angle = 1;
+  expectSays(refusal({}, def), "between pi/2 and pi");
+}
+
+TEST(SetMedium, KeepsTheOldMediumWhenTheNewOneIsRefused) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add({}, meshedEllipsoid(Vector3::Ones(), 1), air());
+  EXPECT_THROW(fluid.registry.setMedium(body, {-1, 0, Vector3::Zero(), Vector3::Zero()}),
+               std::invalid_argument);
+  EXPECT_EQ(fluid.registry.medium(body).density, air().density);
+}
+
+TEST(SetMedium, RefusesABodyThatIsNotAttached) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add({});
+  EXPECT_THROW(fluid.registry.setMedium(body, air()), std::invalid_argument);
+}
+
+TEST(Registry, TotalInertiaIsThatOfBodyAndFluid) {
+  FluidWorld fluid;
+  BodyDef def;
+  def.mass = 2;
+  def.moments = Vector3(0.3, 0.4, 0.5);
+  const FluidBody shape = facelessEllipsoid(Vector3(1, 2, 3));
+  const btRigidBody& body = fluid.add(def, shape, water());
+  Vector6 expected = water().density * shape.added_mass.diagonal();
+  expected += (Vector6() << 0.3, 0.4, 0.5, 2, 2, 2).finished();
+  const Vector6 diagonal = fluid.registry.inertia(body).diagonal();
+  EXPECT_LT((diagonal - expected).norm(), 1e-6 * expected.norm());
+}
+
+}  // namespace
+}  // namespace ambient::test

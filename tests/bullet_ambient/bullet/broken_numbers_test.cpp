@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+// What is not a number stays with the body that it was given to.
+namespace ambient::test {
+namespace {
+
+const auto kNan = std::numeric_limits<btScalar>::quiet_NaN();
+const Vector3 kSemiAxes{0.3, 0.25, 0.1};
+
+using Spoil = std::function<void(btRigidBody&)>;
+
+// Two bodies in air, 50 m apart or touching; one is spoilt after some steps.
+struct Pair {
+  FluidWorld fluid;
+  btSphereShape ball{static_cast<btScalar>(0.3)};
+  std::vector<std::string> said;
+  btRigidBody* healthy = nullptr;
+  btRigidBody* sick = nullptr;
+
+  explicit Pair(double distance) {
+    fluid.registry.setReport([this](const std::string& text) { said.push_back(text); });
+    const FluidBody shape = meshedEllipsoid(kSemiAxes, 1);
+    BodyDef def;
+    def.shape = &ball;
+    healthy = &fluid.add(def, shape, air());
+    def.start.position = {distance, 0, 0};
+    def.start.twist = {Vector3(1, 2, 3), Vector3(-1, 0, 0)};
+    sick = &fluid.add(def, shape, air());
+  }
+};
+
+const Spoil kSpoils[] = {
+    [](btRigidBody& b) {
+      b.setLinearVelocity({kNan, 0, 0});
+    },
+    [](btRigidBody& b) {
+      b.setAngularVelocity({0, kNan, 0});
+    },
+    [](btRigidBody& b) {
+      b.applyCentralForce({0, 0, kNan});
+    },
+    [](btRigidBody& b) {
+      b.applyTorque({kNan, 0, 0});
+    },
+};
+
+TEST(BrokenNumbers, InVelocityForceAndTorqueStayWithTheirBody) {
+  for (const double distance : {50.0, 0.59}) {
+    for (const Spoil& spoil : kSpoils) {
+      Pair pair(distance);
+      pair.fluid.step(1.0 / 60, 2);
+      spoil(*pair.sick);
+      pair.fluid.step(1.0 / 60, 30);
+      EXPECT_TRUE(readState(*pair.healthy).isFinite()) << distance;
+      EXPECT_EQ(pair.fluid.registry.counters(*pair.healthy).rejected, 0) << distance;
+      EXPECT_GT(pair.fluid.registry.counters(*pair.sick).rejected, 0) << distance;
+      ASSERT_EQ(pair.said.size(), 1u) << distance;
+      EXPECT_NE(pair.said[0].find("not finite"), std::string::npos);
+    }
+  }
+}
+
+TEST(BrokenNumbers, InTheForceOfOneStepAreForgottenInTheNext) {
+  Pair pair(50);
+  pair.sick->applyCentralForce({0, 0, kNan});
+  pair.fluid.step(1.0 / 60);
+  const btVector3 before = pair.sick->getWorldTransform().getOrigin();
+  pair.fluid.step(1.0 / 60, 60);
+  EXPECT_TRUE(readState(*pair.sick).isFinite());
+  EXPECT_GT(static_cast<double>((pair.sick->getWorldTransform().getOrigin() - before).length()),
+            0.5);
+}
+
+TEST(BrokenNumbers, InAMediumAreRefused) {
+  Pair pair(50);
+  for (int k = 0; k < 4; ++k) {
+    Medium medium = air();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    if (k == 0) medium.density = nan;
+    if (k == 1) medium.viscosity = nan;
+    if (k == 2) medium.velocity.y() = nan;
+    if (k == 3) medium.acceleration.z() = nan;
+    EXPECT_THROW(pair.fluid.registry.setMedium(*pair.sick, medium), std::invalid_argument) << k;
+  }
+  pair.fluid.step(1.0 / 60, 10);
+  EXPECT_TRUE(readState(*pair.sick).isFinite());
+}
+
+}  // namespace
+}  // namespace ambient::test

@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tests/bullet_ambient/bullet/contact/arbitrary_contacts.h"
+
+namespace ambient::test {
+namespace {
+
+// What Bullet puts into the normal rows of contacts besides velocities: position errors, softness,
+// warm starts and pushes; against the dense solution.
+
+// Without friction, but for the solver that cannot do without: there the coefficient is the bound.
+template <class Kind>
+constexpr double kLeastFriction = kFrictionBound<Kind> == FrictionBound::kNothing ? 0.3 : 0;
+
+// One contact with three rows or two with one each: the three rows of two points are dependent,
+// since the distance of two points of a rigid body does not change.
+template <class Kind>
+ContactPair pairWithContacts(Arbitrary& arbitrary, Other other) {
+  ContactPair pair = arbitraryPair(arbitrary, other);
+  if (kLeastFriction<Kind> == 0) pair.addPoint(arbitrary);
+  for (int i = 0; i < pair.points(); ++i)
+    pair.point(i).m_combinedFriction = btScalar(kLeastFriction<Kind>);
+  return pair;
+}
+
+// What a normal row aims at: separation is closed at most within the step, penetration opened by
+// the part `erp` of it.
+Real positionTarget(const btManifoldPoint& point, const btContactSolverInfo& info, Real erp) {
+  const Real distance = Real(point.getDistance()) + info.m_linearSlop;
+  return distance > 0 ? -distance / info.m_timeStep : -distance * erp / info.m_timeStep;
+}
+
+// Rows of all points; `targets` of the normal ones. Friction stays below the constant `friction`.
+Rows rowsOf(ContactPair& pair, const std::vector<Real>& targets, Real friction) {
+  Rows rows;
+  for (int i = 0; i < pair.points(); ++i) {
+    rows.push_back(pair.row(pair.normal(i), i));
+    rows.back().target = targets[i];
+    rows.back().lower = 0;
+    if (friction == 0) continue;
+    for (int t : {0, 1}) {
+      rows.push_back(pair.row(pair.tangent(t, i), i));
+      rows.back().lower = -friction;
+      rows.back().upper = friction;
+    }
+  }
+  return rows;
+}
+
+std::vector<reference::DenseBody> atRest(std::vector<reference::DenseBody> bodies) {
+  for (reference::DenseBody& body : bodies) body.free_velocity.setZero();
+  return bodies;
+}
+
+Matrix3r rotation(const Vector3r& vector) {
+  const Real angle = vector.norm();
+  return angle > 0 ? Eigen::AngleAxis<Real>(angle, vector / angle).toRotationMatrix()
+                   : Matrix3r(Matrix3r::Identity());
+}
+
+// Poses of a pair before a step.
+struct PosesBefore {
+  explicit PosesBefore(const ContactPair& pair)
+      : a(pair.a().body().getWorldTransform()), b(pair.b().body().getWorldTransform()) {}
+
+  // Of the displacement by push velocities, in lengths of the body or of its distance from the
+  // world's origin, whose rounding its position has.
+  double error(const ContactPair& pair, const reference::DenseSolution& pushed,
+               const btContactSolverInfo& info) const {
+    const auto of_one = [&](const CoupledBody& body, const btTransform& start,
+                            const DenseVector6& push) {
+      const btTransform& end = body.body().getWorldTransform();
+      const Vector3r origin = exact(start.getOrigin());
+      const Vector3r at = origin + info.m_timeStep * push.tail<3>();
+      // Bullet turns by no more than a quarter of pi.
+      Vector3r turn = info.m_timeStep * info.m_splitImpulseTurnErp * push.head<3>();
+      turn *= std::min<Real>(1, std::acos(Real(-1)) / 4 / std::max<Real>(turn.norm(), 1e-30L));
+      const Matrix3r turned = rotation(turn) * exact(start.getBasis());
+      return static_cast<double>(
+          std::max((exact(end.getOrigin()) - at).norm() / std::max<Real>(body.size(), at.norm()),
+                   (exact(end.getBasis()) - turned).norm()));
+    };
+    const double of_a = of_one(pair.a(), a, pushed.velocities[0]);
+    return pair.b().isFixed() ? of_a : std::max(of_a, of_one(pair.b(), b, pushed.velocities[1]));
+  }
+
+  btTransform a, b;
+};
+
+template <class Kind>
+class ContactTerms : public ::testing::Test {};
+TYPED_TEST_SUITE(ContactTerms, AllSolvers, SolverName);
+
+TYPED_TEST(ContactTerms, PositionErrorsSoftnessAndRelaxationEqualTheDenseSolution) {
+  Arbitrary arbitrary(41);
+  double worst = 0;
+  int solved = 0;
+  for (int i = 0; i < 600; ++i) {
+    ContactPair pair = pairWithContacts<TypeParam>(arbitrary, kOthers[i % 3]);
+    btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.05));
+    pushAtRandom(arbitrary, pair, info.m_timeStep);
+    info.m_erp2 = btScalar(arbitrary.between(0, 1));
+    info.m_linearSlop = btScalar(0.02 * pair.a().size());
+    info.m_sor = btScalar(arbitrary.between(0.7, 1.3));
+    const auto bodies = pair.dense(info.m_timeStep);
+    const reference::DenseRow first = pair.row(pair.normal());
+    const Real response = reference::response(bodies, first, first);
+    info.m_globalCfm = btScalar(arbitrary.between(0, 1) * info.m_timeStep * response);
+    const Before before(pair);
+    std::vector<Real> targets;
+    for (int p = 0; p < pair.points(); ++p) {
+      btManifoldPoint& point = pair.point(p);
+      point.m_combinedRestitution = btScalar(i / 3 % 2 * 0.5);
+      const Real approach = pair.approach(pair.normal(p), before.a, before.b, p);
+      point.m_distance1 = btScalar(arbitrary.between(-1, 1) * info.m_timeStep * std::abs(approach));
+      targets.push_back(std::max<Real>(0, -point.m_combinedRestitution * approach) +
+                        positionTarget(point, info, info.m_erp2));
+    }
+    Rows rows = rowsOf(pair, targets, btScalar(kLeastFriction<TypeParam>));
+    for (reference::DenseRow& row : rows) row.softness = Real(info.m_globalCfm) / info.m_timeStep;
+    const auto expected = reference::solveDense(bodies, rows);
+    if (!touch(expected) || reference::independence(bodies, rows) < kIndependent) continue;
+    if (!pair.template solve<TypeParam>(info)) continue;
+    ++solved;
+    worst = std::max(worst, worstError(pair, expected, before));
+  }
+  EXPECT_GT(solved, 300);
+  EXPECT_LT(worst, kTolerance);
+  report("soft_contacts", worst);
+}
+
+// The second solve begins with the impulses of the first, which another velocity needs.
+TYPED_TEST(ContactTerms, WarmStartsChangeNothingButTheWay) {
+  Arbitrary arbitrary(42);
+  double worst = 0;
+  int solved = 0;
+  for (int i = 0; i < 600; ++i) {
+    ContactPair pair = pairWithContacts<TypeParam>(arbitrary, kOthers[i % 3]);
+    btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.02));
+    info.m_solverMode |= SOLVER_USE_WARMSTARTING;
+    const Before first(pair);
+    if (!pair.template solve<TypeParam>(info)) continue;
+    const bool began_warm = pair.point().m_appliedImpulse > 0;
+    pair.setVelocities(first.a, arbitrary.between(0.3, 2) * first.b);
+    pair.makeApproaching();
+    pushAtRandom(arbitrary, pair, info.m_timeStep);
+    const Before before(pair);
+    const auto bodies = pair.dense(info.m_timeStep);
+    const Rows rows = rowsOf(pair, std::vector<Real>(2, 0), btScalar(kLeastFriction<TypeParam>));
+    const auto expected = reference::solveDense(bodies, rows);
+    if (!began_warm || !touch(expected)) continue;
+    if (reference::independence(bodies, rows) < kIndependent) continue;
+    if (!pair.template solve<TypeParam>(info)) continue;
+    ++solved;
+    worst = std::max(worst, worstError(pair, expected, before));
+  }
+  EXPECT_GT(solved, 200);
+  EXPECT_LT(worst, kTolerance);
+  report("warm_start", worst);
+}
+
+template <class Kind>
+class IteratedContactTerms : public ::testing::Test {};
+using IteratingSolvers =
+    ::testing::Types<SequentialImpulse, ConjugateGradient, Multithreaded, MultiBody>;
+TYPED_TEST_SUITE(IteratedContactTerms, IteratingSolvers, SolverName);
+
+// Without warm starting one iteration over two contacts leaves some of them open.
+TYPED_TEST(IteratedContactTerms, AWarmStartFromTheSolutionNeedsOneIteration) {
+  Arbitrary arbitrary(43);
+  double worst = 0;
+  int solved = 0;
+  for (int i = 0; i < 300; ++i) {
+    ContactPair pair = pairWithContacts<TypeParam>(arbitrary, kOthers[i % 3]);
+    btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.05));
+    info.m_solverMode |= SOLVER_USE_WARMSTARTING;
+    info.m_warmstartingFactor = 1;
+    const Before before(pair);
+    const auto bodies = pair.dense(info.m_timeStep);
+    const Rows rows = rowsOf(pair, std::vector<Real>(2, 0), 0);
+    const auto expected = reference::solveDense(bodies, rows);
+    if (!touch(expected) || reference::independence(bodies, rows) < kIndependent) continue;
+    if (!pair.template solve<TypeParam>(info)) continue;
+    pair.setVelocities(before.a, before.b);
+    info.m_numIterations = 1;
+    info.m_leastSquaresResidualThreshold = 0;
+    pair.template solve<TypeParam>(info);
+    ++solved;
+    worst = std::max(worst, worstError(pair, expected, before));
+  }
+  EXPECT_GT(solved, 150);
+  EXPECT_LT(worst, kTolerance);
+  report("one_iteration", worst);
+}
+
+// Positions are corrected by velocities of their own, which change the pose alone.
+TYPED_TEST(ContactTerms, SplitImpulsesPushAsTheDenseSolution) {
+  Arbitrary arbitrary(44);
+  double worst = 0, worst_pose = 0;
+  int solved = 0;
+  for (int i = 0; i < 600; ++i) {
+    ContactPair pair = pairWithContacts<TypeParam>(arbitrary, kOthers[i % 3]);
+    btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.05));
+    pushAtRandom(arbitrary, pair, info.m_timeStep);
+    info.m_splitImpulse = 1;
+    info.m_splitImpulsePenetrationThreshold = 0;
+    info.m_splitImpulseTurnErp = btScalar(arbitrary.between(0.1, 1));
+    info.m_erp2 = btScalar(arbitrary.between(0.2, 1));
+    std::vector<Real> push_targets;
+    for (int p = 0; p < pair.points(); ++p) {
+      pair.point(p).m_distance1 = btScalar(-arbitrary.between(0.01, 0.1) * pair.a().size());
+      push_targets.push_back(positionTarget(pair.point(p), info, info.m_erp2));
+    }
+    const Before before(pair);
+    const PosesBefore poses(pair);
+    const auto bodies = pair.dense(info.m_timeStep);
+    const Rows rows = rowsOf(pair, std::vector<Real>(2, 0), btScalar(kLeastFriction<TypeParam>));
+    const Rows pushes = rowsOf(pair, push_targets, btScalar(kLeastFriction<TypeParam>));
+    const auto expected = reference::solveDense(bodies, rows);
+    const auto pushed = reference::solveDense(atRest(bodies), pushes);
+    if (reference::independence(bodies, rows) < kIndependent) continue;
+    if (!pair.template solve<TypeParam>(info)) continue;
+    ++solved;
+    worst = std::max(worst, worstError(pair, expected, before));
+    worst_pose = std::max(worst_pose, poses.error(pair, pushed, info));
+  }
+  EXPECT_GT(solved, 300);
+  EXPECT_LT(worst, kTolerance);
+  EXPECT_LT(worst_pose, kTolerance);
+  report("split_velocity", worst);
+  report("split_pose", worst_pose);
+}
+
+}  // namespace
+}  // namespace ambient::test

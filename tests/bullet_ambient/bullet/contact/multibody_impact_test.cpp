@@ -1,0 +1,239 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/bullet_ambient/bullet/contact/chain_contact.h"
+
+namespace ambient::test {
+namespace {
+
+// Contacts of an ambient body with a link of a btMultiBody. The reference has the links as bodies
+// of their own, held together by rows.
+
+Rows chainRows(const ChainTask& task) { return task.chain().jointRows(1); }
+
+// Velocity along the row under the forces on the body as Bullet has them for this contact: without
+// fluid. Its restitution goes by that.
+Real dryApproach(const ChainTask& task, const reference::DenseRow& normal, Real dt) {
+  const btRigidBody& body = task.body().body();
+  DenseVector6 change;
+  change << exact(body.getInvInertiaTensorWorld()) * exact(body.getTotalTorque()),
+      exact(body.getTotalForce()) * body.getInvMass();
+  return task.approach() + dt * normal.jacobian_a.dot(change);
+}
+
+TEST(MultiBodyImpact, EqualsTheDenseSolution) {
+  Arbitrary arbitrary(51);
+  double worst = 0;
+  int impacts = 0;
+  for (int i = 0; i < 2400; ++i) {
+    ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
+    task.touch(arbitrary, i / 2 % 2 == 0);
+    btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
+    info.m_sor = btScalar(arbitrary.between(0.8, 1.2));
+    const double restitution = i / 4 % 3 * 0.5;
+    task.contact().m_combinedRestitution = btScalar(restitution);
+    const BeforeChain before(task);
+    const auto bodies = task.dense(info.m_timeStep);
+    Rows rows = chainRows(task);
+    const auto normal = rows.size();
+    rows.push_back(task.row(exact(task.contact().m_normalWorldOnB)));
+    rows[normal].lower = 0;
+    rows[normal].target =
+        std::max<Real>(0, -restitution * dryApproach(task, rows[normal], info.m_timeStep));
+    const auto expected = reference::solveDense(bodies, rows);
+    if (!(expected.impulses[normal] > 1e-9L)) continue;
+    if (!task.solve(info)) continue;
+    ++impacts;
+    worst = std::max(worst, before.error(task, expected));
+  }
+  EXPECT_GE(impacts, 2000);
+  EXPECT_LT(worst, kTolerance);
+  report("link_impacts", worst);
+}
+
+// Position error, softness of contact and friction, friction in a box.
+TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
+  Arbitrary arbitrary(52);
+  double worst = 0;
+  int sticking = 0, sliding = 0;
+  for (int i = 0; i < 400; ++i) {
+    ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
+    task.touch(arbitrary, i / 2 % 2 == 0);
+    btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
+    info.m_solverMode |= SOLVER_DISABLE_IMPLICIT_CONE_FRICTION;
+    info.m_erp2 = btScalar(arbitrary.between(0, 0.5));
+    info.m_globalCfm = btScalar(arbitrary.between(0, 0.5) * info.m_timeStep);
+    info.m_frictionCFM = btScalar(arbitrary.between(0, 0.5) * info.m_timeStep);
+    btManifoldPoint& contact = task.contact();
+    contact.m_combinedFriction = btScalar(arbitrary.between(0.05, 0.6));
+    contact.m_distance1 = btScalar(-0.1 * info.m_timeStep);
+    const BeforeChain before(task);
+    const auto bodies = task.dense(info.m_timeStep);
+    Rows rows = chainRows(task);
+    const auto normal = rows.size();
+    rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
+    rows[normal].lower = 0;
+    rows[normal].target = -Real(contact.m_distance1) * info.m_erp2 / info.m_timeStep;
+    rows[normal].softness = Real(info.m_globalCfm) / info.m_timeStep;
+    btVector3 tangent[2];
+    btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);
+    for (const btVector3& direction : tangent) {
+      rows.push_back(task.row(exact(direction)));
+      rows.back().friction = contact.m_combinedFriction;
+      rows.back().normal_row = static_cast<int>(normal);
+      rows.back().softness = Real(info.m_frictionCFM) / info.m_timeStep;
+    }
+    const auto expected = reference::onlySolution(bodies, rows);
+    if (!expected || !(expected->impulses[normal] > 1e-9L)) continue;
+    if (!task.solve(info)) continue;
+    for (int t : {1, 2}) {
+      const Real bound = rows[normal + t].friction * expected->impulses[normal];
+      ++(std::abs(expected->impulses[normal + t]) < bound * (1 - 1e-12L) ? sticking : sliding);
+    }
+    worst = std::max(worst, before.error(task, *expected));
+  }
+  EXPECT_GT(sticking, 100);
+  EXPECT_GT(sliding, 100);
+  EXPECT_LT(worst, kTolerance);
+  report("link_friction", worst);
+}
+
+// Rows that hold the locked axes of body 0 at rest against the last body, which is fixed.
+Rows planeRows(int fixed_body) {
+  Rows rows;
+  for (int axis : {0, 1, 5}) {
+    reference::DenseRow row;
+    row.body_b = fixed_body;
+    row.jacobian_a[axis] = 1;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// A body of a 2D scene on a multibody, also on one that does not move: as a ground loaded from a
+// file is. One direction of friction acts on locked axes alone there.
+TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
+  Arbitrary arbitrary(57);
+  double worst = 0;
+  int solved = 0, on_ground = 0;
+  for (int i = 0; i < 300; ++i) {
+    const bool is_ground = i % 2 == 0;
+    ChainTask task = arbitraryChainTask(arbitrary, is_ground, is_ground ? 0 : 2);
+    btRigidBody& body = task.body().body();
+    body.setLinearFactor({1, 1, 0});
+    body.setAngularFactor({0, 0, 1});
+    body.setLinearVelocity(body.getLinearVelocity() * body.getLinearFactor());
+    body.setAngularVelocity(body.getAngularVelocity() * body.getAngularFactor());
+    const btVector3 direction(btScalar(arbitrary.between(-1, 1)),
+                              btScalar(arbitrary.between(-1, 1)), 0);
+    task.touchAlong(direction.normalized(), i / 2 % 2 == 0);
+    // So short that forces and gyroscopic terms do nothing.
+    btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(1e-18));
+    info.m_solverMode |= SOLVER_DISABLE_IMPLICIT_CONE_FRICTION;
+    btManifoldPoint& contact = task.contact();
+    contact.m_combinedFriction = btScalar(0.3);
+    const BeforeChain before(task);
+    auto bodies = task.dense(info.m_timeStep);
+    Rows rows = chainRows(task);
+    for (const reference::DenseRow& row : planeRows(static_cast<int>(bodies.size())))
+      rows.push_back(row);
+    bodies.emplace_back();
+    bodies.back().fixed = true;
+    const auto normal = rows.size();
+    rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
+    rows[normal].lower = 0;
+    btVector3 tangent[2];
+    btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);
+    for (int t = 0; t < (is_ground ? 1 : 2); ++t) {
+      rows.push_back(task.row(exact(tangent[t])));
+      rows.back().friction = contact.m_combinedFriction;
+      rows.back().normal_row = static_cast<int>(normal);
+    }
+    const auto expected = reference::onlySolution(bodies, rows);
+    if (!expected || !(expected->impulses[normal] > 1e-9L)) continue;
+    const bool has_finished = task.solve(info);
+    ASSERT_TRUE(task.body().velocity().allFinite());
+    if (!has_finished) continue;
+    ++solved;
+    on_ground += is_ground;
+    worst = std::max(worst, before.error(task, *expected));
+  }
+  EXPECT_GT(solved, 150);
+  EXPECT_GT(on_ground, 100);
+  EXPECT_LT(worst, kTolerance);
+  report("link_locked_axes", worst);
+}
+
+// Coefficients so large that nothing slides, rolls or spins: all of Bullet's rows of a contact
+// between a link and a body hold, in its default mode with cones of friction.
+TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
+  Arbitrary arbitrary(53);
+  double worst = 0;
+  int solved = 0;
+  for (int i = 0; i < 600; ++i) {
+    ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
+    task.touch(arbitrary, i / 2 % 2 == 0);
+    const btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
+    btManifoldPoint& contact = task.contact();
+    contact.m_combinedFriction = btScalar(1e6);
+    contact.m_combinedSpinningFriction = btScalar(1e6);
+    contact.m_combinedRollingFriction = btScalar(1e6);
+    const BeforeChain before(task);
+    const auto bodies = task.dense(info.m_timeStep);
+    Rows rows = chainRows(task);
+    const auto normal = rows.size();
+    rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
+    btVector3 tangent[2];
+    btPlaneSpace1(contact.m_normalWorldOnB, tangent[0], tangent[1]);
+    for (const btVector3& direction : tangent) rows.push_back(task.row(exact(direction)));
+    for (const btVector3& direction : tangent) rows.push_back(task.spinRow(exact(direction)));
+    rows.push_back(task.spinRow(exact(contact.m_normalWorldOnB)));
+    const auto expected = reference::solveDense(bodies, rows);
+    if (!(expected.impulses[normal] > 1e-3L)) continue;
+    if (!task.solve(info)) continue;
+    // Bullet keeps the rolling and spinning impulses of a contact whose own impulse becomes 0 on
+    // the way, and may end there; with ordinary bodies as well.
+    if (contact.m_appliedImpulse == 0) continue;
+    ++solved;
+    worst = std::max(worst, before.error(task, expected));
+  }
+  EXPECT_GT(solved, 100);
+  EXPECT_LT(worst, kTolerance);
+  report("link_sticking", worst);
+}
+
+// The second solve begins with the impulses of the first, which other velocities need.
+TEST(MultiBodyImpact, WarmStartsChangeNothingButTheWay) {
+  Arbitrary arbitrary(55);
+  double worst = 0;
+  int warm = 0;
+  for (int i = 0; i < 600; ++i) {
+    ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
+    task.touch(arbitrary, i / 2 % 2 == 0);
+    btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(0.02));
+    info.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
+    const DenseVector6 first = task.body().velocity();
+    const LinkChain::Rates first_rates = task.chain().rates();
+    if (!task.solve(info)) continue;
+    task.body().setVelocity(arbitrary.between(0.8, 1.2) * first);
+    task.chain().setRates(first_rates);
+    const BeforeChain before(task);
+    const auto bodies = task.dense(info.m_timeStep);
+    Rows rows = chainRows(task);
+    rows.push_back(task.row(exact(task.contact().m_normalWorldOnB)));
+    rows.back().lower = 0;
+    const auto expected = reference::solveDense(bodies, rows);
+    if (!(expected.impulses[rows.size() - 1] > 1e-9L)) continue;
+    if (!task.solve(info)) continue;
+    ++warm;
+    worst = std::max(worst, before.error(task, expected));
+  }
+  EXPECT_GT(warm, 300);
+  EXPECT_LT(worst, kTolerance);
+  report("link_warm_start", worst);
+}
+
+}  // namespace
+}  // namespace ambient::test

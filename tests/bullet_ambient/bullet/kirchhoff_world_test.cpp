@@ -1,0 +1,238 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/reference/kirchhoff_integration.h"
+#include "tests/reference/kirchhoff_motion.h"
+#include "tests/support/free_body.h"
+#include "tests/support/random_bodies.h"
+
+// Exact solutions without loads through stepSimulation: point by point, at any step and any spin.
+namespace ambient::test {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kBodies = 9;
+
+Medium idealFluid(double density) { return {density, 0, Vector3::Zero(), Vector3::Zero()}; }
+
+// `start`'s twist in body axes here.
+btRigidBody& addTo(FluidWorld& world, BodyDef def, const FluidBody& shape, double density) {
+  const Quaternion& q = def.start.orientation;
+  def.start.twist = {q * def.start.twist.angular, q * def.start.twist.linear};
+  return world.add(def, shape, idealFluid(density));
+}
+
+// Arbitrary coupled added mass, pose and axis of the spin.
+btRigidBody& addCoupledBody(FluidWorld& world, unsigned seed, double spin) {
+  Arbitrary arbitrary(seed);
+  const Matrix6 added_mass = 0.3 * arbitrary.positiveDefinite();
+  BodyDef def;
+  def.moments = {arbitrary.between(0.5, 1), arbitrary.between(0.5, 1), arbitrary.between(0.5, 1)};
+  def.start.orientation = Quaternion(arbitrary.rotation());
+  def.start.twist = {spin * arbitrary.vector().normalized(),
+                     0.1 * spin * arbitrary.vector().normalized()};
+  return addTo(world, def, shapeWithoutFaces(added_mass, 0), 1);
+}
+
+// [s], 120 rad at most: beyond, motions are chaotic.
+double durationOf(double spin) { return std::min(2.0, 120 / spin); }
+
+// Pose after the duration by an independent integrator, from the state that Bullet has stored.
+reference::KirchhoffState exactEnd(const btRigidBody& body, const Matrix6& total, double spin) {
+  const RigidState start = readState(body);
+  const Eigen::Matrix<double, 6, 6> inertia = total;
+  reference::KirchhoffState s;
+  s << start.orientation.coeffs(), start.position, inertia * start.twist.vector();
+  return reference::integrate({inertia.inverse()}, s, durationOf(spin),
+                              std::max(60, static_cast<int>(spin * 20)));
+}
+
+// Sorted, after the duration.
+std::vector<double> rotationErrors(double spin, double step) {
+  std::vector<double> errors;
+  for (unsigned seed = 0; seed < kBodies; ++seed) {
+    FluidWorld world;
+    const btRigidBody& body = addCoupledBody(world, seed, spin);
+    const auto end = exactEnd(body, world.registry.inertia(body), spin);
+    world.step(step, static_cast<int>(std::lround(durationOf(spin) / step)));
+    errors.push_back(angleBetween(readState(body).orientation, reference::orientationOf(end)));
+  }
+  std::sort(errors.begin(), errors.end());
+  return errors;
+}
+
+struct SpinAccuracy {
+  double spin;              // [rad/s]
+  double float64, float32;  // [rad] of the median body
+};
+
+// The flow without loads is exact, so that the step does not matter. Measured: float64 5e-13, 5e-12
+// and 3e-11, the rounding of 120 to 480 steps; float32 7e-6, 2e-5 and 6e-5, where every step stores
+// the velocity to 6e-8. 60 rad/s at 60 Hz is more than the pi/4 that Bullet would turn in one step.
+constexpr SpinAccuracy kAccuracies[] = {
+    {6, 1e-11, 5e-5}, {20, 1e-10, 1e-4}, {60, 1e-9, 5e-4}, {200, 1e-9, 5e-4}};
+
+TEST(FreeFlight, FollowsKirchhoffsEquationsAtAnyStep) {
+  for (const SpinAccuracy& accuracy : kAccuracies) {
+    for (const double step : {1.0 / 60, 1.0 / 120, 1.0 / 240}) {
+      const std::vector<double> errors = rotationErrors(accuracy.spin, step);
+      EXPECT_LT(errors[kBodies / 2], byPrecision(accuracy.float64, accuracy.float32))
+          << accuracy.spin << " rad/s at " << step;
+      // Motions differ in how they stretch errors.
+      EXPECT_LT(errors.back(), 10 * byPrecision(accuracy.float64, accuracy.float32))
+          << accuracy.spin << " rad/s at " << step;
+    }
+  }
+}
+
+TEST(FreeFlight, KeepsWorldMomentumAndEnergy) {
+  for (unsigned seed = 0; seed < kBodies; ++seed) {
+    FluidWorld world;
+    const btRigidBody& body = addCoupledBody(world, seed, 10);
+    const Matrix6 K = world.registry.inertia(body);
+    const auto conserved = [&] {
+      const RigidState s = readState(body);
+      const Momentum m = Momentum::fromVector(K * s.twist.vector());
+      const Vector3 P = s.orientation * m.linear;
+      Eigen::Matrix<double, 7, 1> all;
+      all << P, s.orientation * m.angular + s.position.cross(P),
+          s.twist.vector().dot(K * s.twist.vector());
+      return all;
+    };
+    const auto before = conserved();
+    world.step(1.0 / 60, 600);
+    EXPECT_LT((conserved() - before).norm(), byPrecision(1e-10, 2e-3) * before.norm()) << seed;
+  }
+}
+
+TEST(FreeFlight, TurnsByAnyAngleInOneStep) {
+  // A spinning ball: 1, 5 and 50 rad per step.
+  for (const double spin : {60.0, 300.0, 3000.0}) {
+    FluidWorld world;
+    BodyDef def;
+    def.start.twist = {{0, 0, spin}, {1, 0, 0}};
+    const btRigidBody& body = addTo(world, def, shapeWithoutFaces(Matrix6::Identity(), 0), 1);
+    constexpr double kStep = 1.0 / 64;
+    constexpr int kSteps = 32;
+    world.step(kStep, kSteps);
+    const double angle = std::remainder(spin * kStep * kSteps, 2 * kPi);
+    const Quaternion expected(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    // float32 rounds the orientation in every step; float64 knows 1500 rad to that much.
+    EXPECT_LT(angleBetween(readState(body).orientation, expected), byPrecision(1e-9, 2e-5));
+    EXPECT_NEAR(double(body.getWorldTransform().getOrigin().x()), kStep * kSteps,
+                byPrecision(1e-10, 1e-6));
+    EXPECT_NEAR(double(body.getAngularVelocity().z()), spin, spin * byPrecision(1e-12, 1e-5));
+  }
+}
+
+constexpr double kWater = 1000;  // [kg/m^3]
+
+// The neutrally buoyant ellipsoid of the reference numbers.
+struct Ellipsoid {
+  Vector3 semi_axes{0.3, 0.2, 0.1};
+  double mass = kWater * ellipsoidVolume(semi_axes);
+  Vector3 moments = ellipsoidMoments(semi_axes, mass);
+  Vector6 added = kWater * reference::ellipsoidAddedMass(semi_axes);
+  Vector3 total_moments = moments + added.head<3>();
+  Vector3 total_masses = Vector3::Constant(mass) + added.tail<3>();
+
+  btRigidBody& addTo(FluidWorld& world, const RigidState& start) const {
+    return test::addTo(world, {mass, moments, start, nullptr}, facelessEllipsoid(semi_axes),
+                       kWater);
+  }
+  reference::PlanarMotion planarMotion() const {
+    return reference::PlanarMotion::of(total_masses, total_moments.z(), 2 * mass);
+  }
+  // Without spin, y axis at `angle` from the momentum 2 m along the world's y axis.
+  RigidState released(double angle) const {
+    RigidState state;
+    state.orientation = Quaternion(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    const Vector3 p = state.orientation.conjugate() * Vector3(0, 2 * mass, 0);
+    state.twist.linear = p.cwiseQuotient(total_masses);
+    return state;
+  }
+};
+
+double planarAngle(const btRigidBody& body) {
+  const Vector3 y = readState(body).orientation * Vector3(0, 1, 0);
+  return std::atan2(-y.x(), y.y());
+}
+
+TEST(FreeFlight, RocksLikeTheEllipticFunction) {
+  // Amplitude and period [s] of an independent evaluation.
+  constexpr double kPeriods[][2] = {
+      {0.1, 1.57029600502}, {0.5, 1.670275123599}, {1.0, 2.0815575012}, {1.4, 3.165329064944}};
+  const Ellipsoid ellipsoid;
+  const reference::PlanarMotion motion = ellipsoid.planarMotion();
+  EXPECT_NEAR(motion.frequency, 4.011300635271759, 1e-10);
+  for (const auto& [amplitude, period] : kPeriods) {
+    EXPECT_NEAR(motion.rockingPeriod(amplitude), period, 1e-9);
+    for (const double step : {1.0 / 60, 1.0 / 120, 1.0 / 240}) {
+      FluidWorld world;
+      const btRigidBody& body = ellipsoid.addTo(world, ellipsoid.released(amplitude));
+      const int steps = static_cast<int>(std::lround(1.5 * period / step));
+      double largest = 0;
+      for (int i = 1; i <= steps; ++i) {
+        world.step(step);
+        largest = std::max(largest,
+                           std::abs(planarAngle(body) - motion.rockingAngle(amplitude, i * step)));
+      }
+      EXPECT_LT(largest, byPrecision(1e-11, 2e-4)) << amplitude << " at " << step;
+    }
+  }
+}
+
+TEST(FreeFlight, TumblesHalfATurnInTheTimeOfTheEllipticIntegral) {
+  const Ellipsoid ellipsoid;
+  const reference::PlanarMotion motion = ellipsoid.planarMotion();
+  const double rate = 1.5 * motion.frequency;
+  for (const int steps : {30, 120}) {
+    FluidWorld world;
+    RigidState start = ellipsoid.released(0);
+    start.twist.angular = {0, 0, rate};
+    const btRigidBody& body = ellipsoid.addTo(world, start);
+    world.step(motion.tumblingHalfTurn(rate) / steps, steps);
+    EXPECT_NEAR(std::remainder(planarAngle(body) - kPi, 2 * kPi), 0, byPrecision(1e-11, 1e-4));
+    EXPECT_NEAR(double(body.getAngularVelocity().z()), rate, rate * byPrecision(1e-11, 1e-4));
+  }
+}
+
+struct Growth {
+  int moving_axis, turning_axis;
+  double rate_sq;  // lambda^2 [1/s^2]
+};
+
+TEST(FreeFlight, GrowsAndSwingsWithMunksRates) {
+  // Reference numbers "Kirchhoff translation growth", V = 1 m/s.
+  constexpr Growth kGrowths[] = {{0, 2, 5.651126831285162},  {0, 1, 17.280202446074586},
+                                 {1, 2, -7.490055530443397}, {1, 0, 41.646305698984925},
+                                 {2, 1, -68.59780347111813}, {2, 0, -124.73487126824453}};
+  const Ellipsoid ellipsoid;
+  const reference::TranslationAlongAxis translation{ellipsoid.total_masses, ellipsoid.total_moments,
+                                                    1};
+  for (const Growth& growth : kGrowths) {
+    EXPECT_NEAR(translation.growth(growth.moving_axis, growth.turning_axis), growth.rate_sq, 1e-9);
+    FluidWorld world;
+    // Small against 1 and large against rounding.
+    const double kTurn = byPrecision(1e-5, 1e-2);
+    RigidState state;
+    state.orientation =
+        Quaternion(Eigen::AngleAxisd(kTurn, Eigen::Vector3d::Unit(growth.turning_axis)));
+    const Vector3 P = ellipsoid.total_masses[growth.moving_axis] *
+                      Vector3(Eigen::Vector3d::Unit(growth.moving_axis));
+    state.twist.linear = (state.orientation.conjugate() * P).cwiseQuotient(ellipsoid.total_masses);
+    const btRigidBody& body = ellipsoid.addTo(world, state);
+    constexpr int kSteps = 20;
+    world.step(1.5 / std::sqrt(std::abs(growth.rate_sq)) / kSteps, kSteps);
+    const double angle = 2 * readState(body).orientation.vec()[growth.turning_axis];
+    const double expected = growth.rate_sq > 0 ? std::cosh(1.5) : std::cos(1.5);
+    // sin(theta) = theta to theta^2 / 6, grown by e^3.
+    EXPECT_NEAR(angle / kTurn, expected, byPrecision(1e-8, 1e-3)) << growth.rate_sq;
+  }
+}
+
+}  // namespace
+}  // namespace ambient::test

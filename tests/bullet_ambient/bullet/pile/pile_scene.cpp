@@ -1,0 +1,140 @@
+#include "tests/bullet_ambient/bullet/pile/pile_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/spatial/inertia.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient::test {
+namespace {
+
+btVector3 cubeVector(double x) { return {btScalar(x), btScalar(x), btScalar(x)}; }
+
+}  // namespace
+
+FluidBody pileFluidBody(PileFluid fluid) {
+  const double density = 1;
+  const double largest = fluid.added_mass * Pile::kMass / density;
+  const double size = Pile::kHalfEdge;
+  Vector6 diagonal;
+  diagonal << 0.1 * largest * size * size * Vector3(1, 0.6, 0.8), largest * Vector3(1, 0.5, 0.7);
+  // A frame beside the centre of mass couples the blocks.
+  FluidBody shape;
+  shape.name = "box of the pile";
+  shape.added_mass = shiftOrigin(diagonal.asDiagonal(), {0.3 * size, -0.2 * size, 0.1 * size});
+  shape.volume = std::max(fluid.buoyancy, 1e-9) * Pile::kMass / density;
+  shape.area = 6 * 4 * size * size;
+  return shape;
+}
+
+Pile::Pile(btConstraintSolver& solver, AmbientRegistry* registry, double ambient_part,
+           PileFluid fluid, PileDef pile)
+    : world_(&dispatcher_, &broadphase_, &solver, &configuration_),
+      box_shape_(cubeVector(kHalfEdge)) {
+  world_.setGravity({0, 0, btScalar(-9.81)});
+  addWalls(pile.edge);
+  addBoxes(pile);
+  if (!registry) return;
+  action_ = std::make_unique<AmbientAction>(*registry);
+  world_.addAction(action_.get());
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(pileFluidBody(fluid));
+  def.medium.density = 1;
+  def.medium.viscosity = 0;
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const bool is_ambient = std::floor(ambient_part * static_cast<double>(i + 1)) >
+                            std::floor(ambient_part * static_cast<double>(i));
+    if (is_ambient) registry->attach(*boxes_[i], def);
+  }
+}
+
+Pile::~Pile() {
+  if (action_) world_.removeAction(action_.get());
+  for (const auto& box : boxes_) world_.removeRigidBody(box.get());
+  for (const auto& wall : walls_) world_.removeRigidBody(wall.get());
+}
+
+btRigidBody& Pile::add(double mass, btCollisionShape& shape, const btTransform& start) {
+  btVector3 inertia(0, 0, 0);
+  if (mass > 0) shape.calculateLocalInertia(static_cast<btScalar>(mass), inertia);
+  auto& bodies = mass > 0 ? boxes_ : walls_;
+  bodies.push_back(std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
+      static_cast<btScalar>(mass), nullptr, &shape, inertia)));
+  btRigidBody& body = *bodies.back();
+  body.setWorldTransform(start);
+  body.setRestitution(0);
+  body.setFriction(btScalar(0.5));
+  world_.addRigidBody(&body);
+  return body;
+}
+
+void Pile::addWalls(int edge) {
+  const auto room = static_cast<btScalar>((1.5 * edge + 2) * kHalfEdge);
+  for (const btVector3& normal : {btVector3(0, 0, 1), btVector3(1, 0, 0), btVector3(-1, 0, 0),
+                                  btVector3(0, 1, 0), btVector3(0, -1, 0)}) {
+    const btScalar distance = normal.z() > 0 ? btScalar(0) : -room;
+    wall_shapes_.push_back(std::make_unique<btStaticPlaneShape>(normal, distance));
+    add(0, *wall_shapes_.back(), btTransform::getIdentity());
+  }
+}
+
+void Pile::addBoxes(const PileDef& def) {
+  Arbitrary arbitrary(def.seed);
+  const double pitch = 2 * kHalfEdge + def.gap;
+  for (int k = 0; k < def.edge; ++k) {
+    for (int j = 0; j < def.edge; ++j) {
+      for (int i = 0; i < def.edge; ++i) {
+        const double middle = (def.edge - 1) / 2.0;
+        const Vector3 turn = arbitrary.vector(def.tilt / 2);
+        const btVector3 origin(btScalar((i - middle) * pitch), btScalar((j - middle) * pitch),
+                               btScalar(def.height + (k + 0.5) * pitch));
+        const btQuaternion rotation(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), 1);
+        add(kMass, box_shape_, btTransform(rotation.normalized(), origin));
+      }
+    }
+  }
+}
+
+void Pile::step(double duration) {
+  const auto dt = static_cast<btScalar>(duration);
+  world_.stepSimulation(dt, 0, dt);
+}
+
+void Pile::keepAwake() {
+  for (const auto& box : boxes_) box->setActivationState(DISABLE_DEACTIVATION);
+}
+
+bool Pile::isAsleep() const {
+  for (const auto& box : boxes_)
+    if (box->isActive()) return false;
+  return true;
+}
+
+double Pile::energy(const AmbientRegistry* registry, PileFluid fluid) const {
+  double sum = 0;
+  for (const auto& box : boxes_) {
+    const RigidState state = readState(*box);
+    const bool is_ambient = registry && registry->isAttached(*box);
+    const double weight = 9.81 * kMass * (is_ambient ? 1 - fluid.buoyancy : 1);
+    sum += weight * state.position.z();
+    Matrix6 inertia = Matrix6::Zero();
+    if (is_ambient) {
+      inertia = registry->inertia(*box);
+    } else {
+      inertia.diagonal() << toVector3(box->getInvInertiaDiagLocal()).cwiseInverse(),
+          Vector3::Constant(kMass);
+    }
+    const Vector6 x = state.twist.vector();
+    sum += x.dot(inertia * x) / 2;
+  }
+  return sum;
+}
+
+double Pile::meanSpeed() const {
+  double sum = 0;
+  for (const auto& box : boxes_) sum += static_cast<double>(box->getLinearVelocity().length2());
+  return std::sqrt(sum / static_cast<double>(boxes_.size()));
+}
+
+}  // namespace ambient::test

@@ -1,0 +1,191 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+// Bullet puts slow bodies to sleep after two seconds, and what sleeps must wake up again.
+namespace ambient::test {
+namespace {
+
+const Vector3 kSemiAxes = Vector3::Constant(0.2);  // a sphere: no way to move is unstable
+
+btRigidBody& addSleepy(FluidWorld& fluid, const Twist& twist, const Medium& medium) {
+  const FluidBody shape = facelessEllipsoid(kSemiAxes);
+  BodyDef def;
+  def.mass = 1000 * shape.volume;
+  def.moments = ellipsoidMoments(kSemiAxes, def.mass);
+  def.start.twist = twist;
+  btRigidBody& body = fluid.add(def, shape, medium);
+  body.forceActivationState(ACTIVE_TAG);
+  return body;
+}
+
+Medium stillWater() { return {1000, 0, Vector3::Zero(), Vector3::Zero()}; }
+
+TEST(Sleeping, DoesNotFreezeADriftingBody) {
+  for (const double speed : {0.01, 0.1, 0.5}) {
+    FluidWorld fluid;
+    fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+    const btRigidBody& body =
+        addSleepy(fluid, {Vector3::Zero(), Vector3(speed, 0, 0)}, stillWater());
+    fluid.step(1.0 / 60, 900);
+    EXPECT_TRUE(body.isActive()) << speed;
+    EXPECT_NEAR(static_cast<double>(body.getWorldTransform().getOrigin().x()), 15 * speed,
+                byPrecision(1e-9, 1e-3) * speed);
+  }
+}
+
+TEST(Sleeping, DoesNotFreezeATurningBody) {
+  for (const double rate : {0.05, 0.5}) {
+    FluidWorld fluid;
+    const btRigidBody& body =
+        addSleepy(fluid, {Vector3(0, 0, rate), Vector3::Zero()}, stillWater());
+    fluid.step(1.0 / 60, 600);
+    EXPECT_TRUE(body.isActive()) << rate;
+    EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().z()), rate, 1e-5);
+  }
+}
+
+TEST(Sleeping, TakesABodyAtRestInStillWater) {
+  FluidWorld fluid;
+  fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+  const btRigidBody& body = addSleepy(fluid, {}, stillWater());
+  fluid.step(1.0 / 60, 300);
+  EXPECT_FALSE(body.isActive());
+}
+
+TEST(Sleeping, IsNotMistakenForAMissingSolver) {
+  FluidWorld fluid;
+  std::vector<std::string> said;
+  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  btRigidBody& body = addSleepy(fluid, {}, stillWater());
+  fluid.step(1.0 / 60, 300);
+  ASSERT_FALSE(body.isActive());
+  EXPECT_TRUE(said.empty());
+  // Woken between solver and action, by another action: the solver had no reason to look at it.
+  struct Wake : btActionInterface {
+    btRigidBody* body = nullptr;
+    void updateAction(btCollisionWorld*, btScalar) override { body->activate(); }
+    void debugDraw(btIDebugDraw*) override {}
+  };
+  fluid.world.removeAction(&fluid.action);
+  Wake wake;
+  wake.body = &body;
+  fluid.world.addAction(&wake);
+  fluid.world.addAction(&fluid.action);
+  fluid.step(1.0 / 60, 3);
+  EXPECT_TRUE(said.empty()) << said[0];
+  fluid.world.removeAction(&wake);
+}
+
+TEST(Sleeping, EndsWhenTheMediumChanges) {
+  FluidWorld fluid;
+  fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+  const btRigidBody& body = addSleepy(fluid, {}, stillWater());
+  fluid.step(1.0 / 60, 300);
+  ASSERT_FALSE(body.isActive());
+  Medium brine = stillWater();
+  brine.density = 1200;
+  fluid.registry.setMedium(body, brine);
+  fluid.step(1.0 / 60, 10);
+  EXPECT_GT(static_cast<double>(body.getLinearVelocity().z()), 0.1);
+}
+
+TEST(Sleeping, GoesOnWhenTheMediumStaysTheSame) {
+  FluidWorld fluid;
+  const btRigidBody& body = addSleepy(fluid, {}, stillWater());
+  fluid.step(1.0 / 60, 300);
+  ASSERT_FALSE(body.isActive());
+  fluid.registry.setMedium(body, stillWater());
+  EXPECT_FALSE(body.isActive());
+}
+
+TEST(Sleeping, EndsWhenABodyIsAttached) {
+  FluidWorld fluid;
+  fluid.world.setGravity({0, 0, 0});
+  BodyDef def;
+  btRigidBody& body = fluid.add(def);
+  body.forceActivationState(ISLAND_SLEEPING);
+  AttachDef attach;
+  attach.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kSemiAxes));
+  attach.medium = stillWater();
+  fluid.registry.attach(body, attach);
+  EXPECT_TRUE(body.isActive());
+}
+
+TEST(Sleeping, EndsWhenACurrentSetsIn) {
+  FluidWorld fluid;
+  fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+  BodyDef def;
+  const FluidBody shape = meshedEllipsoid(kSemiAxes, 2);
+  def.mass = 1000 * shape.volume;
+  def.moments = ellipsoidMoments(kSemiAxes, def.mass);
+  btRigidBody& body = fluid.add(def, shape, stillWater());
+  body.forceActivationState(ACTIVE_TAG);
+  fluid.step(1.0 / 60, 300);
+  ASSERT_FALSE(body.isActive());
+  Medium current = stillWater();
+  current.velocity = Vector3(0.5, 0, 0);
+  fluid.registry.setMedium(body, current);
+  fluid.step(1.0 / 60, 300);
+  EXPECT_TRUE(body.isActive());
+  EXPECT_GT(static_cast<double>(body.getLinearVelocity().x()), 0.25);
+}
+
+// A box on the floor that a ball comes to hit.
+struct Floor {
+  FluidWorld fluid;
+  btBoxShape ground{btVector3(20, 20, 1)};
+  btBoxShape cube{btVector3(static_cast<btScalar>(0.3), static_cast<btScalar>(0.3),
+                            static_cast<btScalar>(0.3))};
+  btSphereShape sphere{static_cast<btScalar>(0.2)};
+  btRigidBody* box = nullptr;
+  btRigidBody* ball = nullptr;
+
+  explicit Floor(bool in_water) {
+    fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+    BodyDef def{0, Vector3::Zero(), {}, &ground};
+    def.start.position = {0, 0, -1};
+    fluid.add(def);
+    def = {400, Vector3::Constant(400 * 0.06), {}, &cube};
+    def.start.position = {0, 0, 0.3};
+    box = &fluid.add(def);
+    if (in_water) {
+      AttachDef attach;
+      attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Constant(0.3), 1));
+      attach.medium = stillWater();
+      attach.fluid_frame.translation = Vector3(0.02, 0.01, 0);
+      fluid.registry.attach(*box, attach);
+    }
+    box->forceActivationState(ACTIVE_TAG);
+    def = {5, Vector3::Constant(0.1), {}, &sphere};
+    def.start.position = {-12, 0, 0.3};
+    def.start.twist.linear = {3, 0, 0};
+    ball = &fluid.add(def);
+    ball->setGravity({0, 0, 0});
+  }
+  // Steps until the box is awake or not, 1000 at most.
+  int stepsUntil(bool is_awake) {
+    for (int i = 0; i < 1000; ++i) {
+      if (box->isActive() == is_awake) return i;
+      fluid.step(1.0 / 60);
+    }
+    return 1000;
+  }
+};
+
+TEST(Sleeping, ComesAndGoesInStillWaterAsInStockBullet) {
+  Floor dry(false), wet(true);
+  const int slept = dry.stepsUntil(false);
+  EXPECT_GT(slept, 100);
+  EXPECT_EQ(wet.stepsUntil(false), slept);
+  const int woken = dry.stepsUntil(true);
+  EXPECT_GT(woken, 10);
+  EXPECT_LT(woken, 1000);
+  EXPECT_EQ(wet.stepsUntil(true), woken);
+}
+
+}  // namespace
+}  // namespace ambient::test

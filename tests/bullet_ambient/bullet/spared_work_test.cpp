@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/ellipsoid_body.h"
+
+// What a scene does not need is not computed, by the counters of the registry.
+namespace ambient::test {
+namespace {
+
+const Vector3 kSemiAxes(0.3, 0.25, 0.1);
+constexpr double kStep = 1.0 / 60;
+
+BodyDef bodyAt(double height) {
+  BodyDef def{1, ellipsoidMoments(kSemiAxes, 1), {}, nullptr};
+  def.start.position = {0, 0, height};
+  def.start.twist = {Vector3(1, 2, 3), Vector3(4, 0, 1)};
+  return def;
+}
+
+// The counts of the next step alone.
+AmbientCounters countStep(FluidWorld& fluid) {
+  const AmbientCounters before = fluid.registry.counters();
+  fluid.step(kStep);
+  const AmbientCounters after = fluid.registry.counters();
+  AmbientCounters step;
+  step.substeps = after.substeps - before.substeps;
+  step.load_evaluations = after.load_evaluations - before.load_evaluations;
+  step.faces = after.faces - before.faces;
+  step.rows = after.rows - before.rows;
+  return step;
+}
+
+void expectNothing(const AmbientCounters& step) {
+  EXPECT_EQ(step.substeps, 0);
+  EXPECT_EQ(step.load_evaluations, 0);
+  EXPECT_EQ(step.faces, 0);
+  EXPECT_EQ(step.rows, 0);
+}
+
+TEST(SparedWork, ADensityOfZeroCostsNothing) {
+  FluidWorld fluid;
+  fluid.add(bodyAt(0), meshedEllipsoid(kSemiAxes, 1), Medium{});
+  expectNothing(countStep(fluid));
+}
+
+TEST(SparedWork, ASleepingBodyCostsNothing) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add(bodyAt(0), meshedEllipsoid(kSemiAxes, 1), air());
+  EXPECT_GT(countStep(fluid).load_evaluations, 0);
+  body.forceActivationState(ISLAND_SLEEPING);
+  expectNothing(countStep(fluid));
+}
+
+TEST(SparedWork, ABodyWithoutFacesHasNoLoadsToEvaluate) {
+  FluidWorld fluid;
+  fluid.add(bodyAt(0), facelessEllipsoid(kSemiAxes), water());
+  const AmbientCounters step = countStep(fluid);
+  EXPECT_GT(step.substeps, 0);
+  EXPECT_EQ(step.load_evaluations, 0);
+}
+
+TEST(SparedWork, EveryEvaluationSumsEveryFaceButOfASphereNone) {
+  FluidWorld fluid;
+  FluidBody shape = meshedEllipsoid(kSemiAxes, 1);
+  fluid.add(bodyAt(0), shape, air());
+  const AmbientCounters by_faces = countStep(fluid);
+  EXPECT_GT(by_faces.load_evaluations, 0);
+  EXPECT_EQ(by_faces.faces, by_faces.load_evaluations * static_cast<long long>(shape.faces.size()));
+  FluidWorld other;
+  shape.sphere_radius = 0.2;
+  other.add(bodyAt(0), shape, air());
+  const AmbientCounters by_radius = countStep(other);
+  EXPECT_GT(by_radius.load_evaluations, 0);
+  EXPECT_EQ(by_radius.faces, 0);
+}
+
+TEST(SparedWork, AFreeBodyHasNoRowsToRewrite) {
+  FluidWorld fluid;
+  fluid.add(bodyAt(0), meshedEllipsoid(kSemiAxes, 1), air());
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(countStep(fluid).rows, 0);
+}
+
+TEST(SparedWork, ABodyThatIsOnlyNearAnotherIsNotRewritten) {
+  // Their boxes overlap in the broadphase, they do not touch.
+  btSphereShape ball(btScalar(0.1));
+  FluidWorld fluid;
+  BodyDef def = bodyAt(0);
+  def.shape = &ball;
+  def.start.twist = {};
+  fluid.add(def, meshedEllipsoid(kSemiAxes, 1), water());
+  def.start.position = {0.15, 0.15, 0};
+  fluid.add(def, meshedEllipsoid(kSemiAxes, 1), water());
+  fluid.step(kStep);
+  ASSERT_EQ(fluid.dispatcher.getNumManifolds(), 1);
+  EXPECT_EQ(countStep(fluid).rows, 0);
+}
+
+TEST(SparedWork, ALargeSlowBodyNeedsOneEvaluationPerStep) {
+  const Vector3 semi_axes(5, 3, 2);
+  FluidWorld fluid;
+  BodyDef def{1e5, ellipsoidMoments(semi_axes, 1e5), {}, nullptr};
+  def.start.twist = {Vector3(0, 0.01, 0), Vector3(0.3, 0, 0.1)};
+  fluid.add(def, meshedEllipsoid(semi_axes, 1), water());
+  fluid.step(kStep, 2);
+  for (int i = 0; i < 20; ++i) {
+    const AmbientCounters step = countStep(fluid);
+    EXPECT_EQ(step.substeps, 1);
+    EXPECT_EQ(step.load_evaluations, 1);
+  }
+}
+
+TEST(SparedWork, ADetachedBodyCostsNothing) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add(bodyAt(0), meshedEllipsoid(kSemiAxes, 1), air());
+  fluid.add(bodyAt(10), meshedEllipsoid(kSemiAxes, 1), Medium{});
+  fluid.step(kStep);
+  fluid.registry.detach(body);
+  expectNothing(countStep(fluid));
+}
+
+TEST(SparedWork, BodiesOfOneShapeShareItsData) {
+  FluidWorld fluid;
+  const auto shape = std::make_shared<const FluidBody>(meshedEllipsoid(kSemiAxes, 2));
+  for (int i = 0; i < 5; ++i) {
+    AttachDef def;
+    def.fluid_body = shape;
+    def.medium = air();
+    fluid.registry.attach(fluid.add(bodyAt(2.0 * i)), def);
+  }
+  for (const auto& ambient : fluid.registry.bodies()) {
+    EXPECT_EQ(ambient->model.faces, &shape->faces);
+  }
+  EXPECT_LT(sizeof(AmbientBody), 3000U);
+}
+
+}  // namespace
+}  // namespace ambient::test

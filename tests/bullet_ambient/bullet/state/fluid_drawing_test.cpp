@@ -1,0 +1,237 @@
+#include "bullet_ambient/bullet/fluid_drawing.h"
+
+#include <LinearMath/btIDebugDraw.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bullet_ambient/motion/rotation.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+struct Line {
+  btVector3 from, to, colour;
+};
+
+class Recorder : public btIDebugDraw {
+ public:
+  void drawLine(const btVector3& from, const btVector3& to, const btVector3& colour) override {
+    lines_.push_back({from, to, colour});
+  }
+  void drawContactPoint(const btVector3&, const btVector3&, btScalar, int,
+                        const btVector3&) override {}
+  void reportErrorWarning(const char*) override {}
+  void draw3dText(const btVector3&, const char*) override {}
+  void setDebugMode(int) override {}
+  int getDebugMode() const override { return DBG_DrawNormals; }
+
+  std::vector<Line> linesOf(const btVector3& colour) const {
+    std::vector<Line> result;
+    std::copy_if(lines_.begin(), lines_.end(), std::back_inserter(result),
+                 [&](const Line& line) { return line.colour == colour; });
+    return result;
+  }
+  Vector3 sumOf(const btVector3& colour) const {
+    Vector3 sum = Vector3::Zero();
+    for (const Line& line : linesOf(colour)) sum += toVector3(line.to) - toVector3(line.from);
+    return sum;
+  }
+  std::size_t count() const { return lines_.size(); }
+  void clear() { lines_.clear(); }
+
+ private:
+  std::vector<Line> lines_;
+};
+
+// A turning body in oblique flow, its fluid frame shifted and turned.
+class Drawing : public testing::Test {
+ protected:
+  Drawing() {
+    fluid.world.setDebugDrawer(&recorder);
+    AttachDef attach;
+    auto shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.5, 0.3, 0.2), 2));
+    shape->centre_of_volume = Vector3(0.05, 0, 0.1);
+    attach.fluid_body = shape;
+    attach.medium = {900, 1e-3, Vector3(0.3, 0.1, 0), Vector3(0, 0.5, 0)};
+    attach.flow.separation_angle = 1.7;
+    attach.fluid_frame = {rotationFromVector(Vector3(0.4, 0.1, -0.3)).toRotationMatrix(),
+                          Vector3(0.02, 0.01, 0.03)};
+    BodyDef def;
+    def.mass = 200;
+    def.moments = Vector3(5, 8, 9);
+    def.start.orientation = rotationFromVector(Vector3(0.1, 0.8, 0.2));
+    def.start.twist = {Vector3(1, -1, 2), Vector3(2, 1, -1)};
+    body = &fluid.add(def);
+    body->setGravity(btVector3(0, 0, btScalar(-kGravity)));
+    fluid.registry.attach(*body, attach);
+    fluid.step(1e-3);
+    fluid.action.drawing.length_per_face_force = 1;
+    fluid.action.drawing.length_per_force = 1;
+    fluid.action.drawing.length_per_torque = 1;
+    fluid.action.drawing.length_per_velocity = 1;
+    recorder.clear();
+  }
+  ~Drawing() override { fluid.world.setDebugDrawer(nullptr); }
+
+  // The drawing has lines of these switches alone.
+  void draw(const FluidDrawing& what) {
+    fluid.action.drawing = what;
+    for (const bool is_drawn : {false, true}) {
+      recorder.clear();
+      if (!is_drawn) fluid.world.removeAction(&fluid.action);
+      fluid.world.debugDrawWorld();
+      if (!is_drawn) {
+        lines_of_stock_ = recorder.count();
+        fluid.world.addAction(&fluid.action);
+      }
+    }
+  }
+  std::size_t lines() const { return recorder.count() - lines_of_stock_; }
+  const AmbientBody& ambient() { return *fluid.registry.find(body); }
+  Twist relativeTwist() {
+    Twist relative = readState(*body).twist;
+    relative.linear -= readState(*body).orientation.conjugate() * ambient().def.medium.velocity;
+    return relative;
+  }
+  FaceLoads loads() {
+    const BodyModel& model = ambient().model;
+    return computeFaceLoads(*model.faces, model.reference_length,
+                            model.fluid_frame.toF(relativeTwist()), model.loads);
+  }
+  Vector3 fromFluidFrame(const Vector3& vector_F) {
+    return readState(*body).orientation * (ambient().model.fluid_frame.rotation * vector_F);
+  }
+  FluidDrawing unitLengths() const {
+    FluidDrawing what;
+    what.length_per_face_force = what.length_per_force = what.length_per_torque = 1;
+    what.length_per_velocity = 1;
+    return what;
+  }
+  std::size_t faceCount() { return ambient().model.faces->size(); }
+
+  const double tolerance = byPrecision(1e-12, 1e-5);
+  Recorder recorder;
+  FluidWorld fluid;
+  btRigidBody* body = nullptr;
+
+ private:
+  std::size_t lines_of_stock_ = 0;
+};
+
+TEST_F(Drawing, IsEmptyByDefault) {
+  draw({});
+  EXPECT_EQ(lines(), 0u);
+}
+
+TEST_F(Drawing, NormalsShowWhereTheFlowIsAttached) {
+  FluidDrawing what = unitLengths();
+  what.separation = true;
+  draw(what);
+  EXPECT_EQ(lines(), faceCount());
+  const auto attached = recorder.linesOf(fluid_colours::kAttached);
+  const auto separated = recorder.linesOf(fluid_colours::kSeparated);
+  EXPECT_GT(attached.size(), faceCount() / 4);
+  EXPECT_GT(separated.size(), faceCount() / 4);
+  EXPECT_EQ(attached.size() + separated.size(), faceCount());
+  // Attached: normal and velocity of the face within the separation angle.
+  for (const Line& line : attached) {
+    const btVector3 n = (line.to - line.from).normalized();
+    const btVector3 u = body->getVelocityInLocalPoint(line.from - body->getCenterOfMassPosition()) -
+                        toBullet(ambient().def.medium.velocity);
+    EXPECT_GT(n.dot(u.normalized()), std::cos(1.7) - 1e-4);
+  }
+}
+
+TEST_F(Drawing, SlipVelocitiesLieInTheirFaces) {
+  FluidDrawing what = unitLengths();
+  what.slip_velocity = true;
+  draw(what);
+  const std::size_t drawn = lines();
+  EXPECT_EQ(recorder.linesOf(fluid_colours::kSlip).size(), drawn);
+  what.separation = true;
+  draw(what);
+  EXPECT_EQ(recorder.linesOf(fluid_colours::kAttached).size(), drawn);
+  for (const Line& slip : recorder.linesOf(fluid_colours::kSlip)) {
+    const auto normals = recorder.linesOf(fluid_colours::kAttached);
+    const auto face = std::find_if(normals.begin(), normals.end(),
+                                   [&](const Line& line) { return line.from == slip.from; });
+    ASSERT_NE(face, normals.end());
+    const btVector3 n = (face->to - face->from).normalized();
+    const btVector3 v = slip.to - slip.from;
+    EXPECT_NEAR(n.dot(v), 0, byPrecision(1e-12, 1e-4));
+  }
+}
+
+TEST_F(Drawing, PressureArrowsSumToThePressureForce) {
+  FluidDrawing what = unitLengths();
+  what.pressure = true;
+  draw(what);
+  EXPECT_EQ(recorder.linesOf(fluid_colours::kPressure).size(), lines());
+  const Vector3 expected = fromFluidFrame(loads().pressure.force);
+  EXPECT_LT((recorder.sumOf(fluid_colours::kPressure) - expected).norm(),
+            tolerance * expected.norm());
+}
+
+TEST_F(Drawing, FrictionArrowsSumToTheFrictionForce) {
+  FluidDrawing what = unitLengths();
+  what.friction = true;
+  draw(what);
+  const Vector3 expected = fromFluidFrame(loads().friction.force);
+  EXPECT_GT(expected.norm(), 0.1);
+  EXPECT_LT((recorder.sumOf(fluid_colours::kFriction) - expected).norm(),
+            10 * tolerance * expected.norm());
+}
+
+TEST_F(Drawing, BuoyancyActsAtTheCentreOfVolume) {
+  FluidDrawing what = unitLengths();
+  what.buoyancy = true;
+  what.centre_of_volume = true;
+  draw(what);
+  EXPECT_EQ(lines(), 1u + 3u);
+  const auto drawn = recorder.linesOf(fluid_colours::kBuoyancy);
+  const RigidState state = readState(*body);
+  const Vector3 centre = state.position + state.orientation * ambient().model.centre_of_volume;
+  const Vector3 up(0, 0.5, kGravity);  // gravity less the acceleration of the medium, turned over
+  const Vector3 expected = 900 * ambient().def.fluid_body->volume * up;
+  EXPECT_LT((toVector3(drawn[0].to - drawn[0].from) - expected).norm(),
+            tolerance * expected.norm());
+  for (const Line& line : drawn) {
+    const btVector3 at = &line == &drawn[0] ? line.from : (line.from + line.to) / 2;
+    EXPECT_LT((toVector3(at) - centre).norm(), tolerance * 1);
+  }
+}
+
+TEST_F(Drawing, TheTotalIsTheWrenchThatTheFlightSees) {
+  FluidDrawing what = unitLengths();
+  what.total_wrench = true;
+  draw(what);
+  EXPECT_EQ(lines(), 2u);
+  const RigidState state = readState(*body);
+  Surroundings s = readSurroundings(ambient());
+  s.applied = {Vector3::Zero(), ambient().model.mass * s.ambient_acceleration};  // buoyancy alone
+  const Wrench total = computeSurfaceLoad(ambient().model, relativeTwist()).wrench +
+                       externalWrench(ambient().model, s, state.orientation.toRotationMatrix());
+  const Vector3 force = state.orientation * total.force;
+  const Vector3 torque = state.orientation * total.torque;
+  EXPECT_LT((recorder.sumOf(fluid_colours::kForce) - force).norm(), tolerance * force.norm());
+  EXPECT_LT((recorder.sumOf(fluid_colours::kTorque) - torque).norm(), tolerance * torque.norm());
+}
+
+TEST_F(Drawing, LeavesOutBodiesWithoutAFluidAndRemovedOnes) {
+  draw(FluidDrawing::all());
+  EXPECT_GT(lines(), 2 * faceCount());
+  fluid.registry.setMedium(*body, Medium{});
+  draw(FluidDrawing::all());
+  EXPECT_EQ(lines(), 0u);
+  fluid.registry.setMedium(*body, water());
+  fluid.world.removeRigidBody(body);
+  draw(FluidDrawing::all());
+  EXPECT_EQ(lines(), 0u);
+}
+
+}  // namespace
+}  // namespace ambient::test

@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/bullet_ambient/bullet/state/state_scene.h"
+
+namespace ambient::test {
+namespace {
+
+// What decodeState() says when it refuses; empty if it does not.
+std::string refusal(const std::string& bytes, const FluidBodyLookup& lookup) {
+  try {
+    decodeState(bytes, "quick.save", lookup);
+  } catch (const std::runtime_error& error) {
+    const std::string sentence = error.what();
+    EXPECT_EQ(sentence.find("quick.save: the saved state "), 0u) << sentence;
+    EXPECT_EQ(sentence.find('\n'), std::string::npos);
+    return sentence;
+  }
+  return {};
+}
+
+class StateBytes : public testing::Test {
+ protected:
+  StateBytes() {
+    scene.step(80);
+    state = saveState(scene.fluid.world, scene.fluid.registry);
+    bytes = encodeState(state);
+  }
+  void expectSays(const std::string& refused, const char* words) {
+    EXPECT_NE(refusal(refused, scene.lookup()).find(words), std::string::npos)
+        << refusal(refused, scene.lookup());
+  }
+
+  StateScene scene;
+  WorldState state;
+  std::string bytes;
+};
+
+TEST_F(StateBytes, CarryTheStateBitForBit) {
+  const WorldState decoded = decodeState(bytes, "quick.save", scene.lookup());
+  EXPECT_EQ(encodeState(decoded) == bytes, true);
+  StateScene other;
+  restoreState(decoded, other.fluid.world, other.fluid.registry);
+  scene.step(60);
+  other.step(60);
+  EXPECT_EQ(scene.motion() == other.motion(), true);
+}
+
+TEST_F(StateBytes, NameEveryFluidBodyOnce) {
+  const auto in_fluid = std::find_if(state.bodies.begin(), state.bodies.end(),
+                                     [](const BodyState& body) { return body.ambient; });
+  const BodyState twin = *in_fluid;
+  FluidBody other = *twin.ambient->def.fluid_body;
+  other.volume *= 2;
+  state.bodies.push_back(twin);
+  state.bodies.back().ambient->def.fluid_body = std::make_shared<FluidBody>(other);
+  try {
+    encodeState(state);
+    ADD_FAILURE() << "not refused";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("have the name '" + other.name + "'"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(StateBytes, AreRefusedWhenTheyAreCutShort) {
+  for (std::size_t size = 0; size < bytes.size(); size += size < 200 ? 1 : 97) {
+    ASSERT_NE(refusal(bytes.substr(0, size), scene.lookup()), "") << size;
+  }
+  expectSays(bytes + "x", "damaged");
+}
+
+TEST_F(StateBytes, AreRefusedWhenAnyOfThemIsDamaged) {
+  for (std::size_t place = 0; place < bytes.size(); place += place < 200 ? 1 : 97) {
+    std::string damaged = bytes;
+    damaged[place] = static_cast<char>(damaged[place] ^ 0x40);
+    ASSERT_NE(refusal(damaged, scene.lookup()), "") << place;
+  }
+}
+
+TEST_F(StateBytes, NameWhatIsForeign) {
+  expectSays("BULLETf-v324 and more than enough bytes", "does not begin with AMBSTATE");
+  std::string other = bytes;
+  other[8] = 99;
+  expectSays(other, "version 99");
+  other = bytes;
+  other[12] = sizeof(btScalar) == 8 ? 4 : 8;
+  expectSays(other, sizeof(btScalar) == 8 ? "have 4 bytes, here they have 8"
+                                          : "have 8 bytes, here they have 4");
+}
+
+TEST_F(StateBytes, NameTheFluidBodyThatIsMissingOrAnother) {
+  EXPECT_NE(refusal(bytes, {}).find("'box', which is not known"), std::string::npos);
+  const auto changed = [this](const std::string& name) {
+    auto body = std::make_shared<FluidBody>(*scene.find(name));
+    body->faces.area[0] *= 1 + 1e-15;
+    return body;
+  };
+  EXPECT_NE(refusal(bytes, changed).find("another content of the fluid body 'box'"),
+            std::string::npos);
+}
+
+// Checksums are no defence: whoever writes bytes can compute them.
+TEST_F(StateBytes, WithARightChecksumButWrongContentAreRefused) {
+  WorldState wrong = state;
+  wrong.bodies[1].activation_state = 77;
+  expectSays(encodeState(wrong), "activation state");
+  wrong = state;
+  wrong.bodies[2].inverse_mass = -1;
+  expectSays(encodeState(wrong), "inverse mass");
+  wrong = state;
+  wrong.bodies[0].pose.getOrigin().setX(std::numeric_limits<btScalar>::quiet_NaN());
+  expectSays(encodeState(wrong), "pose or velocity is not finite");
+  wrong = state;
+  wrong.bodies[1].angular_velocity.setZ(std::numeric_limits<btScalar>::infinity());
+  expectSays(encodeState(wrong), "pose or velocity is not finite");
+  wrong = state;
+  wrong.contacts[0].points.resize(5);
+  expectSays(encodeState(wrong), "more than 4 points");
+  wrong = state;
+  wrong.contacts[0].pair.object_a = -3;
+  expectSays(encodeState(wrong), "without an object");
+  wrong = state;
+  wrong.bodies[1].ambient->memory.substep = std::numeric_limits<double>::infinity();
+  expectSays(encodeState(wrong), "not finite");
+}
+
+}  // namespace
+}  // namespace ambient::test

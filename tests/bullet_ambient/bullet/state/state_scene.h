@@ -1,0 +1,137 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/bullet/world_state.h"
+#include "bullet_ambient/bullet/world_state_codec.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+namespace ambient::test {
+
+constexpr double kSceneStep = 1.0 / 60;
+
+/// Numbers that .bullet files keep in float, shapes' sizes and margins among them, are exact here.
+inline btScalar exactly(double value) { return static_cast<btScalar>(static_cast<float>(value)); }
+
+/// A floor, a pile of boxes and balls in water on it, a hinged chain that swings into the pile, a
+/// plate that flutters down beside it, and an ordinary ball. Each instance is built in the same
+/// way.
+class StateScene {
+ public:
+  StateScene() {
+    fluid.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    fluid.world.setGravity(btVector3(0, 0, btScalar(-9.81)));
+    for (btConvexInternalShape* shape :
+         std::initializer_list<btConvexInternalShape*>{&floor_shape, &box_shape, &plate_shape}) {
+      shape->setMargin(exactly(0.03125));
+    }
+    BodyDef floor;
+    floor.mass = 0;
+    floor.moments.setZero();
+    floor.start.position = {0, 0, -1};
+    floor.shape = &floor_shape;
+    fluid.add(floor);
+    addPile();
+    addChain();
+    addPlate();
+    BodyDef stone{0.7, Vector3::Constant(0.02), {}, &ball_shape};
+    stone.start.position = {0.1, 0.15, 2.5};
+    fluid.add(stone);
+  }
+  ~StateScene() {
+    for (const auto& joint : joints) fluid.world.removeConstraint(joint.get());
+  }
+
+  void step(int count) { fluid.step(kSceneStep, count); }
+  btRigidBody& body(int i) {
+    return *btRigidBody::upcast(fluid.world.getCollisionObjectArray()[i]);
+  }
+  /// Of all bodies, bit for bit; without what Bullet keeps of contacts.
+  std::string motion() const {
+    WorldState state = saveState(fluid.world, fluid.registry);
+    state.pairs.clear();
+    state.contacts.clear();
+    return encodeState(state);
+  }
+  std::shared_ptr<const FluidBody> find(const std::string& name) const {
+    for (const auto& shape : {box_fluid, ball_fluid, plate_fluid}) {
+      if (shape->name == name) return shape;
+    }
+    return nullptr;
+  }
+  FluidBodyLookup lookup() const {
+    return [this](const std::string& name) { return find(name); };
+  }
+
+  btBoxShape floor_shape{btVector3(8, 8, 1)};
+  btBoxShape box_shape{btVector3(exactly(0.25), exactly(0.1875), exactly(0.125))};
+  btSphereShape ball_shape{exactly(0.1875)};
+  btBoxShape plate_shape{btVector3(exactly(0.25), exactly(0.25), exactly(0.03125))};
+  std::shared_ptr<FluidBody> box_fluid = named("box", Vector3(0.3, 0.22, 0.15));
+  std::shared_ptr<FluidBody> ball_fluid = named("ball", Vector3::Constant(0.1875));
+  std::shared_ptr<FluidBody> plate_fluid = named("plate", Vector3(0.28, 0.28, 0.04));
+  FluidWorld fluid;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints;
+
+ private:
+  static std::shared_ptr<FluidBody> named(const std::string& name, const Vector3& semi_axes) {
+    auto shape = std::make_shared<FluidBody>(meshedEllipsoid(semi_axes, 1));
+    shape->name = name;
+    return shape;
+  }
+  btRigidBody& add(BodyDef def, const std::shared_ptr<FluidBody>& shape, const Medium& medium) {
+    const double relative_density = def.mass;
+    def.mass = relative_density * medium.density * shape->volume;
+    def.moments = def.mass * Vector3(0.021, 0.03, 0.035);
+    btRigidBody& body = fluid.add(def);
+    body.forceActivationState(ACTIVE_TAG);
+    body.setRestitution(btScalar(0.2));
+    AttachDef attach;
+    attach.fluid_body = shape;
+    attach.medium = medium;
+    attach.flow.separation_angle = 1.8;
+    attach.fluid_frame.translation = Vector3(0.01, 0.02, -0.015);
+    fluid.registry.attach(fluid.world, body, attach);
+    return body;
+  }
+  void addPile() {
+    for (int i = 0; i < 8; ++i) {
+      BodyDef def;
+      def.mass = 3;
+      def.shape = i % 2 ? static_cast<btCollisionShape*>(&ball_shape) : &box_shape;
+      def.start.position = {0.08 * i, -0.05 * i, 0.2 + 0.4 * i};
+      def.start.twist.angular = {0.3 * i, 0, 1};
+      add(def, i % 2 ? ball_fluid : box_fluid, water());
+    }
+  }
+  void addChain() {
+    btRigidBody* last = nullptr;
+    for (int i = 0; i < 3; ++i) {
+      BodyDef def;
+      def.mass = 2;
+      def.shape = &ball_shape;
+      def.start.position = {2.5 - 0.5 * i, 0, 2};
+      btRigidBody& link = add(def, ball_fluid, water());
+      const btVector3 axis(0, 1, 0), right(btScalar(0.25), 0, 0);
+      // A joint to no second body would lose its place in a .bullet file.
+      btRigidBody& other = last ? *last : body(0);
+      const btVector3 place = last ? btVector3(-right) : btVector3(btScalar(2.75), 0, 3);
+      auto joint = std::make_unique<btHingeConstraint>(link, other, right, place, axis, axis);
+      fluid.world.addConstraint(joint.get());
+      joints.push_back(std::move(joint));
+      last = &link;
+    }
+  }
+  void addPlate() {
+    BodyDef def;
+    def.mass = 1.5;
+    def.shape = &plate_shape;
+    def.start.position = {-3, 0, 40};
+    def.start.twist.angular = {0.2, 1, 0.1};
+    add(def, plate_fluid, water());
+  }
+};
+
+}  // namespace ambient::test

@@ -1,0 +1,64 @@
+#include <LinearMath/btAlignedAllocator.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/allocation_counter.h"
+
+namespace ambient::test {
+namespace {
+
+std::size_t g_bullet_allocations = 0;
+
+void* countedAllocation(std::size_t size, int alignment) {
+  ++g_bullet_allocations;
+  const auto a = static_cast<std::size_t>(alignment);
+  return std::aligned_alloc(a, (size + a - 1) / a * a);
+}
+
+// After the first steps have sized every buffer: free bodies, a body at rest on the floor and a
+// pendulum with feedback.
+TEST(Step, AllocatesNothing) {
+  btAlignedAllocSetCustomAligned(countedAllocation, std::free);
+  {
+    btBoxShape floor_shape(btVector3(20, 20, 1));
+    btSphereShape ball_shape(static_cast<btScalar>(0.3));
+    FluidWorld fluid;
+    fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+    const FluidBody shape = meshedEllipsoid(Vector3(0.3, 0.25, 0.1), 2);
+    BodyDef def{1, Vector3(0.02, 0.03, 0.04), {}, &floor_shape};
+    BodyDef floor_def = def;
+    floor_def.mass = 0;
+    floor_def.start.position = Vector3(0, 0, -1.3);
+    fluid.add(floor_def);
+    def.shape = &ball_shape;
+    fluid.add(def, shape, air());
+    for (int i = 1; i < 5; ++i) {
+      def.start.position = Vector3(2.0 * i, 0, 500);
+      def.start.twist.angular = Vector3(1, 2, 5.0 * i);
+      fluid.add(def, shape, i % 2 ? air() : water());
+    }
+    def.start.position = Vector3(0, 5, 3);
+    btRigidBody& bob = fluid.add(def, shape, water());
+    btPoint2PointConstraint joint(bob, btVector3(0, 0, 1));
+    btJointFeedback feedback;
+    joint.setJointFeedback(&feedback);
+    fluid.world.addConstraint(&joint);
+
+    fluid.step(1.0 / 60, 60);
+    const std::size_t before = allocationCount();
+    const std::size_t bullet_before = g_bullet_allocations;
+    const long long evaluations = fluid.registry.counters().load_evaluations;
+    const long long rows = fluid.registry.counters().rows;
+    fluid.step(1.0 / 60, 120);
+    EXPECT_EQ(allocationCount(), before);
+    EXPECT_EQ(g_bullet_allocations, bullet_before);
+    EXPECT_GT(fluid.registry.counters().load_evaluations, evaluations + 120 * 5);
+    EXPECT_GT(fluid.registry.counters().rows, rows + 120);
+    fluid.world.removeConstraint(&joint);
+  }
+}
+
+}  // namespace
+}  // namespace ambient::test

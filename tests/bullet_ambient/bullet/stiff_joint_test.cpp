@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+namespace ambient::test {
+namespace {
+
+// A light body of 1 mm in water on a joint: a pendulum that swings, and spins, faster than the
+// steps.
+class StiffJoint : public ::testing::TestWithParam<double> {
+ protected:
+  static constexpr double kSize = 1e-3, kSpin = 10;
+
+  BodyDef lightBody(double spin) const {
+    BodyDef def;
+    def.mass = 5e-11;
+    def.moments = def.mass * kSize * kSize * Vector3(0.03, 0.08, 0.09);
+    def.start.orientation = Quaternion(Eigen::AngleAxisd(2, Vector3(0.6, 0.64, 0.48).normalized()));
+    def.start.twist.angular = spin * Vector3(0.64, 0.48, 0.6);
+    return def;
+  }
+  FluidBody shape() const {
+    const double volume = 0.05 * kSize * kSize * kSize;
+    Vector6 diagonal;
+    diagonal << volume * kSize * kSize * Vector3(0.01, 0.08, 0.1), volume * Vector3(0.2, 0.6, 3);
+    FluidBody shape;
+    shape.name = "mote";
+    shape.added_mass = shiftOrigin(diagonal.asDiagonal(), kSize * Vector3(0.1, 0.05, -0.1));
+    shape.volume = volume;
+    shape.area = kSize * kSize;
+    return shape;
+  }
+  /// Largest speed of the surface in the last of two seconds [m/s].
+  double lateSpeed(double spin, double gravity) {
+    FluidWorld scene;
+    scene.world.setGravity({0, 0, static_cast<btScalar>(gravity)});
+    btRigidBody& body = scene.add(lightBody(spin), shape(), water());
+    btPoint2PointConstraint joint(body, btVector3(btScalar(kSize / 2), 0, 0));
+    scene.world.addConstraint(&joint);
+    double fastest = 0;
+    const int steps = static_cast<int>(std::lround(2 / GetParam()));
+    for (int i = 0; i < steps; ++i) {
+      scene.step(GetParam());
+      const double speed = static_cast<double>(body.getLinearVelocity().length()) +
+                           kSize * static_cast<double>(body.getAngularVelocity().length());
+      if (!std::isfinite(speed)) return speed;
+      if (i > steps / 2) fastest = std::max(fastest, speed);
+    }
+    scene.world.removeConstraint(&joint);
+    EXPECT_EQ(scene.registry.counters().rejected, 0);
+    return fastest;
+  }
+};
+
+TEST_P(StiffJoint, HoldsABodyThatWeighsLessThanItsWater) {
+  // Buoyancy over one step, 0.2 to 0.6 m/s, and Bullet's pull on the joint are what moves it.
+  EXPECT_LT(lateSpeed(kSpin, -9.81), 10);
+}
+
+TEST_P(StiffJoint, DoesNotFeedASpin) {
+  for (const double spin : {1e2, 1e3, 1e4}) EXPECT_LT(lateSpeed(spin, 0), 2 * kSize * spin) << spin;
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, StiffJoint, ::testing::Values(1.0 / 30, 1.0 / 60, 1.0 / 240));
+
+}  // namespace
+}  // namespace ambient::test

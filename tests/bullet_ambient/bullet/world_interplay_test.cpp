@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+// How ambient bodies get along with what else a world does.
+namespace ambient::test {
+namespace {
+
+BodyDef spinning(double rate) {
+  BodyDef def{1, Vector3(0.02, 0.03, 0.04), {}, nullptr};
+  def.start.twist = {Vector3(0.1, 0.2, 1).normalized() * rate, Vector3(1, 2, 3)};
+  return def;
+}
+
+const Vector3 kSemiAxes{0.3, 0.25, 0.1};
+
+TEST(Interplay, AnotherActionsImpulseSurvives) {
+  struct Kick : btActionInterface {
+    btRigidBody* body = nullptr;
+    void updateAction(btCollisionWorld*, btScalar) override {
+      if (body) body->setLinearVelocity(body->getLinearVelocity() + btVector3(0, 0, 1));
+      body = nullptr;
+    }
+    void debugDraw(btIDebugDraw*) override {}
+  };
+  for (const bool after : {false, true}) {
+    FluidWorld fluid;
+    Kick kick;
+    if (!after) fluid.world.removeAction(&fluid.action);
+    fluid.world.addAction(&kick);
+    if (!after) fluid.world.addAction(&fluid.action);
+    btRigidBody& body = fluid.add({}, facelessEllipsoid(kSemiAxes), air());
+    kick.body = &body;
+    fluid.step(1.0 / 60, 2);
+    EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().z()), 1, 1e-6);
+    fluid.world.removeAction(&kick);
+  }
+}
+
+TEST(Interplay, RotationBeyondBulletsLimitPerStepIsReached) {
+  // 100 rad/s at 1/60 s: 95 degrees per step, where Bullet stops at 45.
+  FluidWorld fluid;
+  BodyDef def{1, Vector3::Constant(0.02), {}, nullptr};
+  def.start.twist.angular = Vector3(0, 0, 100);
+  const btRigidBody& body = fluid.add(def, facelessEllipsoid(Vector3::Constant(0.2)), air());
+  fluid.step(1.0 / 60, 60);
+  const Quaternion expected(
+      Eigen::AngleAxisd(std::remainder(100.0, 2 * std::acos(-1.0)), Eigen::Vector3d::UnitZ()));
+  const double error = 2 * (expected.conjugate() * readState(body).orientation).vec().norm();
+  EXPECT_LT(error, byPrecision(1e-11, 2e-4));
+  EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().z()), 100, byPrecision(1e-11, 1e-3));
+}
+
+TEST(Interplay, BulletsGyroscopicFlagsChangeNothing) {
+  btVector3 velocity[2];
+  for (int flag = 0; flag < 2; ++flag) {
+    FluidWorld fluid;
+    btRigidBody& body = fluid.add(spinning(20), meshedEllipsoid(kSemiAxes, 1), air());
+    body.setFlags(flag ? BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY : 0);
+    fluid.step(1.0 / 60, 30);
+    velocity[flag] = body.getAngularVelocity();
+  }
+  EXPECT_TRUE(velocity[0] == velocity[1]);
+}
+
+TEST(Interplay, SameInputGivesTheSameBitsInAnyOrderOfAttachment) {
+  btVector3 position[2];
+  for (int order = 0; order < 2; ++order) {
+    FluidWorld fluid;
+    const FluidBody shape = meshedEllipsoid(kSemiAxes, 1);
+    BodyDef other = spinning(5);
+    other.start.position = Vector3(100, 0, 0);
+    if (order == 1) fluid.add(other, shape, water());
+    const btRigidBody& body = fluid.add(spinning(20), shape, air());
+    if (order == 0) fluid.add(other, shape, water());
+    fluid.step(1.0 / 60, 60);
+    position[order] = body.getWorldTransform().getOrigin();
+  }
+  EXPECT_TRUE(position[0] == position[1]);
+}
+
+TEST(Interplay, NewMassPropertiesAreSeen) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add({}, facelessEllipsoid(kSemiAxes), air());
+  fluid.step(1.0 / 60);
+  const btVector3 moments(4, 5, 6);
+  body.setMassProps(3, moments);
+  body.updateInertiaTensor();
+  body.applyCentralForce({1, 0, 0});
+  fluid.step(1.0 / 60);
+  const double K = 3 + air().density * facelessEllipsoid(kSemiAxes).added_mass(3, 3);
+  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()) * 60 * K, 1,
+              byPrecision(1e-12, 1e-5));
+}
+
+TEST(Interplay, AJumpFromAirToWaterKeepsTheVelocityAndChangesTheInertia) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add(spinning(0), facelessEllipsoid(kSemiAxes), air());
+  fluid.step(1.0 / 60);
+  const btVector3 before = body.getLinearVelocity();
+  fluid.registry.setMedium(body, water());
+  EXPECT_TRUE(body.getLinearVelocity() == before);
+  EXPECT_NEAR(fluid.registry.inertia(body)(5, 5),
+              1 + water().density * facelessEllipsoid(kSemiAxes).added_mass(5, 5), 1e-6);
+}
+
+TEST(Interplay, DriftingBodyStaysAwakeAndRestingBodySleeps) {
+  for (const double speed : {0.5, 0.05, 0.0}) {
+    FluidWorld fluid;
+    BodyDef def{1, Vector3::Constant(0.02), {}, nullptr};
+    def.start.twist.linear = Vector3(speed, 0, 0);
+    btRigidBody& body = fluid.add(def, facelessEllipsoid(kSemiAxes), air());
+    body.forceActivationState(ACTIVE_TAG);
+    fluid.step(1.0 / 60, 600);
+    EXPECT_EQ(body.isActive(), speed > 0) << speed << " m/s";
+    EXPECT_NEAR(static_cast<double>(body.getWorldTransform().getOrigin().x()), 10 * speed,
+                1e-3 * speed);
+  }
+}
+
+TEST(Interplay, NonFiniteVelocityDoesNotSpread) {
+  FluidWorld fluid;
+  std::vector<std::string> said;
+  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  const FluidBody shape = meshedEllipsoid(kSemiAxes, 1);
+  const btRigidBody& healthy = fluid.add(spinning(3), shape, air());
+  BodyDef far = spinning(3);
+  far.start.position = Vector3(50, 0, 0);
+  btRigidBody& sick = fluid.add(far, shape, air());
+  sick.applyCentralForce({std::numeric_limits<btScalar>::infinity(), 0, 0});
+  fluid.step(1.0 / 60, 3);
+  EXPECT_TRUE(readState(healthy).isFinite());
+  EXPECT_TRUE(readState(sick).isFinite());  // the step that was not finite is not taken over
+  EXPECT_GT(fluid.registry.counters(sick).rejected, 0);
+  EXPECT_EQ(fluid.registry.counters(healthy).rejected, 0);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("not finite"), std::string::npos);
+}
+
+TEST(Interplay, AMissingActionIsReportedOnce) {
+  FluidWorld fluid;
+  std::vector<std::string> said;
+  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  fluid.world.removeAction(&fluid.action);
+  fluid.add(spinning(3), meshedEllipsoid(kSemiAxes, 1), air());
+  fluid.step(1.0 / 60, 5);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("addAction"), std::string::npos);
+}
+
+TEST(Interplay, AMissingSolverIsReportedOnce) {
+  FluidWorld fluid;
+  btSequentialImpulseConstraintSolver stock;
+  fluid.world.setConstraintSolver(&stock);
+  std::vector<std::string> said;
+  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  fluid.add(spinning(3), meshedEllipsoid(kSemiAxes, 1), air());
+  fluid.step(1.0 / 60, 5);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("setConstraintSolver"), std::string::npos);
+}
+
+TEST(Interplay, ABodyLeavesTheWorldAndComesBack) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add(spinning(10), meshedEllipsoid(kSemiAxes, 1), air());
+  fluid.step(1.0 / 60, 10);
+  fluid.world.removeRigidBody(&body);
+  const btVector3 held = body.getWorldTransform().getOrigin();
+  fluid.step(1.0 / 60, 10);
+  EXPECT_TRUE(body.getWorldTransform().getOrigin() == held);
+  fluid.world.addRigidBody(&body);
+  fluid.step(1.0 / 60, 10);
+  EXPECT_GT((body.getWorldTransform().getOrigin() - held).length(), btScalar(0.1));
+}
+
+}  // namespace
+}  // namespace ambient::test

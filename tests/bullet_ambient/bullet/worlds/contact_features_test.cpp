@@ -1,0 +1,186 @@
+#include <gtest/gtest.h>
+
+#include "tests/bullet_ambient/bullet/worlds/coupled_scene.h"
+
+// What Bullet offers around contacts, with a body of coupled K: kinematic bodies, locked axes,
+// compound shapes.
+namespace ambient::test {
+namespace {
+
+btScalar bt(double value) { return static_cast<btScalar>(value); }
+
+// K of a locked body: nothing moves along its locked axes.
+reference::DenseBody locked(const reference::DenseBody& body, const DenseVector6& free) {
+  reference::DenseBody result = body;
+  result.inertia = free.asDiagonal() * body.inertia * free.asDiagonal();
+  result.inertia.diagonal() += DenseVector6::Ones() - free;
+  result.free_velocity = free.asDiagonal() * body.free_velocity;
+  return result;
+}
+
+reference::DenseBody fixedBody() {
+  reference::DenseBody result;
+  result.fixed = true;
+  return result;
+}
+
+TEST(ContactFeatures, AKinematicBodyPushesWithItsVelocity) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    CoupledScene scene(seed);
+    scene.stop();
+    const double speed = 1.5, half = 0.1;
+    btTransform pose = scene.body().getWorldTransform();
+    pose.setOrigin({bt(half + CoupledScene::kRadius - 1e-3), 0, 0});
+    scene.body().setCenterOfMassTransform(pose);
+    btBoxShape box(btVector3(bt(half), 1, 1));
+    btRigidBody paddle(0, nullptr, &box);
+    paddle.setFriction(0);
+    paddle.setCollisionFlags(paddle.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    paddle.setActivationState(DISABLE_DEACTIVATION);
+    scene.fluid.world.addRigidBody(&paddle);
+    const double dt = 1.0 / 128;
+    paddle.setWorldTransform(
+        btTransform(btQuaternion::getIdentity(), btVector3(bt(speed * dt), 0, 0)));
+    const Vector3r x(1, 0, 0);
+    reference::DenseRow row = reference::pointRow(x, -Real(CoupledScene::kRadius) * x, x);
+    row.target = speed;
+    row.lower = 0;
+    const auto expected = reference::solveDense({scene.coupled.dense(dt), fixedBody()}, {row});
+    scene.fluid.step(dt);
+    EXPECT_GT(expected.velocities[0].norm(), 1.4);
+    EXPECT_LT(scene.coupled.error(expected.velocities[0], expected.velocities[0]), kTolerance);
+    scene.fluid.world.removeRigidBody(&paddle);
+  }
+}
+
+TEST(ContactFeatures, ABodyLockedToAPlaneHasTheInertiaOfThatPlane) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    CoupledScene scene(seed);
+    const Vector3 direction(scene.arbitrary.vector().x(), scene.arbitrary.vector().y(), 0);
+    const btVector3 normal = toBt(direction.normalized());
+    DenseVector6 free;
+    free << 0, 0, 1, 1, 1, 0;
+    scene.body().setAngularFactor(btVector3(0, 0, 1));
+    scene.body().setLinearFactor(btVector3(1, 1, 0));
+    scene.body().setAngularVelocity({0, 0, 2});
+    scene.body().setLinearVelocity(normal * bt(-3) + btVector3(normal.y(), -normal.x(), 0));
+    Wall wall(scene, normal);
+    const double dt = CoupledScene::kInstant;
+    const Vector3r n = exact(normal);
+    reference::DenseRow row = reference::pointRow(n, -Real(CoupledScene::kRadius) * n, n);
+    row.lower = 0;
+    const DenseVector6 before = scene.coupled.velocity();
+    const auto expected =
+        reference::solveDense({locked(scene.coupled.dense(dt), free), fixedBody()}, {row});
+    // Not the same as if the body were free and its velocity cut off afterwards.
+    const auto unlocked = reference::solveDense({scene.coupled.dense(dt), fixedBody()}, {row});
+    EXPECT_GT((free.asDiagonal() * unlocked.velocities[0] - expected.velocities[0]).norm(), 1e-3);
+    scene.fluid.step(dt);
+    EXPECT_LT(scene.coupled.error(expected.velocities[0], before), kTolerance) << seed;
+  }
+}
+
+TEST(ContactFeatures, ABodyLockedToAPlaneStaysInIt) {
+  FluidWorld fluid;
+  fluid.world.setGravity({0, bt(-9.81), 0});
+  btStaticPlaneShape plane({0, 1, 0}, -1);
+  btRigidBody floor(0, nullptr, &plane);
+  fluid.world.addRigidBody(&floor);
+  btBoxShape box({bt(0.3), bt(0.2), bt(0.1)});
+  BodyDef def{30, Vector3(0.5, 1, 1.3), {}, &box};
+  def.start.twist = {Vector3(0, 0, 2), Vector3(1, 0, 0)};
+  btRigidBody& body = fluid.add(def);
+  body.setAngularFactor(btVector3(0, 0, 1));
+  body.setLinearFactor(btVector3(1, 1, 0));
+  AttachDef attach;
+  attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid({0.3, 0.2, 0.1}, 1));
+  attach.medium = water();
+  attach.fluid_frame.translation = Vector3(0.02, -0.01, 0.03);  // out of the plane
+  fluid.registry.attach(body, attach);
+  for (int i = 0; i < 600; ++i) {
+    fluid.step(1.0 / 120);
+    EXPECT_EQ(body.getWorldTransform().getOrigin().z(), 0);
+    EXPECT_EQ(body.getLinearVelocity().z(), 0);
+    EXPECT_EQ(body.getAngularVelocity().x(), 0);
+    EXPECT_EQ(body.getAngularVelocity().y(), 0);
+  }
+  EXPECT_GT(fluid.registry.counters(body).rows, 0);
+  const btVector3 z = body.getWorldTransform().getBasis().getColumn(2);
+  EXPECT_NEAR(static_cast<double>(z.z()), 1, byPrecision(1e-15, 1e-6));
+  fluid.world.removeRigidBody(&floor);
+}
+
+// Two balls of a compound shape, the heavier one small: the body's origin is the centre of mass,
+// the fluid body's that of the shape.
+TEST(ContactFeatures, ACompoundShapeActsAboutItsCentreOfMass) {
+  btSphereShape large(bt(0.25)), small(bt(0.15));
+  btCompoundShape authored;
+  authored.addChildShape(btTransform(btQuaternion::getIdentity(), btVector3(bt(-0.2), bt(0.05), 0)),
+                         &large);
+  authored.addChildShape(
+      btTransform(btQuaternion::getIdentity(), btVector3(bt(0.3), bt(0.1), bt(-0.1))), &small);
+  btScalar masses[] = {2, 3};
+  btTransform principal;
+  btVector3 moments;
+  authored.calculatePrincipalAxisTransform(masses, principal, moments);
+  btCompoundShape shape;
+  for (int i = 0; i < 2; ++i)
+    shape.addChildShape(principal.inverse() * authored.getChildTransform(i),
+                        authored.getChildShape(i));
+  Arbitrary arbitrary(5);
+  AttachDef attach;
+  attach.fluid_body =
+      std::make_shared<FluidBody>(shapeWithoutFaces(arbitrary.positiveDefinite(), 0));
+  attach.medium.density = 4;
+  const btTransform frame = principal.inverse();
+  attach.fluid_frame.translation = toVector3(frame.getOrigin());
+  attach.fluid_frame.rotation = toQuaternion(frame.getRotation()).toRotationMatrix();
+
+  FluidWorld fluid;
+  BodyDef def;
+  def.mass = 5;
+  def.moments = toVector3(moments);
+  def.shape = &shape;
+  def.start.twist = {Vector3(1, -2, 1), Vector3(-3, 0.5, 0.2)};
+  btRigidBody& body = fluid.add(def);
+  body.setWorldTransform(principal);  // the authored frame is the world's
+  body.updateInertiaTensor();
+  body.setFriction(0);
+  fluid.registry.attach(body, attach);
+  btContactSolverInfo& info = fluid.world.getSolverInfo();
+  info.m_splitImpulse = 0;
+  info.m_erp = info.m_erp2 = 0;
+  // The wall touches the large ball from the left, in world axes.
+  btStaticPlaneShape plane({1, 0, 0}, bt(-0.2 - 0.25 + 1e-3));
+  btRigidBody wall(0, nullptr, &plane);
+  wall.setFriction(0);
+  fluid.world.addRigidBody(&wall);
+
+  // K about the centre of mass c in world axes: of the fluid body, whose frame is the world, by the
+  // velocity that its origin has; of the dry body by its tensor.
+  const Vector3r c = exact(principal.getOrigin());
+  DenseMatrix6 to_fluid = DenseMatrix6::Identity();  // v_F = v + w x (0 - c)
+  to_fluid.bottomLeftCorner<3, 3>() << 0, -c.z(), c.y(), c.z(), 0, -c.x(), -c.y(), c.x(), 0;
+  const DenseMatrix6 added = 4 * attach.fluid_body->added_mass.cast<Real>();
+  reference::DenseBody dense;
+  dense.inertia = to_fluid.transpose() * added * to_fluid;
+  const Matrix3r R = exact(principal.getBasis());
+  dense.inertia.topLeftCorner<3, 3>() += R * exact(moments).asDiagonal() * R.transpose();
+  dense.inertia.bottomRightCorner<3, 3>() += 5 * Matrix3r::Identity();
+  dense.free_velocity << exact(body.getAngularVelocity()), exact(body.getLinearVelocity());
+  const Vector3r contact(-0.2L - 0.25L, 0.05L, 0);
+  const Vector3r x(1, 0, 0);
+  reference::DenseRow row = reference::pointRow(x, contact - c, x);
+  row.lower = 0;
+  const auto expected = reference::solveDense({dense, fixedBody()}, {row});
+  fluid.step(CoupledScene::kInstant);
+  DenseVector6 u;
+  u << exact(body.getAngularVelocity()), exact(body.getLinearVelocity());
+  EXPECT_GT((expected.velocities[0] - dense.free_velocity).norm(), 1);
+  // The axes of the compound are found to the precision of its own iteration.
+  EXPECT_LT(static_cast<double>((u - expected.velocities[0]).norm()), byPrecision(1e-10, 1e-4));
+  fluid.world.removeRigidBody(&wall);
+}
+
+}  // namespace
+}  // namespace ambient::test

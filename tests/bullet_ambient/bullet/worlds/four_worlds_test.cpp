@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/bullet_ambient/bullet/worlds/world_setups.h"
+#include "tests/support/free_body.h"
+
+// Ambient bodies fly, float on a tether and sink to the floor, in every world and with every
+// solver.
+namespace ambient::test {
+namespace {
+
+const Vector3 kSemiAxes{0.3, 0.25, 0.2};
+const Vector3 kCentreOfVolume{0.01, -0.02, 0.03};  // from the centre of mass: coupled
+const Twist kSpin{Vector3(0.3, 0.2, 1), Vector3::Zero()};
+constexpr double kStep = 1.0 / 120;
+
+// Boxes that fit round an ellipsoid of water.
+class Tank {
+ public:
+  explicit Tank(std::unique_ptr<WorldHost> host) : host_(std::move(host)) {
+    host_->world().setGravity({0, 0, static_cast<btScalar>(-9.81)});
+    addFloor();
+    flying_ = &add(1.5, {Quaternion::Identity(), {0, 0, 50}, kSpin});
+    sinking_ = &add(2, {Quaternion::Identity(), {6, 0, 0.4}, kSpin});
+    addTethered();
+  }
+  ~Tank() {
+    host_->world().removeConstraint(tether_.get());
+    for (const auto& body : bodies_) host_->world().removeRigidBody(body.get());
+  }
+
+  void step(int count) { host_->step(kStep, count); }
+  const btRigidBody& flying() const { return *flying_; }
+  const btRigidBody& tethered() const { return *tethered_; }
+  const btRigidBody& sinking() const { return *sinking_; }
+  double tetherStretch() const {
+    const btVector3 end = tethered_->getWorldTransform() * tether_->getPivotInA();
+    return static_cast<double>((end - tether_->getPivotInB()).length());
+  }
+
+ private:
+  void addFloor() {
+    bodies_.push_back(std::make_unique<btRigidBody>(0, nullptr, &floor_));
+    bodies_.back()->setWorldTransform(
+        btTransform(btQuaternion::getIdentity(), btVector3(0, 0, -1)));
+    host_->world().addRigidBody(bodies_.back().get());
+  }
+  // Half as heavy as water, so that buoyancy is twice its weight, and in equilibrium: the sum of
+  // both, seen from the tether, points up.
+  void addTethered() {
+    const Vector3 below(0, 0, -0.4);
+    const Vector3 up = 2 * (kCentreOfVolume - below) + below;
+    RigidState start;
+    start.orientation = Quaternion::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+    start.position = {3, 0, 2};
+    tethered_ = &add(0.5, start);
+    tethered_->setActivationState(DISABLE_DEACTIVATION);
+    tether_ = std::make_unique<btPoint2PointConstraint>(*tethered_, toBullet(below));
+    host_->world().addConstraint(tether_.get());
+  }
+  // `density`: of the body relative to water. `start`: twist in world axes.
+  btRigidBody& add(double density, const RigidState& start) {
+    AttachDef def;
+    def.fluid_body = fluid_body_;
+    def.medium = water();
+    def.fluid_frame.translation = kCentreOfVolume;
+    const double mass = density * water().density * fluid_body_->volume;
+    bodies_.push_back(std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
+        static_cast<btScalar>(mass), nullptr, &box_, toBullet(ellipsoidMoments(kSemiAxes, mass)))));
+    btRigidBody& body = *bodies_.back();
+    body.setWorldTransform(btTransform(toBullet(start.orientation), toBullet(start.position)));
+    body.setAngularVelocity(toBullet(start.twist.angular));
+    host_->world().addRigidBody(&body);
+    host_->registry.attach(body, def);
+    return body;
+  }
+
+  std::unique_ptr<WorldHost> host_;
+  std::shared_ptr<const FluidBody> fluid_body_ =
+      std::make_shared<FluidBody>(meshedEllipsoid(kSemiAxes, 1));
+  btBoxShape floor_{btVector3(50, 50, 1)};
+  btBoxShape box_{toBullet(kSemiAxes)};
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  btRigidBody *flying_ = nullptr, *tethered_ = nullptr, *sinking_ = nullptr;
+  std::unique_ptr<btPoint2PointConstraint> tether_;
+};
+
+bool moveAlike(const btRigidBody& a, const btRigidBody& b) {
+  return a.getWorldTransform() == b.getWorldTransform() &&
+         a.getLinearVelocity() == b.getLinearVelocity() &&
+         a.getAngularVelocity() == b.getAngularVelocity();
+}
+
+template <class Setup>
+class FourWorlds : public ::testing::Test {};
+TYPED_TEST_SUITE(FourWorlds, AllWorlds, WorldName);
+
+TYPED_TEST(FourWorlds, FlyABodyAllAlike) {
+  Tank reference(InDiscreteWorld<SequentialImpulse>::make(true)), tank(TypeParam::make(true));
+  reference.step(240);
+  tank.step(240);
+  EXPECT_LT(static_cast<double>(tank.flying().getWorldTransform().getOrigin().z()), 48);
+  EXPECT_TRUE(moveAlike(tank.flying(), reference.flying()));
+}
+
+TYPED_TEST(FourWorlds, HoldABuoyantBodyOnItsTether) {
+  Tank tank(TypeParam::make(true));
+  const Quaternion start = readState(tank.tethered()).orientation;
+  tank.step(600);
+  // What gives way is the joint, by its position error of a step.
+  EXPECT_LT(tank.tetherStretch(), byPrecision(1e-9, 1e-5));
+  EXPECT_LT(angleBetween(readState(tank.tethered()).orientation, start), byPrecision(1e-8, 1e-3));
+}
+
+template <class Setup>
+class RestingContacts : public ::testing::Test {};
+TYPED_TEST_SUITE(RestingContacts, WorldsWithRestingContacts, WorldName);
+
+TYPED_TEST(RestingContacts, LetABodySinkToTheFloorAndSleep) {
+  Tank tank(TypeParam::make(true));
+  tank.step(600);
+  EXPECT_NEAR(static_cast<double>(tank.sinking().getWorldTransform().getOrigin().z()),
+              kSemiAxes.z(), 1e-3);
+  EXPECT_FALSE(tank.sinking().isActive());
+}
+
+template <class Setup>
+class SequentialWorlds : public ::testing::Test {};
+using WorldsWithSequentialImpulses =
+    ::testing::Types<InDiscreteWorld<Multithreaded>, InSoftWorld<SequentialImpulse>,
+                     InMultithreadedWorld>;
+TYPED_TEST_SUITE(SequentialWorlds, WorldsWithSequentialImpulses, WorldName);
+
+// The same rows in the same order, as in stock Bullet; a btMultiBodyDynamicsWorld has another.
+TYPED_TEST(SequentialWorlds, MoveContactsAndJointsAlike) {
+  Tank reference(InDiscreteWorld<SequentialImpulse>::make(true)), tank(TypeParam::make(true));
+  for (int i = 0; i < 10; ++i) {
+    reference.step(30);
+    tank.step(30);
+    EXPECT_TRUE(moveAlike(tank.tethered(), reference.tethered())) << i;
+    EXPECT_TRUE(moveAlike(tank.sinking(), reference.sinking())) << i;
+  }
+}
+
+}  // namespace
+}  // namespace ambient::test

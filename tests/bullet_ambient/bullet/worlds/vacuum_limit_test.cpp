@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/reference/kirchhoff_integration.h"
+
+// The thinner the fluid, the more the motion is that of a vacuum: at first order in the density.
+namespace ambient::test {
+namespace {
+
+constexpr double kStep = 1.0 / 120;
+constexpr int kSteps = 60;
+const Vector3 kSemiAxes{0.3, 0.25, 0.1};
+
+// Offset from the centre of mass, so that the added mass is coupled.
+AttachDef inFluid(double density) {
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kSemiAxes, 1));
+  def.medium = {density, 1.8e-5, Vector3(0.5, 0, 0), Vector3::Zero()};
+  def.fluid_frame.translation = Vector3(0.05, 0.03, -0.02);
+  return def;
+}
+
+struct Run {
+  FluidWorld fluid;
+  btRigidBody& body;
+
+  explicit Run(double density) : body(fluid.add(start())) {
+    fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+    fluid.world.removeRigidBody(&body);
+    fluid.world.addRigidBody(&body);  // takes the world's gravity
+    if (density > 0) fluid.registry.attach(body, inFluid(density));
+  }
+  static BodyDef start() {
+    BodyDef def{1, Vector3(0.04, 0.05, 0.07), {}, nullptr};
+    def.start.twist = {Vector3(1, 2, 3), Vector3(2, 1, 3)};
+    return def;
+  }
+  Vector6 velocity() const {
+    return stack(toVector3(body.getAngularVelocity()), toVector3(body.getLinearVelocity()));
+  }
+};
+
+template <class Simulate>
+void expectFirstOrder(const Simulate& simulate, const Vector6& vacuum) {
+  // float32 stores the velocities to 6e-8 in each of the steps.
+  const double thin = kDouble ? 1e-5 : 1e-2;
+  double error[3];
+  for (int k = 0; k < 3; ++k) error[k] = (simulate(thin * std::pow(4, k)) - vacuum).norm();
+  for (int k = 1; k < 3; ++k) {
+    const double order = std::log(error[k] / error[k - 1]) / std::log(4);
+    std::cout << "    difference " << error[k] << ", order " << order << "\n";
+    EXPECT_NEAR(order, 1, 0.1);
+  }
+}
+
+// Euler's equations and a parabola; Bullet's own flight of a spinning body is but of first order.
+Vector6 exactFlight() {
+  const BodyDef def = Run::start();
+  const double duration = kSteps * kStep;
+  Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Identity();
+  inertia.diagonal().head<3>() = def.moments;
+  reference::KirchhoffState s = reference::KirchhoffState::Zero();
+  s[3] = 1;
+  s.segment<3>(7) = def.moments.cwiseProduct(def.start.twist.angular);
+  s = reference::integrate({inertia.inverse()}, s, duration, 60);
+  const Vector3 spin =
+      reference::orientationOf(s) * Eigen::Vector3d(s.segment<3>(7).cwiseQuotient(def.moments));
+  return stack(spin, def.start.twist.linear + duration * Vector3(0, 0, -9.81));
+}
+
+Vector6 flight(double density) {
+  Run run(density);
+  run.fluid.step(kStep, kSteps);
+  return run.velocity();
+}
+
+Vector6 pendulum(double density) {
+  Run run(density);
+  run.body.setFlags(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT);
+  btPoint2PointConstraint joint(run.body, btVector3(0, static_cast<btScalar>(0.1), 1));
+  run.fluid.world.addConstraint(&joint);
+  run.fluid.step(kStep, kSteps);
+  run.fluid.world.removeConstraint(&joint);
+  return run.velocity();
+}
+
+TEST(VacuumLimit, OfFreeFlightIsReachedAtFirstOrder) { expectFirstOrder(flight, exactFlight()); }
+
+TEST(VacuumLimit, OfAPendulumIsThatOfStockBullet) { expectFirstOrder(pendulum, pendulum(0)); }
+
+}  // namespace
+}  // namespace ambient::test

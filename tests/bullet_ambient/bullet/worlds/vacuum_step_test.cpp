@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "bullet_ambient/bullet/conversions.h"
+#include "tests/bullet_ambient/bullet/worlds/vacuum_scene.h"
+#include "tests/support/ellipsoid_body.h"
+
+// A fluid that adds no inertia and has no volume, through the full 6x6 path: every step that begins
+// like one of stock Bullet ends like it, to rounding.
+namespace ambient::test {
+namespace {
+
+constexpr int kSteps = 300;
+constexpr double kTimeStep = 1.0 / 120;
+constexpr bool kDouble = sizeof(btScalar) == 8;
+constexpr double kTolerance = kDouble ? 3e-15 : 3e-7;
+// Where a ball hits a stack, its rows pass roundings on to each other. Measured: 1.5e-14, 3e-7.
+constexpr double kStackTolerance = kDouble ? 3e-14 : 1e-6;
+constexpr double kHeaviest = 100;  // [kg] the vehicle's chassis is left out: free flight of a body
+                                   // whose moments differ is not integrated as in Bullet
+
+AttachDef nothingButThePath() {
+  AttachDef def;
+  auto fluid_body = std::make_shared<FluidBody>();
+  fluid_body->name = "nothing";
+  fluid_body->area = 1;
+  def.fluid_body = fluid_body;
+  def.medium.density = 1;
+  return def;
+}
+
+double speed(const btRigidBody& body) {
+  return static_cast<double>(
+      std::max(body.getLinearVelocity().length(), body.getAngularVelocity().length()));
+}
+
+double velocityDifference(const btRigidBody& a, const btRigidBody& b) {
+  return static_cast<double>(std::max((a.getLinearVelocity() - b.getLinearVelocity()).length(),
+                                      (a.getAngularVelocity() - b.getAngularVelocity()).length()));
+}
+
+// A body that nothing has touched flies along a parabola, where Bullet moves it with the velocity
+// of the end of the step.
+double placeDifference(const btRigidBody& stock, const btRigidBody& ambient) {
+  const Vector3 place = toVector3(stock.getWorldTransform().getOrigin());
+  const Vector3 difference = toVector3(ambient.getWorldTransform().getOrigin()) - place;
+  const Vector3 parabola(0, 0, 9.81 / 2 * kTimeStep * kTimeStep);
+  return std::min(difference.norm(), (difference - parabola).norm()) / std::max(1.0, place.norm());
+}
+
+double turnDifference(const btRigidBody& a, const btRigidBody& b) {
+  double sum = 0;
+  for (int row = 0; row < 3; ++row)
+    sum += static_cast<double>(
+        (a.getWorldTransform().getBasis()[row] - b.getWorldTransform().getBasis()[row]).length2());
+  return std::sqrt(sum);
+}
+
+template <class Setup>
+class VacuumStep : public ::testing::Test {
+ protected:
+  VacuumStep() {
+    for (VacuumScene* scene : {&stock_, &ambient_}) {
+      if (isPivoting()) scene->host().world().getSolverInfo().m_minimumSolverBatchSize = 1;
+      for (btRigidBody* body : scene->bodies()) {
+        // Bullet's gyroscopic torque in the form that the velocity of rows has too.
+        body->setFlags(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT);
+        if (scene == &ambient_ && body->getMass() < btScalar(kHeaviest))
+          ambient_.host().registry.attach(*body, nothingButThePath());
+      }
+    }
+  }
+  // The impulses of a box on four contacts are not unique: pivoting solvers find others after a
+  // rounding, also without fluid.
+  static bool isPivoting() {
+    return std::is_same_v<typename Setup::Kind, Dantzig> ||
+           std::is_same_v<typename Setup::Kind, Lemke>;
+  }
+  void compare() {
+    if (!isPivoting()) compare(stock_.bodies(), ambient_.bodies(), velocity_error_);
+    compare(stock_.jointed(), ambient_.jointed(), jointed_velocity_error_);
+  }
+  void compare(const std::vector<btRigidBody*>& stock, const std::vector<btRigidBody*>& ambient,
+               double& velocity_error) {
+    double fastest = 1;
+    for (const btRigidBody* body : stock) fastest = std::max(fastest, speed(*body));
+    for (std::size_t i = 0; i < stock.size(); ++i) {
+      if (stock[i]->getMass() > btScalar(kHeaviest)) continue;
+      velocity_error =
+          std::max(velocity_error, velocityDifference(*stock[i], *ambient[i]) / fastest);
+      pose_error_ = std::max({pose_error_, placeDifference(*stock[i], *ambient[i]),
+                              turnDifference(*stock[i], *ambient[i])});
+    }
+  }
+
+  VacuumScene stock_{Setup::make(false)};
+  VacuumScene ambient_{Setup::make(true)};
+  double velocity_error_ = 0, jointed_velocity_error_ = 0, pose_error_ = 0;
+};
+TYPED_TEST_SUITE(VacuumStep, AllWorlds, WorldName);
+
+TYPED_TEST(VacuumStep, EndsAsInStockBullet) {
+  for (int step = 0; step < kSteps; ++step) {
+    this->stock_.step(1);
+    this->ambient_.step(1);
+    this->compare();
+    this->ambient_.takeStateOf(this->stock_);
+  }
+  EXPECT_GT(this->ambient_.host().registry.counters().rows, 10 * kSteps);
+  EXPECT_LT(this->velocity_error_, kStackTolerance);
+  EXPECT_LT(this->jointed_velocity_error_, kTolerance);
+  EXPECT_LT(this->pose_error_, kTolerance);
+  std::cout << "    velocity " << this->velocity_error_ << ", on joints "
+            << this->jointed_velocity_error_ << ", pose " << this->pose_error_ << "\n";
+}
+
+}  // namespace
+}  // namespace ambient::test

@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "tests/bullet_ambient/fluid_body/example_body.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What checkFluidBody() says about the example after a change.
+template <class Change>
+std::string refusalAfter(const Change& change) {
+  FluidBody body = test::exampleBody();
+  change(body);
+  return test::refusalOf([&] { checkFluidBody(body, "b"); });
+}
+
+TEST(FluidBodyCheck, PassesTheExample) {
+  EXPECT_EQ(refusalAfter([](FluidBody&) {}), "");
+}
+
+TEST(FluidBodyCheck, NamesANumberThatIsNotFinite) {
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.volume = kNan; }),
+            "b: volume is nan, but must be finite");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.area = kInfinity; }),
+            "b: area is inf, but must be finite");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.origin.z() = kNan; }),
+            "b: origin is nan, but must be finite");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.centre_of_volume.y() = -kInfinity; }),
+            "b: centre of volume is -inf, but must be finite");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.added_mass(2, 4) = kNan; }),
+            "b: added mass is nan, but must be finite");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.uniform_mass.inertia(1, 1) = kNan; }),
+            "b: inertia of uniform mass is nan, but must be finite");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.surface_mass.centre.x() = kNan; }),
+            "b: centre of surface mass is nan, but must be finite");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.faces.centroid_y[5] = kNan; }),
+            "b: face centroid y of entry 5 is nan, but must be finite");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.surface.vertices[7] = kInfinity; }),
+            "b: vertex coordinate of entry 7 is inf, but must be finite");
+}
+
+TEST(FluidBodyCheck, RefusesNegativeSizes) {
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.volume = -0.25; }),
+            "b: volume is -0.25, but must not be negative");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.area = -1; }),
+            "b: area is -1, but must not be negative");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.asymmetry = -1; }),
+            "b: asymmetry is -1, but must not be negative");
+}
+
+TEST(FluidBodyCheck, RefusesANormalThatIsNotAUnitVector) {
+  EXPECT_EQ(refusalAfter([](FluidBody& b) {
+              b.faces.normal_x[4] = 0;
+              b.faces.normal_y[4] = 0;
+              b.faces.normal_z[4] = 0.5;
+            }),
+            "b: normal of face 4 has length 0.5, but must be 1 within 1e-09");
+}
+
+TEST(FluidBodyCheck, RefusesColumnsOfDifferentLength) {
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.faces.normal_z.pop_back(); }),
+            "b: face normal z has 79 entries, but there are 80 face areas");
+}
+
+TEST(FluidBodyCheck, RefusesTrianglesWithoutTheirVertices) {
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.surface.triangles[10] = 42; }),
+            "b: triangle 3 refers to vertex 42, but there are 42 vertices");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.surface.triangles[10] = -1; }),
+            "b: triangle 3 refers to vertex -1, but there are 42 vertices");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.surface.triangles.pop_back(); }),
+            "b: there are 239 triangle indices, but their number must be a multiple of 3");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.surface.vertices.pop_back(); }),
+            "b: there are 125 vertex coordinates, but their number must be a multiple of 3");
+}
+
+TEST(FluidBodyCheck, RefusesAddedMassThatIsNotSymmetric) {
+  EXPECT_NE(refusalAfter([](FluidBody& b) {
+              b.added_mass(0, 3) += 1e-6;
+            }).find("b: added mass is not symmetric: off by "),
+            std::string::npos);
+}
+
+TEST(FluidBodyCheck, RefusesAddedMassThatIsNotPositive) {
+  EXPECT_NE(refusalAfter([](FluidBody& b) {
+              b.added_mass(5, 5) = -1e-6;
+            }).find("b: added mass is not positive semi-definite: lowest eigenvalue "),
+            std::string::npos);
+}
+
+TEST(FluidBodyCheck, SeesANegativeMassBesideTheLargeMomentsOfALargeBody) {
+  FluidBody body = test::exampleBody();
+  body.added_mass.setZero();
+  body.added_mass.diagonal() << 1e30, 1e30, 1e30, 1e18, 1e18, -1e14;
+  EXPECT_NE(test::refusalOf([&] { checkFluidBody(body, "b"); }).find("not positive semi-definite"),
+            std::string::npos);
+}
+
+TEST(FluidBodyCheck, RefusesAnInertiaThatIsNotPositive) {
+  EXPECT_NE(refusalAfter([](FluidBody& b) {
+              b.uniform_mass.inertia(2, 2) = -1;
+            }).find("b: inertia of uniform mass is not positive semi-definite"),
+            std::string::npos);
+}
+
+TEST(FluidBodyCheck, AllowsForTheRoundingOfBodiesOfAnySize) {
+  for (const double s : {1e-6, 1.0, 1e6}) {
+    FluidBody body = test::exampleBody();
+    Vector6 scales;
+    scales << s, s, s, 1, 1, 1;
+    // Singular to rounding in its translation: a body of revolution of no thickness, say.
+    Vector6 diagonal;
+    diagonal << 1, 1, -1e-16, 1, 1, -1e-16;
+    body.added_mass =
+        s * s * s * Matrix6((scales.cwiseProduct(scales).cwiseProduct(diagonal)).asDiagonal());
+    body.added_mass(0, 4) = 1e-16 * s * s * s * s;
+    EXPECT_EQ(test::refusalOf([&] { checkFluidBody(body, "b"); }), "") << s;
+  }
+}
+
+}  // namespace
+}  // namespace ambient

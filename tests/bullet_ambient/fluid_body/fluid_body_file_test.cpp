@@ -1,0 +1,195 @@
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cmath>
+
+#include "tests/bullet_ambient/fluid_body/example_body.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/text_files.h"
+
+namespace ambient {
+namespace {
+
+using test::refusalOf;
+
+void expectSame(const FluidBody& a, const FluidBody& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.provenance.source, b.provenance.source);
+  EXPECT_EQ(a.provenance.source_hash, b.provenance.source_hash);
+  EXPECT_EQ(a.provenance.settings, b.provenance.settings);
+  EXPECT_EQ(a.provenance.generator, b.provenance.generator);
+  EXPECT_EQ(a.added_mass, b.added_mass);
+  EXPECT_EQ(a.asymmetry, b.asymmetry);
+  EXPECT_EQ(a.volume, b.volume);
+  EXPECT_EQ(a.area, b.area);
+  EXPECT_EQ(a.centre_of_volume, b.centre_of_volume);
+  EXPECT_EQ(a.origin, b.origin);
+  EXPECT_EQ(a.uniform_mass.centre, b.uniform_mass.centre);
+  EXPECT_EQ(a.uniform_mass.inertia, b.uniform_mass.inertia);
+  EXPECT_EQ(a.surface_mass.centre, b.surface_mass.centre);
+  EXPECT_EQ(a.surface_mass.inertia, b.surface_mass.inertia);
+  EXPECT_EQ(a.faces.normal_x, b.faces.normal_x);
+  EXPECT_EQ(a.faces.normal_y, b.faces.normal_y);
+  EXPECT_EQ(a.faces.normal_z, b.faces.normal_z);
+  EXPECT_EQ(a.faces.centroid_x, b.faces.centroid_x);
+  EXPECT_EQ(a.faces.centroid_y, b.faces.centroid_y);
+  EXPECT_EQ(a.faces.centroid_z, b.faces.centroid_z);
+  EXPECT_EQ(a.faces.area, b.faces.area);
+  EXPECT_EQ(a.surface.vertices, b.surface.vertices);
+  EXPECT_EQ(a.surface.triangles, b.surface.triangles);
+}
+
+std::ptrdiff_t entriesOf(const TemporaryFolder& folder) {
+  const auto entries = std::filesystem::directory_iterator(folder.path());
+  return std::distance(begin(entries), end(entries));
+}
+
+TEST(FluidBodyFile, GivesBackEveryFieldBitForBit) {
+  const TemporaryFolder folder;
+  const FluidBody body = test::exampleBody();
+  writeFluidBody(body, folder / "body.ambient");
+  expectSame(readFluidBody(folder / "body.ambient"), body);
+}
+
+TEST(FluidBodyFile, HasTheSameBytesForTheSameBody) {
+  EXPECT_EQ(encodeFluidBody(test::exampleBody(), "a"), encodeFluidBody(test::exampleBody(), "b"));
+  FluidBody other = test::exampleBody();
+  other.volume = std::nextafter(other.volume, 1);
+  EXPECT_NE(encodeFluidBody(other, "a"), encodeFluidBody(test::exampleBody(), "a"));
+}
+
+TEST(FluidBodyFile, KeepsNegativeZeroAndSubnormalNumbers) {
+  FluidBody body = test::exampleBody();
+  body.volume = -0.0;
+  body.asymmetry = 5e-324;
+  body.origin.x() = -0.0;
+  const FluidBody back = decodeFluidBody(encodeFluidBody(body, "x"), "x");
+  EXPECT_TRUE(std::signbit(back.volume));
+  EXPECT_TRUE(std::signbit(back.origin.x()));
+  EXPECT_EQ(back.asymmetry, 5e-324);
+}
+
+TEST(FluidBodyFile, HoldsABodyWithoutFacesAndNames) {
+  const FluidBody empty;
+  expectSame(decodeFluidBody(encodeFluidBody(empty, "x"), "x"), empty);
+}
+
+TEST(FluidBodyFile, IsLittleEndianWithAHeaderOf32Bytes) {
+  const std::string bytes = encodeFluidBody(test::exampleBody(), "x");
+  EXPECT_EQ(bytes.substr(0, 8),
+            "\x89"
+            "AMB\r\n\x1a\n");
+  EXPECT_EQ(bytes.substr(8, 8), std::string("\1\0\0\0\0\0\0\0", 8));
+  std::size_t payload_size = 0;
+  for (int i = 7; i >= 0; --i)
+    payload_size = payload_size << 8 | static_cast<unsigned char>(bytes[16 + i]);
+  EXPECT_EQ(payload_size, bytes.size() - 32);
+}
+
+TEST(FluidBodyFile, IsReadFromMemoryThatIsNotAligned) {
+  const FluidBody body = test::exampleBody();
+  const std::string bytes = encodeFluidBody(body, "x");
+  for (std::size_t offset = 1; offset < 8; ++offset) {
+    const std::string moved = std::string(offset, '\0') + bytes;
+    expectSame(decodeFluidBody(std::string_view(moved).substr(offset), "x"), body);
+  }
+}
+
+TEST(FluidBodyFile, ReplacesAnOldFileAndLeavesNothingElseBehind) {
+  const TemporaryFolder folder;
+  const auto file = folder / "body.ambient";
+  writeText(file, "old");
+  writeFluidBody(test::exampleBody(), file);
+  EXPECT_EQ(readText(file), encodeFluidBody(test::exampleBody(), "x"));
+  EXPECT_EQ(entriesOf(folder), 1);
+}
+
+TEST(FluidBodyFile, KeepsTheOldFileIfTheBodyIsNotValid) {
+  const TemporaryFolder folder;
+  const auto file = folder / "body.ambient";
+  writeText(file, "old");
+  FluidBody broken = test::exampleBody();
+  broken.faces.area[3] = -1;
+  const std::string refusal = refusalOf([&] { writeFluidBody(broken, file); });
+  EXPECT_EQ(refusal, file.string() + ": area of face 3 is -1 m^2, but must not be negative");
+  EXPECT_EQ(readText(file), "old");
+  EXPECT_EQ(entriesOf(folder), 1);
+}
+
+TEST(FluidBodyFile, SaysWhyItCannotBeWritten) {
+  const TemporaryFolder folder;
+  const auto missing = folder / "nowhere/body.ambient";
+  EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), missing); }),
+            missing.string() + ": cannot be written: No such file or directory");
+  const auto inner = folder / "folder";
+  std::filesystem::create_directory(inner);
+  EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), inner); }),
+            inner.string() + ": cannot be written: Is a directory");
+  const auto pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), pipe); }),
+            pipe.string() + ": is not a regular file");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_EQ(entriesOf(folder), 2);  // nothing half-written stays
+}
+
+TEST(FluidBodyFile, SaysThatItIsMissingOrNoFile) {
+  const TemporaryFolder folder;
+  const auto missing = folder / "missing.ambient";
+  EXPECT_EQ(refusalOf([&] { readFluidBody(missing); }), missing.string() + ": no such file");
+  EXPECT_EQ(refusalOf([&] { readFluidBody(folder.path()); }),
+            folder.path().string() + ": is a directory, not a .ambient file");
+  EXPECT_EQ(refusalOf([] { readFluidBody("/dev/null"); }), "/dev/null: is not a regular file");
+}
+
+TEST(FluidBodyFile, SaysThatItIsEmptyForeignOrTruncated) {
+  const TemporaryFolder folder;
+  const auto file = folder / "f.ambient";
+  const auto refusalOfBytes = [&](const std::string& bytes) {
+    writeText(file, bytes);
+    return refusalOf([&] { readFluidBody(file); });
+  };
+  const std::string whole = encodeFluidBody(test::exampleBody(), "x");
+  const std::string size = std::to_string(whole.size() - 32);
+  EXPECT_EQ(refusalOfBytes(""), file.string() + ": the file is empty");
+  EXPECT_EQ(refusalOfBytes("v 0 0 0\nv 1 0 0\n"),
+            file.string() + ": not a .ambient file: it does not begin with the mark of one");
+  EXPECT_EQ(refusalOfBytes(whole.substr(0, 20)),
+            file.string() + ": truncated: 20 bytes, but the header alone has 32");
+  EXPECT_EQ(refusalOfBytes(whole.substr(0, 1032)),
+            file.string() + ": truncated: 1000 bytes follow the header, which announces " + size);
+  EXPECT_EQ(refusalOfBytes(whole + "x"), file.string() +
+                                             ": damaged: " + std::to_string(whole.size() - 31) +
+                                             " bytes follow the header, which announces " + size);
+}
+
+TEST(FluidBodyFile, SaysThatItIsOfANewerVersion) {
+  std::string bytes = encodeFluidBody(test::exampleBody(), "x");
+  bytes[8] = 7;
+  EXPECT_EQ(refusalOf([&] { decodeFluidBody(bytes, "f.ambient"); }),
+            "f.ambient: format version 7 is newer than this program reads, limit 3");
+}
+
+TEST(FluidBodyFile, SaysThatAByteWasChanged) {
+  std::string bytes = encodeFluidBody(test::exampleBody(), "x");
+  bytes[4711] ^= 1;
+  EXPECT_EQ(refusalOf([&] { decodeFluidBody(bytes, "f.ambient"); }),
+            "f.ambient: damaged: the checksum of its " + std::to_string(bytes.size() - 32) +
+                " byte payload does not match");
+}
+
+TEST(FluidBodyFile, KeepsTheRadiusOfASphereInAVersionOfItsOwn) {
+  FluidBody body = test::exampleBody();
+  const std::string plain = encodeFluidBody(body, "f.ambient");
+  body.sphere_radius = 0.1;
+  const std::string bytes = encodeFluidBody(body, "f.ambient");
+  EXPECT_EQ(plain[8], 1);
+  EXPECT_EQ(bytes[8], 3);
+  EXPECT_EQ(decodeFluidBody(plain, "f.ambient").sphere_radius, 0);
+  EXPECT_EQ(decodeFluidBody(bytes, "f.ambient").sphere_radius, 0.1);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "tests/bullet_ambient/fluid_body/example_body.h"
+#include "tests/support/ellipsoid_body.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr double kFactor = 1.7;
+
+TEST(ScaledFluidBody, IsTheBodyOfTheScaledShape) {
+  const Vector3 semi_axes(0.3, 0.2, 0.1);
+  const FluidBody expected = meshedEllipsoid(kFactor * semi_axes, 1);
+  const FluidBody body = scaled(meshedEllipsoid(semi_axes, 1), kFactor);
+  EXPECT_LT((body.added_mass - expected.added_mass).norm(), 1e-14 * expected.added_mass.norm());
+  EXPECT_NEAR(body.volume, expected.volume, 1e-14 * expected.volume);
+  EXPECT_NEAR(body.area, expected.area, 1e-14 * expected.area);
+  ASSERT_EQ(body.faces.size(), expected.faces.size());
+  for (std::size_t i = 0; i < body.faces.size(); ++i) {
+    EXPECT_LT((body.faces.normal(i) - expected.faces.normal(i)).norm(), 1e-14);
+    EXPECT_LT((body.faces.centroid(i) - expected.faces.centroid(i)).norm(), 1e-14);
+    EXPECT_NEAR(body.faces.area[i], expected.faces.area[i], 1e-14 * expected.faces.area[i]);
+  }
+}
+
+TEST(ScaledFluidBody, ScalesCouplingMassDistributionAndSurface) {
+  const FluidBody unit = exampleBody();
+  const FluidBody body = scaled(unit, 2);
+  EXPECT_EQ(body.added_mass(0, 4), 16 * unit.added_mass(0, 4));
+  EXPECT_EQ(body.centre_of_volume, Vector3(2 * unit.centre_of_volume));
+  EXPECT_EQ(body.origin, Vector3(2 * unit.origin));
+  EXPECT_EQ(body.uniform_mass.centre, Vector3(2 * unit.uniform_mass.centre));
+  EXPECT_EQ(body.surface_mass.inertia, Matrix3(4 * unit.surface_mass.inertia));
+  EXPECT_EQ(body.surface.vertices.back(), 2 * unit.surface.vertices.back());
+  EXPECT_EQ(body.surface.triangles, unit.surface.triangles);
+  EXPECT_EQ(body.provenance.settings, unit.provenance.settings + "; scaled by 2");
+}
+
+TEST(ScaledFluidBody, RefusesAFactorThatIsNotPositive) {
+  EXPECT_THROW(scaled(exampleBody(), 0), std::invalid_argument);
+  EXPECT_THROW(scaled(exampleBody(), -1), std::invalid_argument);
+  EXPECT_THROW(scaled(exampleBody(), std::nan("")), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ambient::test

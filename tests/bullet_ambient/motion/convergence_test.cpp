@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/bullet_ambient/motion/loaded_bodies.h"
+
+namespace ambient {
+namespace {
+
+using test::FreeBody;
+using test::glidingDisc;
+using test::tumblingEllipsoid;
+
+constexpr double kDuration = 0.4;  // [s]
+
+using MakeBody = FreeBody (*)(const FlightSettings&);
+
+double positionError(MakeBody make, const FlightSettings& settings, int steps,
+                     const RigidState& exact) {
+  FreeBody body = make(settings);
+  body.advance(kDuration / steps, steps);
+  return (body.state.position - exact.position).norm();
+}
+
+RigidState exactEnd(MakeBody make, int steps) {
+  FreeBody body = make({Integrator::kRungeKutta4, 1e-3, 1});
+  body.advance(kDuration / steps, steps);
+  return body.state;
+}
+
+TEST(Leapfrog, IsOfSecondOrderWhereTheLoadsAreSmooth) {
+  const RigidState exact = exactEnd(glidingDisc, 8000);
+  const FlightSettings settings{Integrator::kPassiveLeapfrog, 1e-3, 1};
+  const double coarse = positionError(glidingDisc, settings, 40, exact);
+  const double fine = positionError(glidingDisc, settings, 160, exact);
+  EXPECT_NEAR(std::log2(coarse / fine) / 2, 2, 0.15);
+}
+
+TEST(RungeKutta, IsOfFourthOrderWhereTheLoadsAreSmooth) {
+  const RigidState exact = exactEnd(glidingDisc, 8000);
+  const FlightSettings settings{Integrator::kRungeKutta4, 1e-3, 1};
+  const double coarse = positionError(glidingDisc, settings, 320, exact);
+  const double fine = positionError(glidingDisc, settings, 1280, exact);
+  EXPECT_NEAR(std::log2(coarse / fine) / 2, 4, 0.3);
+}
+
+TEST(SymplecticEuler, IsOfFirstOrder) {
+  const RigidState exact = exactEnd(glidingDisc, 8000);
+  const FlightSettings settings{Integrator::kSymplecticEuler, 1e-3, 1};
+  const double coarse = positionError(glidingDisc, settings, 5120, exact);
+  const double fine = positionError(glidingDisc, settings, 20480, exact);
+  EXPECT_NEAR(std::log2(coarse / fine) / 2, 1, 0.1);
+}
+
+TEST(SymplecticEuler, TakesAsManySubstepsAsItIsTold) {
+  FreeBody many = glidingDisc({Integrator::kSymplecticEuler, 1e-3, 4});
+  FreeBody few = glidingDisc({Integrator::kSymplecticEuler, 1e-3, 0});
+  many.advance(kDuration / 100, 100);
+  few.advance(kDuration / 400, 400);
+  EXPECT_EQ(many.count.load_evaluations, 400);
+  EXPECT_LT((many.state.position - few.state.position).norm(), 1e-12);
+}
+
+TEST(Integrators, ConvergeToTheSameMotionWhereFacesSwitch) {
+  // The switching leaves order 1, with a small constant: measured 4e-4 (leapfrog) and 1e-4 m
+  // (Runge-Kutta) at 60 Hz, 2e-6 and 3e-6 m at 960 Hz.
+  const RigidState exact = exactEnd(tumblingEllipsoid, 8000);
+  for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kRungeKutta4}) {
+    const FlightSettings settings{integrator, 1e-3, 1};
+    const double coarse = positionError(tumblingEllipsoid, settings, 24, exact);
+    const double fine = positionError(tumblingEllipsoid, settings, 384, exact);
+    EXPECT_LT(fine, 2e-5);
+    EXPECT_LT(fine, coarse / 8);
+  }
+}
+
+TEST(Leapfrog, SubstepsAreChosenByTheTolerance) {
+  const RigidState exact = exactEnd(tumblingEllipsoid, 8000);
+  constexpr int kSteps = 24;  // at 60 Hz
+  FreeBody loose = tumblingEllipsoid({Integrator::kPassiveLeapfrog, 1e-2, 0});
+  FreeBody tight = tumblingEllipsoid({Integrator::kPassiveLeapfrog, 1e-4, 64});
+  loose.advance(kDuration / kSteps, kSteps);
+  tight.advance(kDuration / kSteps, kSteps);
+  EXPECT_GT(tight.count.substeps, 3 * loose.count.substeps);
+  EXPECT_LT((tight.state.position - exact.position).norm(),
+            (loose.state.position - exact.position).norm());
+  // One evaluation per substep but for the first, and the repeated steps.
+  EXPECT_LE(loose.count.load_evaluations, loose.count.substeps + 3);
+}
+
+TEST(Leapfrog, ReportsAStepThatStaysAboveTheTolerance) {
+  FreeBody plate = tumblingEllipsoid({});
+  const FlightSettings hopeless{Integrator::kPassiveLeapfrog, 1e-12, 2};
+  const FlightResult result =
+      fly({plate.model(), plate.surroundings, hopeless, 1.0 / 60}, plate.state, {});
+  EXPECT_TRUE(result.count.coarse);
+  const FlightSettings easy{Integrator::kPassiveLeapfrog, 10, 2};
+  EXPECT_FALSE(
+      fly({plate.model(), plate.surroundings, easy, 1.0 / 60}, plate.state, {}).count.coarse);
+}
+
+TEST(RungeKutta, TurnsByLessThanSixDegreesPerSubstep) {
+  FreeBody plate = tumblingEllipsoid({Integrator::kRungeKutta4, 1e-3, 0});
+  plate.state.twist.angular = {0, 0, 100};
+  plate.advance(1.0 / 60);
+  // 100 / 60 rad over 5.7 degrees.
+  EXPECT_EQ(plate.count.substeps, 17);
+  EXPECT_EQ(plate.count.load_evaluations, 4 * 17);
+}
+
+TEST(Flight, GivesTheSameBitsTwice) {
+  for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kDormandPrince,
+                                      Integrator::kRungeKutta4, Integrator::kSymplecticEuler}) {
+    FreeBody a = tumblingEllipsoid({integrator, 1e-3, 0});
+    FreeBody b = tumblingEllipsoid({integrator, 1e-3, 0});
+    a.advance(1.0 / 60, 60);
+    b.advance(1.0 / 60, 60);
+    EXPECT_EQ(a.state.position, b.state.position);
+    EXPECT_EQ(a.state.orientation.coeffs(), b.state.orientation.coeffs());
+    EXPECT_EQ(a.state.twist.vector(), b.state.twist.vector());
+  }
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "bullet_ambient/motion/flight_group.h"
+#include "bullet_ambient/motion/kirchhoff_flow.h"
+#include "tests/bullet_ambient/motion/loaded_bodies.h"
+#include "tests/support/free_body.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+using test::Arbitrary;
+using test::flowWithoutLoads;
+using test::FreeBody;
+
+FreeBody movingBody(unsigned seed) {
+  Arbitrary arbitrary(seed);
+  FreeBody body({test::shapeWithoutFaces(arbitrary.positiveDefinite())});
+  body.state.twist = arbitrary.twist(10, 3);
+  return body;
+}
+
+// Different bodies in arbitrary motion, under arbitrary loads, for kicks and flows of up to `time`.
+FlightLanes arbitraryLanes(unsigned seed, double time) {
+  FlightLanes lanes{};
+  lanes.has_loads = true;
+  for (int i = 0; i < kFlightLanes; ++i) {
+    Arbitrary arbitrary(kFlightLanes * seed + static_cast<unsigned>(i));
+    FreeBody body = movingBody(kFlightLanes * seed + static_cast<unsigned>(i));
+    body.state.orientation = arbitrary.rotation();
+    body.state.position = arbitrary.vector();
+    body.setGravity({0, 0, -9.81});
+    setModel(lanes, i, body.model());
+    setSurroundings(lanes, i, {body.model(), body.surroundings, body.settings, time});
+    setState(lanes, i, body.model(), body.state);
+    lanes.active[i] = arbitrary.between(0, 1) < 0.8 ? 1 : 0;
+    lanes.precision[i] = std::pow(10, arbitrary.between(-16, -6));
+    lanes.flow_time[i] = arbitrary.between(0, time);
+    lanes.kick_time[i] = arbitrary.between(0, time);
+    const double strength = std::pow(10, arbitrary.between(-3, 3));
+    for (int k = 0; k < 6; ++k) {
+      lanes.load_W[k][i] = strength * arbitrary.between(-1, 1);
+      lanes.load_B[k][i] = strength * arbitrary.between(-1, 1);
+    }
+  }
+  return lanes;
+}
+
+void substep(const FlightKernel& kernel, FlightLanes& lanes) {
+  kernel.measure(lanes);
+  kernel.flow(lanes);
+  kernel.fall(lanes);
+  kernel.sample(lanes);
+  kernel.kick(lanes);
+  kernel.flow(lanes);
+  kernel.bound(lanes);
+}
+
+// Of a body, all that a substep changes.
+std::vector<double> lane(const FlightLanes& lanes, int body) {
+  std::vector<double> values;
+  const auto add = [&](const FlightLane* from, int count) {
+    for (int i = 0; i < count; ++i) values.push_back(from[i][body]);
+  };
+  add(lanes.orientation, 4);
+  add(lanes.way_W, 3);
+  add(lanes.twist_B, 6);
+  add(lanes.momentum_B, 6);
+  add(lanes.load_W, 6);
+  add(&lanes.error, 1);
+  add(&lanes.is_coarse, 1);
+  return values;
+}
+
+bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+class FlightKernels : public ::testing::TestWithParam<InstructionSet> {};
+
+TEST_P(FlightKernels, HaveTheBitsOfTheBaseline) {
+  const FlightKernel* kernel = flightKernelFor(GetParam());
+  if (!kernel) GTEST_SKIP() << "this processor does not have the instructions";
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    for (const double time : {1e-3, 1.0 / 60, 3.0}) {
+      FlightLanes baseline = arbitraryLanes(seed, time);
+      FlightLanes other = baseline;
+      substep(baselineFlightKernel(), baseline);
+      substep(*kernel, other);
+      for (int i = 0; i < kFlightLanes; ++i) {
+        if (!(baseline.active[i] > 0)) continue;
+        EXPECT_TRUE(haveSameBits(lane(baseline, i), lane(other, i))) << seed << " over " << time;
+        EXPECT_TRUE(std::isfinite(other.twist_B[0][i])) << seed << " over " << time;
+      }
+    }
+  }
+}
+
+TEST_P(FlightKernels, MoveABodyByTheSameBitsWhoeverFliesBesideIt) {
+  const FlightKernel* kernel = flightKernelFor(GetParam());
+  if (!kernel) GTEST_SKIP() << "this processor does not have the instructions";
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    FlightLanes together = arbitraryLanes(seed, 0.1);
+    const FlightLanes start = together;
+    substep(*kernel, together);
+    for (int i = 0; i < kFlightLanes; ++i) {
+      FlightLanes alone = start;
+      for (int k = 0; k < kFlightLanes; ++k)
+        alone.active[k] = k == i && start.active[k] > 0 ? 1 : 0;
+      substep(*kernel, alone);
+      EXPECT_TRUE(haveSameBits(lane(together, i), lane(alone, i)) || !(start.active[i] > 0))
+          << seed;
+    }
+  }
+}
+
+TEST_P(FlightKernels, LeaveBodiesAloneThatAreNotActive) {
+  const FlightKernel* kernel = flightKernelFor(GetParam());
+  if (!kernel) GTEST_SKIP() << "this processor does not have the instructions";
+  FlightLanes lanes = arbitraryLanes(1, 0.1);
+  for (double& active : lanes.active) active = 0;
+  lanes.active[0] = 1;
+  const FlightLanes start = lanes;
+  substep(*kernel, lanes);
+  EXPECT_NE(lanes.twist_B[0][0], start.twist_B[0][0]);
+  for (int i = 1; i < kFlightLanes; ++i) {
+    std::vector<double> before = lane(start, i), after = lane(lanes, i);
+    before.resize(25), after.resize(25);  // all but the error, which is that of the active ones
+    EXPECT_TRUE(haveSameBits(before, after)) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FlightKernels,
+                         ::testing::Values(InstructionSet::kBaseline, InstructionSet::kAvx2,
+                                           InstructionSet::kAvx512));
+
+// Slow and fast ones, with loads and without, by several integrators, in a current or at rest.
+FreeBody oneOfMany(unsigned i) {
+  FlightSettings settings;
+  if (i % 7 == 5) settings.integrator = Integrator::kRungeKutta4;
+  FreeBody body = i % 3 == 0   ? test::glidingDisc(settings)
+                  : i % 3 == 1 ? test::tumblingEllipsoid(settings)
+                               : movingBody(i);
+  body.settings = settings;
+  Arbitrary arbitrary(i);
+  const Twist more = arbitrary.twist(i % 5 == 0 ? 300 : 3, i % 4 == 0 ? 20 : 1);
+  body.state.twist = {body.state.twist.angular + more.angular,
+                      body.state.twist.linear + more.linear};
+  body.state.orientation = arbitrary.rotation();
+  if (i % 2 == 0) body.surroundings.ambient_velocity = {3, 0, 1};
+  return body;
+}
+
+TEST(FlyTogether, HasTheBitsOfEachFlightAlone) {
+  constexpr unsigned kCount = 27;
+  std::vector<FreeBody> bodies;
+  for (unsigned i = 0; i < kCount; ++i) bodies.push_back(oneOfMany(i));
+  std::vector<Flight> flights;
+  std::vector<Flight*> all;
+  flights.reserve(kCount);
+  for (const FreeBody& body : bodies) {
+    flights.emplace_back(FlightTask{body.model(), body.surroundings, body.settings, 1.0 / 60},
+                         body.state, FlightMemory{});
+    all.push_back(&flights.back());
+  }
+  int most_substeps = 0;
+  for (int step = 0; step < 3; ++step) {
+    const std::vector<Flight> starts = flights;
+    flyTogether(all.data(), static_cast<int>(kCount));
+    for (unsigned i = 0; i < kCount; ++i) {
+      const FlightResult& start = starts[i].body;
+      const FlightResult alone = fly(flights[i].task, start.state, start.memory);
+      const FlightResult& together = flights[i].body;
+      EXPECT_EQ(alone.state.orientation.coeffs(), together.state.orientation.coeffs()) << i;
+      EXPECT_EQ(alone.state.position, together.state.position) << i;
+      EXPECT_EQ(alone.state.twist.vector(), together.state.twist.vector()) << i;
+      EXPECT_EQ(alone.memory.load_W.vector(), together.memory.load_W.vector()) << i;
+      EXPECT_EQ(alone.memory.substep, together.memory.substep) << i;
+      EXPECT_EQ(alone.count.substeps, together.count.substeps) << i;
+      EXPECT_EQ(alone.count.load_evaluations, together.count.load_evaluations) << i;
+      most_substeps = std::max(most_substeps, together.count.substeps);
+    }
+  }
+  EXPECT_GT(most_substeps, 4);  // they do differ
+}
+
+TEST(FlowWithoutLoads, CountsTurnsThatAreTooLongAsCoarse) {
+  const FreeBody body = movingBody(1);
+  EXPECT_TRUE(flowWithoutLoads(body, 1e-3).is_precise);
+  EXPECT_FALSE(flowWithoutLoads(body, 1e6).is_precise);
+}
+
+TEST(FlowWithoutLoads, IsAsPreciseAsAskedAndNeverGainsEnergy) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    for (const double precision : {1e-6, 1e-9, 1e-12}) {
+      FreeBody body = movingBody(seed);
+      const double before = body.kineticEnergy();
+      const RigidState exact = flowWithoutLoads(body, 0.02).state;
+      body.state = flowWithoutLoads(body, 0.02, precision).state;
+      const Vector6 error = body.state.twist.vector() - exact.twist.vector();
+      EXPECT_LT(std::sqrt(inertiaNormSquared(body.model(), error) / (2 * before)), precision)
+          << seed;
+      EXPECT_LT(test::angleBetween(body.state.orientation, exact.orientation), precision) << seed;
+      // Up to the rounding of the scaling: each component, and the factor.
+      EXPECT_LE(body.kineticEnergy(), before * (1 + 1e-15)) << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,78 @@
+#include "demos/scene/scene_override.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/demos/scene/scene_text.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+Scene readWith(const std::vector<SceneOverride>& overrides) {
+  const TemporaryFolder folder;
+  return readScene(writeScene(folder, ballScene().dump()), overrides);
+}
+
+TEST(SceneOverride, SetsAPlaceInEitherSpelling) {
+  EXPECT_EQ(readWith({{"bodies.0.mass", "0.001"}}).bodies[0].mass, 0.001);
+  EXPECT_EQ(readWith({{"bodies[0].mass", "1e-3"}}).bodies[0].mass, 0.001);
+  EXPECT_EQ(readWith({{"bodies[0].position[2]", "7"}}).bodies[0].position, Vector3(0, 0, 7));
+  EXPECT_EQ(readWith({{"medium.density", "0"}}).medium.density, 0);
+}
+
+TEST(SceneOverride, TakesAVectorAsJsonAndAWordAsString) {
+  EXPECT_EQ(readWith({{"gravity", "[1, 2, 3]"}}).gravity, Vector3(1, 2, 3));
+  EXPECT_EQ(readWith({{"model", "vacuum"}}).model, FluidModel::kVacuum);
+  EXPECT_EQ(readWith({{"model", "\"vacuum\""}}).model, FluidModel::kVacuum);
+}
+
+TEST(SceneOverride, MakesWhatIsOnTheWayToAKnownKey) {
+  EXPECT_EQ(readWith({{"integrator.method", "rk4"}}).flight.integrator, Integrator::kRungeKutta4);
+}
+
+TEST(SceneOverride, TheLastOneWins) {
+  EXPECT_EQ(readWith({{"duration", "3"}, {"duration", "4"}}).duration, 4);
+}
+
+TEST(SceneOverride, IsAppliedBeforeTheChecks) {
+  EXPECT_EQ(complaintAbout(ballScene(), {{"medium.density", "-1"}}),
+            "medium.density is -1; must be >= 0 kg/m^3");
+  EXPECT_EQ(complaintAbout(ballScene(), {{"duration", "long"}}),
+            "duration is \"long\"; must be of type \"number\"");
+}
+
+TEST(SceneOverride, RejectsAPathThatTheSchemaDoesNotKnow) {
+  EXPECT_EQ(complaintAbout(ballScene(), {{"bodies.0.weight", "1"}}),
+            "--set bodies.0.weight=1: a scene has no such key");
+  EXPECT_EQ(complaintAbout(ballScene(), {{"bodies.ball.mass", "1"}}),
+            "--set bodies.ball.mass=1: a scene has no such key");
+  EXPECT_EQ(complaintAbout(ballScene(), {{"bodies..mass", "1"}}),
+            "--set bodies..mass=1: a scene has no such key");
+}
+
+TEST(SceneOverride, RejectsAnElementThatTheSceneDoesNotHave) {
+  EXPECT_EQ(complaintAbout(ballScene(), {{"bodies.1.mass", "1"}}),
+            "--set bodies.1.mass=1: bodies has 1 elements, no element 1");
+  EXPECT_EQ(complaintAbout(ballScene(), {{"medium.acceleration.0", "1"}}),
+            "--set medium.acceleration.0=1: medium.acceleration is not given and has no part 0");
+}
+
+TEST(SceneOverride, RejectsTextThatIsNotUtf8) {
+  EXPECT_EQ(complaintAbout(ballScene(), {{"model", "\xcf"}}),
+            "--set model: the value is not valid UTF-8");
+}
+
+TEST(SceneOverride, SplitsAtTheFirstEqualsSign) {
+  const SceneOverride parsed = parseOverride("description=a=b");
+  EXPECT_EQ(parsed.path, "description");
+  EXPECT_EQ(parsed.value, "a=b");
+}
+
+TEST(SceneOverride, NeedsAPathAndAnEqualsSign) {
+  EXPECT_THROW(parseOverride("duration"), std::invalid_argument);
+  EXPECT_THROW(parseOverride("=3"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,81 @@
+#include "demos/simulation/geometry_text.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/demos/scene/scene_text.h"
+#include "tests/demos/simulation/run_scene.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+/// A coarse ball whose centre of mass is off its centre, over a floor, hung from a hinge.
+json hungBall() {
+  json scene = ballScene();
+  scene["bodies"][0]["shape"]["faces"] = 80;
+  scene["bodies"][0]["centre_of_mass"] = {0.001, 0, -0.002};
+  const json floor_shape = {{"type", "box"}, {"half_sizes", {2, 1, 0.5}}};
+  scene["bodies"].push_back(
+      {{"name", "floor"}, {"shape", floor_shape}, {"mass", 0}, {"position", {0, 0, -3}}});
+  scene["joints"] = {{{"bodies", {"ball"}}, {"point", {0, 0, 1.5}}, {"axis", {0, 1, 0}}}};
+  scene["medium"]["velocity"] = {0.1, 0, 0};
+  return scene;
+}
+
+json geometryOf(const json& text) {
+  const Scene scene = sceneFrom(text);
+  return json::parse(makeGeometryText(scene, prepare(scene)));
+}
+
+/// Bounds of the vertices of a body.
+struct Box {
+  Vector3 low = Vector3::Constant(1e300), high = Vector3::Constant(-1e300);
+};
+
+Box boxOf(const json& body) {
+  Box box;
+  const auto numbers = body["vertices"].get<std::vector<double>>();
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
+    const Vector3 vertex(numbers[i], numbers[i + 1], numbers[i + 2]);
+    box.low = box.low.cwiseMin(vertex);
+    box.high = box.high.cwiseMax(vertex);
+  }
+  return box;
+}
+
+TEST(GeometryText, PlacesVerticesAboutTheCentreOfMass) {
+  const json ball = geometryOf(hungBall())["bodies"][0];
+  EXPECT_EQ(ball["name"], "ball");
+  EXPECT_EQ(ball["triangles"].size(), 3u * 80);
+  const Box box = boxOf(ball);
+  const Vector3 centre = 0.5 * (box.low + box.high);
+  // A float has seven digits, of lengths of some centimetres.
+  EXPECT_LT((centre - Vector3(-0.001, 0, 0.002)).norm(), 1e-8);
+}
+
+TEST(GeometryText, TellsSheets) {
+  json scene = ballScene();
+  scene["bodies"][0]["shape"] = {{"type", "sheet"}, {"semi_axes", {0.1, 0.1}}, {"faces", 60}};
+  const json sheet = geometryOf(scene)["bodies"][0];
+  EXPECT_EQ(sheet["sheet"], true);
+  EXPECT_EQ(boxOf(sheet).low.z(), boxOf(sheet).high.z());
+}
+
+TEST(GeometryText, HasStaticBodiesJointsAndTheFlow) {
+  const json geometry = geometryOf(hungBall());
+  const json& floor = geometry["bodies"][1];
+  EXPECT_EQ(floor["mass"], 0);
+  EXPECT_EQ(floor["sheet"], false);
+  const Box box = boxOf(floor);
+  EXPECT_EQ(box.low, Vector3(-2, -1, -0.5));
+  EXPECT_EQ(box.high, Vector3(2, 1, 0.5));
+  ASSERT_EQ(geometry["joints"].size(), 1u);
+  EXPECT_EQ(geometry["joints"][0]["bodies"], json({"ball"}));
+  EXPECT_EQ(geometry["joints"][0]["point"], json({0, 0, 1.5}));
+  EXPECT_EQ(geometry["joints"][0]["axis"], json({0, 1, 0}));
+  EXPECT_FLOAT_EQ(geometry["medium_velocity"][0].get<float>(), 0.1f);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,156 @@
+// Joints of scenes: pendulums in water, the flaps of flap_in_current and the chain of
+// chain_in_water.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/demos/scene/scene_text.h"
+#include "tests/demos/simulation/run_scene.h"
+
+namespace ambient {
+namespace {
+
+const double kPi = std::acos(-1.0);
+constexpr double kGravity = 9.81;
+constexpr double kWater = 1000;
+
+constexpr double kRadius = 0.05;
+constexpr double kRope = 0.4;
+constexpr double kMass = 3;
+
+/// A heavy ball, a little off the vertical below its joint with the world, in water.
+nlohmann::json pendulum() {
+  constexpr double kAngle = 0.01;
+  nlohmann::json scene = ballScene();
+  scene["duration"] = 3;
+  scene["time_step"] = scene["output_step"] = 1.0 / 480;
+  scene["medium"] = {{"density", kWater}};
+  scene["bodies"] = {{{"name", "bob"},
+                      {"shape", {{"type", "sphere"}, {"radius", kRadius}}},
+                      {"mass", kMass},
+                      {"position", {kRope * std::sin(kAngle), 0, -kRope * std::cos(kAngle)}}}};
+  scene["joints"] = {{{"bodies", {"bob"}}, {"point", {0, 0, 0}}}};
+  return scene;
+}
+
+/// Twice the time between the first two passages of the vertical [s].
+double periodOf(const nlohmann::json& text) {
+  const TemporaryFolder folder;
+  const auto motion = run(readScene(writeScene(folder, text.dump()))).motion[0];
+  std::vector<double> passages;
+  for (std::size_t i = 1; i < motion.size() && passages.size() < 3; ++i) {
+    const double before = motion[i - 1].position.x(), now = motion[i].position.x();
+    if (before * now < 0)
+      passages.push_back(motion[i].time -
+                         now / (now - before) * (motion[i].time - motion[i - 1].time));
+  }
+  return passages.at(2) - passages.at(0);
+}
+
+TEST(PendulumInWater, SwingsWithItsAddedMass) {
+  const double displaced = kWater * 4 / 3 * kPi * std::pow(kRadius, 3);
+  const double inertia = 0.4 * kMass * kRadius * kRadius + (kMass + displaced / 2) * kRope * kRope;
+  const double period = 2 * kPi * std::sqrt(inertia / ((kMass - displaced) * kGravity * kRope));
+  EXPECT_NEAR(periodOf(pendulum()), period, 2e-3 * period);
+  nlohmann::json hinged = pendulum();
+  hinged["joints"][0]["axis"] = {0, 1, 0};
+  EXPECT_NEAR(periodOf(hinged), period, 2e-3 * period);
+}
+
+TEST(PendulumInWater, AHingeHoldsTheBodyToItsAxis) {
+  nlohmann::json hinged = pendulum();
+  hinged["joints"][0]["axis"] = {0, 1, 0};
+  hinged["bodies"][0]["angular_velocity"] = {1, 0, 2};
+  const TemporaryFolder folder;
+  const RunRecord record = run(readScene(writeScene(folder, hinged.dump())));
+  for (const MotionSample& sample : record.motion[0]) {
+    if (sample.time < 0.5) continue;
+    EXPECT_LT(std::abs(sample.twist.angular.x()), 1e-3);
+    EXPECT_LT(std::abs(sample.twist.angular.z()), 1e-3);
+  }
+}
+
+/// The flap that leans downstream by an angle [rad], released alone.
+Scene flapAt(double angle) {
+  Scene scene = readNamedScene("flap_in_current", {{"duration", "0.1"}});
+  scene.bodies.resize(1);
+  scene.joints.resize(1);
+  const double arm = std::get<BoxShape>(scene.bodies[0].shape.geometry).half_sizes.z();
+  scene.bodies[0].position = arm * Vector3(std::sin(angle), 0, -std::cos(angle));
+  scene.bodies[0].orientation = Quaternion(std::cos(angle / 2), 0, -std::sin(angle / 2), 0);
+  return scene;
+}
+
+/// Where pressure on the windward side holds the weight and the moment of the potential flow, which
+/// turns the flap across the current: 1/2 rho V^2 A l sin t = m' g l + (A_n - A_t) V^2 cos t.
+double balanceAngle(const Scene& scene, const PreparedBody& body) {
+  const Vector3 half = std::get<BoxShape>(scene.bodies[0].shape.geometry).half_sizes;
+  const double rho = scene.medium.density, V = scene.medium.velocity.x();
+  const double arm = half.z(), area = 4 * half.y() * half.z();
+  const double pressure = 0.5 * rho * V * V * area * arm;
+  const double weight = (body.mass - rho * body.fluid_body->volume) * kGravity * arm;
+  const Matrix6& added = body.fluid_body->added_mass;
+  const double moment = rho * (added(3, 3) - added(5, 5)) * V * V;
+  // a sin t - b cos t = c
+  return std::asin(weight / std::hypot(pressure, moment)) + std::atan2(moment, pressure);
+}
+
+TEST(FlapInCurrent, FallsBelowAndRisesAboveTheAngleWhereItsMomentsBalance) {
+  const auto bodies = prepare(flapAt(1));
+  const double balance = balanceAngle(flapAt(1), bodies[0]);
+  constexpr double kDegree = 0.017453292519943295;
+  const auto spinAfterRelease = [&](double angle) {
+    return runPrepared(flapAt(angle), bodies).motion[0].back().twist.angular.y();
+  };
+  EXPECT_GT(spinAfterRelease(balance - kDegree), 0);
+  EXPECT_LT(spinAfterRelease(balance + kDegree), 0);
+}
+
+TEST(FlapInCurrent, OneStreamsAndTheOtherHangs) {
+  const Scene scene = readNamedScene("flap_in_current");
+  const RunRecord record = runSharing(scene);
+  double hanging = 0;
+  for (const MotionSample& sample : record.motion[0]) hanging += sample.position.x();
+  hanging /= static_cast<double>(record.motion[0].size());
+  EXPECT_LT(std::abs(hanging), 0.02);
+  // It may flap about the horizontal.
+  for (const MotionSample& sample : record.motion[1]) {
+    if (sample.time > scene.duration / 2) {
+      EXPECT_GT(sample.position.x(), 0.095);
+    }
+  }
+}
+
+/// The largest distance of a link from where its neighbour's end says that it is [m].
+double largestGap(const Scene& scene, const RunRecord& record) {
+  const auto end = [&](std::size_t link, std::size_t row, double side) -> Vector3 {
+    const MotionSample& at = record.motion[link][row];
+    const Vector3 offset = side * 0.04 * Vector3::UnitX();
+    const Quaternion turned = at.orientation * scene.bodies[link].orientation.conjugate();
+    return at.position + turned * offset;
+  };
+  double gap = 0;
+  for (std::size_t row = 0; row < record.motion[0].size(); ++row) {
+    gap = std::max(gap, end(0, row, -1).norm());
+    for (std::size_t link = 1; link < record.motion.size(); ++link)
+      gap = std::max(gap, (end(link, row, -1) - end(link - 1, row, 1)).norm());
+  }
+  return gap;
+}
+
+TEST(ChainInWater, HoldsTogetherAndComesToHang) {
+  const Scene scene = readNamedScene("chain_in_water");
+  const RunRecord record = runSharing(scene);
+  EXPECT_LT(largestGap(scene, record), 0.002);
+  double fastest = 0;
+  for (const auto& motion : record.motion)
+    fastest = std::max(fastest, motion.back().twist.linear.norm());
+  const Vector3 last = record.motion.back().back().position;
+  EXPECT_NEAR(last.norm(), 0.44, 0.002);
+  EXPECT_LT(std::hypot(last.x(), last.y()), 0.1);
+  EXPECT_LT(fastest, 0.15);
+}
+
+}  // namespace
+}  // namespace ambient

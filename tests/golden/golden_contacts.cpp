@@ -1,0 +1,128 @@
+// Bodies that meet a floor, each other and a multibody, under the settings of Bullet's solver.
+
+#include "tests/golden/golden_world.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr int kSteps = 150;
+
+using Settings = std::function<void(btContactSolverInfo&)>;
+
+void addFloor(GoldenWorld& world) {
+  GoldenBody floor;
+  floor.mass = 0;
+  floor.shape = &world.floor();
+  world.addDry(floor).setFriction(bt(0.7));
+}
+
+GoldenBody falling(GoldenWorld& world, int index) {
+  GoldenBody body;
+  const double x = index;
+  body.shape = index % 3 == 1 ? &world.ball() : &world.box();
+  body.position = {0.05 * x, -0.04 * x, 0.35 + 0.45 * x};
+  body.twist = {{1, 2 - x, 0.5}, {0.3, 0.2 * x, -2 - x}};
+  body.mass = 30;
+  body.moments = {0.5, 0.7, 0.9};
+  return body;
+}
+
+// A tower of six bodies falls onto the floor: boxes and balls, in water, dry and locked.
+void addTower(GoldenWorld& world) {
+  world.add(falling(world, 0), bumpyInWater());
+  addFloor(world);
+  world.add(falling(world, 1), symmetricInWater()).setRollingFriction(bt(0.02));
+  world.addDry(falling(world, 2)).setRestitution(bt(0.4));
+  btRigidBody& locked = world.add(falling(world, 3), bumpyInWater());
+  locked.setAngularFactor({1, 0, 1});
+  locked.setLinearFactor({1, 1, 1});
+  btRigidBody& bouncing = world.add(falling(world, 4), bumpyInWater());
+  bouncing.setRestitution(bt(0.8));
+  bouncing.setSpinningFriction(bt(0.05));
+  world.add(falling(world, 5), symmetricInWater()).setFriction(bt(0.1));
+}
+
+GoldenRecord tower(const Settings& settings) {
+  GoldenWorld world;
+  settings(world.world().getSolverInfo());
+  addTower(world);
+  return world.run(kSteps);
+}
+
+// A quick body that would pass through the floor, and one that turns by a radian per step.
+GoldenRecord quick() {
+  GoldenWorld world;
+  for (int i = 0; i < 2; ++i) {
+    btRigidBody& body = world.add(falling(world, i), bumpyInWater());
+    body.setLinearVelocity({0, 0, -60});
+    body.setCcdMotionThreshold(bt(0.05));
+    body.setCcdSweptSphereRadius(bt(0.1));
+  }
+  world.body(1).setAngularVelocity({0, 200, 100});
+  addFloor(world);
+  return world.run(60);
+}
+
+// Bodies fall asleep on the floor, and another one wakes them.
+GoldenRecord sleep() {
+  GoldenWorld world;
+  for (int i = 0; i < 2; ++i) {
+    GoldenBody resting = falling(world, 0);
+    resting.position = {2.0 * i, 0, 0.25};
+    resting.twist = {};
+    resting.mass = 300;
+    world.add(resting, i == 0 ? bumpyInWater() : symmetricInWater())
+        .setSleepingThresholds(bt(0.8), bt(1));
+  }
+  addFloor(world);
+  return world.run(1000, [&](int step) {
+    if (step == 900) world.add(falling(world, 4), symmetricInWater());
+  });
+}
+
+// A chain of rigid links swings into bodies in water.
+GoldenRecord swingChain() {
+  GoldenWorld world(GoldenWorld::Kind::kMultiBodies);
+  for (int i = 0; i < 3; ++i) {
+    GoldenBody body = falling(world, i);
+    body.position = {-0.4 - 0.5 * i, 0.03 * i, 0.5};
+    body.twist.linear = {1, 0, 0};
+    if (i == 2)
+      world.addDry(body);
+    else
+      world.add(body, i == 0 ? bumpyInWater() : symmetricInWater());
+  }
+  addFloor(world);
+  world.addChain({0, 0, 1.2});
+  return world.run(kSteps);
+}
+
+}  // namespace
+
+std::vector<GoldenRun> goldenContacts() {
+  const auto towerWith = [](const Settings& settings) { return [=] { return tower(settings); }; };
+  const auto without = [](int mode) {
+    return [mode](btContactSolverInfo& info) { info.m_solverMode &= ~mode; };
+  };
+  const auto with = [](int mode) {
+    return [mode](btContactSolverInfo& info) { info.m_solverMode |= mode; };
+  };
+  return {
+      {"tower", towerWith([](btContactSolverInfo&) {})},
+      {"tower_cold", towerWith(without(SOLVER_USE_WARMSTARTING))},
+      {"tower_two_frictions", towerWith(with(SOLVER_USE_2_FRICTION_DIRECTIONS))},
+      {"tower_shuffled", towerWith(with(SOLVER_RANDMIZE_ORDER))},
+      {"tower_interleaved", towerWith(with(SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS))},
+      {"tower_split",
+       towerWith([](btContactSolverInfo& info) { info.m_splitImpulsePenetrationThreshold = 0; })},
+      {"tower_soft", towerWith([](btContactSolverInfo& info) {
+         info.m_globalCfm = bt(1e-3);
+         info.m_sor = bt(0.8);
+       })},
+      {"quick", quick},
+      {"sleep", sleep},
+      {"chain", swingChain},
+  };
+}
+
+}  // namespace ambient::test

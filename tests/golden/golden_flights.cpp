@@ -1,0 +1,185 @@
+// Bodies that touch nothing: loads, integrators, what acts on a body from outside.
+
+#include "bullet_ambient/bullet/ambient_impulse.h"
+#include "preprocess/reduced_loads/reduced_loads.h"
+#include "tests/golden/golden_world.h"
+#include "tests/support/ellipsoid_body.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr int kSteps = 120;
+
+// Drag and a torque that follow no law of the library.
+class QuadraticDrag : public SurfaceLoadModel {
+ public:
+  Wrench load(const FaceTable&, const Twist& twist, const LoadSettings&) const noexcept override {
+    return {-0.05 * twist.angular, -3 * twist.linear.norm() * twist.linear};
+  }
+};
+
+struct NamedDef {
+  std::string name;
+  AttachDef attach;
+};
+
+NamedDef withChange(const std::string& name, AttachDef attach,
+                    const std::function<void(AttachDef&)>& change) {
+  change(attach);
+  return {name, attach};
+}
+
+AttachDef sphereInWater() {
+  FluidBody sphere = facelessEllipsoid(Vector3::Constant(0.2));
+  sphere.sphere_radius = 0.2;
+  AttachDef attach;
+  attach.fluid_body = std::make_shared<FluidBody>(sphere);
+  attach.medium = water();
+  return attach;
+}
+
+AttachDef withLevel(AttachDef attach) {
+  FluidBody reduced = *attach.fluid_body;
+  reduced.levels = buildLoadLevels(reduced, {32}, attach.flow.separation_angle);
+  attach.fluid_body = std::make_shared<FluidBody>(reduced);
+  attach.flow.maximum_load_error = 10;
+  return attach;
+}
+
+std::vector<NamedDef> loadVariants(const std::string& prefix, const AttachDef& attach) {
+  const auto named = [&](const std::string& name, const std::function<void(AttachDef&)>& change) {
+    return withChange(prefix + "_" + name, attach, change);
+  };
+  return {
+      named("default", [](AttachDef&) {}),
+      named("attached", [](AttachDef& a) { a.flow.separation_angle = 2.2; }),
+      named("without_friction", [](AttachDef& a) { a.flow.skin_friction = false; }),
+      named("in_air", [](AttachDef& a) { a.medium = air(); }),
+      named("own_model", [](AttachDef& a) { a.flow.model = std::make_shared<QuadraticDrag>(); }),
+      named("in_a_current",
+            [](AttachDef& a) {
+              a.medium.velocity = {1, -2, 0.5};
+              a.medium.acceleration = {-2, 3, 1};
+            }),
+  };
+}
+
+AttachDef inDoublePrecision(AttachDef attach) {
+  attach.flow.precision = LoadPrecision::kDouble;
+  return attach;
+}
+
+std::vector<NamedDef> integratorVariants(const std::string& prefix, const AttachDef& attach) {
+  const auto named = [&](const std::string& name, Integrator integrator, int substeps) {
+    return withChange(prefix + "_" + name, attach, [&](AttachDef& a) {
+      a.flight.integrator = integrator;
+      a.flight.max_substeps = substeps;
+    });
+  };
+  return {named("one_substep", Integrator::kPassiveLeapfrog, 1),
+          named("dormand_prince", Integrator::kDormandPrince, 0),
+          named("runge_kutta", Integrator::kRungeKutta4, 0),
+          named("symplectic_euler", Integrator::kSymplecticEuler, 0)};
+}
+
+std::vector<NamedDef> shapeVariants() {
+  AttachDef faceless = symmetricInWater();
+  faceless.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid({0.3, 0.2, 0.1}));
+  AttachDef attached = bumpyInWater();
+  attached.flow.separation_angle = 2.2;
+  return {{"symmetric_level", withLevel(symmetricInWater())},
+          {"bumpy_level", withLevel(bumpyInWater())},
+          {"bumpy_attached_level", withLevel(attached)},
+          {"faceless", faceless}};
+}
+
+std::vector<NamedDef> allVariants() {
+  std::vector<NamedDef> all = shapeVariants();
+  for (const auto& variants :
+       {loadVariants("symmetric", symmetricInWater()), loadVariants("bumpy", bumpyInWater()),
+        loadVariants("bumpy_double_precision", inDoublePrecision(bumpyInWater())),
+        loadVariants("sphere", sphereInWater()),
+        integratorVariants("symmetric", symmetricInWater()),
+        integratorVariants("bumpy", bumpyInWater())})
+    all.insert(all.end(), variants.begin(), variants.end());
+  return all;
+}
+
+// Heavier and lighter than water, slow and fast.
+GoldenBody flying(int index) {
+  GoldenBody body;
+  const double x = index;
+  body.position = {3 * x, 0, 1};
+  body.twist = {{2 - x, 1 + 3 * x, -1.5}, {1 + x, 0.5, -0.25 * x}};
+  body.mass = index % 3 == 2 ? 0.5 : 30;
+  body.moments *= body.mass / 3;
+  return body;
+}
+
+// Two ways through the water, and one of a body that is lighter than its added mass.
+GoldenRecord fly(const AttachDef& attach) {
+  GoldenWorld world;
+  for (int i = 0; i < 3; ++i) world.add(flying(i), attach);
+  return world.run(kSteps);
+}
+
+// Eleven different bodies side by side.
+GoldenRecord flyTogether() {
+  GoldenWorld world;
+  const std::vector<NamedDef> variants = allVariants();
+  for (int i = 0; i < 11; ++i) world.add(flying(i), variants[3 * i % variants.size()].attach);
+  return world.run(kSteps);
+}
+
+GoldenRecord flyInWind() {
+  GoldenWorld world;
+  for (int i = 0; i < 3; ++i) world.add(flying(i), i == 1 ? symmetricInWater() : bumpyInWater());
+  return world.run(kSteps, [&](int step) {
+    Medium medium = water();
+    const double t = step * GoldenWorld::kStep;
+    medium.velocity = {3 * t, 1 - 2 * t * t, 0};
+    medium.acceleration = {3, -4 * t, 0};
+    if (step > 60) medium.density = 900;
+    for (int i = 0; i < 3; ++i) world.registry().setMedium(world.body(i), medium);
+  });
+}
+
+// Forces, impulses, damping, another mass on the way, a turn of more than Bullet's largest.
+GoldenRecord flyPushed() {
+  GoldenWorld world;
+  for (int i = 0; i < 3; ++i) world.add(flying(i), bumpyInWater());
+  world.body(1).setAngularVelocity({30, -300, 10});
+  world.body(2).setDamping(bt(0.2), bt(0.4));
+  return world.run(kSteps, [&](int step) {
+    world.body(0).applyForce({bt(3), bt(-step), 5}, {bt(0.1), 0, bt(0.2)});
+    world.body(1).applyTorque({bt(0.1 * step), 0, bt(-0.3)});
+    if (step % 30 == 7)
+      applyAmbientImpulse(world.registry(), world.body(2), {bt(0.1), bt(0.3), 0}, {0, 0, bt(0.1)});
+    if (step == 50) world.body(0).setMassProps(bt(20), {bt(0.2), bt(0.3), bt(0.4)});
+  });
+}
+
+GoldenRecord flyWithLockedAxes() {
+  GoldenWorld world;
+  for (int i = 0; i < 3; ++i) world.add(flying(i), i == 1 ? symmetricInWater() : bumpyInWater());
+  world.body(0).setLinearFactor({1, 1, 0});
+  world.body(0).setAngularFactor({0, 0, 1});
+  world.body(1).setAngularFactor({0, 1, 1});
+  world.body(2).setLinearFactor({0, 1, 1});
+  return world.run(kSteps);
+}
+
+}  // namespace
+
+std::vector<GoldenRun> goldenFlights() {
+  std::vector<GoldenRun> runs;
+  for (const NamedDef& variant : allVariants())
+    runs.push_back({"flight_" + variant.name, [attach = variant.attach] { return fly(attach); }});
+  runs.push_back({"flight_together", flyTogether});
+  runs.push_back({"flight_in_wind", flyInWind});
+  runs.push_back({"flight_pushed", flyPushed});
+  runs.push_back({"flight_with_locked_axes", flyWithLockedAxes});
+  return runs;
+}
+
+}  // namespace ambient::test

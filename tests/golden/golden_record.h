@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/spatial/vector_types.h"
+
+namespace ambient::test {
+
+/// What is kept of a run.
+struct GoldenRecord {
+  std::string name;
+  std::uint64_t hash = 0;            ///< FNV-1a of the bytes of all that the run has computed
+  Vector6 sample = Vector6::Zero();  ///< a few of these numbers, to show how large a difference is
+};
+
+/// Collects the numbers of a run.
+class GoldenTrace {
+ public:
+  template <class Number>
+  void add(const Number& number) {
+    bytes_.append(reinterpret_cast<const char*>(&number), sizeof number);
+  }
+  void add(const Vector3& vector) {
+    for (int i = 0; i < 3; ++i) add(vector[i]);
+  }
+  std::uint64_t hash() const;
+
+ private:
+  std::string bytes_;
+};
+
+/// A run that must give the same bits for ever.
+struct GoldenRun {
+  std::string name;
+  std::function<GoldenRecord()> record;  ///< its name may stay empty
+};
+
+/// The runs of a program, each defines its own.
+std::vector<GoldenRun> goldenRuns();
+
+/// A text file: a line for the machine, then one for each run, numbers in hexadecimal.
+struct GoldenFile {
+  std::uint64_t machine = 0;  ///< mathHash() where it was recorded
+  std::vector<GoldenRecord> records;
+};
+
+/// @throws std::runtime_error naming the file, and the line if it is not understood.
+GoldenFile readGoldenFile(const std::filesystem::path& file);
+void writeGoldenFile(const std::filesystem::path& file, const GoldenFile& golden);
+
+/// Hash of what no standard fixes to the last bit: values of the C library's functions, which
+/// depend on the processor, and a product of large matrices, whose order of sums depends on its
+/// caches.
+std::uint64_t mathHash();
+
+}  // namespace ambient::test

@@ -1,0 +1,313 @@
+#include "preprocess/builder/fluid_body_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/builder/shape_builder.h"
+#include "preprocess/mesh/primitives.h"
+#include "preprocess/potential_flow/ellipsoid_added_mass.h"
+#include "preprocess/shape/shape_reader.h"
+#include "tests/preprocess/mesh/mesh_files.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+#include "tests/reference/sheet_added_mass.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Lengths in units of the body, so that all entries of K are comparable.
+double relativeError(const Matrix6& a, const Matrix6& b) {
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+TriangleMesh cone() { return makeConeMesh(0.5, 1.2, 300); }
+
+FluidBody build(const TriangleMesh& mesh, BuildSettings settings = {}) {
+  settings.name = "thing";
+  return makeFluidBody(mesh, settings);
+}
+
+BuiltBody buildText(const std::string& shape, const ShapeBuildSettings& settings = {}) {
+  return buildShape(readShape(nlohmann::json::parse(shape), "", "shape.json"), settings);
+}
+
+TEST(FluidBodyBuilder, BodiesSatisfyTheChecksOfTheFile) {
+  checkFluidBody(build(cone()), "cone");
+  BuildSettings sheet;
+  sheet.sheet = true;
+  checkFluidBody(build(makeRectangularSheetMesh(1, 2, 200), sheet), "sheet");
+}
+
+TEST(FluidBodyBuilder, OriginIsTheCentreOfVolumeByDefault) {
+  const Eigen::Vector3d far(3, -2, 5);
+  const FluidBody body = build(moved(cone(), far));
+  EXPECT_EQ(body.centre_of_volume, Vector3::Zero());
+  EXPECT_EQ(body.uniform_mass.centre, Vector3::Zero());
+  // A quarter of the height above the base at -0.6, but for the facets.
+  EXPECT_NEAR(body.origin.z(), 5 - 0.6 + 0.3, 2e-3);
+  const Vector3 apex = far + Vector3(0, 0, 0.6) - body.origin;
+  EXPECT_LT(
+      (Vector3(body.surface.vertices[0], body.surface.vertices[1], body.surface.vertices[2]) - apex)
+          .norm(),
+      1e-15);
+}
+
+TEST(FluidBodyBuilder, AnotherOriginShiftsEverything) {
+  const FluidBody centred = build(cone());
+  BuildSettings settings;
+  settings.origin = Eigen::Vector3d(0.1, -0.2, 0.3);
+  const FluidBody shifted = build(cone(), settings);
+  const Vector3 d = *settings.origin - centred.origin;
+  EXPECT_EQ(shifted.origin, *settings.origin);
+  EXPECT_LT((shifted.centre_of_volume + d).norm(), 1e-15);
+  EXPECT_LT((shifted.surface_mass.centre + d - centred.surface_mass.centre).norm(), 1e-15);
+  EXPECT_LT((shifted.faces.centroid(7) + d - centred.faces.centroid(7)).norm(), 1e-15);
+  EXPECT_LT(relativeError(shifted.added_mass, shiftOrigin(centred.added_mass, d)), 1e-10);
+  EXPECT_EQ(shifted.uniform_mass.inertia, centred.uniform_mass.inertia);
+}
+
+TEST(FluidBodyBuilder, PlaceOfTheMeshDoesNotMatter) {
+  const FluidBody here = build(cone());
+  const FluidBody there = build(moved(cone(), {100, -200, 300}));
+  // The coordinates keep 1e-14 of their own size.
+  EXPECT_LT(relativeError(there.added_mass, here.added_mass), 1e-10);
+  EXPECT_LT((there.origin - here.origin - Vector3(100, -200, 300)).norm(), 1e-12);
+}
+
+TEST(FluidBodyBuilder, FacesCloseTheSurface) {
+  const FluidBody body = build(cone());
+  Vector3 area_vector = Vector3::Zero();
+  double area = 0, volume = 0;
+  for (std::size_t i = 0; i < body.faces.size(); ++i) {
+    area_vector += body.faces.area[i] * body.faces.normal(i);
+    volume += body.faces.area[i] * body.faces.normal(i).dot(body.faces.centroid(i)) / 3;
+    area += body.faces.area[i];
+  }
+  EXPECT_LT(area_vector.norm(), 1e-15 * 10);
+  EXPECT_NEAR(volume / body.volume, 1, 1e-13);
+  EXPECT_NEAR(area / body.area, 1, 1e-13);
+}
+
+TEST(FluidBodyBuilder, TwoTrianglesAreASheet) {
+  TriangleMesh square;
+  square.vertices.resize(3, 4);
+  square.vertices << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
+  square.triangles.resize(3, 2);
+  square.triangles << 0, 0, 1, 2, 2, 3;
+  BuildSettings settings;
+  settings.name = "square";
+  settings.sheet = true;
+  settings.max_panels = 1000;
+  const FluidBody sheet = makeFluidBody(square, settings);
+  EXPECT_EQ(sheet.faces.size(), 4u);
+  const reference::SheetAddedMass exact = reference::rectangleAddedMass(1);
+  // Measured 6e-4 and 3e-4.
+  EXPECT_NEAR(sheet.added_mass(0, 0) / exact.w_x, 1, 1e-3);
+  EXPECT_NEAR(sheet.added_mass(5, 5) / exact.v_z, 1, 5e-4);
+  settings.max_panels = 32;  // the coarser division has no vertex inside
+  EXPECT_NEAR(makeFluidBody(square, settings).added_mass(5, 5) / exact.v_z, 1, 0.2);
+  settings.max_panels = 0;
+  EXPECT_EQ(messageOf([&] { makeFluidBody(square, settings); }),
+            "square: potential flow: the sheet of 2 panels, or a part of it, has no vertex inside "
+            "its boundary: it must be divided into more panels");
+}
+
+TEST(FluidBodyBuilder, SheetsHaveTwoSidesAndNoVolume) {
+  BuildSettings settings;
+  settings.sheet = true;
+  const TriangleMesh mesh = makeRectangularSheetMesh(0.4, 0.3, 200);
+  const FluidBody sheet = build(mesh, settings);
+  const auto count = static_cast<std::size_t>(mesh.triangleCount());
+  EXPECT_EQ(sheet.volume, 0);
+  EXPECT_NEAR(sheet.area, 2 * 0.4 * 0.3, 1e-15);
+  ASSERT_EQ(sheet.faces.size(), 2 * count);
+  EXPECT_EQ(sheet.surface.triangles.size(), 3 * count);
+  EXPECT_EQ(sheet.faces.normal(0), Vector3(0, 0, 1));
+  EXPECT_EQ(sheet.faces.normal(count), Vector3(0, 0, -1));
+  EXPECT_EQ(sheet.faces.centroid(count + 5), sheet.faces.centroid(5));
+  // No motion within its plane moves any fluid.
+  EXPECT_LT(sheet.added_mass.block(2, 2, 3, 3).norm(), 1e-14 * sheet.added_mass(5, 5));
+}
+
+TEST(FluidBodyBuilder, ThreadsDoNotChangeABit) {
+  BuildSettings settings;
+  settings.threads = 1;
+  const std::string one = encodeFluidBody(build(cone(), settings), "one");
+  settings.threads = 3;
+  EXPECT_EQ(encodeFluidBody(build(cone(), settings), "three"), one);
+}
+
+TEST(FluidBodyBuilder, TrueVolumeScalesTheBodyAboutItsCentre) {
+  const FluidBody body = build(cone());
+  BuildSettings settings;
+  settings.true_volume = 1.331 * body.volume;
+  const FluidBody larger = build(cone(), settings);
+  EXPECT_NEAR(larger.volume / settings.true_volume, 1, 1e-14);
+  EXPECT_LT((larger.origin - body.origin).norm(), 1e-15);
+  EXPECT_LT(relativeError(larger.added_mass, scaleShape(body.added_mass, 1.1)), 1e-12);
+  EXPECT_NEAR(larger.area / body.area, 1.21, 1e-13);
+}
+
+TEST(FluidBodyBuilder, MeshesTooLargeForTheMemoryAreRefused) {
+  const TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 20000);
+  BuildSettings settings;
+  settings.memory_limit = 5e7;
+  const std::string message = messageOf([&] { build(mesh, settings); });
+  EXPECT_EQ(message.find("thing: potential flow: 19220 panels need 0.0"), 0u) << message;
+  EXPECT_NE(message.find(" GB of memory, more than the 0.05 GB that may be used"),
+            std::string::npos);
+}
+
+TEST(FluidBodyBuilder, MeshesBeyondTheRangeOfADoubleAreRefused) {
+  TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 80);
+  for (const double size : {1e-10, 1e10, 1e100, std::numeric_limits<double>::infinity()}) {
+    TriangleMesh scaled = mesh;
+    scaled.vertices *= size;
+    const std::string message = messageOf([&] { build(scaled); });
+    EXPECT_EQ(message.find("thing: the diagonal of its bounding box is "), 0u) << message;
+  }
+}
+
+// Lamb, Hydrodynamics: sphere V/2 per axis, nothing in rotation.
+TEST(ShapeBuilder, SphereHasHalfItsVolumeAsAddedMass) {
+  const std::string text = R"({"type":"sphere","radius":0.5})";
+  const BuiltBody sphere = buildText(text);
+  const double volume = kPi / 6;
+  EXPECT_TRUE(sphere.warnings.empty());
+  EXPECT_NEAR(sphere.body.volume / volume, 1, 1e-13);
+  Matrix6 expected = Matrix6::Zero();
+  expected.bottomRightCorner<3, 3>() = volume / 2 * Matrix3::Identity();
+  EXPECT_LT(relativeError(sphere.body.added_mass, expected), 1e-14);
+  ShapeBuildSettings solved;
+  solved.solver = FlowSolverKind::Dense;
+  const double discretisation = relativeError(buildText(text, solved).body.added_mass, expected);
+  EXPECT_GT(discretisation, 1e-9);
+  EXPECT_LT(discretisation, 3e-5);  // at 1280 faces, measured 1e-5
+}
+
+TEST(ShapeBuilder, EllipsoidsHaveTheirClosedFormWhereverTheOriginIs) {
+  ShapeBuildSettings settings;
+  settings.scale = 2;
+  settings.origin = Eigen::Vector3d(0.3, -0.2, 0.1);
+  const FluidBody body =
+      buildText(R"({"type":"ellipsoid","semi_axes":[0.5,0.4,0.1],"faces":320})", settings).body;
+  const Matrix6 K = ellipsoidAddedMass({1, 0.8, 0.2}).asDiagonal();
+  EXPECT_LT(relativeError(body.added_mass, shiftOrigin(K, *settings.origin)), 1e-14);
+  EXPECT_EQ(body.provenance.settings.substr(body.provenance.settings.rfind(',')), ", closed form");
+  checkFluidBody(body, "ellipsoid");
+}
+
+// The fluid outside does not see a cavity; the uniform mass does.
+TEST(FluidBodyBuilder, CavitiesMatterToTheUniformMassOnly) {
+  const TriangleMesh outside = makeBoxMesh({1, 2, 3}, 200);
+  const TriangleMesh hole = moved(makeBoxMesh({0.5, 0.5, 0.5}, 48), {0.2, 0, 0});
+  BuildSettings settings;
+  settings.added_mass = Matrix6::Identity();
+  const FluidBody solid = build(outside, settings);
+  settings.cavities = insideOut(hole);
+  const FluidBody hollow = build(outside, settings);
+  EXPECT_EQ(hollow.volume, solid.volume);
+  EXPECT_EQ(hollow.faces.size(), solid.faces.size());
+  EXPECT_EQ(hollow.centre_of_volume, solid.centre_of_volume);
+  EXPECT_EQ(hollow.surface_mass.inertia, solid.surface_mass.inertia);
+  // 48 less 1 at 0.2 along x.
+  EXPECT_NEAR(hollow.uniform_mass.centre.x(), -0.2 / 47, 1e-12);
+  const double inertia = (48 * (4 + 9) / 3.0 - (0.25 + 0.25) / 3) / 47;
+  EXPECT_NEAR(hollow.uniform_mass.inertia(0, 0), inertia, 1e-12);
+  checkFluidBody(hollow, "hollow");
+}
+
+TEST(ShapeBuilder, OnlyASphereIsMarkedAsOne) {
+  EXPECT_EQ(buildText(R"({"type":"sphere","radius":0.5,"faces":80})").body.sphere_radius, 0.5);
+  EXPECT_EQ(
+      buildText(R"({"type":"capsule","radius":0.5,"height":1,"faces":80})").body.sphere_radius, 0);
+}
+
+// Lamb section 102: a disc of radius a has 8/3 a^3 broadside and 16/45 a^5 about a diameter.
+TEST(ShapeBuilder, DiscConvergesToLambWithSecondOrder) {
+  const double a = 0.5, broadside = 8.0 / 3 * a * a * a, turning = 16.0 / 45 * std::pow(a, 5);
+  std::vector<double> errors, turning_errors;
+  ShapeBuildSettings own_triangles;
+  own_triangles.max_panels = 0;
+  for (const char* faces : {"288", "1152"}) {
+    const FluidBody disc =
+        buildText(R"({"type":"sheet","semi_axes":[0.5,0.5],"faces":)" + std::string(faces) + "}",
+                  own_triangles)
+            .body;
+    errors.push_back(1 - disc.added_mass(5, 5) / broadside);
+    turning_errors.push_back(1 - disc.added_mass(0, 0) / turning);
+  }
+  EXPECT_LT(errors[1], 4e-3);          // measured 2.9e-3
+  EXPECT_LT(turning_errors[1], 6e-3);  // measured 5.1e-3
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2, 0.15);
+  EXPECT_NEAR(std::log2(turning_errors[0] / turning_errors[1]), 2, 0.15);
+}
+
+TEST(ShapeBuilder, ProvenanceNamesTheFileAndHashesItsBytes) {
+  const TemporaryFolder folder;
+  const std::string text = objText(cone());
+  writeText(folder / "c.obj", text);
+  ShapeDescription shape;
+  shape.geometry = MeshShape{folder / "c.obj", 1};
+  shape.source = "c.obj";
+  ShapeBuildSettings settings;
+  settings.name = "c";
+  settings.scale = 0.5;
+  const FluidBody body = buildShape(shape, settings).body;
+  EXPECT_EQ(body.name, "c");
+  EXPECT_EQ(body.provenance.source, "c.obj");
+  EXPECT_EQ(body.provenance.source_hash, fnv1a64(text));
+  EXPECT_EQ(body.provenance.settings,
+            "body, scale 0.5, origin centre-of-volume, faces 0, panels 4200");
+  EXPECT_EQ(body.provenance.generator.substr(0, 15), "bullet_ambient ");
+  EXPECT_NEAR(body.volume, kPi * 0.0625 * 0.2, 0.02 * body.volume);
+  const FluidBody ball = buildText(R"({"type":"sphere", "radius":1, "faces":80})").body;
+  EXPECT_EQ(ball.provenance.source, R"({"faces":80,"radius":1,"type":"sphere"})");
+  EXPECT_EQ(ball.provenance.source_hash, fnv1a64(ball.provenance.source));
+}
+
+TEST(ShapeBuilder, CoarseMeshesAreWarnedAbout) {
+  const BuiltBody ball = buildText(R"({"type":"sphere","radius":1,"faces":80})");
+  ASSERT_EQ(ball.warnings.size(), 1u);
+  EXPECT_EQ(ball.warnings[0].find("shape.json: 80 triangles are few"), 0u) << ball.warnings[0];
+}
+
+TEST(ShapeBuilder, SkinnyTrianglesOfFilesAreWarnedAbout) {
+  const TemporaryFolder folder;
+  ShapeDescription shape;
+  shape.geometry = MeshShape{folder.path() / "box.obj"};
+  shape.source = "box.obj";
+  ShapeBuildSettings settings;
+  settings.max_panels = 0;
+  const auto warningsOf = [&](double thickness) {
+    writeText(folder.path() / "box.obj", objText(makeBoxMesh({1, 1, thickness}, 200)));
+    return buildShape(shape, settings).warnings;
+  };
+  EXPECT_TRUE(warningsOf(0.1).empty());
+  const std::vector<std::string> warnings = warningsOf(0.0005);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find(" times as long as high"), std::string::npos) << warnings[0];
+}
+
+TEST(ShapeBuilder, FluidBodiesAreReadAsTheyAre) {
+  const TemporaryFolder folder;
+  const FluidBody body = build(cone());
+  writeFluidBody(body, folder / "c.ambient");
+  ShapeDescription shape;
+  shape.geometry = FluidBodyShape{folder / "c.ambient"};
+  EXPECT_EQ(encodeFluidBody(buildShape(shape, {}).body, "read"), encodeFluidBody(body, "built"));
+  ShapeBuildSettings settings;
+  settings.scale = 2;
+  EXPECT_EQ(messageOf([&] { buildShape(shape, settings); }),
+            (folder / "c.ambient").string() + ": scale = 2: a fluid body keeps its size");
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "tests/preprocess/collision_shape/shape_fixtures.h"
+#include "tests/reference/body_added_mass.h"
+#include "tests/reference/ellipsoid_added_mass.h"
+
+namespace ambient {
+namespace {
+
+using reference::RevolutionAddedMass;
+using test::coarse;
+using test::kScalarRounding;
+using test::rotationError;
+using test::translationError;
+
+const double kPi = std::acos(-1.0);
+
+/// Body of revolution about an axis, without coupling.
+Matrix6 alongAxis(const RevolutionAddedMass& about_z, int axis) {
+  Vector6 diagonal;
+  diagonal << Vector3::Constant(about_z.w_y), Vector3::Constant(about_z.v_x);
+  diagonal[axis] = 0;
+  diagonal[3 + axis] = about_z.v_z;
+  return diagonal.asDiagonal();
+}
+
+TEST(ConvexShape, SphereHasTheClosedForm) {
+  const FluidBody ball = makeFluidBody(btSphereShape(btScalar(0.75)));
+  const double volume = 4 * kPi / 3 * 0.75 * 0.75 * 0.75;
+  EXPECT_NEAR(ball.volume / volume, 1, 1e-13);
+  Matrix6 expected = Matrix6::Zero();
+  expected.bottomRightCorner<3, 3>().diagonal().setConstant(volume / 2);
+  EXPECT_LT((ball.added_mass - expected).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_GT(ball.faces.size(), 1000u);
+  EXPECT_EQ(ball.sphere_radius, 0.75);
+  checkFluidBody(ball, "ball");
+}
+
+TEST(ConvexShape, BoxIncludesItsMargin) {
+  for (const double margin : {0.0, 0.04, 0.3}) {
+    btBoxShape box(btVector3(1, 1, 1));
+    box.setMargin(btScalar(margin));
+    EXPECT_NEAR(makeFluidBody(box, coarse()).volume / 8, 1, 4 * kScalarRounding);
+  }
+}
+
+TEST(ConvexShape, CubeIsWithinItsTolerance) {
+  const FluidBody cube = makeFluidBody(btBoxShape(btVector3(1, 1, 1)));
+  Vector6 exact;
+  exact << Vector3::Constant(reference::cubeRotationalAddedMass()),
+      Vector3::Constant(8 * reference::cubeAddedMassCoefficient());
+  // Measured 4.7e-3 and 6e-4.
+  EXPECT_LT(rotationError(cube.added_mass, exact.asDiagonal()), 5.2e-3);
+  EXPECT_LT(translationError(cube.added_mass, exact.asDiagonal()), 1e-3);
+}
+
+TEST(ConvexShape, CylinderIsWithinItsTolerance) {
+  const FluidBody cylinder = makeFluidBody(btCylinderShapeZ(btVector3(1, 1, 1)));
+  const Matrix6 exact = alongAxis(reference::cylinderAddedMass(), 2);
+  EXPECT_NEAR(cylinder.volume / (2 * kPi), 1, 4 * kScalarRounding);
+  // Measured 3.7e-3 and 4e-4.
+  EXPECT_LT(rotationError(cylinder.added_mass, exact), 5e-3);
+  EXPECT_LT(translationError(cylinder.added_mass, exact), 1e-3);
+}
+
+TEST(ConvexShape, CapsuleIsWithinItsTolerance) {
+  const FluidBody capsule = makeFluidBody(btCapsuleShapeX(1, 2));
+  const Matrix6 exact = alongAxis(reference::capsuleAddedMass(), 0);
+  EXPECT_NEAR(capsule.volume / (10 * kPi / 3), 1, 1e-12);
+  // Measured 1.0e-4 and 4e-6.
+  EXPECT_LT(rotationError(capsule.added_mass, exact), 5e-4);
+  EXPECT_LT(translationError(capsule.added_mass, exact), 5e-5);
+}
+
+TEST(ConvexShape, ScaledSphereOfAMultiSphereIsAnEllipsoid) {
+  const btVector3 centre(0, 0, 0);
+  const btScalar radius = 1;
+  btMultiSphereShape shape(&centre, &radius, 1);
+  shape.setLocalScaling(btVector3(3, 2, 1));
+  const FluidBody ellipsoid = makeFluidBody(shape);
+  const Matrix6 exact = reference::ellipsoidAddedMass({3, 2, 1}).asDiagonal();
+  EXPECT_NEAR(ellipsoid.volume / (8 * kPi), 1, 1e-12);
+  EXPECT_LT(test::differenceOf(ellipsoid.added_mass, exact), 1e-13);
+}
+
+TEST(ConvexShape, TwoEqualSpheresOfAMultiSphereAreACapsule) {
+  const btVector3 centres[2] = {btVector3(0, -1, 0), btVector3(0, 1, 0)};
+  const btScalar radii[2] = {1, 1};
+  const FluidBody capsule = makeFluidBody(btMultiSphereShape(centres, radii, 2));
+  const Matrix6 exact = alongAxis(reference::capsuleAddedMass(), 1);
+  EXPECT_NEAR(capsule.volume / (10 * kPi / 3), 1, 1e-4);  // extrapolated
+  // Measured 4e-5 and 1.4e-4.
+  EXPECT_LT(rotationError(capsule.added_mass, exact), 1e-3);
+  EXPECT_LT(translationError(capsule.added_mass, exact), 5e-4);
+}
+
+/// K of a shape about axis x or y is that about z, its axes turned in a circle.
+template <class AlongX, class AlongY, class AlongZ>
+void expectSameAlongAllAxes(const AlongX& x, const AlongY& y, const AlongZ& z) {
+  Matrix3 z_to_x = Matrix3::Zero(), z_to_y = Matrix3::Zero();
+  z_to_x(0, 2) = z_to_x(1, 0) = z_to_x(2, 1) = 1;
+  z_to_y(1, 2) = z_to_y(2, 0) = z_to_y(0, 1) = 1;
+  const FluidBody along_z = makeFluidBody(z, coarse());
+  const FluidBody along_x = makeFluidBody(x, coarse());
+  const FluidBody along_y = makeFluidBody(y, coarse());
+  EXPECT_GT(along_z.added_mass(0, 0), 2 * std::abs(along_z.added_mass(2, 2)));
+  const double tolerance = 10 * kScalarRounding + 1e-11;
+  EXPECT_LT(test::differenceOf(along_x.added_mass, rotateAxes(along_z.added_mass, z_to_x)),
+            tolerance);
+  EXPECT_LT(test::differenceOf(along_y.added_mass, rotateAxes(along_z.added_mass, z_to_y)),
+            tolerance);
+  EXPECT_LT((along_x.centre_of_volume - z_to_x * along_z.centre_of_volume).norm(), tolerance);
+  EXPECT_LT((along_y.centre_of_volume - z_to_y * along_z.centre_of_volume).norm(), tolerance);
+}
+
+TEST(ConvexShape, RoundShapesAreTheSameAlongEveryAxis) {
+  const btScalar r(0.5), h(1.5);
+  expectSameAlongAllAxes(btCylinderShapeX(btVector3(h / 2, r, r)),
+                         btCylinderShape(btVector3(r, h / 2, r)),
+                         btCylinderShapeZ(btVector3(r, r, h / 2)));
+  expectSameAlongAllAxes(btCapsuleShapeX(r, h), btCapsuleShape(r, h), btCapsuleShapeZ(r, h));
+  expectSameAlongAllAxes(btConeShapeX(r, h), btConeShape(r, h), btConeShapeZ(r, h));
+}
+
+TEST(ConvexShape, ConeHasItsApexUpAndItsMarginOnTop) {
+  btConeShapeZ cone(1, 2);
+  cone.setMargin(btScalar(0.1));
+  CollisionShapeSettings bare = coarse();
+  bare.margins = false;
+  const FluidBody sharp = makeFluidBody(cone, bare);
+  EXPECT_NEAR(sharp.volume / (2 * kPi / 3), 1, 1e-12);
+  // A quarter of the height above the base, but for the facets.
+  EXPECT_NEAR(sharp.centre_of_volume.z(), -0.5, 1e-2);
+  // Steiner: V + m A + m^2 M + 4/3 pi m^3, M = half the integral of the curvatures: the rim turns
+  // by pi - atan(h / r), the side by pi/2 - atan(r / h) about the axis.
+  const double slant = std::sqrt(5.0), m = 0.1;
+  const double area = kPi * (1 + slant);
+  const double curvature = kPi * (kPi - std::atan2(2.0, 1.0)) + kPi * 2;
+  const double volume = 2 * kPi / 3 + m * area + m * m * curvature + 4 * kPi / 3 * m * m * m;
+  EXPECT_NEAR(makeFluidBody(cone, coarse()).volume / volume, 1, 1e-6);
+}
+
+TEST(ConvexShape, RoundedConeIsWithinHalfAPercentOfFinerOnes) {
+  btConeShapeZ cone(1, 2);
+  cone.setMargin(btScalar(0.1));
+  CollisionShapeSettings finer;
+  finer.faces = 1800;
+  finer.max_panels = 5000;
+  const Matrix6 exact = makeFluidBody(cone, finer).added_mass;
+  const Matrix6 K = makeFluidBody(cone).added_mass;
+  EXPECT_LT(rotationError(K, exact), 3e-3);
+  EXPECT_LT(translationError(K, exact), 2e-3);
+}
+
+TEST(ConvexShape, LocalScalingCounts) {
+  btBoxShape box(btVector3(1, 2, 3));
+  box.setLocalScaling(btVector3(2, 1, btScalar(0.5)));
+  EXPECT_NEAR(makeFluidBody(box, coarse()).volume / 48, 1, 4 * kScalarRounding);
+  btSphereShape ball(1);
+  ball.setLocalScaling(btVector3(2, 2, 2));
+  EXPECT_NEAR(makeFluidBody(ball, coarse()).volume / (32 * kPi / 3), 1, 4 * kScalarRounding);
+  btCapsuleShape capsule(1, 2);
+  capsule.setLocalScaling(btVector3(2, 2, 2));
+  EXPECT_NEAR(makeFluidBody(capsule, coarse()).volume / (80 * kPi / 3), 1, 4 * kScalarRounding);
+}
+
+TEST(ConvexShape, UniformScalingScalesWhateverItHolds) {
+  btBoxShape box(btVector3(1, 2, 3));
+  const FluidBody plain = makeFluidBody(box, coarse());
+  const FluidBody scaled = makeFluidBody(btUniformScalingShape(&box, btScalar(0.5)), coarse());
+  EXPECT_LT(test::differenceOf(scaled.added_mass, scaleShape(plain.added_mass, 0.5)), 1e-10);
+}
+
+TEST(ConvexShape, FrameIsThatOfTheShape) {
+  const FluidBody box = makeFluidBody(btBoxShape(btVector3(1, 2, 3)), coarse());
+  EXPECT_EQ(box.origin, Vector3::Zero());
+  EXPECT_LT(box.centre_of_volume.norm(), 1e-6);
+  EXPECT_EQ(box.name, "Box");
+}
+
+}  // namespace
+}  // namespace ambient

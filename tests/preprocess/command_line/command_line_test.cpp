@@ -1,0 +1,116 @@
+#include "tests/preprocess/command_line/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/mesh/primitives.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(CommandLine, BadUsageEndsWithTwo) {
+  const std::string ball = write("ball.json", sphereText());
+  for (const Arguments& arguments : std::vector<Arguments>{
+           {},
+           {"bild"},
+           {"build"},
+           {"build", ball},
+           {"build", ball, "-o"},
+           {"build", ball, "-o", path("out.ambient"), "--scael", "1"},
+           {"build", ball, "-o", path("out.ambient"), "--scale", "large"},
+           {"build", ball, "-o", path("out.ambient"), "--threads", "1.5"},
+           {"build", ball, ball, "-o", path("out.ambient")},
+           {"build", ball, "-o", path("out.ambient"), "--memory", "much"},
+           {"build", ball, "-o", path("out.ambient"), "--threads", "99999999999999999999"},
+           {"build", ball, "-o", path("out.ambient"), "--levels", "16,x"},
+           {"inspect"},
+           {"inspect", ball, "--jsn"},
+           {"report"},
+           {"report", ball, "--panels", "many"},
+           {"polar"},
+           {"polar", ball, "--speed", "fast"},
+           {"compare", ball},
+           {"compare", ball, ball, "--tolerance", "small"},
+           {"loads", "x.ambient"},
+           {"loads", "x.ambient", "--density", "1"},
+           {"loads", "x.ambient", "--density", "1", "--twist", "1", "2", "3", "4", "5"},
+           {"loads", "x.ambient", "--density", "1", "--twist", "1", "2", "3", "4", "5", "six"}}) {
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.errors;
+    EXPECT_EQ(result.output, "");
+    EXPECT_NE(result.errors, "");
+    EXPECT_EQ(fileCount(), 1u);
+  }
+}
+
+TEST_F(CommandLine, EmptyArgumentsAreNotZero) {
+  EXPECT_EQ(usageRefusal(
+                {"loads", "x.ambient", "--density", "", "--twist", "0", "0", "0", "1", "0", "0"}),
+            "argument 4 is empty");
+  EXPECT_EQ(usageRefusal({"inspect", ""}), "argument 2 is empty");
+}
+
+TEST_F(CommandLine, ReportEstimatesTheErrorOfAMesh) {
+  const std::string mesh = write("box.obj", objText(makeBoxMesh({1, 2, 3}, 12)));
+  const json report = resultOf({"report", mesh, "--scale", "0.1", "--panels", "800", "--json"});
+  EXPECT_EQ(report["faces"], 12);
+  EXPECT_GT(report["built"]["panels"], report["other"]["panels"]);
+  EXPECT_GT(report["rotation_error"].get<double>(), 1e-3);
+  EXPECT_LT(report["rotation_error"].get<double>(), 0.2);
+  EXPECT_NEAR(report["thinnest"]["thickness"].get<double>(), 0.2, 1e-6);
+  EXPECT_EQ(report["worst_triangles"].size(), 3u);
+  const ProgramResult table = run({"report", mesh, "--panels", "800"});
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_NE(table.output.find("\nestimated error  "), std::string::npos) << table.output;
+  const std::string open = write("open.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
+  EXPECT_EQ(refusal({"report", open}).find(open + ": not watertight"), 0u);
+  EXPECT_EQ(usageRefusal({"report", mesh, "--panels", "-1"}),
+            "--panels: -1 is below 0 (0: no division)");
+}
+
+TEST_F(CommandLine, ReportDrawsThePotential) {
+  const std::string mesh = write("box.obj", objText(makeBoxMesh({1, 2, 3}, 48)));
+  resultOf({"report", mesh, "--panels", "200", "--picture", path("box.svg"), "--json"});
+  const std::string picture = bytesOfFile("box.svg");
+  EXPECT_EQ(picture.find("<svg "), 0u);
+  EXPECT_NE(picture.find("</svg>"), std::string::npos);
+  EXPECT_NE(picture.find("moves along z at 1 m/s"), std::string::npos);
+  EXPECT_EQ(usageRefusal({"report", mesh, "--picture", path("box.png")}),
+            "--picture: \"" + path("box.png") + "\" does not end in .svg");
+  EXPECT_EQ(refusal({"report", mesh, "--picture", path("none/box.svg")}),
+            path("none/box.svg") + ": the directory \"" + path("none") + "\" does not exist");
+}
+
+TEST_F(CommandLine, MistypedCommandsAreCorrected) {
+  EXPECT_EQ(run({"bild"}).errors,
+            "ambient_preprocess: unknown command 'bild'; did you mean 'build'?\n");
+  EXPECT_EQ(run({"inpsect", "x"}).errors,
+            "ambient_preprocess: unknown command 'inpsect'; did you mean 'inspect'?\n");
+  EXPECT_EQ(run({"something"}).errors,
+            "ambient_preprocess: unknown command 'something'; --help lists them\n");
+  EXPECT_EQ(run({"something"}).exit_code, 2);
+}
+
+TEST_F(CommandLine, NamesThatAreNotUtf8AreShownWithReplacements) {
+  resultOf({"build", write("ball.json", sphereText()), "-o", path("b.ambient"), "--json"});
+  FluidBody body = readFluidBody(path("b.ambient"));
+  body.name = "caf\xe9";
+  writeFluidBody(body, path("b.ambient"));
+  EXPECT_EQ(resultOf({"inspect", path("b.ambient"), "--json"})["name"], "caf\xef\xbf\xbd");
+}
+
+TEST_F(CommandLine, HelpAndVersionEndWithZero) {
+  for (const Arguments& arguments :
+       std::vector<Arguments>{{"--help"}, {"build", "--help"}, {"--version"}}) {
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.output, "");
+    EXPECT_EQ(result.errors, "");
+  }
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/force/face_loads.h"
+#include "tests/preprocess/command_line/command_line.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(CommandLine, LoadsAreThoseOfTheForceModel) {
+  const std::string box = write("box.json", R"({"type":"box","half_sizes":[1,2,3],"faces":300})");
+  resultOf({"build", box, "-o", path("b.ambient"), "--panels", "0", "--json"});
+  const json loads =
+      resultOf({"loads", path("b.ambient"), "--twist", "0.1", "-2", ".3", "-1e-1", "-.5", "6",
+                "--density", "1.2", "--viscosity", "1.8e-5", "--separation-angle", "2", "--json"});
+  const FluidBody body = readFluidBody(path("b.ambient"));
+  LoadSettings settings;
+  settings.density = 1.2;
+  settings.viscosity = 1.8e-5;
+  settings.separation_cosine = std::cos(2.0);
+  const Twist twist{{0.1, -2, 0.3}, {-0.1, -0.5, 6}};
+  const FaceLoads expected = computeFaceLoads(body.faces, std::sqrt(body.area), twist, settings);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(loads["pressure"][i].get<double>(), expected.pressure.vector()[i]);
+    EXPECT_EQ(loads["friction"][i].get<double>(), expected.friction.vector()[i]);
+    EXPECT_EQ(loads["total"][i].get<double>(), expected.total().vector()[i]);
+  }
+  EXPECT_LT(loads["friction"][5].get<double>(), 0);
+  EXPECT_LT(loads["pressure"][5].get<double>(), 0);
+}
+
+TEST_F(CommandLine, LoadsSeparateAtARightAngleByDefault) {
+  resultOf({"build", write("ball.json", R"({"type":"sphere","radius":0.5})"), "-o",
+            path("b.ambient"), "--json"});
+  const Arguments motion{"loads", path("b.ambient"), "--twist", "0",     "0", "0", "0", "0",
+                         "2",     "--density",       "3",       "--json"};
+  const json loads = resultOf(motion);
+  // C_D = 1/2 on pi R^2 (sin^4(alpha) / 2, integrated), the facets play no part.
+  const double drag = 0.5 * 3 * 2 * 2 * 0.5 * 3.14159265358979324 * 0.25;
+  EXPECT_NEAR(loads["pressure"][5].get<double>(), -drag, 1e-12 * drag);
+  EXPECT_EQ(loads["friction"][5].get<double>(), 0) << "no viscosity, no friction";
+  Arguments right_angle = motion;
+  right_angle.insert(right_angle.end(), {"--separation-angle", "1.5707963"});
+  EXPECT_EQ(resultOf(right_angle), loads);
+  Arguments without = motion;
+  without.insert(without.end(), {"--viscosity", "1e-3", "--no-friction"});
+  EXPECT_EQ(resultOf(without), loads);
+}
+
+TEST_F(CommandLine, LoadsOnASphereAboutAnotherOriginAreThoseAtItsCentre) {
+  const std::string ball = write("ball.json", sphereText());
+  resultOf({"build", ball, "-o", path("b.ambient"), "--json"});
+  resultOf({"build", ball, "-o", path("off.ambient"), "--origin", "0,0,-2", "--json"});
+  const auto loadsOf = [&](const std::string& file, const char* vx) {
+    return resultOf({"loads", path(file), "--twist", "0", "3", "1", vx, "0", "5", "--density", "2",
+                     "--viscosity", "1e-3", "--separation-angle", "2.2", "--json"})["total"];
+  };
+  // The centre is at (0, 0, 2): it moves with v + w x r, 6 m/s more along x.
+  const json centred = loadsOf("b.ambient", "7"), off = loadsOf("off.ambient", "1");
+  const auto at = [](const json& loads, int i) { return loads[i].get<double>(); };
+  for (int i = 3; i < 6; ++i) EXPECT_NEAR(at(off, i), at(centred, i), 1e-12) << i;
+  EXPECT_NEAR(at(off, 0), at(centred, 0) - 2 * at(centred, 4), 1e-12);
+  EXPECT_NEAR(at(off, 1), at(centred, 1) + 2 * at(centred, 3), 1e-12);
+  EXPECT_NEAR(at(off, 2), at(centred, 2), 1e-12);
+  EXPECT_GT(std::abs(at(centred, 3)), 1);
+}
+
+TEST_F(CommandLine, LoadsPrintATable) {
+  resultOf({"build", write("ball.json", sphereText()), "-o", path("b.ambient"), "--json"});
+  const ProgramResult loads =
+      run({"loads", path("b.ambient"), "--twist", "0", "0", "0", "1", "0", "0", "--density", "1"});
+  EXPECT_EQ(loads.exit_code, 0);
+  EXPECT_NE(loads.output.find("\npressure "), std::string::npos) << loads.output;
+  EXPECT_NE(loads.output.find("\ntotal "), std::string::npos) << loads.output;
+}
+
+TEST_F(CommandLine, BadLoadsAreRefusedByName) {
+  resultOf({"build", write("ball.json", sphereText()), "-o", path("b.ambient"), "--json"});
+  const auto with = [&](const Arguments& more, const std::string& density = "1") {
+    Arguments arguments{"loads", path("b.ambient"), "--twist", "0", "0", "0", "1", "0",
+                        "0",     "--density",       density};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return usageRefusal(arguments);
+  };
+  EXPECT_EQ(with({}, "-1"), "--density: -1 kg/m^3 must be finite and not negative");
+  EXPECT_EQ(with({}, "inf"), "--density: inf kg/m^3 must be finite and not negative");
+  EXPECT_EQ(with({"--viscosity", "-1"}), "--viscosity: -1 Pa s must be finite and not negative");
+  EXPECT_EQ(with({"--separation-angle", "1.5"}),
+            "--separation-angle: 1.5 rad must lie between pi/2 and pi");
+  EXPECT_EQ(with({"--separation-angle", "4"}),
+            "--separation-angle: 4 rad must lie between pi/2 and pi");
+  EXPECT_EQ(usageRefusal({"loads", path("b.ambient"), "--twist", "0", "0", "0", "nan", "0", "0",
+                          "--density", "1"}),
+            "--twist: number 4 is nan, must be finite");
+  EXPECT_NE(refusal({"loads", path("b.ambient"), "--twist", "0", "0", "0", "1e200", "0", "0",
+                     "--density", "1"})
+                .find("beyond the largest number"),
+            std::string::npos);
+  const std::string overflow =
+      refusal({"polar", path("b.ambient"), "--speed", "1e200", "--attack", "0"});
+  EXPECT_NE(overflow.find("speed or reference is too large"), std::string::npos) << overflow;
+}
+
+}  // namespace
+}  // namespace ambient

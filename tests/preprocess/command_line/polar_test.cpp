@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/mesh/primitives.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ambient {
+namespace {
+
+const double kPi = std::acos(-1.0);
+
+/// One row of the CSV.
+using Row = std::array<double, 8>;
+enum Column { kAttack, kSideSlip, kLift, kDrag, kSide, kRoll, kPitch, kYaw };
+
+class Polar : public ::testing::Test {
+ protected:
+  std::string write(const TriangleMesh& mesh, bool sheet = false) const {
+    BuildSettings settings;
+    settings.name = "body";
+    settings.max_panels = 0;
+    settings.sheet = sheet;
+    const std::string file = (folder_ / "body.ambient").string();
+    writeFluidBody(makeFluidBody(mesh, settings), file);
+    return file;
+  }
+
+  static ProgramResult run(const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"polar", file};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(AMBIENT_PREPROCESS, arguments);
+  }
+
+  static std::vector<Row> polar(const std::string& file, const std::vector<std::string>& more) {
+    const ProgramResult result = run(file, more);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    std::istringstream lines(result.output);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "attack,side_slip,C_L,C_D,C_Y,C_l,C_m,C_n");
+    std::vector<Row> rows;
+    while (std::getline(lines, line)) {
+      std::istringstream cells(line);
+      Row row{};
+      for (double& cell : row) {
+        cells >> cell;
+        cells.ignore();
+      }
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+  TemporaryFolder folder_;
+};
+
+// The slip velocity on the windward side is V cos a: C_N = cos^2 a.
+TEST_F(Polar, FlatPlateHasItsClosedForm) {
+  const std::string plate = write(makeRectangularSheetMesh(2, 3, 200), true);
+  const std::vector<Row> rows = polar(plate, {"--attack", "-30:60:30"});
+  ASSERT_EQ(rows.size(), 4u);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double a = rows[i][kAttack] * kPi / 180, c = std::cos(a);
+    const double side = (a > 0) - (a < 0);
+    EXPECT_NEAR(rows[i][kAttack], -30 + 30.0 * static_cast<double>(i), 1e-9);
+    EXPECT_NEAR(rows[i][kLift], side * c * c * c, 1e-8);
+    EXPECT_NEAR(rows[i][kDrag], c * c * std::abs(std::sin(a)), 1e-8);
+    EXPECT_NEAR(rows[i][kPitch], 0, 1e-8);
+  }
+}
+
+// Surface integrals of the model over the smooth body: F / (rho/2) and T / (rho/2) at V = 1.
+TEST_F(Polar, ObliqueSpheroidAgreesWithQuadrature) {
+  const std::string disc = write(makeEllipsoidMesh({1, 1, 0.2}, 5000));
+  const Row row =
+      polar(disc, {"--attack", "30", "--reference-area", "1", "--reference-length", "1"})[0];
+  const double force_x = -0.03831223759085936, force_z = 2.1569881366057917,
+               torque_y = 0.22698823654312306;
+  const double c = std::cos(kPi / 6), s = 0.5;
+  // The facets of 5000 triangles; measured 3.9e-3.
+  EXPECT_NEAR(row[kLift], force_x * s + force_z * c, 5e-3);
+  EXPECT_NEAR(row[kDrag], -force_x * c + force_z * s, 5e-3);
+  EXPECT_NEAR(row[kPitch], -torque_y, 5e-3);
+}
+
+TEST_F(Polar, ASphereHasHalfOfItsSilhouetteAtEveryAngle) {
+  BuildSettings settings;
+  settings.max_panels = 0;
+  settings.sphere_radius = 0.5;
+  const std::string file = (folder_ / "ball.ambient").string();
+  writeFluidBody(makeFluidBody(makeEllipsoidMesh({0.5, 0.5, 0.5}, 80), settings), file);
+  for (const Row& row : polar(file, {"--attack", "-90:90:45", "--side-slip", "0:30:15"})) {
+    EXPECT_NEAR(row[kDrag], 0.5, 1e-9);
+    for (const Column column : {kLift, kSide, kRoll, kPitch, kYaw})
+      EXPECT_NEAR(row[column], 0, 1e-9) << column;
+  }
+}
+
+TEST_F(Polar, SideSlipAndOtherAxesAreTheSameBodyTurned) {
+  const TriangleMesh wing = moved(makeBoxMesh({1, 3, 0.2}, 800), {0.3, 0.4, 0.5});
+  const std::vector<std::string> angles{"--attack", "20", "--side-slip", "-15"};
+  const Row row = polar(write(wing), angles)[0];
+  // Forward x becomes z, up z becomes -y.
+  Eigen::Matrix3d turn;
+  turn << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  std::vector<std::string> turned = angles;
+  turned.insert(turned.end(), {"--forward", "z", "--up", "-y"});
+  const Row same = polar(write(rotated(wing, turn)), turned)[0];
+  for (int k = kLift; k <= kYaw; ++k) EXPECT_NEAR(same[k], row[k], 1e-8) << k;
+  EXPECT_GT(std::abs(row[kSide]), 1e-3);
+}
+
+TEST_F(Polar, WindFromTheRightPushesToTheLeft) {
+  const std::string ball = write(makeEllipsoidMesh({1, 1, 1}, 1280));
+  const std::vector<Row> rows = polar(ball, {"--attack", "0", "--side-slip", "0:40:40"});
+  for (const Row& row : rows) {
+    // The drag of a ball turns with the flow: 1/2 of its silhouette.
+    // What remains across the flow is that of the facets, measured 6e-3.
+    EXPECT_NEAR(row[kDrag], 0.5, 5e-3);
+    EXPECT_NEAR(row[kSide], 0, 1e-2);
+  }
+  const std::string fin = write(makeBoxMesh({1, 0.02, 1}, 800));
+  const Row side = polar(fin, {"--attack", "0", "--side-slip", "20", "--reference-area", "4",
+                               "--reference-length", "1"})[0];
+  EXPECT_LT(side[kSide], -0.1);
+}
+
+TEST_F(Polar, BadAnglesAndAxesAreRefused) {
+  const std::string file = write(makeBoxMesh({1, 1, 1}, 12));
+  const auto refusal = [&](const std::vector<std::string>& more, int exit_code = 2) {
+    const ProgramResult result = run(file, more);
+    EXPECT_EQ(result.exit_code, exit_code);
+    EXPECT_EQ(result.output, "");
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+    return result.errors;
+  };
+  for (const char* range : {"a", "0:10", "0:10:0", "10:0:1", "0:1:1:1", "nan", "0:1e9:1e-9"}) {
+    EXPECT_NE(refusal({"--attack", range}).find("--attack: \"" + std::string(range)),
+              std::string::npos);
+  }
+  EXPECT_EQ(refusal({"--up", "w"}),
+            "ambient_preprocess: --up: \"w\" is none of x, y, z, -x, -y, -z\n");
+  EXPECT_EQ(refusal({"--up", "-x"}), "ambient_preprocess: --up: -x is along --forward x\n");
+  EXPECT_EQ(
+      refusal({"--attack", "0:90:0.001", "--side-slip", "0:90:1"}),
+      "ambient_preprocess: --side-slip: 90001 angles of attack times 91 of side-slip are more "
+      "than 1000000\n");
+  EXPECT_EQ(refusal({"--speed", "1e200"}, 1),
+            "ambient_preprocess: " + file +
+                ": a coefficient at an angle of attack of -90 degrees "
+                "is not finite: speed or reference is too large or too small\n");
+  EXPECT_EQ(refusal({"--speed", "0"}),
+            "ambient_preprocess: --speed: 0 must be finite and positive\n");
+}
+
+}  // namespace
+}  // namespace ambient

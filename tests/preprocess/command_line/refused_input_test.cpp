@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include "preprocess/mesh/primitives.h"
+#include "tests/preprocess/command_line/command_line.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(CommandLine, BadMeshesAreRefusedInOneLineThatNamesTheFile) {
+  const TriangleMesh tetrahedron = unitTetrahedron();
+  const std::string missing = path("no such.obj");
+  EXPECT_EQ(buildRefusal(missing), missing + ": no such file");
+  const std::string foreign = write("notes.txt", "these are notes");
+  EXPECT_EQ(buildRefusal(foreign).find(foreign + ": cannot be read as a mesh: "), 0u);
+  const std::string open = write("open.obj", objText(withoutTriangle(tetrahedron, 3)));
+  EXPECT_EQ(buildRefusal(open).find(open + ": not watertight: 3 boundary edges, for example from "
+                                           "vertex "),
+            0u);
+  const std::string flat = write("flat.obj", objText(makeEllipsoidMesh({1, 1, 1e-7}, 320)));
+  EXPECT_EQ(buildRefusal(flat).find(flat + ": "), 0u);
+  std::string text = objText(tetrahedron);
+  text.replace(text.find("v 1 0 0"), 7, "v 1 nan 0");
+  const std::string nan = write("nan.obj", text);
+  EXPECT_EQ(buildRefusal(nan).find(nan + ": vertex "), 0u);
+  EXPECT_NE(buildRefusal(nan).find(" = nan, must be finite"), std::string::npos);
+  const std::string closed = write("closed.obj", objText(tetrahedron));
+  EXPECT_NE(buildRefusal(closed, {"--sheet"}).find("is closed: a sheet needs a boundary"),
+            std::string::npos);
+}
+
+TEST_F(CommandLine, BadShapesAreRefusedInOneLineThatNamesTheFile) {
+  const std::string typo = write("typo.json", R"({"type":"sphere","radios":1})");
+  EXPECT_EQ(buildRefusal(typo).find(typo + ": "), 0u);
+  const std::string negative = write("negative.json", R"({"type":"sphere","radius":-1})");
+  EXPECT_EQ(buildRefusal(negative).find(negative + ": radius = -1 in shape \"sphere\""), 0u);
+  const std::string lost = write("lost.json", R"({"type":"mesh","file":"lost.obj"})");
+  EXPECT_EQ(buildRefusal(lost), path("lost.obj") + ": no such file");
+  const std::string built = write("built.json", R"({"type":"fluid_body","file":"x.ambient"})");
+  EXPECT_EQ(buildRefusal(built), built + ": a shape \"fluid_body\" is built already");
+  const std::string ball = write("ball.json", sphereText());
+  EXPECT_EQ(buildRefusal(ball, {"--sheet"}), ball + ": --sheet needs a shape of type \"sheet\"");
+}
+
+TEST_F(CommandLine, ShapesBeyondWhatCanBeSolvedAreRefused) {
+  const auto refusalOf = [&](const std::string& shape) {
+    const std::string file = write("shape.json", shape),
+                      message = buildRefusal(file, {"--panels", "0"});
+    EXPECT_EQ(refusal({"report", file, "--panels", "0"}), message);
+    EXPECT_EQ(message.find(file + ": "), 0u) << message;
+    return message.substr(std::min(message.size(), file.size() + 2));
+  };
+  EXPECT_EQ(refusalOf(R"({"type":"sphere","radius":1e300})"),
+            "the diagonal of its bounding box is not finite; it must be 1e-9 m to 1e9 m");
+  EXPECT_EQ(refusalOf(R"({"type":"box","half_sizes":[1,1,1e-12],"faces":48})")
+                .find("it is too thin: its volume over its area^1.5 is "),
+            0u);
+  EXPECT_EQ(refusalOf(R"({"type":"sheet","size":[1e-200,1],"faces":50})"),
+            "it is too narrow: its area over the square of its size must be at least 1e-12");
+  EXPECT_EQ(refusalOf("{\"type\":\"sphere\",\"radius\":1,\"a\\nb\":2}")
+                .find("unknown key \"a\\nb\" in shape"),
+            0u);
+}
+
+TEST_F(CommandLine, BadValuesOfOptionsAreRefusedByName) {
+  const std::string ball = write("ball.json", sphereText());
+  const auto refused = [&](const char* option, const char* value) {
+    const std::string message = buildUsageRefusal(ball, {option, value});
+    const std::string beginning = std::string(option) + ": ";
+    EXPECT_EQ(message.find(beginning), 0u) << message;
+    return message.substr(std::min(message.size(), beginning.size()));
+  };
+  for (const char* scale : {"0", "-1", "nan", "inf"})
+    EXPECT_EQ(refused("--scale", scale), std::string(scale) + " must be finite and positive");
+  EXPECT_EQ(refused("--scale", "1e400"), "inf must be finite and positive");
+  EXPECT_EQ(refused("--threads", "-1"), "-1 is below 0 (0: all cores)");
+  EXPECT_EQ(refused("--threads", "1000"), "1000 is above 256");
+  for (const char* option : {"--panels", "--least-faces"}) {
+    EXPECT_EQ(refused(option, "2000000"), "2000000 is above 1000000");
+    EXPECT_EQ(refused(option, "-1"), "-1 is below 0 (0: no division)");
+  }
+  EXPECT_EQ(refused("--levels", "15"), "15 clusters are not 16 to 1024");
+  EXPECT_EQ(refused("--separation-angle", "1.5"), "1.5 rad must lie between pi/2 and pi");
+  EXPECT_EQ(refused("--solver", "sparse"), "\"sparse\" is neither dense nor hierarchical");
+  EXPECT_EQ(refused("--memory", "-2"), "-2 GB must be finite and positive");
+  EXPECT_EQ(buildUsageRefusal(ball, {"--no-margins"}), "--no-margins: only worlds have margins");
+  for (const char* origin : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf", "centre", "1,2,3x", "nan,0,0"}) {
+    EXPECT_EQ(refused("--origin", origin), "\"" + std::string(origin) +
+                                               "\" is neither centre-of-volume nor three finite "
+                                               "numbers X,Y,Z");
+  }
+}
+
+TEST_F(CommandLine, OriginsFarFromTheBodyAreRefused) {
+  const std::string box = write("box.json", R"({"type":"box","half_sizes":[1,2,2],"faces":48})");
+  EXPECT_EQ(buildRefusal(box, {"--origin", "1e308,0,0"}),
+            box +
+                ": the body reaches 1e+308 m from its origin, more than 1000000 times its size of "
+                "6 m");
+  EXPECT_EQ(buildRefusal(box, {"--origin", "0,0,7e6"}).find(box + ": the body reaches 7000002 m"),
+            0u);
+}
+
+TEST_F(CommandLine, WhatDoesNotFitTheMachineIsRefused) {
+  const std::string ball = write("ball.json", sphereText());
+  EXPECT_NE(buildRefusal(ball, {"--solver", "dense", "--memory", "0.001"})
+                .find("GB of memory, more than the 0.001 GB"),
+            std::string::npos);
+  const std::string nowhere = path("no folder/out.ambient");
+  EXPECT_EQ(refusal({"build", ball, "-o", nowhere}),
+            nowhere + ": the directory \"" + path("no folder") + "\" does not exist");
+  EXPECT_EQ(refusal({"build", ball, "-o", ball}), ball + ": the output would replace the input");
+  EXPECT_EQ(bytesOfFile("ball.json"), sphereText());
+}
+
+TEST_F(CommandLine, BadAmbientFilesAreRefusedByInspectAndLoads) {
+  resultOf({"build", write("ball.json", sphereText()), "-o", path("b.ambient"), "--json"});
+  const std::string bytes = bytesOfFile("b.ambient");
+  std::string flipped = bytes;
+  flipped[bytes.size() / 2] = static_cast<char>(flipped[bytes.size() / 2] ^ 1);
+  for (const std::string& file :
+       {path("missing.ambient"), write("empty.ambient", ""), write("foreign.ambient", "solid x"),
+        write("short.ambient", bytes.substr(0, bytes.size() / 2)),
+        write("flipped.ambient", flipped), write("mesh.obj", objText(unitTetrahedron()))}) {
+    EXPECT_NE(refusal({"inspect", file}).find(file), std::string::npos);
+    EXPECT_NE(refusal({"loads", file, "--twist", "0", "0", "0", "1", "0", "0", "--density", "1"})
+                  .find(file),
+              std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,327 @@
+#include "preprocess/mesh/mesh_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/weld_vertices.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+std::string refusal(const TriangleMesh& mesh, const MeshCheckSettings& settings = {}) {
+  return messageOf([&] { checkMesh(mesh, "thing.obj", settings); });
+}
+
+TriangleMesh cube(double half_size) {
+  return makeBoxMesh(Eigen::Vector3d::Constant(half_size), 12);
+}
+
+bool areEqual(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.vertices == b.vertices && a.triangles == b.triangles;
+}
+
+TEST(MeshChecks, SoundMeshesPassUnchanged) {
+  for (const TriangleMesh& mesh :
+       {makeEllipsoidMesh({0.05, 0.05, 0.01}, 1300), makeBoxMesh({1, 1, 1e-3}, 300),
+        makeCylinderMesh(0.01, 3, 400), makeConeMesh(1, 1, 100), unitTetrahedron()}) {
+    const CheckedMesh checked = checkMesh(mesh, "thing.obj");
+    EXPECT_TRUE(areEqual(checked.mesh, mesh));
+    EXPECT_TRUE(checked.warnings.empty());
+  }
+  const TriangleMesh sheet = makeEllipticSheetMesh(1, 2, 100);
+  EXPECT_TRUE(areEqual(checkMesh(sheet, "sheet.obj", {true}).mesh, sheet));
+}
+
+// No absolute limits: the same verdict from nanometres to gigametres.
+TEST(MeshChecks, VerdictsDoNotDependOnTheUnit) {
+  for (const double unit : {1e-60, 1e-9, 1.0, 1e9, 1e60}) {
+    EXPECT_EQ(refusal(scaled(makeBoxMesh({1, 1, 1e-4}, 300), unit)), "no error") << unit;
+    const TriangleMesh collapsed = makeBoxMesh({unit, unit, 1e-8 * unit}, 12);
+    EXPECT_NE(refusal(collapsed), "no error") << unit;
+  }
+}
+
+TEST(MeshChecks, MissingTrianglesAreRefused) {
+  EXPECT_EQ(refusal({}), "thing.obj: there are no triangles");
+}
+
+TEST(MeshChecks, CoordinatesThatAreNotFiniteAreNamed) {
+  TriangleMesh mesh = cube(1);
+  mesh.vertices(1, 5) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refusal(mesh), "thing.obj: vertex 5 has the coordinate y = nan, must be finite");
+  mesh.vertices(1, 5) = -std::numeric_limits<double>::infinity();
+  EXPECT_EQ(refusal(mesh), "thing.obj: vertex 5 has the coordinate y = -inf, must be finite");
+}
+
+TEST(MeshChecks, IndicesOutOfRangeAreNamed) {
+  for (const int index : {8, -1}) {
+    TriangleMesh mesh = cube(1);
+    mesh.triangles(2, 3) = index;
+    EXPECT_EQ(refusal(mesh), "thing.obj: triangle 3 refers to vertex " + std::to_string(index) +
+                                 ", but there are 8 vertices");
+  }
+}
+
+TEST(MeshChecks, DegenerateTrianglesAreNamedWithTheLimit) {
+  TriangleMesh mesh = unitTetrahedron();
+  mesh.vertices.col(3) << 0.5, 1e-8, 0;
+  EXPECT_EQ(refusal(mesh),
+            "thing.obj: triangle 1 is degenerate: its height is 1e-08 of its longest edge, at "
+            "least 1e-07 needed; corners 0 (0, 0, 0), 1 (1, 0, 0), 3 (0.5, 1e-08, 0)");
+  mesh = unitTetrahedron();
+  mesh.triangles(2, 1) = mesh.triangles(1, 1);
+  EXPECT_NE(refusal(mesh).find("triangle 1 is degenerate: its height is 0"), std::string::npos);
+}
+
+TEST(MeshChecks, DuplicateTrianglesAreNamed) {
+  const TriangleMesh mesh = unitTetrahedron();
+  TriangleMesh doubled = mesh;
+  doubled.triangles.conservativeResize(3, 5);
+  doubled.triangles.col(4) << 1, 0, 2;
+  EXPECT_EQ(refusal(doubled),
+            "thing.obj: triangles 0 and 4 have the same corners: vertices 0 (0, 0, 0), 1 (1, 0, "
+            "0), 2 (0, 1, 0)");
+}
+
+TEST(MeshChecks, OpenMeshesAreRefusedWithTheNumberOfBoundaryEdgesAndAnExample) {
+  EXPECT_EQ(refusal(withoutTriangle(unitTetrahedron(), 3)),
+            "thing.obj: not watertight: 3 boundary edges, for example from vertex 1 (1, 0, 0) to "
+            "vertex 2 (0, 1, 0) of triangle 0");
+}
+
+TEST(MeshChecks, EdgesOfMoreThanTwoTrianglesAreRefused) {
+  // Two tetrahedra that share the edge from vertex 0 to vertex 1.
+  TriangleMesh mesh = joined(
+      unitTetrahedron(),
+      rotated(
+          unitTetrahedron(),
+          Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitX()).toRotationMatrix()));
+  EXPECT_EQ(refusal(mesh).find("not manifold"), std::string::npos);
+  mesh = weldVertices(mesh, 1e-12);
+  EXPECT_EQ(refusal(mesh),
+            "thing.obj: not manifold: 1 edges with more than 2 triangles, for example vertex 0 (0, "
+            "0, 0) to vertex 1 (1, 0, 0) with 4");
+}
+
+TEST(MeshChecks, VerticesWherePartsTouchAreRefused) {
+  const TriangleMesh mesh =
+      weldVertices(joined(unitTetrahedron(), scaled(insideOut(unitTetrahedron()), -1)), 0);
+  EXPECT_EQ(refusal(mesh),
+            "thing.obj: not manifold: separate parts of the surface touch at vertex 0 (0, 0, 0), "
+            "triangles 0 and 4");
+}
+
+TEST(MeshChecks, InsideOutMeshesAreTurnedWithAWarning) {
+  const TriangleMesh mesh = makeBoxMesh({1, 2, 3}, 300);
+  const CheckedMesh checked = checkMesh(insideOut(mesh), "thing.obj");
+  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 48, 1e-12);
+  ASSERT_EQ(checked.warnings.size(), 1u);
+  const std::string count = std::to_string(mesh.triangleCount());
+  EXPECT_EQ(checked.warnings[0], "thing.obj: inside out, " + count + " of " + count +
+                                     " triangles were turned round to point into the fluid");
+}
+
+TEST(MeshChecks, MixedOrientationIsMendedWithAWarning) {
+  TriangleMesh mesh = makeBoxMesh({1, 2, 3}, 300);
+  const TriangleMesh turned = insideOut(mesh);
+  for (const int t : {0, 7, 100}) mesh.triangles.col(t) = turned.triangles.col(t);
+  const CheckedMesh checked = checkMesh(mesh, "thing.obj");
+  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 48, 1e-12);
+  ASSERT_EQ(checked.warnings.size(), 1u);
+  EXPECT_EQ(checked.warnings[0], "thing.obj: 3 of " + std::to_string(mesh.triangleCount()) +
+                                     " triangles were turned round to agree with their neighbours");
+}
+
+TEST(MeshChecks, OnlyThePartThatIsInsideOutIsTurned) {
+  const TriangleMesh apart = joined(cube(1), moved(insideOut(cube(1)), {5, 0, 0}));
+  const CheckedMesh checked = checkMesh(apart, "thing.obj");
+  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 16, 1e-12);
+  ASSERT_EQ(checked.warnings.size(), 1u);
+  EXPECT_EQ(checked.warnings[0],
+            "thing.obj: inside out, 12 of 24 triangles were turned round to point into the fluid");
+}
+
+TEST(MeshChecks, CavitiesAreTakenOutWithAWarning) {
+  const TriangleMesh hollow = joined(cube(2), insideOut(cube(1)));
+  const std::string warning =
+      "thing.obj: 1 cavity of 12.5 % of the volume: the fluid outside does not see what is inside, "
+      "which stays dry and only counts as empty in the uniform mass";
+  for (const TriangleMesh& mesh : {hollow, insideOut(hollow)}) {
+    const CheckedMesh checked = checkMesh(mesh, "thing.obj");
+    EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 64, 1e-12);
+    EXPECT_NEAR(computeMassProperties(joined(checked.mesh, checked.cavities)).volume, 56, 1e-12);
+    EXPECT_EQ(checked.warnings.back(), warning);
+  }
+  const CheckedMesh nested = checkMesh(joined(hollow, cube(0.5)), "thing.obj");  // in the cavity
+  EXPECT_NEAR(computeMassProperties(nested.mesh).volume, 64, 1e-12);
+  EXPECT_NEAR(computeMassProperties(joined(nested.mesh, nested.cavities)).volume, 57, 1e-12);
+}
+
+TEST(MeshChecks, NestedPartsThatCountTwiceAreRefused) {
+  EXPECT_EQ(refusal(joined(cube(2), cube(1))),
+            "thing.obj: the part around triangle 12 at (-1, -1, -1) (12 triangles) lies inside "
+            "another part and points outwards: its volume would count twice; leave it out, or turn "
+            "it round if it is a cavity");
+}
+
+TEST(MeshChecks, PartsThatOverlapOrTouchAreRefused) {
+  const std::string message = "thing.obj: separate parts of the surface overlap or touch at triang";
+  const TriangleMesh box = makeBoxMesh({1, 1, 1}, 300);
+  const Eigen::Vector3d oblique(1.3, 0.4, 0.3), beside(2, 0, 0), shifted(2, 0.3, 0.2);
+  for (const Eigen::Vector3d& by : {oblique, beside, shifted}) {
+    EXPECT_EQ(refusal(joined(box, moved(box, by))).find(message), 0u) << by.transpose();
+    EXPECT_EQ(refusal(scaled(joined(box, moved(box, by)), 1e-60)).find(message), 0u);
+  }
+  EXPECT_EQ(refusal(joined(box, moved(box, {2.001, 0.3, 0.2}))), "no error");
+  EXPECT_EQ(refusal(joined(box, makeBoxMesh({3, 0.5, 0.5}, 300))).find(message), 0u) << "a cross";
+  const TriangleMesh same = joined(box, box);
+  EXPECT_EQ(refusal(same).find(message), 0u) << "one upon the other";
+}
+
+// A sample of points would miss so little.
+TEST(MeshChecks, SmallOverlapsOfLargePartsAreFound) {
+  const TriangleMesh ball = makeEllipsoidMesh({1, 1, 1}, 20000);
+  EXPECT_EQ(refusal(joined(ball, moved(ball, {2.001, 0, 0}))), "no error");
+  EXPECT_NE(refusal(joined(ball, moved(ball, {1.99, 0, 0}))).find("overlap or touch"),
+            std::string::npos);
+}
+
+TEST(MeshChecks, SurfacesThatCrossThemselvesAreWarnedOf) {
+  // One corner of a cube is pulled through the opposite side.
+  TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 1200);
+  Eigen::Index corner = 0;
+  mesh.vertices.colwise().sum().maxCoeff(&corner);
+  mesh.vertices.col(corner) << 0.9, 0.9, -1.1;
+  const CheckedMesh checked = checkMesh(mesh, "thing.obj");
+  ASSERT_EQ(checked.warnings.size(), 1u);
+  EXPECT_EQ(checked.warnings[0].find("thing.obj: the surface crosses itself at triangle "), 0u)
+      << checked.warnings[0];
+}
+
+TEST(MeshChecks, TJunctionsAreRefusedAsOpen) {
+  // The side 0 1 2 of a tetrahedron is divided, its neighbour is not.
+  const TriangleMesh mesh = meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}},
+                                   {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+  EXPECT_NE(refusal(mesh).find("not watertight: 3 boundary edges"), std::string::npos)
+      << refusal(mesh);
+}
+
+TEST(MeshChecks, SurfacesThatEncloseNothingAreRefused) {
+  // Two sheets back to back on one boundary: closed, manifold, oriented, and flat.
+  const TriangleMesh top = makeRectangularSheetMesh(1, 1, 100);
+  TriangleMesh pillow = joined(top, insideOut(top));
+  pillow = weldVertices(pillow, 0);
+  EXPECT_NE(refusal(pillow).find("have the same corners"), std::string::npos);
+  const TriangleMesh flat = makeBoxMesh({1, 1, 1e-7}, 300);
+  EXPECT_NE(refusal(flat).find("thing.obj: "), std::string::npos);
+  const TriangleMesh spheroid = makeEllipsoidMesh({1, 1, 1e-7}, 1300);
+  const std::string message = refusal(spheroid);
+  EXPECT_NE(message.find("encloses no volume: volume / area^1.5 = "), std::string::npos) << message;
+  EXPECT_NE(message.find("at least 1e-06 needed"), std::string::npos) << message;
+}
+
+TEST(MeshChecks, OneSidedSurfacesAreRefused) {
+  // A strip of ten triangles, its ends joined with a half turn.
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector3i> triangles;
+  const int n = 10;
+  for (int i = 0; i < n; ++i) {
+    const double turn = 2 * 3.14159265358979323846 * i / n;
+    const Eigen::Vector3d radial(std::cos(turn), std::sin(turn), 0);
+    const Eigen::Vector3d across =
+        std::cos(turn / 2) * radial + std::sin(turn / 2) * Eigen::Vector3d::UnitZ();
+    for (const double offset : {-0.3, 0.0, 0.3}) vertices.push_back(radial + offset * across);
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < 2; ++k) {
+      const bool last = i + 1 == n;
+      const int a = 3 * i + k, b = a + 1;
+      const int d = last ? 2 - k : a + 3, c = last ? 1 - k : b + 3;
+      triangles.push_back({a, d, c});
+      triangles.push_back({a, c, b});
+    }
+  }
+  EXPECT_NE(refusal(meshOf(vertices, triangles), {true}).find("one-sided"), std::string::npos);
+}
+
+TEST(MeshChecks, UnusedVerticesAreLeftOutWithAWarning) {
+  TriangleMesh mesh = cube(1);
+  mesh.vertices.conservativeResize(3, 10);
+  mesh.vertices.col(9) = mesh.vertices.col(0);
+  mesh.vertices.col(8) << 7, 8, 9;
+  mesh.vertices.col(0) << -7, 8, 9;
+  mesh.triangles = (mesh.triangles.array() == 0).select(9, mesh.triangles);
+  const CheckedMesh checked = checkMesh(mesh, "thing.obj");
+  EXPECT_EQ(checked.mesh.vertexCount(), 8);
+  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 8, 1e-14);
+  ASSERT_EQ(checked.warnings.size(), 1u);
+  EXPECT_EQ(checked.warnings[0], "thing.obj: 2 vertices belong to no triangle and were left out");
+}
+
+TEST(MeshChecks, SheetsMustBeOpenInEveryPart) {
+  const std::string ending = "is closed: a sheet needs a boundary (a closed surface is a body)";
+  const std::string message = refusal(cube(1), {true});
+  EXPECT_NE(message.find("thing.obj: the surface around triangle 0 at vertex 0 (-1, "),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find(ending), std::string::npos);
+  const TriangleMesh mixed = joined(makeRectangularSheetMesh(1, 1, 100), moved(cube(1), {5, 0, 0}));
+  EXPECT_NE(refusal(mixed, {true}).find(ending), std::string::npos);
+}
+
+TEST(MeshChecks, VerticesInsideEveryPartOfASheetAreSeen) {
+  const TriangleMesh square =
+      meshOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  EXPECT_EQ(checkMesh(square, "thing.obj", {true}).mesh.triangleCount(), 2);
+  EXPECT_FALSE(hasVerticesInside(square));
+  const TriangleMesh fine = makeRectangularSheetMesh(1, 1, 100);
+  EXPECT_TRUE(hasVerticesInside(fine));
+  EXPECT_FALSE(hasVerticesInside(joined(fine, moved(square, {5, 0, 0}))));
+}
+
+TEST(MeshChecks, SheetsKeepTheSideOfMostTriangles) {
+  TriangleMesh mesh = makeRectangularSheetMesh(1, 2, 200);
+  const TriangleMesh turned = insideOut(mesh);
+  mesh.triangles.col(0) = turned.triangles.col(0);
+  const CheckedMesh checked = checkMesh(mesh, "sheet.obj", {true});
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Eigen::Vector3d a = checked.mesh.corner(t, 0), b = checked.mesh.corner(t, 1),
+                          c = checked.mesh.corner(t, 2);
+    EXPECT_GT((b - a).cross(c - a).z(), 0);
+  }
+  EXPECT_EQ(checked.warnings.size(), 1u);
+}
+
+TEST(WeldVertices, JoinsWhatIsCloserThanTheToleranceAndNothingElse) {
+  const double tolerance = 1e-3;
+  const TriangleMesh soup = meshOf(
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0.9e-3}, {1, 1, 0}, {0, 1.0005, 0}, {0, 1, 1.1e-3}},
+      {{0, 1, 2}, {3, 4, 5}, {6, 0, 1}, {2, 5, 4}});
+  const TriangleMesh welded = weldVertices(soup, tolerance);
+  ASSERT_EQ(welded.vertexCount(), 5);
+  EXPECT_EQ(welded.vertices.col(1), soup.vertices.col(1));
+  ASSERT_EQ(welded.triangleCount(), 3) << "the last triangle has lost a corner";
+  EXPECT_EQ(welded.triangles.col(1), Eigen::Vector3i(1, 3, 2));
+  EXPECT_EQ(welded.triangles.col(2), Eigen::Vector3i(4, 0, 1));
+}
+
+TEST(WeldVertices, FindsNeighboursAcrossCells) {
+  // 1000 vertices, each doubled at 0.9 of the tolerance in a direction of its own.
+  std::vector<Eigen::Vector3d> vertices;
+  for (int i = 0; i < 1000; ++i) {
+    const int row = i / 10, layer = i / 100;
+    const Eigen::Vector3d p(0.1 * (i % 10), 0.1 * (row % 10), 0.1 * layer);
+    const Eigen::Vector3d direction(std::sin(i), std::sin(2 * i + 1), std::cos(3 * i));
+    vertices.push_back(p);
+    vertices.push_back(p + 0.9e-4 * direction.normalized());
+  }
+  EXPECT_EQ(weldVertices(meshOf(vertices, {}), 1e-4).vertexCount(), 1000);
+  EXPECT_EQ(weldVertices(meshOf(vertices, {}), 0.8e-4).vertexCount(), 2000);
+}
+
+}  // namespace
+}  // namespace ambient

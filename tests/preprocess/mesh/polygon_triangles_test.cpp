@@ -1,0 +1,86 @@
+#include "preprocess/mesh/polygon_triangles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+using Polygon = std::vector<Eigen::Vector3d>;
+
+Eigen::Vector3d areaVector(const Polygon& polygon) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    sum += polygon[i].cross(polygon[(i + 1) % polygon.size()]) / 2;
+  }
+  return sum;
+}
+
+// Sum of the areas of the triangles, negative where one turns against the polygon: equal to the
+// polygon's area only if they cover it without overlap.
+void expectCovered(const Polygon& polygon, const std::string& what) {
+  const auto triangles = dividePolygon(polygon);
+  ASSERT_EQ(triangles.size(), polygon.size() - 2) << what;
+  const Eigen::Vector3d area = areaVector(polygon);
+  double sum = 0;
+  for (const Eigen::Vector3i& t : triangles) {
+    const Eigen::Vector3d part = areaVector({polygon[t[0]], polygon[t[1]], polygon[t[2]]});
+    EXPECT_GT(part.dot(area), 0) << what;
+    sum += part.norm();
+  }
+  EXPECT_NEAR(sum / area.norm(), 1, 1e-13) << what;
+}
+
+Polygon inSpace(Polygon polygon) {
+  for (Eigen::Vector3d& corner : polygon) {
+    corner = someRotation() * corner + Eigen::Vector3d(3, -2, 5);
+  }
+  return polygon;
+}
+
+TEST(PolygonTriangles, CoverConcavePolygons) {
+  const Polygon l{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+  for (std::size_t first = 0; first < l.size(); ++first) {
+    Polygon turned = l;
+    std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(first), turned.end());
+    expectCovered(inSpace(turned), "L from corner " + std::to_string(first));
+    std::reverse(turned.begin(), turned.end());
+    expectCovered(inSpace(turned), "reversed L from corner " + std::to_string(first));
+  }
+}
+
+TEST(PolygonTriangles, CoverPolygonsWithCornersOnStraightSides) {
+  const Polygon square{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0},
+                       {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}};
+  expectCovered(square, "square");
+  expectCovered(inSpace(square), "square in space");
+}
+
+TEST(PolygonTriangles, CoverRandomStars) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> radius(0.2, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int n = 4 + trial % 20;
+    Polygon star;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * 3.14159265358979323846 * i / n, r = radius(random);
+      star.push_back({r * std::cos(angle), r * std::sin(angle), 0});
+    }
+    expectCovered(inSpace(star), "star " + std::to_string(trial));
+  }
+}
+
+TEST(PolygonTriangles, SplitQuadsAlongTheBetterDiagonal) {
+  const Polygon kite{{-1, 0, 0}, {0, -0.1, 0}, {1, 0, 0}, {0, 0.1, 0}};
+  for (const Eigen::Vector3i& t : dividePolygon(kite)) {
+    EXPECT_TRUE((t.array() == 1).any() && (t.array() == 3).any()) << "the short diagonal is shared";
+  }
+}
+
+}  // namespace
+}  // namespace ambient

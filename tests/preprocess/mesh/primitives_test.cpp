@@ -1,0 +1,241 @@
+#include "preprocess/mesh/primitives.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_checks.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+struct NamedMesh {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+std::vector<NamedMesh> closedMeshes(int faces) {
+  return {{"ellipsoid", makeEllipsoidMesh({0.5, 0.3, 0.1}, faces)},
+          {"cube", makeBoxMesh({0.5, 0.5, 0.5}, faces)},
+          {"box", makeBoxMesh({0.5, 0.3, 0.02}, faces)},
+          {"cylinder", makeCylinderMesh(0.3, 0.7, faces)},
+          {"coin", makeCylinderMesh(0.3, 0.01, faces)},
+          {"capsule", makeCapsuleMesh(0.3, 0.7, faces)},
+          {"cone", makeConeMesh(0.3, 0.7, faces)},
+          {"needle", makeConeMesh(0.06, 0.9, faces)}};
+}
+
+std::vector<NamedMesh> sheetMeshes(int faces) {
+  return {{"rectangle", makeRectangularSheetMesh(0.5, 0.2, faces)},
+          {"ellipse", makeEllipticSheetMesh(0.5, 0.2, faces)}};
+}
+
+std::map<std::pair<int, int>, int> directedEdges(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, int> edges;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    for (int k = 0; k < 3; ++k) ++edges[{mesh.triangles(k, t), mesh.triangles((k + 1) % 3, t)}];
+  }
+  return edges;
+}
+
+double signedVolume(const TriangleMesh& mesh) {
+  double volume = 0;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    volume += mesh.corner(t, 0).dot(mesh.corner(t, 1).cross(mesh.corner(t, 2))) / 6;
+  }
+  return volume;
+}
+
+double leastArea(const TriangleMesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Eigen::Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    least = std::min(least, (b - a).cross(c - a).norm() / 2);
+  }
+  return least;
+}
+
+// Every triangle of the mesh mirrored at one coordinate plane is a triangle of the mesh.
+bool isMirrorSymmetric(const TriangleMesh& mesh, int axis) {
+  using Point = std::array<long long, 3>;
+  const auto key = [&](int v, double sign) {
+    Point point{};
+    for (int k = 0; k < 3; ++k) {
+      const double x = mesh.vertices(k, v) * (k == axis ? sign : 1.0);
+      point[k] = std::llround(x * 1e10);
+    }
+    return point;
+  };
+  std::set<std::set<Point>> triangles, mirrored;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    std::set<Point> corners, mirrored_corners;
+    for (int k = 0; k < 3; ++k) {
+      corners.insert(key(mesh.triangles(k, t), 1));
+      mirrored_corners.insert(key(mesh.triangles(k, t), -1));
+    }
+    triangles.insert(corners);
+    mirrored.insert(mirrored_corners);
+  }
+  return triangles == mirrored;
+}
+
+TEST(Primitives, ClosedMeshesHaveEveryEdgeOnceInEachDirection) {
+  for (const int faces : {340, 1300}) {
+    for (const auto& [name, mesh] : closedMeshes(faces)) {
+      const auto edges = directedEdges(mesh);
+      for (const auto& [edge, count] : edges) {
+        ASSERT_EQ(count, 1) << name;
+        ASSERT_EQ(edges.count({edge.second, edge.first}), 1u) << name;
+      }
+      // Euler's formula of one sphere-like component: every vertex is used, none is doubled.
+      EXPECT_EQ(mesh.vertexCount(), 2 + mesh.triangleCount() / 2) << name;
+      EXPECT_GT(signedVolume(mesh), 0) << name;
+      EXPECT_GT(leastArea(mesh), 0) << name;
+    }
+  }
+}
+
+TEST(Primitives, SheetsAreDiscsWithNormalUp) {
+  for (const auto& [name, mesh] : sheetMeshes(400)) {
+    const auto edges = directedEdges(mesh);
+    std::set<int> boundary;
+    for (const auto& [edge, count] : edges) {
+      ASSERT_EQ(count, 1) << name;
+      if (edges.count({edge.second, edge.first}) == 0) boundary.insert(edge.first);
+    }
+    const auto edge_count = static_cast<Eigen::Index>((edges.size() + boundary.size()) / 2);
+    EXPECT_EQ(mesh.vertexCount() - edge_count + mesh.triangleCount(), 1) << name;
+    for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+      const Eigen::Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+      ASSERT_GT((b - a).cross(c - a).z(), 0) << name;
+      int on_boundary = 0;
+      for (int k = 0; k < 3; ++k)
+        on_boundary += static_cast<int>(boundary.count(mesh.triangles(k, t)));
+      ASSERT_LT(on_boundary, 3) << name;
+    }
+  }
+}
+
+TEST(Primitives, MeshesAreMirrorSymmetric) {
+  std::vector<NamedMesh> meshes = closedMeshes(1300);
+  for (NamedMesh& sheet : sheetMeshes(400)) meshes.push_back(std::move(sheet));
+  for (const auto& [name, mesh] : meshes) {
+    EXPECT_TRUE(isMirrorSymmetric(mesh, 0)) << name;
+    EXPECT_TRUE(isMirrorSymmetric(mesh, 1)) << name;
+    const bool is_cone = name == "cone" || name == "needle";
+    EXPECT_EQ(isMirrorSymmetric(mesh, 2), !is_cone) << name;
+  }
+}
+
+TEST(Primitives, FaceNumbersStayBelowTheAimAndReachMostOfIt) {
+  for (const int faces : {350, 1300, 5000}) {
+    std::vector<NamedMesh> meshes = closedMeshes(faces);
+    for (NamedMesh& sheet : sheetMeshes(faces)) meshes.push_back(std::move(sheet));
+    for (const auto& [name, mesh] : meshes) {
+      EXPECT_LE(mesh.triangleCount(), faces) << name;
+      EXPECT_GT(mesh.triangleCount(), 0.5 * faces) << name;
+    }
+  }
+  EXPECT_EQ(makeEllipsoidMesh({1, 1, 1}, 1300).triangleCount(), 20 * 8 * 8);
+  EXPECT_EQ(makeBoxMesh({1, 1, 1}, 1300).triangleCount(), 12 * 10 * 10);
+  EXPECT_EQ(makeBoxMesh({1, 1, 1}, 12).triangleCount(), 12);
+}
+
+TEST(Primitives, VerticesLieOnTheSmoothSurface) {
+  const double rounding = 1e-15;
+  const TriangleMesh ellipsoid = makeEllipsoidMesh({0.5, 0.3, 0.1}, 1300);
+  for (Eigen::Index v = 0; v < ellipsoid.vertexCount(); ++v) {
+    const Eigen::Vector3d p = ellipsoid.vertices.col(v);
+    EXPECT_NEAR(Eigen::Vector3d(p.x() / 0.5, p.y() / 0.3, p.z() / 0.1).norm(), 1, rounding);
+  }
+  const TriangleMesh capsule = makeCapsuleMesh(0.3, 0.8, 1300);
+  for (Eigen::Index v = 0; v < capsule.vertexCount(); ++v) {
+    Eigen::Vector3d p = capsule.vertices.col(v);
+    p.z() -= std::clamp(p.z(), -0.4, 0.4);
+    EXPECT_NEAR(p.norm(), 0.3, rounding);
+  }
+  const TriangleMesh cone = makeConeMesh(0.3, 0.8, 1300);
+  for (Eigen::Index v = 0; v < cone.vertexCount(); ++v) {
+    const Eigen::Vector3d p = cone.vertices.col(v);
+    if (p.z() == -0.4) continue;  // the base
+    EXPECT_NEAR(p.head<2>().norm(), 0.3 * (0.4 - p.z()) / 0.8, rounding);
+  }
+}
+
+TEST(Primitives, VolumesConvergeToTheSmoothBodyWithSecondOrder) {
+  const double r = 0.3, h = 0.7;
+  struct Case {
+    std::string name;
+    double volume;
+    std::function<TriangleMesh(int)> make;
+  };
+  const std::vector<Case> cases{
+      {"ellipsoid", 4 * kPi / 3 * 0.5 * 0.3 * 0.1,
+       [](int n) {
+         return makeEllipsoidMesh({0.5, 0.3, 0.1}, n);
+       }},
+      {"cylinder", kPi * r * r * h, [=](int n) { return makeCylinderMesh(r, h, n); }},
+      {"capsule", kPi * r * r * (h + 4 * r / 3), [=](int n) { return makeCapsuleMesh(r, h, n); }},
+      {"cone", kPi * r * r * h / 3, [=](int n) { return makeConeMesh(r, h, n); }}};
+  for (const Case& shape : cases) {
+    const TriangleMesh coarse = shape.make(1300), fine = shape.make(20800);
+    const double coarse_error = 1 - signedVolume(coarse) / shape.volume;
+    const double fine_error = 1 - signedVolume(fine) / shape.volume;
+    EXPECT_GT(fine_error, 0) << shape.name;
+    const double face_ratio =
+        static_cast<double>(fine.triangleCount()) / static_cast<double>(coarse.triangleCount());
+    const double order = 2 * std::log(coarse_error / fine_error) / std::log(face_ratio);
+    EXPECT_NEAR(order, 2, 0.15) << shape.name << " " << coarse_error << " " << fine_error;
+  }
+  EXPECT_NEAR(signedVolume(makeBoxMesh({0.5, 0.3, 0.02}, 1300)), 8 * 0.5 * 0.3 * 0.02, 1e-16);
+}
+
+TEST(Primitives, ImpossibleSizesAreRefusedByName) {
+  EXPECT_EQ(messageOf([] {
+              makeEllipsoidMesh({1, -2, 1}, 1000);
+            }),
+            "ellipsoid: semi-axis = -2 m is not positive and finite");
+  EXPECT_EQ(messageOf([] { makeCylinderMesh(std::nan(""), 1, 1000); }),
+            "cylinder: radius = nan m is not positive and finite");
+  EXPECT_EQ(messageOf([] {
+              makeBoxMesh({1, 1, 1}, 11);
+            }),
+            "box: faces = 11 is below the least possible number 12");
+  EXPECT_EQ(messageOf([] {
+              makeBoxMesh({1, 1, 1}, 1000000000);
+            }),
+            "box: faces = 1000000000 is above the largest number 1000000");
+}
+
+// Steiner's formula: V + m A + m^2 M + 4/3 pi m^3 with the integral M of the mean curvature.
+TEST(RoundedCone, HasTheVolumeWithinItsRounding) {
+  const double radius = 0.7, height = 1.1;
+  const double slant = std::hypot(radius, height);
+  for (const double rounding : {1e-3, 0.05, 2.0}) {
+    const double area = kPi * radius * (radius + slant);
+    const double curvature = kPi * (radius * (kPi - std::atan2(height, radius)) + height);
+    const double volume = kPi * radius * radius * height / 3 + rounding * area +
+                          rounding * rounding * curvature + 4 * kPi / 3 * std::pow(rounding, 3);
+    EXPECT_NEAR(roundedConeVolume(radius, height, rounding) / volume, 1, 1e-13);
+    const TriangleMesh mesh = makeRoundedConeMesh(radius, height, rounding, 3000);
+    EXPECT_TRUE(checkMesh(mesh, "rounded cone").warnings.empty());
+    EXPECT_LE(mesh.triangleCount(), 3000);
+    EXPECT_NEAR(computeMassProperties(mesh).volume / volume, 1, 0.02);
+    EXPECT_NEAR(mesh.vertices.row(2).maxCoeff(), height / 2 + rounding, 1e-13);
+    EXPECT_NEAR(mesh.vertices.row(2).minCoeff(), -height / 2 - rounding, 1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace ambient

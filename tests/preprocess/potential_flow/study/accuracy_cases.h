@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/preprocess/potential_flow/study/accuracy_case.h"
+
+namespace ambient::study {
+
+/// Every shape of the table, as a user would hand it in.
+std::vector<AccuracyCase> accuracyCases();
+
+}  // namespace ambient::study

@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/shape/shape_mesh.h"
+#include "preprocess/shape/shape_reader.h"
+#include "preprocess/shape/shape_schema.h"
+#include "tests/preprocess/mesh/mesh_files.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+ShapeDescription shapeOf(const std::string& text) {
+  return readShape(nlohmann::json::parse(text), "folder", "scene.json: body \"b\"");
+}
+
+std::string refusal(const std::string& text) {
+  const std::string message = messageOf([&] { makeShapeMesh(shapeOf(text)); });
+  const std::string source = "scene.json: body \"b\": ";
+  EXPECT_EQ(message.substr(0, source.size()), source);
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  return message.substr(std::min(message.size(), source.size()));
+}
+
+TEST(Shape, SolidsHaveTheVolumeOfTheSmoothBody) {
+  const std::vector<std::pair<std::string, double>> cases{
+      {R"({"type":"sphere","radius":0.5})", kPi / 6},
+      {R"({"type":"box","half_sizes":[1,2,3]})", 48},
+      {R"({"type":"box","size":[1,2,3]})", 6},
+      {R"({"type":"ellipsoid","semi_axes":[0.5,0.4,0.1]})", 4 * kPi / 3 * 0.02},
+      {R"({"type":"cylinder","radius":0.5,"height":0.3})", kPi * 0.25 * 0.3},
+      {R"({"type":"capsule","radius":0.5,"height":2})", kPi * 0.25 * (2 + 2.0 / 3)},
+      {R"({"type":"cone","radius":0.5,"height":0.3})", kPi * 0.25 * 0.1}};
+  for (const auto& [text, volume] : cases) {
+    const ShapeDescription shape = shapeOf(text);
+    EXPECT_FALSE(isSheet(shape)) << text;
+    const TriangleMesh mesh = makeShapeMesh(shape).mesh;
+    EXPECT_LE(mesh.triangleCount(), ShapeDescription::kDefaultFaces) << text;
+    EXPECT_GT(mesh.triangleCount(), 900) << text;
+    EXPECT_NEAR(computeMassProperties(mesh).volume / volume, 1, 1e-13) << text;
+    EXPECT_TRUE(checkMesh(mesh, text).warnings.empty());
+  }
+}
+
+TEST(Shape, SheetsHaveTheAreaOfTheSmoothSurface) {
+  const std::vector<std::pair<std::string, double>> cases{
+      {R"({"type":"sheet","size":[0.3,2]})", 0.6},
+      {R"({"type":"sheet","semi_axes":[0.3,2]})", kPi * 0.6}};
+  for (const auto& [text, area] : cases) {
+    const ShapeDescription shape = shapeOf(text);
+    EXPECT_TRUE(isSheet(shape)) << text;
+    const TriangleMesh mesh = makeShapeMesh(shape).mesh;
+    EXPECT_NEAR(computeSheetMassProperties(mesh).area / area, 1, 1e-13) << text;
+    EXPECT_TRUE(checkMesh(mesh, text, {true}).warnings.empty());
+  }
+}
+
+TEST(Shape, FacesSetTheResolution) {
+  const auto faces = [](const char* number) {
+    const std::string text = R"({"type":"sphere","radius":1,"faces":)" + std::string(number) + "}";
+    return makeShapeMesh(shapeOf(text)).mesh.triangleCount();
+  };
+  EXPECT_EQ(faces("500"), 500);
+  EXPECT_EQ(faces("20"), 20);
+}
+
+TEST(Shape, MeshesAreReadRelativeToTheFileThatNamesThem) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "meshes");
+  writeText(folder / "meshes" / "t.obj", objText(unitTetrahedron()));
+  writeText(folder / "s.json", R"({"type":"mesh","file":"meshes/t.obj","scale":2})");
+  const ShapeDescription shape = readShapeFile(folder / "s.json");
+  EXPECT_NEAR(computeMassProperties(makeShapeMesh(shape).mesh).volume, 8.0 / 6, 1e-6);
+  EXPECT_EQ(fileOf(shape), folder / "meshes" / "t.obj");
+}
+
+TEST(Shape, OpenMeshesAreSheetsOnlyIfCalledSo) {
+  const TemporaryFolder folder;
+  const auto file = folder / "open.obj";
+  writeText(file, objText(makeShapeMesh(shapeOf(R"({"type":"sheet","size":[1,1]})")).mesh));
+  const auto read = [&](const std::string& type) {
+    return makeShapeMesh(
+        readShape({{"type", type}, {"file", "open.obj"}}, folder.path(), "x.json"));
+  };
+  EXPECT_EQ(messageOf([&] { read("sheet"); }), "no error");
+  const std::string message = messageOf([&] { read("mesh"); });
+  EXPECT_EQ(message.find(file.string() + ": not watertight: "), 0u) << message;
+}
+
+TEST(Shape, UnknownKeysAreNamedWithTheKnownOnes) {
+  EXPECT_EQ(refusal(R"({"type":"sphere","radius":1,"radiuss":2})"),
+            "unknown key \"radiuss\" in shape \"sphere\", which has faces, radius, type");
+  EXPECT_EQ(refusal(R"({"type":"mesh","file":"a.obj","faces":100})"),
+            "unknown key \"faces\" in shape \"mesh\", which has file, scale, type");
+}
+
+TEST(Shape, MissingKeysAreNamed) {
+  EXPECT_EQ(refusal(R"({"radius":1})"), "key \"type\" is missing in the shape");
+  EXPECT_EQ(refusal(R"({"type":"cone","radius":1})"),
+            "key \"height\" is missing in shape \"cone\"");
+  EXPECT_EQ(refusal(R"({"type":"box"})"),
+            "shape \"box\" needs exactly one of half_sizes, size, not 0");
+  EXPECT_EQ(refusal(R"({"type":"sheet","size":[1,1],"semi_axes":[1,1]})"),
+            "shape \"sheet\" needs exactly one of size, semi_axes, file, not 2");
+}
+
+TEST(Shape, KeysWithoutMeaningAreRefused) {
+  EXPECT_EQ(refusal(R"({"type":"sheet","size":[1,1],"scale":2})"),
+            "key \"scale\" in shape \"sheet\" has no meaning without \"file\"");
+  EXPECT_EQ(refusal(R"({"type":"sheet","file":"a.obj","faces":100})"),
+            "key \"faces\" in shape \"sheet\" has no meaning with \"file\": the mesh has its own");
+}
+
+TEST(Shape, ImpossibleValuesAreNamed) {
+  EXPECT_EQ(refusal(R"({"type":"spere","radius":1})"),
+            "type = \"spere\" is not a type of shape; known: sphere, box, ellipsoid, cylinder, "
+            "capsule, cone, mesh, fluid_body, sheet");
+  for (const char* text :
+       {R"({"type":"sphere","radius":0})", R"({"type":"sphere","radius":-1})",
+        R"({"type":"sphere","radius":"1"})", R"({"type":"sphere","radius":true})"}) {
+    EXPECT_EQ(refusal(text).find("radius = "), 0u) << refusal(text);
+  }
+  EXPECT_EQ(refusal(R"({"type":"ellipsoid","semi_axes":[1,2]})").find("semi_axes = [1,2]"), 0u);
+  EXPECT_EQ(refusal(R"({"type":"ellipsoid","semi_axes":[1,-2,3]})").find("semi_axes/1 = -2"), 0u);
+  EXPECT_EQ(refusal(R"({"type":"sphere","radius":1,"faces":1.5})").find("faces = 1.5"), 0u);
+  EXPECT_EQ(refusal(R"({"type":"sphere","radius":1,"faces":10})"),
+            "ellipsoid: faces = 10 is below the least possible number 20");
+  EXPECT_EQ(refusal("[1, 2]"), "a shape must be a JSON object, not [1,2]");
+}
+
+TEST(Shape, FilesThatAreNotJsonAreRefused) {
+  const TemporaryFolder folder;
+  const auto refusalOf = [&](const std::string& text) {
+    const auto file = folder / "s.json";
+    writeText(file, text);
+    const std::string message = messageOf([&] { readShapeFile(file); });
+    EXPECT_EQ(message.find(file.string() + ": "), 0u) << message;
+    return message.substr(file.string().size() + 2);
+  };
+  EXPECT_EQ(refusalOf("{").find("is not valid JSON: "), 0u);
+  EXPECT_EQ(refusalOf("").find("is not valid JSON: "), 0u);
+  EXPECT_EQ(refusalOf(R"({"type":"sphere","radius":1e999})").find("is not valid JSON: "), 0u);
+  EXPECT_EQ(refusalOf(R"({"type":"sphere","radius":1,"radius":2})"),
+            "key \"radius\" is given twice in one object");
+  const std::string deep(100000, '[');
+  EXPECT_EQ(refusalOf(deep), "is nested deeper than 100 levels");
+  EXPECT_EQ(messageOf([&] { readShapeFile(folder / "no.json"); }),
+            (folder / "no.json").string() + ": no such file");
+}
+
+// Every type that the schema lists has a definition, and nothing else is defined as a shape.
+TEST(Shape, TheSchemaDefinesTheTypesItLists) {
+  for (const auto& type : shapeSchema()["properties"]["type"]["enum"]) {
+    const auto& definition = shapeSchema()["definitions"][type.get<std::string>()];
+    EXPECT_FALSE(definition["additionalProperties"].get<bool>()) << type;
+  }
+}
+
+}  // namespace
+}  // namespace ambient
