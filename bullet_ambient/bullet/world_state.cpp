@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/body_state.h"
 #include "bullet_ambient/bullet/contact_state.h"
 #include "bullet_ambient/bullet/world_objects.h"
@@ -87,7 +89,7 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientRegistry& regist
   WorldState state;
   for (const btRigidBody* body : rigidBodiesOf(source)) {
     state.bodies.push_back(saveBody(*body));
-    if (const AmbientBody* ambient = registry.find(body)) {
+    if (const AmbientBody* ambient = bodiesOf(registry).find(body)) {
       state.bodies.back().ambient = saveAmbient(*ambient);
     }
   }
@@ -106,13 +108,13 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegist
   checkCount("rigid bodies", state.bodies.size(), bodies.size());
   checkCount("joints", state.joints.size(), static_cast<std::size_t>(world.getNumConstraints()));
   checkContacts(state);
-  auto ambient_bodies = makeAmbientBodies(state, bodies, registry.loadTables());
+  auto ambient_bodies = makeAmbientBodies(state, bodies, bodiesOf(registry).load_tables);
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     registry.detach(*bodies[i]);
     restoreMass(state.bodies[i], *bodies[i]);
     restoreBody(state.bodies[i], *bodies[i]);
-    if (ambient_bodies[i]) registry.insert(std::move(ambient_bodies[i]));
+    if (ambient_bodies[i]) bodiesOf(registry).insert(std::move(ambient_bodies[i]));
   }
   restoreJoints(state, world);
   restoreContacts(state.pairs, state.contacts, world);

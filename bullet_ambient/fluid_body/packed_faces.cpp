@@ -1,5 +1,6 @@
 #include "bullet_ambient/fluid_body/packed_faces.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

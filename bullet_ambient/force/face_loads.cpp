@@ -11,9 +11,7 @@ namespace ambient {
 namespace {
 
 FaceColumns columnsOf(const FaceTable& faces) noexcept {
-  for ([[maybe_unused]] const std::vector<double>* column :
-       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
-        &faces.centroid_z})
+  for ([[maybe_unused]] const std::vector<double>* column : faces.columns())
     assert(column->size() == faces.size());
   return {{faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
           {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},

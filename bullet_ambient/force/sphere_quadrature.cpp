@@ -1,5 +1,6 @@
 #include "bullet_ambient/force/sphere_quadrature.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/flow_settings.h"
 #include "bullet_ambient/force/medium.h"
-#include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/frame_offset.h"
 
 namespace ambient {
 

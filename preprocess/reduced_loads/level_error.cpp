@@ -1,12 +1,12 @@
 #include "preprocess/reduced_loads/level_error.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "bullet_ambient/force/level_loads.h"
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 
 namespace ambient {
@@ -98,9 +98,7 @@ Vector3 broadsideDirection(const FaceTable& faces) {
   Matrix3 square = Matrix3::Zero();
   for (std::size_t i = 0; i < faces.size(); ++i)
     square += faces.area[i] * faces.normal(i) * faces.normal(i).transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(Eigen::Matrix3d(square))
-      .eigenvectors()
-      .col(2);
+  return symmetricEigen<3>(square).vectors.col(2);
 }
 
 double broadsideError(const Comparison& comparison, const FaceTable& faces,

@@ -174,6 +174,27 @@ GoldenRecord flyWithLockedAxes() {
   return world.run(kSteps);
 }
 
+GoldenRecord flyWithAxisFactors() {
+  GoldenWorld world;
+  for (int i = 0; i < 3; ++i) world.add(flying(i), i == 1 ? symmetricInWater() : bumpyInWater());
+  for (int i = 0; i < 3; ++i) world.body(i).setLinearFactor({1, bt(0.5), bt(0.3 * i)});
+  world.body(0).setAngularFactor({bt(0.5), 2, 1});
+  return world.run(kSteps);
+}
+
+// Thousands of radians per step: beyond the series of the flow.
+GoldenRecord flyWildly() {
+  GoldenWorld world;
+  for (int i = 0; i < 3; ++i) world.add(flying(i), bumpyInWater());
+  AttachDef ideal = bumpyInWater();
+  ideal.medium.viscosity = 0;
+  ideal.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid({0.3, 0.2, 0.1}));
+  world.add(flying(3), ideal);
+  for (int i = 0; i < 4; ++i)
+    world.body(i).setAngularVelocity({bt(1e6), bt(3e5 * (i + 1)), bt(-1e4)});
+  return world.run(20);
+}
+
 }  // namespace
 
 std::vector<GoldenRun> goldenFlights() {
@@ -184,6 +205,8 @@ std::vector<GoldenRun> goldenFlights() {
   runs.push_back({"flight_in_wind", flyInWind});
   runs.push_back({"flight_pushed", flyPushed});
   runs.push_back({"flight_with_locked_axes", flyWithLockedAxes});
+  runs.push_back({"flight_with_axis_factors", flyWithAxisFactors});
+  runs.push_back({"flight_wild", flyWildly});
   return runs;
 }
 

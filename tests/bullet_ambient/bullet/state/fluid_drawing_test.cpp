@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/motion/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
@@ -91,7 +92,7 @@ class Drawing : public testing::Test {
     }
   }
   std::size_t lines() const { return recorder.count() - lines_of_stock_; }
-  const AmbientBody& ambient() { return *fluid.registry.find(body); }
+  const AmbientBody& ambient() { return *bodiesOf(fluid.registry).find(body); }
   Twist relativeTwist() {
     Twist relative = readState(*body).twist;
     relative.linear -= readState(*body).orientation.conjugate() * ambient().def.medium.velocity;

@@ -1,4 +1,4 @@
-#include "bullet_ambient/bullet/fluid_drawing.h"
+#include "bullet_ambient/bullet/fluid_arrows.h"
 
 #include <LinearMath/btIDebugDraw.h>
 
