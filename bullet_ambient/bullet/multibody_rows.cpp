@@ -8,7 +8,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
 // One side of a row: a multibody, an ambient body, or another rigid body. Without either: nothing.
-struct Party {
+struct MultiBodyParty {
   const btMultiBody* multibody;
   int jacobian;  // where the multibody's Jacobian begins
   RowBody* ambient;
@@ -26,10 +26,10 @@ class RowSet {
   void rewrite(btMultiBodyConstraintArray& rows, btScalar relaxation, btScalar time_step) {
     for (int i = 0; i < rows.size(); ++i) {
       btMultiBodySolverConstraint& row = rows[i];
-      const Party a =
+      const MultiBodyParty a =
           party(row.m_multiBodyA, row.m_jacAindex, row.m_solverBodyIdA,
                 {row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA});
-      const Party b =
+      const MultiBodyParty b =
           party(row.m_multiBodyB, row.m_jacBindex, row.m_solverBodyIdB,
                 {row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB});
       if (!a.ambient && !b.ambient) continue;
@@ -39,13 +39,13 @@ class RowSet {
   }
 
  private:
-  Party party(const btMultiBody* multibody, int jacobian, int solver_body, RowSide side) {
+  MultiBodyParty party(const btMultiBody* multibody, int jacobian, int solver_body, RowSide side) {
     if (multibody) return {multibody, jacobian, nullptr, nullptr, side};
     if (solver_body < 0) return {nullptr, 0, nullptr, nullptr, side};
     return {nullptr, 0, bodies_.find(solver_body), &solver_bodies_[solver_body], side};
   }
 
-  btScalar responseOf(const Party& party) const {
+  btScalar responseOf(const MultiBodyParty& party) const {
     if (party.multibody) {
       btScalar sum = 0;
       for (int i = 0; i < party.multibody->getNumDofs() + 6; ++i)
@@ -58,7 +58,7 @@ class RowSet {
   }
 
   // What the rows must see of the step's change of velocity and have not.
-  static btScalar unseenChange(const Party& party, btScalar time_step) {
+  static btScalar unseenChange(const MultiBodyParty& party, btScalar time_step) {
     if (!party.ambient) return 0;
     const RowSide& side = party.side;
     const btScalar change = side.angular.dot(party.ambient->spin_change) +
@@ -71,12 +71,15 @@ class RowSet {
     return change - time_step * (side.angular.dot(spin) + side.linear.dot(velocity));
   }
 
-  static bool isLocked(const Party& party) { return party.ambient && party.ambient->is_locked; }
+  static bool isLocked(const MultiBodyParty& party) {
+    return party.ambient && party.ambient->is_locked;
+  }
 
   // A row that only pulls at locked axes, against a multibody that cannot move. The solver divides
   // by the effective mass: that remains what it was.
-  static void suspendRow(btMultiBodySolverConstraint& row, const Party& a, const Party& b) {
-    for (const Party* party : {&a, &b}) {
+  static void suspendRow(btMultiBodySolverConstraint& row, const MultiBodyParty& a,
+                         const MultiBodyParty& b) {
+    for (const MultiBodyParty* party : {&a, &b}) {
       if (!party->ambient) continue;
       party->side.angular.setZero();
       party->side.linear.setZero();
@@ -85,8 +88,8 @@ class RowSet {
     row.m_rhs = row.m_cfm = 0;
   }
 
-  void rewriteRow(btMultiBodySolverConstraint& row, const Party& a, const Party& b,
-                  btScalar relaxation, btScalar time_step) const {
+  void rewriteRow(btMultiBodySolverConstraint& row, const MultiBodyParty& a,
+                  const MultiBodyParty& b, btScalar relaxation, btScalar time_step) const {
     const btScalar old_inverse = row.m_jacDiagABInv;
     const btScalar unseen = unseenChange(a, time_step) + unseenChange(b, time_step);
     const btScalar response = responseOf(a) + responseOf(b);

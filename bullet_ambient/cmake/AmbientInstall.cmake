@@ -1,8 +1,8 @@
 # What `cmake --install` puts where. One export set for each thing a program may use without the others:
 #   Core                   the boxes without Bullet
 #   float32, float64       the runtime for one precision of Bullet
-#   Preprocess             the offline library (assimp), Preprocess_float32/_float64 what of it includes Bullet
-# so that a program for one precision needs neither the Bullet of the other nor assimp.
+#   Preprocess             the offline library, Preprocess_float32/_float64 what of it includes Bullet
+# so that a program for one precision does not need the Bullet of the other.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

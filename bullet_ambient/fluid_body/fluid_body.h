@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ struct FaceTable {
   std::vector<double> area;                                ///< [m^2]
 
   std::size_t size() const { return area.size(); }
+  /// All of them, in that order.
+  std::array<const std::vector<double>*, 7> columns() const {
+    return {&normal_x, &normal_y, &normal_z, &centroid_x, &centroid_y, &centroid_z, &area};
+  }
   Vector3 normal(std::size_t i) const { return {normal_x[i], normal_y[i], normal_z[i]}; }
   Vector3 centroid(std::size_t i) const { return {centroid_x[i], centroid_y[i], centroid_z[i]}; }
   void reserve(std::size_t faces);

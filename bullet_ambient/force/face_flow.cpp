@@ -15,8 +15,8 @@ FaceFlow computeFaceFlow(const FaceTable& faces, std::size_t face, double refere
   const double speed = flow.slip.norm();
   const double area = faces.area[face];
   flow.pressure = -0.5 * settings.density * speed * speed * area * n;
-  if (!settings.skin_friction || !(settings.viscosity > 0) || !(speed > 0)) return flow;
-  const double reynolds = settings.density * speed * reference_length / settings.viscosity;
+  const double reynolds = settings.reynoldsPerSpeed(reference_length) * speed;
+  if (!(reynolds > 0)) return flow;
   const double coefficient = kFrictionCoefficient * reynoldsPower(reynolds);
   flow.friction = 0.5 * coefficient * settings.density * speed * area * flow.slip;
   return flow;

@@ -11,9 +11,7 @@ namespace ambient {
 namespace {
 
 FaceColumns columnsOf(const FaceTable& faces) noexcept {
-  for ([[maybe_unused]] const std::vector<double>* column :
-       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
-        &faces.centroid_z})
+  for ([[maybe_unused]] const std::vector<double>* column : faces.columns())
     assert(column->size() == faces.size());
   return {{faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
           {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
@@ -45,9 +43,8 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                           {v.x(), v.y(), v.z()},
                           -cosine * std::abs(cosine),
                           1 - cosine * cosine};
-  const double reynolds_per_speed =
-      settings.viscosity > 0 ? settings.density * reference_length / settings.viscosity : 0;
-  const bool with_friction = settings.skin_friction && reynolds_per_speed > 0;
+  const double reynolds_per_speed = settings.reynoldsPerSpeed(reference_length);
+  const bool with_friction = reynolds_per_speed > 0;
 
   const FaceSums sums = sum_faces(columnsOf(faces), motion, with_friction);
   const double half_density = 0.5 * settings.density;

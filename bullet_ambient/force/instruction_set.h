@@ -1,7 +1,5 @@
 #pragma once
 
-#include <initializer_list>
-
 namespace ambient {
 
 enum class InstructionSet { kBaseline, kAvx2, kAvx512 };
@@ -23,9 +21,8 @@ struct Kernels {
     return set == InstructionSet::kAvx2 ? avx2 : baseline;
   }
   Pointer fastest() const noexcept {
-    for (const InstructionSet set : {InstructionSet::kAvx512, InstructionSet::kAvx2})
-      if (const Pointer kernel = of(set)) return kernel;
-    return baseline;
+    if (isSupported(InstructionSet::kAvx512)) return avx512;
+    return isSupported(InstructionSet::kAvx2) ? avx2 : baseline;
   }
 };
 

@@ -55,8 +55,7 @@ inline ScaledMotion scaledMotion(const Vector3& angular, const Vector3& linear,
 /// (Re < 1e-153), which keeps single precision finite. Only the last factor waits for the motion.
 inline double frictionAtUnitSpeed(const LoadSettings& settings, const SpeedUnit& unit,
                                   double reference_length) noexcept {
-  if (!settings.skin_friction || !(settings.viscosity > 0)) return 0;
-  const double reynolds_per_speed = settings.density * reference_length / settings.viscosity;
+  const double reynolds_per_speed = settings.reynoldsPerSpeed(reference_length);
   if (!(reynolds_per_speed > 0)) return 0;
   return std::min(
       kFrictionCoefficient * reynoldsPower(reynolds_per_speed) * unit.inverse_fifth_power, 1e30);

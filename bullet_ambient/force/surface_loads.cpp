@@ -7,6 +7,7 @@
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/single_loads.h"
 #include "bullet_ambient/force/sphere_loads.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 namespace {
@@ -103,7 +104,6 @@ void checkFaces(const FluidBody& body) {
 }
 
 void checkFlow(const FluidBody& body, const FlowSettings& flow) {
-  constexpr double kPi = 3.14159265358979323846;
   constexpr double kRounding = 1e-9;  // of an angle that was written by hand
   if (!(flow.separation_angle >= kPi / 2 * (1 - kRounding)) ||
       !(flow.separation_angle <= kPi * (1 + kRounding))) {

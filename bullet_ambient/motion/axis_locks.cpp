@@ -9,7 +9,7 @@
 namespace ambient {
 namespace {
 
-constexpr int kNewtonSteps = 4;
+constexpr int kLockedNewtonSteps = 4;
 
 Vector6 projectionOf(const AxisFactors& factors) {
   return stack(factors.angular, factors.linear).unaryExpr([](double f) {
@@ -52,7 +52,7 @@ class LockedRates {
 
 Vector6 midpoint(const LockedRates& rates, const Vector6& x, double dt) {
   Vector6 mid = x;
-  for (int i = 0; i < kNewtonSteps; ++i) {
+  for (int i = 0; i < kLockedNewtonSteps; ++i) {
     const Vector6 residual =
         mid - x - dt / 2 * (rates.acceleration(mid) - LockedRates::turning(mid));
     const Eigen::Matrix<double, 6, 6> jacobian = Matrix6::Identity() - dt / 2 * rates.jacobian(mid);

@@ -1,18 +1,17 @@
 #include "bullet_ambient/motion/body_model.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <utility>
 
 #include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 namespace {
 
 Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return symmetricEigen(symmetric).values;
 }
 
 void checkMass(const FluidBody& body, const MassProperties& mass) {

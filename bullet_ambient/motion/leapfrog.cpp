@@ -12,7 +12,7 @@ namespace {
 static_assert(kFlightsTogether == kFlightLanes);
 
 constexpr int kMaxRetries = 2;
-constexpr double kSafety = 0.9;
+constexpr double kStepSafety = 0.9;
 constexpr double kFlowPrecision = 1e-6;  // of the tolerance: the flow adds nothing to the error
 constexpr double kAcceptance =
     2;  // a step is repeated when its error exceeds the tolerance by this factor
@@ -155,7 +155,7 @@ class Leapfrog {
     const FlightTask& task = way.flight->task;
     const double h = lanes_.kick_time[i];
     const double ratio = way.error / task.settings.tolerance;
-    const double next = ratio > 0 ? kSafety * h / std::sqrt(ratio) : 4 * h;
+    const double next = ratio > 0 ? kStepSafety * h / std::sqrt(ratio) : 4 * h;
     if (!(ratio > kAcceptance) || attempt == kMaxRetries || way.substeps == way.most) {
       FlightResult& result = way.flight->body;
       result.state = stateOf(lanes_, i, result.state.position);

@@ -1,14 +1,14 @@
 #include "demos/analysis/falling_mode.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 std::vector<Vector3> worldNormals(const std::vector<MotionSample>& samples, const Vector3& normal) {
   std::vector<Vector3> normals;
@@ -31,8 +31,7 @@ Vector3 findSwingAxis(const std::vector<Vector3>& normals, const Vector3& up) {
   constexpr double kResting = 1e-12;
   if (sum.trace() <= kResting * kResting * static_cast<double>(normals.size()))
     return Vector3::Zero();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum);
-  return Vector3(horizontal * eigen.eigenvectors().col(2)).normalized();
+  return Vector3(horizontal * symmetricEigen<3>(sum).vectors.col(2)).normalized();
 }
 
 /// Angle between the normal and the vertical about the swing axis, continuous in time [rad].

@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 /// Values and slopes (per unit of s in [0, 1]) at both ends.
 struct HermiteEnds {

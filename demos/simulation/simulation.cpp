@@ -50,7 +50,7 @@ WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
   if (prepared.mass > 0) principal = findPrincipalFrame(prepared.inertia);
   made.R_SB = principal.rotation;
   const Matrix3 R_BS = made.R_SB.transpose();
-  made.shape = makeCollisionShape(prepared.collision,
+  made.shape = makeCollisionShape(def, prepared,
                                   toBulletPose(R_BS, Vector3(R_BS * -prepared.centre_of_mass)));
 
   btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(prepared.mass), nullptr,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/collision_shape/hull_mesh.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -18,8 +19,6 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-
-constexpr double kPi = 3.14159265358979323846;
 
 void requireSize(const std::string& name, const char* what, double value) {
   if (std::isfinite(value) && value > 0) return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/triangle_contact.h"
 #include "preprocess/mesh/winding_number.h"
 
@@ -10,8 +11,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Box {
   Vector3d low, high;

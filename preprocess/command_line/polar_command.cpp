@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/body_extents.h"
 #include "preprocess/command_line/body_loads.h"
 #include "preprocess/command_line/commands.h"
@@ -14,8 +15,6 @@
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Angles [degrees] of one variable.
 struct AngleRange {

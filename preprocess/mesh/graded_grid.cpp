@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
+
 namespace ambient {
 
 std::vector<double> cosineSpacing(double half_length, int n) {
-  constexpr double kPi = 3.14159265358979323846;
   std::vector<double> points(n + 1, 0.0);
   for (int i = 0; 2 * i < n; ++i) {
     points[n - i] = half_length * std::cos(kPi * i / n);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/primitive_limits.h"
 #include "preprocess/mesh/primitives.h"
@@ -9,7 +10,6 @@
 namespace ambient {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kSectors = 8;  // gives every ring the mirror planes x = 0, y = 0 and x = y
 
 /// A circle of 8 m vertices about the z axis; m = 0 is a single point on it.

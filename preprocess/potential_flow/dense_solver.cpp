@@ -12,7 +12,8 @@ namespace {
 using Eigen::Index;
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
-constexpr double kBytesPerPanel = 15000;  // of near pairs and what is held between passes; measured
+constexpr double kDenseBytesPerPanel =
+    15000;  // of near pairs and what is held between passes; measured
 
 /// Adds s m m^T for the constants m of every closed component, the kernel of W; s of the size of
 /// W's diagonal.
@@ -45,7 +46,7 @@ DenseSolver::DenseSolver(const PanelSurface& surface, int threads, double memory
 double DenseSolver::bytesNeeded() const {
   const auto panels = static_cast<double>(surface_.panelCount());
   const auto vertices = static_cast<double>(surface_.vertexCount());
-  return sizeof(double) * vertices * vertices + kBytesPerPanel * panels;
+  return sizeof(double) * vertices * vertices + kDenseBytesPerPanel * panels;
 }
 
 Jump DenseSolver::solveJump(const Unknowns& unknowns) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/potential_flow/far_moments.h"
 #include "preprocess/potential_flow/parallel_for.h"
 
@@ -12,7 +13,6 @@ using Eigen::Index;
 PanelMoments computeExteriorMoments(const PanelSurface& surface, const NearPanels& near,
                                     const Eigen::Matrix<double, Eigen::Dynamic, 6>& jump,
                                     int threads) {
-  constexpr double kPi = 3.14159265358979323846;
   constexpr Index kAtOnce = FarMoments::kTargetsAtOnce;
   const Index panels = surface.panelCount();
   const std::vector<PanelJump> jumps = makePanelJumps(surface, jump);

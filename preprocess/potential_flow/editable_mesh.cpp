@@ -6,13 +6,14 @@
 #include <iterator>
 #include <utility>
 
+#include "bullet_ambient/spatial/pi.h"
+
 namespace ambient {
 namespace {
 
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kClearlyMore = 1e-6;    // than half a turn [rad]; among equal diagonals none flips
 constexpr double kGoodShape = 0.05;      // height over longest edge
 constexpr double kMostWorsening = 0.5;   // of the least one around, else

@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
+
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Carlson's R_D(x, y, z) = 3/2 int_0^inf dt / (sqrt((t + x) (t + y)) (t + z)^(3/2)). Every step
 /// brings the arguments four times closer together; when they are one, R_D = z^(-3/2).

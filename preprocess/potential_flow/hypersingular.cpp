@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/potential_flow/parallel_for.h"
 
 namespace ambient {
@@ -11,7 +12,6 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr Index kPanelsAtOnce = 128;  // held in memory between the two passes
 constexpr Index kRowBlock = 64;
 

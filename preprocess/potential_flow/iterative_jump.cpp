@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/potential_flow/parallel_for.h"
 
 namespace ambient {
@@ -16,8 +17,7 @@ using Eigen::Vector3d;
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 using RowVector6 = Eigen::Matrix<double, 1, 6>;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kTolerance = 1e-6;  // of the residual, in the norm of the preconditioner
+constexpr double kResidualLimit = 1e-6;  // of the residual, in the norm of the preconditioner
 constexpr int kMostIterations = 500;
 constexpr Index kAtOnce = 512;  // unknowns or panels of one task
 
@@ -194,7 +194,7 @@ IterativeJump solveIteratively(const PanelSurface& surface, const Unknowns& unkn
   MatrixX6 z = system.precondition(residual);
   MatrixX6 direction = z;
   RowVector6 square = columnProducts(residual, z);
-  const RowVector6 limit = kTolerance * kTolerance * square;
+  const RowVector6 limit = kResidualLimit * kResidualLimit * square;
   for (; jump.iterations < kMostIterations; ++jump.iterations) {
     if ((square.array() <= limit.array()).all()) return jump;
     const MatrixX6 image = system.apply(direction);

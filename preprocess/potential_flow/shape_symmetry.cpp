@@ -1,11 +1,11 @@
 #include "preprocess/potential_flow/shape_symmetry.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/potential_flow/edge_cuts.h"
 
@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kTolerance = 1e-7;  // of the size, and of normals
+constexpr double kMirrorTolerance = 1e-7;  // of the size, and of normals
 
 /// The edges at which the surface bends, with the normal of the triangle on their left.
 class BentEdges {
@@ -28,7 +28,7 @@ class BentEdges {
       const bool bent =
           edge.size() != 2 ||
           normalOf(mesh, side[0].triangle).cross(normalOf(mesh, side[1].triangle)).norm() >
-              kTolerance;
+              kMirrorTolerance;
       for (std::size_t k = 0; bent && k < edge.size(); ++k) add(mesh, side[k]);
     }
     placeVertices(mesh, centre);
@@ -46,7 +46,8 @@ class BentEdges {
       std::pair<int, int> ends(image[edge.first.first], image[edge.first.second]);
       if (mirrors) std::swap(ends.first, ends.second);
       const auto found = normals_.find(ends);
-      return found != normals_.end() && (found->second - turn * edge.second).norm() < kTolerance;
+      return found != normals_.end() &&
+             (found->second - turn * edge.second).norm() < kMirrorTolerance;
     });
   }
 
@@ -69,7 +70,7 @@ class BentEdges {
 
   /// The vertex at a place; -1: none.
   int vertexAt(const Vector3d& place) const {
-    const double reach = kTolerance * size_, along = place.dot(direction_);
+    const double reach = kMirrorTolerance * size_, along = place.dot(direction_);
     auto candidate =
         std::lower_bound(along_.begin(), along_.end(), std::pair<double, int>(along - reach, -1));
     for (; candidate != along_.end() && candidate->first <= along + reach; ++candidate)
@@ -87,8 +88,7 @@ class BentEdges {
 /// Axes of the mesh and principal axes of its vertices.
 std::vector<Matrix3d> candidateAxes(const TriangleMesh& mesh, const Vector3d& centre) {
   const Eigen::Matrix3Xd offsets = mesh.vertices.colwise() - centre;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(offsets * offsets.transpose());
-  return {Matrix3d::Identity(), principal.eigenvectors()};
+  return {Matrix3d::Identity(), symmetricEigen<3>(offsets * offsets.transpose()).vectors};
 }
 
 }  // namespace

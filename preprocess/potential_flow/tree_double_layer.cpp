@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/potential_flow/far_moments.h"
 #include "preprocess/potential_flow/parallel_for.h"
 
@@ -14,7 +15,6 @@ using Eigen::VectorXd;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 using RowVector6 = Eigen::Matrix<double, 1, 6>;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr Index kFields = 7;  // the six jumps and a jump of 1, which makes the solid angle
 
 /// Dipoles mu n of a leaf's panels.

@@ -1,18 +1,18 @@
 #include "preprocess/reduced_loads/level_error.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "bullet_ambient/force/level_loads.h"
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 
 namespace ambient {
 namespace {
 
-constexpr std::uint64_t kSeed = 2;
+constexpr std::uint64_t kMotionSeed = 2;
 constexpr int kSamples = 4000, kFrictionSamples = 400, kBroadsideSamples = 200;
 constexpr std::size_t kAscents = 24;
 constexpr int kAscentSteps = 120;
@@ -98,9 +98,7 @@ Vector3 broadsideDirection(const FaceTable& faces) {
   Matrix3 square = Matrix3::Zero();
   for (std::size_t i = 0; i < faces.size(); ++i)
     square += faces.area[i] * faces.normal(i) * faces.normal(i).transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(Eigen::Matrix3d(square))
-      .eigenvectors()
-      .col(2);
+  return symmetricEigen<3>(square).vectors.col(2);
 }
 
 double broadsideError(const Comparison& comparison, const FaceTable& faces,
@@ -120,7 +118,7 @@ double broadsideError(const Comparison& comparison, const FaceTable& faces,
 
 LoadLevelError measureError(const LoadLevel& level, const FaceTable& faces) {
   const Comparison comparison(level, faces);
-  ArbitraryNumbers numbers(kSeed);
+  ArbitraryNumbers numbers(kMotionSeed);
   std::vector<Sample> samples(kSamples);
   LoadLevelError error;
   double square = 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
@@ -11,8 +12,6 @@
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // For cylinders and cones: lengths along the axis are exact as they are.
 TriangleMesh withVolumeAcross(TriangleMesh mesh, double volume) {

@@ -80,9 +80,30 @@ GoldenRecord sleep() {
   });
 }
 
+// Contacts that only push along locked axes, or nearly so.
+void addLocked(GoldenWorld& world) {
+  GoldenBody lying = falling(world, 0);
+  lying.position = {1.5, 0, 0.15};
+  btRigidBody& plane = world.add(lying, bumpyInWater());
+  plane.setLinearFactor({1, 1, 0});
+  plane.setAngularFactor({0, 0, 1});
+  lying.position = {2.5, 0, 0.15};
+  btRigidBody& rail = world.add(lying, symmetricInWater());
+  rail.setLinearFactor({1, 0, 0});
+  rail.setAngularFactor(0);
+}
+
+GoldenRecord lieLocked() {
+  GoldenWorld world;
+  addTower(world);
+  addLocked(world);
+  return world.run(60);
+}
+
 // A chain of rigid links swings into bodies in water.
-GoldenRecord swingChain() {
+GoldenRecord swingChain(const Settings& settings) {
   GoldenWorld world(GoldenWorld::Kind::kMultiBodies);
+  settings(world.world().getSolverInfo());
   for (int i = 0; i < 3; ++i) {
     GoldenBody body = falling(world, i);
     body.position = {-0.4 - 0.5 * i, 0.03 * i, 0.5};
@@ -93,6 +114,7 @@ GoldenRecord swingChain() {
       world.add(body, i == 0 ? bumpyInWater() : symmetricInWater());
   }
   addFloor(world);
+  addLocked(world);
   world.addChain({0, 0, 1.2});
   return world.run(kSteps);
 }
@@ -107,21 +129,28 @@ std::vector<GoldenRun> goldenContacts() {
   const auto with = [](int mode) {
     return [mode](btContactSolverInfo& info) { info.m_solverMode |= mode; };
   };
+  const auto chainWith = [](const Settings& settings) {
+    return [=] { return swingChain(settings); };
+  };
+  const Settings unchanged = [](btContactSolverInfo&) {};
+  const Settings soft = [](btContactSolverInfo& info) {
+    info.m_globalCfm = bt(1e-3);
+    info.m_sor = bt(0.8);
+  };
   return {
-      {"tower", towerWith([](btContactSolverInfo&) {})},
+      {"tower", towerWith(unchanged)},
       {"tower_cold", towerWith(without(SOLVER_USE_WARMSTARTING))},
       {"tower_two_frictions", towerWith(with(SOLVER_USE_2_FRICTION_DIRECTIONS))},
       {"tower_shuffled", towerWith(with(SOLVER_RANDMIZE_ORDER))},
       {"tower_interleaved", towerWith(with(SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS))},
       {"tower_split",
        towerWith([](btContactSolverInfo& info) { info.m_splitImpulsePenetrationThreshold = 0; })},
-      {"tower_soft", towerWith([](btContactSolverInfo& info) {
-         info.m_globalCfm = bt(1e-3);
-         info.m_sor = bt(0.8);
-       })},
+      {"tower_soft", towerWith(soft)},
+      {"locked", lieLocked},
       {"quick", quick},
       {"sleep", sleep},
-      {"chain", swingChain},
+      {"chain", chainWith(unchanged)},
+      {"chain_soft", chainWith(soft)},
   };
 }
 

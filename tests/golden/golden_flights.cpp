@@ -12,9 +12,9 @@ namespace {
 constexpr int kSteps = 120;
 
 // Drag and a torque that follow no law of the library.
-class QuadraticDrag : public SurfaceLoadModel {
+class QuadraticDrag : public SurfaceLoads {
  public:
-  Wrench load(const FaceTable&, const Twist& twist, const LoadSettings&) const noexcept override {
+  Wrench load(const Twist& twist) const noexcept override {
     return {-0.05 * twist.angular, -3 * twist.linear.norm() * twist.linear};
   }
 };
@@ -56,7 +56,12 @@ std::vector<NamedDef> loadVariants(const std::string& prefix, const AttachDef& a
       named("attached", [](AttachDef& a) { a.flow.separation_angle = 2.2; }),
       named("without_friction", [](AttachDef& a) { a.flow.skin_friction = false; }),
       named("in_air", [](AttachDef& a) { a.medium = air(); }),
-      named("own_model", [](AttachDef& a) { a.flow.model = std::make_shared<QuadraticDrag>(); }),
+      named("own_model",
+            [](AttachDef& a) {
+              a.flow.law = [](const auto&, const auto&) {
+                return std::make_shared<QuadraticDrag>();
+              };
+            }),
       named("in_a_current",
             [](AttachDef& a) {
               a.medium.velocity = {1, -2, 0.5};
@@ -170,6 +175,27 @@ GoldenRecord flyWithLockedAxes() {
   return world.run(kSteps);
 }
 
+GoldenRecord flyWithAxisFactors() {
+  GoldenWorld world;
+  for (int i = 0; i < 3; ++i) world.add(flying(i), i == 1 ? symmetricInWater() : bumpyInWater());
+  for (int i = 0; i < 3; ++i) world.body(i).setLinearFactor({1, bt(0.5), bt(0.3 * i)});
+  world.body(0).setAngularFactor({bt(0.5), 2, 1});
+  return world.run(kSteps);
+}
+
+// Thousands of radians per step: beyond the series of the flow.
+GoldenRecord flyWildly() {
+  GoldenWorld world;
+  for (int i = 0; i < 3; ++i) world.add(flying(i), bumpyInWater());
+  AttachDef ideal = bumpyInWater();
+  ideal.medium.viscosity = 0;
+  ideal.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid({0.3, 0.2, 0.1}));
+  world.add(flying(3), ideal);
+  for (int i = 0; i < 4; ++i)
+    world.body(i).setAngularVelocity({bt(1e6), bt(3e5 * (i + 1)), bt(-1e4)});
+  return world.run(20);
+}
+
 }  // namespace
 
 std::vector<GoldenRun> goldenFlights() {
@@ -180,6 +206,8 @@ std::vector<GoldenRun> goldenFlights() {
   runs.push_back({"flight_in_wind", flyInWind});
   runs.push_back({"flight_pushed", flyPushed});
   runs.push_back({"flight_with_locked_axes", flyWithLockedAxes});
+  runs.push_back({"flight_with_axis_factors", flyWithAxisFactors});
+  runs.push_back({"flight_wild", flyWildly});
   return runs;
 }
 

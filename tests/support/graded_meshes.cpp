@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
+
 namespace ambient::test {
 namespace {
 
 using Eigen::Vector3d;
-
-const double kPi = std::acos(-1.0);
 
 /// Triangles whose corners are named; equal names are one vertex.
 template <typename Name>

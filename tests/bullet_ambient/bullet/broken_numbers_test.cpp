@@ -12,8 +12,6 @@ namespace ambient::test {
 namespace {
 
 const auto kNan = std::numeric_limits<btScalar>::quiet_NaN();
-const Vector3 kSemiAxes{0.3, 0.25, 0.1};
-
 using Spoil = std::function<void(btRigidBody&)>;
 
 // Two bodies in air, 50 m apart or touching; one is spoilt after some steps.
@@ -26,7 +24,7 @@ struct Pair {
 
   explicit Pair(double distance) {
     fluid.registry.setReport([this](const std::string& text) { said.push_back(text); });
-    const FluidBody shape = meshedEllipsoid(kSemiAxes, 1);
+    const FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
     BodyDef def;
     def.shape = &ball;
     healthy = &fluid.add(def, shape, air());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/sphere_fall.h"
 
@@ -12,8 +13,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kGravity = 9.81;
-const double kPi = std::acos(-1.0);
+constexpr double kEarthGravity = 9.81;
 
 Medium inviscid(Medium medium) {
   medium.viscosity = 0;
@@ -113,12 +113,12 @@ TEST(ExtremeCase, ASoapBubbleSettlesToItsTerminalSpeedAndDriftsWithTheWind) {
   // A film of a micrometre around air: 5 per cent heavier than the air it displaces.
   constexpr double kRadius = 0.05;
   const double film = 4 * kPi * kRadius * kRadius * 1e-6 * 1000;
-  reference::SphereFall exact{0, kRadius, air().density, kGravity};
+  reference::SphereFall exact{0, kRadius, air().density, kEarthGravity};
   exact.mass = film + exact.displacedMass();
   Medium wind = inviscid(air());
   wind.velocity = {3, 0, 0};
   FluidWorld fluid;
-  setGravity(fluid, kGravity);
+  setGravity(fluid, kEarthGravity);
   BodyDef def = sphere(exact.mass, kRadius);
   def.start.twist.linear = {0, 20, 0};
   const btRigidBody& bubble = fluid.add(def, gaussSphere(kRadius), wind);
@@ -130,10 +130,10 @@ TEST(ExtremeCase, ASoapBubbleSettlesToItsTerminalSpeedAndDriftsWithTheWind) {
 }
 
 TEST(ExtremeCase, ABalloonReleasedUnderWaterRisesByItsClosedForm) {
-  const reference::SphereFall exact{0.005, 0.15, water().density, kGravity};
-  EXPECT_LT(exact.firstAcceleration(), -1.99 * kGravity);  // upwards
+  const reference::SphereFall exact{0.005, 0.15, water().density, kEarthGravity};
+  EXPECT_LT(exact.firstAcceleration(), -1.99 * kEarthGravity);  // upwards
   FluidWorld fluid;
-  setGravity(fluid, kGravity);
+  setGravity(fluid, kEarthGravity);
   const btRigidBody& balloon =
       fluid.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(water()));
   for (int i = 1; i <= 60; ++i) {
@@ -189,7 +189,7 @@ TEST(ExtremeCase, ABodyFiredOutOfContactFliesByItsClosedForm) {
   btBoxShape floor_shape(btVector3(5, 5, 1));
   btSphereShape ball_shape(static_cast<btScalar>(kRadius));
   FluidWorld fluid;
-  setGravity(fluid, kGravity);
+  setGravity(fluid, kEarthGravity);
   BodyDef floor_def{0, Vector3::Zero(), {}, &floor_shape};
   floor_def.start.position = {0, 0, -1};
   fluid.add(floor_def);
@@ -203,16 +203,16 @@ TEST(ExtremeCase, ABodyFiredOutOfContactFliesByItsClosedForm) {
   ball.setLinearVelocity({0, 0, static_cast<btScalar>(kSpeed)});
   fluid.step(1.0 / 240, 24);
   // K dv/dt = -c v^2 - (m - m_f) g: v = v_t tan(atan(v_0 / v_t) - t / T).
-  const reference::SphereFall exact{8, kRadius, water().density, kGravity};
+  const reference::SphereFall exact{8, kRadius, water().density, kEarthGravity};
   const double v = exact.terminalSpeed() *
                    std::tan(std::atan(kSpeed / exact.terminalSpeed()) - 0.1 / exact.settlingTime());
   EXPECT_NEAR(static_cast<double>(ball.getLinearVelocity().z()) / v, 1, 1e-3);
 }
 
 TEST(ExtremeCase, AStepOfAQuarterOfASecondAfterAStallChangesLittle) {
-  const reference::SphereFall exact{0.62, 0.12, air().density, kGravity};
+  const reference::SphereFall exact{0.62, 0.12, air().density, kEarthGravity};
   FluidWorld fluid;
-  setGravity(fluid, kGravity);
+  setGravity(fluid, kEarthGravity);
   const btRigidBody& ball =
       fluid.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(air()));
   fluid.step(1.0 / 60, 30);

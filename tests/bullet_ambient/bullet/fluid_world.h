@@ -19,6 +19,15 @@ constexpr double byPrecision(double in_double, double in_float) {
   return kDouble ? in_double : in_float;
 }
 
+inline btScalar bt(double value) { return static_cast<btScalar>(value); }
+
+constexpr double kWorldStep = 1.0 / 120;  // [s]
+
+inline const Vector3 kUnequalAxes(0.3, 0.25,
+                                  0.1);  // of an ellipsoid without symmetry of revolution
+
+inline Medium idealFluid(double density) { return {density, 0, Vector3::Zero(), Vector3::Zero()}; }
+
 /// A dynamic body for the tests: mass properties and where it starts. Body axes are principal.
 struct BodyDef {
   double mass = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/kirchhoff_integration.h"
 #include "tests/reference/kirchhoff_motion.h"
@@ -13,10 +14,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kBodies = 9;
-
-Medium idealFluid(double density) { return {density, 0, Vector3::Zero(), Vector3::Zero()}; }
 
 // `start`'s twist in body axes here.
 btRigidBody& addTo(FluidWorld& world, BodyDef def, const FluidBody& shape, double density) {

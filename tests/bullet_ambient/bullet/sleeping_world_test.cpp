@@ -9,13 +9,13 @@
 namespace ambient::test {
 namespace {
 
-const Vector3 kSemiAxes = Vector3::Constant(0.2);  // a sphere: no way to move is unstable
+const Vector3 kBallAxes = Vector3::Constant(0.2);  // a sphere: no way to move is unstable
 
 btRigidBody& addSleepy(FluidWorld& fluid, const Twist& twist, const Medium& medium) {
-  const FluidBody shape = facelessEllipsoid(kSemiAxes);
+  const FluidBody shape = facelessEllipsoid(kBallAxes);
   BodyDef def;
   def.mass = 1000 * shape.volume;
-  def.moments = ellipsoidMoments(kSemiAxes, def.mass);
+  def.moments = ellipsoidMoments(kBallAxes, def.mass);
   def.start.twist = twist;
   btRigidBody& body = fluid.add(def, shape, medium);
   body.forceActivationState(ACTIVE_TAG);
@@ -109,7 +109,7 @@ TEST(Sleeping, EndsWhenABodyIsAttached) {
   btRigidBody& body = fluid.add(def);
   body.forceActivationState(ISLAND_SLEEPING);
   AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kSemiAxes));
+  attach.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kBallAxes));
   attach.medium = stillWater();
   fluid.registry.attach(body, attach);
   EXPECT_TRUE(body.isActive());
@@ -119,9 +119,9 @@ TEST(Sleeping, EndsWhenACurrentSetsIn) {
   FluidWorld fluid;
   fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
   BodyDef def;
-  const FluidBody shape = meshedEllipsoid(kSemiAxes, 2);
+  const FluidBody shape = meshedEllipsoid(kBallAxes, 2);
   def.mass = 1000 * shape.volume;
-  def.moments = ellipsoidMoments(kSemiAxes, def.mass);
+  def.moments = ellipsoidMoments(kBallAxes, def.mass);
   btRigidBody& body = fluid.add(def, shape, stillWater());
   body.forceActivationState(ACTIVE_TAG);
   fluid.step(1.0 / 60, 300);

@@ -8,11 +8,10 @@
 namespace ambient::test {
 namespace {
 
-const Vector3 kSemiAxes(0.3, 0.25, 0.1);
 constexpr double kStep = 1.0 / 60;
 
 BodyDef bodyAt(double height) {
-  BodyDef def{1, ellipsoidMoments(kSemiAxes, 1), {}, nullptr};
+  BodyDef def{1, ellipsoidMoments(kUnequalAxes, 1), {}, nullptr};
   def.start.position = {0, 0, height};
   def.start.twist = {Vector3(1, 2, 3), Vector3(4, 0, 1)};
   return def;
@@ -40,13 +39,13 @@ void expectNothing(const AmbientCounters& step) {
 
 TEST(SparedWork, ADensityOfZeroCostsNothing) {
   FluidWorld fluid;
-  fluid.add(bodyAt(0), meshedEllipsoid(kSemiAxes, 1), Medium{});
+  fluid.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), Medium{});
   expectNothing(countStep(fluid));
 }
 
 TEST(SparedWork, ASleepingBodyCostsNothing) {
   FluidWorld fluid;
-  btRigidBody& body = fluid.add(bodyAt(0), meshedEllipsoid(kSemiAxes, 1), air());
+  btRigidBody& body = fluid.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), air());
   EXPECT_GT(countStep(fluid).load_evaluations, 0);
   body.forceActivationState(ISLAND_SLEEPING);
   expectNothing(countStep(fluid));
@@ -54,7 +53,7 @@ TEST(SparedWork, ASleepingBodyCostsNothing) {
 
 TEST(SparedWork, ABodyWithoutFacesHasNoLoadsToEvaluate) {
   FluidWorld fluid;
-  fluid.add(bodyAt(0), facelessEllipsoid(kSemiAxes), water());
+  fluid.add(bodyAt(0), facelessEllipsoid(kUnequalAxes), water());
   const AmbientCounters step = countStep(fluid);
   EXPECT_GT(step.substeps, 0);
   EXPECT_EQ(step.load_evaluations, 0);
@@ -62,7 +61,7 @@ TEST(SparedWork, ABodyWithoutFacesHasNoLoadsToEvaluate) {
 
 TEST(SparedWork, EveryEvaluationSumsEveryFaceButOfASphereNone) {
   FluidWorld fluid;
-  FluidBody shape = meshedEllipsoid(kSemiAxes, 1);
+  FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
   fluid.add(bodyAt(0), shape, air());
   const AmbientCounters by_faces = countStep(fluid);
   EXPECT_GT(by_faces.load_evaluations, 0);
@@ -77,7 +76,7 @@ TEST(SparedWork, EveryEvaluationSumsEveryFaceButOfASphereNone) {
 
 TEST(SparedWork, AFreeBodyHasNoRowsToRewrite) {
   FluidWorld fluid;
-  fluid.add(bodyAt(0), meshedEllipsoid(kSemiAxes, 1), air());
+  fluid.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), air());
   for (int i = 0; i < 10; ++i) EXPECT_EQ(countStep(fluid).rows, 0);
 }
 
@@ -88,9 +87,9 @@ TEST(SparedWork, ABodyThatIsOnlyNearAnotherIsNotRewritten) {
   BodyDef def = bodyAt(0);
   def.shape = &ball;
   def.start.twist = {};
-  fluid.add(def, meshedEllipsoid(kSemiAxes, 1), water());
+  fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
   def.start.position = {0.15, 0.15, 0};
-  fluid.add(def, meshedEllipsoid(kSemiAxes, 1), water());
+  fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
   fluid.step(kStep);
   ASSERT_EQ(fluid.dispatcher.getNumManifolds(), 1);
   EXPECT_EQ(countStep(fluid).rows, 0);
@@ -112,8 +111,8 @@ TEST(SparedWork, ALargeSlowBodyNeedsOneEvaluationPerStep) {
 
 TEST(SparedWork, ADetachedBodyCostsNothing) {
   FluidWorld fluid;
-  btRigidBody& body = fluid.add(bodyAt(0), meshedEllipsoid(kSemiAxes, 1), air());
-  fluid.add(bodyAt(10), meshedEllipsoid(kSemiAxes, 1), Medium{});
+  btRigidBody& body = fluid.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), air());
+  fluid.add(bodyAt(10), meshedEllipsoid(kUnequalAxes, 1), Medium{});
   fluid.step(kStep);
   fluid.registry.detach(body);
   expectNothing(countStep(fluid));
@@ -121,7 +120,7 @@ TEST(SparedWork, ADetachedBodyCostsNothing) {
 
 TEST(SparedWork, BodiesOfOneShapeShareItsData) {
   FluidWorld fluid;
-  const auto shape = std::make_shared<const FluidBody>(meshedEllipsoid(kSemiAxes, 2));
+  const auto shape = std::make_shared<const FluidBody>(meshedEllipsoid(kUnequalAxes, 2));
   for (int i = 0; i < 5; ++i) {
     AttachDef def;
     def.fluid_body = shape;

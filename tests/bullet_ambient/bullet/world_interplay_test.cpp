@@ -17,8 +17,6 @@ BodyDef spinning(double rate) {
   return def;
 }
 
-const Vector3 kSemiAxes{0.3, 0.25, 0.1};
-
 TEST(Interplay, AnotherActionsImpulseSurvives) {
   struct Kick : btActionInterface {
     btRigidBody* body = nullptr;
@@ -34,7 +32,7 @@ TEST(Interplay, AnotherActionsImpulseSurvives) {
     if (!after) fluid.world.removeAction(&fluid.action);
     fluid.world.addAction(&kick);
     if (!after) fluid.world.addAction(&fluid.action);
-    btRigidBody& body = fluid.add({}, facelessEllipsoid(kSemiAxes), air());
+    btRigidBody& body = fluid.add({}, facelessEllipsoid(kUnequalAxes), air());
     kick.body = &body;
     fluid.step(1.0 / 60, 2);
     EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().z()), 1, 1e-6);
@@ -60,7 +58,7 @@ TEST(Interplay, BulletsGyroscopicFlagsChangeNothing) {
   btVector3 velocity[2];
   for (int flag = 0; flag < 2; ++flag) {
     FluidWorld fluid;
-    btRigidBody& body = fluid.add(spinning(20), meshedEllipsoid(kSemiAxes, 1), air());
+    btRigidBody& body = fluid.add(spinning(20), meshedEllipsoid(kUnequalAxes, 1), air());
     body.setFlags(flag ? BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY : 0);
     fluid.step(1.0 / 60, 30);
     velocity[flag] = body.getAngularVelocity();
@@ -72,7 +70,7 @@ TEST(Interplay, SameInputGivesTheSameBitsInAnyOrderOfAttachment) {
   btVector3 position[2];
   for (int order = 0; order < 2; ++order) {
     FluidWorld fluid;
-    const FluidBody shape = meshedEllipsoid(kSemiAxes, 1);
+    const FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
     BodyDef other = spinning(5);
     other.start.position = Vector3(100, 0, 0);
     if (order == 1) fluid.add(other, shape, water());
@@ -86,27 +84,27 @@ TEST(Interplay, SameInputGivesTheSameBitsInAnyOrderOfAttachment) {
 
 TEST(Interplay, NewMassPropertiesAreSeen) {
   FluidWorld fluid;
-  btRigidBody& body = fluid.add({}, facelessEllipsoid(kSemiAxes), air());
+  btRigidBody& body = fluid.add({}, facelessEllipsoid(kUnequalAxes), air());
   fluid.step(1.0 / 60);
   const btVector3 moments(4, 5, 6);
   body.setMassProps(3, moments);
   body.updateInertiaTensor();
   body.applyCentralForce({1, 0, 0});
   fluid.step(1.0 / 60);
-  const double K = 3 + air().density * facelessEllipsoid(kSemiAxes).added_mass(3, 3);
+  const double K = 3 + air().density * facelessEllipsoid(kUnequalAxes).added_mass(3, 3);
   EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()) * 60 * K, 1,
               byPrecision(1e-12, 1e-5));
 }
 
 TEST(Interplay, AJumpFromAirToWaterKeepsTheVelocityAndChangesTheInertia) {
   FluidWorld fluid;
-  btRigidBody& body = fluid.add(spinning(0), facelessEllipsoid(kSemiAxes), air());
+  btRigidBody& body = fluid.add(spinning(0), facelessEllipsoid(kUnequalAxes), air());
   fluid.step(1.0 / 60);
   const btVector3 before = body.getLinearVelocity();
   fluid.registry.setMedium(body, water());
   EXPECT_TRUE(body.getLinearVelocity() == before);
   EXPECT_NEAR(fluid.registry.inertia(body)(5, 5),
-              1 + water().density * facelessEllipsoid(kSemiAxes).added_mass(5, 5), 1e-6);
+              1 + water().density * facelessEllipsoid(kUnequalAxes).added_mass(5, 5), 1e-6);
 }
 
 TEST(Interplay, DriftingBodyStaysAwakeAndRestingBodySleeps) {
@@ -114,7 +112,7 @@ TEST(Interplay, DriftingBodyStaysAwakeAndRestingBodySleeps) {
     FluidWorld fluid;
     BodyDef def{1, Vector3::Constant(0.02), {}, nullptr};
     def.start.twist.linear = Vector3(speed, 0, 0);
-    btRigidBody& body = fluid.add(def, facelessEllipsoid(kSemiAxes), air());
+    btRigidBody& body = fluid.add(def, facelessEllipsoid(kUnequalAxes), air());
     body.forceActivationState(ACTIVE_TAG);
     fluid.step(1.0 / 60, 600);
     EXPECT_EQ(body.isActive(), speed > 0) << speed << " m/s";
@@ -127,7 +125,7 @@ TEST(Interplay, NonFiniteVelocityDoesNotSpread) {
   FluidWorld fluid;
   std::vector<std::string> said;
   fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
-  const FluidBody shape = meshedEllipsoid(kSemiAxes, 1);
+  const FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
   const btRigidBody& healthy = fluid.add(spinning(3), shape, air());
   BodyDef far = spinning(3);
   far.start.position = Vector3(50, 0, 0);
@@ -147,7 +145,7 @@ TEST(Interplay, AMissingActionIsReportedOnce) {
   std::vector<std::string> said;
   fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
   fluid.world.removeAction(&fluid.action);
-  fluid.add(spinning(3), meshedEllipsoid(kSemiAxes, 1), air());
+  fluid.add(spinning(3), meshedEllipsoid(kUnequalAxes, 1), air());
   fluid.step(1.0 / 60, 5);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_NE(said[0].find("addAction"), std::string::npos);
@@ -159,7 +157,7 @@ TEST(Interplay, AMissingSolverIsReportedOnce) {
   fluid.world.setConstraintSolver(&stock);
   std::vector<std::string> said;
   fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
-  fluid.add(spinning(3), meshedEllipsoid(kSemiAxes, 1), air());
+  fluid.add(spinning(3), meshedEllipsoid(kUnequalAxes, 1), air());
   fluid.step(1.0 / 60, 5);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_NE(said[0].find("setConstraintSolver"), std::string::npos);
@@ -167,7 +165,7 @@ TEST(Interplay, AMissingSolverIsReportedOnce) {
 
 TEST(Interplay, ABodyLeavesTheWorldAndComesBack) {
   FluidWorld fluid;
-  btRigidBody& body = fluid.add(spinning(10), meshedEllipsoid(kSemiAxes, 1), air());
+  btRigidBody& body = fluid.add(spinning(10), meshedEllipsoid(kUnequalAxes, 1), air());
   fluid.step(1.0 / 60, 10);
   fluid.world.removeRigidBody(&body);
   const btVector3 held = body.getWorldTransform().getOrigin();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <new>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/reference/face_by_face_loads.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/geodesic.h"
@@ -12,8 +13,6 @@
 
 namespace ambient {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 TEST(SeparationCosine, IsExactlyZeroAtARightAngle) {
   EXPECT_EQ(separationCosine(kPi / 2), 0);

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/reference/plate_loads.h"
 
 namespace ambient {
 namespace {
 
-const double kPi = std::acos(-1.0);
 // A few hundred terms of one size are added.
 constexpr double kRounding = 1e-13;
 constexpr double kDensity = 1.3;

@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "bullet_ambient/force/single_sums.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/geodesic.h"
 #include "tests/support/random_bodies.h"
 
 namespace ambient {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 FaceTable firstFaces(const FaceTable& faces, std::size_t count) {
   FaceTable first;

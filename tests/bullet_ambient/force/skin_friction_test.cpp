@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/reference/sphere_loads.h"
 #include "tests/support/convergence.h"
 #include "tests/support/geodesic.h"
@@ -9,7 +10,6 @@
 namespace ambient {
 namespace {
 
-const double kPi = std::acos(-1.0);
 // A golf ball in air at its launch speed and spin.
 const reference::SphereInFluid kBall{0.02135, 1.204, 1.82e-5};
 constexpr double kSpeed = 53;

@@ -7,13 +7,13 @@
 #include <limits>
 
 #include "bullet_ambient/force/load_tables.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/reference/sphere_loads.h"
 #include "tests/support/random_bodies.h"
 
 namespace ambient {
 namespace {
 
-const double kPi = std::acos(-1.0);
 constexpr double kDensity = 1.7, kViscosity = 2e-5, kSpeed = 3.5, kRadius = 0.6;
 const double kLength = std::sqrt(4 * kPi) * kRadius;
 const double kPressureUnit = 0.5 * kDensity * kSpeed * kSpeed * kPi * kRadius * kRadius;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/reference/sphere_loads.h"
 #include "tests/support/convergence.h"
 #include "tests/support/geodesic.h"
@@ -9,7 +10,6 @@
 namespace ambient {
 namespace {
 
-const double kPi = std::acos(-1.0);
 constexpr int kDirections = 16;
 constexpr double kDensity = 1.7;
 constexpr double kSpeed = 3.5;

@@ -7,29 +7,23 @@ namespace ambient {
 namespace {
 
 using test::Arbitrary;
+using test::exactEnd;
 using test::FreeBody;
 using test::glidingDisc;
+using test::kDuration;
+using test::MakeBody;
 using test::tumblingEllipsoid;
 
-constexpr double kDuration = 0.4;  // [s]
-constexpr int kSteps = 24;         // at 60 Hz
+constexpr int kFlightSteps = 24;  // at 60 Hz
 
 FlightSettings accurate(double tolerance, int max_substeps = 0) {
   return {Integrator::kDormandPrince, tolerance, max_substeps};
 }
 
-using MakeBody = FreeBody (*)(const FlightSettings&);
-
 FreeBody fliesWith(MakeBody make, const FlightSettings& settings) {
   FreeBody body = make(settings);
-  body.advance(kDuration / kSteps, kSteps);
+  body.advance(kDuration / kFlightSteps, kFlightSteps);
   return body;
-}
-
-RigidState exactEnd(MakeBody make, int steps) {
-  FreeBody body = make({Integrator::kRungeKutta4, 1e-3, 1});
-  body.advance(kDuration / steps, steps);
-  return body.state;
 }
 
 double distance(const RigidState& a, const RigidState& b) {

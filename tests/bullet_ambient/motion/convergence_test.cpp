@@ -7,25 +7,18 @@
 namespace ambient {
 namespace {
 
+using test::exactEnd;
 using test::FreeBody;
 using test::glidingDisc;
+using test::kDuration;
+using test::MakeBody;
 using test::tumblingEllipsoid;
-
-constexpr double kDuration = 0.4;  // [s]
-
-using MakeBody = FreeBody (*)(const FlightSettings&);
 
 double positionError(MakeBody make, const FlightSettings& settings, int steps,
                      const RigidState& exact) {
   FreeBody body = make(settings);
   body.advance(kDuration / steps, steps);
   return (body.state.position - exact.position).norm();
-}
-
-RigidState exactEnd(MakeBody make, int steps) {
-  FreeBody body = make({Integrator::kRungeKutta4, 1e-3, 1});
-  body.advance(kDuration / steps, steps);
-  return body.state;
 }
 
 TEST(Leapfrog, IsOfSecondOrderWhereTheLoadsAreSmooth) {

@@ -15,7 +15,7 @@ using test::flowWithoutLoads;
 using test::FreeBody;
 
 constexpr int kBodies = 12;
-constexpr double kDuration = 2;  // [s]
+constexpr double kSpinDuration = 2;  // [s]
 
 FreeBody bodyWithCoupledInertia(unsigned seed) {
   Arbitrary arbitrary(seed);
@@ -45,7 +45,7 @@ Drift measureDrift(FreeBody& body, double step) {
   const Momentum own = bodyMomentum();
   const Momentum world = body.worldMomentum();
   Drift drift;
-  for (double t = 0; t < kDuration; t += step) {
+  for (double t = 0; t < kSpinDuration; t += step) {
     body.advance(step);
     const Momentum p = bodyMomentum();
     const Momentum P = body.worldMomentum();
@@ -93,8 +93,8 @@ TEST(RungeKutta, KeepsMomentaAndHelicityWithoutLoads) {
   }
 }
 
-// Rotation error [rad] after kDuration against an integrator of order 16 in other unknowns, of the
-// median body: single bodies are chaotic and double an initial rounding error many times.
+// Rotation error [rad] after kSpinDuration against an integrator of order 16 in other unknowns, of
+// the median body: single bodies are chaotic and double an initial rounding error many times.
 double medianRotationError(double spin, double step, Integrator integrator) {
   std::vector<double> errors;
   for (unsigned seed = 0; seed < kBodies; ++seed) {
@@ -105,8 +105,8 @@ double medianRotationError(double spin, double step, Integrator integrator) {
     s << body.state.orientation.coeffs(), body.state.position,
         body.model().inertia * body.state.twist.vector();
     const Eigen::Matrix<double, 6, 6> inertia = body.model().inertia;
-    s = reference::integrate({inertia.inverse()}, s, kDuration, static_cast<int>(spin * 40));
-    body.advance(step, static_cast<int>(std::lround(kDuration / step)));
+    s = reference::integrate({inertia.inverse()}, s, kSpinDuration, static_cast<int>(spin * 40));
+    body.advance(step, static_cast<int>(std::lround(kSpinDuration / step)));
     errors.push_back(test::angleBetween(body.state.orientation, reference::orientationOf(s)));
   }
   std::sort(errors.begin(), errors.end());

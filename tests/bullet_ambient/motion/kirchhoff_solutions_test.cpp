@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/reference/kirchhoff_motion.h"
 #include "tests/support/ellipsoid_body.h"
 #include "tests/support/free_body.h"
@@ -11,7 +12,6 @@ namespace {
 
 using test::FreeBody;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kWater = 1000;  // [kg/m^3]
 
 // The neutrally buoyant ellipsoid of the reference numbers.

@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/motion/flight.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/support/body_models.h"
 #include "tests/support/ellipsoid_body.h"
 
 namespace ambient {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 struct Launch {
   Vector3 semi_axes;

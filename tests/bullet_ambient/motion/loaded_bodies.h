@@ -42,4 +42,15 @@ inline FreeBody tumblingEllipsoid(const FlightSettings& settings) {
   return plate;
 }
 
+constexpr double kDuration = 0.4;  // of their flights [s]
+
+using MakeBody = FreeBody (*)(const FlightSettings&);
+
+/// Where such a flight ends, to rounding, if `steps` are many.
+inline RigidState exactEnd(MakeBody make, int steps) {
+  FreeBody body = make({Integrator::kRungeKutta4, 1e-3, 1});
+  body.advance(kDuration / steps, steps);
+  return body.state;
+}
+
 }  // namespace ambient::test

@@ -11,18 +11,18 @@ namespace {
 using test::Arbitrary;
 using test::FreeBody;
 
-constexpr double kWater = 1000;  // [kg/m^3]
+constexpr double kWaterDensity = 1000;  // [kg/m^3]
 
 // A faceted ellipsoid whose mass is off its centre: all terms of the equations are at work.
 FreeBody loadedBody(Integrator integrator) {
   const Vector3 semi_axes(0.3, 0.2, 0.1);
   const FluidBody shape = test::meshedEllipsoid(semi_axes, 1);
-  const double mass = 1.2 * kWater * shape.volume;
+  const double mass = 1.2 * kWaterDensity * shape.volume;
   FrameOffset frame;
   frame.translation = {0.02, -0.01, 0.015};
   FreeBody body({shape,
                  {mass, test::ellipsoidMoments(semi_axes, mass).asDiagonal()},
-                 {kWater, 1e-3, Vector3::Zero(), Vector3::Zero()},
+                 {kWaterDensity, 1e-3, Vector3::Zero(), Vector3::Zero()},
                  {1.2 * 1.5707963267948966, true},
                  frame});
   body.settings.integrator = integrator;
@@ -34,7 +34,7 @@ FreeBody loadedBody(Integrator integrator) {
 
 constexpr Integrator kIntegrators[] = {Integrator::kPassiveLeapfrog, Integrator::kRungeKutta4};
 constexpr double kStep = 1.0 / 60;
-constexpr int kSteps = 60;
+constexpr int kDriftSteps = 60;
 
 TEST(MovingFluid, ASteadyCurrentIsStillWaterSeenFromAMovingFrame) {
   const Vector3 current(0.7, -0.4, 0.2);
@@ -43,9 +43,9 @@ TEST(MovingFluid, ASteadyCurrentIsStillWaterSeenFromAMovingFrame) {
     FreeBody carried = loadedBody(integrator);
     carried.surroundings.ambient_velocity = current;
     carried.state.twist.linear += carried.state.orientation.conjugate() * current;
-    still.advance(kStep, kSteps);
-    carried.advance(kStep, kSteps);
-    const Vector3 way = kSteps * kStep * current;
+    still.advance(kStep, kDriftSteps);
+    carried.advance(kStep, kDriftSteps);
+    const Vector3 way = kDriftSteps * kStep * current;
     // Rounding of adding and taking away the current, amplified by the switching of the faces.
     EXPECT_LT((carried.state.position - still.state.position - way).norm(), 1e-12);
     EXPECT_LT(test::angleBetween(carried.state.orientation, still.state.orientation), 1e-11);
@@ -63,13 +63,13 @@ TEST(MovingFluid, ItsAccelerationActsLikeGravityOnBodyAndDisplacedFluid) {
     still.setGravity(gravity - acceleration);
     FreeBody carried = loadedBody(integrator);
     carried.setGravity(gravity);
-    for (int i = 0; i < kSteps; ++i) {
+    for (int i = 0; i < kDriftSteps; ++i) {
       carried.surroundings.ambient_velocity = i * kStep * acceleration;
       carried.surroundings.ambient_acceleration = acceleration;
       carried.advance(kStep);
       still.advance(kStep);
     }
-    const double t = kSteps * kStep;
+    const double t = kDriftSteps * kStep;
     const Vector3 way = t * t / 2 * acceleration;
     EXPECT_LT((carried.state.position - still.state.position - way).norm(), 1e-11);
     EXPECT_LT(test::angleBetween(carried.state.orientation, still.state.orientation), 1e-10);
@@ -79,12 +79,12 @@ TEST(MovingFluid, ItsAccelerationActsLikeGravityOnBodyAndDisplacedFluid) {
 TEST(MovingFluid, CarriesANeutrallyBuoyantSphereAlong) {
   const double radius = 0.1;
   const FluidBody shape = test::gaussSphere(radius);
-  const double mass = kWater * shape.volume;
+  const double mass = kWaterDensity * shape.volume;
   const Vector3 acceleration(1, -2, 0.5);
   for (const Integrator integrator : kIntegrators) {
     FreeBody sphere({shape,
                      {mass, test::ellipsoidMoments(Vector3::Constant(radius), mass).asDiagonal()},
-                     {kWater, 1e-3, Vector3::Zero(), Vector3::Zero()}});
+                     {kWaterDensity, 1e-3, Vector3::Zero(), Vector3::Zero()}});
     sphere.settings.integrator = integrator;
     sphere.setGravity({0, 0, -9.81});
     sphere.surroundings.ambient_acceleration = acceleration;

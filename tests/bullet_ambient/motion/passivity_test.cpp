@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/support/ellipsoid_body.h"
 #include "tests/support/free_body.h"
 #include "tests/support/random_bodies.h"
@@ -12,8 +13,7 @@ namespace {
 using test::Arbitrary;
 using test::FreeBody;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kBodies = 1200;
+constexpr int kRandomBodies = 1200;
 
 // Any shape from needle to plate, mass anywhere inside, density 1e-3 to 1e4 of the fluid's, up to
 // 300 m/s and 1000 rad/s.
@@ -46,7 +46,7 @@ TEST(Leapfrog, NeverGainsEnergyInAStillFluid) {
   Arbitrary arbitrary(1);
   double largest_growth = 0;
   int finite = 0;
-  for (int i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kRandomBodies; ++i) {
     FreeBody body = wildBody(arbitrary);
     const double step = wildStep(arbitrary);
     for (int n = 0; n < 10; ++n) {
@@ -57,7 +57,7 @@ TEST(Leapfrog, NeverGainsEnergyInAStillFluid) {
     }
     finite += body.state.isFinite();
   }
-  EXPECT_EQ(finite, kBodies);
+  EXPECT_EQ(finite, kRandomBodies);
   // Rounding only: kicks and flows are passive one by one. Measured 6e-13.
   EXPECT_LT(largest_growth, 1e-11);
 }
@@ -66,7 +66,7 @@ TEST(Leapfrog, NeverGainsEnergyInAStillFluid) {
 TEST(Leapfrog, NeverGainsEnergyInGravity) {
   Arbitrary arbitrary(3);
   int falls = 0;
-  for (int i = 0; i < kBodies / 4; ++i) {
+  for (int i = 0; i < kRandomBodies / 4; ++i) {
     FreeBody body = wildBody(arbitrary);
     body.state.twist = arbitrary.twist(3, 1);
     body.setGravity({0, 0, -9.81});
@@ -84,7 +84,7 @@ TEST(Leapfrog, NeverGainsEnergyInGravity) {
       falls += kinetic > 0;
     }
   }
-  EXPECT_EQ(falls, 20 * (kBodies / 4));
+  EXPECT_EQ(falls, 20 * (kRandomBodies / 4));
 }
 
 TEST(Leapfrog, StaysFiniteAndBoundedUnderGravity) {
@@ -94,7 +94,7 @@ TEST(Leapfrog, StaysFiniteAndBoundedUnderGravity) {
   Arbitrary arbitrary(2);
   constexpr double g = 9.81;
   double largest = 0;
-  for (int i = 0; i < kBodies; ++i) {
+  for (int i = 0; i < kRandomBodies; ++i) {
     FreeBody body = wildBody(arbitrary);
     body.setGravity({0, 0, -g});
     const double step = wildStep(arbitrary);

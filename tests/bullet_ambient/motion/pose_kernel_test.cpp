@@ -6,14 +6,13 @@
 
 #include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/motion/rotation.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/support/random_bodies.h"
 
 namespace ambient {
 namespace {
 
 using test::Arbitrary;
-
-constexpr double kPi = 3.14159265358979323846;
 
 class PoseKernels : public ::testing::TestWithParam<InstructionSet> {
  protected:

@@ -7,7 +7,7 @@ namespace ambient {
 namespace {
 
 // A few dozen rounded operations on numbers of order 1 to 10.
-constexpr double kRounding = 1e-13;
+constexpr double kShiftRounding = 1e-13;
 
 class FrameOffsetTest : public testing::Test {
  protected:
@@ -20,7 +20,7 @@ TEST_F(FrameOffsetTest, MovesTheSameBodyPointInBothFrames) {
   const Vector3 p_F = arbitrary_.vector();
   const Vector3 p_B = offset_.rotation * p_F + offset_.translation;
   const Vector3 velocity_F = offset_.toF(x_B).at(p_F);
-  EXPECT_LT((offset_.rotation * velocity_F - x_B.at(p_B)).norm(), kRounding);
+  EXPECT_LT((offset_.rotation * velocity_F - x_B.at(p_B)).norm(), kShiftRounding);
 }
 
 TEST_F(FrameOffsetTest, TakesAForceAtAPointToThatForceAtThatPoint) {
@@ -29,7 +29,7 @@ TEST_F(FrameOffsetTest, TakesAForceAtAPointToThatForceAtThatPoint) {
   const Vector3 p_B = offset_.rotation * p_F + offset_.translation;
   const Wrench expected = Wrench::ofForceAt(offset_.rotation * force_F, p_B);
   const Wrench f_B = offset_.toB(Wrench::ofForceAt(force_F, p_F));
-  EXPECT_LT((f_B.vector() - expected.vector()).norm(), kRounding);
+  EXPECT_LT((f_B.vector() - expected.vector()).norm(), kShiftRounding);
 }
 
 TEST_F(FrameOffsetTest, KeepsThePower) {
@@ -37,7 +37,7 @@ TEST_F(FrameOffsetTest, KeepsThePower) {
     const Twist x_B = arbitrary_.twist();
     const Wrench f_F{arbitrary_.vector(), arbitrary_.vector()};
     EXPECT_NEAR(power(offset_.toB(f_F), x_B), power(f_F, offset_.toF(x_B)),
-                kRounding * x_B.vector().norm() * f_F.vector().norm());
+                kShiftRounding * x_B.vector().norm() * f_F.vector().norm());
   }
 }
 
@@ -47,7 +47,7 @@ TEST_F(FrameOffsetTest, KeepsTheKineticEnergy) {
   const Vector6 x_F = offset_.toF(x_B).vector();
   const double energy = x_F.dot(K_F * x_F) / 2;
   EXPECT_NEAR(x_B.vector().dot(offset_.inertiaToB(K_F) * x_B.vector()) / 2, energy,
-              kRounding * energy);
+              kShiftRounding * energy);
 }
 
 TEST_F(FrameOffsetTest, OfNothingChangesNothing) {

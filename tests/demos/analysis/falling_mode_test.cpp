@@ -5,10 +5,11 @@
 #include <cmath>
 #include <functional>
 
+#include "bullet_ambient/spatial/pi.h"
+
 namespace ambient {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 const Vector3 kGravity(0, 0, -9.81);
 
 /// A plate that falls at 0.5 m/s and drifts at 0.3 m/s, its tilt about y a function of time.

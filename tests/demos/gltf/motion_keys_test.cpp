@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
+
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 /// Turns evenly about a slanted axis while it moves evenly.
 MotionSample spinningAt(double time, double spin) {

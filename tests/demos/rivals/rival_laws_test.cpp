@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/support/ellipsoid_body.h"
 
 namespace ambient {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double kRadius = 0.11;
 constexpr double kDensity = 1.204;
-const double kPi = std::acos(-1.0);
 
 Wrench loadOnBall(const LoadLaw& law, const Twist& twist) {
   LoadSettings settings;

@@ -7,13 +7,12 @@
 #include <cmath>
 #include <functional>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "demos/analysis/path_summary.h"
 #include "tests/demos/simulation/run_scene.h"
 
 namespace ambient {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 double ballRadius(const Scene& scene, std::size_t body = 0) {
   return std::get<SphereShape>(scene.bodies[body].shape.geometry).radius;

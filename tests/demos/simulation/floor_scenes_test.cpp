@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/demos/simulation/run_scene.h"
@@ -27,23 +28,48 @@ std::vector<double> carriedBy(double wind) {
   const Scene scene = readNamedScene("cards_in_wind",
                                      {{"medium.velocity", "[" + std::to_string(wind) + ", 0, 0]"}});
   const RunRecord record = runSharing(scene);
+  const Vector3 table = std::get<BoxShape>(scene.bodies[0].shape.geometry).half_sizes;
+  // A card that lands on its edge sinks into the table for a moment, by less than its thickness.
+  const double sunk = std::get<BoxShape>(scene.bodies[1].shape.geometry).half_sizes.z();
   std::vector<double> carried;
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
     const auto& motion = record.motion[i];
     carried.push_back((motion.back().position - motion.front().position).norm());
-    for (const MotionSample& sample : motion) EXPECT_GT(sample.position.z(), 0);
+    for (const MotionSample& sample : motion) {
+      const bool is_over_table = (sample.position.cwiseAbs() - table).head<2>().maxCoeff() < 0;
+      EXPECT_TRUE(sample.position.z() > -sunk || !is_over_table);
+    }
   }
+  EXPECT_EQ(carried.size(), 3u);
   return carried;
 }
 
-TEST(CardsInWind, LieStillWhileTheirWeightExceedsTheDynamicPressure) {
-  // 1/2 rho V^2 on one side lifts them from 2.3 m/s on.
-  for (const double wind : {0.0, 1.0, 2.2})
-    for (const double way : carriedBy(wind)) EXPECT_LT(way, 0.003) << wind << " m/s";
+/// In which 1/2 rho V^2 on one side of a card is its weight [m/s].
+double liftingWind() {
+  const Scene scene = readNamedScene("cards_in_wind");
+  const BodyDef& card = scene.bodies[1];
+  const Vector3 half = std::get<BoxShape>(card.shape.geometry).half_sizes;
+  const double area = 4 * half.x() * half.y();
+  return std::sqrt(2 * card.mass * -scene.gravity.z() / (scene.medium.density * area));
 }
 
-TEST(CardsInWind, AreCarriedOffByAStrongerWind) {
-  for (const double way : carriedBy(4)) EXPECT_GT(way, 0.5);
+TEST(CardsInWind, LieStillWhileTheirWeightExceedsTheDynamicPressure) {
+  for (const double part : {0.0, 0.5, 0.95})
+    for (const double way : carriedBy(part * liftingWind())) EXPECT_LT(way, 0.003) << part;
+}
+
+// Which of them is chance (docs/experiments.md): on an exactly flat card, rounding decides on which
+// faces the flow separates.
+TEST(CardsInWind, AreCarriedOffOnceItExceedsTheirWeight) {
+  for (const double part : {1.2, 1.5, 1.7, 2.0}) {
+    const std::vector<double> ways = carriedBy(part * liftingWind());
+    EXPECT_GT(*std::max_element(ways.begin(), ways.end()), 0.5) << part;
+  }
+}
+
+TEST(CardsInWind, AllLeaveTheirPlaceInTheWindOfTheScene) {
+  for (const double way : carriedBy(readNamedScene("cards_in_wind").medium.velocity.x()))
+    EXPECT_GT(way, 0.5);
 }
 
 }  // namespace

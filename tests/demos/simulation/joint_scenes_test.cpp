@@ -5,13 +5,13 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/demos/simulation/run_scene.h"
 
 namespace ambient {
 namespace {
 
-const double kPi = std::acos(-1.0);
 constexpr double kGravity = 9.81;
 constexpr double kWater = 1000;
 

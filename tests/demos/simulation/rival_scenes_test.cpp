@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "demos/analysis/falling_mode.h"
 #include "demos/analysis/path_summary.h"
 #include "tests/demos/scene/scene_text.h"
@@ -13,8 +14,6 @@
 
 namespace ambient {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 std::vector<MotionSample> motionOf(const std::string& scene, const std::string& model) {
   return runSharing(readNamedScene(scene, {{"model", model}})).motion[0];

@@ -5,12 +5,11 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/demos/simulation/scene_loads.h"
 
 namespace ambient {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 /// Kinetic energy of body and fluid and the potential energy in gravity and buoyancy [J].
 class EnergyOf {

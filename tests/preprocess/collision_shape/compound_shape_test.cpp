@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -11,8 +12,6 @@ namespace {
 using test::coarse;
 using test::differenceOf;
 using test::kScalarRounding;
-
-const double kPi = std::acos(-1.0);
 
 btTransform somewhere() {
   return btTransform(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(0.7)),

@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"
@@ -14,8 +15,6 @@ using test::coarse;
 using test::kScalarRounding;
 using test::rotationError;
 using test::translationError;
-
-const double kPi = std::acos(-1.0);
 
 /// Body of revolution about an axis, without coupling.
 Matrix6 alongAxis(const RevolutionAddedMass& about_z, int axis) {
@@ -147,7 +146,7 @@ TEST(ConvexShape, RoundedConeIsWithinHalfAPercentOfFinerOnes) {
   cone.setMargin(btScalar(0.1));
   CollisionShapeSettings finer;
   finer.faces = 1800;
-  finer.max_panels = 5000;
+  finer.flow.max_panels = 5000;
   const Matrix6 exact = makeFluidBody(cone, finer).added_mass;
   const Matrix6 K = makeFluidBody(cone).added_mass;
   EXPECT_LT(rotationError(K, exact), 3e-3);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/reference/body_added_mass.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using test::coarse;
 using test::kScalarRounding;
-
-const double kPi = std::acos(-1.0);
 
 void addCube(btConvexHullShape& hull, btScalar half_size) {
   for (int i = 0; i < 8; ++i) {

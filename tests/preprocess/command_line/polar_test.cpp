@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
@@ -17,8 +18,6 @@
 
 namespace ambient {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 /// One row of the CSV.
 using Row = std::array<double, 8>;
@@ -29,8 +28,8 @@ class Polar : public ::testing::Test {
   std::string write(const TriangleMesh& mesh, bool sheet = false) const {
     BuildSettings settings;
     settings.name = "body";
-    settings.max_panels = 0;
-    settings.sheet = sheet;
+    settings.flow.max_panels = 0;
+    settings.flow.sheet = sheet;
     const std::string file = (folder_ / "body.ambient").string();
     writeFluidBody(makeFluidBody(mesh, settings), file);
     return file;
@@ -96,7 +95,7 @@ TEST_F(Polar, ObliqueSpheroidAgreesWithQuadrature) {
 
 TEST_F(Polar, ASphereHasHalfOfItsSilhouetteAtEveryAngle) {
   BuildSettings settings;
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   settings.sphere_radius = 0.5;
   const std::string file = (folder_ / "ball.ambient").string();
   writeFluidBody(makeFluidBody(makeEllipsoidMesh({0.5, 0.5, 0.5}, 80), settings), file);

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-14;  // of some hundred additions
 
 double relativeError(const Matrix3& a, const Matrix3& b) {

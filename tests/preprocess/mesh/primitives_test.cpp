@@ -11,14 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct NamedMesh {
   std::string name;

@@ -4,13 +4,12 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 
 namespace ambient {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 // Lamb's formulae with Carlson's integrals of another library, checked against quadrature.
 TEST(EllipsoidAddedMass, AgreesWithPublishedNumbers) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/ellipsoid_added_mass.h"
@@ -15,8 +16,6 @@ namespace {
 using Eigen::Vector3d;
 using test::addedMassOf;
 using test::relativeError;
-
-const double kPi = std::acos(-1.0);
 
 double volumeOf(const Vector3d& semi_axes) { return 4.0 / 3.0 * kPi * semi_axes.prod(); }
 
@@ -100,10 +99,9 @@ TEST(SphereFlow, HasAlmostNoRotationalInertia) {
 
 TEST(SphereFlow, PotentialIsHalfTheNormalVelocity) {
   const double R = 0.4;
-  const TriangleMesh mesh = makeEllipsoidMesh({R, R, R}, 1300);
-  PotentialFlowSettings settings;
-  settings.true_volume = volumeOf({R, R, R});
-  const PotentialFlow flow = solvePotentialFlow(mesh, settings);
+  const TriangleMesh mesh =
+      test::withVolume(makeEllipsoidMesh({R, R, R}, 1300), volumeOf({R, R, R}));
+  const PotentialFlow flow = solvePotentialFlow(mesh);
   ASSERT_EQ(flow.potential.rows(), mesh.vertexCount());
   // phi = -R/2 cos(theta) for translation, 0 for rotation. Facets; measured 9e-4 R.
   const Eigen::Matrix3Xd expected = -mesh.vertices / 2;

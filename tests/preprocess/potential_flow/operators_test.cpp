@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/potential_flow/double_layer.h"
 #include "preprocess/potential_flow/hypersingular.h"
@@ -16,8 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
-
-const double kPi = std::acos(-1.0);
 
 /// Two skew tetrahedra, triangles 0 to 3 and 4 to 7.
 PanelSurface twoTetrahedra(const Vector3d& distance = {2.5, 1, -0.5}) {

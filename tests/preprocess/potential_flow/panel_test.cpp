@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/reference/triangle_potentials.h"
 
 namespace ambient {
@@ -11,7 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-const double kPi = std::acos(-1.0);
 constexpr double kFineStep = 0.06;
 
 Panel skewPanel() { return makePanel({0.3, -0.2, 0.1}, {1.4, 0.1, 0.4}, {0.2, 0.9, -0.3}); }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/potential_flow/curvature_correction.h"
 #include "preprocess/potential_flow/face_bulges.h"
@@ -19,8 +20,6 @@ namespace {
 
 using test::differenceOf;
 using test::relativeError;
-
-const double kPi = std::acos(-1.0);
 
 PotentialFlowSettings withPanels(int panels) {
   PotentialFlowSettings settings;

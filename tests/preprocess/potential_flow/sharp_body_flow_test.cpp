@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/body_added_mass.h"
@@ -13,8 +14,6 @@ namespace {
 using reference::RevolutionAddedMass;
 using test::addedMassOf;
 using test::relativeError;
-
-const double kPi = std::acos(-1.0);
 
 TEST(SharpBodyFlow, CubeIsWithinHalfAPercent) {
   const TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 3000);

@@ -19,9 +19,9 @@ namespace {
 using test::differenceOf;
 using test::relativeError;
 
-constexpr int kPanels = 3000;
+constexpr int kFinePanels = 3000;
 
-Matrix6 refinedAddedMassOf(const TriangleMesh& mesh, int panels = kPanels, bool sheet = false) {
+Matrix6 refinedAddedMassOf(const TriangleMesh& mesh, int panels = kFinePanels, bool sheet = false) {
   PotentialFlowSettings settings;
   settings.sheet = sheet;
   settings.max_panels = panels;
@@ -41,9 +41,9 @@ TEST(SurfaceRefinement, KeepsTheSurfaceClosedAndItsShape) {
   for (const TriangleMesh& mesh :
        {makeBoxMesh({1, 0.3, 0.02}, 12), test::gradedTetrahedron(1), makeConeMesh(0.4, 2, 100),
         makeCylinderMesh(1, 1, 200), test::makeTorus({2, 1, 5, 7})}) {
-    const TriangleMesh fine = refineSurface(mesh, false, kPanels);
+    const TriangleMesh fine = refineSurface(mesh, false, kFinePanels);
     EXPECT_GT(fine.triangleCount(), mesh.triangleCount());
-    EXPECT_LE(fine.triangleCount(), kPanels);
+    EXPECT_LE(fine.triangleCount(), kFinePanels);
     EXPECT_NO_THROW(checkMesh(fine, "refined"));
     EXPECT_NEAR(test::volumeOf(fine) / test::volumeOf(mesh), 1, 1e-13);
     EXPECT_NEAR(areaOf(fine) / areaOf(mesh), 1, 1e-13);
@@ -53,7 +53,7 @@ TEST(SurfaceRefinement, KeepsTheSurfaceClosedAndItsShape) {
 
 TEST(SurfaceRefinement, LeavesFineMeshesAsTheyAre) {
   const TriangleMesh mesh = makeEllipsoidMesh({3, 2, 1}, 1300);
-  EXPECT_EQ(refineSurface(mesh, false, kPanels).triangleCount(), mesh.triangleCount());
+  EXPECT_EQ(refineSurface(mesh, false, kFinePanels).triangleCount(), mesh.triangleCount());
   EXPECT_EQ(refineSurface(makeBoxMesh({1, 1, 1}, 12), false, 0).triangleCount(), 12);
 }
 
@@ -71,7 +71,7 @@ TEST(SurfaceRefinement, DivisionKeepsShapeAndVertices) {
 
 TEST(SurfaceRefinement, ThinsTrianglesAcrossSharpEdgesButNotAlongThem) {
   const TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 768);
-  const TriangleMesh fine = refineSurface(mesh, false, kPanels);
+  const TriangleMesh fine = refineSurface(mesh, false, kFinePanels);
   ASSERT_GT(fine.triangleCount(), mesh.triangleCount());
   const auto nearestToAnEdge = [](const TriangleMesh& m, Eigen::Index first) {
     double nearest = 1;
@@ -102,7 +102,7 @@ TEST(SurfaceRefinement, TetrahedronOf4TrianglesIsWithinHalfAPercent) {
 }
 
 TEST(SurfaceRefinement, CoarseSheetIsWithinOnePercent) {
-  const Matrix6 K = refinedAddedMassOf(makeRectangularSheetMesh(2, 1, 16), kPanels, true);
+  const Matrix6 K = refinedAddedMassOf(makeRectangularSheetMesh(2, 1, 16), kFinePanels, true);
   // 2216 panels; measured 3.7e-3, where the 16 triangles are off by 23 %.
   EXPECT_LT(relativeError(K(5, 5), reference::rectangleAddedMass(2).v_z), 6e-3);
 }

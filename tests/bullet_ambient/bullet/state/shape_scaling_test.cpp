@@ -7,7 +7,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kTimeStep = 1.0 / 120;
+constexpr double kShortStep = 1.0 / 120;
 constexpr double kScale = 2.5;
 
 // A flat ellipsoid whose fluid frame is shifted and turned, so that everything couples.
@@ -49,7 +49,7 @@ Motion motionOf(const btRigidBody& body) {
 
 void fly(FluidWorld& fluid, btRigidBody& body, double s) {
   body.setGravity(btVector3(0, 0, static_cast<btScalar>(-9.81 * s)));
-  fluid.step(kTimeStep, 60);
+  fluid.step(kShortStep, 60);
 }
 
 Motion flightOfScale(double s) {
@@ -109,7 +109,7 @@ TEST(ShapeScaling, ARefusedFluidBodyLeavesTheOldOne) {
   EXPECT_THROW(fluid.registry.setFluidBody(body, broken), std::invalid_argument);
   EXPECT_EQ(fluid.registry.inertia(body), before);
   EXPECT_EQ(bodiesOf(fluid.registry).find(&body)->model.loads, loads);
-  fluid.step(kTimeStep);
+  fluid.step(kShortStep);
 }
 
 }  // namespace

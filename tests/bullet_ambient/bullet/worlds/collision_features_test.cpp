@@ -8,8 +8,6 @@
 namespace ambient::test {
 namespace {
 
-btScalar bt(double value) { return static_cast<btScalar>(value); }
-
 // Position and velocity after flying towards a wall for half a second.
 Vector6 flightTowardsAWall(bool is_wall_there, int mask) {
   CoupledScene scene(3);

@@ -7,8 +7,6 @@
 namespace ambient::test {
 namespace {
 
-btScalar bt(double value) { return static_cast<btScalar>(value); }
-
 // K of a locked body: nothing moves along its locked axes.
 reference::DenseBody locked(const reference::DenseBody& body, const DenseVector6& free) {
   reference::DenseBody result = body;

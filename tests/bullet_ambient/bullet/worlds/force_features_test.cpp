@@ -6,8 +6,6 @@
 namespace ambient::test {
 namespace {
 
-btScalar bt(double value) { return static_cast<btScalar>(value); }
-
 TEST(ForceFeatures, AForceAtAPointIsFeltThroughTheFullInertia) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     CoupledScene scene(seed);

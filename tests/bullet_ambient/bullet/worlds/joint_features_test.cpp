@@ -4,15 +4,12 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "tests/bullet_ambient/bullet/worlds/coupled_scene.h"
 
 // What Bullet offers around joints, with a body of coupled K in an ideal fluid.
 namespace ambient::test {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-btScalar bt(double value) { return static_cast<btScalar>(value); }
 
 struct OnJoint : CoupledScene {
   explicit OnJoint(unsigned seed) : CoupledScene(seed) {

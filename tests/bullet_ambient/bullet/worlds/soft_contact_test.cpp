@@ -14,14 +14,11 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kStep = 1.0 / 120;
 constexpr double kRadius = 0.4;
-
-btScalar bt(double value) { return static_cast<btScalar>(value); }
 
 class SoftScene {
  public:
-  explicit SoftScene(double gravity) : host_(InSoftWorld<SequentialImpulse>::make(true)) {
+  explicit SoftScene(double gravity) : host_(worldNamed("SoftWithSequentialImpulse").make(true)) {
     soft_world().setGravity({0, 0, bt(-gravity)});
     soft_world().getWorldInfo().m_gravity = soft_world().getGravity();
     soft_world().getWorldInfo().air_density = 0;
@@ -52,7 +49,7 @@ class SoftScene {
     host_->registry.attach(*body_, def);
     return *body_;
   }
-  void step(int count) { host_->step(kStep, count); }
+  void step(int count) { host_->step(kWorldStep, count); }
 
  private:
   btSoftRigidDynamicsWorld& soft_world() { return *host_->softWorld(); }

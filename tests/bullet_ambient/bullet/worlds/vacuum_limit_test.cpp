@@ -10,14 +10,11 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kStep = 1.0 / 120;
 constexpr int kSteps = 60;
-const Vector3 kSemiAxes{0.3, 0.25, 0.1};
-
 // Offset from the centre of mass, so that the added mass is coupled.
 AttachDef inFluid(double density) {
   AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kSemiAxes, 1));
+  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1));
   def.medium = {density, 1.8e-5, Vector3(0.5, 0, 0), Vector3::Zero()};
   def.fluid_frame.translation = Vector3(0.05, 0.03, -0.02);
   return def;
@@ -59,7 +56,7 @@ void expectFirstOrder(const Simulate& simulate, const Vector6& vacuum) {
 // Euler's equations and a parabola; Bullet's own flight of a spinning body is but of first order.
 Vector6 exactFlight() {
   const BodyDef def = Run::start();
-  const double duration = kSteps * kStep;
+  const double duration = kSteps * kWorldStep;
   Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Identity();
   inertia.diagonal().head<3>() = def.moments;
   reference::KirchhoffState s = reference::KirchhoffState::Zero();
@@ -73,7 +70,7 @@ Vector6 exactFlight() {
 
 Vector6 flight(double density) {
   Run run(density);
-  run.fluid.step(kStep, kSteps);
+  run.fluid.step(kWorldStep, kSteps);
   return run.velocity();
 }
 
@@ -82,7 +79,7 @@ Vector6 pendulum(double density) {
   run.body.setFlags(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT);
   btPoint2PointConstraint joint(run.body, btVector3(0, static_cast<btScalar>(0.1), 1));
   run.fluid.world.addConstraint(&joint);
-  run.fluid.step(kStep, kSteps);
+  run.fluid.step(kWorldStep, kSteps);
   run.fluid.world.removeConstraint(&joint);
   return run.velocity();
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 #include "preprocess/shape/shape_mesh.h"
@@ -14,8 +15,6 @@
 
 namespace ambient::study {
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 // Orders of the error in the size of the panels: curved bodies are polyhedra first of all, solids
 // of flat sides have graded edges.

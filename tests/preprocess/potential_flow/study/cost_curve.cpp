@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/potential_flow/surface_refinement.h"
@@ -20,7 +21,6 @@
 namespace ambient::study {
 namespace {
 
-const double kPi = std::acos(-1.0);
 constexpr int kTakes = 2;
 constexpr int kFewPanels = 1000;
 

@@ -11,7 +11,7 @@
 namespace ambient::study {
 namespace {
 
-constexpr int kTakes = 3;
+constexpr int kRaceTakes = 3;
 
 }  // namespace
 
@@ -39,9 +39,9 @@ std::string pointSourceRace(const std::string& script) {
       table += line;
     };
     add("complete build, 2 threads",
-        takeTime(kTakes, [&] { return builtAddedMass(mesh, false, kDefaultPanels, 2); }));
-    add("point sources, velocity at vertices", runPointSources(script, false, kTakes, mesh));
-    add("point sources, exact flux", runPointSources(script, true, kTakes, mesh));
+        takeTime(kRaceTakes, [&] { return builtAddedMass(mesh, false, kDefaultPanels, 2); }));
+    add("point sources, velocity at vertices", runPointSources(script, false, kRaceTakes, mesh));
+    add("point sources, exact flux", runPointSources(script, true, kRaceTakes, mesh));
   }
   return table;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/support/graded_meshes.h"
@@ -16,8 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3i;
-
-const double kPi = std::acos(-1.0);
 
 /// The triangles around a vertex of the icosahedron, counter-clockwise from outside.
 std::vector<int> trianglesAround(const TriangleMesh& mesh, Eigen::Index v) {

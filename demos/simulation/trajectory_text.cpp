@@ -1,11 +1,8 @@
-#include "demos/simulation/trajectory_file.h"
+#include "demos/simulation/trajectory_text.h"
 
 #include <cstdio>
 
 namespace ambient {
-
-const char* const kTrajectoryHeader = "time,body,px,py,pz,qw,qx,qy,qz,wx,wy,wz,vx,vy,vz";
-
 namespace {
 
 std::string digits17(double value) {
@@ -26,10 +23,6 @@ std::string trajectoryRow(const std::string& body, const MotionSample& sample) {
        {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), w.x(), w.y(), w.z(), v.x(), v.y(), v.z()})
     row += "," + digits17(value);
   return row + "\n";
-}
-
-TrajectoryFile::TrajectoryFile(const std::filesystem::path& file) : file_(file) {
-  file_.write(std::string(kTrajectoryHeader) + "\n");
 }
 
 }  // namespace ambient
