@@ -5,7 +5,6 @@
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
 #include <algorithm>
-#include <cassert>
 #include <vector>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
@@ -15,6 +14,7 @@
 #include "bullet_ambient/bullet/row_rewriting.h"
 #include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/row_velocity.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/tasks/task_runner.h"
 
 namespace ambient {
@@ -330,7 +330,7 @@ void GroupMembers::finish(SolverBodies& solver_bodies, btConstraintArray& joints
       fliers_.push_back(&member);
     } else {
       // Whatever can move a body was there when those with rows were found.
-      assert(row_body);
+      AMBIENT_ASSERT(row_body);
       finishRows(*member.ambient, *row_body, solver_body);
     }
   }

@@ -1,18 +1,18 @@
 #include "bullet_ambient/force/face_loads.h"
 
-#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 namespace {
 
 FaceColumns columnsOf(const FaceTable& faces) noexcept {
-  for ([[maybe_unused]] const std::vector<double>* column : faces.columns())
-    assert(column->size() == faces.size());
+  for (const std::vector<double>* column : faces.columns())
+    AMBIENT_ASSERT(column->size() == faces.size());
   return {{faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
           {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
           faces.area.data(),

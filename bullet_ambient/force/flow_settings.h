@@ -26,7 +26,7 @@ struct FlowSettings {
   double separation_angle =
       1.5707963267948966;     ///< alpha in [pi/2, pi] [rad]; larger = more attachment
   bool skin_friction = true;  ///< turbulent 1/5-power law, docs/theory.md eq. (16)
-  LoadLaw law = nullptr;      ///< empty: this library's pressure and friction
+  LoadLaw own_law = nullptr;  ///< empty: this library's pressure and friction
   LoadPrecision precision = LoadPrecision::kSingle;
   /// Allowed p99 error of reduced loads, LoadLevelError: the cheapest level of the fluid body for
   /// the separation angle that keeps it stands in for the faces. 0, or no such level: all faces.

@@ -143,7 +143,7 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
   checkFlow(*body, flow);
   const LoadSettings settings = loadSettings(medium, flow);
   if (!(settings.density > 0)) return nullptr;
-  if (flow.law) return flow.law(body, settings);
+  if (flow.own_law) return flow.own_law(body, settings);
   if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, settings, tables);
   const double length = referenceLength(*body);
   if (const LoadLevel* level = chooseLevel(*body, flow))

@@ -1,9 +1,9 @@
 #include "demos/analysis/falling_mode.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
@@ -116,7 +116,7 @@ std::string fallingModeName(FallingMode mode) {
 
 Fall analyseFall(const std::vector<MotionSample>& samples, const Vector3& normal,
                  const Vector3& gravity) {
-  assert(gravity.norm() > 0);
+  AMBIENT_ASSERT(gravity.norm() > 0);
   Fall fall;
   if (samples.size() < 2) return fall;
   const Vector3 up = -gravity.normalized();

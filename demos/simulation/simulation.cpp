@@ -81,7 +81,7 @@ AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBo
   attach.medium = scene.medium;
   if (def.fluid_density) attach.medium.density = *def.fluid_density;
   attach.flow = def.flow;
-  attach.flow.law = loadLawOf(scene);
+  attach.flow.own_law = loadLawOf(scene);
   attach.flight = scene.flight;
   attach.fluid_frame.rotation = R_SB.transpose();
   attach.fluid_frame.translation =

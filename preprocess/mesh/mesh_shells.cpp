@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
@@ -185,6 +186,7 @@ void checkCrossings(CheckedMesh& checked, const MeshComponents& components,
 
 CheckedMesh orientOutward(const TriangleMesh& mesh, const MeshEdges& edges,
                           const std::string& name) {
+  AMBIENT_ASSERT(isClosed(edges));
   CheckedMesh result{mesh, {}};
   const MeshComponents components = computeMeshComponents(mesh, edges);
   const std::vector<Shell> shells = findShells(mesh, components);

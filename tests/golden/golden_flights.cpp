@@ -58,7 +58,7 @@ std::vector<NamedDef> loadVariants(const std::string& prefix, const AttachDef& a
       named("in_air", [](AttachDef& a) { a.medium = air(); }),
       named("own_model",
             [](AttachDef& a) {
-              a.flow.law = [](const auto&, const auto&) {
+              a.flow.own_law = [](const auto&, const auto&) {
                 return std::make_shared<QuadraticDrag>();
               };
             }),

@@ -34,7 +34,7 @@ FreeBody ballUnder(std::shared_ptr<const SurfaceLoads> loads, Integrator integra
   Matrix6 added = Matrix6::Zero();
   added.bottomRightCorner<3, 3>() = 0.5 * Matrix3::Identity();
   def.shape = test::shapeWithoutFaces(added);
-  def.flow.law = [loads = std::move(loads)](const auto&, const LoadSettings&) { return loads; };
+  def.flow.own_law = [loads = std::move(loads)](const auto&, const LoadSettings&) { return loads; };
   FreeBody ball(def);
   ball.settings.integrator = integrator;
   ball.state.twist.linear = {3, 0, 4};
