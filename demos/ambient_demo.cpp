@@ -84,8 +84,7 @@ void printScenes() {
 }
 
 std::vector<PreparedBody> prepare(const Scene& scene, FluidBodyCache& cache, bool quiet) {
-  std::optional<ElapsedDisplay> display;
-  if (!quiet) display.emplace(scene.name + ": preparing bodies");
+  const ElapsedDisplay display(scene.name + ": preparing bodies", quiet);
   return prepareBodies(scene, cache);
 }
 
@@ -103,7 +102,7 @@ void runAndWrite(const Arguments& arguments) {
     std::signal(signal, [](int) { interruptRun(); });
   }
   OutputFolder folder(out);
-  TrajectoryFile trajectory(out / "trajectory.csv");
+  OutputFile trajectory(out / "trajectory.csv");
   OutputFile geometry(out / "geometry.json");
   OutputFile summary(out / "summary.json");
   std::optional<OutputFile> gltf;

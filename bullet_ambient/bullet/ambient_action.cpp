@@ -4,7 +4,9 @@
 
 #include <utility>
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/fluid_arrows.h"
 #include "bullet_ambient/bullet/free_flight.h"
 
 namespace ambient {
@@ -13,10 +15,10 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
 // Asks the world, not the registry: a body there may have been destroyed.
-bool hasAwakeMember(const btCollisionWorld& world, const AmbientRegistry& registry) {
+bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
-    const AmbientBody* ambient = registry.find(objects[i]);
+    const AmbientBody* ambient = bodies.find(objects[i]);
     if (ambient && ambient->isInFluid() && objects[i]->isActive() &&
         !objects[i]->isStaticOrKinematicObject()) {
       return true;
@@ -28,49 +30,57 @@ bool hasAwakeMember(const btCollisionWorld& world, const AmbientRegistry& regist
 // Whether the body that the solver met is still there: it may have been removed and destroyed
 // since, by another action, or long ago if that substep had no action. Removals swap the world's
 // array.
-bool isStillIn(const btCollisionWorld& world, const AmbientRegistry& registry,
+bool isStillIn(const btCollisionWorld& world, const AmbientBodies& bodies,
                const AmbientBody& ambient) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  int index = ambient.world_index;
+  int index = ambient.outcome.world_index;
   if (index < 0 || index >= objects.size() || objects[index] != ambient.body) {
     index = objects.findLinearSearch(ambient.body);
   }
-  return index < objects.size() && registry.find(objects[index]) == &ambient;
+  return index < objects.size() && bodies.find(objects[index]) == &ambient;
+}
+
+bool isComplete(Outcome kind, const AmbientBody& ambient) {
+  return kind == Outcome::kStock || (kind == Outcome::kRows && !ambient.outcome.rows.energy_bound);
+}
+
+void complete(Outcome kind, AmbientBody& ambient, double time_step) {
+  if (kind == Outcome::kFlown) {
+    endFlight(ambient, time_step);
+  } else {
+    limitEnergy(ambient);
+  }
+  if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
 }
 
 }  // namespace
 
 // In two substeps in a row: another action may have woken the body after the solver's turn.
 bool AmbientAction::isSolverMissing(const btCollisionWorld& world, bool any_solved) {
-  const bool is_missing = !any_solved && registry_.size() > 0 && hasAwakeMember(world, registry_);
+  const AmbientBodies& bodies = bodiesOf(registry_);
+  const bool is_missing = !any_solved && bodies.size() > 0 && hasAwakeMember(world, bodies);
   return std::exchange(was_missing_, is_missing) && is_missing;
 }
 
 void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   world_ = world;
+  AmbientBodies& bodies = bodiesOf(registry_);
   bool any_solved = false;
-  for (const auto& ambient : registry_.bodies()) {
-    if (!std::exchange(ambient->was_solved, false)) continue;
+  for (const auto& ambient : bodies.all()) {
+    const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotMet);
+    if (kind == Outcome::kNotMet) continue;
     any_solved = true;
-    const bool has_flown = std::exchange(ambient->has_flown, false);
-    const bool is_adrift = std::exchange(ambient->is_adrift, false);
-    const bool is_bounded = ambient->energy_bound >= 0;
-    if (!(has_flown || is_adrift || is_bounded) || !isStillIn(*world, registry_, *ambient))
-      continue;
-    if (has_flown) endFlight(*ambient, static_cast<double>(time_step));
-    if (is_bounded) limitEnergy(*ambient);
-    if (is_adrift) keepAwakeWhileMoving(*ambient);
+    if (isComplete(kind, *ambient) || !isStillIn(*world, bodies, *ambient)) continue;
+    complete(kind, *ambient, static_cast<double>(time_step));
   }
-  if (isSolverMissing(*world, any_solved)) {
-    registry_.complain(AmbientRegistry::Complaint::kNoSolver);
-  }
+  if (isSolverMissing(*world, any_solved)) bodies.complaints.say(Complaint::kNoSolver);
 }
 
 void AmbientAction::debugDraw(btIDebugDraw* drawer) {
   if (!drawer || !world_ || !drawing.drawsAnything()) return;
   const btCollisionObjectArray& objects = world_->getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
-    const AmbientBody* ambient = registry_.find(objects[i]);
+    const AmbientBody* ambient = bodiesOf(registry_).find(objects[i]);
     if (ambient && ambient->isInFluid() && !objects[i]->isStaticOrKinematicObject()) {
       drawFluid(*ambient, drawing, *drawer);
     }

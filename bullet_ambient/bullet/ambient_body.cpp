@@ -2,6 +2,27 @@
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+BodyModel makeModel(const AmbientBody& ambient, const MassProperties& mass,
+                    const std::shared_ptr<const SurfaceLoads>& loads) {
+  const AttachDef& def = ambient.def;
+  return makeBodyModel(*def.fluid_body, def.fluid_frame, mass, def.medium, loads);
+}
+
+void buildModel(AmbientBody& ambient, const std::shared_ptr<const SurfaceLoads>& loads) {
+  const btRigidBody& body = *ambient.body;
+  const Vector3 inverse_inertia = toVector3(body.getInvInertiaDiagLocal());
+  const Vector3 inertia = inverse_inertia.cwiseInverse();
+  const MassProperties mass{1 / static_cast<double>(body.getInvMass()), inertia.asDiagonal()};
+  ambient.model = makeModel(ambient, mass, loads);
+  ambient.basis_B = makeVelocityBasis(ambient.model, inertia);
+  ambient.seen_inverse_mass = body.getInvMass();
+  ambient.seen_inverse_inertia = body.getInvInertiaDiagLocal();
+  ambient.memory = {};
+}
+
+}  // namespace
 
 AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other) {
   substeps += other.substeps;
@@ -38,18 +59,7 @@ Surroundings readSurroundings(const AmbientBody& ambient) {
   return s;
 }
 
-void rebuildModel(AmbientBody& ambient) {
-  const btRigidBody& body = *ambient.body;
-  const Vector3 inverse_inertia = toVector3(body.getInvInertiaDiagLocal());
-  const Vector3 inertia = inverse_inertia.cwiseInverse();
-  const MassProperties mass{1 / static_cast<double>(body.getInvMass()), inertia.asDiagonal()};
-  ambient.model = makeBodyModel(*ambient.def.fluid_body, ambient.def.fluid_frame, mass,
-                                ambient.def.medium, ambient.def.flow);
-  ambient.basis_B = makeVelocityBasis(ambient.model, inertia);
-  ambient.seen_inverse_mass = body.getInvMass();
-  ambient.seen_inverse_inertia = body.getInvInertiaDiagLocal();
-  ambient.memory = {};
-}
+void rebuildModel(AmbientBody& ambient) { buildModel(ambient, ambient.model.loads); }
 
 bool isModelStale(const AmbientBody& ambient) {
   const btRigidBody& body = *ambient.body;
@@ -57,11 +67,11 @@ bool isModelStale(const AmbientBody& ambient) {
          !(body.getInvInertiaDiagLocal() == ambient.seen_inverse_inertia);
 }
 
-void refreshModel(AmbientBody& ambient) {
-  if (ambient.body->getInvMass() > 0) return rebuildModel(ambient);
-  const MassProperties stand_in{1, Matrix3::Identity()};
-  ambient.model = makeBodyModel(*ambient.def.fluid_body, ambient.def.fluid_frame, stand_in,
-                                ambient.def.medium, ambient.def.flow);
+void refreshModel(AmbientBody& ambient, LoadTables& tables) {
+  const AttachDef& def = ambient.def;
+  const auto loads = makeSurfaceLoads(def.fluid_body, def.medium, def.flow, tables);
+  if (ambient.body->getInvMass() > 0) return buildModel(ambient, loads);
+  ambient.model = makeModel(ambient, {1, Matrix3::Identity()}, loads);
   ambient.seen_inverse_mass = -1;  // stale whatever its mass will be
   ambient.memory = {};
 }

@@ -1,5 +1,6 @@
 #include "bullet_ambient/bullet/ambient_impulse.h"
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/motion/axis_locks.h"
 
 namespace ambient {
@@ -8,7 +9,7 @@ namespace {
 
 // The attached body if a fluid answers to impulses, else null.
 const AmbientBody* findInFluid(AmbientRegistry& registry, const btRigidBody& body) {
-  AmbientBody* ambient = registry.find(&body);
+  AmbientBody* ambient = bodiesOf(registry).find(&body);
   if (!ambient || !ambient->isInFluid() || body.isStaticOrKinematicObject()) return nullptr;
   if (isModelStale(*ambient)) rebuildModel(*ambient);
   return ambient;

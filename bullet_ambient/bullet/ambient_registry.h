@@ -1,26 +1,32 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
-#include <unordered_map>
-#include <vector>
 
-#include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/bullet/ambient_counters.h"
+#include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/precision_check.h"
-#include "bullet_ambient/tasks/task_runner.h"
 
 class btDynamicsWorld;
+class btRigidBody;
 
 namespace ambient {
+
+class TaskRunner;
+
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+class AmbientBodies;
+
 /// Which bodies are in which fluid. Shared by one AmbientSolver (or several, with a multithreaded
-/// world) and one AmbientAction. Change it between steps only; it uses neither user pointers nor
-/// callbacks of the world.
+/// world) and one AmbientAction; Fluid holds all three. Change it between steps only; it uses
+/// neither user pointers nor callbacks of the world.
 class AmbientRegistry {
  public:
   AmbientRegistry();
+  ~AmbientRegistry();
   AmbientRegistry(const AmbientRegistry&) = delete;
   AmbientRegistry& operator=(const AmbientRegistry&) = delete;
 
@@ -36,7 +42,9 @@ class AmbientRegistry {
   /// was destroyed, too; a body that is destroyed without leaves an entry that nothing reads and
   /// that the next body at its address replaces.
   bool detach(const btRigidBody& body);
-  bool isAttached(const btRigidBody& body) const { return find(&body) != nullptr; }
+  /// Detaches all bodies, alive or not.
+  void clear();
+  bool isAttached(const btRigidBody& body) const;
 
   /// Changes the fluid around an attached body; its velocity stays, and it wakes up if anything
   /// did change. Cheap where density and viscosity stay: a current may be given in every step.
@@ -55,7 +63,7 @@ class AmbientRegistry {
   /// Total inertia K in the body frame; docs/theory.md eq. (3). @throws as medium().
   const Matrix6& inertia(const btRigidBody& body) const;
 
-  std::size_t size() const { return bodies_.size(); }
+  std::size_t size() const;
   AmbientCounters counters(const btRigidBody& body) const;
   AmbientCounters counters() const;
 
@@ -67,40 +75,12 @@ class AmbientRegistry {
 
   /// Flies the bodies of one group of the solver on the runner's threads; they end with the same
   /// bits. Null (default): on the solver's thread. The runner must outlive its use here.
-  void setTaskRunner(TaskRunner* runner) { task_runner_ = runner; }
-  TaskRunner* taskRunner() const { return task_runner_; }
-
-  // For solver, action and saved states. Finds the body that was attached, never another one at its
-  // address.
-  // @pre the body is alive, or nothing was attached at its address.
-  AmbientBody* find(const btCollisionObject* body);
-  const AmbientBody* find(const btCollisionObject* body) const;
-  const std::vector<std::unique_ptr<AmbientBody>>& bodies() const { return bodies_; }
-  /// Takes over a body with a model, in place of what is attached at its address.
-  void insert(std::unique_ptr<AmbientBody> ambient);
-  enum class Complaint {
-    kNoAction,
-    kNoSolver,
-    kNotFinite,
-    kNotPhysical,
-    kCoarse,
-    kInertia,
-    kEmpty,
-    kCount
-  };
-  void complain(Complaint complaint) noexcept;
+  void setTaskRunner(TaskRunner* runner);
 
  private:
-  AmbientBody& require(const btRigidBody& body) const;
-  void replaceDef(AmbientBody& ambient, AttachDef def);
-  void complainOfOddities(const AmbientBody& ambient);
-  void complain(Complaint complaint, const char* text) noexcept;
+  friend AmbientBodies& bodiesOf(const AmbientRegistry& registry);
 
-  std::vector<std::unique_ptr<AmbientBody>> bodies_;  // in the order of attachment
-  std::unordered_map<const btCollisionObject*, AmbientBody*> by_object_;
-  TaskRunner* task_runner_ = nullptr;
-  std::function<void(const std::string&)> report_;
-  bool complained_[static_cast<int>(Complaint::kCount)] = {};
+  std::unique_ptr<AmbientBodies> bodies_;
 };
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

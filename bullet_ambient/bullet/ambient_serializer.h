@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "bullet_ambient/bullet/precision_check.h"
-#include "bullet_ambient/bullet/world_state_codec.h"
+#include "bullet_ambient/bullet/world_state.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {

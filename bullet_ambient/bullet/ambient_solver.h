@@ -34,7 +34,7 @@ class AmbientSolver : public Base {
   /// Further arguments go to Base. The registry must outlive the solver.
   template <class... Args>
   explicit AmbientSolver(AmbientRegistry& registry, Args&&... args)
-      : Base(std::forward<Args>(args)...), registry_(registry) {}
+      : Base(std::forward<Args>(args)...), group_(registry) {}
 
  protected:
   btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count,
@@ -50,7 +50,7 @@ class AmbientSolver : public Base {
   void convertBodies(btCollisionObject** bodies, int body_count,
                      const btContactSolverInfo& info) override {
     Base::convertBodies(bodies, body_count, info);
-    group_.begin(registry_, this->m_tmpSolverBodyPool, input_, info.m_timeStep);
+    group_.begin(this->m_tmpSolverBodyPool, input_, info.m_timeStep);
   }
 
   // The last stock conversion: joints and contacts are rows by now.
@@ -83,7 +83,6 @@ class AmbientSolver : public Base {
             this->m_tmpSolverNonContactConstraintPool};
   }
 
-  AmbientRegistry& registry_;
   SolverGroup group_;
   GroupInput input_;
 };

@@ -5,7 +5,7 @@
 #include <LinearMath/btVector3.h>
 
 #include "bullet_ambient/bullet/precision_check.h"
-#include "bullet_ambient/spatial/vector_types.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {

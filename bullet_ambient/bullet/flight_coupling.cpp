@@ -16,14 +16,12 @@ Twist worldTwist(const RigidState& state) {
 
 }  // namespace
 
-bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
-  ambient.was_solved = true;
-  ambient.energy_bound = -1;
-  ambient.world_index = ambient.body->getWorldArrayIndex();
-  if (ambient.has_flown) {
-    registry.complain(AmbientRegistry::Complaint::kNoAction);
-    ambient.has_flown = false;
-  }
+bool prepareStep(AmbientBody& ambient, Complaints& complaints) noexcept {
+  SubstepOutcome& outcome = ambient.outcome;
+  if (outcome.kind == Outcome::kFlown) complaints.say(Complaint::kNoAction);
+  outcome.kind = Outcome::kStock;
+  outcome.world_index = ambient.body->getWorldArrayIndex();
+  outcome.rows = {};
   if (!ambient.isInFluid()) return false;
   if (ambient.body->isStaticOrKinematicObject()) return false;  // for now
   if (!isModelStale(ambient)) return true;
@@ -31,12 +29,12 @@ bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
     rebuildModel(ambient);
     return true;
   } catch (const std::exception&) {
-    registry.complain(AmbientRegistry::Complaint::kNotPhysical);
+    complaints.say(Complaint::kNotPhysical);
     return false;
   }
 }
 
-bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
+bool stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   btRigidBody& body = *ambient.body;
   if (toVector3(body.getLinearVelocity()).allFinite() &&
       toVector3(body.getAngularVelocity()).allFinite()) {
@@ -46,27 +44,30 @@ bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept {
   body.setAngularVelocity({0, 0, 0});
   ambient.memory = {};
   ++ambient.counters.rejected;
-  registry.complain(AmbientRegistry::Complaint::kNotFinite);
+  complaints.say(Complaint::kNotFinite);
   return true;
 }
 
-void boundEnergy(AmbientBody& ambient, const Twist& solved_W) noexcept {
+void boundEnergy(AmbientBody& ambient, const Twist& solved_W, const Twist& turning_W) noexcept {
   RigidState state = readState(*ambient.body);
   const Quaternion to_body = state.orientation.conjugate();
   const Vector3 flow_W = ambient.def.medium.velocity;
-  state.twist.angular = to_body * (solved_W.angular - ambient.turning_W.angular);
-  state.twist.linear = to_body * (solved_W.linear - ambient.turning_W.linear - flow_W);
-  ambient.energy_bound = inertiaNormSquared(ambient.model, state.twist.vector());
+  state.twist.angular = to_body * (solved_W.angular - turning_W.angular);
+  state.twist.linear = to_body * (solved_W.linear - turning_W.linear - flow_W);
+  const double energy = inertiaNormSquared(ambient.model, state.twist.vector());
+  if (energy >= 0) ambient.outcome.rows.energy_bound = energy;  // else it is not finite
 }
 
 void limitEnergy(AmbientBody& ambient) noexcept {
+  const std::optional<double>& bound = ambient.outcome.rows.energy_bound;
+  if (!bound) return;
   btRigidBody& body = *ambient.body;
   RigidState state = readState(body);
   const Vector3 flow_W = ambient.def.medium.velocity;
   state.twist.linear -= state.orientation.conjugate() * flow_W;
   const double energy = inertiaNormSquared(ambient.model, state.twist.vector());
-  if (!(energy > ambient.energy_bound)) return;
-  const double scale = std::sqrt(ambient.energy_bound / energy);
+  if (!(energy > *bound)) return;
+  const double scale = std::sqrt(*bound / energy);
   const Twist now = worldTwist(state);
   body.setAngularVelocity(toBullet(Vector3(scale * now.angular)));
   body.setLinearVelocity(toBullet(Vector3(scale * now.linear + flow_W)));

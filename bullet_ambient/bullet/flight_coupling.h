@@ -1,24 +1,27 @@
 #pragma once
 
-#include "bullet_ambient/bullet/ambient_registry.h"
+#include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/bullet/complaints.h"
 #include "bullet_ambient/bullet/precision_check.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
-/// Whether the fluid acts on the body in this step. Rebuilds a stale model, and reports an action
-/// that is missing.
-bool prepareStep(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
+/// The solver meets the body: begins its outcome, and says whether the fluid acts on it. Rebuilds a
+/// stale model, and reports an action that is missing.
+bool prepareStep(AmbientBody& ambient, Complaints& complaints) noexcept;
 
 /// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports
 /// it; returns whether it did.
-bool stopIfNotFinite(AmbientRegistry& registry, AmbientBody& ambient) noexcept;
+bool stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
 
 /// For a body that rows have moved to `solved_W` while it turns fast: bounds the kinetic energy
-/// that it may have in its next pose, docs/theory.md eq. (31).
-void boundEnergy(AmbientBody& ambient, const Twist& solved_W) noexcept;
+/// that it may have in its next pose, docs/theory.md eq. (31). `turning_W`: the turning part of the
+/// velocity that the rows were solved against.
+void boundEnergy(AmbientBody& ambient, const Twist& solved_W, const Twist& turning_W) noexcept;
 
-/// After Bullet has moved the body: scales its velocity relative to the fluid down to that energy.
+/// After Bullet has moved the body: scales its velocity relative to the fluid down to that energy,
+/// if there is a bound.
 void limitEnergy(AmbientBody& ambient) noexcept;
 
 /// Keeps Bullet from putting a body to sleep that drifts freely: it may rest only when it moves by

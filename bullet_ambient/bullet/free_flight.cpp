@@ -95,32 +95,35 @@ void add(const FlightCount& count, AmbientBody& ambient) {
   countLoads(ambient, count.load_evaluations);
   ambient.counters.guarded += count.guarded;
   ambient.counters.coarse += count.coarse;
-  // Who sets a bound of substeps has chosen what is too long.
-  ambient.was_coarse = count.coarse && ambient.def.flight.max_substeps == 0;
 }
 
 // Keeps the end of a flight if it is one.
 void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, double length_scale,
           AmbientBody& ambient) {
   add(flight.count, ambient);
-  ambient.has_flown = fitsBullet(flight.state, end_W);
-  if (!ambient.has_flown) {
+  FlightEnd& end = ambient.outcome.flight;
+  // Who sets a bound of substeps has chosen what is too long.
+  end.is_too_long = flight.count.coarse && ambient.def.flight.max_substeps == 0;
+  if (!fitsBullet(flight.state, end_W)) {
+    ambient.outcome.kind = Outcome::kAdrift;
     ++ambient.counters.rejected;
     ambient.memory = {};
     return;
   }
+  ambient.outcome.kind = Outcome::kFlown;
   ambient.memory = flight.memory;
-  ambient.end = flight.state;
-  ambient.end_W = end_W;
-  ambient.effective_W = mean_W;
-  ambient.length_scale = length_scale;
+  end.state = flight.state;
+  end.twist_W = end_W;
+  end.effective_W = mean_W;
+  end.length_scale = length_scale;
 }
 
 // Within rounding of where the flight ends, or did a continuous collision stop the body on its way?
 bool reachedEnd(const AmbientBody& ambient) {
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   const double rounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
-  return (position - ambient.end.position).norm() <= rounding * ambient.length_scale;
+  const FlightEnd& end = ambient.outcome.flight;
+  return (position - end.state.position).norm() <= rounding * end.length_scale;
 }
 
 }  // namespace
@@ -149,25 +152,26 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
                                 time_step * before_W.linear.norm();
     keep(flight, arrivals.ends_W[i], mean_W, length_scale, ambient);
     changes_W[i] = {};
-    if (ambient.has_flown)
+    if (ambient.outcome.kind == Outcome::kFlown)
       changes_W[i] = {mean_W.angular - before_W.angular, mean_W.linear - before_W.linear};
   }
 }
 
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
-  if (ambient.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) &&
+  const FlightEnd& flight = ambient.outcome.flight;
+  if (flight.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) &&
       reachedEnd(ambient)) {
     btTransform end = body.getWorldTransform();
-    end.setRotation(toBullet(ambient.end.orientation));
+    end.setRotation(toBullet(flight.state.orientation));
     body.setCenterOfMassTransform(end);
   }
-  const Twist& end = ambient.end_W;
+  const Twist &end = flight.twist_W, &effective = flight.effective_W;
   // Added, not set: impulses that other actions have applied meanwhile survive.
   body.setAngularVelocity(body.getAngularVelocity() +
-                          toBullet(Vector3(end.angular - ambient.effective_W.angular)));
+                          toBullet(Vector3(end.angular - effective.angular)));
   body.setLinearVelocity(body.getLinearVelocity() +
-                         toBullet(Vector3(end.linear - ambient.effective_W.linear)));
+                         toBullet(Vector3(end.linear - effective.linear)));
   ambient.left_W = end;
 }
 

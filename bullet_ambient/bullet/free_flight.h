@@ -8,7 +8,8 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// Flies up to kFlightsTogether bodies over `time_step` [s] and keeps where they end. Writes the
 /// velocity changes in world axes that make Bullet's integrateTransform reach those poses,
-/// docs/theory.md eq. (29). If a flight is not finite, its has_flown is false and nothing is kept.
+/// docs/theory.md eq. (29). A flight that is not finite leaves its body adrift, and nothing is
+/// kept.
 void beginFlights(AmbientBody* const* bodies, int count, double time_step,
                   Twist* changes_W) noexcept;
 

@@ -5,19 +5,10 @@
 
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
+#include "bullet_ambient/bullet/solver_group.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
-
-/// The rows between multibodies and what they touch or are joined to.
-struct MultiBodyRows {
-  btMultiBodyConstraintArray& contacts;
-  btMultiBodyConstraintArray& frictions;
-  btMultiBodyConstraintArray& rolling_frictions;
-  btMultiBodyConstraintArray& spinning_frictions;
-  btMultiBodyConstraintArray& joints;
-  const btMultiBodyJacobianData& data;  ///< Jacobians of the multibodies and their responses
-};
 
 /// Brings the rigid side of all rows that touch an ambient body into its velocity basis, as
 /// rewriteRows() does: J' = J T; effective mass, right-hand side and softness rescaled. Bullet lets

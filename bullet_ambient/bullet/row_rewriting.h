@@ -11,6 +11,24 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+// How Bullet's rows are made to feel the full inertia; docs/theory.md eq. (26) and (27).
+//
+//   u   velocity of a body in world axes, spin w above, velocity v of the centre of mass below
+//   K   total inertia, of body and fluid, in world axes (6x6)
+//   D   inverse inertia that Bullet holds, diag(I^-1, 1/m) with the dry body's I and m
+//   T   velocity basis, u = T u' with T D T^T = K^-1: in u' the body looks to Bullet as if dry
+//   J   Jacobian of a row, one side: J u is its velocity along the row; J_a its angular part
+//   j   inverse effective mass of the row, relaxation / (sum of J D J^T over both sides + softness)
+//   s   j' / j, new over old
+//
+// A row that Bullet has set up for u becomes one for u':
+//
+//   J' = J T,  j' = relaxation / (sum of J' D J'^T + softness),  rhs' = s rhs
+//
+// and the stock iterations, which know J', D and j', solve J K^-1 J^T. For friction rows alone, out
+// of which stock Bullet leaves it, j' J_a dw is taken from rhs', with dw the change of spin outside
+// the rows in this step. After the iterations du = T du'.
+
 /// One ambient body as its rows see it during one step. World axes.
 struct RowBody {
   WorldBasis basis;
@@ -18,7 +36,9 @@ struct RowBody {
   btScalar inverse_mass = 0;       ///< Bullet's, without fluid
   btVector3 spin_change{0, 0, 0};  ///< of the step, outside the rows
   btVector3 velocity_change{0, 0, 0};
-  int rows = 0;  ///< how many were rewritten
+  Twist turning_W;          ///< turning part of the velocity that the rows are solved against
+  Turn turn = Turn::kSlow;  ///< in this step
+  int rows = 0;             ///< how many were rewritten
 
   bool is_locked = false;
   btVector3 locked_angular{0, 0, 0};  ///< 1 for an axis that is locked, else 0
@@ -66,10 +86,8 @@ btScalar changeBasis(const RowBody& body, RowSide side) noexcept;
 /// J D J^T of a body that is not ambient [1/kg].
 btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noexcept;
 
-/// Brings all rows of a pool that touch ambient bodies into their velocity bases: J' = J T, and
-/// effective mass, right-hand sides and softness rescaled, so that the stock iterations solve J
-/// K^-1 J^T; docs/theory.md eq. (27). `relaxation`: the solver's m_sor for contact and friction
-/// rows, 1 for the others.
+/// Brings all rows of a pool that touch ambient bodies into their velocity bases. `relaxation`: the
+/// solver's m_sor for contact and friction rows, 1 for the others.
 void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
                  const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
 

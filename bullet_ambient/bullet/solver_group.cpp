@@ -1,11 +1,21 @@
 #include "bullet_ambient/bullet/solver_group.h"
 
-#include <algorithm>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/bullet/free_flight.h"
+#include "bullet_ambient/bullet/multibody_rows.h"
+#include "bullet_ambient/bullet/row_rewriting.h"
 #include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/row_velocity.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/tasks/task_runner.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -59,6 +69,19 @@ void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& fact
   solver_body.internalSetInvMass(btVector3(1, 1, 1) * body.getInvMass());
 }
 
+// Velocity changes back into Bullet's basis.
+void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) {
+  const bool is_adrift = isUntouched(b);
+  ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
+  if (!is_adrift) {
+    fromBasis(row_body.basis, b.internalGetDeltaAngularVelocity(),
+              b.internalGetDeltaLinearVelocity());
+    fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
+  }
+  ambient.memory = {};
+  if (row_body.turn != Turn::kSlow) boundEnergy(ambient, solvedVelocity(b), row_body.turning_W);
+}
+
 // A function of the item as a task; holds no memory of its own.
 template <class Fly>
 class FlightTasks final : public Task {
@@ -72,14 +95,81 @@ class FlightTasks final : public Task {
 
 }  // namespace
 
-void SolverGroup::begin(AmbientRegistry& registry, SolverBodies& solver_bodies,
-                        const GroupInput& input, btScalar time_step) noexcept {
-  registry_ = &registry;
+// What SolverGroup does, and remembers meanwhile.
+class GroupMembers {
+ public:
+  using SolverBodies = SolverGroup::SolverBodies;
+
+  explicit GroupMembers(AmbientBodies& bodies) : bodies_(bodies) {}
+
+  void begin(SolverBodies& solver_bodies, const GroupInput& input, btScalar time_step) noexcept;
+  void rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
+                   const MultiBodyRows* multibodies, const btContactSolverInfo& info) noexcept;
+  void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
+
+ private:
+  struct Member {
+    AmbientBody* ambient;
+    int solver_body;
+    bool has_rows;
+    bool is_locked;
+  };
+  // The Jacobian of a joint row with feedback, as the joint made it.
+  struct SavedJacobian {
+    int row;
+    btVector3 angular_a, linear_a, angular_b, linear_b;
+  };
+
+  void findMembers(SolverBodies& solver_bodies) noexcept;
+  void markBodiesWithRows(const SolverBodies& solver_bodies, const GroupInput& input) noexcept;
+  void mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept;
+  void prepareForRows(Member& member, btSolverBody& solver_body) noexcept;
+  void prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
+                                  const btMultiBodyConstraintArray& joints) noexcept;
+  void reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
+                        const MultiBodyRows* multibodies, int solver_mode) noexcept;
+  void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
+  void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
+  void flyFreely(SolverBodies& solver_bodies) noexcept;
+  void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
+  Member* memberOf(int solver_body) noexcept;
+
+  AmbientBodies& bodies_;
+  double time_step_ = 0;
+  std::vector<Member> members_;
+  std::vector<int> member_of_solver_body_;  // -1: not ambient
+  std::vector<const Member*> fliers_;       // members that no row has moved
+  RowBodies row_bodies_;
+  std::vector<SavedJacobian> saved_;
+};
+
+SolverGroup::SolverGroup(AmbientRegistry& registry)
+    : members_(std::make_unique<GroupMembers>(bodiesOf(registry))) {}
+
+SolverGroup::~SolverGroup() = default;
+
+void SolverGroup::begin(SolverBodies& solver_bodies, const GroupInput& input,
+                        btScalar time_step) noexcept {
+  members_->begin(solver_bodies, input, time_step);
+}
+
+void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
+                              const MultiBodyRows* multibodies,
+                              const btContactSolverInfo& info) noexcept {
+  members_->rewriteRows(solver_bodies, rows, multibodies, info);
+}
+
+void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+  members_->finish(solver_bodies, joints);
+}
+
+void GroupMembers::begin(SolverBodies& solver_bodies, const GroupInput& input,
+                         btScalar time_step) noexcept {
   time_step_ = static_cast<double>(time_step);
   members_.clear();
   saved_.clear();
-  if (registry.size() == 0) return;
-  findMembers(registry, solver_bodies);
+  if (bodies_.size() == 0) return;
+  findMembers(solver_bodies);
   if (members_.empty()) return;
   row_bodies_.reset(solver_bodies.size());
   markBodiesWithRows(solver_bodies, input);
@@ -93,13 +183,13 @@ void SolverGroup::begin(AmbientRegistry& registry, SolverBodies& solver_bodies,
   }
 }
 
-void SolverGroup::findMembers(AmbientRegistry& registry, SolverBodies& solver_bodies) noexcept {
+void GroupMembers::findMembers(SolverBodies& solver_bodies) noexcept {
   member_of_solver_body_.assign(solver_bodies.size(), -1);
   for (int i = 0; i < solver_bodies.size(); ++i) {
     const btRigidBody* body = solver_bodies[i].m_originalBody;
-    AmbientBody* ambient = registry.find(body);
-    if (!ambient || !prepareStep(registry, *ambient)) continue;
-    if (stopIfNotFinite(registry, *ambient)) {
+    AmbientBody* ambient = bodies_.find(body);
+    if (!ambient || !prepareStep(*ambient, bodies_.complaints)) continue;
+    if (stopIfNotFinite(*ambient, bodies_.complaints)) {
       solver_bodies[i].m_linearVelocity.setZero();
       solver_bodies[i].m_angularVelocity.setZero();
     }
@@ -108,8 +198,8 @@ void SolverGroup::findMembers(AmbientRegistry& registry, SolverBodies& solver_bo
   }
 }
 
-void SolverGroup::markBodiesWithRows(const SolverBodies& solver_bodies,
-                                     const GroupInput& input) noexcept {
+void GroupMembers::markBodiesWithRows(const SolverBodies& solver_bodies,
+                                      const GroupInput& input) noexcept {
   for (int i = 0; i < input.manifold_count; ++i) {
     const btPersistentManifold& manifold = *input.manifolds[i];
     if (manifold.getNumContacts() == 0) continue;
@@ -124,13 +214,13 @@ void SolverGroup::markBodiesWithRows(const SolverBodies& solver_bodies,
   }
 }
 
-void SolverGroup::mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept {
+void GroupMembers::mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept {
   const int id = body.getCompanionId();
   if (id < 0 || id >= solver_bodies.size() || solver_bodies[id].m_originalBody != &body) return;
   if (Member* member = memberOf(id)) member->has_rows = true;
 }
 
-void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noexcept {
+void GroupMembers::prepareForRows(Member& member, btSolverBody& solver_body) noexcept {
   AmbientBody& ambient = *member.ambient;
   // Bullet's setWorldTransform leaves the tensor of the old orientation, to which T does not fit.
   ambient.body->updateInertiaTensor();
@@ -145,14 +235,14 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   ambient.counters.guarded += row.count.guarded;
   if (!row.change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
-    registry_->complain(AmbientRegistry::Complaint::kNotFinite);
+    bodies_.complaints.say(Complaint::kNotFinite);
     row.change_W = {};
   }
   setExternalImpulse(solver_body, row.change_W);
-  ambient.turning_W = row.turning_W;
-  ambient.turn = row.turn;
 
   RowBody& row_body = row_bodies_.add(member.solver_body);
+  row_body.turning_W = row.turning_W;
+  row_body.turn = row.turn;
   row_body.inverse_inertia = body.getInvInertiaTensorWorld();
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
@@ -164,9 +254,9 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   }
 }
 
-void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
-                              const MultiBodyRows* multibodies,
-                              const btContactSolverInfo& info) noexcept {
+void GroupMembers::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
+                               const MultiBodyRows* multibodies,
+                               const btContactSolverInfo& info) noexcept {
   if (members_.empty()) return;
   if (multibodies) prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
   if (row_bodies_.empty()) return;
@@ -182,16 +272,16 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
   reapplyWarmStart(solver_bodies, rows, multibodies, info.m_solverMode);
 }
 
-void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
-                                             const btMultiBodyConstraintArray& joints) noexcept {
+void GroupMembers::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
+                                              const btMultiBodyConstraintArray& joints) noexcept {
   forEachJoinedBody(joints, [&](int id) {
     Member* member = memberOf(id);
     if (member && !row_bodies_.find(id)) prepareForRows(*member, solver_bodies[id]);
   });
 }
 
-void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
-                                   const MultiBodyRows* multibodies, int solver_mode) noexcept {
+void GroupMembers::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
+                                    const MultiBodyRows* multibodies, int solver_mode) noexcept {
   const bool for_multibodies = multibodies && (solver_mode & SOLVER_USE_ARTICULATED_WARMSTARTING);
   if (!(solver_mode & SOLVER_USE_WARMSTARTING) && !for_multibodies) return;
   for (const Member& member : members_) {
@@ -206,7 +296,7 @@ void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& 
   reapplyMultiBodyImpulses(multibodies->joints, row_bodies_, solver_bodies);
 }
 
-void SolverGroup::saveFeedbackJacobians(const btConstraintArray& joints) noexcept {
+void GroupMembers::saveFeedbackJacobians(const btConstraintArray& joints) noexcept {
   for (int i = 0; i < joints.size(); ++i) {
     const btSolverConstraint& row = joints[i];
     const auto* constraint = static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
@@ -216,7 +306,7 @@ void SolverGroup::saveFeedbackJacobians(const btConstraintArray& joints) noexcep
   }
 }
 
-void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
+void GroupMembers::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
   for (const SavedJacobian& saved : saved_) {
     btSolverConstraint& row = joints[saved.row];
     row.m_relpos1CrossNormal = saved.angular_a;
@@ -227,28 +317,22 @@ void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
   saved_.clear();
 }
 
-void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+void GroupMembers::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
   restoreFeedbackJacobians(joints);
   for (const Member& member : members_) {
-    btSolverBody& b = solver_bodies[member.solver_body];
+    btSolverBody& solver_body = solver_bodies[member.solver_body];
     const RowBody* row_body = row_bodies_.find(member.solver_body);
-    if (row_body) member.ambient->counters.rows += row_body->rows;
-    AmbientBody& ambient = *member.ambient;
-    ambient.is_adrift = isUntouched(b);
-    if (!ambient.is_adrift) {
-      fromBasis(row_body->basis, b.internalGetDeltaAngularVelocity(),
-                b.internalGetDeltaLinearVelocity());
-      fromBasis(row_body->basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
-    }
     // Rows that are near have allowed the velocity that they were solved against; a flight with a
     // fast turn would take the body elsewhere.
-    const bool may_fly = !member.is_locked && !(row_body && ambient.turn != Turn::kSlow);
-    if (ambient.is_adrift && may_fly) {
+    const bool may_fly = !row_body || (!member.is_locked && row_body->turn == Turn::kSlow);
+    if (row_body) member.ambient->counters.rows += row_body->rows;
+    if (may_fly && isUntouched(solver_body)) {
       fliers_.push_back(&member);
-      continue;
+    } else {
+      // Whatever can move a body was there when those with rows were found.
+      AMBIENT_ASSERT(row_body);
+      finishRows(*member.ambient, *row_body, solver_body);
     }
-    ambient.memory = {};
-    if (ambient.turn != Turn::kSlow) boundEnergy(ambient, solvedVelocity(b));
   }
   flyFreely(solver_bodies);
   members_.clear();
@@ -256,10 +340,10 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
 
 // Flights touch nothing but their own body, so that any thread may compute them. Side by side they
 // are quicker, but few bodies are better spread over the threads.
-void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
+void GroupMembers::flyFreely(SolverBodies& solver_bodies) noexcept {
   constexpr int kLeastGroups = 8;
   const int count = static_cast<int>(fliers_.size());
-  TaskRunner* runner = registry_->taskRunner();
+  TaskRunner* runner = bodies_.task_runner;
   const int together =
       runner ? std::clamp(count / kLeastGroups, 1, kFlightsTogether) : kFlightsTogether;
   const auto fly = [&](int group) {
@@ -274,14 +358,14 @@ void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
     for (int i = 0; i < groups; ++i) flights.run(i);
   }
   for (const Member* flier : fliers_) {
-    const AmbientBody& ambient = *flier->ambient;
-    if (!ambient.has_flown) registry_->complain(AmbientRegistry::Complaint::kNotFinite);
-    if (ambient.was_coarse) registry_->complain(AmbientRegistry::Complaint::kCoarse);
+    const SubstepOutcome& outcome = flier->ambient->outcome;
+    if (outcome.kind != Outcome::kFlown) bodies_.complaints.say(Complaint::kNotFinite);
+    if (outcome.flight.is_too_long) bodies_.complaints.say(Complaint::kCoarse);
   }
   fliers_.clear();
 }
 
-void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept {
+void GroupMembers::flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept {
   AmbientBody* bodies[kFlightsTogether] = {};
   Twist changes_W[kFlightsTogether];
   const Member* const* fliers = fliers_.data() + first;
@@ -291,7 +375,7 @@ void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies)
     setExternalImpulse(solver_bodies[fliers[i]->solver_body], changes_W[i]);
 }
 
-SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
+GroupMembers::Member* GroupMembers::memberOf(int solver_body) noexcept {
   // Bodies appended after convertBodies (fixed, kinematic) are never ambient.
   if (static_cast<std::size_t>(solver_body) >= member_of_solver_body_.size()) return nullptr;
   const int index = member_of_solver_body_[solver_body];

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/body_state.h"
 #include "bullet_ambient/bullet/contact_state.h"
 #include "bullet_ambient/bullet/world_objects.h"
@@ -40,8 +42,9 @@ void checkContacts(const WorldState& state) {
 }
 
 // Models are built before anything is changed, so that a medium that is refused changes nothing.
-std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(
-    const WorldState& state, const std::vector<btRigidBody*>& bodies) {
+std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(const WorldState& state,
+                                                            const std::vector<btRigidBody*>& bodies,
+                                                            LoadTables& tables) {
   std::vector<std::unique_ptr<AmbientBody>> result;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     result.emplace_back();
@@ -55,7 +58,7 @@ std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(
     AmbientBody built;
     built.body = &with_mass;
     built.def = saved.def;
-    refreshModel(built);
+    refreshModel(built, tables);
     result.back() = std::make_unique<AmbientBody>(built);
     AmbientBody& ambient = *result.back();
     ambient.body = bodies[i];
@@ -86,7 +89,7 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientRegistry& regist
   WorldState state;
   for (const btRigidBody* body : rigidBodiesOf(source)) {
     state.bodies.push_back(saveBody(*body));
-    if (const AmbientBody* ambient = registry.find(body)) {
+    if (const AmbientBody* ambient = bodiesOf(registry).find(body)) {
       state.bodies.back().ambient = saveAmbient(*ambient);
     }
   }
@@ -105,13 +108,13 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegist
   checkCount("rigid bodies", state.bodies.size(), bodies.size());
   checkCount("joints", state.joints.size(), static_cast<std::size_t>(world.getNumConstraints()));
   checkContacts(state);
-  auto ambient_bodies = makeAmbientBodies(state, bodies);
+  auto ambient_bodies = makeAmbientBodies(state, bodies, bodiesOf(registry).load_tables);
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     registry.detach(*bodies[i]);
     restoreMass(state.bodies[i], *bodies[i]);
     restoreBody(state.bodies[i], *bodies[i]);
-    if (ambient_bodies[i]) registry.insert(std::move(ambient_bodies[i]));
+    if (ambient_bodies[i]) bodiesOf(registry).insert(std::move(ambient_bodies[i]));
   }
   restoreJoints(state, world);
   restoreContacts(state.pairs, state.contacts, world);

@@ -3,17 +3,24 @@
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "bullet_ambient/bullet/ambient_registry.h"
+#include "bullet_ambient/bullet/ambient_counters.h"
+#include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/motion/flight_memory.h"
 
 class btDynamicsWorld;
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+class AmbientRegistry;
 
 /// A body in its fluid, and what its flight remembers.
 struct AmbientState {
@@ -82,6 +89,22 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientRegistry& regist
 /// @throws std::invalid_argument if the numbers of bodies or joints differ, a contact has too many
 /// points, a fluid body is missing or a medium is not physical; the world is then unchanged.
 void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegistry& registry);
+
+/// Fluid bodies are not part of saved bytes, which hold their names and content hashes. This finds
+/// them again by name; null if there is none of that name.
+using FluidBodyLookup = std::function<std::shared_ptr<const FluidBody>(const std::string& name)>;
+
+/// A saved state as bytes: little-endian, with version, precision and checksum, the same state
+/// gives the same bytes.
+/// @throws std::runtime_error if two fluid bodies of one name have different contents.
+std::string encodeState(const WorldState& state);
+
+/// The state that encodeState() was given, bit for bit; `source` stands for it in messages.
+/// @throws std::runtime_error with one sentence if the bytes are foreign, cut short, damaged, of a
+/// newer version or of the other precision of Bullet, or if a fluid body is not found or not the
+/// one that was saved.
+WorldState decodeState(std::string_view bytes, const std::string& source,
+                       const FluidBodyLookup& lookup);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

@@ -1,8 +1,7 @@
-#include "bullet_ambient/bullet/world_state_codec.h"
-
 #include <cmath>
 #include <map>
 
+#include "bullet_ambient/bullet/world_state.h"
 #include "bullet_ambient/bullet/world_state_fields.h"
 #include "bullet_ambient/fluid_body/content_hash.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"

@@ -1,8 +1,8 @@
 # What `cmake --install` puts where. One export set for each thing a program may use without the others:
 #   Core                   the boxes without Bullet
 #   float32, float64       the runtime for one precision of Bullet
-#   Preprocess             the offline library (assimp), Preprocess_float32/_float64 what of it includes Bullet
-# so that a program for one precision needs neither the Bullet of the other nor assimp.
+#   Preprocess             the offline library, Preprocess_float32/_float64 what of it includes Bullet
+# so that a program for one precision does not need the Bullet of the other.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -33,15 +33,57 @@ function(ambient_install_box name)
     INCLUDES DESTINATION ${include_dir})
 endfunction()
 
+# The public headers: what programs include, and what that includes. Everything else is free to change.
+set(BULLET_AMBIENT_PUBLIC_HEADERS
+  ambient.h
+  bullet/ambient_action.h
+  bullet/ambient_counters.h
+  bullet/ambient_impulse.h
+  bullet/ambient_registry.h
+  bullet/ambient_serializer.h
+  bullet/ambient_solver.h
+  bullet/attach_def.h
+  bullet/bullet_task_runner.h
+  bullet/conversions.h
+  bullet/fluid.h
+  bullet/fluid_drawing.h
+  bullet/precision_check.h
+  bullet/solver_group.h
+  bullet/world_state.h
+  bullet/world_tie.h
+  fluid_body/cluster_block.h
+  fluid_body/fluid_body.h
+  fluid_body/fluid_body_file.h
+  fluid_body/load_fluid_body.h
+  fluid_body/load_level.h
+  force/face_loads.h
+  force/flow_settings.h
+  force/medium.h
+  force/surface_loads.h
+  motion/flight_memory.h
+  motion/flight_settings.h
+  spatial/frame_offset.h
+  spatial/principal_frame.h
+  spatial/spatial_vectors.h
+  spatial/vector_types.h
+  tasks/task_runner.h
+  tasks/thread_pool.h)
+set(BULLET_AMBIENT_PUBLIC_PREPROCESS_HEADERS
+  builder/fluid_body_builder.h
+  collision_shape/collision_shape_body.h
+  mesh/mesh_checks.h
+  mesh/mesh_import.h
+  mesh/primitives.h
+  mesh/triangle_mesh.h
+  potential_flow/potential_flow.h)
+
 # The headers keep the paths they have in the source tree; those of the preprocessor move below bullet_ambient/, so
 # that the include directory gets one new name.
-function(ambient_install_headers)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/bullet_ambient
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN cmake EXCLUDE)
-  if(BULLET_AMBIENT_PREPROCESS)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/preprocess
-      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient FILES_MATCHING PATTERN "*.h")
-  endif()
+function(ambient_install_headers source_dir destination)
+  foreach(header IN LISTS ARGN)
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES ${source_dir}/${header} DESTINATION ${destination}/${folder})
+  endforeach()
 endfunction()
 
 # find_package(BulletAmbient)
@@ -87,7 +129,12 @@ endfunction()
 
 # Call once, after all boxes are added.
 function(ambient_install_all)
-  ambient_install_headers()
+  ambient_install_headers(${PROJECT_SOURCE_DIR}/bullet_ambient ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient
+    ${BULLET_AMBIENT_PUBLIC_HEADERS})
+  if(BULLET_AMBIENT_PREPROCESS)
+    ambient_install_headers(${PROJECT_SOURCE_DIR}/preprocess ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient/preprocess
+      ${BULLET_AMBIENT_PUBLIC_PREPROCESS_HEADERS})
+  endif()
   ambient_install_package()
   ambient_install_pkg_config()
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

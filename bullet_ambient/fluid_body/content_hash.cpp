@@ -15,10 +15,7 @@ std::uint64_t contentHash(const FluidBody& body) {
   append(&body.volume, 1);
   append(&body.area, 1);
   append(body.centre_of_volume.data(), 3);
-  const FaceTable& faces = body.faces;
-  for (const std::vector<double>* column :
-       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
-        &faces.centroid_z, &faces.area})
+  for (const std::vector<double>* column : body.faces.columns())
     append(column->data(), column->size());
   for (const LoadLevel& level : body.levels) {
     for (const double* value :

@@ -51,12 +51,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& face
 }
 
 FluidBody scaled(const FluidBody& body, double factor) {
-  if (!(factor > 0) || !std::isfinite(factor)) {
-    std::ostringstream sentence;
-    sentence << "scaled: the factor for fluid body '" << body.name << "' is " << factor
-             << ", but must be positive and finite";
-    throw std::invalid_argument(sentence.str());
-  }
+  if (!(factor > 0) || !std::isfinite(factor))
+    reject(body, "factor of scaled()", factor, "positive and finite");
   FluidBody result = body;
   result.added_mass = scaleShape(body.added_mass, factor);
   result.volume *= factor * factor * factor;
@@ -79,6 +75,13 @@ FluidBody scaled(const FluidBody& body, double factor) {
   settings << body.provenance.settings << "; scaled by " << factor;
   result.provenance.settings = settings.str();
   return result;
+}
+
+void reject(const FluidBody& body, const std::string& what, double value, const char* limit) {
+  std::ostringstream message;
+  message << "fluid body '" << body.name << "': " << what << " is " << value << ", must be "
+          << limit;
+  throw std::invalid_argument(message.str());
 }
 
 }  // namespace ambient

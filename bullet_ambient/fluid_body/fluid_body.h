@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ struct FaceTable {
   std::vector<double> area;                                ///< [m^2]
 
   std::size_t size() const { return area.size(); }
+  /// All of them, in that order.
+  std::array<const std::vector<double>*, 7> columns() const {
+    return {&normal_x, &normal_y, &normal_z, &centroid_x, &centroid_y, &centroid_z, &area};
+  }
   Vector3 normal(std::size_t i) const { return {normal_x[i], normal_y[i], normal_z[i]}; }
   Vector3 centroid(std::size_t i) const { return {centroid_x[i], centroid_y[i], centroid_z[i]}; }
   void reserve(std::size_t faces);
@@ -78,5 +83,9 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& face
 /// added mass s^3 to s^5 as scaleShape(). The provenance stays; its settings tell the factor.
 /// @throws std::invalid_argument if the factor is not positive and finite.
 FluidBody scaled(const FluidBody& body, double factor);
+
+/// @throws std::invalid_argument: one line that names the fluid body, the value and the limit.
+[[noreturn]] void reject(const FluidBody& body, const std::string& what, double value,
+                         const char* limit);
 
 }  // namespace ambient

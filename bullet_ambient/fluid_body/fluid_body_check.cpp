@@ -1,9 +1,10 @@
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 namespace {
@@ -56,9 +57,7 @@ class Checker {
     if (!(asymmetry <= kRounding))
       fail(what, " is not symmetric: off by ", asymmetry, " of its largest entry, limit ",
            kRounding);
-    const double lowest = Eigen::SelfAdjointEigenSolver<Aligned>(scaled, Eigen::EigenvaluesOnly)
-                              .eigenvalues()
-                              .minCoeff();
+    const double lowest = symmetricEigen(scaled).values[0];
     if (!(lowest >= -kRounding))
       fail(what, " is not positive semi-definite: lowest eigenvalue ", lowest,
            " of its largest entry, limit ", -kRounding);
@@ -89,20 +88,16 @@ void checkMassDistribution(const MassDistribution& mass, const Checker& check, c
 }
 
 void checkFaces(const FaceTable& faces, const Checker& check) {
-  struct Column {
-    const std::vector<double>& values;
-    const char* name;
-  };
+  constexpr std::array kNames{"face normal x",   "face normal y",   "face normal z",
+                              "face centroid x", "face centroid y", "face centroid z",
+                              "face area"};
   const std::size_t count = faces.size();
-  for (const Column& column :
-       {Column{faces.normal_x, "face normal x"}, Column{faces.normal_y, "face normal y"},
-        Column{faces.normal_z, "face normal z"}, Column{faces.centroid_x, "face centroid x"},
-        Column{faces.centroid_y, "face centroid y"}, Column{faces.centroid_z, "face centroid z"},
-        Column{faces.area, "face area"}}) {
-    if (column.values.size() != count)
-      check.fail(column.name, " has ", column.values.size(), " entries, but there are ", count,
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    const std::vector<double>& column = *faces.columns()[k];
+    if (column.size() != count)
+      check.fail(kNames[k], " has ", column.size(), " entries, but there are ", count,
                  " face areas");
-    check.finiteColumn(column.values, column.name);
+    check.finiteColumn(column, kNames[k]);
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (faces.area[i] < 0)
@@ -153,7 +148,6 @@ void checkBlocks(const LoadLevel& level, const Checker& check) {
 }
 
 void checkLevel(const LoadLevel& level, const Checker& check) {
-  constexpr double kPi = 3.14159265358979323846;
   if (level.clusters < 1)
     check.fail("a level of reduced loads has ", level.clusters,
                " clusters, but must have 1 or more");

@@ -73,15 +73,9 @@ Provenance unpack(const file::Provenance& packed) {
 }
 
 Offset<file::FaceTable> pack(FlatBufferBuilder& builder, const FaceTable& faces) {
-  const auto normal_x = builder.CreateVector(faces.normal_x);
-  const auto normal_y = builder.CreateVector(faces.normal_y);
-  const auto normal_z = builder.CreateVector(faces.normal_z);
-  const auto centroid_x = builder.CreateVector(faces.centroid_x);
-  const auto centroid_y = builder.CreateVector(faces.centroid_y);
-  const auto centroid_z = builder.CreateVector(faces.centroid_z);
-  const auto area = builder.CreateVector(faces.area);
-  return file::CreateFaceTable(builder, normal_x, normal_y, normal_z, centroid_x, centroid_y,
-                               centroid_z, area);
+  std::array<Offset<flatbuffers::Vector<double>>, 7> c;
+  for (std::size_t k = 0; k < c.size(); ++k) c[k] = builder.CreateVector(*faces.columns()[k]);
+  return file::CreateFaceTable(builder, c[0], c[1], c[2], c[3], c[4], c[5], c[6]);
 }
 
 FaceTable unpack(const file::FaceTable& packed) {
@@ -196,12 +190,8 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
 /// An upper bound of the payload's size [bytes].
 std::size_t payloadBound(const FluidBody& body) {
   constexpr std::size_t kFixedPart = 4096;
-  const FaceTable& faces = body.faces;
   std::size_t doubles = body.surface.vertices.size();
-  for (const std::vector<double>* column :
-       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
-        &faces.centroid_z, &faces.area})
-    doubles += column->size();
+  for (const std::vector<double>* column : body.faces.columns()) doubles += column->size();
   std::size_t level_bytes = 0;
   for (const LoadLevel& level : body.levels)
     level_bytes += kFixedPart + level.blocks.size() * sizeof(ClusterBlock);

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "bullet_ambient/fluid_body/fluid_body_file_header.h"
+#include "bullet_ambient/fluid_body/load_fluid_body.h"
 
 namespace ambient {
 namespace {
@@ -79,6 +80,10 @@ class TemporaryFile {
 
 FluidBody readFluidBody(const fs::path& file) {
   return decodeFluidBody(readBytes(file), file.string());
+}
+
+std::shared_ptr<const FluidBody> loadFluidBody(const std::string& file) {
+  return std::make_shared<FluidBody>(readFluidBody(file));
 }
 
 void writeFluidBody(const FluidBody& body, const fs::path& file) {

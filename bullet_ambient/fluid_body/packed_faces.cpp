@@ -1,11 +1,9 @@
 #include "bullet_ambient/fluid_body/packed_faces.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <mutex>
 #include <numeric>
-#include <unordered_map>
 
 namespace ambient {
 namespace {
@@ -113,31 +111,6 @@ void PackedFaces::setBounds(std::size_t block) {
     bounds.middle[row][block % FaceBounds::kBlocks] = 0.5f * (*low + *high);
     bounds.reach[row][block % FaceBounds::kBlocks] = 0.5f * (*high - *low) + kRounding;
   }
-}
-
-bool PackedFaces::isOf(const FaceTable& faces) const {
-  if (faces.size() != size()) return false;
-  for (std::size_t block = 0; block < blocks_.size(); ++block) {
-    const FaceBlock packed = packBlock(faces, block);
-    if (std::memcmp(static_cast<const void*>(&packed), &blocks_[block], sizeof packed) != 0)
-      return false;
-  }
-  return true;
-}
-
-std::shared_ptr<const PackedFaces> sharedPackedFaces(const FaceTable& faces) {
-  static std::mutex mutex;
-  static std::unordered_map<const FaceTable*, std::weak_ptr<const PackedFaces>> known;
-  const std::lock_guard lock(mutex);
-  if (const auto found = known.find(&faces); found != known.end()) {
-    // A table that changed, or another one at its address, is packed anew.
-    if (auto packed = found->second.lock(); packed && packed->isOf(faces)) return packed;
-  }
-  for (auto entry = known.begin(); entry != known.end();)
-    entry = entry->second.expired() ? known.erase(entry) : std::next(entry);
-  auto packed = std::make_shared<const PackedFaces>(faces);
-  known[&faces] = packed;
-  return packed;
 }
 
 }  // namespace ambient

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/face_block.h"
@@ -18,9 +17,6 @@ class PackedFaces {
   /// Cost: O(F log F), 0.1 us per face.
   explicit PackedFaces(const FaceTable& faces);
 
-  /// Whether it was made of these very faces. Cost: O(F), some ns per face.
-  bool isOf(const FaceTable& faces) const;
-
   FaceBlocks blocks() const { return {blocks_.data(), bounds_.data(), blocks_.size()}; }
   std::size_t size() const { return order_.size(); }
   double lengthUnit() const { return length_unit_; }  ///< [m]
@@ -35,9 +31,5 @@ class PackedFaces {
   std::vector<FaceBounds> bounds_;
   double length_unit_ = 1, area_unit_ = 1;
 };
-
-/// The packed faces of a table: made at the first call, and shared by all who ask for those of the
-/// same table while any of them lives. May be called from several threads. Cost as above.
-std::shared_ptr<const PackedFaces> sharedPackedFaces(const FaceTable& faces);
 
 }  // namespace ambient

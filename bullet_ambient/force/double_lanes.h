@@ -2,12 +2,9 @@
 
 // Vectors of doubles for what is compiled once per instruction set, and may share no inline
 // function with the rest of the program. Written with the vector types of GCC and Clang, which have
-// the
-// +, -, *, > and ?: of IEEE 754 per lane.
+// the +, -, *, > and ?: of IEEE 754 per lane.
 
-#if defined(__FAST_MATH__)
-#error "-ffast-math reorders operations; results must have the same bits everywhere"
-#endif
+#include "bullet_ambient/force/lane_vectors.h"
 
 namespace ambient {
 namespace {
@@ -29,6 +26,8 @@ inline Doubles load(const double* from) {
 }
 
 inline void store(double* to, const Doubles& d) { __builtin_memcpy(to, &d, sizeof d); }
+
+using Vectors = VectorsOf<Doubles>;
 
 }  // namespace
 }  // namespace ambient

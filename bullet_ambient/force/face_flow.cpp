@@ -1,6 +1,6 @@
 #include "bullet_ambient/force/face_flow.h"
 
-#include <cmath>
+#include "bullet_ambient/force/skin_friction.h"
 
 namespace ambient {
 
@@ -15,9 +15,9 @@ FaceFlow computeFaceFlow(const FaceTable& faces, std::size_t face, double refere
   const double speed = flow.slip.norm();
   const double area = faces.area[face];
   flow.pressure = -0.5 * settings.density * speed * speed * area * n;
-  if (!settings.skin_friction || !(settings.viscosity > 0) || !(speed > 0)) return flow;
-  const double reynolds = settings.density * speed * reference_length / settings.viscosity;
-  const double coefficient = 0.0576 * std::pow(reynolds, -0.2);
+  const double reynolds = settings.reynoldsPerSpeed(reference_length) * speed;
+  if (!(reynolds > 0)) return flow;
+  const double coefficient = kFrictionCoefficient * reynoldsPower(reynolds);
   flow.friction = 0.5 * coefficient * settings.density * speed * area * flow.slip;
   return flow;
 }

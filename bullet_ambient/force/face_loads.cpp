@@ -1,26 +1,18 @@
 #include "bullet_ambient/force/face_loads.h"
 
-#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "bullet_ambient/force/face_sums.h"
-#include "bullet_ambient/force/fifth_root.h"
+#include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 namespace {
 
-SumFaces fastestSumFaces() noexcept {
-  for (const InstructionSet set : {InstructionSet::kAvx512, InstructionSet::kAvx2})
-    if (const SumFaces sum_faces = sumFacesFor(set)) return sum_faces;
-  return sumFacesBaseline;
-}
-
 FaceColumns columnsOf(const FaceTable& faces) noexcept {
-  for ([[maybe_unused]] const std::vector<double>* column :
-       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
-        &faces.centroid_z})
-    assert(column->size() == faces.size());
+  for (const std::vector<double>* column : faces.columns())
+    AMBIENT_ASSERT(column->size() == faces.size());
   return {{faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
           {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
           faces.area.data(),
@@ -41,20 +33,9 @@ double separationCosine(double separation_angle) {
   return std::cos(separation_angle);
 }
 
-SumFaces sumFacesFor(InstructionSet instruction_set) noexcept {
-#if defined(__x86_64__)
-  if (instruction_set == InstructionSet::kAvx512)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") ? sumFacesAvx512
-                                                                                   : nullptr;
-  if (instruction_set == InstructionSet::kAvx2)
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? sumFacesAvx2 : nullptr;
-#endif
-  return instruction_set == InstructionSet::kBaseline ? sumFacesBaseline : nullptr;
-}
-
 FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                            const Twist& relative_twist, const LoadSettings& settings) noexcept {
-  static const SumFaces sum_faces = fastestSumFaces();
+  static const SumFaces sum_faces = kSumFaces.fastest();
   const double cosine = settings.separation_cosine;
   const Vector3& w = relative_twist.angular;
   const Vector3& v = relative_twist.linear;
@@ -62,17 +43,15 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                           {v.x(), v.y(), v.z()},
                           -cosine * std::abs(cosine),
                           1 - cosine * cosine};
-  const double reynolds_per_speed =
-      settings.viscosity > 0 ? settings.density * reference_length / settings.viscosity : 0;
-  const bool with_friction = settings.skin_friction && reynolds_per_speed > 0;
+  const double reynolds_per_speed = settings.reynoldsPerSpeed(reference_length);
+  const bool with_friction = reynolds_per_speed > 0;
 
   const FaceSums sums = sum_faces(columnsOf(faces), motion, with_friction);
   const double half_density = 0.5 * settings.density;
   FaceLoads loads;
   loads.pressure = scaled(sums.pressure, -half_density);
   if (with_friction) {
-    // C_f = 0.0576 Re^(-1/5), the turbulent 1/5-power law, with Re proportional to the slip speed.
-    const double friction_scale = 0.0576 * inverseFifthRoot(reynolds_per_speed);
+    const double friction_scale = kFrictionCoefficient * reynoldsPower(reynolds_per_speed);
     loads.friction = scaled(sums.friction, -half_density * friction_scale);
   }
   return loads;

@@ -14,6 +14,11 @@ struct LoadSettings {
   double viscosity = 0;          ///< dynamic viscosity [Pa s]
   double separation_cosine = 0;  ///< cos(alpha), alpha in [pi/2, pi]; see separationCosine()
   bool skin_friction = true;     ///< false, or viscosity 0: friction is not computed
+
+  /// Of a slip of 1 m/s; 0: no friction.
+  double reynoldsPerSpeed(double reference_length) const noexcept {
+    return skin_friction && viscosity > 0 ? density * reference_length / viscosity : 0;
+  }
 };
 
 /// Surface loads on a body, split by origin.

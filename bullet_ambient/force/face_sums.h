@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "bullet_ambient/force/instruction_set.h"
+
 namespace ambient {
 
 // The sums over faces behind computeFaceLoads(). Plain data only: the kernels are compiled once per
@@ -34,14 +36,8 @@ struct FaceSums {
 using SumFaces = FaceSums (*)(const FaceColumns&, const FaceMotion&, bool with_friction) noexcept;
 
 FaceSums sumFacesBaseline(const FaceColumns&, const FaceMotion&, bool with_friction) noexcept;
-#if defined(__x86_64__)
 FaceSums sumFacesAvx2(const FaceColumns&, const FaceMotion&, bool with_friction) noexcept;
 FaceSums sumFacesAvx512(const FaceColumns&, const FaceMotion&, bool with_friction) noexcept;
-#endif
-
-enum class InstructionSet { kBaseline, kAvx2, kAvx512 };
-
-/// The kernel for an instruction set; null if this processor does not have it.
-SumFaces sumFacesFor(InstructionSet instruction_set) noexcept;
+constexpr Kernels<SumFaces> kSumFaces{sumFacesBaseline, sumFacesAvx2, sumFacesAvx512};
 
 }  // namespace ambient

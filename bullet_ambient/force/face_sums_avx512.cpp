@@ -1,10 +1,2 @@
+#define AMBIENT_KERNEL sumFacesAvx512
 #include "bullet_ambient/force/face_sums_kernel.h"
-
-namespace ambient {
-
-FaceSums sumFacesAvx512(const FaceColumns& faces, const FaceMotion& motion,
-                        bool with_friction) noexcept {
-  return sumFaces(faces, motion, with_friction);
-}
-
-}  // namespace ambient

@@ -2,9 +2,10 @@
 
 #include "bullet_ambient/force/double_lanes.h"
 #include "bullet_ambient/force/face_sums.h"
-#include "bullet_ambient/force/fifth_root.h"
+#include "bullet_ambient/force/skin_friction.h"
 
-// Included once by each face_sums_<instruction set>.cpp, which is compiled for that set.
+// Included once by each face_sums_<instruction set>.cpp, which is compiled for that set and names
+// the AMBIENT_KERNEL.
 
 namespace ambient {
 namespace {
@@ -15,22 +16,11 @@ constexpr int kBlock = 256;
 
 using Bits = std::uint64_t __attribute__((vector_size(kWidth * sizeof(std::uint64_t))));
 
-struct Vectors {
-  Doubles x, y, z;
-};
-
 inline Vectors load(const double* const columns[3], std::size_t i) {
   return {load(columns[0] + i), load(columns[1] + i), load(columns[2] + i)};
 }
 inline Vectors broadcast(const double v[3]) {
   return {Doubles{} + v[0], Doubles{} + v[1], Doubles{} + v[2]};
-}
-inline Vectors operator+(Vectors a, Vectors b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vectors operator-(Vectors a, Vectors b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vectors operator*(Doubles s, Vectors a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Doubles dot(Vectors a, Vectors b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vectors cross(Vectors a, Vectors b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// Partial sums of a wrench, one per lane.
@@ -118,10 +108,8 @@ void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t
 void sumFriction(const FaceColumns& faces, std::size_t begin, std::size_t end, int lane,
                  WrenchLanes& sums, BlockSlip& slip) {
   const int count = static_cast<int>((end - begin) / kLanes);
-  for (int k = 0; k < count; ++k) {
-    const Doubles r = inverseFifthRoot<Bits>(slip.speed_sq[k]);
-    slip.strength[k] = (slip.strength[k] * r) * (r * r);  // |u_s|^0.8 = |u_s|^2 (|u_s|^-0.4)^3
-  }
+  for (int k = 0; k < count; ++k)
+    slip.strength[k] = timesSlipPower<Bits>(slip.strength[k], slip.speed_sq[k]);
   WrenchSum sum(sums, lane);
   std::size_t i = begin + static_cast<std::size_t>(lane);
   for (int k = 0; k < count; ++k, i += kLanes) {
@@ -189,7 +177,10 @@ FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion) {
   return sums;
 }
 
-FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion, bool with_friction) {
+}  // namespace
+
+FaceSums AMBIENT_KERNEL(const FaceColumns& faces, const FaceMotion& motion,
+                        bool with_friction) noexcept {
   if (motion.signed_cosine_sq == 0)
     return with_friction ? sumFaces<true, true>(faces, motion)
                          : sumFaces<true, false>(faces, motion);
@@ -197,5 +188,4 @@ FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion, bool with_
                        : sumFaces<false, false>(faces, motion);
 }
 
-}  // namespace
 }  // namespace ambient

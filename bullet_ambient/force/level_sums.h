@@ -22,12 +22,9 @@ using SumClusters = LoadSums (*)(const LevelColumns&, const double (&x)[6],
 
 LoadSums sumClustersBaseline(const LevelColumns&, const double (&x)[6],
                              const SingleMotion&) noexcept;
-#if defined(__x86_64__)
 LoadSums sumClustersAvx2(const LevelColumns&, const double (&x)[6], const SingleMotion&) noexcept;
 LoadSums sumClustersAvx512(const LevelColumns&, const double (&x)[6], const SingleMotion&) noexcept;
-#endif
-
-/// The kernel for an instruction set; null if this processor does not have it.
-SumClusters sumClustersFor(InstructionSet instruction_set) noexcept;
+constexpr Kernels<SumClusters> kSumClusters{sumClustersBaseline, sumClustersAvx2,
+                                            sumClustersAvx512};
 
 }  // namespace ambient

@@ -1,10 +1,2 @@
+#define AMBIENT_KERNEL sumClustersBaseline
 #include "bullet_ambient/force/level_sums_kernel.h"
-
-namespace ambient {
-
-LoadSums sumClustersBaseline(const LevelColumns& level, const double (&x)[6],
-                             const SingleMotion& motion) noexcept {
-  return sumClusters(level, x, motion);
-}
-
-}  // namespace ambient

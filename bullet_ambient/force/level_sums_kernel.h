@@ -3,7 +3,8 @@
 #include "bullet_ambient/force/level_sums.h"
 #include "bullet_ambient/force/single_lanes.h"
 
-// Included once by each level_sums_<instruction set>.cpp, which is compiled for that set.
+// Included once by each level_sums_<instruction set>.cpp, which is compiled for that set and names
+// the AMBIENT_KERNEL.
 
 namespace ambient {
 namespace {
@@ -84,7 +85,7 @@ void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& 
     force = plusProduct(plusProduct(force, by_slip, slip.force), by_normal, normal.force);
     if (kFriction) {
       const Floats area = (load(block.area + lane) * motion.friction) * (0.5f + excess);
-      const Vectors f = ((area * slip_sq) * inverseThreeFifths(slip_sq)) * t;
+      const Vectors f = ((area * slip_sq) * slipPower(slip_sq)) * t;
       force = force + f;
       torque = plusCross(torque, c, f);
     }
@@ -125,7 +126,10 @@ LoadSums sumClusters(const LevelColumns& level, const double (&x)[6], const Sing
   return sums;
 }
 
-LoadSums sumClusters(const LevelColumns& level, const double (&x)[6], const SingleMotion& motion) {
+}  // namespace
+
+LoadSums AMBIENT_KERNEL(const LevelColumns& level, const double (&x)[6],
+                        const SingleMotion& motion) noexcept {
   const bool friction = motion.friction > 0;
   if (motion.signed_cosine_sq == 0)
     return friction ? sumClusters<true, true>(level, x, motion)
@@ -134,5 +138,4 @@ LoadSums sumClusters(const LevelColumns& level, const double (&x)[6], const Sing
                   : sumClusters<false, false>(level, x, motion);
 }
 
-}  // namespace
 }  // namespace ambient

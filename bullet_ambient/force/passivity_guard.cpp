@@ -4,8 +4,8 @@
 
 namespace ambient {
 
-GuardedWrench removePositivePower(const Wrench& surface_wrench, const Twist& relative_twist,
-                                  const Matrix6& inertia) noexcept {
+SurfaceLoad removePositivePower(const Wrench& surface_wrench, const Twist& relative_twist,
+                                const Matrix6& inertia) noexcept {
   // F' depends on the direction of x alone; without its size nothing over- or underflows.
   const Vector6 twist = relative_twist.vector();
   const double largest = twist.cwiseAbs().maxCoeff();

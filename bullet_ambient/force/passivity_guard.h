@@ -5,9 +5,9 @@
 namespace ambient {
 
 /// A surface load without positive power.
-struct GuardedWrench {
+struct SurfaceLoad {
   Wrench wrench;
-  bool acted = false;  ///< the guard had to take power away
+  bool guarded = false;  ///< power had to be taken away
 };
 
 /// Removes from the surface wrench (pressure and friction) the part that feeds energy to the body,
@@ -17,7 +17,7 @@ struct GuardedWrench {
 /// blunt-based bodies. All in one frame, x relative to the ambient flow; the wrench stays as it is
 /// for x = 0 and for anything not finite.
 /// @pre inertia is symmetric positive definite.
-GuardedWrench removePositivePower(const Wrench& surface_wrench, const Twist& relative_twist,
-                                  const Matrix6& inertia) noexcept;
+SurfaceLoad removePositivePower(const Wrench& surface_wrench, const Twist& relative_twist,
+                                const Matrix6& inertia) noexcept;
 
 }  // namespace ambient

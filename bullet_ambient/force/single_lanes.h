@@ -5,15 +5,13 @@
 #include <immintrin.h>
 #endif
 
+#include "bullet_ambient/force/lane_vectors.h"
 #include "bullet_ambient/force/single_sums.h"
+#include "bullet_ambient/force/skin_friction.h"
 
 // What the kernels in single precision share: vectors of lanes, and their sums. Included by what is
 // compiled once per instruction set. Written with the vector types of GCC and Clang, which have the
 // +, -, *, > and ?: of IEEE 754 per lane.
-
-#if defined(__FAST_MATH__)
-#error "-ffast-math reorders the sums over faces; they must have the same bits everywhere"
-#endif
 
 namespace ambient {
 namespace {
@@ -74,9 +72,7 @@ inline Floats plusProduct(Floats c, Floats a, Floats b) {
 inline Floats lessProduct(Floats c, Floats a, Floats b) { return plusProduct(c, -a, b); }
 #endif
 
-struct Vectors {
-  Floats x, y, z;
-};
+using Vectors = VectorsOf<Floats>;
 
 inline Vectors load(const float (&columns)[3][kLanes], int lane) {
   return {load(columns[0] + lane), load(columns[1] + lane), load(columns[2] + lane)};
@@ -84,15 +80,13 @@ inline Vectors load(const float (&columns)[3][kLanes], int lane) {
 inline Vectors broadcast(const float v[3]) {
   return {Floats{} + v[0], Floats{} + v[1], Floats{} + v[2]};
 }
-inline Vectors operator+(Vectors a, Vectors b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vectors operator*(Floats s, Vectors a) { return {s * a.x, s * a.y, s * a.z}; }
 inline Vectors plusProduct(Vectors c, Floats s, Vectors a) {
   return {plusProduct(c.x, s, a.x), plusProduct(c.y, s, a.y), plusProduct(c.z, s, a.z)};
 }
 inline Vectors lessProduct(Vectors c, Floats s, Vectors a) {
   return {lessProduct(c.x, s, a.x), lessProduct(c.y, s, a.y), lessProduct(c.z, s, a.z)};
 }
-inline Floats dot(Vectors a, Vectors b) {
+inline Floats dot(const Vectors& a, const Vectors& b) {
   return plusProduct(plusProduct(a.x * b.x, a.y, b.y), a.z, b.z);
 }
 /// c + a x b
@@ -116,28 +110,10 @@ struct WrenchLanes {
   }
 };
 
-/// x^(-3/5) of normal x > 0 to 3e-7; finite for 0.
-inline Floats inverseThreeFifths(Floats x) {
-  // The bit pattern is 2^23 times the logarithm to base 2 (plus 127), up to 0.09; see
-  // fifth_root.h.
-  constexpr float kOffset = 152.48f * 0x1p23f;
-  Ints bits;
-  __builtin_memcpy(&bits, &x, sizeof bits);
-  const auto constant = [](float value) { return Floats{} + value; };
-  const auto line = [&](float at_zero, float fall, Floats z) {
-    return lessProduct(constant(at_zero), constant(fall), z);
-  };
-  bits = __builtin_convertvector(line(kOffset, 0.2f, __builtin_convertvector(bits, Floats)), Ints);
-  Floats r;
-  __builtin_memcpy(&r, &bits, sizeof r);
-  const Floats square = r * r;
-  const Floats cube = square * r;
-  // x r^5 lies in [1.399, 1.885]; the minimax polynomial of its power -3/5 leaves 1.1e-7.
-  const Floats z = plusProduct(constant(-1.625f), x * cube, square);
-  const Floats z2 = z * z;
-  const Floats high =
-      plusProduct(line(0.135814669f, 0.0725031383f, z), z2, line(0.0412350679f, 0.0221427742f, z));
-  return cube * plusProduct(line(0.747288029f, 0.275921004f, z), z2, high);
+inline Floats slipPower(Floats slip_sq) {
+  return ambient::slipPower<Ints>(slip_sq, [](const Floats& c, const Floats& a, const Floats& b) {
+    return plusProduct(c, a, b);
+  });
 }
 
 constexpr int kHalf = kWidth / 2;

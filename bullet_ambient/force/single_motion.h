@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/force/fifth_root.h"
 #include "bullet_ambient/force/single_sums.h"
+#include "bullet_ambient/force/skin_friction.h"
 
 namespace ambient {
 
@@ -26,6 +26,7 @@ inline SpeedUnit speedUnitAbove(double speed) noexcept {
   const double normal = std::clamp(speed, 0x1p-1000, 0x1p999);
   std::uint64_t bits;
   std::memcpy(&bits, &normal, sizeof bits);
+  static_assert(kReynoldsExponent == -1.0 / 5, "other powers need other units");
   const int fifth = (static_cast<int>(bits >> 52) - kBias + 1005) / 5 - 200;
   const auto powerOfTwo = [](int exponent) {
     const std::uint64_t power_bits = static_cast<std::uint64_t>(exponent + kBias) << 52;
@@ -54,10 +55,10 @@ inline ScaledMotion scaledMotion(const Vector3& angular, const Vector3& linear,
 /// (Re < 1e-153), which keeps single precision finite. Only the last factor waits for the motion.
 inline double frictionAtUnitSpeed(const LoadSettings& settings, const SpeedUnit& unit,
                                   double reference_length) noexcept {
-  if (!settings.skin_friction || !(settings.viscosity > 0)) return 0;
-  const double reynolds_per_speed = settings.density * reference_length / settings.viscosity;
+  const double reynolds_per_speed = settings.reynoldsPerSpeed(reference_length);
   if (!(reynolds_per_speed > 0)) return 0;
-  return std::min(0.0576 * inverseFifthRoot(reynolds_per_speed) * unit.inverse_fifth_power, 1e30);
+  return std::min(
+      kFrictionCoefficient * reynoldsPower(reynolds_per_speed) * unit.inverse_fifth_power, 1e30);
 }
 
 inline SingleMotion singleMotion(const ScaledMotion& motion, const LoadSettings& settings,

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "bullet_ambient/fluid_body/face_block.h"
-#include "bullet_ambient/force/face_sums.h"
+#include "bullet_ambient/force/instruction_set.h"
 
 namespace ambient {
 
@@ -31,12 +31,8 @@ struct LoadSums {
 using SumBlocks = LoadSums (*)(const FaceBlocks&, const SingleMotion&) noexcept;
 
 LoadSums sumBlocksBaseline(const FaceBlocks&, const SingleMotion&) noexcept;
-#if defined(__x86_64__)
 LoadSums sumBlocksAvx2(const FaceBlocks&, const SingleMotion&) noexcept;
 LoadSums sumBlocksAvx512(const FaceBlocks&, const SingleMotion&) noexcept;
-#endif
-
-/// The kernel for an instruction set; null if this processor does not have it.
-SumBlocks sumBlocksFor(InstructionSet instruction_set) noexcept;
+constexpr Kernels<SumBlocks> kSumBlocks{sumBlocksBaseline, sumBlocksAvx2, sumBlocksAvx512};
 
 }  // namespace ambient

@@ -1,9 +1,2 @@
+#define AMBIENT_KERNEL sumBlocksAvx2
 #include "bullet_ambient/force/single_sums_kernel.h"
-
-namespace ambient {
-
-LoadSums sumBlocksAvx2(const FaceBlocks& faces, const SingleMotion& motion) noexcept {
-  return sumBlocks(faces, motion);
-}
-
-}  // namespace ambient

@@ -3,7 +3,8 @@
 #include "bullet_ambient/force/single_lanes.h"
 #include "bullet_ambient/force/single_sums.h"
 
-// Included once by each single_sums_<instruction set>.cpp, which is compiled for that set.
+// Included once by each single_sums_<instruction set>.cpp, which is compiled for that set and names
+// the AMBIENT_KERNEL.
 
 namespace ambient {
 namespace {
@@ -43,7 +44,7 @@ void sumRun(const FaceBlock* blocks, const int* chosen, int count, const SingleM
     const Floats strength = strengthWhereAttached<kRightAngle>(
         normal_speed, load(block.area + lane) * speed_sq, speed_sq, motion);
     if (kFriction) {
-      const Floats along = (strength * motion.friction) * inverseThreeFifths(speed_sq);
+      const Floats along = (strength * motion.friction) * slipPower(speed_sq);
       const Vectors f = plusProduct(strength * n, along, t);
       force = force + f;
       torque = plusCross(torque, c, f);
@@ -133,9 +134,10 @@ LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
                                : sumWhereAttached<kFriction>(faces, motion);
 }
 
-LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
+}  // namespace
+
+LoadSums AMBIENT_KERNEL(const FaceBlocks& faces, const SingleMotion& motion) noexcept {
   return motion.friction > 0 ? sumBlocks<true>(faces, motion) : sumBlocks<false>(faces, motion);
 }
 
-}  // namespace
 }  // namespace ambient

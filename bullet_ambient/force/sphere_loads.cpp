@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/force/fifth_root.h"
+#include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 bool hasFriction(const LoadSettings& settings) noexcept {
   return settings.skin_friction && settings.viscosity > 0;
@@ -90,7 +89,7 @@ FaceLoads computeSphereLoads(const SphereTable* table, double radius, double ref
   loads.pressure.force = pressure * (detached - everywhere);
   if (!hasFriction(settings)) return loads;
   const double reynolds = settings.density * motion.speed * reference_length / settings.viscosity;
-  const double friction = -pressure * 0.0576 * inverseFifthRoot(reynolds);
+  const double friction = -pressure * kFrictionCoefficient * reynoldsPower(reynolds);
   loads.friction.force = friction * motion.polar(integrals.friction_force);
   loads.friction.torque = friction * radius * motion.axial(integrals.friction_torque);
   return loads;

@@ -1,15 +1,15 @@
 #include "bullet_ambient/force/sphere_quadrature.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/force/fifth_root.h"
+#include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kMeridians = 48;
 constexpr int kBrackets = 32;   // of the lee side of a meridian, to find where the flow separates
 constexpr int kBisections = 6;  // then a secant: to 1e-7
 /// Gauss's rule of 8 points between -1 and 1, one half.
@@ -51,7 +51,7 @@ class Meridian {
       const Vector3 t = slip(n);
       const double t_sq = t.squaredNorm();
       if (attached) {
-        const Vector3 friction = area * t_sq * inverseFifthRoot(t_sq * t_sq * t_sq) * t;
+        const Vector3 friction = area * t_sq * reynoldsPower(t_sq * t_sq * t_sq) * t;
         sums.friction_force += friction;
         sums.friction_torque += n.cross(friction);
       } else {

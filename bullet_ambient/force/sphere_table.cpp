@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 
 #include "bullet_ambient/force/sphere_quadrature.h"
 
@@ -71,20 +69,6 @@ SphereIntegrals SphereTable::at(double spin_share, double cosine) const noexcept
     }
   }
   return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}, {sums[6], sums[7], sums[8]}};
-}
-
-std::shared_ptr<const SphereTable> sharedSphereTable(double separation_cosine) {
-  static std::mutex mutex;
-  static std::map<double, std::weak_ptr<const SphereTable>> known;
-  static std::shared_ptr<const SphereTable> newest;  // outlives a single ball that comes and goes
-  const std::lock_guard lock(mutex);
-  if (const auto found = known.find(separation_cosine); found != known.end())
-    if (auto table = found->second.lock()) return table;
-  for (auto entry = known.begin(); entry != known.end();)
-    entry = entry->second.expired() ? known.erase(entry) : std::next(entry);
-  newest = std::make_shared<const SphereTable>(separation_cosine);
-  known[separation_cosine] = newest;
-  return newest;
 }
 
 }  // namespace ambient

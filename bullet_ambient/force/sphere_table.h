@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 
 #include "bullet_ambient/spatial/vector_types.h"
 
@@ -39,9 +38,5 @@ class SphereTable {
   double closing_share_;
   std::array<double, std::size_t{kShares} * kCosines * kValues> values_;
 };
-
-/// The table of a separation angle: made at the first call, and shared by all who ask for it while
-/// any of them lives or until the next is made. May be called from several threads.
-std::shared_ptr<const SphereTable> sharedSphereTable(double separation_cosine);
 
 }  // namespace ambient

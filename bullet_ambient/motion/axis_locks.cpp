@@ -93,7 +93,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
 
   RowVelocity result;
   Vector6 forced = model.inverse_inertia * externalWrench(model, s, R).vector();
-  if (model.has_surface_loads) {
+  if (model.loads) {
     const SurfaceLoad load = computeSurfaceLoad(model, relative);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;

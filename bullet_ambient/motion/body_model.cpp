@@ -1,30 +1,17 @@
 #include "bullet_ambient/motion/body_model.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
-#include <vector>
+#include <utility>
 
-#include "bullet_ambient/force/level_loads.h"
-#include "bullet_ambient/force/passivity_guard.h"
-#include "bullet_ambient/force/single_loads.h"
+#include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 namespace {
 
-[[noreturn]] void reject(const FluidBody& body, const std::string& what, double value,
-                         const char* limit) {
-  std::ostringstream message;
-  message << "fluid body '" << body.name << "': " << what << " is " << value << ", must be "
-          << limit;
-  throw std::invalid_argument(message.str());
-}
-
 Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return symmetricEigen(symmetric).values;
 }
 
 void checkMass(const FluidBody& body, const MassProperties& mass) {
@@ -56,66 +43,6 @@ void checkShape(const FluidBody& body) {
   if (!body.centre_of_volume.allFinite()) {
     reject(body, "distance of its centre of volume [m]", body.centre_of_volume.norm(), "finite");
   }
-}
-
-// Of a fluid body that was filled by hand: readers and builders have checked theirs.
-void checkFaces(const FluidBody& body) {
-  const FaceTable& faces = body.faces;
-  for (const std::vector<double>* column :
-       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
-        &faces.centroid_z, &faces.area}) {
-    if (column->size() != faces.size()) {
-      reject(body, "number of entries in a column of its faces",
-             static_cast<double>(column->size()), "the same in all columns");
-    }
-    for (const double entry : *column) {
-      if (!std::isfinite(entry)) reject(body, "an entry of its faces", entry, "finite");
-    }
-  }
-}
-
-void checkFlow(const FluidBody& body, const FlowSettings& flow) {
-  constexpr double kPi = 3.14159265358979323846;
-  constexpr double kRounding = 1e-9;  // of an angle that was written by hand
-  if (!(flow.separation_angle >= kPi / 2 * (1 - kRounding)) ||
-      !(flow.separation_angle <= kPi * (1 + kRounding))) {
-    reject(body, "separation angle [rad]", flow.separation_angle, "between pi/2 and pi");
-  }
-  if (!(flow.maximum_load_error >= 0)) {
-    reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");
-  }
-}
-
-// The cheapest level that keeps the allowed error, if it is cheaper than all faces.
-const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
-  constexpr double kSameAngle = 1e-9;
-  const LoadLevel* best = nullptr;
-  double least = static_cast<double>(body.faces.size());
-  for (const LoadLevel& level : body.levels) {
-    const bool fits = std::abs(level.separation_angle - flow.separation_angle) <= kSameAngle &&
-                      level.error.p99 <= flow.maximum_load_error;
-    if (!fits || !(level.cost < least)) continue;
-    least = level.cost;
-    best = &level;
-  }
-  return best;
-}
-
-// The cheapest way to the loads that the body, its medium and its settings allow.
-void planLoads(const FluidBody& body, const FlowSettings& flow, BodyModel& model) {
-  model.load_model = flow.model.get();
-  if (!(model.loads.density > 0)) return;
-  model.has_surface_loads = model.load_model || body.sphere_radius > 0 || body.faces.size() > 0;
-  if (model.load_model) return;
-  if (body.sphere_radius > 0) {
-    model.sphere_radius = body.sphere_radius;
-    if (needsSphereTable(model.loads))
-      model.sphere_table = sharedSphereTable(model.loads.separation_cosine);
-    return;
-  }
-  model.level = chooseLevel(body, flow);
-  if (!model.level && flow.precision == LoadPrecision::kSingle)
-    model.packed_faces = sharedPackedFaces(body.faces);
 }
 
 void checkFrame(const FluidBody& body, const FrameOffset& frame) {
@@ -165,12 +92,10 @@ void checkMedium(const FluidBody& body, const Medium& medium) {
 
 BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_frame,
                         const MassProperties& mass, const Medium& medium,
-                        const FlowSettings& flow) {
+                        std::shared_ptr<const SurfaceLoads> loads) {
   checkMass(fluid_body, mass);
   checkShape(fluid_body);
-  checkFaces(fluid_body);
   checkMedium(fluid_body, medium);
-  checkFlow(fluid_body, flow);
   checkFrame(fluid_body, fluid_frame);
   BodyModel model;
   model.inertia = rigidBodyInertia(mass.mass, mass.inertia) +
@@ -188,53 +113,18 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   model.displaced_mass = medium.density * fluid_body.volume;
   model.centre_of_volume =
       fluid_frame.rotation * fluid_body.centre_of_volume + fluid_frame.translation;
-  model.fluid_frame = fluid_frame;
-  model.loads = {medium.density, medium.viscosity, separationCosine(flow.separation_angle),
-                 flow.skin_friction};
+  if (loads) model.load_frame = loads->frame(fluid_frame);
+  model.loads = std::move(loads);
   model.reference_length = std::sqrt(fluid_body.area);
   model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
-  model.faces = &fluid_body.faces;
-  planLoads(fluid_body, flow, model);
   return model;
 }
 
-static Wrench computeLoad(const BodyModel& model, const Twist& x_F) noexcept {
-  const double length = model.reference_length;
-  if (model.level) return computeLevelLoad(*model.level, length, x_F, model.loads);
-  return model.packed_faces ? computeFaceLoad(*model.packed_faces, length, x_F, model.loads)
-                            : computeFaceLoads(*model.faces, length, x_F, model.loads).total();
-}
-
-// A sphere looks the same in all axes: the frame F plays no part.
-static Wrench computeSphereLoad(const BodyModel& model, const Twist& x) noexcept {
-  const Twist at_centre{x.angular, x.at(model.centre_of_volume)};
-  Wrench load = computeSphereLoads(model.sphere_table.get(), model.sphere_radius,
-                                   model.reference_length, at_centre, model.loads)
-                    .total();
-  load.torque += model.centre_of_volume.cross(load.force);
-  return load;
-}
-
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept {
-  if (model.sphere_radius > 0) return {computeSphereLoad(model, relative_twist), false};
-  const Twist x_F = model.fluid_frame.toF(relative_twist);
-  if (model.load_model) {
-    const Wrench load_F = model.load_model->load(*model.faces, x_F, model.loads);
-    const GuardedWrench guarded =
-        removePositivePower(model.fluid_frame.toB(load_F), relative_twist, model.inertia);
-    return {guarded.wrench, guarded.acted};
-  }
-  const Wrench wrench = model.fluid_frame.toB(computeLoad(model, x_F));
-  // At alpha = pi/2 no face can push its body along: eq. (15) and (17) are dissipative term by
-  // term. The fitted wrenches of clusters can.
-  if (model.loads.separation_cosine == 0 && !model.level) return {wrench, false};
-  const GuardedWrench guarded = removePositivePower(wrench, relative_twist, model.inertia);
-  return {guarded.wrench, guarded.acted};
-}
-
-int facesPerLoad(const BodyModel& model) noexcept {
-  if (!model.has_surface_loads || model.sphere_radius > 0) return 0;
-  return model.level ? model.level->clusters : static_cast<int>(model.faces->size());
+  const Wrench wrench =
+      model.load_frame.toB(model.loads->load(model.load_frame.toF(relative_twist)));
+  if (!model.loads->needsGuard()) return {wrench, false};
+  return removePositivePower(wrench, relative_twist, model.inertia);
 }
 
 }  // namespace ambient

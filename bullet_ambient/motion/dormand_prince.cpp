@@ -53,7 +53,7 @@ class Pair {
     next_.orientation.normalize();
     now_ = next_;
     rates_[0] = rates_[kStages - 1];
-    if (task_.model.has_surface_loads) boundSpeed(h);
+    if (task_.model.loads) boundSpeed(h);
   }
 
   RigidState state() const { return equations_.stateOf(now_); }

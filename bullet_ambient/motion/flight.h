@@ -1,28 +1,11 @@
 #pragma once
 
 #include "bullet_ambient/motion/body_model.h"
+#include "bullet_ambient/motion/flight_memory.h"
+#include "bullet_ambient/motion/flight_settings.h"
 #include "bullet_ambient/motion/rigid_state.h"
 
 namespace ambient {
-
-/// How free flight is integrated over one step of the world.
-enum class Integrator {
-  kPassiveLeapfrog,  ///< default: energy cannot grow at any step, one load evaluation per substep
-  kDormandPrince,    ///< accurate: orders 5 and 4 with error control, six evaluations per substep
-  kRungeKutta4,      ///< the paper's: |w| h < 5.7 degrees, four load evaluations per substep
-  kSymplecticEuler,  ///< the paper's default: one evaluation per step; not stable at every speed
-};
-
-struct FlightSettings {
-  Integrator integrator = Integrator::kPassiveLeapfrog;
-  double tolerance =
-      1e-3;  ///< leapfrog: velocity error per substep relative to the motion [1], docs eq. (25);
-             ///< Dormand-Prince: also error of orientation [rad] and position [body lengths]
-  /// Bound per step; 0: leapfrog 16 (64 for bodies lighter than their added mass), Dormand-Prince
-  /// 1024, RK4 4096. With 1 the leapfrog is the fast mode: one evaluation per step. Symplectic
-  /// Euler takes just so many, 0: one.
-  int max_substeps = 0;
-};
 
 /// What acts on the body during one step besides the surface loads. World axes; constant over the
 /// step.
@@ -31,14 +14,6 @@ struct Surroundings {
   Wrench applied;  ///< all other forces, weight included, and torque about the centre of mass
   Vector3 ambient_velocity = Vector3::Zero();      ///< at the start of the step [m/s]
   Vector3 ambient_acceleration = Vector3::Zero();  ///< [m/s^2]
-};
-
-/// What the leapfrog remembers from one step to the next. Reset it when anybody else changed the
-/// velocity.
-struct FlightMemory {
-  Wrench load_W;  ///< last surface load, world axes
-  bool has_load = false;
-  double substep = 0;  ///< substep that the last step ended with [s]; 0: unknown
 };
 
 struct FlightCount {

@@ -1,7 +1,2 @@
+#define AMBIENT_KERNEL kFlightKernelAvx2
 #include "bullet_ambient/motion/flight_kernel.h"
-
-namespace ambient {
-
-const FlightKernel& avx2FlightKernel() noexcept { return kKernel; }
-
-}  // namespace ambient

@@ -1,7 +1,2 @@
+#define AMBIENT_KERNEL kFlightKernelBaseline
 #include "bullet_ambient/motion/flight_kernel.h"
-
-namespace ambient {
-
-const FlightKernel& baselineFlightKernel() noexcept { return kKernel; }
-
-}  // namespace ambient

@@ -15,21 +15,8 @@ void setSymmetric(FlightLane (&to)[kSymmetricEntries], int body, const Matrix6& 
 
 }  // namespace
 
-const FlightKernel* flightKernelFor(InstructionSet instruction_set) noexcept {
-#if defined(__x86_64__)
-  const bool is_here = sumFacesFor(instruction_set) != nullptr;
-  if (instruction_set == InstructionSet::kAvx512) return is_here ? &avx512FlightKernel() : nullptr;
-  if (instruction_set == InstructionSet::kAvx2) return is_here ? &avx2FlightKernel() : nullptr;
-#endif
-  return instruction_set == InstructionSet::kBaseline ? &baselineFlightKernel() : nullptr;
-}
-
 const FlightKernel& fastestFlightKernel() noexcept {
-  static const FlightKernel& fastest = [&]() -> const FlightKernel& {
-    for (const InstructionSet set : {InstructionSet::kAvx512, InstructionSet::kAvx2})
-      if (const FlightKernel* kernel = flightKernelFor(set)) return *kernel;
-    return baselineFlightKernel();
-  }();
+  static const FlightKernel& fastest = *kFlightKernels.fastest();
   return fastest;
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "bullet_ambient/force/face_sums.h"
+#include "bullet_ambient/force/instruction_set.h"
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/motion/flight_lanes.h"
 
 namespace ambient {
 
-/// The kernel for an instruction set; null if this processor does not have it.
-const FlightKernel* flightKernelFor(InstructionSet instruction_set) noexcept;
+constexpr Kernels<const FlightKernel*> kFlightKernels{&kFlightKernelBaseline, &kFlightKernelAvx2,
+                                                      &kFlightKernelAvx512};
 
 /// The best kernel for this processor.
 const FlightKernel& fastestFlightKernel() noexcept;

@@ -4,7 +4,8 @@
 #include "bullet_ambient/motion/passive_kick_kernel.h"
 #include "bullet_ambient/motion/pose_kernel.h"
 
-// Included once by each flight_<instruction set>.cpp, which is compiled for that set.
+// Included once by each flight_<instruction set>.cpp, which is compiled for that set and names the
+// AMBIENT_KERNEL.
 
 namespace ambient {
 namespace {
@@ -144,14 +145,15 @@ void forAll(FlightLanes& bodies) noexcept {
   }
 }
 
-constexpr FlightKernel kKernel{depart,
-                               arrive,
-                               forAll<FlowStep>,
-                               forAll<FallStep>,
-                               forAll<SampleStep>,
-                               forAll<KickStep>,
-                               forAll<MeasureStep>,
-                               forAll<BoundStep>};
-
 }  // namespace
+
+const FlightKernel AMBIENT_KERNEL{depart,
+                                  arrive,
+                                  forAll<FlowStep>,
+                                  forAll<FallStep>,
+                                  forAll<SampleStep>,
+                                  forAll<KickStep>,
+                                  forAll<MeasureStep>,
+                                  forAll<BoundStep>};
+
 }  // namespace ambient

@@ -95,10 +95,6 @@ struct FlightKernel {
 
 /// No operation is fused, and bodies do not mix: all instruction sets give the same bits, whoever
 /// flies beside a body.
-const FlightKernel& baselineFlightKernel() noexcept;
-#if defined(__x86_64__)
-const FlightKernel& avx2FlightKernel() noexcept;
-const FlightKernel& avx512FlightKernel() noexcept;
-#endif
+extern const FlightKernel kFlightKernelBaseline, kFlightKernelAvx2, kFlightKernelAvx512;
 
 }  // namespace ambient

@@ -68,9 +68,8 @@ class Leapfrog {
     setModel(lanes_, i, model);
     setSurroundings(lanes_, i, task);
     lanes_.has_diagonal_inertia = lanes_.has_diagonal_inertia && model.has_diagonal_inertia;
-    lanes_.has_loads = lanes_.has_loads || model.has_surface_loads;
-    lanes_.precision[i] =
-        model.has_surface_loads ? kFlowPrecision * task.settings.tolerance : kToRounding;
+    lanes_.has_loads = lanes_.has_loads || model.loads;
+    lanes_.precision[i] = model.loads ? kFlowPrecision * task.settings.tolerance : kToRounding;
     const int most = maxSubsteps(task);
     ways_[i] = {&flight, most,  substepsFor(task.duration, flight.body.memory.substep, most),
                 false,   false, 0};
@@ -81,7 +80,7 @@ class Leapfrog {
     Way& way = ways_[i];
     const FlightMemory& memory = way.flight->body.memory;
     setState(lanes_, i, way.flight->task.model, way.flight->body.state);
-    way.has_load = memory.has_load && way.flight->task.model.has_surface_loads;
+    way.has_load = memory.has_load && way.flight->task.model.loads;
     setLane(lanes_.load_W, i, way.has_load ? memory.load_W : Wrench{});
     way.error = 0;
     lanes_.kick_time[i] = way.flight->task.duration / way.substeps;
@@ -112,7 +111,7 @@ class Leapfrog {
   void boundEnergy() {
     if (!lanes_.has_loads) return;
     for (int i = 0; i < count_; ++i) {
-      const bool has_loads = ways_[i].flight->task.model.has_surface_loads;
+      const bool has_loads = ways_[i].flight->task.model.loads != nullptr;
       lanes_.active[i] = !ways_[i].is_done && has_loads ? 1 : 0;
     }
     kernel_.bound(lanes_);
@@ -133,7 +132,7 @@ class Leapfrog {
       Way& way = ways_[i];
       ++way.flight->body.count.substeps;
       way.error = std::max(way.error, lanes_.error[i]);
-      way.has_load = way.flight->task.model.has_surface_loads;
+      way.has_load = way.flight->task.model.loads != nullptr;
     }
   }
 
@@ -141,7 +140,7 @@ class Leapfrog {
   void evaluate(const FlightLane* twists, FlightLane* loads, const Condition& wants) {
     for (int i = 0; i < count_; ++i) {
       const BodyModel& model = ways_[i].flight->task.model;
-      if (!(lanes_.active[i] > 0) || !model.has_surface_loads || !wants(ways_[i])) continue;
+      if (!(lanes_.active[i] > 0) || !model.loads || !wants(ways_[i])) continue;
       const SurfaceLoad load = computeSurfaceLoad(model, twistOf(twists, i));
       setLane(loads, i, load.wrench);
       FlightCount& count = ways_[i].flight->body.count;

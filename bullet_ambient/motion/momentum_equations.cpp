@@ -20,7 +20,7 @@ MomentumPhase MomentumEquations::rate(const MomentumPhase& s) const {
   const RigidState state = stateOf(s);
   const Quaternion& q = state.orientation;
   Wrench wrench = externalWrench(task_.model, task_.surroundings, q.toRotationMatrix());
-  if (task_.model.has_surface_loads) {
+  if (task_.model.loads) {
     const SurfaceLoad load = computeSurfaceLoad(task_.model, state.twist);
     ++count_.load_evaluations;
     count_.guarded += load.guarded;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {

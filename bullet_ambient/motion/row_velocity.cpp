@@ -61,7 +61,7 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
 
   Vector6 impulse = dt * (model.inverse_inertia *
                           externalWrench(model, s, start.orientation.toRotationMatrix()).vector());
-  if (model.has_surface_loads) {
+  if (model.loads) {
     const SurfaceLoad load = computeSurfaceLoad(model, relative);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;

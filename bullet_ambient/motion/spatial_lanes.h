@@ -8,20 +8,6 @@
 namespace ambient {
 namespace {
 
-struct Vectors {
-  Lanes x, y, z;
-};
-inline Vectors operator+(const Vectors& a, const Vectors& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vectors operator-(const Vectors& a, const Vectors& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vectors operator*(const Lanes& s, const Vectors& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline Lanes dot(const Vectors& a, const Vectors& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vectors cross(const Vectors& a, const Vectors& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 inline Vectors select(const Mask& mask, const Vectors& a, const Vectors& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }

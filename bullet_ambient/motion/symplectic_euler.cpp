@@ -16,7 +16,7 @@ FlightResult flySymplecticEuler(const FlightTask& task, const RigidState& start)
   for (int i = 0; i < flight.count.substeps; ++i) {
     Wrench wrench = externalWrench(model, task.surroundings, s.orientation.toRotationMatrix()) +
                     gyroscopicWrench(model.inertia, s.twist);
-    if (model.has_surface_loads) {
+    if (model.loads) {
       const SurfaceLoad load = computeSurfaceLoad(model, s.twist);
       ++flight.count.load_evaluations;
       flight.count.guarded += load.guarded;

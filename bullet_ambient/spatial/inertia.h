@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bullet_ambient/spatial/frame_offset.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
@@ -21,18 +22,5 @@ Matrix6 scaleShape(const Matrix6& inertia_per_density, double s);
 /// 6x6 inertia of a rigid body of mass m [kg] and rotational inertia J [kg m^2] about its centre of
 /// mass, which is the origin: diag(J, m I).
 Matrix6 rigidBodyInertia(double mass, const Matrix3& rotational_inertia);
-
-/// Pose of frame F in frame B: p_B = rotation p_F + translation [m].
-struct FrameOffset {
-  Matrix3 rotation = Matrix3::Identity();
-  Vector3 translation = Vector3::Zero();
-
-  /// The twist of the same rigid body at F's origin in F's axes, given at B's origin in B's axes.
-  Twist toF(const Twist& x_B) const;
-  /// The wrench about B's origin in B's axes, given about F's origin in F's axes.
-  Wrench toB(const Wrench& f_F) const;
-  /// Inertia about B's origin in B's axes, given about F's origin in F's axes.
-  Matrix6 inertiaToB(const Matrix6& inertia_F) const;
-};
 
 }  // namespace ambient

@@ -1,6 +1,6 @@
 #include "bullet_ambient/spatial/principal_frame.h"
 
-#include <Eigen/Eigenvalues>
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 
@@ -10,10 +10,10 @@ PrincipalFrame findPrincipalFrame(const Matrix3& inertia) {
   const Matrix3 diagonal = inertia.diagonal().asDiagonal();
   if ((inertia - diagonal).cwiseAbs().maxCoeff() <= kRounding * inertia.trace())
     return {inertia.diagonal(), Matrix3::Identity()};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
-  Matrix3 rotation = eigen.eigenvectors();
+  const SymmetricEigen<3> eigen = symmetricEigen<3>(inertia);
+  Matrix3 rotation = eigen.vectors;
   if (rotation.determinant() < 0) rotation.col(2) *= -1;
-  return {eigen.eigenvalues(), rotation};
+  return {eigen.values, rotation};
 }
 
 }  // namespace ambient

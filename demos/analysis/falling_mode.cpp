@@ -1,11 +1,11 @@
 #include "demos/analysis/falling_mode.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 namespace {
@@ -31,8 +31,7 @@ Vector3 findSwingAxis(const std::vector<Vector3>& normals, const Vector3& up) {
   constexpr double kResting = 1e-12;
   if (sum.trace() <= kResting * kResting * static_cast<double>(normals.size()))
     return Vector3::Zero();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum);
-  return Vector3(horizontal * eigen.eigenvectors().col(2)).normalized();
+  return Vector3(horizontal * symmetricEigen<3>(sum).vectors.col(2)).normalized();
 }
 
 /// Angle between the normal and the vertical about the swing axis, continuous in time [rad].
@@ -117,7 +116,7 @@ std::string fallingModeName(FallingMode mode) {
 
 Fall analyseFall(const std::vector<MotionSample>& samples, const Vector3& normal,
                  const Vector3& gravity) {
-  assert(gravity.norm() > 0);
+  AMBIENT_ASSERT(gravity.norm() > 0);
   Fall fall;
   if (samples.size() < 2) return fall;
   const Vector3 up = -gravity.normalized();

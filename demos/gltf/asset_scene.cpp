@@ -6,7 +6,6 @@
 #include <array>
 
 #include "demos/gltf/motion_keys.h"
-#include "demos/simulation/body_surface.h"
 
 namespace ambient {
 namespace {
@@ -125,7 +124,8 @@ std::unique_ptr<aiScene> makeAssetScene(const Scene& scene, const std::vector<Pr
   asset->mRootNode->mTransformation = toMatrix(upToY(scene.gravity), Vector3::Zero());
   std::vector<aiNode*> nodes;
   for (unsigned i = 0; i < count; ++i) {
-    asset->mMeshes[asset->mNumMeshes++] = makeMesh(makeBodySurface(scene.bodies[i], bodies[i]), i);
+    asset->mMeshes[asset->mNumMeshes++] =
+        makeMesh(moved(bodies[i].surface, -bodies[i].centre_of_mass), i);
     asset->mMaterials[asset->mNumMaterials++] = makeMaterial(bodies[i].mass == 0, i);
     nodes.push_back(makeNode(scene.bodies[i], i));
   }

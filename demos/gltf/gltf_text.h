@@ -6,7 +6,7 @@
 
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
-#include "demos/simulation/prepared_body.h"
+#include "demos/simulation/body_preparation.h"
 
 namespace ambient {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "demos/simulation/motion_interpolation.h"
 
 namespace ambient {
@@ -27,6 +28,7 @@ std::vector<MotionSample> makeMotionKeys(const std::vector<MotionSample>& motion
   std::vector<MotionSample> keys;
   for (std::size_t i = 0; i + 1 < motion.size(); ++i) {
     const MotionSample &from = motion[i], &to = motion[i + 1];
+    AMBIENT_ASSERT(from.time < to.time);
     const int pieces = countPieces(from, to);
     for (int k = 0; k < pieces; ++k)
       append(keys, interpolateMotion(from, to, from.time + (to.time - from.time) * k / pieces));

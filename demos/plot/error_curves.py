@@ -1,13 +1,10 @@
 """Error over cost: one panel per case, one line per method."""
 
-import argparse
 import math
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from files import read_table, writing
+from files import read_table
+from picture import draw_picture
 
 
 class ErrorCurves:
@@ -48,11 +45,9 @@ class ErrorCurves:
 
     def run(self, description, kind, columns, cost_label, error_label):
         """The whole program: a table in, a picture out."""
-        parser = argparse.ArgumentParser(description=description)
-        parser.add_argument("table", metavar="TABLE.csv")
-        parser.add_argument("-o", "--output", required=True, metavar="PICTURE")
-        arguments = parser.parse_args()
-        runs = read_table(arguments.table, kind, ("case", "method", self.cost, self.error))
-        figure = self.draw(runs, columns, cost_label, error_label)
-        with writing(arguments.output):
-            figure.savefig(arguments.output, dpi=80)
+
+        def draw(table):
+            runs = read_table(table, kind, ("case", "method", self.cost, self.error))
+            return self.draw(runs, columns, cost_label, error_label)
+
+        draw_picture(description, draw, 80, metavar="TABLE.csv")

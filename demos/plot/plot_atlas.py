@@ -4,16 +4,13 @@
 Each cell is the worst of the runs that fall into it: the largest relative rise of the energy.
 """
 
-import argparse
 import math
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from files import read_table, writing
+from files import read_table
 from matplotlib.colors import LogNorm
+from picture import draw_picture
 
 SETTINGS = ("free", "falling", "on a plane", "on a joint")
 # Column, label, text of a value.
@@ -44,13 +41,9 @@ def draw_map(axes, runs, horizontal, vertical):
     return image
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("atlas", metavar="ATLAS.csv")
-    parser.add_argument("-o", "--output", required=True, metavar="PICTURE")
-    arguments = parser.parse_args()
+def draw(atlas):
     columns = ["setting", "energy_rise", *(column for pair in MAPS for column, _, _ in pair)]
-    runs = read_table(arguments.atlas, "a table of stability_atlas", columns)
+    runs = read_table(atlas, "a table of stability_atlas", columns)
     figure, panels = plt.subplots(len(MAPS), len(SETTINGS), figsize=(11, 6), layout="constrained")
     for row, (horizontal, vertical) in zip(panels, MAPS):
         for axes, setting in zip(row, SETTINGS):
@@ -59,9 +52,8 @@ def main():
             axes.set_title(f"{setting}: {len(chosen)} runs", fontsize=9)
         row[0].set_ylabel(vertical[1])
     figure.colorbar(image, ax=panels, label="worst relative rise of the energy in 2 s", shrink=0.7)
-    with writing(arguments.output):
-        figure.savefig(arguments.output, dpi=80)
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw_picture(__doc__, draw, 80, metavar="ATLAS.csv")

@@ -5,13 +5,9 @@ POLAR.csv is what `ambient_preprocess polar` prints. Against the angle of attack
 other way round, if that has more values. The last panel is the drag polar.
 """
 
-import argparse
-
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from files import read_table, reading, writing
+from files import read_table, reading
+from picture import draw_picture
 
 ANGLES = {"attack": "angle of attack α [°]", "side_slip": "side-slip β [°]"}
 LABELS = {"C_L": "lift $C_L$", "C_D": "drag $C_D$", "C_Y": "side force $C_Y$", "C_l": "roll $C_l$",
@@ -59,20 +55,15 @@ def draw(figure, rows, along, across):
     panels["legend"].legend(*panels["polar"].get_legend_handles_labels(), loc="center", fontsize=8, frameon=False)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("table", metavar="POLAR.csv")
-    parser.add_argument("-o", "--output", required=True, metavar="PICTURE")
-    arguments = parser.parse_args()
-    rows = read(arguments.table)
+def draw_table(file):
+    rows = read(file)
     along, across = "attack", "side_slip"
     if len(values(rows, across)) > len(values(rows, along)):
         along, across = across, along
     figure = plt.figure(figsize=(12, 5.6), layout="constrained")
     draw(figure, rows, along, across)
-    with writing(arguments.output):
-        figure.savefig(arguments.output, dpi=120)
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw_picture(__doc__, draw_table, 120, metavar="POLAR.csv")

@@ -4,33 +4,21 @@
 If all of them are falling plates, their outlines along each path, side by side; else one panel of paths per run.
 """
 
-import argparse
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
 from falling_plates import PlanarFall, draw_falls
-from files import writing
 from paths import draw_paths
+from picture import draw_picture
 from runs import Run
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folders", nargs="+", metavar="DIR")
-    parser.add_argument("-o", "--output", required=True, metavar="PICTURE")
-    arguments = parser.parse_args()
-    runs = [Run(folder) for folder in arguments.folders]
+def draw(folders):
+    runs = [Run(folder) for folder in folders]
     if all(run.falling_plate() for run in runs):
-        figure = draw_falls([PlanarFall(run) for run in runs])
-    else:
-        figure = draw_paths(runs)
-    with writing(arguments.output):
-        figure.savefig(arguments.output, dpi=100)
-    print(f"\nPicture: {Path(arguments.output).resolve()}")
+        return draw_falls([PlanarFall(run) for run in runs])
+    return draw_paths(runs)
 
 
 if __name__ == "__main__":
-    main()
+    picture = draw_picture(__doc__, draw, 100, nargs="+", metavar="DIR")
+    print(f"\nPicture: {Path(picture).resolve()}")

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/force/flow_settings.h"
 #include "bullet_ambient/force/medium.h"
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/spatial/vector_types.h"
@@ -20,8 +21,9 @@ enum class FluidModel {
   kGwtf,     ///< WindwardFlux, a stand-in for Soliman et al. 2024
 };
 
-/// The scene file's word for a model.
+/// The scene file's words.
 std::string modelName(FluidModel model);
+std::string integratorName(Integrator integrator);
 
 enum class MassKind { kUniform, kSurface };
 
@@ -37,7 +39,7 @@ struct BodyDef {
   Quaternion orientation = Quaternion::Identity();  ///< shape's axes to W
   Vector3 linear_velocity = Vector3::Zero();        ///< of the centre of mass in W [m/s]
   Vector3 angular_velocity = Vector3::Zero();       ///< in W [rad/s]
-  FlowSettings flow;                                ///< separation and skin friction
+  FlowSettings flow;                                ///< separation, skin friction, reduced loads
   std::optional<double> fluid_density;              ///< overrides the medium's [kg/m^3]
   double restitution = 0;
   double friction = 0.5;

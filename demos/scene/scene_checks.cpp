@@ -1,39 +1,16 @@
 #include "demos/scene/scene_checks.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
 
 #include "bullet_ambient/spatial/pi.h"
-#include "demos/scene/scene_error.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/mesh/input_error.h"
 
 namespace ambient {
 namespace {
-
-/// Collects where in which file something is wrong, so that each check is one line.
-class Checker {
- public:
-  Checker(const Scene& scene, std::string place)
-      : file_(scene.file.string()), place_(std::move(place)) {}
-
-  void require(bool holds, const std::string& key, double value, const std::string& limit) const {
-    if (holds) return;
-    std::ostringstream text;
-    text.precision(12);
-    text << place_ << key << " is " << value << "; must be " << limit;
-    throw SceneError(file_, text.str());
-  }
-
-  void require(bool holds, const std::string& sentence) const {
-    if (!holds) throw SceneError(file_, place_ + sentence);
-  }
-
- private:
-  std::string file_;
-  std::string place_;
-};
 
 std::string number(double value) {
   std::ostringstream text;
@@ -42,13 +19,29 @@ std::string number(double value) {
   return text.str();
 }
 
+/// Collects where in which file something is wrong, so that each check is one line.
+class Checker {
+ public:
+  Checker(const Scene& scene, std::string place)
+      : file_(scene.file.string()), place_(std::move(place)) {}
+
+  void require(bool holds, const std::string& key, double value, const std::string& limit) const {
+    require(holds, key + " is " + number(value) + "; must be " + limit);
+  }
+
+  void require(bool holds, const std::string& sentence) const {
+    if (!holds) raiseInputError(file_, place_, sentence);
+  }
+
+ private:
+  std::string file_;
+  std::string place_;
+};
+
 void checkTimes(const Scene& scene) {
   const Checker check(scene, "");
-  check.require(scene.duration > 0, "duration", scene.duration, "> 0 s");
-  check.require(scene.time_step > 0, "time_step", scene.time_step, "> 0 s");
   check.require(scene.time_step <= scene.duration, "time_step", scene.time_step,
                 "<= duration (" + number(scene.duration) + " s)");
-  check.require(scene.output_step > 0, "output_step", scene.output_step, "> 0 s");
   constexpr double kRounding = 1e-12;
   check.require(scene.output_step >= scene.time_step * (1 - kRounding), "output_step",
                 scene.output_step, ">= time_step (" + number(scene.time_step) + " s)");
@@ -57,24 +50,7 @@ void checkTimes(const Scene& scene) {
                 scene.duration / scene.time_step, "<= 1e9 steps");
 }
 
-void checkMedium(const Scene& scene) {
-  const Checker check(scene, "medium.");
-  check.require(scene.medium.density >= 0, "density", scene.medium.density, ">= 0 kg/m^3");
-  check.require(scene.medium.viscosity >= 0, "viscosity", scene.medium.viscosity, ">= 0 Pa s");
-}
-
-void checkSettings(const Scene& scene) {
-  const Checker integrator(scene, "integrator.");
-  integrator.require(scene.flight.tolerance > 0, "tolerance", scene.flight.tolerance, "> 0");
-  integrator.require(scene.flight.max_substeps >= 0, "max_substeps", scene.flight.max_substeps,
-                     ">= 0");
-  const Checker top(scene, "");
-  top.require(scene.linear_drag_speed > 0, "linear_drag_speed", scene.linear_drag_speed, "> 0 m/s");
-  top.require(scene.threads >= 0, "threads", scene.threads, ">= 0");
-}
-
 void checkMass(const BodyDef& body, const Checker& check) {
-  check.require(body.mass >= 0, "mass", body.mass, ">= 0 kg");
   if (body.mass > 0) return;
   const double speed = body.linear_velocity.norm();
   const double spin = body.angular_velocity.norm();
@@ -87,9 +63,7 @@ void checkMass(const BodyDef& body, const Checker& check) {
 void checkInertia(const BodyDef& body, const Checker& check) {
   if (!body.inertia) return;
   check.require(body.mass > 0, "inertia is given, but mass is 0, a static body");
-  const Eigen::Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(*body.inertia, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::Vector3d principal = symmetricEigen<3>(*body.inertia).values;
   const std::string moments = "inertia has the principal moments " + number(principal[0]) + ", " +
                               number(principal[1]) + ", " + number(principal[2]) + " kg m^2; ";
   constexpr double kRounding = 1e-9;
@@ -107,8 +81,6 @@ void checkMotion(const BodyDef& body, const Checker& check) {
   const double angle = body.flow.separation_angle;
   check.require(angle >= kPi / 2 - kAngleTolerance && angle <= kPi + kAngleTolerance,
                 "separation_angle", angle, "from pi/2 to pi");
-  if (body.fluid_density)
-    check.require(*body.fluid_density >= 0, "fluid_density", *body.fluid_density, ">= 0 kg/m^3");
 }
 
 void checkNames(const Scene& scene) {
@@ -149,8 +121,6 @@ void checkJoint(const Scene& scene, const JointDef& joint, const Checker& check)
 
 void checkScene(const Scene& scene) {
   checkTimes(scene);
-  checkMedium(scene);
-  checkSettings(scene);
   checkNames(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Checker check(scene, "bodies[" + std::to_string(i) + "] (" + scene.bodies[i].name + ") ");

@@ -5,7 +5,7 @@
 namespace ambient {
 
 /// Checks everything about a scene that a schema cannot say.
-/// @throws SceneError, one line that names the file, the place, the value and the limit.
+/// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
 void checkScene(const Scene& scene);
 
 /// Largest deviation of an orientation's norm from 1 that counts as rounding of printed digits.

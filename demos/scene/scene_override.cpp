@@ -1,13 +1,12 @@
 #include "demos/scene/scene_override.h"
 
 #include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
 
-#include "demos/scene/scene_error.h"
 #include "demos/scene/scene_schema.h"
+#include "preprocess/mesh/input_error.h"
 #include "preprocess/shape/json_text.h"
 
 namespace ambient {
@@ -27,12 +26,6 @@ std::vector<std::string> splitPath(const std::string& path) {
   return tokens;
 }
 
-bool isIndex(const std::string& token) {
-  constexpr std::size_t kMostDigits = 9;
-  return !token.empty() && token.size() <= kMostDigits &&
-         std::all_of(token.begin(), token.end(), [](unsigned char c) { return std::isdigit(c); });
-}
-
 /// A text that is not JSON is meant as a string. JSON's strings are of UTF-8.
 json parseValue(const std::string& text, const std::string& source) {
   if (json::accept(text)) return parseJson(text, source);
@@ -40,7 +33,7 @@ json parseValue(const std::string& text, const std::string& source) {
   try {
     static_cast<void>(value.dump());
   } catch (const json::type_error&) {
-    throw SceneError(source, "the value is not valid UTF-8");
+    raiseInputError(source, "the value is not valid UTF-8");
   }
   return value;
 }
@@ -72,17 +65,17 @@ SceneOverride parseOverride(const std::string& text) {
 void applyOverride(json& scene, const SceneOverride& change, const std::string& file) {
   const std::vector<std::string> path = splitPath(change.path);
   const std::string option = "--set " + change.path + "=" + change.value + ": ";
-  if (std::count(path.begin(), path.end(), "") > 0 || !schemaKnows(path))
-    throw SceneError(file, option + "a scene has no such key");
+  if (std::count(path.begin(), path.end(), "") > 0 || !sceneSchema().knows(path))
+    raiseInputError(file, option, "a scene has no such key");
   json* place = &scene;
   try {
     std::vector<std::string> walked;
     for (const std::string& token : path) {
-      place = &descend(*place, token, walked.empty() ? "the scene" : placeName(walked));
+      place = &descend(*place, token, sceneSchema().placeName(walked));
       walked.push_back(token);
     }
   } catch (const std::out_of_range& error) {
-    throw SceneError(file, option + error.what());
+    raiseInputError(file, option, error.what());
   }
   *place = parseValue(change.value, file + ": --set " + change.path);
 }

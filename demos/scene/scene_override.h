@@ -16,7 +16,8 @@ struct SceneOverride {
 SceneOverride parseOverride(const std::string& text);
 
 /// Puts the value into the scene; objects on the way to a known key are made if they are missing.
-/// @throws SceneError if the schema does not know the path or the scene has no such array element.
+/// @throws std::runtime_error if the schema does not know the path or the scene has no such array
+/// element.
 void applyOverride(nlohmann::json& scene, const SceneOverride& change, const std::string& file);
 
 }  // namespace ambient

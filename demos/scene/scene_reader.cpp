@@ -1,8 +1,10 @@
 #include "demos/scene/scene_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bullet_ambient/spatial/pi.h"
 #include "demos/scene/scene_checks.h"
@@ -31,11 +33,29 @@ Matrix3 toInertia(const json& v) {
   return inertia;
 }
 
-FluidModel toModel(const std::string& name) {
-  if (name == "vacuum") return FluidModel::kVacuum;
-  if (name == "uwrbd") return FluidModel::kUwrbd;
-  if (name == "gwtf") return FluidModel::kGwtf;
-  return FluidModel::kAmbient;
+// The words of the schema.
+constexpr std::array<std::pair<FluidModel, const char*>, 4> kModels{
+    {{FluidModel::kAmbient, "ambient"},
+     {FluidModel::kVacuum, "vacuum"},
+     {FluidModel::kUwrbd, "uwrbd"},
+     {FluidModel::kGwtf, "gwtf"}}};
+constexpr std::array<std::pair<Integrator, const char*>, 4> kIntegrators{
+    {{Integrator::kPassiveLeapfrog, "leapfrog"},
+     {Integrator::kDormandPrince, "dormand_prince"},
+     {Integrator::kRungeKutta4, "rk4"},
+     {Integrator::kSymplecticEuler, "symplectic_euler"}}};
+
+/// @pre the schema has let the word pass
+template <class Words>
+auto valueOf(const std::string& word, const Words& words) {
+  const auto names_it = [&](const auto& entry) { return word == entry.second; };
+  return std::find_if(words.begin(), words.end(), names_it)->first;
+}
+
+template <class Value, class Words>
+std::string wordOf(Value value, const Words& words) {
+  const auto has_it = [&](const auto& entry) { return value == entry.first; };
+  return std::find_if(words.begin(), words.end(), has_it)->second;
 }
 
 Medium toMedium(const json& scene) {
@@ -53,10 +73,7 @@ FlightSettings toFlightSettings(const json& scene) {
   FlightSettings settings;
   const auto found = scene.find("integrator");
   if (found == scene.end()) return settings;
-  const std::string method = found->value("method", "leapfrog");
-  if (method == "dormand_prince") settings.integrator = Integrator::kDormandPrince;
-  if (method == "rk4") settings.integrator = Integrator::kRungeKutta4;
-  if (method == "symplectic_euler") settings.integrator = Integrator::kSymplecticEuler;
+  settings.integrator = valueOf(found->value("method", "leapfrog"), kIntegrators);
   settings.tolerance = found->value("tolerance", settings.tolerance);
   settings.max_substeps = found->value("max_substeps", settings.max_substeps);
   return settings;
@@ -90,6 +107,7 @@ BodyDef toBody(const json& from, std::size_t index, const std::filesystem::path&
   readMotion(from, body);
   body.flow.separation_angle = from.value("separation_angle", kPi / 2);
   body.flow.skin_friction = from.value("skin_friction", true);
+  body.flow.maximum_load_error = from.value("maximum_load_error", 0.0);
   if (from.contains("fluid_density")) body.fluid_density = from.at("fluid_density").get<double>();
   body.restitution = from.value("restitution", body.restitution);
   body.friction = from.value("friction", body.friction);
@@ -114,7 +132,7 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   scene.output_step = from.value("output_step", scene.time_step);
   scene.gravity = vectorOr(from, "gravity", scene.gravity);
   scene.medium = toMedium(from);
-  scene.model = toModel(from.value("model", "ambient"));
+  scene.model = valueOf(from.value("model", "ambient"), kModels);
   scene.linear_drag_speed = from.value("linear_drag_speed", scene.linear_drag_speed);
   scene.flight = toFlightSettings(from);
   scene.threads = from.value("threads", 0);
@@ -137,24 +155,14 @@ void removeRounding(Scene& scene) {
 
 }  // namespace
 
-std::string modelName(FluidModel model) {
-  switch (model) {
-    case FluidModel::kAmbient:
-      return "ambient";
-    case FluidModel::kVacuum:
-      return "vacuum";
-    case FluidModel::kUwrbd:
-      return "uwrbd";
-    case FluidModel::kGwtf:
-      return "gwtf";
-  }
-  return "";
-}
+std::string modelName(FluidModel model) { return wordOf(model, kModels); }
+
+std::string integratorName(Integrator integrator) { return wordOf(integrator, kIntegrators); }
 
 Scene readScene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides) {
   json document = parseJson(readBytes(file), file.string());
   for (const SceneOverride& change : overrides) applyOverride(document, change, file.string());
-  validateAgainstSchema(document, file.string());
+  sceneSchema().check(document, file.string());
   Scene scene = toScene(document, file);
   checkScene(scene);
   removeRounding(scene);

@@ -2,14 +2,22 @@
 
 #include <memory>
 
-#include "demos/simulation/collision_geometry.h"
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
 namespace {
 
+Surface readOrMakeSurface(const ShapeDescription& shape) {
+  if (const auto* from_file = std::get_if<FluidBodyShape>(&shape.geometry))
+    return readFluidBody(from_file->file).surface;
+  return surfaceOf(makeShapeMesh(shape).mesh);
+}
+
 PreparedBody prepareStatic(const BodyDef& def) {
   PreparedBody body;
-  body.collision = makeStaticGeometry(def.shape);
+  body.surface = readOrMakeSurface(def.shape);
   if (def.centre_of_mass) body.centre_of_mass = *def.centre_of_mass;
   return body;
 }
@@ -20,7 +28,7 @@ PreparedBody prepareDynamic(const BodyDef& def, std::shared_ptr<const FluidBody>
   // A fluid body's own frame is its shape's frame if nothing else is known of the shape.
   if (!std::holds_alternative<FluidBodyShape>(def.shape.geometry))
     body.fluid_origin = body.fluid_body->origin;
-  body.collision = makeDynamicGeometry(def.shape, *body.fluid_body, body.fluid_origin);
+  body.surface = moved(body.fluid_body->surface, body.fluid_origin);
   const MassDistribution& per_mass = def.mass_kind == MassKind::kSurface
                                          ? body.fluid_body->surface_mass
                                          : body.fluid_body->uniform_mass;
@@ -38,6 +46,12 @@ std::vector<PreparedBody> prepareBodies(const Scene& scene, FluidBodyCache& flui
     bodies.push_back(def.mass > 0 ? prepareDynamic(def, fluid_bodies.get(def.shape, def.name))
                                   : prepareStatic(def));
   return bodies;
+}
+
+Surface moved(Surface surface, const Vector3& by) {
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i)
+    surface.vertices[i] += by[static_cast<Eigen::Index>(i % 3)];
+  return surface;
 }
 
 }  // namespace ambient

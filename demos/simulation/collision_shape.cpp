@@ -12,65 +12,62 @@ constexpr double kMarginShare = 0.01;
 
 btScalar scalar(double value) { return static_cast<btScalar>(value); }
 
-double smallestExtent(const std::vector<Vector3>& points) {
-  Vector3 low = points.front();
-  Vector3 high = points.front();
-  for (const Vector3& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  // A flat sheet has no thickness of its own: then the margin is one percent of its length.
-  const double smallest = (high - low).minCoeff();
-  return smallest > 0 ? smallest : (high - low).maxCoeff();
-}
+/// The convex primitive of Bullet for a shape that is one, else null. A margin shrinks the core of
+/// all but spheres and capsules.
+struct PrimitiveMaker {
+  using Made = std::unique_ptr<btConvexInternalShape>;
 
-std::unique_ptr<btCollisionShape> makeHull(const std::vector<Vector3>& points) {
+  Made operator()(const SphereShape& s) const {
+    return std::make_unique<btSphereShape>(scalar(s.radius));
+  }
+  Made operator()(const BoxShape& s) const {
+    return withMargin(std::make_unique<btBoxShape>(toBullet(s.half_sizes)),
+                      s.half_sizes.minCoeff());
+  }
+  Made operator()(const CylinderShape& s) const {
+    const Vector3 half_sizes(s.radius, s.radius, s.height / 2);
+    return withMargin(std::make_unique<btCylinderShapeZ>(toBullet(half_sizes)),
+                      half_sizes.minCoeff());
+  }
+  Made operator()(const CapsuleShape& s) const {
+    return std::make_unique<btCapsuleShapeZ>(scalar(s.radius), scalar(s.height));
+  }
+  Made operator()(const ConeShape& s) const {
+    return withMargin(std::make_unique<btConeShapeZ>(scalar(s.radius), scalar(s.height)),
+                      std::min(s.radius, s.height / 2));
+  }
+  template <class Other>
+  Made operator()(const Other&) const {
+    return nullptr;
+  }
+
+  static Made withMargin(Made shape, double smallest) {
+    shape->setMargin(scalar(kMarginShare * smallest));
+    return shape;
+  }
+};
+
+std::unique_ptr<btCollisionShape> makeHull(const Surface& surface) {
   auto hull = std::make_unique<btConvexHullShape>();
-  for (const Vector3& point : points) hull->addPoint(toBullet(point), false);
-  hull->setMargin(scalar(kMarginShare * smallestExtent(points)));
+  const auto count = static_cast<Eigen::Index>(surface.vertices.size() / 3);
+  const Eigen::Map<const Eigen::Matrix3Xd> points(surface.vertices.data(), 3, count);
+  for (Eigen::Index i = 0; i < count; ++i) hull->addPoint(toBullet(points.col(i)), false);
+  const Vector3 extents = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
+  // A flat sheet has no thickness of its own: then the margin is one percent of its length.
+  const double smallest = extents.minCoeff() > 0 ? extents.minCoeff() : extents.maxCoeff();
+  hull->setMargin(scalar(kMarginShare * smallest));
   hull->recalcLocalAabb();
   return hull;
 }
 
-std::unique_ptr<btTriangleMesh> makeTriangles(const CollisionGeometry& geometry) {
+std::unique_ptr<btTriangleMesh> makeTriangles(const Surface& surface) {
   auto mesh = std::make_unique<btTriangleMesh>();
   const auto corner = [&](std::size_t i) {
-    return toBullet(geometry.points[static_cast<std::size_t>(geometry.triangles[i])]);
+    return toBullet(Eigen::Map<const Vector3>(&surface.vertices[3 * surface.triangles[i]]));
   };
-  for (std::size_t i = 0; i + 2 < geometry.triangles.size(); i += 3)
+  for (std::size_t i = 0; i + 2 < surface.triangles.size(); i += 3)
     mesh->addTriangle(corner(i), corner(i + 1), corner(i + 2));
   return mesh;
-}
-
-std::unique_ptr<btCollisionShape> makePrimitive(const CollisionGeometry& geometry) {
-  using Kind = CollisionGeometry::Kind;
-  const btVector3 size = toBullet(geometry.size);
-  switch (geometry.kind) {
-    case Kind::kSphere:
-      return std::make_unique<btSphereShape>(size.x());
-    case Kind::kBox:
-      return std::make_unique<btBoxShape>(size);
-    case Kind::kCylinder:
-      return std::make_unique<btCylinderShapeZ>(btVector3(size.x(), size.x(), size.z() / 2));
-    case Kind::kCapsule:
-      return std::make_unique<btCapsuleShapeZ>(size.x(), size.z());
-    default:
-      return std::make_unique<btConeShapeZ>(size.x(), size.z());
-  }
-}
-
-std::unique_ptr<btCollisionShape> makeConvex(const CollisionGeometry& geometry) {
-  using Kind = CollisionGeometry::Kind;
-  if (geometry.kind == Kind::kConvexHull) return makeHull(geometry.points);
-  auto shape = makePrimitive(geometry);
-  if (geometry.kind == Kind::kBox || geometry.kind == Kind::kCylinder ||
-      geometry.kind == Kind::kCone) {
-    const double smallest = geometry.kind == Kind::kBox
-                                ? geometry.size.minCoeff()
-                                : std::min(geometry.size.x(), geometry.size.z() / 2);
-    shape->setMargin(scalar(kMarginShare * smallest));
-  }
-  return shape;
 }
 
 bool isIdentity(const btTransform& transform) {
@@ -79,13 +76,16 @@ bool isIdentity(const btTransform& transform) {
 
 }  // namespace
 
-CollisionShape makeCollisionShape(const CollisionGeometry& geometry, const btTransform& S_in_B) {
+CollisionShape makeCollisionShape(const BodyDef& def, const PreparedBody& prepared,
+                                  const btTransform& S_in_B) {
   CollisionShape shape;
-  if (geometry.kind == CollisionGeometry::Kind::kTriangles) {
-    shape.triangles = makeTriangles(geometry);
-    shape.parts.push_back(std::make_unique<btBvhTriangleMeshShape>(shape.triangles.get(), true));
+  if (auto primitive = std::visit(PrimitiveMaker{}, def.shape.geometry)) {
+    shape.parts.push_back(std::move(primitive));
+  } else if (prepared.mass > 0) {
+    shape.parts.push_back(makeHull(prepared.surface));
   } else {
-    shape.parts.push_back(makeConvex(geometry));
+    shape.triangles = makeTriangles(prepared.surface);
+    shape.parts.push_back(std::make_unique<btBvhTriangleMeshShape>(shape.triangles.get(), true));
   }
   if (isIdentity(S_in_B)) return shape;
   auto compound = std::make_unique<btCompoundShape>();

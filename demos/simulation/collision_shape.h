@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "demos/simulation/prepared_body.h"
+#include "demos/simulation/body_preparation.h"
 
 namespace ambient {
 
@@ -16,7 +16,9 @@ struct CollisionShape {
   btCollisionShape* root() const { return parts.back().get(); }
 };
 
-/// The Bullet shape of a geometry whose frame S has the pose `S_in_B` in the body's frame.
-CollisionShape makeCollisionShape(const CollisionGeometry& geometry, const btTransform& S_in_B);
+/// The Bullet shape of a body in whose frame the shape's frame S has the pose `S_in_B`: a
+/// primitive, else the convex hull of its surface or, of a static body, the triangles themselves.
+CollisionShape makeCollisionShape(const BodyDef& def, const PreparedBody& prepared,
+                                  const btTransform& S_in_B);
 
 }  // namespace ambient

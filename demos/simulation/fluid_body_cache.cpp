@@ -58,7 +58,7 @@ std::shared_ptr<const FluidBody> FluidBodyCache::readOrBuild(const ShapeDescript
   }
   ShapeBuildSettings settings;
   settings.name = name;
-  settings.threads = threads_;
+  settings.flow.threads = threads_;
   BuiltBody built = buildShape(shape, settings);
   warnings_.insert(warnings_.end(), built.warnings.begin(), built.warnings.end());
   auto body = std::make_shared<const FluidBody>(std::move(built.body));

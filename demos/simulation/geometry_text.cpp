@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "demos/simulation/body_surface.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
@@ -21,7 +20,7 @@ bool hasTwoSides(const BodyDef& def, const PreparedBody& prepared) {
 }
 
 RoundedJson toRoundedJson(const BodyDef& def, const PreparedBody& prepared) {
-  const Surface surface = makeBodySurface(def, prepared);
+  const Surface surface = moved(prepared.surface, -prepared.centre_of_mass);
   return {{"name", def.name},
           {"mass", static_cast<float>(prepared.mass)},
           {"separation_angle", static_cast<float>(def.flow.separation_angle)},
@@ -41,8 +40,8 @@ RoundedJson toRoundedJson(const JointDef& joint) {
 std::string makeGeometryText(const Scene& scene, const std::vector<PreparedBody>& bodies) {
   RoundedJson geometry = {{"scene", scene.name},
                           {"medium_velocity", toRoundedJson(scene.medium.velocity)},
-                          {"bodies", json::array()},
-                          {"joints", json::array()}};
+                          {"bodies", RoundedJson::array()},
+                          {"joints", RoundedJson::array()}};
   for (std::size_t i = 0; i < bodies.size(); ++i)
     geometry["bodies"].push_back(toRoundedJson(scene.bodies[i], bodies[i]));
   for (const JointDef& joint : scene.joints) geometry["joints"].push_back(toRoundedJson(joint));

@@ -7,7 +7,8 @@
 #include <stdexcept>
 
 #include "demos/simulation/motion_interpolation.h"
-#include "demos/simulation/progress.h"
+#include "demos/simulation/trajectory_text.h"
+#include "preprocess/builder/elapsed_display.h"
 
 namespace ambient {
 namespace {
@@ -26,9 +27,10 @@ MotionSample withContinuousSign(MotionSample sample, const MotionSample& before)
 /// Hands the samples of successive steps on at the output times.
 class Sampler {
  public:
-  Sampler(const Scene& scene, TrajectoryFile& file, RunRecord& record)
+  Sampler(const Scene& scene, OutputFile& file, RunRecord& record)
       : scene_(scene), file_(file), record_(record), times_(outputTimes(scene)) {
     record_.motion.resize(scene.bodies.size());
+    file_.write(std::string(kTrajectoryHeader) + "\n");
   }
 
   void add(const std::vector<MotionSample>& now) {
@@ -49,11 +51,11 @@ class Sampler {
     std::vector<MotionSample>& motion = record_.motion[body];
     if (!motion.empty()) sample = withContinuousSign(sample, motion.back());
     motion.push_back(sample);
-    file_.add(scene_.bodies[body].name, sample);
+    file_.write(trajectoryRow(scene_.bodies[body].name, sample));
   }
 
   const Scene& scene_;
-  TrajectoryFile& file_;
+  OutputFile& file_;
   RunRecord& record_;
   std::vector<double> times_;
   std::vector<MotionSample> last_;
@@ -77,14 +79,14 @@ long long countSteps(const Scene& scene) {
 
 void interruptRun() noexcept { interrupted = true; }
 
-RunRecord runScene(const Scene& scene, const std::vector<PreparedBody>& bodies,
-                   TrajectoryFile& file, bool quiet) {
+RunRecord runScene(const Scene& scene, const std::vector<PreparedBody>& bodies, OutputFile& file,
+                   bool quiet) {
   using Clock = std::chrono::steady_clock;
   RunRecord record;
   record.steps = countSteps(scene);
   Simulation simulation(scene, bodies);
   Sampler sampler(scene, file, record);
-  Progress progress(scene.name + ": simulating", quiet);
+  ElapsedDisplay progress(scene.name + ": simulating", quiet);
   sampler.add(simulation.sample());
   Clock::duration stepping{};
   for (long long i = 0; i < record.steps; ++i) {

@@ -5,9 +5,9 @@
 
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
-#include "demos/simulation/prepared_body.h"
+#include "demos/simulation/body_preparation.h"
+#include "demos/simulation/output_files.h"
 #include "demos/simulation/simulation.h"
-#include "demos/simulation/trajectory_file.h"
 
 namespace ambient {
 
@@ -26,11 +26,11 @@ std::vector<double> outputTimes(const Scene& scene);
 /// Steps that cover the duration.
 long long countSteps(const Scene& scene);
 
-/// Runs a scene and adds one row per body and output time to `file`, which stays uncommitted.
+/// Runs a scene and writes trajectory.csv into `file`, which stays uncommitted.
 /// Output times between two steps are interpolated.
 /// @throws std::runtime_error naming body and time if a state is not finite, or if interrupted.
-RunRecord runScene(const Scene& scene, const std::vector<PreparedBody>& bodies,
-                   TrajectoryFile& file, bool quiet);
+RunRecord runScene(const Scene& scene, const std::vector<PreparedBody>& bodies, OutputFile& file,
+                   bool quiet);
 
 /// Makes a running runScene() stop with an exception; may be called from a signal handler.
 void interruptRun() noexcept;

@@ -11,8 +11,7 @@
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
 #include "bullet_ambient/spatial/principal_frame.h"
-#include "demos/rivals/linear_drag.h"
-#include "demos/rivals/windward_flux.h"
+#include "demos/rivals/rival_laws.h"
 #include "demos/simulation/collision_shape.h"
 #include "demos/simulation/joint.h"
 
@@ -50,7 +49,7 @@ WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
   if (prepared.mass > 0) principal = findPrincipalFrame(prepared.inertia);
   made.R_SB = principal.rotation;
   const Matrix3 R_BS = made.R_SB.transpose();
-  made.shape = makeCollisionShape(prepared.collision,
+  made.shape = makeCollisionShape(def, prepared,
                                   toBulletPose(R_BS, Vector3(R_BS * -prepared.centre_of_mass)));
 
   btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(prepared.mass), nullptr,
@@ -67,11 +66,10 @@ WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
   return made;
 }
 
-/// The loads of a rival model; null for this library's own.
-std::shared_ptr<const SurfaceLoadModel> makeLoadModel(const Scene& scene) {
-  if (scene.model == FluidModel::kUwrbd)
-    return std::make_shared<LinearDrag>(scene.linear_drag_speed);
-  if (scene.model == FluidModel::kGwtf) return std::make_shared<WindwardFlux>();
+/// That of a rival model; empty: this library's own.
+LoadLaw loadLawOf(const Scene& scene) {
+  if (scene.model == FluidModel::kUwrbd) return linearDrag(scene.linear_drag_speed);
+  if (scene.model == FluidModel::kGwtf) return windwardFlux();
   return nullptr;
 }
 
@@ -82,7 +80,7 @@ AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBo
   attach.medium = scene.medium;
   if (def.fluid_density) attach.medium.density = *def.fluid_density;
   attach.flow = def.flow;
-  attach.flow.model = makeLoadModel(scene);
+  attach.flow.own_law = loadLawOf(scene);
   attach.flight = scene.flight;
   attach.fluid_frame.rotation = R_SB.transpose();
   attach.fluid_frame.translation =

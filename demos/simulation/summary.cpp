@@ -7,6 +7,7 @@
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/analysis/falling_mode.h"
 #include "demos/analysis/path_summary.h"
+#include "preprocess/builder/body_extents.h"
 
 namespace ambient {
 namespace {
@@ -70,22 +71,10 @@ json toJson(const FlightWork& work) {
           {"coarse", work.coarse}};
 }
 
-/// Half the size of the box around the surface along the shape's axes.
-Vector3 halfExtents(const Surface& surface) {
-  if (surface.vertices.empty()) return Vector3::Zero();
-  const Eigen::Map<const Eigen::Matrix3Xd> points(
-      surface.vertices.data(), 3, static_cast<Eigen::Index>(surface.vertices.size() / 3));
-  return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff());
-}
-
 json toJson(const FluidBody& body) {
-  return {{"name", body.name},          {"half_extents", toJson(halfExtents(body.surface))},
+  return {{"name", body.name},          {"half_extents", toJson(extentsOf(body) / 2)},
           {"faces", body.faces.size()}, {"volume", body.volume},
           {"area", body.area},          {"settings", body.provenance.settings}};
-}
-
-std::string integratorName(Integrator integrator) {
-  return integrator == Integrator::kRungeKutta4 ? "rk4" : "leapfrog";
 }
 
 }  // namespace

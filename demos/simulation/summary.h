@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "demos/scene/scene.h"
-#include "demos/simulation/prepared_body.h"
+#include "demos/simulation/body_preparation.h"
 #include "demos/simulation/scene_run.h"
 
 namespace ambient {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/primitives.h"
@@ -12,7 +13,7 @@
 namespace ambient {
 namespace {
 
-constexpr double kRightAngle = 1.5707963267948966;
+constexpr double kRightAngle = kPi / 2;
 constexpr int kFaces = 400;
 constexpr int kPanels = 800;  // the atlas asks for stability, not for the last digit
 
@@ -48,9 +49,9 @@ AtlasShape makeShape(const std::string& name, const TriangleMesh& mesh, bool she
   check.sheet = sheet;
   BuildSettings settings;
   settings.name = name;
-  settings.sheet = sheet;
+  settings.flow.sheet = sheet;
   settings.least_faces = kFaces;
-  settings.max_panels = kPanels;
+  settings.flow.max_panels = kPanels;
   AtlasShape shape;
   shape.name = name;
   const TriangleMesh checked = checkMesh(mesh, name, check).mesh;

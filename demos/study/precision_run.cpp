@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -61,6 +63,7 @@ PrecisionRun runWithMethod(Scene scene, const std::vector<PreparedBody>& bodies,
 PrecisionError errorOf(const PrecisionRun& run, const PrecisionRun& reference) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!run.finite) return {kInfinity, kInfinity};
+  AMBIENT_ASSERT(run.motion.size() == reference.motion.size());
   PrecisionError error;
   for (std::size_t i = 0; i < reference.motion.size(); ++i) {
     for (std::size_t body = 0; body < reference.motion[i].size(); ++body) {

@@ -8,8 +8,8 @@
 
 namespace ambient {
 
-ElapsedDisplay::ElapsedDisplay(std::string label) : label_(std::move(label)) {
-  if (::isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show(); });
+ElapsedDisplay::ElapsedDisplay(std::string label, bool quiet) : label_(std::move(label)) {
+  if (!quiet && ::isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show(); });
 }
 
 ElapsedDisplay::~ElapsedDisplay() {
@@ -30,7 +30,11 @@ void ElapsedDisplay::show() {
       if (seconds > 1) std::fputs("\r\033[K", stderr);
       return;
     }
-    std::fprintf(stderr, "\r\033[K%s, %d s", label_.c_str(), seconds);
+    const double percent = 100 * share_;
+    if (percent > 0)
+      std::fprintf(stderr, "\r\033[K%s, %.0f %%", label_.c_str(), percent);
+    else
+      std::fprintf(stderr, "\r\033[K%s, %d s", label_.c_str(), seconds);
     std::fflush(stderr);
   }
 }

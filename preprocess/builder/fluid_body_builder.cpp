@@ -30,15 +30,6 @@ MassDistribution uniformMassOf(const TriangleMesh& mesh, const MeshProperties& p
   return computeMassProperties(joinMeshes({mesh, cavities})).uniform;
 }
 
-TriangleMesh withTrueVolume(TriangleMesh mesh, const BuildSettings& settings) {
-  if (settings.true_volume == 0 || settings.sheet) return mesh;
-  const MeshProperties properties = computeMassProperties(mesh);
-  const Eigen::Vector3d centre = properties.uniform.centre;
-  const double stretch = std::cbrt(settings.true_volume / properties.volume);
-  mesh.vertices = ((mesh.vertices.colwise() - centre) * stretch).colwise() + centre;
-  return mesh;
-}
-
 FaceTable facesOf(const TriangleMesh& mesh, bool sheet) {
   FaceTable faces;
   faces.reserve(static_cast<std::size_t>(mesh.triangleCount()) * (sheet ? 2 : 1));
@@ -52,13 +43,6 @@ FaceTable facesOf(const TriangleMesh& mesh, bool sheet) {
   addSide(1);
   if (sheet) addSide(-1);
   return faces;
-}
-
-Surface surfaceOf(const TriangleMesh& mesh) {
-  const double* vertices = mesh.vertices.data();
-  const int* triangles = mesh.triangles.data();
-  return {{vertices, vertices + mesh.vertices.size()},
-          {triangles, triangles + mesh.triangles.size()}};
 }
 
 MassDistribution aboutOrigin(MassDistribution mass, const Eigen::Vector3d& origin) {
@@ -78,14 +62,8 @@ void requireNearOrigin(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
 }
 
 RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
-  PotentialFlowSettings flow_settings;
-  flow_settings.sheet = settings.sheet;
-  flow_settings.max_panels = settings.max_panels;
-  flow_settings.threads = settings.threads;
-  flow_settings.solver = settings.solver;
-  flow_settings.memory_limit = settings.memory_limit;
   try {
-    return solveRefinedFlow(mesh, flow_settings);
+    return solveRefinedFlow(mesh, settings.flow);
   } catch (const std::runtime_error& error) {
     raiseInputError(sourceOf(settings), error.what());
   }
@@ -97,10 +75,17 @@ std::string libraryVersion() {
   return "bullet_ambient " AMBIENT_VERSION ", solver revision " + std::to_string(kSolverRevision);
 }
 
+Surface surfaceOf(const TriangleMesh& mesh) {
+  const double* vertices = mesh.vertices.data();
+  const int* triangles = mesh.triangles.data();
+  return {{vertices, vertices + mesh.vertices.size()},
+          {triangles, triangles + mesh.triangles.size()}};
+}
+
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
-  requireUsualSize(source_mesh, settings.sheet, sourceOf(settings));
-  TriangleMesh mesh = withTrueVolume(divideTriangles(source_mesh, settings.least_faces), settings);
-  const MeshProperties properties = massPropertiesOf(mesh, settings.sheet);
+  requireUsualSize(source_mesh, settings.flow.sheet, sourceOf(settings));
+  TriangleMesh mesh = divideTriangles(source_mesh, settings.least_faces);
+  const MeshProperties properties = massPropertiesOf(mesh, settings.flow.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
   requireNearOrigin(mesh, origin, sourceOf(settings));
   const MassDistribution uniform_mass = uniformMassOf(mesh, properties, settings.cavities);
@@ -124,12 +109,12 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
     body.asymmetry = flow.asymmetry;
   }
   body.volume = properties.volume;
-  body.area = settings.sheet ? 2 * properties.area : properties.area;
+  body.area = settings.flow.sheet ? 2 * properties.area : properties.area;
   body.origin = origin;
   body.uniform_mass = aboutOrigin(uniform_mass, origin);
   body.surface_mass = aboutOrigin(properties.surface, origin);
   body.centre_of_volume = properties.uniform.centre - origin;
-  body.faces = facesOf(mesh, settings.sheet);
+  body.faces = facesOf(mesh, settings.flow.sheet);
   body.surface = surfaceOf(mesh);
   body.sphere_radius = settings.sphere_radius;
   return body;

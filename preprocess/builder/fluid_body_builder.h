@@ -20,6 +20,9 @@ constexpr int kDefaultPanels = 4200;
 /// This library, its version and the revision of its solver, as fluid bodies name it.
 std::string libraryVersion();
 
+/// The triangles of a mesh as a fluid body holds them.
+Surface surfaceOf(const TriangleMesh& mesh);
+
 /// How a fluid body is made from a mesh.
 struct BuildSettings {
   std::string name;    ///< of the body
@@ -27,21 +30,14 @@ struct BuildSettings {
   /// Origin of the fluid body frame F in the mesh's frame [m]; none: the centre of volume, of a
   /// sheet the centre of its area.
   std::optional<Eigen::Vector3d> origin;
-  bool sheet = false;      ///< the mesh is an open surface of zero thickness
-  double true_volume = 0;  ///< of the smooth body the mesh stands for [m^3]: the mesh is scaled
-                           ///< about its centre of volume to enclose as much. 0: taken as it is
-  TriangleMesh cavities;   ///< closed surfaces inside, as in CheckedMesh: empty in the uniform mass
+  TriangleMesh cavities;  ///< closed surfaces inside, as in CheckedMesh: empty in the uniform mass
   double sphere_radius = 0;  ///< of a mesh that stands for a sphere [m]; 0: any other shape
   /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
   std::optional<Matrix6> added_mass;
   int least_faces = 0;  ///< the mesh is divided into at least so many triangles for the loads
-  /// The flow is solved on up to so many panels, finer than the mesh where that helps, and on four
-  /// times as many where long triangles need them; the faces remain those of the mesh. 0: on the
-  /// triangles of the mesh.
-  int max_panels = kDefaultPanels;
-  int threads = 0;          ///< 0: all cores; the result does not depend on it, bit for bit
-  double memory_limit = 0;  ///< for the flow, bytes; 0: what the machine has available
-  FlowSolverKind solver = FlowSolverKind::Automatic;
+  /// The flow is solved on up to max_panels, finer than the mesh where that helps, and on four
+  /// times as many where long triangles need them; the faces remain those of the mesh.
+  PotentialFlowSettings flow{false, kDefaultPanels};
   Provenance provenance;  ///< copied; an empty generator becomes this library and its version
   /// Receives in one line what is doubtful about the result; null: nothing is said.
   std::function<void(const std::string&)> warn = nullptr;

@@ -8,6 +8,7 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/triangle_quality.h"
 #include "preprocess/potential_flow/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/flat_merging.h"
@@ -44,7 +45,7 @@ std::optional<Eigen::Vector3d> semiAxesOf(const ShapeDescription& shape) {
 
 /// A solver that is asked for by name is used, closed form or not.
 bool hasClosedForm(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
-  return semiAxesOf(shape).has_value() && settings.solver == FlowSolverKind::Automatic;
+  return semiAxesOf(shape).has_value() && settings.flow.solver == FlowSolverKind::Automatic;
 }
 
 /// The triangle of largest aspect of those that panels are cut from.
@@ -67,7 +68,8 @@ void warnOfMesh(CheckedMesh& checked, const ShapeDescription& shape,
             "rotation may be off by half; divide them (least faces 400)";
     warn(text);
   }
-  const TriangleQuality worst = worstForPanels(checked.mesh, isSheet(shape), settings.max_panels);
+  const TriangleQuality worst =
+      worstForPanels(checked.mesh, isSheet(shape), settings.flow.max_panels);
   if (worst.aspect > kSkinny && !fileOf(shape).empty()) {
     text.str({});
     text << "triangle " << worst.triangle << " at " << pointText(worst.barycentre) << " is "
@@ -96,9 +98,9 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
     text << ", closed form";
     return text.str();
   }
-  text << ", panels " << settings.max_panels;
-  if (settings.solver == FlowSolverKind::Dense) text << ", dense";
-  if (settings.solver == FlowSolverKind::Hierarchical) text << ", hierarchical";
+  text << ", panels " << settings.flow.max_panels;
+  if (settings.flow.solver == FlowSolverKind::Dense) text << ", dense";
+  if (settings.flow.solver == FlowSolverKind::Hierarchical) text << ", hierarchical";
   return text.str();
 }
 
@@ -136,11 +138,13 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (!std::isfinite(settings.scale) || settings.scale <= 0) {
     raiseInputError(shape.source, "scale = ", settings.scale, " is not positive and finite");
   }
-  if (settings.max_panels < 0) {
-    raiseInputError(shape.source, "panels = ", settings.max_panels, " is below 0 (0: no division)");
+  if (settings.flow.max_panels < 0) {
+    raiseInputError(shape.source, "panels = ", settings.flow.max_panels,
+                    " is below 0 (0: no division)");
   }
-  if (settings.max_panels > kMostDivisions) {
-    raiseInputError(shape.source, "panels = ", settings.max_panels, " is above ", kMostDivisions);
+  if (settings.flow.max_panels > kMostDivisions) {
+    raiseInputError(shape.source, "panels = ", settings.flow.max_panels, " is above ",
+                    kMostDivisions);
   }
   if (settings.least_faces < 0 || settings.least_faces > kMostDivisions) {
     raiseInputError(shape.source, "least faces = ", settings.least_faces,
@@ -155,7 +159,6 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   build.name = settings.name;
   build.source = shape.source;
   build.origin = settings.origin;
-  build.sheet = isSheet(shape);
   build.cavities = checked.cavities;
   if (hasClosedForm(shape, settings)) {
     // Spin about an axis of revolution moves nothing, but for rounding of either sign.
@@ -163,10 +166,8 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
     build.added_mass = diagonal.asDiagonal().toDenseMatrix();
   }
   build.least_faces = settings.least_faces;
-  build.max_panels = settings.max_panels;
-  build.threads = settings.threads;
-  build.memory_limit = settings.memory_limit;
-  build.solver = settings.solver;
+  build.flow = settings.flow;
+  build.flow.sheet = isSheet(shape);
   if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry))
     build.sphere_radius = settings.scale * sphere->radius;
   build.provenance = describeShape(shape, settings);

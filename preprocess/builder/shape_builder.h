@@ -16,10 +16,8 @@ struct ShapeBuildSettings {
   std::optional<Eigen::Vector3d> origin;  ///< as in BuildSettings, in the shape's frame
   double scale = 1;                       ///< multiplies all lengths of the shape
   int least_faces = 0;                    ///< as in BuildSettings
-  int max_panels = kDefaultPanels;        ///< as in BuildSettings
-  int threads = 0;                        ///< 0: all cores
-  double memory_limit = 0;                ///< as in BuildSettings
-  FlowSolverKind solver = FlowSolverKind::Automatic;
+  /// As in BuildSettings; whether it is a sheet, the shape says.
+  PotentialFlowSettings flow{false, kDefaultPanels};
 };
 
 /// A fluid body, and what a user should know about its mesh, one line each.

@@ -18,8 +18,7 @@ void build(const WorldShape& shape, const WorldBuildSettings& settings, WorldSha
   CollisionShapeSettings shape_settings;
   shape_settings.name = shape.name;
   shape_settings.margins = settings.margins;
-  shape_settings.max_panels = settings.max_panels;
-  shape_settings.threads = settings.threads;
+  shape_settings.flow = settings.flow;
   shape_settings.report = [&](const std::string& text) { result.warnings.push_back(text); };
   const Provenance provenance = describeCollisionShape(*shape.shape, shape_settings);
   std::optional<FluidBody> body;

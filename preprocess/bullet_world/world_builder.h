@@ -11,9 +11,8 @@ namespace ambient {
 
 /// How the fluid bodies of a world are made.
 struct WorldBuildSettings {
-  bool margins = true;              ///< as in CollisionShapeSettings
-  int max_panels = kDefaultPanels;  ///< as in BuildSettings
-  int threads = 0;                  ///< 0: all cores
+  bool margins = true;                                ///< as in CollisionShapeSettings
+  PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
   bool reuse = true;  ///< keep a file that was made from the same geometry and settings
 };
 

@@ -1,11 +1,11 @@
 #include "preprocess/collision_shape/collision_shape_body.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
 
 #include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/collision_shape/collision_solids.h"
 #include "preprocess/collision_shape/solid_contact.h"
 #include "preprocess/mesh/input_error.h"
@@ -26,15 +26,15 @@ void requireUsable(const CollisionShapeSettings& settings, const std::string& na
     raiseInputError(name, what, " = ", value, " is not between ", least, " and ", kMostDivisions);
   };
   require("faces", settings.faces, 1);
-  require("max_panels", settings.max_panels, 0);
-  require("threads", settings.threads, 0);
+  require("max_panels", settings.flow.max_panels, 0);
+  require("threads", settings.flow.threads, 0);
 }
 
 std::vector<Solid> solidsOf(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
   requireUsable(settings, nameOf(shape, settings));
   SolidResolution resolution;
   resolution.faces = settings.faces;
-  resolution.flow_faces = std::max(settings.faces, settings.max_panels);
+  resolution.flow_faces = std::max(settings.faces, settings.flow.max_panels);
   return makeCollisionSolids(shape, settings.margins, resolution, nameOf(shape, settings));
 }
 
@@ -58,7 +58,7 @@ Provenance provenanceOf(const btCollisionShape& shape, const std::vector<Solid>&
   provenance.source_hash = fnv1a64(bytes);
   provenance.settings = std::string(settings.margins ? "with" : "without") + " margins, faces " +
                         std::to_string(settings.faces) + ", panels " +
-                        std::to_string(settings.max_panels);
+                        std::to_string(settings.flow.max_panels);
   provenance.generator = libraryVersion();
   return provenance;
 }
@@ -103,11 +103,8 @@ TriangleMesh joined(const std::vector<Solid>& solids, TriangleMesh Solid::*surfa
 
 Matrix6 solvedAddedMass(const TriangleMesh& mesh, const CollisionShapeSettings& settings,
                         const std::string& name) {
-  PotentialFlowSettings flow;
-  flow.threads = settings.threads;
-  flow.max_panels = settings.max_panels;
   try {
-    return solvePotentialFlow(mesh, flow).added_mass;
+    return solvePotentialFlow(mesh, settings.flow).added_mass;
   } catch (const std::runtime_error& error) {
     raiseInputError(name, error.what());
   }
@@ -116,9 +113,9 @@ Matrix6 solvedAddedMass(const TriangleMesh& mesh, const CollisionShapeSettings& 
 /// The nearest symmetric positive semi-definite matrix: extrapolation may leave a tiny negative
 /// eigenvalue where the true inertia vanishes.
 Matrix6 withoutNegativePart(const Matrix6& K) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(K);
-  const Matrix6 positive = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-                           eigen.eigenvectors().transpose();
+  const SymmetricEigen<6> eigen = symmetricEigen<6>(K);
+  const Matrix6 positive =
+      eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
   return (positive + positive.transpose()) / 2;
 }
 
@@ -144,8 +141,7 @@ FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSetti
   BuildSettings build;
   build.name = nameOf(shape, settings);
   build.origin = Eigen::Vector3d::Zero();
-  build.max_panels = settings.max_panels;
-  build.threads = settings.threads;
+  build.flow = settings.flow;
   build.provenance = provenanceOf(shape, solids, settings);
   requireGaps(solids, build.name);
   if (solids.size() == 1) {

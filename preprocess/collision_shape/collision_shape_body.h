@@ -20,8 +20,7 @@ struct CollisionShapeSettings {
   bool margins = true;  ///< convex hulls and cones are as large as Bullet collides with them,
                         ///< margin included; false: as they were given
   int faces = 1300;     ///< triangles aimed at, where the shape has no mesh of its own
-  int max_panels = kDefaultPanels;  ///< as in BuildSettings
-  int threads = 0;                  ///< 0: all cores; the result does not depend on it
+  PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
   /// Receives one line for everything a user should know about a body that was made: margins that
   /// add more than a tenth to its volume, triangles that were turned round. Default: standard
   /// error; null: nobody.

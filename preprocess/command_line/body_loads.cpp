@@ -1,25 +1,24 @@
 #include "preprocess/command_line/body_loads.h"
 
-#include <cmath>
+#include <utility>
 
-#include "bullet_ambient/force/sphere_loads.h"
+#include "bullet_ambient/force/load_tables.h"
 
 namespace ambient {
 
-BodyLoads::BodyLoads(const FluidBody& body, const LoadSettings& settings)
-    : body_(body), settings_(settings) {
-  if (body.sphere_radius > 0 && needsSphereTable(settings))
-    table_ = sharedSphereTable(settings.separation_cosine);
+BodyLoads::BodyLoads(FluidBody body, const Medium& medium, const FlowSettings& flow) {
+  FlowSettings in_double = flow;
+  in_double.precision = LoadPrecision::kDouble;
+  LoadTables tables;
+  loads_ = makeSurfaceLoads(std::make_shared<const FluidBody>(std::move(body)), medium, in_double,
+                            tables);
+  if (loads_) frame_ = loads_->frame({});
 }
 
 FaceLoads BodyLoads::at(const Twist& x) const {
-  const double length = std::sqrt(body_.area);
-  if (!(body_.sphere_radius > 0)) return computeFaceLoads(body_.faces, length, x, settings_);
-  const Vector3& centre = body_.centre_of_volume;
-  FaceLoads loads = computeSphereLoads(table_.get(), body_.sphere_radius, length,
-                                       {x.angular, x.at(centre)}, settings_);
-  for (Wrench* load : {&loads.pressure, &loads.friction}) load->torque += centre.cross(load->force);
-  return loads;
+  if (!loads_) return {};
+  const FaceLoads loads = loads_->parts(frame_.toF(x));
+  return {frame_.toB(loads.pressure), frame_.toB(loads.friction)};
 }
 
 }  // namespace ambient

@@ -2,26 +2,22 @@
 
 #include <memory>
 
-#include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/force/sphere_table.h"
+#include "bullet_ambient/force/surface_loads.h"
 
 namespace ambient {
 
-/// The surface loads on a fluid body as a world has them by default, but for single precision: a
-/// sphere as a smooth one, everything else on all faces.
+/// The surface loads on a fluid body as a world has them by default, but in double precision. Both
+/// in F.
 class BodyLoads {
  public:
-  /// Keeps a reference to the body.
-  BodyLoads(const FluidBody& body, const LoadSettings& settings);
+  BodyLoads(FluidBody body, const Medium& medium, const FlowSettings& flow);
 
-  /// Pressure and friction about the origin of F, for a twist relative to the fluid, both in F.
+  /// About the origin of F, for a twist relative to the fluid.
   FaceLoads at(const Twist& relative_twist) const;
 
  private:
-  const FluidBody& body_;
-  LoadSettings settings_;
-  std::shared_ptr<const SphereTable> table_;  ///< null where none is needed
+  std::shared_ptr<const SurfaceLoads> loads_;  ///< null: none
+  FrameOffset frame_;                          ///< theirs
 };
 
 }  // namespace ambient

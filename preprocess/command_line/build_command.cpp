@@ -42,10 +42,10 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   settings.origin = parseOrigin(arguments.origin);
   settings.scale = arguments.scale;
   settings.least_faces = arguments.least_faces;
-  settings.max_panels = arguments.panels;
-  settings.threads = arguments.threads;
-  settings.solver = parseSolver(arguments.solver);
-  settings.memory_limit = 1e9 * arguments.memory.value_or(0);
+  settings.flow.max_panels = arguments.panels;
+  settings.flow.threads = arguments.threads;
+  settings.flow.solver = parseSolver(arguments.solver);
+  settings.flow.memory_limit = 1e9 * arguments.memory.value_or(0);
   return settings;
 }
 

@@ -5,26 +5,27 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 
 namespace ambient {
 
 /// ambient_preprocess build
 struct BuildArguments {
-  std::string input;                             ///< a mesh, or a JSON file with a shape
-  std::string output;                            ///< the .ambient file
-  double scale = 1;                              ///< multiplies all lengths
-  std::string origin = "centre-of-volume";       ///< or x,y,z in the mesh's frame [m]
-  bool sheet = false;                            ///< the mesh is an open surface of zero thickness
-  int least_faces = 0;                           ///< the mesh is divided into at least so many
-  int panels = kDefaultPanels;                   ///< at most so many for the flow; 0: the triangles
-  std::vector<int> levels;                       ///< of reduced loads: their numbers of clusters
-  double separation_angle = 1.5707963267948966;  ///< of the levels, from pi/2 to pi [rad]
-  int threads = 0;                               ///< 0: all cores
-  std::string solver;                            ///< dense or hierarchical; empty: by the panels
-  std::optional<double> memory;                  ///< for the flow [GB]; none: what is available
-  bool no_margins = false;  ///< of a world: hulls and cones without their margins
-  bool rebuild = false;     ///< also where nothing has changed
+  std::string input;                        ///< a mesh, or a JSON file with a shape
+  std::string output;                       ///< the .ambient file
+  double scale = 1;                         ///< multiplies all lengths
+  std::string origin = "centre-of-volume";  ///< or x,y,z in the mesh's frame [m]
+  bool sheet = false;                       ///< the mesh is an open surface of zero thickness
+  int least_faces = 0;                      ///< the mesh is divided into at least so many
+  int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
+  std::vector<int> levels;                  ///< of reduced loads: their numbers of clusters
+  double separation_angle = kPi / 2;        ///< of the levels, from pi/2 to pi [rad]
+  int threads = 0;                          ///< 0: all cores
+  std::string solver;                       ///< dense or hierarchical; empty: by the panels
+  std::optional<double> memory;             ///< for the flow [GB]; none: what is available
+  bool no_margins = false;                  ///< of a world: hulls and cones without their margins
+  bool rebuild = false;                     ///< also where nothing has changed
   bool json = false;
 };
 
@@ -40,7 +41,7 @@ struct LoadsArguments {
   std::array<double, 6> twist{};  ///< relative to the fluid, angular velocity first [rad/s, m/s]
   double density = 0;             ///< [kg/m^3]
   double viscosity = 0;           ///< [Pa s]
-  double separation_angle = 1.5707963267948966;  ///< from pi/2 to pi [rad]
+  double separation_angle = kPi / 2;  ///< from pi/2 to pi [rad]
   bool no_friction = false;
   bool json = false;
 };
@@ -50,13 +51,13 @@ struct PolarArguments {
   std::string file;
   std::string attack = "-90:90:5";  ///< an angle or FROM:TO:STEP [degrees]
   std::string side_slip = "0";
-  std::string forward = "x", up = "z";           ///< axes of F, with a sign
-  double density = 1;                            ///< [kg/m^3]; matters with viscosity only
-  double speed = 1;                              ///< [m/s]; the same
-  double viscosity = 0;                          ///< [Pa s]
-  double separation_angle = 1.5707963267948966;  ///< from pi/2 to pi [rad]
-  double reference_area = 0;                     ///< [m^2]; 0: seen along `up`
-  double reference_length = 0;                   ///< [m]; 0: extent along `forward`
+  std::string forward = "x", up = "z";  ///< axes of F, with a sign
+  double density = 1;                   ///< [kg/m^3]; matters with viscosity only
+  double speed = 1;                     ///< [m/s]; the same
+  double viscosity = 0;                 ///< [Pa s]
+  double separation_angle = kPi / 2;    ///< from pi/2 to pi [rad]
+  double reference_area = 0;            ///< [m^2]; 0: seen along `up`
+  double reference_length = 0;          ///< [m]; 0: extent along `forward`
 };
 
 /// ambient_preprocess compare

@@ -60,9 +60,9 @@ double loadDifference(const FluidBody& a, const FluidBody& b) {
   constexpr int kMotions = 64;
   const double length = std::sqrt(std::max(a.area, b.area));
   if (!(length > 0)) return 0;
-  LoadSettings settings;
-  settings.density = 2;  // dynamic pressure 1 at speed 1
-  const BodyLoads loads_on_a(a, settings), loads_on_b(b, settings);
+  Medium medium;
+  medium.density = 2;  // dynamic pressure 1 at speed 1
+  const BodyLoads loads_on_a(a, medium, {}), loads_on_b(b, medium, {});
   double largest = 0;
   for (int i = 0; i < kMotions; ++i) {
     const Twist twist = testTwist(i, kMotions, length);

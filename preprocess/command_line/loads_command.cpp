@@ -13,15 +13,17 @@
 namespace ambient {
 namespace {
 
-LoadSettings settingsOf(const LoadsArguments& arguments) {
+Medium mediumOf(const LoadsArguments& arguments) {
   requireNotNegative("--density", arguments.density, " kg/m^3");
   requireNotNegative("--viscosity", arguments.viscosity, " Pa s");
-  LoadSettings settings;
-  settings.density = arguments.density;
-  settings.viscosity = arguments.viscosity;
-  settings.separation_cosine = separationCosine(separationAngleOf(arguments.separation_angle));
-  settings.skin_friction = !arguments.no_friction;
-  return settings;
+  return {arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
+}
+
+FlowSettings flowOf(const LoadsArguments& arguments) {
+  FlowSettings flow;
+  flow.separation_angle = separationAngleOf(arguments.separation_angle);
+  flow.skin_friction = !arguments.no_friction;
+  return flow;
 }
 
 Twist twistOf(const LoadsArguments& arguments) {
@@ -66,11 +68,11 @@ std::string loadsTable(const FaceLoads& loads) {
 }  // namespace
 
 void runLoads(const LoadsArguments& arguments) {
-  const LoadSettings settings = settingsOf(arguments);
+  const Medium medium = mediumOf(arguments);
+  const FlowSettings flow = flowOf(arguments);
   const Twist twist = twistOf(arguments);
-  const FluidBody body = readFluidBody(arguments.file);
-  const FaceLoads loads = BodyLoads(body, settings).at(twist);
-  const double dynamic_pressure = settings.density * twist.vector().squaredNorm();
+  const FaceLoads loads = BodyLoads(readFluidBody(arguments.file), medium, flow).at(twist);
+  const double dynamic_pressure = medium.density * twist.vector().squaredNorm();
   if (!std::isfinite(dynamic_pressure) || !loads.total().vector().allFinite()) {
     raiseInputError(arguments.file, "the loads of this motion are beyond the largest number, ",
                     std::numeric_limits<double>::max());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 
 namespace ambient {
@@ -29,7 +30,7 @@ void requireDivisions(const char* option, int count) {
 }
 
 double separationAngleOf(double angle) {
-  constexpr double kStraight = 3.14159265358979323846, kRight = kStraight / 2;
+  constexpr double kStraight = kPi, kRight = kPi / 2;
   // An angle given with a few digits is still a right or a straight one.
   constexpr double kDigits = 1e-6;
   if (!(angle >= kRight * (1 - kDigits) && angle <= kStraight * (1 + kDigits)))

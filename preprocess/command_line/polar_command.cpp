@@ -101,17 +101,12 @@ Reference referenceOf(const PolarArguments& arguments, const FluidBody& body, co
   return reference;
 }
 
-LoadSettings settingsOf(const PolarArguments& arguments) {
+void checkNumbers(const PolarArguments& arguments) {
   requirePositive("--density", arguments.density);
   requirePositive("--speed", arguments.speed);
   requireNotNegative("--viscosity", arguments.viscosity);
   requireNotNegative("--reference-area", arguments.reference_area);
   requireNotNegative("--reference-length", arguments.reference_length);
-  LoadSettings settings;
-  settings.density = arguments.density;
-  settings.viscosity = arguments.viscosity;
-  settings.separation_cosine = separationCosine(separationAngleOf(arguments.separation_angle));
-  return settings;
 }
 
 /// C_L, C_D, C_Y, C_l, C_m, C_n at one attitude; forward, left and up axes.
@@ -142,9 +137,12 @@ void runPolar(const PolarArguments& arguments) {
                     " of side-slip are more than ", kMostRows);
   }
   const Matrix3 axes = parseAxes(arguments.forward, arguments.up);
-  const LoadSettings settings = settingsOf(arguments);
+  checkNumbers(arguments);
+  FlowSettings flow;
+  flow.separation_angle = separationAngleOf(arguments.separation_angle);
+  const Medium medium{arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
   const FluidBody body = readFluidBody(arguments.file);
-  const BodyLoads loads(body, settings);
+  const BodyLoads loads(body, medium, flow);
   const Reference reference = referenceOf(arguments, body, axes);
   const double dynamic_pressure = 0.5 * arguments.density * arguments.speed * arguments.speed;
   std::string text = "attack,side_slip,C_L,C_D,C_Y,C_l,C_m,C_n\n";

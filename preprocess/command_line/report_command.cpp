@@ -2,6 +2,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
@@ -19,7 +20,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = kPi / 180;
 
 ordered_json levelJson(const FlowLevel& level) {
   return {{"panels", level.panels},
@@ -142,7 +143,7 @@ void runReport(const ReportArguments& arguments) {
   const CheckedMesh checked = makeShapeMesh(shape, arguments.scale);
   requireUsualSize(checked.mesh, isSheet(shape), shape.source);
   for (const std::string& warning : checked.warnings) std::cerr << "warning: " << warning << "\n";
-  MeshReportSettings settings;
+  PotentialFlowSettings settings;
   settings.sheet = isSheet(shape);
   settings.max_panels = arguments.panels;
   settings.threads = arguments.threads;

@@ -100,8 +100,8 @@ int runWorldBuild(const BuildArguments& arguments) {
   requireWorldOptions(arguments);
   WorldBuildSettings settings;
   settings.margins = !arguments.no_margins;
-  settings.max_panels = arguments.panels;
-  settings.threads = arguments.threads;
+  settings.flow.max_panels = arguments.panels;
+  settings.flow.threads = arguments.threads;
   settings.reuse = !arguments.rebuild;
   requireFile(arguments.input);
   requireFolder(arguments.output);

@@ -1,20 +1,18 @@
 #include "preprocess/mesh/child_process.h"
 
 #include <fcntl.h>
-#include <sys/resource.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <csignal>
-#include <exception>
+#include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 namespace ambient {
 namespace {
-
-constexpr char kDone = 'd', kThrown = 't';
 
 /// One end of a pipe.
 class Descriptor {
@@ -34,16 +32,6 @@ class Descriptor {
   int number_;
 };
 
-bool writeAll(int descriptor, const std::string& bytes) {
-  for (std::size_t written = 0; written < bytes.size();) {
-    const ssize_t count = ::write(descriptor, bytes.data() + written, bytes.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    written += static_cast<std::size_t>(count);
-  }
-  return true;
-}
-
 std::string readAll(int descriptor) {
   std::string bytes;
   std::array<char, 65536> part{};
@@ -55,68 +43,51 @@ std::string readAll(int descriptor) {
   }
 }
 
-// A crash shall end the child by its signal, without anybody's handler, report or core file.
-void prepareChild(int most_seconds) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) {
-    ::signal(signal, SIG_DFL);
-  }
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-  const auto seconds = static_cast<rlim_t>(most_seconds);
-  const rlimit processor_time{seconds, seconds + 1};
-  ::setrlimit(RLIMIT_CPU, &processor_time);
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): the system's own interface
-  const int nowhere = ::open("/dev/null", O_WRONLY);
-  if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+/// The program beside the running one, if there is; else the name, which the PATH is searched for.
+std::string findProgram(const std::string& name) {
+  std::error_code error;
+  const auto beside = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name;
+  return std::filesystem::exists(beside, error) ? beside.string() : name;
 }
 
-// The result with its kind in front; without the exit handlers of a process that lives on.
-[[noreturn]] void becomeWorker(const std::function<std::string()>& work, int answer) {
-  std::string bytes;
-  try {
-    bytes = kDone + work();
-  } catch (const std::exception& error) {
-    bytes = kThrown + std::string(error.what());
-  } catch (...) {
-    bytes = std::string(1, kThrown) + "an unknown exception";
-  }
-  ::_exit(writeAll(answer, bytes) ? 0 : 1);
-}
-
-void requireGoodEnd(int status, int most_seconds) {
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (signal == SIGXCPU) {
-    throw ChildFailure("took more than " + std::to_string(most_seconds) + " s of processor time");
-  }
-  if (signal == SIGKILL) throw ChildFailure("was killed, perhaps for want of memory");
-  throw ChildFailure("crashed");
+/// Starts a program that writes to `output`; returns the error, 0 if it runs.
+int start(std::vector<std::string> command, int output, pid_t& child) {
+  const std::string program = findProgram(command.front());
+  std::vector<char*> arguments;
+  for (std::string& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+  const int error =
+      ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  return error;
 }
 
 }  // namespace
 
-std::string runInChild(const std::function<std::string()>& work, int most_seconds) {
+ChildResult runChild(const std::vector<std::string>& command) {
+  const std::string could_not = "the program " + command.front() + " could not be started: ";
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw ChildFailure("could not be started");
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw std::runtime_error(could_not + std::strerror(errno));
   const Descriptor from_child(ends[0]);
   Descriptor to_parent(ends[1]);
-  const pid_t child = ::fork();
-  if (child < 0) throw ChildFailure("could not be started");
-  if (child == 0) {
-    prepareChild(most_seconds);
-    becomeWorker(work, to_parent.number());
-  }
+  pid_t child = 0;
+  const int error = start(command, to_parent.number(), child);
+  if (error == ENOENT)
+    throw std::runtime_error(could_not + "it is neither beside this program nor on the PATH");
+  if (error != 0) throw std::runtime_error(could_not + std::strerror(error));
   to_parent.close();
-  std::string bytes = readAll(from_child.number());
+  ChildResult result;
+  result.output = readAll(from_child.number());
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  requireGoodEnd(status, most_seconds);
-  if (bytes.empty()) throw ChildFailure("ended without a result");
-  const bool is_done = bytes.front() == kDone;
-  bytes.erase(0, 1);
-  if (!is_done) throw std::runtime_error(bytes);
-  return bytes;
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+  return result;
 }
 
 }  // namespace ambient

@@ -1,22 +1,21 @@
 #pragma once
 
-#include <functional>
-#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace ambient {
 
-/// A child process that ended without a result; the message continues "what it did ...".
-struct ChildFailure : std::runtime_error {
-  using std::runtime_error::runtime_error;
+/// What a program left behind.
+struct ChildResult {
+  int exit_code = 0;
+  int signal = 0;      ///< that ended it; 0: none
+  std::string output;  ///< standard output
 };
 
-/// Runs `work` in a child process and returns the bytes that it returned there: a crash, damaged
-/// memory, leaks and endless loops of foreign code end with the child. What it writes to standard
-/// error is lost. Only the calling thread exists in the child: `work` must not wait for others.
-/// @throws std::runtime_error with the message of what `work` threw.
-/// @throws ChildFailure if it crashed, was killed, used more than `most_seconds` of processor time,
-/// or could not be started.
-std::string runInChild(const std::function<std::string()>& work, int most_seconds);
+/// Runs a program of this project, without a shell: `command` is its name and its arguments. The
+/// program is taken from the folder of the running one, where the build and the installation put
+/// both, else from the PATH. May be called from any thread.
+/// @throws std::runtime_error if it cannot be started, with the reason.
+ChildResult runChild(const std::vector<std::string>& command);
 
 }  // namespace ambient

@@ -1,5 +1,7 @@
 #include "preprocess/mesh/mass_properties.h"
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -84,6 +86,7 @@ MassAndDistribution distributionOf(const TriangleMesh& mesh, MomentsOf momentsOf
 }  // namespace
 
 MeshProperties computeMassProperties(const TriangleMesh& mesh) {
+  AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
   const MassAndDistribution inside = distributionOf(mesh, tetrahedronMoments);
   const MassAndDistribution shell = distributionOf(mesh, barycentreMoments);
   return {inside.mass, shell.mass, inside.distribution, shell.distribution};
@@ -91,6 +94,7 @@ MeshProperties computeMassProperties(const TriangleMesh& mesh) {
 
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh) {
   const MassAndDistribution sheet = distributionOf(mesh, triangleMoments);
+  AMBIENT_ASSERT(sheet.mass > 0);
   return {0, sheet.mass, sheet.distribution, distributionOf(mesh, barycentreMoments).distribution};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/mesh_shells.h"
 #include "preprocess/mesh/mesh_topology.h"
 

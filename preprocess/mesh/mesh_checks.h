@@ -1,8 +1,8 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
@@ -10,6 +10,15 @@ namespace ambient {
 /// What a mesh must be.
 struct MeshCheckSettings {
   bool sheet = false;  ///< an open surface of zero thickness; otherwise the boundary of a body
+};
+
+/// A mesh that has passed a check, possibly with triangles turned round or vertices left out, and
+/// what a user should know about that, one line each.
+struct CheckedMesh {
+  TriangleMesh mesh;
+  std::vector<std::string> warnings;
+  /// Closed parts inside the body, normals into the cavity; the fluid outside does not see them.
+  TriangleMesh cavities = {};
 };
 
 /// Checks that a mesh can stand for a body (closed, manifold, outward oriented, enclosing a volume

@@ -3,6 +3,7 @@
 #include <sstream>
 #include <utility>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {
@@ -83,6 +84,7 @@ void turnRound(TriangleMesh& mesh, Eigen::Index triangle) {
 
 CheckedMesh orientConsistently(const TriangleMesh& mesh, const MeshEdges& edges,
                                const std::string& name) {
+  AMBIENT_ASSERT(isManifold(edges));
   CheckedMesh result{mesh, {}};
   TurnSearch search(mesh, edges, name);
   std::size_t turned = 0;

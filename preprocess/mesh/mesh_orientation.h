@@ -1,21 +1,11 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
+#include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
-
-/// A mesh that has passed a check, possibly with triangles turned round or vertices left out, and
-/// what a user should know about that, one line each.
-struct CheckedMesh {
-  TriangleMesh mesh;
-  std::vector<std::string> warnings;
-  /// Closed parts inside the body, normals into the cavity; the fluid outside does not see them.
-  TriangleMesh cavities = {};
-};
 
 /// "(x, y, z)" for messages.
 std::string pointText(const Eigen::Vector3d& point);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/surface_crossing.h"
@@ -12,7 +14,7 @@
 namespace ambient {
 namespace {
 
-constexpr double kFullSphere = 4 * 3.14159265358979323846;
+constexpr double kFullSphere = 4 * kPi;
 
 // Volume over area^1.5 below which a surface encloses nothing; a square plate reaches it at a
 // thickness of 3e-6 of its side, where single-precision coordinates end. A sphere has 0.094.
@@ -184,6 +186,7 @@ void checkCrossings(CheckedMesh& checked, const MeshComponents& components,
 
 CheckedMesh orientOutward(const TriangleMesh& mesh, const MeshEdges& edges,
                           const std::string& name) {
+  AMBIENT_ASSERT(isClosed(edges));
   CheckedMesh result{mesh, {}};
   const MeshComponents components = computeMeshComponents(mesh, edges);
   const std::vector<Shell> shells = findShells(mesh, components);

@@ -33,6 +33,18 @@ MeshEdges computeMeshEdges(const TriangleMesh& mesh) {
   return result;
 }
 
+bool isManifold(const MeshEdges& edges) {
+  return std::all_of(edges.edges.begin(), edges.edges.end(),
+                     [](const EdgeGroup& edge) { return edge.size() <= 2; });
+}
+
+bool isClosed(const MeshEdges& edges) {
+  return std::all_of(edges.edges.begin(), edges.edges.end(), [&](const EdgeGroup& edge) {
+    const HalfEdge* sides = edges.half_edges.data() + edge.first;
+    return edge.size() == 2 && sides[0].forward != sides[1].forward;
+  });
+}
+
 DisjointSets::DisjointSets(std::size_t count) : parent_(count) {
   std::iota(parent_.begin(), parent_.end(), 0);
 }

@@ -31,6 +31,11 @@ struct MeshEdges {
 /// Cost O(T log T), independent of the order of the triangles up to their numbers.
 MeshEdges computeMeshEdges(const TriangleMesh& mesh);
 
+/// Every edge has one or two triangles.
+bool isManifold(const MeshEdges& edges);
+/// Every edge has two triangles, which run along it in opposite directions.
+bool isClosed(const MeshEdges& edges);
+
 /// Disjoint sets over 0 .. n - 1.
 class DisjointSets {
  public:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -98,6 +100,7 @@ class EarClipping {
 }  // namespace
 
 std::vector<Eigen::Vector3i> dividePolygon(const std::vector<Eigen::Vector3d>& corners) {
+  AMBIENT_ASSERT(corners.size() >= 3);
   if (corners.size() == 3) return {{0, 1, 2}};
   return EarClipping(projected(corners)).triangles();
 }

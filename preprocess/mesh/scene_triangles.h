@@ -10,13 +10,16 @@ namespace ambient {
 /// The triangles of a mesh file in its own frame, with one vertex list per mesh and node.
 struct SceneTriangles {
   TriangleMesh mesh;
-  std::uint64_t points_and_lines = 0;  ///< that were left out
+  std::int64_t points_and_lines = 0;  ///< that were left out
 };
 
-/// Reads a file with assimp, in a child process: damaged files make some of its readers crash or
-/// run for ever (assimp 5.2: OFF files with wrong numbers of corners, PLY files with a torn
-/// header). Polygons are divided into triangles. The child may take 10 s of processor time, and 2 s
-/// for each megabyte.
+/// Exit code of ambient_mesh_reader if it refuses the file; it has then written why.
+constexpr int kRefusedByReader = 3;
+
+/// Reads a file with the program ambient_mesh_reader, so that crashes, damaged memory and endless
+/// loops of its readers end with that program; polygons are divided into triangles. It may take
+/// 10 s of processor time, and 2 s for each megabyte. It writes three numbers of 64 bits: points
+/// and lines, vertices, triangles; then the coordinates as doubles and the corners as ints.
 /// @throws std::runtime_error in one line that begins with the file.
 SceneTriangles readSceneTriangles(const std::filesystem::path& file);
 

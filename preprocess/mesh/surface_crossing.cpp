@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "preprocess/mesh/triangle_contact.h"
 
 namespace ambient {
@@ -74,6 +75,8 @@ bool cornersTouch(const TriangleMesh& mesh, int s, int t) {
 }  // namespace
 
 SurfaceCrossings findSurfaceCrossings(const TriangleMesh& source, const std::vector<int>& part_of) {
+  AMBIENT_ASSERT(source.vertices.allFinite());
+  AMBIENT_ASSERT(static_cast<Eigen::Index>(part_of.size()) == source.triangleCount());
   const TriangleMesh mesh = inUnitSize(source);
   const std::vector<Extent> extents = sortedExtents(mesh);
   SurfaceCrossings found;

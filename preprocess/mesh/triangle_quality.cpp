@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -73,6 +75,7 @@ std::vector<TriangleQuality> findWorstTriangles(const TriangleMesh& mesh, int co
 }
 
 std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh) {
+  AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
   constexpr Index kMostRays = 2000;
   const Index step = std::max<Index>(1, mesh.triangleCount() / kMostRays);
   std::optional<Thickness> thinnest;

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
@@ -76,6 +77,7 @@ class CellGrid {
 }  // namespace
 
 TriangleMesh weldVertices(const TriangleMesh& mesh, double tolerance) {
+  AMBIENT_ASSERT(mesh.vertices.allFinite() && tolerance >= 0);
   if (mesh.vertexCount() == 0) return mesh;
   const int vertex_count = static_cast<int>(mesh.vertexCount());
   DisjointSets sets(vertex_count);

@@ -17,12 +17,11 @@ struct SolvedLevel {
 };
 
 /// On the triangles of the surface.
-SolvedLevel solveLevel(const TriangleMesh& surface, const MeshReportSettings& settings) {
-  PotentialFlowSettings flow_settings;
-  flow_settings.sheet = settings.sheet;
-  flow_settings.threads = settings.threads;
+SolvedLevel solveLevel(const TriangleMesh& surface, const PotentialFlowSettings& settings) {
+  PotentialFlowSettings undivided = settings;
+  undivided.max_panels = 0;
   const auto start = std::chrono::steady_clock::now();
-  PotentialFlow flow = solvePotentialFlow(surface, flow_settings);
+  PotentialFlow flow = solvePotentialFlow(surface, undivided);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   return {{flow.panels, seconds.count(), flow.added_mass, flow.asymmetry,
            flow.reciprocal_condition > 0 ? 1 / flow.reciprocal_condition : 0},
@@ -31,7 +30,7 @@ SolvedLevel solveLevel(const TriangleMesh& surface, const MeshReportSettings& se
 
 /// A solution on clearly fewer panels, or on about four times as many if there is none.
 std::optional<FlowLevel> solveOther(const TriangleMesh& mesh, const FlowLevel& built,
-                                    const MeshReportSettings& settings) {
+                                    const PotentialFlowSettings& settings) {
   constexpr int kMostPanels = 8000;
   for (const int divisor : {2, 3}) {
     const auto fewer = static_cast<int>(built.panels / divisor);
@@ -52,14 +51,12 @@ double blockError(const Matrix6& error, const Matrix6& value, int first) {
 
 /// A build, compared with one on about half or a third of its panels.
 std::optional<BuildEstimate> estimateBuild(const TriangleMesh& mesh,
-                                           const MeshReportSettings& settings) {
+                                           const PotentialFlowSettings& settings) {
   if (settings.max_panels <= mesh.triangleCount()) return std::nullopt;
-  PotentialFlowSettings flow_settings;
-  flow_settings.sheet = settings.sheet;
-  flow_settings.threads = settings.threads;
   const auto solve = [&](int panels) {
-    flow_settings.max_panels = panels;
-    return solveRefinedFlow(mesh, flow_settings);
+    PotentialFlowSettings divided = settings;
+    divided.max_panels = panels;
+    return solveRefinedFlow(mesh, divided);
   };
   const RefinedFlow fine = solve(settings.max_panels);
   if (fine.panels == mesh.triangleCount()) return std::nullopt;
@@ -76,14 +73,14 @@ std::optional<BuildEstimate> estimateBuild(const TriangleMesh& mesh,
 
 }  // namespace
 
-MeshReport makeMeshReport(const TriangleMesh& mesh, const MeshReportSettings& settings) {
+MeshReport makeMeshReport(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   MeshReport report;
   const MeshProperties properties =
       settings.sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
   report.origin = properties.uniform.centre;
   TriangleMesh centred = mesh;
   centred.vertices.colwise() -= report.origin;
-  report.worst_triangles = findWorstTriangles(mesh, settings.worst_triangles);
+  report.worst_triangles = findWorstTriangles(mesh, 3);
   if (!settings.sheet) report.thinnest = findThinnestPart(mesh);
 
   const TriangleMesh basis = mergeFlatTriangles(centred, settings.sheet, settings.max_panels);

@@ -6,6 +6,7 @@
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/triangle_quality.h"
+#include "preprocess/potential_flow/potential_flow.h"
 
 namespace ambient {
 
@@ -47,18 +48,11 @@ struct MeshReport {
   std::optional<Thickness> thinnest;  ///< of a body, not of a sheet
 };
 
-/// How a report is made.
-struct MeshReportSettings {
-  bool sheet = false;
-  int max_panels = 4200;    ///< as for the fluid body
-  int worst_triangles = 3;  ///< how many are listed
-  int threads = 0;          ///< 0: all cores
-};
-
+/// Of settings.max_panels, as for the fluid body. The three worst triangles are listed.
 /// Cost: that of solvePotentialFlow() on both levels, where the finer one has at most 8000 panels
 /// or those of the mesh, and of two builds.
 /// @pre the mesh passed checkMesh() as a body or as a sheet.
 /// @throws std::runtime_error as solvePotentialFlow().
-MeshReport makeMeshReport(const TriangleMesh& mesh, const MeshReportSettings& settings);
+MeshReport makeMeshReport(const TriangleMesh& mesh, const PotentialFlowSettings& settings);
 
 }  // namespace ambient

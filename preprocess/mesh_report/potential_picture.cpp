@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -130,6 +132,7 @@ std::string drawView(const std::vector<SeenTriangle>& triangles, const TriangleM
 std::string potentialPicture(const TriangleMesh& surface,
                              const Eigen::Matrix<double, Eigen::Dynamic, 6>& potential,
                              bool sheet) {
+  AMBIENT_ASSERT(potential.rows() == surface.vertexCount());
   constexpr std::array<const char*, 6> kMotions{
       "turns about x at 1 rad/s", "turns about y at 1 rad/s", "turns about z at 1 rad/s",
       "moves along x at 1 m/s",   "moves along y at 1 m/s",   "moves along z at 1 m/s"};

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -211,6 +212,7 @@ void EditableMesh::contract(int v, int target) {
 
 bool EditableMesh::flip(int a, int b) {
   const std::vector<int> sides = trianglesAt(a, b);
+  AMBIENT_ASSERT(sides.size() == 2);
   if (!areCoplanar(sides[0], sides[1])) return false;
   int t = sides[0], s = sides[1];
   // t runs from a to b.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -26,6 +27,7 @@ double integralD(Vector3 arguments) {
 }  // namespace
 
 Vector6 ellipsoidAddedMass(const Vector3& semi_axes) {
+  AMBIENT_ASSERT(semi_axes.minCoeff() > 0 && semi_axes.allFinite());
   const double size = semi_axes.maxCoeff();
   const Vector3 axes = semi_axes / size, squares = axes.cwiseAbs2();
   const double volume = 4 * kPi / 3 * axes.prod();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/potential_flow/edge_cuts.h"
 
@@ -69,6 +70,7 @@ double evenSum(double p, double q) {
 }  // namespace
 
 std::vector<FaceBulge> estimateBulges(const TriangleMesh& mesh) {
+  AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
   std::vector<VertexNormal> normals(mesh.vertexCount());
   if (!findTurns(mesh, normals)) return {};
   sumNormals(mesh, normals);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "preprocess/potential_flow/block_product.h"
 #include "preprocess/potential_flow/panel_pair.h"
 #include "preprocess/potential_flow/parallel_for.h"
@@ -94,6 +95,8 @@ PairIntegrals::Block PairIntegrals::nearBlock(int t, int s) const {
 }
 
 double PairIntegrals::entry(Index t, Index s) const {
+  AMBIENT_ASSERT(t >= 0 && s >= 0 &&
+                 std::max(t, s) < static_cast<Index>(tree_.leaf_of_panel.size()));
   if (tree_.leaf_of_panel[t] > tree_.leaf_of_panel[s]) std::swap(t, s);
   const int row = tree_.leaf_of_panel[t], column = tree_.leaf_of_panel[s];
   return nearBlock(row, column)(t - leaf(row).first, s - leaf(column).first);

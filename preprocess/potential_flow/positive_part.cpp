@@ -1,15 +1,15 @@
 #include "preprocess/potential_flow/positive_part.h"
 
-#include <Eigen/Eigenvalues>
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 
 Matrix6 positivePart(const Matrix6& K) {
   const Matrix6 symmetric = (K + K.transpose()) / 2;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(symmetric);
-  if (eigen.eigenvalues()[0] >= 0) return symmetric;
-  const Matrix6 positive = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-                           eigen.eigenvectors().transpose();
+  const SymmetricEigen<6> eigen = symmetricEigen<6>(symmetric);
+  if (eigen.values[0] >= 0) return symmetric;
+  const Matrix6 positive =
+      eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
   return (positive + positive.transpose()) / 2;
 }
 

@@ -1,6 +1,5 @@
 #include "preprocess/potential_flow/potential_flow.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/potential_flow/dense_solver.h"
 #include "preprocess/potential_flow/hierarchical_solver.h"
@@ -140,8 +140,8 @@ UnitFlow solveUnitFlow(const PanelSurface& surface, const PotentialFlowSettings&
 /// Makes the inertia symmetric positive semi-definite; returns the lowest eigenvalue over the
 /// largest if it was negative, else 0.
 double removeNegativePart(Matrix6& K) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(symmetricPart(K));
-  const double lowest = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[5];
+  const auto values = symmetricEigen<6>(symmetricPart(K)).values;
+  const double lowest = values[0], largest = values[5];
   K = positivePart(K);
   return lowest < 0 && largest > 0 ? lowest / largest : 0;
 }
@@ -151,12 +151,6 @@ double removeNegativePart(Matrix6& K) {
 PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   if (mesh.triangleCount() == 0)
     throw std::runtime_error("potential flow: the mesh has 0 triangles; it needs at least 1");
-  if (settings.true_volume < 0) {
-    std::ostringstream message;
-    message << "potential flow: the true volume is " << settings.true_volume
-            << " m^3; it must not be below 0";
-    throw std::runtime_error(message.str());
-  }
   const TriangleMesh panels = refineSurface(mesh, settings.sheet, settings.max_panels);
   if (settings.sheet) requireUnknowns(panels);
   const PanelSurface surface = makePanelSurface(panels, settings.sheet);
@@ -168,9 +162,7 @@ PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSe
   flow.reciprocal_condition = unit.reciprocal_condition;
   flow.iterations = unit.iterations;
   flow.removed_eigenvalue = removeNegativePart(unit.inertia);
-  const double size = settings.true_volume > 0 && !settings.sheet
-                          ? std::cbrt(settings.true_volume / surface.volume)
-                          : surface.length;
+  const double size = surface.length;
   flow.added_mass = symmetricPart(shiftOrigin(scaleShape(unit.inertia, size), -surface.centre));
   // The mesh's vertices come first. A rotation about its origin moves the centre c with w x c.
   const auto own = unit.potential.topRows(mesh.vertexCount());

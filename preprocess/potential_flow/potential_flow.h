@@ -14,9 +14,7 @@ constexpr Eigen::Index kMostDensePanels = 4200;
 
 /// How the six exterior Neumann problems are solved.
 struct PotentialFlowSettings {
-  bool sheet = false;      ///< the mesh is an open surface of zero thickness
-  double true_volume = 0;  ///< volume of the smooth body the mesh stands for [m^3]; 0: the mesh's
-                           ///< own. Scales the result about the centre of volume; not for sheets.
+  bool sheet = false;  ///< the mesh is an open surface of zero thickness
   int max_panels = 0;  ///< the flat faces are cut into up to so many panels where the flow needs
                        ///< them, see refineSurface(); 0: every face is a panel
   int threads = 0;     ///< 0: all cores; the result does not depend on it, bit for bit
@@ -55,8 +53,8 @@ struct PotentialFlow {
 /// @pre the mesh passed checkMesh(): closed, manifold and outward oriented (or a manifold open
 /// sheet).
 /// @throws std::runtime_error for no triangles, a triangle without area, an open or inside-out
-/// surface that is not a sheet, a sheet with a part without vertices inside its boundary, a true
-/// volume below 0, a linear system that cannot be solved, or more memory than the limit, with the
+/// surface that is not a sheet, a sheet with a part without vertices inside its boundary, a
+/// linear system that cannot be solved, or more memory than the limit, with the
 /// reason.
 PotentialFlow solvePotentialFlow(const TriangleMesh& mesh,
                                  const PotentialFlowSettings& settings = {});

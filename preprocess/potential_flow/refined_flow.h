@@ -21,7 +21,6 @@ struct RefinedFlow {
 /// triangles are the panels. And what the symmetries of the body forbid is removed, however its
 /// faces are cut. A mesh of long triangles on which two divisions disagree gets four times as many
 /// panels, unless the dense solver was asked for.
-/// @pre settings.true_volume == 0: the mesh has the volume of the body.
 /// @throws std::runtime_error as solvePotentialFlow().
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings);
 

@@ -1,11 +1,11 @@
 #include "preprocess/potential_flow/shape_symmetry.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/potential_flow/edge_cuts.h"
 
@@ -88,8 +88,7 @@ class BentEdges {
 /// Axes of the mesh and principal axes of its vertices.
 std::vector<Matrix3d> candidateAxes(const TriangleMesh& mesh, const Vector3d& centre) {
   const Eigen::Matrix3Xd offsets = mesh.vertices.colwise() - centre;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(offsets * offsets.transpose());
-  return {Matrix3d::Identity(), principal.eigenvectors()};
+  return {Matrix3d::Identity(), symmetricEigen<3>(offsets * offsets.transpose()).vectors};
 }
 
 }  // namespace

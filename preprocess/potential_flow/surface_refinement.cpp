@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -102,12 +104,14 @@ const DividedSurface* beforeHalving(const std::vector<DividedSurface>& uniform) 
 }  // namespace
 
 TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles) {
+  AMBIENT_ASSERT(mesh.triangleCount() > 0 && isManifold(computeMeshEdges(mesh)));
   DividedSurface fine = undivided(mesh);
   while (fine.mesh.triangleCount() < least_triangles) fine = cutLongEdges(fine);
   return fine.mesh;
 }
 
 TriangleMesh divideLongEdges(const TriangleMesh& mesh, double longest_edge) {
+  AMBIENT_ASSERT(longest_edge > 0 && isManifold(computeMeshEdges(mesh)));
   DividedSurface fine = undivided(mesh);
   while (true) {
     const MeshEdges edges = computeMeshEdges(fine.mesh);

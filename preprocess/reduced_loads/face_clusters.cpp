@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -67,6 +69,7 @@ void moveToMeans(const FaceTable& faces, const Features& features,
 }  // namespace
 
 FaceClusters clusterFaces(const FaceTable& faces, int count) {
+  AMBIENT_ASSERT(count > 0 && static_cast<std::size_t>(count) <= faces.size());
   const Features features = featuresOf(faces);
   Features means = farthestFirst(faces, features, count);
   std::vector<std::size_t> owner(features.size(), 0);

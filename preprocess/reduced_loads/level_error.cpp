@@ -1,11 +1,12 @@
 #include "preprocess/reduced_loads/level_error.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "bullet_ambient/force/level_loads.h"
+#include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 
 namespace ambient {
@@ -48,8 +49,9 @@ class Comparison {
     const LoadSettings without{1, 0, cosine_, false}, with{1, 1, cosine_, true};
     double scale = 0;
     for (std::size_t i = 0; i < faces_.size(); ++i)
-      scale += faces_.area[i] * std::pow(slipSquared(x, i), 0.9);
-    return ratio(difference(x, with) + -1.0 * difference(x, without), 0.5 * 0.0576 * scale);
+      scale += faces_.area[i] * std::pow(slipSquared(x, i), 1 + kReynoldsExponent / 2);
+    return ratio(difference(x, with) + -1.0 * difference(x, without),
+                 0.5 * kFrictionCoefficient * scale);
   }
 
  private:
@@ -96,9 +98,7 @@ Vector3 broadsideDirection(const FaceTable& faces) {
   Matrix3 square = Matrix3::Zero();
   for (std::size_t i = 0; i < faces.size(); ++i)
     square += faces.area[i] * faces.normal(i) * faces.normal(i).transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(Eigen::Matrix3d(square))
-      .eigenvectors()
-      .col(2);
+  return symmetricEigen<3>(square).vectors.col(2);
 }
 
 double broadsideError(const Comparison& comparison, const FaceTable& faces,

@@ -1,11 +1,11 @@
 #include "preprocess/reduced_loads/level_fit.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "bullet_ambient/force/level_loads.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 
 namespace ambient {
@@ -65,11 +65,9 @@ Cluster describe(const FaceTable& faces, const std::vector<std::size_t>& members
     const Vector6 deviation = momentOf(faces, i) - cluster.switching;
     square += faces.area[i] / cluster.area * deviation * deviation.transpose();
   }
-  using Aligned = Eigen::Matrix<double, 6, 6>;
-  const Eigen::SelfAdjointEigenSolver<Aligned> axes{Aligned(square)};
+  const SymmetricEigen<6> axes = symmetricEigen<6>(square);
   for (int j = 0; j < 2; ++j)
-    cluster.spread.row(j) =
-        std::sqrt(std::max(0.0, axes.eigenvalues()[5 - j])) * axes.eigenvectors().col(5 - j);
+    cluster.spread.row(j) = std::sqrt(std::max(0.0, axes.values[5 - j])) * axes.vectors.col(5 - j);
   cluster.curvature = std::sqrt(std::max(0.0, square.diagonal().tail<3>().sum()));
   return cluster;
 }

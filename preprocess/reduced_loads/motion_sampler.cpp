@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/pi.h"
+
 namespace ambient {
 
 double ArbitraryNumbers::uniform() {  // SplitMix64, Steele et al. 2014
@@ -20,7 +22,7 @@ Vector3 ArbitraryNumbers::direction() {
 }
 
 Vector6 sampleMotion(ArbitraryNumbers& numbers) {
-  const double angle = 1.5707963267948966 * numbers.uniform();
+  const double angle = kPi / 2 * numbers.uniform();
   Vector6 x;
   x << std::sin(angle) * numbers.direction(), std::cos(angle) * numbers.direction();
   return x;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 
@@ -17,6 +18,6 @@ constexpr int kFewestClusters = 16, kMostClusters = 1024;
 /// @throws std::invalid_argument, naming body, value and limit, for a number of clusters out of
 /// range, an angle outside [pi/2, pi] or a body without faces that have an area.
 std::vector<LoadLevel> buildLoadLevels(const FluidBody& body, const std::vector<int>& clusters,
-                                       double separation_angle = 1.5707963267948966);
+                                       double separation_angle = kPi / 2);
 
 }  // namespace ambient

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -108,6 +109,7 @@ std::filesystem::path fileOf(const ShapeDescription& shape) {
 }
 
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale) {
+  AMBIENT_ASSERT(scale > 0 && std::isfinite(scale));
   CheckedMesh checked = makeUnscaledMesh(shape);
   checked.mesh.vertices *= scale;
   checked.cavities.vertices *= scale;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "preprocess/mesh/mesh_orientation.h"
+#include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/shape/shape_description.h"
 
 namespace ambient {

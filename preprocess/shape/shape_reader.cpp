@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/json_text.h"
-#include "preprocess/shape/shape_schema.h"
 
 namespace ambient {
 namespace {
@@ -102,7 +102,8 @@ Geometry readGeometry(const ShapeSource& from) {
 
 ShapeDescription readShape(const json& shape, const std::filesystem::path& directory,
                            const std::string& source) {
-  validateShape(shape, source);
+  static const JsonSchema schema(shapeSchema(), "the shape");
+  schema.check(shape, source);
   ShapeDescription description;
   description.geometry = readGeometry({shape, directory, source});
   description.faces = shape.value("faces", ShapeDescription::kDefaultFaces);

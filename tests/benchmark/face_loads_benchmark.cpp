@@ -1,11 +1,13 @@
 #include <benchmark/benchmark.h>
 
+#include <memory>
+
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/face_sums.h"
-#include "bullet_ambient/force/fifth_root.h"
 #include "bullet_ambient/force/level_loads.h"
 #include "bullet_ambient/force/single_loads.h"
 #include "bullet_ambient/force/single_sums.h"
+#include "bullet_ambient/force/skin_friction.h"
 #include "bullet_ambient/force/sphere_loads.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/support/geodesic.h"
@@ -25,7 +27,7 @@ void reportPerFace(benchmark::State& state, std::size_t faces) {
 
 /// The kernel alone: arguments are subdivision level, instruction set, friction, angle in pi/2.
 void sumFacesKernel(benchmark::State& state, InstructionSet set, bool friction, double angle) {
-  const SumFaces sum_faces = sumFacesFor(set);
+  const SumFaces sum_faces = kSumFaces.of(set);
   if (!sum_faces) {
     state.SkipWithError("this processor does not have the instruction set");
     return;
@@ -47,7 +49,7 @@ void sumFacesKernel(benchmark::State& state, InstructionSet set, bool friction, 
 
 /// The kernel in single precision; arguments as above.
 void sumBlocksKernel(benchmark::State& state, InstructionSet set, bool friction, double angle) {
-  const SumBlocks sum_blocks = sumBlocksFor(set);
+  const SumBlocks sum_blocks = kSumBlocks.of(set);
   if (!sum_blocks) {
     state.SkipWithError("this processor does not have the instruction set");
     return;
@@ -132,8 +134,9 @@ BENCHMARK_CAPTURE(levelLoads, friction_1_5, true, 1.5)->ArgsProduct({{3}, {48, 9
 
 void sphereLoads(benchmark::State& state, bool friction, double angle) {
   const LoadSettings settings{1.204, 1.82e-5, separationCosine(angle * kRightAngle), friction};
-  const auto table =
-      needsSphereTable(settings) ? sharedSphereTable(settings.separation_cosine) : nullptr;
+  const auto table = needsSphereTable(settings)
+                         ? std::make_unique<SphereTable>(settings.separation_cosine)
+                         : nullptr;
   Twist twist = someTwist();
   for (auto _ : state) {
     benchmark::DoNotOptimize(twist);
@@ -149,7 +152,7 @@ void fifthRoot(benchmark::State& state) {
   double x = 1.7;
   for (auto _ : state) {
     benchmark::DoNotOptimize(x);
-    benchmark::DoNotOptimize(inverseFifthRoot(x));
+    benchmark::DoNotOptimize(reynoldsPower(x));
   }
 }
 BENCHMARK(fifthRoot);

@@ -174,7 +174,7 @@ void compareReduced(FluidBody shape, const Plan& plan) {
   shape.levels = buildLoadLevels(shape, {48, 96, 144, 200, 400});
   for (const double error : {0.01, 0.02, 0.03}) {
     flow.maximum_load_error = error;
-    int clusters = 0;  // as makeBodyModel() chooses
+    int clusters = 0;  // as makeSurfaceLoads() chooses
     for (const LoadLevel& level : shape.levels)
       if (clusters == 0 && level.error.p99 <= error &&
           level.cost < static_cast<double>(shape.faces.size()))

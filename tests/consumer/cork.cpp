@@ -3,11 +3,8 @@
 
 #include <cstdio>
 #include <exception>
-#include <memory>
 
-#include "bullet_ambient/bullet/ambient_action.h"
-#include "bullet_ambient/bullet/ambient_solver.h"
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/ambient.h"
 
 namespace {
 
@@ -21,29 +18,22 @@ btScalar riseInWater(const char* file) {
   btCollisionDispatcher dispatcher(&configuration);
   btDbvtBroadphase broadphase;
 
-  // The five lines that put a body into water.
-  ambient::AmbientRegistry registry;
-  ambient::AmbientSolver<> solver(registry);
-  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
-  ambient::AmbientAction action(registry);
-  world.addAction(&action);
+  ambient::Fluid<> fluid;
+  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &fluid.solver(), &configuration);
+  fluid.attachTo(world);
   world.setGravity({0, 0, -kGravity});
 
-  ambient::AttachDef def;
-  def.fluid_body = std::make_shared<ambient::FluidBody>(ambient::readFluidBody(file));
-  def.medium = ambient::water();
-
+  const ambient::AttachDef def{ambient::loadFluidBody(file), ambient::water()};
   const btScalar mass = btScalar(0.5 * def.medium.density * def.fluid_body->volume);
   btSphereShape shape(btScalar(0.05));
   btVector3 inertia;
   shape.calculateLocalInertia(mass, inertia);
   btRigidBody ball(mass, nullptr, &shape, inertia);
   world.addRigidBody(&ball);
-  registry.attach(world, ball, def);
+  fluid.add(ball, def);
 
   for (int step = 0; step < kSteps; ++step) world.stepSimulation(kTimeStep, 0, kTimeStep);
 
-  registry.detach(ball);
   world.removeRigidBody(&ball);
   return ball.getWorldTransform().getOrigin().z();
 }

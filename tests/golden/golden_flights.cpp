@@ -11,9 +11,9 @@ namespace {
 constexpr int kFlightSteps = 120;
 
 // Drag and a torque that follow no law of the library.
-class QuadraticDrag : public SurfaceLoadModel {
+class QuadraticDrag : public SurfaceLoads {
  public:
-  Wrench load(const FaceTable&, const Twist& twist, const LoadSettings&) const noexcept override {
+  Wrench load(const Twist& twist) const noexcept override {
     return {-0.05 * twist.angular, -3 * twist.linear.norm() * twist.linear};
   }
 };
@@ -55,7 +55,12 @@ std::vector<NamedDef> loadVariants(const std::string& prefix, const AttachDef& a
       named("attached", [](AttachDef& a) { a.flow.separation_angle = 2.2; }),
       named("without_friction", [](AttachDef& a) { a.flow.skin_friction = false; }),
       named("in_air", [](AttachDef& a) { a.medium = air(); }),
-      named("own_model", [](AttachDef& a) { a.flow.model = std::make_shared<QuadraticDrag>(); }),
+      named("own_model",
+            [](AttachDef& a) {
+              a.flow.own_law = [](const auto&, const auto&) {
+                return std::make_shared<QuadraticDrag>();
+              };
+            }),
       named("in_a_current",
             [](AttachDef& a) {
               a.medium.velocity = {1, -2, 0.5};

@@ -9,6 +9,9 @@
 
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/motion/rigid_state.h"
 #include "tests/golden/golden_record.h"
 
 class btMultiBody;

@@ -1,30 +1,20 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
-#include <utility>
 
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/motion/kirchhoff.h"
 #include "bullet_ambient/motion/kirchhoff_flow.h"
+#include "tests/support/body_models.h"
 
 namespace ambient::test {
 
-struct FreeBodyDef {
-  FluidBody shape;
-  MassProperties mass{1, Matrix3::Identity()};
-  Medium medium{1, 0, Vector3::Zero(), Vector3::Zero()};
-  FlowSettings flow{};
-  FrameOffset frame{};
-};
+using FreeBodyDef = BodyModelDef;
 
 /// A body in free flight, outside of any world.
 class FreeBody {
  public:
-  explicit FreeBody(FreeBodyDef def)
-      : shape_(std::make_shared<FluidBody>(std::move(def.shape))),
-        flow_(def.flow),
-        model_(makeBodyModel(*shape_, def.frame, def.mass, def.medium, flow_)) {}
+  explicit FreeBody(const FreeBodyDef& def) : model_(modelOf(def)) {}
 
   RigidState state;
   Surroundings surroundings;
@@ -62,8 +52,6 @@ class FreeBody {
   }
 
  private:
-  std::shared_ptr<const FluidBody> shape_;  // the model points into both
-  FlowSettings flow_;
   BodyModel model_;
   FlightMemory memory_;
 };

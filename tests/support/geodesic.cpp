@@ -1,5 +1,6 @@
 #include "tests/support/geodesic.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace ambient::test {

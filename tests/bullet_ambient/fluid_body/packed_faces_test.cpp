@@ -79,23 +79,5 @@ TEST(PackedFaces, LieWithinTheBoundsOfTheirBlock) {
   }
 }
 
-TEST(SharedPackedFaces, AreOnePerTable) {
-  const FaceTable faces = someFaces();
-  const auto packed = sharedPackedFaces(faces);
-  EXPECT_EQ(sharedPackedFaces(faces), packed);
-  const FaceTable same = faces;
-  EXPECT_NE(sharedPackedFaces(same), packed);
-}
-
-TEST(SharedPackedFaces, FollowATableThatChanges) {
-  FaceTable faces = someFaces();
-  const auto before = sharedPackedFaces(faces);
-  faces.area[7] *= 2;
-  const auto after = sharedPackedFaces(faces);
-  EXPECT_NE(after, before);
-  EXPECT_TRUE(after->isOf(faces));
-  EXPECT_FALSE(before->isOf(faces));
-}
-
 }  // namespace
 }  // namespace ambient

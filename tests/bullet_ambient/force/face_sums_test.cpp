@@ -59,7 +59,7 @@ std::string bitsOf(const FaceSums& sums) {
 TEST(FaceSums, HaveTheSameBitsWithEveryInstructionSet) {
   std::vector<SumFaces> kernels;
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512})
-    if (const SumFaces kernel = sumFacesFor(set)) kernels.push_back(kernel);
+    if (const SumFaces kernel = kSumFaces.of(set)) kernels.push_back(kernel);
   if (kernels.empty()) GTEST_SKIP() << "this processor has the baseline only";
   for (const std::size_t count : {0, 1, 2, 3, 7, 8, 9, 15, 16, 17, 255, 256, 257, 263, 1000}) {
     const ArbitraryFaces faces(count);
@@ -92,7 +92,7 @@ TEST(FaceSums, ReadNothingBeyondTheLastFace) {
 }
 
 TEST(FaceSums, ExistForTheBaselineEverywhere) {
-  EXPECT_EQ(sumFacesFor(InstructionSet::kBaseline), &sumFacesBaseline);
+  EXPECT_EQ(kSumFaces.of(InstructionSet::kBaseline), &sumFacesBaseline);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
-#include "bullet_ambient/force/fifth_root.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "bullet_ambient/force/skin_friction.h"
 #include "tests/support/random_bodies.h"
 
 namespace ambient {
@@ -14,7 +13,7 @@ constexpr double kUlp = std::numeric_limits<double>::epsilon();
 
 double relativeError(double x) {
   const long double exact = std::pow(static_cast<long double>(x), -0.2L);
-  return static_cast<double>(std::abs(inverseFifthRoot(x) / exact - 1));
+  return static_cast<double>(std::abs(reynoldsPower(x) / exact - 1));
 }
 
 TEST(InverseFifthRoot, IsThePowerToOneUnitInTheLastPlace) {
@@ -40,7 +39,7 @@ TEST(InverseFifthRoot, ReachesTheEndsOfTheNormalRange) {
 }
 
 TEST(InverseFifthRoot, OfZeroIsFiniteSoThatNoSlipMeansNoFriction) {
-  const double r = inverseFifthRoot(0.0);
+  const double r = reynoldsPower(0.0);
   EXPECT_TRUE(std::isfinite(r * r * r));
   EXPECT_EQ(0.0 * (r * r * r), 0);
 }
@@ -48,8 +47,8 @@ TEST(InverseFifthRoot, OfZeroIsFiniteSoThatNoSlipMeansNoFriction) {
 TEST(InverseFifthRoot, OfSubnormalNumbersIsPositiveAndFinite) {
   for (const double x :
        {std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::min() / 3}) {
-    EXPECT_GT(inverseFifthRoot(x), 0);
-    EXPECT_TRUE(std::isfinite(inverseFifthRoot(x)));
+    EXPECT_GT(reynoldsPower(x), 0);
+    EXPECT_TRUE(std::isfinite(reynoldsPower(x)));
   }
 }
 

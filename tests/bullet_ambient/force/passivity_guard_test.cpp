@@ -17,8 +17,8 @@ TEST(PassivityGuard, LeavesALoadThatBrakesAsItIs) {
     const Twist x = arbitrary.twist();
     Wrench f{arbitrary.vector(), arbitrary.vector()};
     if (power(f, x) > 0) f = -1 * f;
-    const GuardedWrench guarded = removePositivePower(f, x, arbitrary.positiveDefinite());
-    EXPECT_FALSE(guarded.acted);
+    const SurfaceLoad guarded = removePositivePower(f, x, arbitrary.positiveDefinite());
+    EXPECT_FALSE(guarded.guarded);
     EXPECT_EQ(guarded.wrench.vector(), f.vector());
   }
 }
@@ -30,8 +30,8 @@ TEST(PassivityGuard, TakesExactlyThePowerAway) {
     Wrench f{arbitrary.vector(), arbitrary.vector()};
     if (power(f, x) < 0) f = -1 * f;
     const Matrix6 K = arbitrary.positiveDefinite();
-    const GuardedWrench guarded = removePositivePower(f, x, K);
-    EXPECT_TRUE(guarded.acted);
+    const SurfaceLoad guarded = removePositivePower(f, x, K);
+    EXPECT_TRUE(guarded.guarded);
     EXPECT_NEAR(power(guarded.wrench, x), 0,
                 kRounding * guarded.wrench.vector().norm() * x.vector().norm());
     const Vector6 expected =
@@ -45,8 +45,8 @@ TEST(PassivityGuard, TakesTheLoadAwayAlongTheMomentumOnly) {
   const Twist x = arbitrary.twist();
   const Matrix6 K = arbitrary.positiveDefinite();
   const Wrench f = Wrench::fromVector(K * x.vector() + arbitrary.twist(0.1, 0.1).vector());
-  const GuardedWrench guarded = removePositivePower(f, x, K);
-  ASSERT_TRUE(guarded.acted);
+  const SurfaceLoad guarded = removePositivePower(f, x, K);
+  ASSERT_TRUE(guarded.guarded);
   // Hence the acceleration changes along the motion: K^-1 K x = x.
   const Vector6 change = guarded.wrench.vector() - f.vector();
   const Vector6 direction = (K * x.vector()).normalized();
@@ -60,8 +60,8 @@ TEST(PassivityGuard, DoesNotDependOnTheSizeOfTheMotion) {
   const Wrench f = Wrench::fromVector(K * x.vector());
   const Vector6 expected = removePositivePower(f, x, K).wrench.vector();
   for (const double size : {0x1p-1000, 0x1p-300, 0x1p300, 0x1p1000}) {
-    const GuardedWrench guarded = removePositivePower(f, {size * x.angular, size * x.linear}, K);
-    EXPECT_TRUE(guarded.acted) << size;
+    const SurfaceLoad guarded = removePositivePower(f, {size * x.angular, size * x.linear}, K);
+    EXPECT_TRUE(guarded.guarded) << size;
     EXPECT_EQ(guarded.wrench.vector(), expected) << size;
   }
 }
@@ -69,8 +69,8 @@ TEST(PassivityGuard, DoesNotDependOnTheSizeOfTheMotion) {
 TEST(PassivityGuard, LeavesTheLoadOfABodyAtRestAsItIs) {
   test::Arbitrary arbitrary(55);
   const Wrench f{arbitrary.vector(), arbitrary.vector()};
-  const GuardedWrench guarded = removePositivePower(f, Twist{}, arbitrary.positiveDefinite());
-  EXPECT_FALSE(guarded.acted);
+  const SurfaceLoad guarded = removePositivePower(f, Twist{}, arbitrary.positiveDefinite());
+  EXPECT_FALSE(guarded.guarded);
   EXPECT_EQ(guarded.wrench.vector(), f.vector());
 }
 
@@ -81,8 +81,8 @@ TEST(PassivityGuard, LeavesWhatIsNotFiniteToTheCaller) {
   const Wrench f = Wrench::fromVector(K * x.vector());
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    EXPECT_FALSE(removePositivePower(f, {Vector3::Constant(bad), x.linear}, K).acted);
-    EXPECT_FALSE(removePositivePower({f.torque, Vector3::Constant(bad)}, x, K).acted);
+    EXPECT_FALSE(removePositivePower(f, {Vector3::Constant(bad), x.linear}, K).guarded);
+    EXPECT_FALSE(removePositivePower({f.torque, Vector3::Constant(bad)}, x, K).guarded);
   }
 }
 

@@ -43,7 +43,7 @@ TEST(SingleSums, HaveTheSameBitsWithEveryInstructionSet) {
   const FaceTable body = arbitrary.body(3);
   std::vector<SumBlocks> kernels;
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512})
-    if (const SumBlocks kernel = sumBlocksFor(set)) kernels.push_back(kernel);
+    if (const SumBlocks kernel = kSumBlocks.of(set)) kernels.push_back(kernel);
   if (kernels.empty()) GTEST_SKIP() << "this processor has the baseline only";
   for (const std::size_t count : {0, 1, 7, 15, 16, 17, 255, 256, 257, 1000}) {
     const PackedFaces faces(firstFaces(body, count));

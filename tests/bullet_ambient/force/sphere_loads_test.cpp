@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "tests/reference/sphere_loads.h"
 #include "tests/support/random_bodies.h"
@@ -24,7 +25,8 @@ class Sphere {
  public:
   explicit Sphere(double right_angles, bool friction = true)
       : settings_{kDensity, kViscosity, separationCosine(right_angles * kPi / 2), friction} {
-    if (needsSphereTable(settings_)) table_ = sharedSphereTable(settings_.separation_cosine);
+    static LoadTables tables;
+    if (needsSphereTable(settings_)) table_ = tables.sphereTable(settings_.separation_cosine);
   }
   FaceLoads loads(const Twist& twist) const {
     return computeSphereLoads(table_.get(), kRadius, kLength, twist, settings_);

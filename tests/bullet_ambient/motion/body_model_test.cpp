@@ -25,7 +25,7 @@ struct Input {
   Medium medium = water();
   FlowSettings flow;
 
-  BodyModel make() const { return makeBodyModel(shape, frame, mass, medium, flow); }
+  BodyModel make() const { return test::modelOf({shape, mass, medium, flow, frame}); }
 };
 
 TEST(BodyModel, AddsTheFluidsInertiaToTheBodys) {

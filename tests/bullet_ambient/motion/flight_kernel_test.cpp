@@ -89,13 +89,13 @@ bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
 class FlightKernels : public ::testing::TestWithParam<InstructionSet> {};
 
 TEST_P(FlightKernels, HaveTheBitsOfTheBaseline) {
-  const FlightKernel* kernel = flightKernelFor(GetParam());
+  const FlightKernel* kernel = kFlightKernels.of(GetParam());
   if (!kernel) GTEST_SKIP() << "this processor does not have the instructions";
   for (unsigned seed = 0; seed < 40; ++seed) {
     for (const double time : {1e-3, 1.0 / 60, 3.0}) {
       FlightLanes baseline = arbitraryLanes(seed, time);
       FlightLanes other = baseline;
-      substep(baselineFlightKernel(), baseline);
+      substep(kFlightKernelBaseline, baseline);
       substep(*kernel, other);
       for (int i = 0; i < kFlightLanes; ++i) {
         if (!(baseline.active[i] > 0)) continue;
@@ -107,7 +107,7 @@ TEST_P(FlightKernels, HaveTheBitsOfTheBaseline) {
 }
 
 TEST_P(FlightKernels, MoveABodyByTheSameBitsWhoeverFliesBesideIt) {
-  const FlightKernel* kernel = flightKernelFor(GetParam());
+  const FlightKernel* kernel = kFlightKernels.of(GetParam());
   if (!kernel) GTEST_SKIP() << "this processor does not have the instructions";
   for (unsigned seed = 0; seed < 40; ++seed) {
     FlightLanes together = arbitraryLanes(seed, 0.1);
@@ -125,7 +125,7 @@ TEST_P(FlightKernels, MoveABodyByTheSameBitsWhoeverFliesBesideIt) {
 }
 
 TEST_P(FlightKernels, LeaveBodiesAloneThatAreNotActive) {
-  const FlightKernel* kernel = flightKernelFor(GetParam());
+  const FlightKernel* kernel = kFlightKernels.of(GetParam());
   if (!kernel) GTEST_SKIP() << "this processor does not have the instructions";
   FlightLanes lanes = arbitraryLanes(1, 0.1);
   for (double& active : lanes.active) active = 0;

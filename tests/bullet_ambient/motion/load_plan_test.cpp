@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/motion/body_model.h"
+#include "bullet_ambient/force/single_loads.h"
+#include "tests/support/body_models.h"
 #include "tests/support/ellipsoid_body.h"
 #include "tests/support/random_bodies.h"
 
-// What a body's model keeps of its loads, decided once when it is made.
+// How the loads on a body are evaluated, decided once when they are made.
 namespace ambient::test {
 namespace {
 
@@ -17,50 +18,66 @@ FluidBody ball(double sphere_radius = kRadius) {
   return body;
 }
 
-BodyModel modelOf(const FluidBody& body, const Medium& medium, const FlowSettings& flow = {},
-                  const FrameOffset& frame = {}) {
-  return makeBodyModel(body, frame, {2, 0.07 * Matrix3::Identity()}, medium, flow);
+std::shared_ptr<const SurfaceLoads> loadsOn(const FluidBody& body, const Medium& medium,
+                                            const FlowSettings& flow = {}) {
+  return makeSurfaceLoads(std::make_shared<const FluidBody>(body), medium, flow, loadTables());
 }
 
-FlowSettings withAngle(double angle, bool friction = true) {
+const Twist kTwist{{3, -2, 5}, {4, 1, -2}};
+
+FlowSettings withAngle(double angle) {
   FlowSettings flow;
   flow.separation_angle = angle;
-  flow.skin_friction = friction;
   return flow;
 }
 
-TEST(LoadPlan, WithoutDensityNothingIsKept) {
-  const FluidBody body = ball(0);
-  const BodyModel model = modelOf(body, Medium{});
-  EXPECT_FALSE(model.has_surface_loads);
-  EXPECT_EQ(model.packed_faces, nullptr);
-  const FluidBody sphere = ball();
-  EXPECT_EQ(modelOf(sphere, Medium{}).sphere_table, nullptr);
+TEST(LoadPlan, WithoutDensityOrSurfaceThereAreNone) {
+  EXPECT_EQ(loadsOn(ball(0), Medium{}), nullptr);
+  EXPECT_EQ(loadsOn(ball(), Medium{}), nullptr);
+  EXPECT_EQ(loadsOn(facelessEllipsoid(Vector3::Constant(kRadius)), air()), nullptr);
 }
 
-TEST(LoadPlan, ASphereKeepsNoFacesAndATableOnlyWhereItNeedsOne) {
-  const FluidBody body = ball();
-  Medium inviscid = air();
-  inviscid.viscosity = 0;
-  for (const BodyModel& model :
-       {modelOf(body, inviscid), modelOf(body, air(), withAngle(kRightAngle, false))}) {
-    EXPECT_TRUE(model.has_surface_loads);
-    EXPECT_EQ(model.packed_faces, nullptr);
-    EXPECT_EQ(model.sphere_table, nullptr);
+TEST(LoadPlan, ASphereSumsNoFacesAndFeedsNoBody) {
+  for (const double angle : {kRightAngle, 2.0}) {
+    const auto loads = loadsOn(ball(), air(), withAngle(angle));
+    EXPECT_EQ(loads->faces(), 0);
+    EXPECT_FALSE(loads->needsGuard());
   }
-  const BodyModel in_air = modelOf(body, air()), wetted = modelOf(body, inviscid, withAngle(2));
-  EXPECT_EQ(in_air.packed_faces, nullptr);
-  EXPECT_NE(in_air.sphere_table, nullptr);
-  EXPECT_NE(wetted.sphere_table, nullptr);
-  EXPECT_EQ(modelOf(body, water()).sphere_table, in_air.sphere_table) << "one for all";
 }
 
-TEST(LoadPlan, FacesAreKeptInOnePrecision) {
+TEST(LoadPlan, FacesAreSummedInThePrecisionOfTheSettings) {
   const FluidBody body = ball(0);
-  EXPECT_NE(modelOf(body, air()).packed_faces, nullptr);
+  const double length = std::sqrt(body.area);
   FlowSettings flow;
+  const auto single = loadsOn(body, air(), flow);
   flow.precision = LoadPrecision::kDouble;
-  EXPECT_EQ(modelOf(body, air(), flow).packed_faces, nullptr);
+  const auto both = loadsOn(body, air(), flow);
+  const LoadSettings settings = loadSettings(air(), flow);
+  EXPECT_EQ(single->load(kTwist).vector(),
+            computeFaceLoad(PackedFaces(body.faces), length, kTwist, settings).vector());
+  const FaceLoads parts = computeFaceLoads(body.faces, length, kTwist, settings);
+  EXPECT_EQ(both->load(kTwist).vector(), parts.total().vector());
+  EXPECT_EQ(both->parts(kTwist).friction.vector(), parts.friction.vector());
+  for (const auto& loads : {single, both}) EXPECT_EQ(loads->faces(), 5120);
+}
+
+TEST(LoadPlan, FacesNeedTheGuardBeyondARightAngle) {
+  EXPECT_FALSE(loadsOn(ball(0), air())->needsGuard());
+  EXPECT_TRUE(loadsOn(ball(0), air(), withAngle(2))->needsGuard());
+}
+
+TEST(LoadPlan, LoadsOutliveWhatTheyWereMadeOf) {
+  for (const LoadPrecision precision : {LoadPrecision::kSingle, LoadPrecision::kDouble}) {
+    auto body = std::make_shared<const FluidBody>(ball(0));
+    FlowSettings flow;
+    flow.precision = precision;
+    LoadTables tables;
+    const auto loads = makeSurfaceLoads(body, air(), flow, tables);
+    const Vector6 before = loads->load(kTwist).vector();
+    body.reset();
+    tables = {};
+    EXPECT_EQ(loads->load(kTwist).vector(), before);
+  }
 }
 
 TEST(LoadPlan, ASphereAwayFromTheCentreOfMassIsLoadedAsItsMesh) {
@@ -79,8 +96,9 @@ TEST(LoadPlan, ASphereAwayFromTheCentreOfMassIsLoadedAsItsMesh) {
     }
   }
   for (const double angle : {kRightAngle, 1.5 * kRightAngle}) {
-    const BodyModel of_faces = modelOf(faces, air(), withAngle(angle), frame);
-    const BodyModel of_sphere = modelOf(sphere, air(), withAngle(angle), frame);
+    const MassProperties mass{2, 0.07 * Matrix3::Identity()};
+    const BodyModel of_faces = modelOf({faces, mass, air(), withAngle(angle), frame});
+    const BodyModel of_sphere = modelOf({sphere, mass, air(), withAngle(angle), frame});
     for (int i = 0; i < 20; ++i) {
       const Twist twist = arbitrary.twist(1 / kRadius);
       const Wrench expected = computeSurfaceLoad(of_faces, twist).wrench;
@@ -94,7 +112,7 @@ TEST(LoadPlan, ASphereAwayFromTheCentreOfMassIsLoadedAsItsMesh) {
 }
 
 TEST(LoadPlan, RefusesARadiusThatIsNotPossible) {
-  EXPECT_THROW(modelOf(ball(-1), air()), std::invalid_argument);
+  EXPECT_THROW(modelOf({ball(-1)}), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "tests/support/body_models.h"
 #include "tests/support/ellipsoid_body.h"
 
 namespace ambient {
@@ -22,7 +23,7 @@ Vector3 endOf(const Launch& launch, int mesh_level, LoadPrecision precision) {
   flow.precision = precision;
   const MassProperties mass{launch.mass,
                             test::ellipsoidMoments(launch.semi_axes, launch.mass).asDiagonal()};
-  const BodyModel model = makeBodyModel(shape, {}, mass, air(), flow);
+  const BodyModel model = test::modelOf({shape, mass, air(), flow});
   Surroundings surroundings;
   surroundings.gravity = {0, 0, -9.81};
   surroundings.applied.force = launch.mass * surroundings.gravity;

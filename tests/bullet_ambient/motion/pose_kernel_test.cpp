@@ -17,7 +17,7 @@ using test::Arbitrary;
 class PoseKernels : public ::testing::TestWithParam<InstructionSet> {
  protected:
   void SetUp() override {
-    kernel_ = flightKernelFor(GetParam());
+    kernel_ = kFlightKernels.of(GetParam());
     if (!kernel_) GTEST_SKIP() << "this processor does not have the instructions";
   }
 
@@ -130,8 +130,8 @@ TEST_P(PoseKernels, HaveTheBitsOfTheBaseline) {
     ArrivalLanes other_arrival = arrival;
     kernel_->depart(departure);
     kernel_->arrive(arrival);
-    baselineFlightKernel().depart(other_departure);
-    baselineFlightKernel().arrive(other_arrival);
+    kFlightKernelBaseline.depart(other_departure);
+    kFlightKernelBaseline.arrive(other_arrival);
     EXPECT_EQ(std::memcmp(departure.orientation, other_departure.orientation,
                           sizeof departure.orientation),
               0);

@@ -11,10 +11,10 @@ using test::FreeBody;
 using test::FreeBodyDef;
 
 // Drag c |v| v against the motion of a sphere's centre.
-class QuadraticDrag : public SurfaceLoadModel {
+class QuadraticDrag : public SurfaceLoads {
  public:
   explicit QuadraticDrag(double coefficient) : coefficient_(coefficient) {}
-  Wrench load(const FaceTable&, const Twist& twist, const LoadSettings&) const noexcept override {
+  Wrench load(const Twist& twist) const noexcept override {
     return {Vector3::Zero(), -coefficient_ * twist.linear.norm() * twist.linear};
   }
 
@@ -22,26 +22,26 @@ class QuadraticDrag : public SurfaceLoadModel {
   double coefficient_;
 };
 
-class Thrust : public SurfaceLoadModel {
+class Thrust : public SurfaceLoads {
  public:
-  Wrench load(const FaceTable&, const Twist& twist, const LoadSettings&) const noexcept override {
+  Wrench load(const Twist& twist) const noexcept override {
     return {Vector3::Zero(), 3 * twist.linear};
   }
 };
 
-FreeBody ballUnder(std::shared_ptr<const SurfaceLoadModel> model, Integrator integrator) {
+FreeBody ballUnder(std::shared_ptr<const SurfaceLoads> loads, Integrator integrator) {
   FreeBodyDef def;
   Matrix6 added = Matrix6::Zero();
   added.bottomRightCorner<3, 3>() = 0.5 * Matrix3::Identity();
   def.shape = test::shapeWithoutFaces(added);
-  def.flow.model = std::move(model);
+  def.flow.own_law = [loads = std::move(loads)](const auto&, const LoadSettings&) { return loads; };
   FreeBody ball(def);
   ball.settings.integrator = integrator;
   ball.state.twist.linear = {3, 0, 4};
   return ball;
 }
 
-TEST(SurfaceLoadModel, SlowsABodyByItsOwnLaw) {
+TEST(LoadLaw, SlowsABodyByItsOwnLaw) {
   const double c = 0.2, m = 1.5, speed = 5, time = 2;
   for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kRungeKutta4}) {
     FreeBody ball = ballUnder(std::make_shared<QuadraticDrag>(c), integrator);
@@ -52,7 +52,7 @@ TEST(SurfaceLoadModel, SlowsABodyByItsOwnLaw) {
   }
 }
 
-TEST(SurfaceLoadModel, CannotFeedTheBody) {
+TEST(LoadLaw, CannotFeedTheBody) {
   FreeBody ball = ballUnder(std::make_shared<Thrust>(), Integrator::kPassiveLeapfrog);
   const double before = ball.kineticEnergy();
   ball.advance(1.0 / 60, 60);

@@ -1,13 +1,14 @@
 // The laws of the models that the demos compare with, on a sphere.
 
+#include "demos/rivals/rival_laws.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
+#include "bullet_ambient/force/surface_loads.h"
 #include "bullet_ambient/spatial/pi.h"
-#include "demos/rivals/linear_drag.h"
-#include "demos/rivals/windward_flux.h"
 #include "tests/support/ellipsoid_body.h"
 
 namespace ambient {
@@ -16,16 +17,17 @@ namespace {
 constexpr double kRadius = 0.11;
 constexpr double kDensity = 1.204;
 
-Wrench loadOnBall(const SurfaceLoadModel& model, const Twist& twist) {
+Wrench loadOnBall(const LoadLaw& law, const Twist& twist) {
   LoadSettings settings;
   settings.density = kDensity;
-  return model.load(test::gaussSphere(kRadius).faces, twist, settings);
+  const auto ball = std::make_shared<const FluidBody>(test::gaussSphere(kRadius));
+  return law(ball, settings)->load(twist);
 }
 
 TEST(LinearDrag, OfASphereIsForceByVelocityAndTorqueBySpin) {
   const double drag_speed = 0.7;
   const Twist twist{{5, -3, 60}, {30, 4, -2}};
-  const Wrench load = loadOnBall(LinearDrag(drag_speed), twist);
+  const Wrench load = loadOnBall(linearDrag(drag_speed), twist);
   const double area = 4 * kPi * kRadius * kRadius;
   const Vector3 force = -kDensity * drag_speed * area * twist.linear;
   const Vector3 torque =
@@ -36,14 +38,14 @@ TEST(LinearDrag, OfASphereIsForceByVelocityAndTorqueBySpin) {
 
 TEST(LinearDrag, RefusesASpeedThatIsNotPositive) {
   for (const double speed : {0.0, -1.0, std::nan("")})
-    EXPECT_THROW(LinearDrag{speed}, std::invalid_argument);
+    EXPECT_THROW(linearDrag(speed), std::invalid_argument);
 }
 
 TEST(WindwardFlux, OfASphereHasDragOneAndASideForceAgainstMagnus) {
   // With v along z the faces' rule integrates the windward half exactly.
   const double speed = 30, spin = 60;
   const Twist twist{{spin, 0, 0}, {0, 0, speed}};
-  const Wrench load = loadOnBall(WindwardFlux(), twist);
+  const Wrench load = loadOnBall(windwardFlux(), twist);
   const double drag = 0.5 * kDensity * speed * speed * kPi * kRadius * kRadius;
   const double side = kPi / 3 * kDensity * std::pow(kRadius, 3) * speed * spin;
   // Magnus' force is along w x v = -y.
@@ -55,7 +57,7 @@ TEST(WindwardFlux, OfASphereHasDragOneAndASideForceAgainstMagnus) {
 TEST(WindwardFlux, TakesPowerFromEveryMotion) {
   for (const Twist& twist : {Twist{{1, 2, 3}, {0, 0, 0}}, Twist{{-40, 5, 90}, {3, -7, 1}},
                              Twist{{0, 0, 0}, {0.1, 0.2, 0.3}}})
-    EXPECT_LE(power(loadOnBall(WindwardFlux(), twist), twist), 0);
+    EXPECT_LE(power(loadOnBall(windwardFlux(), twist), twist), 0);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "demos/simulation/trajectory_file.h"
+#include "demos/simulation/trajectory_text.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_files.h"
 
@@ -59,7 +59,7 @@ TEST(OutputFolder, CannotBeAFile) {
   EXPECT_THROW(OutputFolder(folder / "a/b"), std::runtime_error);
 }
 
-TEST(TrajectoryFile, RowsCarrySeventeenDigitsInTheOrderOfTheHeader) {
+TEST(TrajectoryText, RowsCarrySeventeenDigitsInTheOrderOfTheHeader) {
   MotionSample sample;
   sample.time = 0.1;
   sample.position = Vector3(1.0 / 3, 2, -1e-7);

@@ -26,7 +26,7 @@ inline Scene readNamedScene(const std::string& name,
 /// Runs a scene with bodies prepared before; the trajectory file is thrown away.
 inline RunRecord runPrepared(const Scene& scene, const std::vector<PreparedBody>& bodies) {
   const TemporaryFolder folder;
-  TrajectoryFile file(folder / "trajectory.csv");
+  OutputFile file(folder / "trajectory.csv");
   return runScene(scene, bodies, file, true);
 }
 
@@ -48,7 +48,7 @@ inline Scene readCoarseScene(const std::string& name, const TemporaryFolder& fol
   ShapeBuildSettings settings;
   settings.name = name;
   settings.origin = Vector3::Zero();
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   const std::filesystem::path file = folder / (name + ".ambient");
   if (!std::filesystem::exists(file))
     writeFluidBody(buildShape(readNamedScene(name, overrides).bodies[0].shape, settings).body,

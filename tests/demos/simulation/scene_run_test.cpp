@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "demos/simulation/summary.h"
+#include "demos/simulation/trajectory_text.h"
 #include "preprocess/builder/shape_builder.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/demos/simulation/run_scene.h"
@@ -40,7 +41,7 @@ TEST(SceneRun, WritesOneRowPerBodyAndOutputTime) {
   const Scene scene = sceneFrom(text);
   const TemporaryFolder folder;
   const auto path = folder / "trajectory.csv";
-  TrajectoryFile file(path);
+  OutputFile file(path);
   runScene(scene, prepare(scene), file, true);
   file.commit();
 

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "bullet_ambient/bullet/world_state_codec.h"
+#include "bullet_ambient/bullet/world_state.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "tests/fuzz/targets/fuzz_file.h"
 #include "tests/fuzz/targets/seed_bodies.h"

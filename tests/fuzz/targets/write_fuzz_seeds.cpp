@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "bullet_ambient/bullet/world_state_codec.h"
+#include "bullet_ambient/bullet/world_state.h"
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "tests/fuzz/targets/seed_bodies.h"
 

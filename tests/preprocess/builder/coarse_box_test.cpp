@@ -71,7 +71,7 @@ TEST(CoarseBox, SquareRodOneToTwentyIsRightAtDefaultSettings) {
 
 TEST(CoarseBox, WithoutMorePanelsItIsWrongByTensOfPercent) {
   BuildSettings settings;
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   const Vector6 K = diagonalOf(makeFluidBody(plainBox({1, 1, 1}), settings));
   EXPECT_GT(std::abs(K[3] / (8 * reference::cubeAddedMassCoefficient()) - 1), 0.1);
 }
@@ -82,7 +82,7 @@ TEST(CoarseBox, SpinIsDampedRightOnceTheFacesAreDivided) {
   const auto dampingOf = [](int least_faces) -> Vector6 {
     BuildSettings settings;
     settings.least_faces = least_faces;
-    settings.max_panels = 0;
+    settings.flow.max_panels = 0;
     const FluidBody body = makeFluidBody(plainBox({1, 1, 1}), settings);
     EXPECT_GE(body.faces.size(), static_cast<std::size_t>(least_faces));
     LoadSettings medium;
@@ -99,7 +99,7 @@ TEST(CoarseBox, SpinIsDampedRightOnceTheFacesAreDivided) {
 
 TEST(CoarseBox, SmoothMeshesAreSolvedOnTheirOwnTriangles) {
   BuildSettings settings;
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   const TriangleMesh egg = makeEllipsoidMesh({1, 0.8, 0.7}, 1300);
   EXPECT_EQ(makeFluidBody(egg, settings).added_mass, makeFluidBody(egg, {}).added_mass);
 }

@@ -40,7 +40,7 @@ BuiltBody buildText(const std::string& shape, const ShapeBuildSettings& settings
 TEST(FluidBodyBuilder, BodiesSatisfyTheChecksOfTheFile) {
   checkFluidBody(build(cone()), "cone");
   BuildSettings sheet;
-  sheet.sheet = true;
+  sheet.flow.sheet = true;
   checkFluidBody(build(makeRectangularSheetMesh(1, 2, 200), sheet), "sheet");
 }
 
@@ -102,17 +102,17 @@ TEST(FluidBodyBuilder, TwoTrianglesAreASheet) {
   square.triangles << 0, 0, 1, 2, 2, 3;
   BuildSettings settings;
   settings.name = "square";
-  settings.sheet = true;
-  settings.max_panels = 1000;
+  settings.flow.sheet = true;
+  settings.flow.max_panels = 1000;
   const FluidBody sheet = makeFluidBody(square, settings);
   EXPECT_EQ(sheet.faces.size(), 4u);
   const reference::SheetAddedMass exact = reference::rectangleAddedMass(1);
   // Measured 6e-4 and 3e-4.
   EXPECT_NEAR(sheet.added_mass(0, 0) / exact.w_x, 1, 1e-3);
   EXPECT_NEAR(sheet.added_mass(5, 5) / exact.v_z, 1, 5e-4);
-  settings.max_panels = 32;  // the coarser division has no vertex inside
+  settings.flow.max_panels = 32;  // the coarser division has no vertex inside
   EXPECT_NEAR(makeFluidBody(square, settings).added_mass(5, 5) / exact.v_z, 1, 0.2);
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   EXPECT_EQ(messageOf([&] { makeFluidBody(square, settings); }),
             "square: potential flow: the sheet of 2 panels, or a part of it, has no vertex inside "
             "its boundary: it must be divided into more panels");
@@ -120,7 +120,7 @@ TEST(FluidBodyBuilder, TwoTrianglesAreASheet) {
 
 TEST(FluidBodyBuilder, SheetsHaveTwoSidesAndNoVolume) {
   BuildSettings settings;
-  settings.sheet = true;
+  settings.flow.sheet = true;
   const TriangleMesh mesh = makeRectangularSheetMesh(0.4, 0.3, 200);
   const FluidBody sheet = build(mesh, settings);
   const auto count = static_cast<std::size_t>(mesh.triangleCount());
@@ -137,27 +137,16 @@ TEST(FluidBodyBuilder, SheetsHaveTwoSidesAndNoVolume) {
 
 TEST(FluidBodyBuilder, ThreadsDoNotChangeABit) {
   BuildSettings settings;
-  settings.threads = 1;
+  settings.flow.threads = 1;
   const std::string one = encodeFluidBody(build(cone(), settings), "one");
-  settings.threads = 3;
+  settings.flow.threads = 3;
   EXPECT_EQ(encodeFluidBody(build(cone(), settings), "three"), one);
-}
-
-TEST(FluidBodyBuilder, TrueVolumeScalesTheBodyAboutItsCentre) {
-  const FluidBody body = build(cone());
-  BuildSettings settings;
-  settings.true_volume = 1.331 * body.volume;
-  const FluidBody larger = build(cone(), settings);
-  EXPECT_NEAR(larger.volume / settings.true_volume, 1, 1e-14);
-  EXPECT_LT((larger.origin - body.origin).norm(), 1e-15);
-  EXPECT_LT(relativeError(larger.added_mass, scaleShape(body.added_mass, 1.1)), 1e-12);
-  EXPECT_NEAR(larger.area / body.area, 1.21, 1e-13);
 }
 
 TEST(FluidBodyBuilder, MeshesTooLargeForTheMemoryAreRefused) {
   const TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 20000);
   BuildSettings settings;
-  settings.memory_limit = 5e7;
+  settings.flow.memory_limit = 5e7;
   const std::string message = messageOf([&] { build(mesh, settings); });
   EXPECT_EQ(message.find("thing: potential flow: 19220 panels need 0.0"), 0u) << message;
   EXPECT_NE(message.find(" GB of memory, more than the 0.05 GB that may be used"),
@@ -185,7 +174,7 @@ TEST(ShapeBuilder, SphereHasHalfItsVolumeAsAddedMass) {
   expected.bottomRightCorner<3, 3>() = volume / 2 * Matrix3::Identity();
   EXPECT_LT(relativeError(sphere.body.added_mass, expected), 1e-14);
   ShapeBuildSettings solved;
-  solved.solver = FlowSolverKind::Dense;
+  solved.flow.solver = FlowSolverKind::Dense;
   const double discretisation = relativeError(buildText(text, solved).body.added_mass, expected);
   EXPECT_GT(discretisation, 1e-9);
   EXPECT_LT(discretisation, 3e-5);  // at 1280 faces, measured 1e-5
@@ -234,7 +223,7 @@ TEST(ShapeBuilder, DiscConvergesToLambWithSecondOrder) {
   const double a = 0.5, broadside = 8.0 / 3 * a * a * a, turning = 16.0 / 45 * std::pow(a, 5);
   std::vector<double> errors, turning_errors;
   ShapeBuildSettings own_triangles;
-  own_triangles.max_panels = 0;
+  own_triangles.flow.max_panels = 0;
   for (const char* faces : {"288", "1152"}) {
     const FluidBody disc =
         buildText(R"({"type":"sheet","semi_axes":[0.5,0.5],"faces":)" + std::string(faces) + "}",
@@ -284,7 +273,7 @@ TEST(ShapeBuilder, SkinnyTrianglesOfFilesAreWarnedAbout) {
   shape.geometry = MeshShape{folder.path() / "box.obj"};
   shape.source = "box.obj";
   ShapeBuildSettings settings;
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   const auto warningsOf = [&](double thickness) {
     writeText(folder.path() / "box.obj", objText(makeBoxMesh({1, 1, thickness}, 200)));
     return buildShape(shape, settings).warnings;

@@ -19,7 +19,7 @@ namespace {
 ShapeBuildSettings quick() {
   ShapeBuildSettings settings;
   settings.name = "thing";
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   return settings;
 }
 
@@ -63,7 +63,7 @@ TEST_F(Reuse, OtherSettingsAreNot) {
   settings.origin = Eigen::Vector3d::Zero();
   EXPECT_FALSE(isSame(shape(), settings));
   settings = quick();
-  settings.max_panels = 100;
+  settings.flow.max_panels = 100;
   EXPECT_FALSE(isSame(shape(), settings));
   settings = quick();
   settings.least_faces = 100;
@@ -72,10 +72,10 @@ TEST_F(Reuse, OtherSettingsAreNot) {
   settings.name = "other";
   EXPECT_FALSE(isSame(shape(), settings));
   settings = quick();
-  settings.threads = 1;
-  settings.memory_limit = 1e12;
+  settings.flow.threads = 1;
+  settings.flow.memory_limit = 1e12;
   EXPECT_TRUE(isSame(shape(), settings)) << "threads and memory do not change the result";
-  settings.solver = FlowSolverKind::Hierarchical;
+  settings.flow.solver = FlowSolverKind::Hierarchical;
   EXPECT_FALSE(isSame(shape(), settings));
 }
 

@@ -146,7 +146,7 @@ TEST(ConvexShape, RoundedConeIsWithinHalfAPercentOfFinerOnes) {
   cone.setMargin(btScalar(0.1));
   CollisionShapeSettings finer;
   finer.faces = 1800;
-  finer.max_panels = 5000;
+  finer.flow.max_panels = 5000;
   const Matrix6 exact = makeFluidBody(cone, finer).added_mass;
   const Matrix6 K = makeFluidBody(cone).added_mass;
   EXPECT_LT(rotationError(K, exact), 3e-3);

@@ -29,7 +29,7 @@ TEST(MeshShape, GImpactMeshIsTakenAsItIs) {
   const FluidBody body = makeFluidBody(shape, coarse());
   BuildSettings settings;
   settings.origin = Eigen::Vector3d::Zero();
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   const FluidBody expected = makeFluidBody(cone, settings);
   EXPECT_EQ(body.faces.size(), expected.faces.size());
   EXPECT_NEAR(body.volume / expected.volume, 1, 10 * kScalarRounding);

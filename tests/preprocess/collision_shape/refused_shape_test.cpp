@@ -28,18 +28,17 @@ TEST(RefusedShape, PlanesFieldsAndEmptyShapesAreNoBodies) {
 }
 
 TEST(RefusedShape, SettingsThatCannotBeAreNamed) {
-  const auto refusal = [](int CollisionShapeSettings::*setting, int value) {
+  const auto refusal = [](int faces, int max_panels, int threads) {
     CollisionShapeSettings settings = coarse();
     settings.name = "thing";
-    settings.*setting = value;
+    settings.faces = faces;
+    settings.flow.max_panels = max_panels;
+    settings.flow.threads = threads;
     return messageOf([&] { makeFluidBody(btBoxShape(btVector3(1, 1, 1)), settings); });
   };
-  EXPECT_EQ(refusal(&CollisionShapeSettings::faces, 1000000000),
-            "thing: faces = 1000000000 is not between 1 and 1000000");
-  EXPECT_EQ(refusal(&CollisionShapeSettings::max_panels, -1),
-            "thing: max_panels = -1 is not between 0 and 1000000");
-  EXPECT_EQ(refusal(&CollisionShapeSettings::threads, -1),
-            "thing: threads = -1 is not between 0 and 1000000");
+  EXPECT_EQ(refusal(1000000000, 0, 0), "thing: faces = 1000000000 is not between 1 and 1000000");
+  EXPECT_EQ(refusal(350, -1, 0), "thing: max_panels = -1 is not between 0 and 1000000");
+  EXPECT_EQ(refusal(350, 0, -1), "thing: threads = -1 is not between 0 and 1000000");
 }
 
 TEST(RefusedShape, StaticTriangleMeshesAreToldWhatToUse) {

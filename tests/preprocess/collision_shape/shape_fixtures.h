@@ -17,7 +17,7 @@ constexpr double kScalarRounding = sizeof(btScalar) == sizeof(float) ? 4e-7 : 1e
 inline CollisionShapeSettings coarse() {
   CollisionShapeSettings settings;
   settings.faces = 350;
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   return settings;
 }
 

@@ -20,7 +20,7 @@ class Compare : public ::testing::Test {
  protected:
   Compare() {
     BuildSettings settings;
-    settings.max_panels = 0;
+    settings.flow.max_panels = 0;
     body_ = makeFluidBody(makeBoxMesh({1, 2, 3}, 200), settings);
   }
 
@@ -97,7 +97,7 @@ TEST_F(Compare, ToleranceDecides) {
 
 TEST_F(Compare, MeshesOfOneBodyDifferByTheirFacets) {
   BuildSettings settings;
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   const json report =
       json::parse(compare(makeFluidBody(makeBoxMesh({1, 2, 3}, 800), settings)).output);
   EXPECT_LT(report["volume"].get<double>(), 1e-12);

@@ -28,8 +28,8 @@ class Polar : public ::testing::Test {
   std::string write(const TriangleMesh& mesh, bool sheet = false) const {
     BuildSettings settings;
     settings.name = "body";
-    settings.max_panels = 0;
-    settings.sheet = sheet;
+    settings.flow.max_panels = 0;
+    settings.flow.sheet = sheet;
     const std::string file = (folder_ / "body.ambient").string();
     writeFluidBody(makeFluidBody(mesh, settings), file);
     return file;
@@ -95,7 +95,7 @@ TEST_F(Polar, ObliqueSpheroidAgreesWithQuadrature) {
 
 TEST_F(Polar, ASphereHasHalfOfItsSilhouetteAtEveryAngle) {
   BuildSettings settings;
-  settings.max_panels = 0;
+  settings.flow.max_panels = 0;
   settings.sphere_radius = 0.5;
   const std::string file = (folder_ / "ball.ambient").string();
   writeFluidBody(makeFluidBody(makeEllipsoidMesh({0.5, 0.5, 0.5}, 80), settings), file);

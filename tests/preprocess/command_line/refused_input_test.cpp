@@ -60,7 +60,7 @@ TEST_F(CommandLine, ShapesBeyondWhatCanBeSolvedAreRefused) {
   EXPECT_EQ(refusalOf(R"({"type":"sheet","size":[1e-200,1],"faces":50})"),
             "it is too narrow: its area over the square of its size must be at least 1e-12");
   EXPECT_EQ(refusalOf("{\"type\":\"sphere\",\"radius\":1,\"a\\nb\":2}")
-                .find("unknown key \"a\\nb\" in shape"),
+                .find("unknown key \"a\\nb\" in the shape"),
             0u);
 }
 

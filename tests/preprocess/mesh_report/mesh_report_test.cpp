@@ -15,7 +15,7 @@ namespace ambient {
 namespace {
 
 MeshReport reportOn(const TriangleMesh& mesh, int panels, bool sheet = false) {
-  MeshReportSettings settings;
+  PotentialFlowSettings settings;
   settings.max_panels = panels;
   settings.sheet = sheet;
   return makeMeshReport(mesh, settings);
@@ -55,7 +55,7 @@ TEST_F(CubeReport, EstimateOfABuildIsAboveItsError) {
   EXPECT_GT(report_.build->translation_error, translationErrorOf(K));
   EXPECT_LT(report_.build->translation_error, 2e-2);
   BuildSettings settings;
-  settings.max_panels = 1000;
+  settings.flow.max_panels = 1000;
   EXPECT_LT((makeFluidBody(cube_, settings).added_mass - K).norm(), 1e-12 * K.norm());
 }
 

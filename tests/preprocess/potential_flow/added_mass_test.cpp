@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/support/graded_meshes.h"
@@ -20,8 +20,8 @@ using test::differenceOf;
 using test::skewBody;
 
 double lowestEigenvalue(const Matrix6& K) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(K);
-  return eigen.eigenvalues()[0] / eigen.eigenvalues()[5];
+  const auto values = symmetricEigen<6>(K).values;
+  return values[0] / values[5];
 }
 
 TEST(AddedMass, IsSymmetricPositiveSemiDefiniteForAllBodies) {

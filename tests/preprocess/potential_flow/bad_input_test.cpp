@@ -57,13 +57,6 @@ TEST(PotentialFlowInput, SheetNeedsAVertexInside) {
             0u);
 }
 
-TEST(PotentialFlowInput, NegativeTrueVolumeIsRefused) {
-  PotentialFlowSettings settings;
-  settings.true_volume = -1;
-  EXPECT_EQ(complaint(makeBoxMesh({1, 1, 1}, 48), settings),
-            "potential flow: the true volume is -1 m^3; it must not be below 0");
-}
-
 TEST(PotentialFlowInput, SidesTooCloseForTheTrianglesAreRefused) {
   // A tetrahedron flattened until front and back, of different triangles, all but coincide.
   TriangleMesh mesh = unitTetrahedron();

@@ -99,10 +99,9 @@ TEST(SphereFlow, HasAlmostNoRotationalInertia) {
 
 TEST(SphereFlow, PotentialIsHalfTheNormalVelocity) {
   const double R = 0.4;
-  const TriangleMesh mesh = makeEllipsoidMesh({R, R, R}, 1300);
-  PotentialFlowSettings settings;
-  settings.true_volume = volumeOf({R, R, R});
-  const PotentialFlow flow = solvePotentialFlow(mesh, settings);
+  const TriangleMesh mesh =
+      test::withVolume(makeEllipsoidMesh({R, R, R}, 1300), volumeOf({R, R, R}));
+  const PotentialFlow flow = solvePotentialFlow(mesh);
   ASSERT_EQ(flow.potential.rows(), mesh.vertexCount());
   // phi = -R/2 cos(theta) for translation, 0 for rotation. Facets; measured 9e-4 R.
   const Eigen::Matrix3Xd expected = -mesh.vertices / 2;

@@ -3,15 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "preprocess/mesh/mass_properties.h"
 #include "preprocess/potential_flow/potential_flow.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient::test {
 
-inline Matrix6 addedMassOf(const TriangleMesh& mesh, double true_volume = 0) {
-  PotentialFlowSettings settings;
-  settings.true_volume = true_volume;
-  return solvePotentialFlow(mesh, settings).added_mass;
+/// The mesh scaled about its centre of volume to the volume of the body that it stands for.
+inline TriangleMesh withVolume(TriangleMesh mesh, double volume) {
+  const MeshProperties properties = computeMassProperties(mesh);
+  const Eigen::Vector3d centre = properties.uniform.centre;
+  const double stretch = std::cbrt(volume / properties.volume);
+  mesh.vertices = ((mesh.vertices.colwise() - centre) * stretch).colwise() + centre;
+  return mesh;
+}
+
+inline Matrix6 addedMassOf(const TriangleMesh& mesh) { return solvePotentialFlow(mesh).added_mass; }
+
+inline Matrix6 addedMassOf(const TriangleMesh& mesh, double volume) {
+  return addedMassOf(withVolume(mesh, volume));
 }
 
 inline Matrix6 sheetAddedMassOf(const TriangleMesh& mesh) {

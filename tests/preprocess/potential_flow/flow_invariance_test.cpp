@@ -129,20 +129,5 @@ TEST(FlowInvariance, ThreadsDoNotChangeABit) {
   }
 }
 
-TEST(FlowInvariance, ScalesAboutTheCentreOfVolumeToTheTrueVolume) {
-  const Vector3d d(2, 1, -3);
-  const double s = 1.07;
-  const TriangleMesh mesh = skewBox();
-  const Matrix6 K = addedMassOf(moved(mesh, d), s * s * s * test::volumeOf(mesh));
-  // The same body, larger, its centre of volume where it was.
-  Vector3d centre = Vector3d::Zero();
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    centre += a.dot(b.cross(c)) / 24 * (a + b + c) / test::volumeOf(mesh);
-  }
-  const Vector3d offset = d + centre - s * centre;
-  EXPECT_LT(differenceOf(K, addedMassOf(moved(scaled(mesh, s), offset))), kIdentity);
-}
-
 }  // namespace
 }  // namespace ambient

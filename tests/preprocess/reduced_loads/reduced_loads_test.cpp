@@ -183,7 +183,7 @@ TEST(ReducedLoads, HaveTheSameBitsWithEveryInstructionSet) {
   const double x[6] = {0.75, -0.5, 0.3, 0.25, 0.4, -1};
   SingleMotion motion{{0.75f, -0.5f, 0.3f}, {0.25f, 0.4f, -1.0f}, 0, 1, 0};
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-    const SumClusters kernel = sumClustersFor(set);
+    const SumClusters kernel = kSumClusters.of(set);
     if (!kernel) continue;
     for (const float signed_cosine_sq : {0.0f, 0.5f}) {
       for (const float friction : {0.0f, 0.03f}) {

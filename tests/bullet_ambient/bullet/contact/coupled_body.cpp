@@ -1,8 +1,9 @@
 #include "tests/bullet_ambient/bullet/contact/coupled_body.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient::test {
 namespace {
@@ -19,8 +20,7 @@ btTransform arbitraryPose(Arbitrary& arbitrary) {
 // Coupled, its largest eigenvalue `largest` in units of mass and size.
 Matrix6 arbitraryAddedMass(Arbitrary& arbitrary, double largest, double size) {
   const Matrix6 shape = arbitrary.positiveDefinite();
-  using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>;
-  const double top = Solver(shape, Eigen::EigenvaluesOnly).eigenvalues()[5];
+  const double top = symmetricEigen<6>(shape).values[5];
   Vector6 units = Vector6::Ones();
   units.head<3>().setConstant(size);
   return largest / top * (units.asDiagonal() * shape * units.asDiagonal());

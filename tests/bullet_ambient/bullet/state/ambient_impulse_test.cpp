@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/free_body.h"
 #include "tests/support/random_bodies.h"
@@ -196,7 +197,7 @@ TEST(AmbientImpulse, IsThatOfAContact) {
 
     btRigidBody struck(body);
     AmbientRegistry registry;
-    AttachDef attach = fluid.registry.find(&body)->def;
+    AttachDef attach = bodiesOf(fluid.registry).find(&body)->def;
     registry.attach(struck, attach);
     fluid.step(1e-4);
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <new>
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/world_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
@@ -109,7 +110,7 @@ TEST_F(Lifetime, NothingTouchesABodyThatAnotherActionHasDestroyed) {
   EXPECT_TRUE(storage.isUntouched());
   // The removal moved the other body within the world's array; its flight was completed all the
   // same.
-  EXPECT_FALSE(fluid.registry.find(&other)->has_flown);
+  EXPECT_EQ(bodiesOf(fluid.registry).find(&other)->outcome.kind, Outcome::kNotMet);
   fluid.world.removeAction(&destroyer);
 }
 
@@ -143,7 +144,7 @@ TEST_F(Lifetime, AnObjectOfAnotherKindAtTheAddressIsNotAttached) {
   auto* object = new (storage.address()) btCollisionObject;
   object->setCollisionShape(&shape);
   fluid.world.addCollisionObject(object);
-  EXPECT_EQ(fluid.registry.find(object), nullptr);
+  EXPECT_EQ(bodiesOf(fluid.registry).find(object), nullptr);
   fluid.step(kTimeStep);
   fluid.world.removeCollisionObject(object);
   object->~btCollisionObject();
@@ -175,8 +176,11 @@ TEST_F(Lifetime, AStaticBodyHasTheModelOfItsNewFluidBody) {
   fluid.registry.setFluidBody(body, std::make_shared<FluidBody>(scaled(ball(), 2)));
   const WorldState state = saveState(fluid.world, fluid.registry);
   restoreState(state, fluid.world, fluid.registry);
-  const AmbientBody& ambient = *fluid.registry.find(&body);
-  EXPECT_EQ(ambient.model.faces, &ambient.def.fluid_body->faces);
+  const AmbientBody& ambient = *bodiesOf(fluid.registry).find(&body);
+  const auto loads = makeSurfaceLoads(ambient.def.fluid_body, water(), ambient.def.flow,
+                                      bodiesOf(fluid.registry).load_tables);
+  const Twist twist{{1, 2, 3}, {3, 1, 2}};
+  EXPECT_EQ(ambient.model.loads->load(twist).vector(), loads->load(twist).vector());
   EXPECT_TRUE(fluid.registry.inertia(body).allFinite());
   EXPECT_NEAR(ambient.model.displaced_mass, water().density * 8 * ball().volume, 1e-6);
   fluid.world.removeRigidBody(&body);

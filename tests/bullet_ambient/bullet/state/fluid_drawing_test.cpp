@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/motion/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
@@ -91,19 +92,20 @@ class Drawing : public testing::Test {
     }
   }
   std::size_t lines() const { return recorder.count() - lines_of_stock_; }
-  const AmbientBody& ambient() { return *fluid.registry.find(body); }
+  const AmbientBody& ambient() { return *bodiesOf(fluid.registry).find(body); }
   Twist relativeTwist() {
     Twist relative = readState(*body).twist;
     relative.linear -= readState(*body).orientation.conjugate() * ambient().def.medium.velocity;
     return relative;
   }
   FaceLoads loads() {
-    const BodyModel& model = ambient().model;
-    return computeFaceLoads(*model.faces, model.reference_length,
-                            model.fluid_frame.toF(relativeTwist()), model.loads);
+    const AttachDef& def = ambient().def;
+    return computeFaceLoads(def.fluid_body->faces, ambient().model.reference_length,
+                            def.fluid_frame.toF(relativeTwist()),
+                            loadSettings(def.medium, def.flow));
   }
   Vector3 fromFluidFrame(const Vector3& vector_F) {
-    return readState(*body).orientation * (ambient().model.fluid_frame.rotation * vector_F);
+    return readState(*body).orientation * (ambient().def.fluid_frame.rotation * vector_F);
   }
   FluidDrawing unitLengths() const {
     FluidDrawing what;
@@ -111,7 +113,7 @@ class Drawing : public testing::Test {
     what.length_per_velocity = 1;
     return what;
   }
-  std::size_t faceCount() { return ambient().model.faces->size(); }
+  std::size_t faceCount() { return ambient().def.fluid_body->faces.size(); }
 
   const double tolerance = byPrecision(1e-12, 1e-5);
   Recorder recorder;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/world_state.h"
-#include "bullet_ambient/bullet/world_state_codec.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {

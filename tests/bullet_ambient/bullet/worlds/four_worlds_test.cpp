@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
@@ -87,26 +89,35 @@ class Tank {
   std::unique_ptr<btPoint2PointConstraint> tether_;
 };
 
+// Bullet's Lemke solver cannot do without friction and is wrong where bounds coincide, with fluid
+// or without.
+std::vector<WorldSetup> worldsWithRestingContacts() {
+  std::vector<WorldSetup> worlds = allWorlds();
+  const auto uses_lemke = [](const WorldSetup& setup) { return usesSolver(setup, "Lemke"); };
+  worlds.erase(std::remove_if(worlds.begin(), worlds.end(), uses_lemke), worlds.end());
+  return worlds;
+}
+
 bool moveAlike(const btRigidBody& a, const btRigidBody& b) {
   return a.getWorldTransform() == b.getWorldTransform() &&
          a.getLinearVelocity() == b.getLinearVelocity() &&
          a.getAngularVelocity() == b.getAngularVelocity();
 }
 
-template <class Setup>
-class FourWorlds : public ::testing::Test {};
-TYPED_TEST_SUITE(FourWorlds, AllWorlds, WorldName);
+class FourWorlds : public testing::TestWithParam<WorldSetup> {};
+INSTANTIATE_TEST_SUITE_P(Of, FourWorlds, testing::ValuesIn(allWorlds()), nameOf);
 
-TYPED_TEST(FourWorlds, FlyABodyAllAlike) {
-  Tank reference(InDiscreteWorld<SequentialImpulse>::make(true)), tank(TypeParam::make(true));
+TEST_P(FourWorlds, FlyABodyAllAlike) {
+  Tank reference(worldNamed("DiscreteWithSequentialImpulse").make(true)),
+      tank(GetParam().make(true));
   reference.step(240);
   tank.step(240);
   EXPECT_LT(static_cast<double>(tank.flying().getWorldTransform().getOrigin().z()), 48);
   EXPECT_TRUE(moveAlike(tank.flying(), reference.flying()));
 }
 
-TYPED_TEST(FourWorlds, HoldABuoyantBodyOnItsTether) {
-  Tank tank(TypeParam::make(true));
+TEST_P(FourWorlds, HoldABuoyantBodyOnItsTether) {
+  Tank tank(GetParam().make(true));
   const Quaternion start = readState(tank.tethered()).orientation;
   tank.step(600);
   // What gives way is the joint, by its position error of a step.
@@ -114,28 +125,29 @@ TYPED_TEST(FourWorlds, HoldABuoyantBodyOnItsTether) {
   EXPECT_LT(angleBetween(readState(tank.tethered()).orientation, start), byPrecision(1e-8, 1e-3));
 }
 
-template <class Setup>
-class RestingContacts : public ::testing::Test {};
-TYPED_TEST_SUITE(RestingContacts, WorldsWithRestingContacts, WorldName);
+class RestingContacts : public FourWorlds {};
+INSTANTIATE_TEST_SUITE_P(Of, RestingContacts, testing::ValuesIn(worldsWithRestingContacts()),
+                         nameOf);
 
-TYPED_TEST(RestingContacts, LetABodySinkToTheFloorAndSleep) {
-  Tank tank(TypeParam::make(true));
+TEST_P(RestingContacts, LetABodySinkToTheFloorAndSleep) {
+  Tank tank(GetParam().make(true));
   tank.step(600);
   EXPECT_NEAR(static_cast<double>(tank.sinking().getWorldTransform().getOrigin().z()),
               kSemiAxes.z(), 1e-3);
   EXPECT_FALSE(tank.sinking().isActive());
 }
 
-template <class Setup>
-class SequentialWorlds : public ::testing::Test {};
-using WorldsWithSequentialImpulses =
-    ::testing::Types<InDiscreteWorld<Multithreaded>, InSoftWorld<SequentialImpulse>,
-                     InMultithreadedWorld>;
-TYPED_TEST_SUITE(SequentialWorlds, WorldsWithSequentialImpulses, WorldName);
+class SequentialWorlds : public FourWorlds {};
+INSTANTIATE_TEST_SUITE_P(Of, SequentialWorlds,
+                         testing::Values(worldNamed("DiscreteWithMultithreaded"),
+                                         worldNamed("SoftWithSequentialImpulse"),
+                                         worldNamed("DiscreteMtWithPool")),
+                         nameOf);
 
 // The same rows in the same order, as in stock Bullet; a btMultiBodyDynamicsWorld has another.
-TYPED_TEST(SequentialWorlds, MoveContactsAndJointsAlike) {
-  Tank reference(InDiscreteWorld<SequentialImpulse>::make(true)), tank(TypeParam::make(true));
+TEST_P(SequentialWorlds, MoveContactsAndJointsAlike) {
+  Tank reference(worldNamed("DiscreteWithSequentialImpulse").make(true)),
+      tank(GetParam().make(true));
   for (int i = 0; i < 10; ++i) {
     reference.step(30);
     tank.step(30);

@@ -18,7 +18,7 @@ constexpr double kRadius = 0.4;
 
 class SoftScene {
  public:
-  explicit SoftScene(double gravity) : host_(InSoftWorld<SequentialImpulse>::make(true)) {
+  explicit SoftScene(double gravity) : host_(worldNamed("SoftWithSequentialImpulse").make(true)) {
     soft_world().setGravity({0, 0, bt(-gravity)});
     soft_world().getWorldInfo().m_gravity = soft_world().getGravity();
     soft_world().getWorldInfo().air_density = 0;

@@ -1,18 +1,18 @@
 #pragma once
 
-#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
+#include <gtest/gtest.h>
 
+#include <cstring>
 #include <memory>
+#include <ostream>
 #include <string>
-#include <type_traits>
-#include <utility>
+#include <vector>
 
 #include "bullet_ambient/bullet/ambient_action.h"
-#include "tests/support/solver_kinds.h"
 
 namespace ambient::test {
 
@@ -48,122 +48,23 @@ class WorldHost {
   AmbientAction action_{registry};
 };
 
-/// The solver of one kind, constructed from a registry that Bullet's own does not need.
-template <class Kind, bool kIsAmbient>
-struct SolverHolder : Kind::Ambient {
-  explicit SolverHolder(AmbientRegistry& registry) : Kind::Ambient(registry) {}
+/// A world and a solver that a program may combine. All are made in one source, because each is a
+/// template of its own.
+struct WorldSetup {
+  const char* name;
+  std::unique_ptr<WorldHost> (*make)(bool is_ambient);
 };
-template <class Kind>
-struct SolverHolder<Kind, false> : Kind::Stock {
-  explicit SolverHolder(AmbientRegistry&) {}
-};
+inline void PrintTo(const WorldSetup& setup, std::ostream* out) { *out << setup.name; }
 
-template <class Kind, class World, bool kIsAmbient>
-class SingleThreadedHost final : public WorldHost {
- public:
-  SingleThreadedHost() {
-    if (kIsAmbient) world_.addAction(&action_);
-  }
-  btDiscreteDynamicsWorld& world() override { return world_; }
-
- private:
-  SolverHolder<Kind, kIsAmbient> holder_{registry};
-  World world_{&dispatcher_, &broadphase_, &holder_.solver, &configuration_};
-};
-
-/// Islands of more than a few contacts go to the multithreaded solver, as large ones do by default.
-template <bool kIsAmbient>
-class MultithreadedHost final : public WorldHost {
-  using Limit = btSequentialImpulseConstraintSolverMt;
-
- public:
-  MultithreadedHost()
-      : default_limit_(std::exchange(Limit::s_minimumContactManifoldsForBatching, 3)) {
-    if (kIsAmbient) world_.addAction(&action_);
-  }
-  ~MultithreadedHost() override { Limit::s_minimumContactManifoldsForBatching = default_limit_; }
-  btDiscreteDynamicsWorld& world() override { return world_; }
-
- private:
-  template <class Base>
-  using Solver = std::conditional_t<kIsAmbient, AmbientSolver<Base>, Base>;
-
-  template <class Base>
-  std::unique_ptr<Solver<Base>> make() {
-    if constexpr (kIsAmbient) {
-      return std::make_unique<Solver<Base>>(registry);
-    } else {
-      return std::make_unique<Base>();
-    }
-  }
-  struct Pair {
-    btConstraintSolver* solvers[2];
-  };
-
-  int default_limit_;
-  // The pool deletes its solvers.
-  Pair pair_{{make<btSequentialImpulseConstraintSolver>().release(),
-              make<btSequentialImpulseConstraintSolver>().release()}};
-  btConstraintSolverPoolMt pool_{pair_.solvers, 2};
-  std::unique_ptr<btConstraintSolver> large_{make<btSequentialImpulseConstraintSolverMt>()};
-  btDiscreteDynamicsWorldMt world_{&dispatcher_, &broadphase_, &pool_, large_.get(),
-                                   &configuration_};
-};
-
-// One type for each world and solver that a program may combine. Bullet's
-// btMultiBodyConstraintSolver reads uninitialised members where no btMultiBodyDynamicsWorld calls
-// it.
-
-template <class SolverKind, class World>
-struct WorldAndSolver {
-  using Kind = SolverKind;
-  static std::unique_ptr<WorldHost> make(bool is_ambient) {
-    if (is_ambient) return std::make_unique<SingleThreadedHost<Kind, World, true>>();
-    return std::make_unique<SingleThreadedHost<Kind, World, false>>();
-  }
-  static std::string name() {
-    const std::string world = std::is_same_v<World, btSoftRigidDynamicsWorld>   ? "Soft"
-                              : std::is_same_v<World, btMultiBodyDynamicsWorld> ? "MultiBodies"
-                                                                                : "Discrete";
-    return world + "With" + SolverName::GetName<Kind>(0);
-  }
-};
-
-template <class Kind>
-using InDiscreteWorld = WorldAndSolver<Kind, btDiscreteDynamicsWorld>;
-template <class Kind>
-using InSoftWorld = WorldAndSolver<Kind, btSoftRigidDynamicsWorld>;
-using InMultiBodyWorld = WorldAndSolver<MultiBody, btMultiBodyDynamicsWorld>;
-
-struct InMultithreadedWorld {
-  using Kind = Multithreaded;
-  static std::unique_ptr<WorldHost> make(bool is_ambient) {
-    if (is_ambient) return std::make_unique<MultithreadedHost<true>>();
-    return std::make_unique<MultithreadedHost<false>>();
-  }
-  static std::string name() { return "DiscreteMtWithPool"; }
-};
-
-using AllWorlds =
-    ::testing::Types<InDiscreteWorld<SequentialImpulse>, InDiscreteWorld<ConjugateGradient>,
-                     InDiscreteWorld<Dantzig>, InDiscreteWorld<ProjectedGaussSeidel>,
-                     InDiscreteWorld<Lemke>, InDiscreteWorld<Multithreaded>,
-                     InSoftWorld<SequentialImpulse>, InSoftWorld<ConjugateGradient>,
-                     InMultiBodyWorld, InMultithreadedWorld>;
-
-/// Bullet's Lemke solver cannot do without friction and is wrong where bounds coincide, with fluid
-/// or without.
-using WorldsWithRestingContacts =
-    ::testing::Types<InDiscreteWorld<SequentialImpulse>, InDiscreteWorld<ConjugateGradient>,
-                     InDiscreteWorld<Dantzig>, InDiscreteWorld<ProjectedGaussSeidel>,
-                     InDiscreteWorld<Multithreaded>, InSoftWorld<SequentialImpulse>,
-                     InSoftWorld<ConjugateGradient>, InMultiBodyWorld, InMultithreadedWorld>;
-
-struct WorldName {
-  template <class Setup>
-  static std::string GetName(int) {
-    return Setup::name();
-  }
-};
+const std::vector<WorldSetup>& allWorlds();
+inline std::string nameOf(const testing::TestParamInfo<WorldSetup>& test) {
+  return test.param.name;
+}
+/// Whether the solver's name is part of that of the setup.
+inline bool usesSolver(const WorldSetup& setup, const char* solver) {
+  return std::strstr(setup.name, solver) != nullptr;
+}
+/// @pre there is one of that name.
+const WorldSetup& worldNamed(const std::string& name);
 
 }  // namespace ambient::test

@@ -58,10 +58,10 @@ double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PE
 Matrix6 builtAddedMass(const TriangleMesh& mesh, bool sheet, int max_panels, int threads) {
   BuildSettings settings;
   settings.origin = Vector3(0, 0, 0);
-  settings.sheet = sheet;
-  settings.max_panels = max_panels;
-  settings.threads = threads;
-  if (max_panels == 0) settings.solver = FlowSolverKind::Dense;
+  settings.flow.sheet = sheet;
+  settings.flow.max_panels = max_panels;
+  settings.flow.threads = threads;
+  if (max_panels == 0) settings.flow.solver = FlowSolverKind::Dense;
   return makeFluidBody(mesh, settings).added_mass;
 }
 

@@ -1,0 +1,50 @@
+#include "bullet_ambient/bullet/ambient_bodies.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "bullet_ambient/bullet/body_instance.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+AmbientBody* AmbientBodies::find(const btCollisionObject* body) const {
+  const auto found = by_object_.find(body);
+  if (found == by_object_.end()) return nullptr;
+  const btRigidBody* rigid = btRigidBody::upcast(body);
+  return rigid && instanceNumber(*rigid) == found->second->instance ? found->second : nullptr;
+}
+
+AmbientBody& AmbientBodies::require(const btRigidBody& body) const {
+  AmbientBody* ambient = find(&body);
+  if (!ambient) throw std::invalid_argument("this body is not attached to the ambient registry");
+  return *ambient;
+}
+
+void AmbientBodies::insert(std::unique_ptr<AmbientBody> ambient) {
+  erase(*ambient->body);  // or what is left of one that was destroyed at this address
+  ambient->instance = instanceNumber(*ambient->body);
+  bodies_.reserve(bodies_.size() + 1);
+  by_object_.emplace(ambient->body, ambient.get());
+  bodies_.push_back(std::move(ambient));
+}
+
+bool AmbientBodies::erase(const btRigidBody& body) {
+  const auto found = by_object_.find(&body);
+  if (found == by_object_.end()) return false;
+  const auto owner =
+      std::find_if(bodies_.begin(), bodies_.end(),
+                   [&](const std::unique_ptr<AmbientBody>& b) { return b.get() == found->second; });
+  bodies_.erase(owner);
+  by_object_.erase(found);
+  return true;
+}
+
+void AmbientBodies::clear() {
+  by_object_.clear();
+  bodies_.clear();
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/bullet/complaints.h"
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/force/load_tables.h"
+
+namespace ambient {
+
+class TaskRunner;
+
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+class AmbientRegistry;
+
+/// What a registry holds, for solver, action and saved states.
+class AmbientBodies {
+ public:
+  std::size_t size() const { return bodies_.size(); }
+  /// In the order of attachment. They may have been destroyed.
+  const std::vector<std::unique_ptr<AmbientBody>>& all() const { return bodies_; }
+  /// The body that was attached, never another one at its address; null if there is none.
+  /// @pre the body is alive, or nothing was attached at its address.
+  AmbientBody* find(const btCollisionObject* body) const;
+  /// @throws std::invalid_argument if it is not attached.
+  AmbientBody& require(const btRigidBody& body) const;
+
+  /// Takes over a body with a model, in place of what is attached at its address.
+  void insert(std::unique_ptr<AmbientBody> ambient);
+  /// By its address alone. False if nothing was attached there.
+  bool erase(const btRigidBody& body);
+  void clear();
+
+  Complaints complaints;
+  LoadTables load_tables;  ///< what the loads of bodies share
+  TaskRunner* task_runner = nullptr;
+
+ private:
+  std::vector<std::unique_ptr<AmbientBody>> bodies_;
+  std::unordered_map<const btCollisionObject*, AmbientBody*> by_object_;
+};
+
+AmbientBodies& bodiesOf(const AmbientRegistry& registry);
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/force/flow_settings.h"
+#include "bullet_ambient/force/medium.h"
+#include "bullet_ambient/motion/flight_settings.h"
+#include "bullet_ambient/spatial/frame_offset.h"
+
+namespace ambient {
+
+struct FluidBody;
+
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// How a btRigidBody meets the fluid.
+struct AttachDef {
+  /// Shared by all bodies of one shape. It does not follow its collision shape: after
+  /// setLocalScaling(), which Bullet tells nobody, call AmbientRegistry::setFluidBody().
+  std::shared_ptr<const FluidBody> fluid_body = nullptr;
+  Medium medium = {};  ///< default: vacuum, in which the body moves as in stock Bullet
+  FlowSettings flow = {};
+  FlightSettings flight = {};
+  FrameOffset fluid_frame =
+      {};  ///< frame F of the fluid body in the btRigidBody's frame (centre of mass)
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

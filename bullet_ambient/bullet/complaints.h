@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "bullet_ambient/bullet/precision_check.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// What cannot be right.
+enum class Complaint {
+  kNoAction,
+  kNoSolver,
+  kNotFinite,
+  kNotPhysical,
+  kCoarse,
+  kInertia,
+  kEmpty,
+  kCount
+};
+
+/// Says each complaint once.
+class Complaints {
+ public:
+  /// In a sentence that fits all bodies, or in one that names the body.
+  void say(Complaint complaint) noexcept;
+  void say(Complaint complaint, const char* sentence) noexcept;
+
+  std::function<void(const std::string&)> report;  ///< null: nobody hears
+
+ private:
+  bool was_said_[static_cast<int>(Complaint::kCount)] = {};
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

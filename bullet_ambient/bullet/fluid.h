@@ -1,0 +1,62 @@
+#pragma once
+
+#include <utility>
+
+#include "bullet_ambient/bullet/ambient_action.h"
+#include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/world_tie.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// The fluids of one world: registry, solver and action in one. Base: Bullet's solver, as for
+/// AmbientSolver; btMultiBodyConstraintSolver for a btMultiBodyDynamicsWorld.
+///
+/// Fluid, world and bodies may be destroyed in any order: none looks at another one then. As with
+/// any solver of Bullet's, a world must not be stepped after its fluid was destroyed, unless the
+/// action was removed from it and it was given another solver before.
+template <class Base = btSequentialImpulseConstraintSolver>
+class Fluid {
+ public:
+  /// Arguments go to Base.
+  template <class... Args>
+  explicit Fluid(Args&&... args) : solver_(registry_, std::forward<Args>(args)...) {}
+  Fluid(const Fluid&) = delete;
+  Fluid& operator=(const Fluid&) = delete;
+
+  /// To construct the world with.
+  AmbientSolver<Base>& solver() { return solver_; }
+  /// To change media and shapes, and to read counters.
+  AmbientRegistry& registry() { return registry_; }
+  const AmbientRegistry& registry() const { return registry_; }
+  /// To choose what is drawn.
+  AmbientAction& action() { return action_; }
+
+  /// Gives the world this solver and action; again without harm. A btConstraintSolverPoolMt stays:
+  /// its solvers are AmbientSolvers of registry().
+  /// @throws std::invalid_argument, in one sentence, if the fluid is attached to another world, or
+  /// this kind of world cannot carry the fluid or does not go with Base.
+  void attachTo(btDynamicsWorld& world) { tie_.tie(world, solver_, action_); }
+
+  /// Puts a dynamic body into a fluid, before or after it is added to the world.
+  /// @throws std::invalid_argument as AmbientRegistry::attach().
+  void add(btRigidBody& body, AttachDef def) { registry_.attach(body, std::move(def)); }
+  /// As AmbientRegistry::detach().
+  bool remove(const btRigidBody& body) { return registry_.detach(body); }
+  /// Removes all bodies, and lets go of the world: all of them may have been destroyed. Where the
+  /// world lives on, it goes on with this solver, without fluid until a body is added.
+  void clear() {
+    registry_.clear();
+    tie_.forget();
+  }
+
+ private:
+  AmbientRegistry registry_;
+  AmbientSolver<Base> solver_;
+  AmbientAction action_{registry_};
+  WorldTie tie_;
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

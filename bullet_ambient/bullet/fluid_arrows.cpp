@@ -1,0 +1,99 @@
+#include "bullet_ambient/bullet/fluid_arrows.h"
+
+#include <LinearMath/btIDebugDraw.h>
+
+#include "bullet_ambient/force/buoyancy.h"
+#include "bullet_ambient/force/face_flow.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+class Arrows {
+ public:
+  Arrows(const RigidState& pose, btIDebugDraw& drawer) : pose_(pose), drawer_(drawer) {}
+
+  // Both in body axes.
+  void draw(const Vector3& from, const Vector3& arrow, const btVector3& colour) const {
+    drawer_.drawLine(toWorld(from), toWorld(from + arrow), colour);
+  }
+  void drawCross(const Vector3& centre, double half_size, const btVector3& colour) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 arm = half_size * Vector3::Unit(axis);
+      draw(centre - arm, 2 * arm, colour);
+    }
+  }
+
+ private:
+  btVector3 toWorld(const Vector3& point) const {
+    return toBullet(Vector3(pose_.position + pose_.orientation * point));
+  }
+
+  const RigidState& pose_;
+  btIDebugDraw& drawer_;
+};
+
+void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
+               const Arrows& arrows) {
+  const FaceTable& faces = ambient.def.fluid_body->faces;
+  const FrameOffset& frame = ambient.def.fluid_frame;
+  const LoadSettings settings = loadSettings(ambient.def.medium, ambient.def.flow);
+  const double length = ambient.model.reference_length;
+  const Twist x_F = frame.toF(relative);
+  const double normal_length = what.normal_length * length;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const FaceFlow flow = computeFaceFlow(faces, i, length, x_F, settings);
+    const Vector3 at = frame.rotation * faces.centroid(i) + frame.translation;
+    const auto draw = [&](double scale, const Vector3& vector_F, const btVector3& colour) {
+      arrows.draw(at, scale * (frame.rotation * vector_F), colour);
+    };
+    if (what.separation) {
+      draw(normal_length, faces.normal(i),
+           flow.is_attached ? fluid_colours::kAttached : fluid_colours::kSeparated);
+    }
+    if (!flow.is_attached) continue;
+    if (what.slip_velocity) draw(what.length_per_velocity, flow.slip, fluid_colours::kSlip);
+    if (what.pressure) draw(what.length_per_face_force, flow.pressure, fluid_colours::kPressure);
+    if (what.friction) draw(what.length_per_face_force, flow.friction, fluid_colours::kFriction);
+  }
+}
+
+}  // namespace
+
+FluidDrawing FluidDrawing::all() {
+  FluidDrawing all;
+  all.separation = all.slip_velocity = all.pressure = all.friction = true;
+  all.buoyancy = all.total_wrench = all.centre_of_volume = true;
+  return all;
+}
+
+void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer) {
+  const BodyModel& model = ambient.model;
+  const RigidState state = readState(*ambient.body);
+  const Surroundings s = readSurroundings(ambient);
+  const Quaternion to_body = state.orientation.conjugate();
+  const Arrows arrows(state, drawer);
+  Twist relative = state.twist;
+  relative.linear -= to_body * s.ambient_velocity;
+  if (what.drawsFaces()) drawFaces(ambient, relative, what, arrows);
+
+  const Vector3& centre = model.centre_of_volume;
+  const Wrench lift =
+      buoyancy(model.displaced_mass, centre, to_body * (s.gravity - s.ambient_acceleration));
+  if (what.buoyancy) {
+    arrows.draw(centre, what.length_per_force * lift.force, fluid_colours::kBuoyancy);
+  }
+  if (what.total_wrench) {
+    Wrench total = lift;
+    if (model.loads) total += computeSurfaceLoad(model, relative).wrench;
+    arrows.draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
+    arrows.draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
+  }
+  if (what.centre_of_volume) {
+    arrows.drawCross(centre, what.normal_length * model.reference_length / 2,
+                     fluid_colours::kBuoyancy);
+  }
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/motion/rigid_state.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// How the solver leaves a body in a substep; docs/bullet_step.md has the transitions.
+enum class Outcome {
+  kNotMet,  ///< the solver has not met it since the action took the last outcome
+  kStock,   ///< moves as in stock Bullet: not in a fluid, static, or of no physical mass
+  kRows,    ///< moved by rows
+  kAdrift,  ///< moved by no row, and does not fly: locked, fast among rows, or its flight failed
+  kFlown,   ///< moved by no row, and has flown
+};
+
+/// What rows leave to the action.
+struct RowMotion {
+  /// Twice the kinetic energy that the body may have in its next pose [J], docs/theory.md eq. (31);
+  /// none: any.
+  std::optional<double> energy_bound;
+};
+
+/// Where a free flight ends.
+struct FlightEnd {
+  RigidState state;
+  Twist twist_W;
+  Twist effective_W;         ///< constant twist that Bullet integrates onto the end pose
+  double length_scale = 0;   ///< lengths whose rounding the end position carries [m]
+  bool is_too_long = false;  ///< the step was, for the tolerance and as many substeps as there are
+};
+
+/// What a substep did to one body: written by the solver, taken once by the action.
+struct SubstepOutcome {
+  Outcome kind = Outcome::kNotMet;
+  int world_index = -1;  ///< where the body stood in its world's array when it was met
+  RowMotion rows;        ///< of kRows and kAdrift
+  FlightEnd flight;      ///< of kFlown
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "bullet_ambient/bullet/precision_check.h"
+
+class btActionInterface;
+class btConstraintSolver;
+class btDynamicsWorld;
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// Ties one world to a solver and an action, which must be alive while it is stepped.
+class WorldTie {
+ public:
+  /// @throws std::invalid_argument with one sentence; the world is then as it was.
+  void tie(btDynamicsWorld& world, btConstraintSolver& solver, btActionInterface& action);
+  /// Forgets the world, and does not look at it: it may have been destroyed.
+  void forget() { world_ = nullptr; }
+
+ private:
+  const btDynamicsWorld* world_ = nullptr;
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,160 @@
+#include "bullet_ambient/force/surface_loads.h"
+
+#include <cmath>
+#include <utility>
+
+#include "bullet_ambient/force/level_loads.h"
+#include "bullet_ambient/force/load_tables.h"
+#include "bullet_ambient/force/single_loads.h"
+#include "bullet_ambient/force/sphere_loads.h"
+#include "bullet_ambient/spatial/pi.h"
+
+namespace ambient {
+namespace {
+
+/// The length in the Reynolds number, docs/theory.md eq. (16).
+double referenceLength(const FluidBody& body) { return std::sqrt(body.area); }
+
+/// Eq. (13) to (17) by one of the ways to sum them.
+template <class Table,
+          Wrench (*kSum)(const Table&, double, const Twist&, const LoadSettings&) noexcept>
+class SummedLoads : public SurfaceLoads {
+ public:
+  SummedLoads(std::shared_ptr<const Table> table, std::size_t faces, double length,
+              const LoadSettings& settings)
+      : table_(std::move(table)),
+        faces_(static_cast<int>(faces)),
+        length_(length),
+        settings_(settings) {}
+
+  Wrench load(const Twist& x) const noexcept override {
+    return kSum(*table_, length_, x, settings_);
+  }
+  int faces() const noexcept override { return faces_; }
+  /// At alpha = pi/2 no face can push its body along: both laws are dissipative term by term.
+  bool needsGuard() const noexcept override { return settings_.separation_cosine != 0; }
+
+ protected:
+  std::shared_ptr<const Table> table_;
+  int faces_;
+  double length_;
+  LoadSettings settings_;
+};
+
+Wrench sumInDouble(const FaceTable& faces, double length, const Twist& x,
+                   const LoadSettings& settings) noexcept {
+  return computeFaceLoads(faces, length, x, settings).total();
+}
+
+using SingleLoads = SummedLoads<PackedFaces, computeFaceLoad>;
+
+struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
+  using SummedLoads::SummedLoads;
+  FaceLoads parts(const Twist& x) const noexcept override {
+    return computeFaceLoads(*table_, length_, x, settings_);
+  }
+};
+
+struct LevelLoads final : SummedLoads<LoadLevel, computeLevelLoad> {
+  using SummedLoads::SummedLoads;
+  bool needsGuard() const noexcept override { return true; }  // fitted wrenches may push
+};
+
+class SphereLoads final : public SurfaceLoads {
+ public:
+  SphereLoads(const FluidBody& body, const LoadSettings& settings, LoadTables& tables)
+      : centre_(body.centre_of_volume),
+        radius_(body.sphere_radius),
+        length_(referenceLength(body)),
+        settings_(settings) {
+    if (needsSphereTable(settings)) table_ = tables.sphereTable(settings.separation_cosine);
+  }
+
+  Wrench load(const Twist& x) const noexcept override { return parts(x).total(); }
+  FaceLoads parts(const Twist& x) const noexcept override {
+    return computeSphereLoads(table_.get(), radius_, length_, x, settings_);
+  }
+  bool needsGuard() const noexcept override { return false; }
+  /// At its centre; it looks the same in all axes.
+  FrameOffset frame(const FrameOffset& fluid_frame) const override {
+    return {Matrix3::Identity(), fluid_frame.rotation * centre_ + fluid_frame.translation};
+  }
+
+ private:
+  Vector3 centre_;
+  double radius_, length_;
+  LoadSettings settings_;
+  std::shared_ptr<const SphereTable> table_;  ///< null where it needs none
+};
+
+// Of a fluid body that was filled by hand: readers and builders have checked theirs.
+void checkFaces(const FluidBody& body) {
+  const FaceTable& faces = body.faces;
+  for (const std::vector<double>* column :
+       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
+        &faces.centroid_z, &faces.area}) {
+    if (column->size() != faces.size()) {
+      reject(body, "number of entries in a column of its faces",
+             static_cast<double>(column->size()), "the same in all columns");
+    }
+    for (const double entry : *column) {
+      if (!std::isfinite(entry)) reject(body, "an entry of its faces", entry, "finite");
+    }
+  }
+}
+
+void checkFlow(const FluidBody& body, const FlowSettings& flow) {
+  constexpr double kRounding = 1e-9;  // of an angle that was written by hand
+  if (!(flow.separation_angle >= kPi / 2 * (1 - kRounding)) ||
+      !(flow.separation_angle <= kPi * (1 + kRounding))) {
+    reject(body, "separation angle [rad]", flow.separation_angle, "between pi/2 and pi");
+  }
+  if (!(flow.maximum_load_error >= 0)) {
+    reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");
+  }
+}
+
+// The cheapest level that keeps the allowed error, if it is cheaper than all faces.
+const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
+  constexpr double kSameAngle = 1e-9;
+  const LoadLevel* best = nullptr;
+  double least = static_cast<double>(body.faces.size());
+  for (const LoadLevel& level : body.levels) {
+    const bool fits = std::abs(level.separation_angle - flow.separation_angle) <= kSameAngle &&
+                      level.error.p99 <= flow.maximum_load_error;
+    if (!fits || !(level.cost < least)) continue;
+    least = level.cost;
+    best = &level;
+  }
+  return best;
+}
+
+}  // namespace
+
+LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
+  return {medium.density, medium.viscosity, separationCosine(flow.separation_angle),
+          flow.skin_friction};
+}
+
+std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
+                                                     const Medium& medium, const FlowSettings& flow,
+                                                     LoadTables& tables) {
+  checkFaces(*body);
+  checkFlow(*body, flow);
+  const LoadSettings settings = loadSettings(medium, flow);
+  if (!(settings.density > 0)) return nullptr;
+  if (flow.own_law) return flow.own_law(body, settings);
+  if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, settings, tables);
+  const double length = referenceLength(*body);
+  if (const LoadLevel* level = chooseLevel(*body, flow))
+    return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level),
+                                        level->clusters, length, settings);
+  const std::size_t faces = body->faces.size();
+  if (faces == 0) return nullptr;
+  if (flow.precision == LoadPrecision::kSingle)
+    return std::make_shared<SingleLoads>(tables.packedFaces(body), faces, length, settings);
+  return std::make_shared<DoubleLoads>(std::shared_ptr<const FaceTable>(body, &body->faces), faces,
+                                       length, settings);
+}
+
+}  // namespace ambient

@@ -1,0 +1,24 @@
+#pragma once
+
+namespace ambient {
+
+/// How free flight is integrated over one step of the world.
+enum class Integrator {
+  kPassiveLeapfrog,  ///< default: energy cannot grow at any step, one load evaluation per substep
+  kDormandPrince,    ///< accurate: orders 5 and 4 with error control, six evaluations per substep
+  kRungeKutta4,      ///< the paper's: |w| h < 5.7 degrees, four load evaluations per substep
+  kSymplecticEuler,  ///< the paper's default: one evaluation per step; not stable at every speed
+};
+
+struct FlightSettings {
+  Integrator integrator = Integrator::kPassiveLeapfrog;
+  double tolerance =
+      1e-3;  ///< leapfrog: velocity error per substep relative to the motion [1], docs eq. (25);
+             ///< Dormand-Prince: also error of orientation [rad] and position [body lengths]
+  /// Bound per step; 0: leapfrog 16 (64 for bodies lighter than their added mass), Dormand-Prince
+  /// 1024, RK4 4096. With 1 the leapfrog is the fast mode: one evaluation per step. Symplectic
+  /// Euler takes just so many, 0: one.
+  int max_substeps = 0;
+};
+
+}  // namespace ambient

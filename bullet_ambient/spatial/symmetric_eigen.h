@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace ambient {
+
+/// Eigenvalues in ascending order, and unit eigenvectors in columns.
+template <int N>
+struct SymmetricEigen {
+  Eigen::Matrix<double, N, 1> values;
+  Eigen::Matrix<double, N, N> vectors;
+};
+
+/// Diagonalises a symmetric matrix of 3 or 6 rows, of which the lower half is read. Compiled once
+/// for all boxes, because Eigen's decomposition takes seconds. Not for headers of a program: the
+/// alignment of these matrices depends on the instruction set.
+template <int N>
+SymmetricEigen<N> symmetricEigen(const Eigen::Matrix<double, N, N>& matrix);
+
+extern template SymmetricEigen<3> symmetricEigen(const Eigen::Matrix<double, 3, 3>&);
+extern template SymmetricEigen<6> symmetricEigen(const Eigen::Matrix<double, 6, 6>&);
+
+}  // namespace ambient

@@ -1,0 +1,28 @@
+#include "demos/simulation/trajectory_text.h"
+
+#include <cstdio>
+
+namespace ambient {
+namespace {
+
+std::string digits17(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+}  // namespace
+
+std::string trajectoryRow(const std::string& body, const MotionSample& sample) {
+  const Vector3& p = sample.position;
+  const Quaternion& q = sample.orientation;
+  const Vector3& w = sample.twist.angular;
+  const Vector3& v = sample.twist.linear;
+  std::string row = digits17(sample.time) + "," + body;
+  for (const double value :
+       {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), w.x(), w.y(), w.z(), v.x(), v.y(), v.z()})
+    row += "," + digits17(value);
+  return row + "\n";
+}
+
+}  // namespace ambient

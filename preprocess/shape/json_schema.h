@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace ambient {
+
+/// data/schema/shape.schema.json as it was when the program was built.
+const nlohmann::json& shapeSchema();
+
+/// What a JSON value must be, of JSON Schema draft 7 the part that data/schema uses; other keywords
+/// are for people. "$ref" leads into the same document or to the schema of shapes; "if" compares
+/// keys with constants.
+/// @pre the schema refers to nothing that is missing
+class JsonSchema {
+ public:
+  /// `subject` is what messages call the value: "the scene".
+  JsonSchema(const nlohmann::json& document, std::string subject);
+
+  /// @throws std::runtime_error in one line that begins with `source` and names the place, the
+  /// value and what the schema wants.
+  void check(const nlohmann::json& value, const std::string& source) const;
+
+  /// Whether the schema knows a place, such as {"bodies", "0", "mass"}, under some condition. Any
+  /// index is known in an array.
+  bool knows(const std::vector<std::string>& path) const;
+
+  /// "bodies[0].mass" for {"bodies", "0", "mass"}, the subject for {}.
+  std::string placeName(const std::vector<std::string>& path) const;
+
+ private:
+  const nlohmann::json& document_;
+  std::string subject_;
+};
+
+/// Whether a part of a path is an index into an array.
+bool isIndex(const std::string& part);
+
+}  // namespace ambient
