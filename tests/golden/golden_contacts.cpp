@@ -5,7 +5,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr int kSteps = 150;
+constexpr int kContactSteps = 150;
 
 using Settings = std::function<void(btContactSolverInfo&)>;
 
@@ -46,7 +46,7 @@ GoldenRecord tower(const Settings& settings) {
   GoldenWorld world;
   settings(world.world().getSolverInfo());
   addTower(world);
-  return world.run(kSteps);
+  return world.run(kContactSteps);
 }
 
 // A quick body that would pass through the floor, and one that turns by a radian per step.
@@ -116,7 +116,7 @@ GoldenRecord swingChain(const Settings& settings) {
   addFloor(world);
   addLocked(world);
   world.addChain({0, 0, 1.2});
-  return world.run(kSteps);
+  return world.run(kContactSteps);
 }
 
 }  // namespace

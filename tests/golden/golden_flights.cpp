@@ -9,7 +9,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr int kSteps = 120;
+constexpr int kFlightSteps = 120;
 
 // Drag and a torque that follow no law of the library.
 class QuadraticDrag : public SurfaceLoads {
@@ -126,7 +126,7 @@ GoldenBody flying(int index) {
 GoldenRecord fly(const AttachDef& attach) {
   GoldenWorld world;
   for (int i = 0; i < 3; ++i) world.add(flying(i), attach);
-  return world.run(kSteps);
+  return world.run(kFlightSteps);
 }
 
 // Eleven different bodies side by side.
@@ -134,13 +134,13 @@ GoldenRecord flyTogether() {
   GoldenWorld world;
   const std::vector<NamedDef> variants = allVariants();
   for (int i = 0; i < 11; ++i) world.add(flying(i), variants[3 * i % variants.size()].attach);
-  return world.run(kSteps);
+  return world.run(kFlightSteps);
 }
 
 GoldenRecord flyInWind() {
   GoldenWorld world;
   for (int i = 0; i < 3; ++i) world.add(flying(i), i == 1 ? symmetricInWater() : bumpyInWater());
-  return world.run(kSteps, [&](int step) {
+  return world.run(kFlightSteps, [&](int step) {
     Medium medium = water();
     const double t = step * GoldenWorld::kStep;
     medium.velocity = {3 * t, 1 - 2 * t * t, 0};
@@ -156,7 +156,7 @@ GoldenRecord flyPushed() {
   for (int i = 0; i < 3; ++i) world.add(flying(i), bumpyInWater());
   world.body(1).setAngularVelocity({30, -300, 10});
   world.body(2).setDamping(bt(0.2), bt(0.4));
-  return world.run(kSteps, [&](int step) {
+  return world.run(kFlightSteps, [&](int step) {
     world.body(0).applyForce({bt(3), bt(-step), 5}, {bt(0.1), 0, bt(0.2)});
     world.body(1).applyTorque({bt(0.1 * step), 0, bt(-0.3)});
     if (step % 30 == 7)
@@ -172,7 +172,7 @@ GoldenRecord flyWithLockedAxes() {
   world.body(0).setAngularFactor({0, 0, 1});
   world.body(1).setAngularFactor({0, 1, 1});
   world.body(2).setLinearFactor({0, 1, 1});
-  return world.run(kSteps);
+  return world.run(kFlightSteps);
 }
 
 GoldenRecord flyWithAxisFactors() {
@@ -180,7 +180,7 @@ GoldenRecord flyWithAxisFactors() {
   for (int i = 0; i < 3; ++i) world.add(flying(i), i == 1 ? symmetricInWater() : bumpyInWater());
   for (int i = 0; i < 3; ++i) world.body(i).setLinearFactor({1, bt(0.5), bt(0.3 * i)});
   world.body(0).setAngularFactor({bt(0.5), 2, 1});
-  return world.run(kSteps);
+  return world.run(kFlightSteps);
 }
 
 // Thousands of radians per step: beyond the series of the flow.
