@@ -2,7 +2,6 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
-#include "bullet_ambient/bullet/ambient_counters.h"
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/bullet/precision_check.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
-#include "bullet_ambient/bullet/world_kind.h"
+#include "bullet_ambient/bullet/world_tie.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 
-#include "bullet_ambient/bullet/ambient_counters.h"
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/precision_check.h"
 

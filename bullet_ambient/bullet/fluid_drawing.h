@@ -4,8 +4,12 @@
 
 #include "bullet_ambient/bullet/precision_check.h"
 
+class btIDebugDraw;
+
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+struct AmbientBody;
 
 /// What AmbientAction draws of bodies in a fluid, through the world's btIDebugDraw. Arrows are
 /// lines from the place where the vector acts: of forces on the body, and of the fluid's velocity
@@ -39,6 +43,11 @@ inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
     kSlip(btScalar(0.2), btScalar(0.4), 1), kPressure(1, btScalar(0.5), 0), kFriction(1, 1, 0),
     kBuoyancy(0, 1, 1), kForce(1, 1, 1), kTorque(1, 0, 1);
 }  // namespace fluid_colours
+
+/// Draws one body as it moves now. The total wrench is that of pressure, friction (after the
+/// passivity guard) and buoyancy; the inertia of the fluid is no part of it. @pre it is in a fluid,
+/// alive and dynamic.
+void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

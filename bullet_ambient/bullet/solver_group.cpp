@@ -95,83 +95,20 @@ class FlightTasks final : public Task {
 
 }  // namespace
 
-// What SolverGroup does, and remembers meanwhile.
-class GroupMembers {
- public:
-  using SolverBodies = SolverGroup::SolverBodies;
-
-  explicit GroupMembers(AmbientBodies& bodies) : bodies_(bodies) {}
-
-  void begin(SolverBodies& solver_bodies, const GroupInput& input, btScalar time_step) noexcept;
-  void rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
-                   const MultiBodyRows* multibodies, const btContactSolverInfo& info) noexcept;
-  void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
-
- private:
-  struct Member {
-    AmbientBody* ambient;
-    int solver_body;
-    bool has_rows;
-    bool is_locked;
-  };
-  // The Jacobian of a joint row with feedback, as the joint made it.
-  struct SavedJacobian {
-    int row;
-    btVector3 angular_a, linear_a, angular_b, linear_b;
-  };
-
-  void findMembers(SolverBodies& solver_bodies) noexcept;
-  void markBodiesWithRows(const SolverBodies& solver_bodies, const GroupInput& input) noexcept;
-  void mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept;
-  void prepareForRows(Member& member, btSolverBody& solver_body) noexcept;
-  void prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
-                                  const btMultiBodyConstraintArray& joints) noexcept;
-  void reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
-                        const MultiBodyRows* multibodies, int solver_mode) noexcept;
-  void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
-  void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
-  void flyFreely(SolverBodies& solver_bodies) noexcept;
-  void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
-  Member* memberOf(int solver_body) noexcept;
-
-  AmbientBodies& bodies_;
-  double time_step_ = 0;
-  std::vector<Member> members_;
-  std::vector<int> member_of_solver_body_;  // -1: not ambient
-  std::vector<const Member*> fliers_;       // members that no row has moved
-  RowBodies row_bodies_;
-  std::vector<SavedJacobian> saved_;
-};
-
 SolverGroup::SolverGroup(AmbientRegistry& registry)
-    : members_(std::make_unique<GroupMembers>(bodiesOf(registry))) {}
+    : bodies_(bodiesOf(registry)), row_bodies_(std::make_unique<RowBodies>()) {}
 
 SolverGroup::~SolverGroup() = default;
 
 void SolverGroup::begin(SolverBodies& solver_bodies, const GroupInput& input,
                         btScalar time_step) noexcept {
-  members_->begin(solver_bodies, input, time_step);
-}
-
-void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
-                              const MultiBodyRows* multibodies,
-                              const btContactSolverInfo& info) noexcept {
-  members_->rewriteRows(solver_bodies, rows, multibodies, info);
-}
-
-void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
-  members_->finish(solver_bodies, joints);
-}
-
-void GroupMembers::begin(SolverBodies& solver_bodies, const GroupInput& input,
-                         btScalar time_step) noexcept {
   time_step_ = static_cast<double>(time_step);
   members_.clear();
   saved_.clear();
   if (bodies_.size() == 0) return;
   findMembers(solver_bodies);
   if (members_.empty()) return;
-  row_bodies_.reset(solver_bodies.size());
+  row_bodies_->reset(solver_bodies.size());
   markBodiesWithRows(solver_bodies, input);
   for (Member& member : members_) {
     btSolverBody& solver_body = solver_bodies[member.solver_body];
@@ -183,7 +120,7 @@ void GroupMembers::begin(SolverBodies& solver_bodies, const GroupInput& input,
   }
 }
 
-void GroupMembers::findMembers(SolverBodies& solver_bodies) noexcept {
+void SolverGroup::findMembers(SolverBodies& solver_bodies) noexcept {
   member_of_solver_body_.assign(solver_bodies.size(), -1);
   for (int i = 0; i < solver_bodies.size(); ++i) {
     const btRigidBody* body = solver_bodies[i].m_originalBody;
@@ -198,8 +135,8 @@ void GroupMembers::findMembers(SolverBodies& solver_bodies) noexcept {
   }
 }
 
-void GroupMembers::markBodiesWithRows(const SolverBodies& solver_bodies,
-                                      const GroupInput& input) noexcept {
+void SolverGroup::markBodiesWithRows(const SolverBodies& solver_bodies,
+                                     const GroupInput& input) noexcept {
   for (int i = 0; i < input.manifold_count; ++i) {
     const btPersistentManifold& manifold = *input.manifolds[i];
     if (manifold.getNumContacts() == 0) continue;
@@ -214,13 +151,13 @@ void GroupMembers::markBodiesWithRows(const SolverBodies& solver_bodies,
   }
 }
 
-void GroupMembers::mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept {
+void SolverGroup::mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept {
   const int id = body.getCompanionId();
   if (id < 0 || id >= solver_bodies.size() || solver_bodies[id].m_originalBody != &body) return;
   if (Member* member = memberOf(id)) member->has_rows = true;
 }
 
-void GroupMembers::prepareForRows(Member& member, btSolverBody& solver_body) noexcept {
+void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noexcept {
   AmbientBody& ambient = *member.ambient;
   // Bullet's setWorldTransform leaves the tensor of the old orientation, to which T does not fit.
   ambient.body->updateInertiaTensor();
@@ -240,7 +177,7 @@ void GroupMembers::prepareForRows(Member& member, btSolverBody& solver_body) noe
   }
   setExternalImpulse(solver_body, row.change_W);
 
-  RowBody& row_body = row_bodies_.add(member.solver_body);
+  RowBody& row_body = row_bodies_->add(member.solver_body);
   row_body.turning_W = row.turning_W;
   row_body.turn = row.turn;
   row_body.inverse_inertia = body.getInvInertiaTensorWorld();
@@ -254,49 +191,49 @@ void GroupMembers::prepareForRows(Member& member, btSolverBody& solver_body) noe
   }
 }
 
-void GroupMembers::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
-                               const MultiBodyRows* multibodies,
-                               const btContactSolverInfo& info) noexcept {
+void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
+                              const MultiBodyRows* multibodies,
+                              const btContactSolverInfo& info) noexcept {
   if (members_.empty()) return;
   if (multibodies) prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
-  if (row_bodies_.empty()) return;
+  if (row_bodies_->empty()) return;
   saveFeedbackJacobians(rows.joints);
   const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
-    ambient::rewriteRows(pool, kind, relaxation, row_bodies_, solver_bodies);
+    ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);
   };
   rewrite(rows.contacts, RowKind::kContact, info.m_sor);
   rewrite(rows.frictions, RowKind::kFriction, info.m_sor);
   rewrite(rows.torsional_frictions, RowKind::kTorsionalFriction, 1);
   rewrite(rows.joints, RowKind::kJoint, 1);
-  if (multibodies) rewriteMultiBodyRows(*multibodies, info, row_bodies_, solver_bodies);
+  if (multibodies) rewriteMultiBodyRows(*multibodies, info, *row_bodies_, solver_bodies);
   reapplyWarmStart(solver_bodies, rows, multibodies, info.m_solverMode);
 }
 
-void GroupMembers::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
-                                              const btMultiBodyConstraintArray& joints) noexcept {
+void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
+                                             const btMultiBodyConstraintArray& joints) noexcept {
   forEachJoinedBody(joints, [&](int id) {
     Member* member = memberOf(id);
-    if (member && !row_bodies_.find(id)) prepareForRows(*member, solver_bodies[id]);
+    if (member && !row_bodies_->find(id)) prepareForRows(*member, solver_bodies[id]);
   });
 }
 
-void GroupMembers::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
-                                    const MultiBodyRows* multibodies, int solver_mode) noexcept {
+void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
+                                   const MultiBodyRows* multibodies, int solver_mode) noexcept {
   const bool for_multibodies = multibodies && (solver_mode & SOLVER_USE_ARTICULATED_WARMSTARTING);
   if (!(solver_mode & SOLVER_USE_WARMSTARTING) && !for_multibodies) return;
   for (const Member& member : members_) {
     solver_bodies[member.solver_body].internalGetDeltaLinearVelocity().setZero();
     solver_bodies[member.solver_body].internalGetDeltaAngularVelocity().setZero();
   }
-  reapplyImpulses(rows.contacts, row_bodies_, solver_bodies);
+  reapplyImpulses(rows.contacts, *row_bodies_, solver_bodies);
   if (!for_multibodies) return;
-  reapplyMultiBodyImpulses(multibodies->contacts, row_bodies_, solver_bodies);
-  reapplyMultiBodyImpulses(multibodies->frictions, row_bodies_, solver_bodies);
+  reapplyMultiBodyImpulses(multibodies->contacts, *row_bodies_, solver_bodies);
+  reapplyMultiBodyImpulses(multibodies->frictions, *row_bodies_, solver_bodies);
   // Stock Bullet forgets the rigid side of these, and momentum is lost.
-  reapplyMultiBodyImpulses(multibodies->joints, row_bodies_, solver_bodies);
+  reapplyMultiBodyImpulses(multibodies->joints, *row_bodies_, solver_bodies);
 }
 
-void GroupMembers::saveFeedbackJacobians(const btConstraintArray& joints) noexcept {
+void SolverGroup::saveFeedbackJacobians(const btConstraintArray& joints) noexcept {
   for (int i = 0; i < joints.size(); ++i) {
     const btSolverConstraint& row = joints[i];
     const auto* constraint = static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
@@ -306,7 +243,7 @@ void GroupMembers::saveFeedbackJacobians(const btConstraintArray& joints) noexce
   }
 }
 
-void GroupMembers::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
+void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
   for (const SavedJacobian& saved : saved_) {
     btSolverConstraint& row = joints[saved.row];
     row.m_relpos1CrossNormal = saved.angular_a;
@@ -317,11 +254,11 @@ void GroupMembers::restoreFeedbackJacobians(btConstraintArray& joints) noexcept 
   saved_.clear();
 }
 
-void GroupMembers::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
   restoreFeedbackJacobians(joints);
   for (const Member& member : members_) {
     btSolverBody& solver_body = solver_bodies[member.solver_body];
-    const RowBody* row_body = row_bodies_.find(member.solver_body);
+    const RowBody* row_body = row_bodies_->find(member.solver_body);
     // Rows that are near have allowed the velocity that they were solved against; a flight with a
     // fast turn would take the body elsewhere.
     const bool may_fly = !row_body || (!member.is_locked && row_body->turn == Turn::kSlow);
@@ -340,7 +277,7 @@ void GroupMembers::finish(SolverBodies& solver_bodies, btConstraintArray& joints
 
 // Flights touch nothing but their own body, so that any thread may compute them. Side by side they
 // are quicker, but few bodies are better spread over the threads.
-void GroupMembers::flyFreely(SolverBodies& solver_bodies) noexcept {
+void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
   constexpr int kLeastGroups = 8;
   const int count = static_cast<int>(fliers_.size());
   TaskRunner* runner = bodies_.task_runner;
@@ -365,7 +302,7 @@ void GroupMembers::flyFreely(SolverBodies& solver_bodies) noexcept {
   fliers_.clear();
 }
 
-void GroupMembers::flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept {
+void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept {
   AmbientBody* bodies[kFlightsTogether] = {};
   Twist changes_W[kFlightsTogether];
   const Member* const* fliers = fliers_.data() + first;
@@ -375,7 +312,7 @@ void GroupMembers::flyTogether(int first, int count, SolverBodies& solver_bodies
     setExternalImpulse(solver_bodies[fliers[i]->solver_body], changes_W[i]);
 }
 
-GroupMembers::Member* GroupMembers::memberOf(int solver_body) noexcept {
+SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
   // Bodies appended after convertBodies (fixed, kinematic) are never ambient.
   if (static_cast<std::size_t>(solver_body) >= member_of_solver_body_.size()) return nullptr;
   const int index = member_of_solver_body_[solver_body];

@@ -4,9 +4,11 @@
 #include <BulletDynamics/ConstraintSolver/btSolverConstraint.h>
 
 #include <memory>
+#include <vector>
 
 #include "bullet_ambient/bullet/precision_check.h"
 
+class btCollisionObject;
 class btPersistentManifold;
 class btTypedConstraint;
 struct btContactSolverInfo;
@@ -16,8 +18,10 @@ struct btMultiBodySolverConstraint;
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+struct AmbientBody;
+class AmbientBodies;
 class AmbientRegistry;
-class GroupMembers;
+class RowBodies;
 
 /// The rows that Bullet has set up for one group of bodies.
 struct RowPools {
@@ -71,7 +75,40 @@ class SolverGroup {
   void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
 
  private:
-  std::unique_ptr<GroupMembers> members_;
+  struct Member {
+    AmbientBody* ambient;
+    int solver_body;
+    bool has_rows;
+    bool is_locked;
+  };
+  // The Jacobian of a joint row with feedback, as the joint made it.
+  struct SavedJacobian {
+    int row;
+    btVector3 angular_a, linear_a, angular_b, linear_b;
+  };
+
+  void findMembers(SolverBodies& solver_bodies) noexcept;
+  void markBodiesWithRows(const SolverBodies& solver_bodies, const GroupInput& input) noexcept;
+  void mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept;
+  void prepareForRows(Member& member, btSolverBody& solver_body) noexcept;
+  void prepareJoinedToMultiBodies(
+      SolverBodies& solver_bodies,
+      const btAlignedObjectArray<btMultiBodySolverConstraint>& joints) noexcept;
+  void reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& rows,
+                        const MultiBodyRows* multibodies, int solver_mode) noexcept;
+  void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
+  void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
+  void flyFreely(SolverBodies& solver_bodies) noexcept;
+  void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
+  Member* memberOf(int solver_body) noexcept;
+
+  AmbientBodies& bodies_;
+  double time_step_ = 0;
+  std::vector<Member> members_;
+  std::vector<int> member_of_solver_body_;  // -1: not ambient
+  std::vector<const Member*> fliers_;       // members that no row has moved
+  std::unique_ptr<RowBodies> row_bodies_;
+  std::vector<SavedJacobian> saved_;
 };
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "bullet_ambient/bullet/ambient_counters.h"
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/motion/flight_memory.h"

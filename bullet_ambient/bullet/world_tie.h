@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "bullet_ambient/bullet/precision_check.h"
 
 class btActionInterface;
@@ -8,6 +10,10 @@ class btDynamicsWorld;
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// @throws std::invalid_argument, in one sentence that begins with `who`, if no fluid can act in
+/// worlds of this kind.
+void checkWorldKind(const std::string& who, const btDynamicsWorld& world);
 
 /// Ties one world to a solver and an action, which must be alive while it is stepped.
 class WorldTie {

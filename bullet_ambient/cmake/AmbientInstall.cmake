@@ -37,7 +37,6 @@ endfunction()
 set(BULLET_AMBIENT_PUBLIC_HEADERS
   ambient.h
   bullet/ambient_action.h
-  bullet/ambient_counters.h
   bullet/ambient_impulse.h
   bullet/ambient_registry.h
   bullet/ambient_serializer.h

@@ -3,8 +3,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
-
 namespace ambient {
 
 /// Indexed triangle mesh. Triangles are counter-clockwise seen from the fluid: (b - a) x (c - a)
@@ -20,7 +18,6 @@ struct TriangleMesh {
   }
   /// Sizes of the bounding box along the axes [m]. @pre there are vertices.
   Eigen::Vector3d extents() const {
-    AMBIENT_ASSERT(vertexCount() > 0);
     return vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff();
   }
 };

@@ -1,7 +1,8 @@
-#include "bullet_ambient/bullet/fluid_arrows.h"
+#include "bullet_ambient/bullet/fluid_drawing.h"
 
 #include <LinearMath/btIDebugDraw.h>
 
+#include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/force/buoyancy.h"
 #include "bullet_ambient/force/face_flow.h"
 
