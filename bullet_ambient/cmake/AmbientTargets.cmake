@@ -62,8 +62,8 @@ function(ambient_name_for_precision out name precision)
 endfunction()
 
 # Options every target of this project is compiled with. Sources that are compiled together may use a local name that
-# another one has for itself: shadows are looked for where each is compiled alone. No contraction to fused multiply-add: the same
-# input gives the same bits with every instruction set.
+# another one has for itself: shadows are looked for where each is compiled alone. No contraction to fused multiply-add:
+# the same input gives the same bits with every instruction set.
 function(ambient_set_compile_options name)
   target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
     $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow> -ffp-contract=off $<$<BOOL:${BULLET_AMBIENT_WARNINGS_AS_ERRORS}>:-Werror>)

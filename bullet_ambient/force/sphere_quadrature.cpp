@@ -10,6 +10,7 @@
 namespace ambient {
 namespace {
 
+constexpr int kMeridians = 48;
 constexpr int kBrackets = 32;   // of the lee side of a meridian, to find where the flow separates
 constexpr int kBisections = 6;  // then a secant: to 1e-7
 /// Gauss's rule of 8 points between -1 and 1, one half.

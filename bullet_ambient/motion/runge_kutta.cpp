@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "bullet_ambient/motion/momentum_equations.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 namespace {
 
-constexpr double kMaxTurn = 5.7 * 3.14159265358979323846 / 180;  // [rad] per substep
+constexpr double kMaxTurn = 5.7 * kPi / 180;  // [rad] per substep
 constexpr int kMostSubsteps = 4096;
 
 MomentumPhase step(const MomentumEquations& equations, const MomentumPhase& s, double h) {

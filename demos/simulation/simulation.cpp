@@ -10,6 +10,7 @@
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/rivals/rival_laws.h"
 #include "demos/simulation/collision_shape.h"

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "bullet_ambient/bullet/ambient_action.h"
+#include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/bullet/ambient_impulse.h"
+#include "bullet_ambient/bullet/conversions.h"
 #include "tests/fuzz/fuzz_scene.h"
 
 namespace ambient::test {

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "bullet_ambient/bullet/conversions.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/ellipsoid_body.h"
 

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "bullet_ambient/bullet/conversions.h"
 #include "tests/fuzz/fuzz_scene.h"
 
 namespace ambient::test {

@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/ambient_action.h"
+#include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
-#include "bullet_ambient/bullet/conversions.h"
-#include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/motion/rigid_state.h"
 #include "tests/support/ellipsoid_body.h"
 
 namespace ambient::test {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "tests/support/random_bodies.h"
 

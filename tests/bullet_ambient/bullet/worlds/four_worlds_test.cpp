@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/bullet/ambient_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/worlds/world_setups.h"
 #include "tests/support/free_body.h"
