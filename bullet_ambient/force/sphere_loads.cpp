@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 bool hasFriction(const LoadSettings& settings) noexcept {
   return settings.skin_friction && settings.viscosity > 0;

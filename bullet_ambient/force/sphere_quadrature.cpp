@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMeridians = 48;
 constexpr int kBrackets = 32;   // of the lee side of a meridian, to find where the flow separates
 constexpr int kBisections = 6;  // then a secant: to 1e-7
