@@ -1,6 +1,7 @@
 #include "preprocess/mesh/mass_properties.h"
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
 namespace {
