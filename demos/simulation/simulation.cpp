@@ -17,7 +17,6 @@
 #include "demos/simulation/joint.h"
 
 namespace ambient {
-namespace {
 
 /// One body in the world. Bullet's body frame B has its origin at the centre of mass and principal
 /// axes; S is the shape's frame.
@@ -29,6 +28,8 @@ struct WorldBody {
   std::unique_ptr<btRigidBody> body;
   bool is_ambient = false;
 };
+
+namespace {
 
 MotionSample startOf(const BodyDef& def) {
   MotionSample start;
