@@ -90,9 +90,7 @@ class SphereLoads final : public SurfaceLoads {
 // Of a fluid body that was filled by hand: readers and builders have checked theirs.
 void checkFaces(const FluidBody& body) {
   const FaceTable& faces = body.faces;
-  for (const std::vector<double>* column :
-       {&faces.normal_x, &faces.normal_y, &faces.normal_z, &faces.centroid_x, &faces.centroid_y,
-        &faces.centroid_z, &faces.area}) {
+  for (const std::vector<double>* column : faces.columns()) {
     if (column->size() != faces.size()) {
       reject(body, "number of entries in a column of its faces",
              static_cast<double>(column->size()), "the same in all columns");
