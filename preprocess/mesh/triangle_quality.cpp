@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
 namespace {
