@@ -2,7 +2,6 @@
 
 #include "bullet_ambient/bullet/ambient_impulse.h"
 #include "bullet_ambient/force/surface_loads.h"
-#include "bullet_ambient/motion/flight.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/golden/golden_world.h"
 #include "tests/support/ellipsoid_body.h"

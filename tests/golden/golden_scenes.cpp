@@ -4,7 +4,7 @@
 
 #include "bullet_ambient/fluid_body/content_hash.h"
 #include "demos/scene/scene_lookup.h"
-#include "tests/demos/run_scene.h"
+#include "tests/demos/simulation/run_scene.h"
 #include "tests/golden/golden_record.h"
 
 namespace ambient::test {

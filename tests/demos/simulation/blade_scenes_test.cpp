@@ -15,10 +15,6 @@ Vector3 axisOf(const MotionSample& sample) { return sample.orientation * Vector3
 
 double spinOf(const MotionSample& sample) { return sample.twist.angular.dot(axisOf(sample)); }
 
-std::vector<MotionSample> motionOf(const std::string& scene, const char* model = "ambient") {
-  return runSharing(readNamedScene(scene, {{"model", model}})).motion[0];
-}
-
 double largestHeight(const std::vector<MotionSample>& motion) {
   double largest = 0;
   for (const MotionSample& sample : motion) largest = std::max(largest, sample.position.z());

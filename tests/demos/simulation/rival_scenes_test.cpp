@@ -15,10 +15,6 @@
 namespace ambient {
 namespace {
 
-std::vector<MotionSample> motionOf(const std::string& scene, const std::string& model) {
-  return runSharing(readNamedScene(scene, {{"model", model}})).motion[0];
-}
-
 TEST(RivalScenes, LinearDragSlowsABallExponentially) {
   nlohmann::json text = ballScene();
   text["model"] = "uwrbd";

@@ -41,6 +41,12 @@ inline RunRecord runSharing(const Scene& scene) {
   return runPrepared(scene, prepareBodies(scene, cache));
 }
 
+/// Of the first body.
+inline std::vector<MotionSample> motionOf(const std::string& scene,
+                                          const std::string& model = "ambient") {
+  return runSharing(readNamedScene(scene, {{"model", model}})).motion[0];
+}
+
 /// A scene whose first body's flow is solved on the triangles of its mesh only, which is faster and
 /// within a percent. The .ambient file goes into the folder.
 inline Scene readCoarseScene(const std::string& name, const TemporaryFolder& folder,
