@@ -35,7 +35,7 @@ TEST_F(CommandLine, BadShapesAreRefusedInOneLineThatNamesTheFile) {
   const std::string typo = write("typo.json", R"({"type":"sphere","radios":1})");
   EXPECT_EQ(buildRefusal(typo).find(typo + ": "), 0u);
   const std::string negative = write("negative.json", R"({"type":"sphere","radius":-1})");
-  EXPECT_EQ(buildRefusal(negative).find(negative + ": radius = -1 in shape \"sphere\""), 0u);
+  EXPECT_EQ(buildRefusal(negative), negative + ": radius is -1; must be > 0");
   const std::string lost = write("lost.json", R"({"type":"mesh","file":"lost.obj"})");
   EXPECT_EQ(buildRefusal(lost), path("lost.obj") + ": no such file");
   const std::string built = write("built.json", R"({"type":"fluid_body","file":"x.ambient"})");
