@@ -22,18 +22,16 @@ struct AttachDef {
   Medium medium = {};  ///< default: vacuum, in which the body moves as in stock Bullet
   FlowSettings flow = {};
   FlightSettings flight = {};
-  FrameOffset fluid_frame =
-      {};  ///< frame F of the fluid body in the btRigidBody's frame (centre of mass)
+  FrameOffset fluid_frame = {};  ///< F in the btRigidBody's frame (centre of mass)
 };
 
 /// What was computed for one body since it was attached.
 struct AmbientCounters {
   long long substeps = 0;  ///< of free flight
   long long load_evaluations = 0;
-  long long faces = 0;    ///< faces or clusters summed in them; a sphere has none
-  long long guarded = 0;  ///< load evaluations in which the passivity guard acted
-  long long coarse =
-      0;  ///< steps whose error stayed above the tolerance at the largest substep count
+  long long faces = 0;     ///< faces or clusters summed in them; a sphere has none
+  long long guarded = 0;   ///< load evaluations in which the passivity guard acted
+  long long coarse = 0;    ///< steps whose error stayed too large at the most substeps
   long long rows = 0;      ///< constraint rows rewritten
   long long rejected = 0;  ///< steps whose result was not finite and was not taken over
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
@@ -82,6 +84,7 @@ void restoreMass(const BodyState& s, btRigidBody& body) {
 }
 
 void restoreBody(const BodyState& s, btRigidBody& body) {
+  AMBIENT_ASSERT(body.getInvMass() == s.inverse_mass);
   body.setCollisionFlags(s.collision_flags);
   body.setFlags(s.flags);
   body.setCenterOfMassTransform(s.pose);

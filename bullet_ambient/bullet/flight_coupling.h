@@ -28,5 +28,16 @@ void limitEnergy(AmbientBody& ambient) noexcept;
 /// less than a hundredth of its size within Bullet's two seconds.
 void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept;
 
+/// Flies up to kFlightsTogether bodies over `time_step` [s] and keeps where they end. Writes the
+/// velocity changes in world axes that make Bullet's integrateTransform reach those poses,
+/// docs/theory.md eq. (29). A flight that is not finite leaves its body adrift, and nothing is
+/// kept.
+void beginFlights(AmbientBody* const* bodies, int count, double time_step,
+                  Twist* changes_W) noexcept;
+
+/// After Bullet has moved the body: gives it the velocity of the end of its flight, and the pose
+/// itself where Bullet limits the rotation per step.
+void endFlight(AmbientBody& ambient, double time_step) noexcept;
+
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

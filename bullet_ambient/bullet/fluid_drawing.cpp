@@ -5,6 +5,7 @@
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/force/buoyancy.h"
 #include "bullet_ambient/force/face_flow.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -69,6 +70,7 @@ FluidDrawing FluidDrawing::all() {
 }
 
 void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer) {
+  AMBIENT_ASSERT(ambient.isInFluid() && !ambient.body->isStaticOrKinematicObject());
   const BodyModel& model = ambient.model;
   const RigidState state = readState(*ambient.body);
   const Surroundings s = readSurroundings(ambient);

@@ -1,9 +1,9 @@
-#include "bullet_ambient/bullet/free_flight.h"
-
 #include <limits>
 #include <optional>
 
+#include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/motion/flight_group.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -130,6 +130,7 @@ bool reachedEnd(const AmbientBody& ambient) {
 
 void beginFlights(AmbientBody* const* bodies, int count, double time_step,
                   Twist* changes_W) noexcept {
+  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   Departures departures;
   readDepartures(bodies, count, departures);
   std::optional<Flight> flights[kFlightsTogether];

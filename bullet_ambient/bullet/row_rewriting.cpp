@@ -2,6 +2,8 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
@@ -107,6 +109,7 @@ void RowBodies::reset(int solver_body_count) {
 }
 
 RowBody& RowBodies::add(int solver_body) {
+  AMBIENT_ASSERT(solver_body >= 0 && !find(solver_body));
   index_[solver_body] = static_cast<int>(bodies_.size());
   return bodies_.emplace_back();
 }

@@ -9,7 +9,6 @@
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
-#include "bullet_ambient/bullet/free_flight.h"
 #include "bullet_ambient/bullet/multibody_rows.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
 #include "bullet_ambient/motion/axis_locks.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -24,6 +25,7 @@ WorldBasis toBullet(const Matrix6& T) {
 }  // namespace
 
 Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& inertia_diagonal) {
+  AMBIENT_ASSERT(inertia_diagonal.minCoeff() > 0 && model.mass > 0);
   Vector6 scale;
   scale << inertia_diagonal.cwiseSqrt(), Vector3::Constant(std::sqrt(model.mass));
   return inverseTransposedFactor(model.inertia) * scale.asDiagonal();

@@ -77,6 +77,14 @@ FluidBody scaled(const FluidBody& body, double factor) {
   return result;
 }
 
+Vector3 extentsOf(const FluidBody& body) {
+  const std::vector<double>& v = body.surface.vertices;
+  const auto count = static_cast<Eigen::Index>(v.size() / 3);
+  if (count == 0) return Vector3::Zero();
+  const Eigen::Map<const Eigen::Matrix3Xd> vertices(v.data(), 3, count);
+  return vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff();
+}
+
 void reject(const FluidBody& body, const std::string& what, double value, const char* limit) {
   std::ostringstream message;
   message << "fluid body '" << body.name << "': " << what << " is " << value << ", must be "

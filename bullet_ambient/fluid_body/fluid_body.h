@@ -79,6 +79,9 @@ struct FluidBody {
 /// flow at every face, stacked, for the relative twist x in F. Padilla et al. 2025, appendix A.2.
 Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& faces);
 
+/// Sizes of the bounding box of the body's surface along the axes of F [m]; 0 without a surface.
+Vector3 extentsOf(const FluidBody& body);
+
 /// The same shape, `factor` times as large about F's origin: lengths s, areas s^2, volumes s^3,
 /// added mass s^3 to s^5 as scaleShape(). The provenance stays; its settings tell the factor.
 /// @throws std::invalid_argument if the factor is not positive and finite.

@@ -1,11 +1,13 @@
 #include "bullet_ambient/force/face_flow.h"
 
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 
 FaceFlow computeFaceFlow(const FaceTable& faces, std::size_t face, double reference_length,
                          const Twist& relative_twist, const LoadSettings& settings) noexcept {
+  AMBIENT_ASSERT(face < faces.size());
   const Vector3 n = faces.normal(face);
   const Vector3 u = relative_twist.at(faces.centroid(face));
   FaceFlow flow;

@@ -5,6 +5,8 @@
 
 namespace ambient {
 
+class PackedFaces;
+
 /// cos(alpha) of a separation angle [rad]; exactly 0 at pi/2, where std::cos leaves 6e-17.
 double separationCosine(double separation_angle);
 
@@ -40,5 +42,20 @@ struct FaceLoads {
 /// @pre all columns of `faces` have one length.
 FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                            const Twist& relative_twist, const LoadSettings& settings) noexcept;
+
+/// The total of computeFaceLoads() in single precision: on large meshes 0.45 ns per face with AVX2,
+/// 0.7 with friction. At alpha = pi/2 blocks of faces in the lee are left out. Arguments as there.
+/// Rounding errors grow with the velocity of the faces, not with their slip: about 1e-6 of 1/2 rho
+/// sum A_i |u_s,i| |u_i|, and a face at the separation angle may fall on the other side of it. No
+/// range is lost: the motion is scaled before it is rounded. The same bits on every machine.
+Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
+                       const Twist& relative_twist, const LoadSettings& settings) noexcept;
+
+/// The total of computeFaceLoads() on the clusters of a level, docs/theory.md eq. (36) to (39),
+/// with the error that the level states. Arguments as there; `settings.separation_cosine` must be
+/// that of the level. The pressure may feed energy to the body: guard it. Cost: level.cost faces,
+/// whatever the mesh; allocates nothing. The same bits on every machine.
+Wrench computeLevelLoad(const LoadLevel& level, double reference_length,
+                        const Twist& relative_twist, const LoadSettings& settings) noexcept;
 
 }  // namespace ambient

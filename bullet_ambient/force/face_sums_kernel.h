@@ -3,6 +3,7 @@
 #include "bullet_ambient/force/double_lanes.h"
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 // Included once by each face_sums_<instruction set>.cpp, which is compiled for that set and names
 // the AMBIENT_KERNEL.
@@ -126,6 +127,7 @@ struct LaneSums {
 /// @pre faces.size is a multiple of kLanes.
 template <bool kRightAngle, bool kFriction>
 void sumColumns(const FaceColumns& faces, const FaceMotion& motion, LaneSums& sums) {
+  AMBIENT_ASSERT(faces.size % kLanes == 0);
   BlockSlip slip;
   for (std::size_t begin = 0; begin < faces.size; begin += kBlock) {
     const std::size_t end = begin + kBlock < faces.size ? begin + kBlock : faces.size;

@@ -1,5 +1,4 @@
-#include "bullet_ambient/force/level_loads.h"
-
+#include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/level_sums.h"
 #include "bullet_ambient/force/single_motion.h"
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 
 SurfaceLoad removePositivePower(const Wrench& surface_wrench, const Twist& relative_twist,
@@ -15,6 +17,7 @@ SurfaceLoad removePositivePower(const Wrench& surface_wrench, const Twist& relat
   const double gained = f.dot(x);
   if (!(gained > 0) || !std::isfinite(gained)) return {surface_wrench, false};
   const Vector6 momentum = inertia * x;
+  AMBIENT_ASSERT(x.dot(momentum) > 0);
   return {Wrench::fromVector(f - gained / x.dot(momentum) * momentum), true};
 }
 

@@ -1,5 +1,5 @@
-#include "bullet_ambient/force/single_loads.h"
-
+#include "bullet_ambient/fluid_body/packed_faces.h"
+#include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/single_motion.h"
 
 namespace ambient {

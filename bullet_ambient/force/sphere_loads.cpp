@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -74,6 +75,7 @@ FaceLoads computeSphereLoads(const SphereTable* table, double radius, double ref
   const SphereMotion motion(relative_twist, radius);
   // Nothing is attached where nothing moves along its normal.
   if (motion.speed == 0 || (half && motion.linear.isZero(0))) return loads;
+  AMBIENT_ASSERT(table || !needsSphereTable(settings));
   const SphereIntegrals integrals =
       table ? table->at(motion.spin_share, std::abs(motion.cosine)) : SphereIntegrals{};
   const double pressure = 0.5 * settings.density * motion.speed * motion.speed * radius * radius;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/force/sphere_quadrature.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 namespace {
@@ -52,6 +53,7 @@ double SphereTable::cosineAt(int node) noexcept {
 }
 
 SphereIntegrals SphereTable::at(double spin_share, double cosine) const noexcept {
+  AMBIENT_ASSERT(spin_share >= 0 && spin_share <= 1 && cosine >= 0 && cosine <= 1);
   const double rest = spin_share - closing_share_;
   const CubicStencil share =
       rest < 0

@@ -3,9 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "bullet_ambient/force/level_loads.h"
+#include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/load_tables.h"
-#include "bullet_ambient/force/single_loads.h"
 #include "bullet_ambient/force/sphere_loads.h"
 #include "bullet_ambient/spatial/pi.h"
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
@@ -108,6 +109,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   }
   model.inverse_inertia = cholesky.solve(Eigen::Matrix<double, 6, 6>::Identity());
   model.inverse_inertia = 0.5 * (model.inverse_inertia + model.inverse_inertia.transpose()).eval();
+  AMBIENT_ASSERT(model.inverse_inertia.diagonal().minCoeff() > 0);
   model.has_diagonal_inertia = model.inertia.isDiagonal(0) && model.inverse_inertia.isDiagonal(0);
   model.mass = mass.mass;
   model.displaced_mass = medium.density * fluid_body.volume;

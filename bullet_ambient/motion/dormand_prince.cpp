@@ -1,11 +1,9 @@
-#include "bullet_ambient/motion/dormand_prince.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "bullet_ambient/motion/leapfrog.h"
+#include "bullet_ambient/motion/integrators.h"
 #include "bullet_ambient/motion/momentum_equations.h"
 
 namespace ambient {

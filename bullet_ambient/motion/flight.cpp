@@ -4,10 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/force/buoyancy.h"
-#include "bullet_ambient/motion/dormand_prince.h"
-#include "bullet_ambient/motion/leapfrog.h"
-#include "bullet_ambient/motion/runge_kutta.h"
-#include "bullet_ambient/motion/symplectic_euler.h"
+#include "bullet_ambient/motion/integrators.h"
 
 namespace ambient {
 

@@ -1,5 +1,9 @@
 #include "bullet_ambient/motion/flight_group.h"
 
+#include <cmath>
+
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -38,6 +42,8 @@ void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexc
 
 void setState(FlightLanes& lanes, int body, const BodyModel& model,
               const RigidState& state) noexcept {
+  // Not of a state that is not finite: its flight is refused in the end.
+  AMBIENT_ASSERT(!(std::abs(state.orientation.squaredNorm() - 1) > 1e-6));
   setLane(lanes.orientation, body, state.orientation);
   setLane(lanes.way_W, body, Vector3(0, 0, 0));
   const DualPair motion = pairOfTwist(model, state.twist.vector());

@@ -3,6 +3,7 @@
 #include "bullet_ambient/force/instruction_set.h"
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/motion/flight_lanes.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 
@@ -23,6 +24,7 @@ RigidState stateOf(const FlightLanes& lanes, int body, const Vector3& start) noe
 
 /// Values of one body.
 inline void setLane(FlightLane* to, int body, const Vector3& a) noexcept {
+  AMBIENT_ASSERT(body >= 0 && body < kFlightLanes);
   for (int i = 0; i < 3; ++i) to[i][body] = a[i];
 }
 inline void setLane(FlightLane* to, int body, const Wrench& f) noexcept {

@@ -171,7 +171,7 @@ Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duratio
   return end;
 }
 
-/// flowWithoutLoads(), docs/theory.md eq. (22), of the active bodies.
+/// Motion without loads, docs/theory.md eq. (22), of the active bodies.
 template <class Matrices>
 void flow(FlightLanes& bodies, int at, const Mask& active) {
   constexpr int kMaxPieces = 1024;  // series per call

@@ -1,10 +1,8 @@
-#include "bullet_ambient/motion/leapfrog.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "bullet_ambient/motion/flight_group.h"
-#include "bullet_ambient/motion/kirchhoff_flow.h"
+#include "bullet_ambient/motion/integrators.h"
 
 namespace ambient {
 namespace {
@@ -13,6 +11,7 @@ static_assert(kFlightsTogether == kFlightLanes);
 
 constexpr int kMaxRetries = 2;
 constexpr double kStepSafety = 0.9;
+constexpr double kToRounding = 1e-16;
 constexpr double kFlowPrecision = 1e-6;  // of the tolerance: the flow adds nothing to the error
 constexpr double kAcceptance =
     2;  // a step is repeated when its error exceeds the tolerance by this factor

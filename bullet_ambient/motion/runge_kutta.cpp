@@ -1,8 +1,7 @@
-#include "bullet_ambient/motion/runge_kutta.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/motion/integrators.h"
 #include "bullet_ambient/motion/momentum_equations.h"
 #include "bullet_ambient/spatial/pi.h"
 

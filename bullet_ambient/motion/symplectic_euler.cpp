@@ -1,7 +1,6 @@
-#include "bullet_ambient/motion/symplectic_euler.h"
-
 #include <algorithm>
 
+#include "bullet_ambient/motion/integrators.h"
 #include "bullet_ambient/motion/kirchhoff.h"
 #include "bullet_ambient/motion/rotation.h"
 

@@ -7,7 +7,6 @@
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/analysis/falling_mode.h"
 #include "demos/analysis/path_summary.h"
-#include "preprocess/builder/body_extents.h"
 
 namespace ambient {
 namespace {

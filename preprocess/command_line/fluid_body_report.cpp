@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "preprocess/builder/body_extents.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/mesh/usual_size.h"
 

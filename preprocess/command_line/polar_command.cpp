@@ -8,7 +8,6 @@
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/spatial/pi.h"
-#include "preprocess/builder/body_extents.h"
 #include "preprocess/command_line/body_loads.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"

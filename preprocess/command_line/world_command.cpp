@@ -34,14 +34,6 @@ void requireWorldOptions(const BuildArguments& arguments) {
   if (arguments.memory) refuseForMany("--memory");
 }
 
-void requireFile(const fs::path& input) {
-  std::error_code error;
-  if (!fs::exists(input, error)) raiseInputError(input.string(), "no such file");
-  if (fs::is_directory(input, error))
-    raiseInputError(input.string(), "is a directory, not a .bullet file");
-  if (!fs::is_regular_file(input, error)) raiseInputError(input.string(), "is not a regular file");
-}
-
 void requireFolder(const fs::path& output) {
   std::error_code error;
   if (fs::exists(output, error) && !fs::is_directory(output, error)) {
@@ -103,7 +95,7 @@ int runWorldBuild(const BuildArguments& arguments) {
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;
   settings.reuse = !arguments.rebuild;
-  requireFile(arguments.input);
+  requireRegularFile(arguments.input, ".bullet");
   requireFolder(arguments.output);
   WorldBuild built;
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -21,6 +22,18 @@ std::string inputMessage(const std::string& source, const Parts&... parts) {
 template <class... Parts>
 [[noreturn]] void raiseInputError(const std::string& source, const Parts&... parts) {
   throw std::runtime_error(inputMessage(source, parts...));
+}
+
+/// Refuses what is missing, a folder, or a pipe or device, which may never end; `kind` of file.
+/// @throws std::runtime_error in one line that names the file.
+inline void requireRegularFile(const std::filesystem::path& file, const char* kind) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) raiseInputError(file.string(), "no such file");
+  if (std::filesystem::is_directory(status))
+    raiseInputError(file.string(), "is a directory, not a ", kind, " file");
+  if (!std::filesystem::is_regular_file(status))
+    raiseInputError(file.string(), "is not a regular file");
 }
 
 }  // namespace ambient

@@ -11,21 +11,6 @@
 namespace ambient {
 namespace {
 
-void requireReadableFile(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) raiseInputError(file.string(), "no such file");
-  if (std::filesystem::is_directory(status)) {
-    raiseInputError(file.string(), "is a directory, not a mesh file");
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    raiseInputError(file.string(), "is not a regular file");
-  }
-  if (std::filesystem::file_size(file, error) == 0) {
-    raiseInputError(file.string(), "the file is empty");
-  }
-}
-
 // Single precision relative to the origin, as the file gives it, may be coarse relative to the
 // body. Refuses what would be a staircase.
 std::string resolutionWarning(const TriangleMesh& mesh, double diagonal, const std::string& name) {
@@ -62,7 +47,8 @@ ImportedMesh importMesh(const std::filesystem::path& file, double scale) {
   if (!std::isfinite(scale) || scale <= 0) {
     raiseInputError(name, "scale = ", scale, " is not positive and finite");
   }
-  requireReadableFile(file);
+  requireRegularFile(file, "mesh");
+  if (std::filesystem::file_size(file) == 0) raiseInputError(name, "the file is empty");
   SceneTriangles scene = readSceneTriangles(file);
   ImportedMesh imported{std::move(scene.mesh), {}};
   if (imported.mesh.triangleCount() == 0) raiseInputError(name, "there are no triangles");

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/force/level_loads.h"
+#include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 

@@ -28,14 +28,7 @@ std::string plainMessage(const json::exception& error) {
 }  // namespace
 
 std::string readBytes(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) raiseInputError(file.string(), "no such file");
-  if (std::filesystem::is_directory(status)) raiseInputError(file.string(), "is a directory");
-  // A pipe or a device may never end.
-  if (!std::filesystem::is_regular_file(status)) {
-    raiseInputError(file.string(), "is not a regular file");
-  }
+  requireRegularFile(file, "regular");
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream bytes;
   bytes << stream.rdbuf();

@@ -2,10 +2,9 @@
 
 #include <memory>
 
+#include "bullet_ambient/fluid_body/packed_faces.h"
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/face_sums.h"
-#include "bullet_ambient/force/level_loads.h"
-#include "bullet_ambient/force/single_loads.h"
 #include "bullet_ambient/force/single_sums.h"
 #include "bullet_ambient/force/skin_friction.h"
 #include "bullet_ambient/force/sphere_loads.h"

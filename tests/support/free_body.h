@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "bullet_ambient/motion/flight.h"
+#include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/motion/kirchhoff.h"
-#include "bullet_ambient/motion/kirchhoff_flow.h"
 #include "tests/support/body_models.h"
 
 namespace ambient::test {
@@ -66,10 +66,23 @@ inline FluidBody shapeWithoutFaces(const Matrix6& added_mass, double volume = 1)
   return shape;
 }
 
-/// The flow without loads of a body for `duration` [s].
-inline Flow flowWithoutLoads(const FreeBody& body, double duration,
-                             double precision = kToRounding) {
-  return ambient::flowWithoutLoads(body.model(), body.state, duration, precision);
+struct Flow {
+  RigidState state;        ///< at the end
+  bool is_precise = true;  ///< false: the turn was too long, a cruder rest of the way was taken
+};
+
+/// Motion for `duration` [s] without loads, docs/theory.md eq. (22), up to `precision` relative to
+/// the motion: one body of FlightKernel::flow.
+inline Flow flowWithoutLoads(const FreeBody& body, double duration, double precision = 1e-16) {
+  FlightLanes lanes{};
+  setModel(lanes, 0, body.model());
+  setState(lanes, 0, body.model(), body.state);
+  lanes.has_diagonal_inertia = body.model().has_diagonal_inertia;
+  lanes.active[0] = 1;
+  lanes.flow_time[0] = duration;
+  lanes.precision[0] = precision;
+  fastestFlightKernel().flow(lanes);
+  return {stateOf(lanes, 0, body.state.position), !(lanes.is_coarse[0] > 0)};
 }
 
 /// Angle between two orientations [rad].

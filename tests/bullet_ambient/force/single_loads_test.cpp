@@ -1,5 +1,3 @@
-#include "bullet_ambient/force/single_loads.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/packed_faces.h"
+#include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/single_sums.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "tests/support/allocation_counter.h"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bullet_ambient/motion/flight_group.h"
-#include "bullet_ambient/motion/kirchhoff_flow.h"
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
 #include "tests/support/free_body.h"
 #include "tests/support/random_bodies.h"

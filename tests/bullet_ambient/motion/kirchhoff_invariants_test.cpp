@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "bullet_ambient/motion/kirchhoff_flow.h"
 #include "tests/reference/kirchhoff_integration.h"
 #include "tests/support/free_body.h"
 #include "tests/support/random_bodies.h"
@@ -11,6 +10,7 @@ namespace ambient {
 namespace {
 
 using test::Arbitrary;
+using test::Flow;
 using test::flowWithoutLoads;
 using test::FreeBody;
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/force/single_loads.h"
+#include "bullet_ambient/fluid_body/packed_faces.h"
+#include "bullet_ambient/force/face_loads.h"
 #include "tests/support/body_models.h"
 #include "tests/support/ellipsoid_body.h"
 #include "tests/support/random_bodies.h"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/force/level_loads.h"
+#include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/level_sums.h"
 #include "tests/support/ellipsoid_body.h"
 #include "tests/support/random_bodies.h"
