@@ -186,7 +186,7 @@ void checkCrossings(CheckedMesh& checked, const MeshComponents& components,
 
 CheckedMesh orientOutward(const TriangleMesh& mesh, const MeshEdges& edges,
                           const std::string& name) {
-  AMBIENT_ASSERT(isClosed(edges));
+  AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
   CheckedMesh result{mesh, {}};
   const MeshComponents components = computeMeshComponents(mesh, edges);
   const std::vector<Shell> shells = findShells(mesh, components);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 namespace {
@@ -44,7 +43,6 @@ Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
   p.corner = {a, b, c};
   const Eigen::Vector3d twice_area = (b - a).cross(c - a);
   p.area = twice_area.norm() / 2;
-  AMBIENT_ASSERT(p.area > 0);
   p.normal = twice_area / (2 * p.area);
   p.centroid = (a + b + c) / 3;
   for (int k = 0; k < 3; ++k) {

@@ -72,6 +72,7 @@ class FuzzScene {
   void damageBytes();
   void draw();
   std::string motion() const;
+  std::vector<int> overlappingPairs() const;
   std::shared_ptr<const FluidBody> findShape(const std::string& name) const;
 
   Arbitrary arbitrary_;
