@@ -32,7 +32,7 @@ struct Panel {
   }
 };
 
-/// @pre the three corners span an area greater than 0.
+/// Of corners that span no area, the normal is not finite: makePanelSurface() refuses them.
 Panel makePanel(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 /// int_S 1/|x - y| dy [length], exact for every x, on the panel too (Wilton et al. 1984).
