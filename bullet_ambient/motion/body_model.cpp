@@ -1,6 +1,7 @@
 #include "bullet_ambient/motion/body_model.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 #include <utility>
 

@@ -1,5 +1,7 @@
 #include "bullet_ambient/spatial/principal_frame.h"
 
+#include <Eigen/LU>
+
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
