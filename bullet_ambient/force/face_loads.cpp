@@ -11,8 +11,7 @@ namespace ambient {
 namespace {
 
 FaceColumns columnsOf(const FaceTable& faces) noexcept {
-  for (const std::vector<double>* column : faces.columns())
-    AMBIENT_ASSERT(column->size() == faces.size());
+  AMBIENT_ASSERT(faces.normal_x.size() == faces.size() && faces.centroid_z.size() == faces.size());
   return {{faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
           {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
           faces.area.data(),
