@@ -18,9 +18,11 @@ struct FaceTable {
   std::vector<double> normal_x, normal_y, normal_z;        ///< unit normals into the fluid
   std::vector<double> centroid_x, centroid_y, centroid_z;  ///< barycentres [m]
   std::vector<double> area;                                ///< [m^2]
+  /// In [0, 1], from round to flat or edged, docs/theory.md eq. (45); empty: not known.
+  std::vector<double> sharpness;
 
   std::size_t size() const { return area.size(); }
-  /// All of them, in that order.
+  /// All of them in that order, but for the sharpness, which follows from the surface.
   std::array<const std::vector<double>*, 7> columns() const {
     return {&normal_x, &normal_y, &normal_z, &centroid_x, &centroid_y, &centroid_z, &area};
   }

@@ -81,6 +81,7 @@ PackedFaces::PackedFaces(const FaceTable& faces)
   for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
   bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero
   for (std::size_t block = 0; block < count; ++block) setBounds(block);
+  if (!faces.sharpness.empty()) packSharpness(faces);
 }
 
 FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) const {
@@ -96,6 +97,13 @@ FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) cons
     packed.area[i] = static_cast<float>(faces.area[face] / area_unit_);
   }
   return packed;
+}
+
+void PackedFaces::packSharpness(const FaceTable& faces) {
+  sharpness_.resize(blocks_.size());  // all zero
+  for (std::size_t i = 0; i < size(); ++i)
+    sharpness_[i / FaceBlock::kFaces].values[i % FaceBlock::kFaces] =
+        static_cast<float>(faces.sharpness[order_[i]]);
 }
 
 void PackedFaces::setBounds(std::size_t block) {
