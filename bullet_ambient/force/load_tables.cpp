@@ -33,8 +33,9 @@ std::shared_ptr<const FaceTable> LoadTables::faces(const Body& body, PressureLaw
 }
 
 std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Body& body, PressureLaw law) {
-  auto& packed = law == PressureLaw::kPublished ? packed_ : packed_form_;
-  return packed.get(body, [&] { return PackedFaces(*faces(body, law)); });
+  const bool is_form = law == PressureLaw::kForm;
+  auto& packed = is_form ? packed_form_ : packed_;
+  return packed.get(body, [&] { return PackedFaces(*faces(body, law), is_form); });
 }
 
 std::shared_ptr<const SphereTable> LoadTables::sphereTable(double separation_cosine) {
