@@ -25,7 +25,7 @@ struct CheckedMesh {
 /// once) or for a sheet (every part open, manifold, one side throughout). Orientation is mended and
 /// vertices that no triangle uses are left out, both with a warning. Cavities are taken out, for
 /// the fluid outside does not see them. `name` begins every warning and error. Cost O(T log T) and
-/// at most some 10^7 solid angles.
+/// 256 T solid angles.
 /// @throws std::runtime_error in one line with the first of these that is found: no triangles, a
 /// coordinate that is not finite, an index out of range, a degenerate triangle (height below 1e-7
 /// of its longest edge), two triangles on the same corners, boundary edges (their number and one
