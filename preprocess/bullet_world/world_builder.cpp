@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/builder/output_file.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/bullet_world/world_file.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
@@ -24,8 +24,9 @@ void build(const WorldShape& shape, const WorldBuildSettings& settings, WorldSha
   if (settings.reuse) body = readIfSame(result.file, shape.name, provenance);
   result.status = body ? Status::kKept : Status::kBuilt;
   if (!body) {
+    requireReplaceable(result.file);
     body = makeFluidBody(*shape.shape, shape_settings);
-    writeFluidBody(*body, result.file);
+    writeThroughLinks(*body, result.file);
   }
   result.faces = body->faces.size();
   result.extents = extentsOf(*body);

@@ -9,6 +9,7 @@
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/plain_text.h"
 #include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
@@ -105,20 +106,21 @@ int runWorldBuild(const BuildArguments& arguments) {
       display = std::make_unique<ElapsedDisplay>("building " + shape);
     });
   }
+  const std::string input = plainLine(arguments.input) + ": ";
   int failed = 0;
   for (const WorldShapeResult& shape : built.shapes) {
     for (const std::string& warning : shape.warnings)
-      std::cerr << "warning: " << arguments.input << ": " << warning << "\n";
+      std::cerr << "warning: " << input << plainLine(warning) << "\n";
     if (shape.status != Status::kFailed) continue;
     ++failed;
-    std::cerr << arguments.input << ": " << shape.message << "\n";
+    std::cerr << input << plainLine(shape.message) << "\n";
   }
   if (built.lost_bodies > 0) {
-    std::cerr << arguments.input << ": " << built.lost_bodies
+    std::cerr << input << built.lost_bodies
               << " bodies were left out: Bullet's importer does not know their shape\n";
   }
   if (built.shapes.empty()) {
-    std::cerr << "warning: " << arguments.input << ": no body has mass\n";
+    std::cerr << "warning: " << input << "no body has mass\n";
   }
   std::cout << (arguments.json ? worldJson(built, failed) : worldTable(built));
   return failed > 0 || built.lost_bodies > 0 ? 1 : 0;
