@@ -1,10 +1,8 @@
 #include "preprocess/builder/reuse.h"
 
-#include <fstream>
 #include <stdexcept>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/fluid_body_file_header.h"
 
 namespace ambient {
 
@@ -24,21 +22,6 @@ std::optional<FluidBody> readIfSame(const std::filesystem::path& file, const std
     // A damaged or foreign file is as good as none.
   }
   return std::nullopt;
-}
-
-void requireReplaceable(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return;
-  std::string bytes(kFileHeaderSize, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  if (bytes.empty()) return;
-  try {
-    static_cast<void>(decodeFileHeader(bytes, file.string()));
-  } catch (const std::runtime_error& foreign) {
-    throw std::runtime_error(std::string(foreign.what()) + ", and is not replaced");
-  }
 }
 
 }  // namespace ambient

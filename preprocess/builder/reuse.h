@@ -14,9 +14,4 @@ namespace ambient {
 std::optional<FluidBody> readIfSame(const std::filesystem::path& file, const std::string& name,
                                     const Provenance& provenance);
 
-/// Makes sure that nothing is lost when a fluid body is written to a file.
-/// @throws std::runtime_error in one line that names the file, if it holds something and does not
-/// begin as a .ambient file.
-void requireReplaceable(const std::filesystem::path& file);
-
 }  // namespace ambient

@@ -24,7 +24,6 @@ void build(const WorldShape& shape, const WorldBuildSettings& settings, WorldSha
   if (settings.reuse) body = readIfSame(result.file, shape.name, provenance);
   result.status = body ? Status::kKept : Status::kBuilt;
   if (!body) {
-    requireReplaceable(result.file);
     body = makeFluidBody(*shape.shape, shape_settings);
     writeThroughLinks(*body, result.file);
   }
@@ -45,6 +44,7 @@ WorldBuild buildWorld(const std::filesystem::path& file, const std::filesystem::
     raiseInputError(folder.string(), "the folder cannot be made: ", no_folder.message());
   WorldBuild built;
   built.lost_bodies = world.lostBodies();
+  built.multibodies = world.multibodies();
   for (const WorldShape& shape : world.dynamicShapes()) {
     const auto start = std::chrono::steady_clock::now();
     WorldShapeResult result;

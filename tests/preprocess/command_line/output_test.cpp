@@ -12,28 +12,27 @@ namespace fs = std::filesystem;
 
 TEST_F(CommandLine, BuildReplacesTheOutputAtOnceOrNotAtAll) {
   const std::string input = write("ball.json", sphereText());
-  resultOf({"build", input, "-o", path("out.ambient"), "--scale", "2", "--json"});
-  const std::string older = bytesOfFile("out.ambient");
+  write("out.ambient", "something older");
   const std::string open = write("open.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
   EXPECT_NE(buildRefusal(open), "");
-  EXPECT_EQ(bytesOfFile("out.ambient"), older);
+  EXPECT_EQ(bytesOfFile("out.ambient"), "something older");
   resultOf({"build", input, "-o", path("out.ambient"), "--json"});
-  EXPECT_NE(bytesOfFile("out.ambient"), older);
+  EXPECT_EQ(readFluidBody(path("out.ambient")).name, "ball");
   EXPECT_EQ(fileCount(), 3u);
 }
 
 TEST_F(CommandLine, WhatIsNoFluidBodyIsNotReplaced) {
   const std::string input = write("ball.json", sphereText());
   const std::string mesh = objText(unitTetrahedron());
-  for (const std::string name : {"other.obj", "other.ambient"}) {
-    const std::string other = write(name, mesh);
-    EXPECT_EQ(refusal({"build", input, "-o", other}),
-              other +
-                  ": not a .ambient file: it does not begin with the mark of one, and is not "
-                  "replaced");
-    EXPECT_EQ(bytesOfFile(name), mesh);
-  }
-  resultOf({"build", input, "-o", write("empty.ambient", ""), "--json"});
+  const std::string other = write("other.obj", mesh);
+  EXPECT_EQ(refusal({"build", input, "-o", other}),
+            other +
+                ": not a .ambient file: it does not begin with the mark of one, and is not "
+                "replaced");
+  EXPECT_EQ(bytesOfFile("other.obj"), mesh);
+  write("ball.body", "");
+  for (const char* const scale : {"1", "2"})  // what is empty, and a fluid body of another name
+    resultOf({"build", input, "-o", path("ball.body"), "--json", "--scale", scale});
 }
 
 TEST_F(CommandLine, SymbolicLinksAreWrittenThrough) {
