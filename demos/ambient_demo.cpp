@@ -18,9 +18,9 @@
 #include "demos/simulation/run_signals.h"
 #include "demos/simulation/scene_run.h"
 #include "demos/simulation/summary.h"
+#include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/output_file.h"
-#include "preprocess/command_line/blocked_signals.h"
 #include "preprocess/mesh/plain_text.h"
 
 namespace ambient {

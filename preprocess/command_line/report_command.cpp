@@ -2,9 +2,9 @@
 #include <sstream>
 
 #include "bullet_ambient/spatial/pi.h"
+#include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/output_file.h"
-#include "preprocess/command_line/blocked_signals.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/json_numbers.h"
