@@ -18,9 +18,11 @@ struct FaceTable {
   std::vector<double> normal_x, normal_y, normal_z;        ///< unit normals into the fluid
   std::vector<double> centroid_x, centroid_y, centroid_z;  ///< barycentres [m]
   std::vector<double> area;                                ///< [m^2]
+  /// In [0, 1], from round to flat or edged, docs/theory.md eq. (45); empty: not known.
+  std::vector<double> sharpness;
 
   std::size_t size() const { return area.size(); }
-  /// All of them, in that order.
+  /// All of them in that order, but for the sharpness, which follows from the surface.
   std::array<const std::vector<double>*, 7> columns() const {
     return {&normal_x, &normal_y, &normal_z, &centroid_x, &centroid_y, &centroid_z, &area};
   }
@@ -33,7 +35,7 @@ struct FaceTable {
 /// Where the mass sits, for a body of mass 1 kg: centre [m] in F and inertia about it [m^2], in F's
 /// axes.
 struct MassDistribution {
-  Vector3 centre = Vector3::Zero();
+  Vector3 centre{0, 0, 0};
   Matrix3 inertia = Matrix3::Zero();
 };
 
@@ -63,10 +65,10 @@ struct FluidBody {
   double asymmetry = 0;  ///< largest |K - K^T| before symmetrising, over the largest |K| [1]
   double volume = 0;     ///< displaced volume [m^3]; 0 for a sheet
   double area = 0;       ///< wetted area [m^2]
-  Vector3 centre_of_volume = Vector3::Zero();  ///< in F [m]
-  Vector3 origin = Vector3::Zero();            ///< F's origin in the source mesh's frame [m]
-  MassDistribution uniform_mass;               ///< uniform density inside
-  MassDistribution surface_mass;               ///< uniform mass per area, at face barycentres
+  Vector3 centre_of_volume{0, 0, 0};  ///< in F [m]
+  Vector3 origin{0, 0, 0};            ///< F's origin in the source mesh's frame [m]
+  MassDistribution uniform_mass;      ///< uniform density inside
+  MassDistribution surface_mass;      ///< uniform mass per area, at face barycentres
   FaceTable faces;
   Surface surface;
   std::vector<LoadLevel> levels;  ///< of reduced loads; may be empty

@@ -75,14 +75,23 @@ Provenance unpack(const file::Provenance& packed) {
 Offset<file::FaceTable> pack(FlatBufferBuilder& builder, const FaceTable& faces) {
   std::array<Offset<flatbuffers::Vector<double>>, 7> c;
   for (std::size_t k = 0; k < c.size(); ++k) c[k] = builder.CreateVector(*faces.columns()[k]);
-  return file::CreateFaceTable(builder, c[0], c[1], c[2], c[3], c[4], c[5], c[6]);
+  Offset<flatbuffers::Vector<float>> sharpness;
+  if (!faces.sharpness.empty())
+    sharpness = builder.CreateVector<float>(
+        std::vector<float>(faces.sharpness.begin(), faces.sharpness.end()));
+  return file::CreateFaceTable(builder, c[0], c[1], c[2], c[3], c[4], c[5], c[6], sharpness);
 }
 
 FaceTable unpack(const file::FaceTable& packed) {
-  return {unpackVector(*packed.normal_x()),   unpackVector(*packed.normal_y()),
-          unpackVector(*packed.normal_z()),   unpackVector(*packed.centroid_x()),
-          unpackVector(*packed.centroid_y()), unpackVector(*packed.centroid_z()),
-          unpackVector(*packed.area())};
+  FaceTable faces{unpackVector(*packed.normal_x()),   unpackVector(*packed.normal_y()),
+                  unpackVector(*packed.normal_z()),   unpackVector(*packed.centroid_x()),
+                  unpackVector(*packed.centroid_y()), unpackVector(*packed.centroid_z()),
+                  unpackVector(*packed.area()),       {}};
+  if (packed.sharpness()) {
+    const std::vector<float> sharpness = unpackVector(*packed.sharpness());
+    faces.sharpness.assign(sharpness.begin(), sharpness.end());
+  }
+  return faces;
 }
 
 Offset<file::Surface> pack(FlatBufferBuilder& builder, const Surface& surface) {
@@ -190,7 +199,7 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
 /// An upper bound of the payload's size [bytes].
 std::size_t payloadBound(const FluidBody& body) {
   constexpr std::size_t kFixedPart = 4096;
-  std::size_t doubles = body.surface.vertices.size();
+  std::size_t doubles = body.surface.vertices.size() + body.faces.sharpness.size();
   for (const std::vector<double>* column : body.faces.columns()) doubles += column->size();
   std::size_t level_bytes = 0;
   for (const LoadLevel& level : body.levels)

@@ -23,7 +23,7 @@ struct LoadLevelError {
 struct LoadLevel {
   int clusters = 0;
   double separation_angle = 0;        ///< [rad]
-  Vector3 centre = Vector3::Zero();   ///< of the area, in F [m]
+  Vector3 centre{0, 0, 0};            ///< of the area, in F [m]
   double length = 1;                  ///< root mean square of the faces' distances from it [m]
   Eigen::Matrix<double, 6, 21> even;  ///< part that all faces share, per products x_i x_j, i <= j
   std::vector<ClusterBlock> blocks;   ///< the last one ends with clusters that are zero

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bullet_ambient/force/form_pressure.h"
 #include "bullet_ambient/force/single_lanes.h"
 #include "bullet_ambient/force/single_sums.h"
 
@@ -26,15 +27,15 @@ inline Floats strengthWhereAttached(Floats normal_speed, Floats strength, Floats
   return excess > zero ? strength : zero;
 }
 
-/// kWidth lanes of a run of chosen blocks; docs/theory.md eq. (12) to (17).
-template <bool kRightAngle, bool kFriction>
-void sumRun(const FaceBlock* blocks, const int* chosen, int count, const SingleMotion& motion,
+/// kWidth lanes of a run of chosen blocks; docs/theory.md eq. (12) to (17), (43), (44).
+template <bool kForm, bool kRightAngle, bool kFriction>
+void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
             int lane, WrenchLanes& sums) {
   const Vectors w = broadcast(motion.angular);
   const Vectors v = broadcast(motion.linear);
   Vectors torque = {}, force = {};
   for (int k = 0; k < count; ++k) {
-    const FaceBlock& block = blocks[chosen[k]];
+    const FaceBlock& block = faces.blocks[chosen[k]];
     const Vectors n = load(block.normal, lane);
     const Vectors c = load(block.centroid, lane);
     const Vectors u = plusCross(v, w, c);
@@ -43,14 +44,22 @@ void sumRun(const FaceBlock* blocks, const int* chosen, int count, const SingleM
     const Floats speed_sq = dot(t, t);
     const Floats strength = strengthWhereAttached<kRightAngle>(
         normal_speed, load(block.area + lane) * speed_sq, speed_sq, motion);
+    Floats pressure = strength;
+    if (kForm) {
+      const Floats speed = root(plusProduct(speed_sq, normal_speed, normal_speed));
+      const Floats sharpness = load(faces.sharpness[chosen[k]].values + lane);
+      const Floats area = load(block.area + lane);
+      pressure = area * formPressure<float>(normal_speed, speed, sharpness);
+      if (!kRightAngle) pressure = pressure + (normal_speed > Floats{} ? Floats{} : strength);
+    }
     if (kFriction) {
       const Floats along = (strength * motion.friction) * slipPower(speed_sq);
-      const Vectors f = plusProduct(strength * n, along, t);
+      const Vectors f = plusProduct(pressure * n, along, t);
       force = force + f;
       torque = plusCross(torque, c, f);
     } else {
-      force = plusProduct(force, strength, n);
-      torque = plusProduct(torque, strength, load(block.moment, lane));
+      force = plusProduct(force, pressure, n);
+      torque = plusProduct(torque, pressure, load(block.moment, lane));
     }
   }
   sums.set(torque, force, lane);
@@ -88,12 +97,12 @@ inline int chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion& 
   return count;
 }
 
-template <bool kRightAngle, bool kFriction>
-void sumChosen(const FaceBlock* blocks, const int* chosen, int count, const SingleMotion& motion,
+template <bool kForm, bool kRightAngle, bool kFriction>
+void sumChosen(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
                WrenchTotal& total) {
   WrenchLanes run;
   for (int lane = 0; lane < kLanes; lane += kWidth)
-    sumRun<kRightAngle, kFriction>(blocks, chosen, count, motion, lane, run);
+    sumRun<kForm, kRightAngle, kFriction>(faces, chosen, count, motion, lane, run);
   total.add(run);
 }
 
@@ -110,27 +119,31 @@ LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
     const int count = chooseBlocks(faces.bounds + begin / kLanes,
                                    atMost(faces.count - begin, kChoice), motion, chosen);
     for (int first = 0; first < count; first += kRun)
-      sumChosen<true, kFriction>(faces.blocks + begin, chosen + first,
-                                 count - first < kRun ? count - first : kRun, motion, total);
+      sumChosen<false, true, kFriction>(faces.from(begin), chosen + first,
+                                        count - first < kRun ? count - first : kRun, motion, total);
   }
   return total.sum();
 }
 
-template <bool kRightAngle, bool kFriction>
+template <bool kForm, bool kRightAngle, bool kFriction>
 LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   static constexpr int kAll[kRun] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   WrenchTotal total;
   for (std::size_t begin = 0; begin < faces.count; begin += kRun)
-    sumChosen<kRightAngle, kFriction>(faces.blocks + begin, kAll, atMost(faces.count - begin, kRun),
-                                      motion, total);
+    sumChosen<kForm, kRightAngle, kFriction>(faces.from(begin), kAll,
+                                             atMost(faces.count - begin, kRun), motion, total);
   return total.sum();
 }
 
 template <bool kFriction>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
   constexpr std::size_t kFewest = 12;  // to choose from: below, that costs more than it saves
-  if (motion.signed_cosine_sq != 0) return sumAll<false, kFriction>(faces, motion);
-  return faces.count < kFewest ? sumAll<true, kFriction>(faces, motion)
+  const bool right_angle = motion.signed_cosine_sq == 0;
+  if (faces.sharpness)
+    return right_angle ? sumAll<true, true, kFriction>(faces, motion)
+                       : sumAll<true, false, kFriction>(faces, motion);
+  if (!right_angle) return sumAll<false, false, kFriction>(faces, motion);
+  return faces.count < kFewest ? sumAll<false, true, kFriction>(faces, motion)
                                : sumWhereAttached<kFriction>(faces, motion);
 }
 

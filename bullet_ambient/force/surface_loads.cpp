@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/force/form_lift.h"
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/sphere_loads.h"
 #include "bullet_ambient/spatial/pi.h"
@@ -59,6 +60,29 @@ struct LevelLoads final : SummedLoads<LoadLevel, computeLevelLoad> {
   bool needsGuard() const noexcept override { return true; }  // fitted wrenches may push
 };
 
+/// The form law: faces as above, and what acts on the body as a whole.
+class FormLoads final : public SurfaceLoads {
+ public:
+  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const FormLift& lift, double density)
+      : on_faces_(std::move(on_faces)), lift_(lift), density_(density) {}
+
+  Wrench load(const Twist& x) const noexcept override {
+    return on_faces_->load(x) + lift_.load(x, density_);
+  }
+  FaceLoads parts(const Twist& x) const noexcept override {
+    FaceLoads parts = on_faces_->parts(x);
+    parts.pressure += lift_.load(x, density_);
+    return parts;
+  }
+  int faces() const noexcept override { return on_faces_->faces(); }
+  bool needsGuard() const noexcept override { return on_faces_->needsGuard(); }
+
+ private:
+  std::shared_ptr<const SurfaceLoads> on_faces_;
+  FormLift lift_;
+  double density_;
+};
+
 class SphereLoads final : public SurfaceLoads {
  public:
   SphereLoads(const FluidBody& body, const LoadSettings& settings, LoadTables& tables)
@@ -106,14 +130,33 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
       !(flow.separation_angle <= kPi * (1 + kRounding))) {
     reject(body, "separation angle [rad]", flow.separation_angle, "between pi/2 and pi");
   }
+  if (!(flow.stall_lag >= 0) || !std::isfinite(flow.stall_lag)) {
+    reject(body, "stall lag [lengths over speed]", flow.stall_lag, "zero or positive and finite");
+  }
   if (!(flow.maximum_load_error >= 0)) {
     reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");
   }
 }
 
+/// By the law of the settings, on all faces.
+std::shared_ptr<const SurfaceLoads> loadsOnFaces(const std::shared_ptr<const FluidBody>& body,
+                                                 const LoadSettings& settings,
+                                                 LoadPrecision precision, LoadTables& tables) {
+  const double length = referenceLength(*body);
+  if (precision == LoadPrecision::kSingle) {
+    auto faces = tables.packedFaces(body, settings.law);
+    const std::size_t count = faces->size();
+    return std::make_shared<SingleLoads>(std::move(faces), count, length, settings);
+  }
+  auto faces = tables.faces(body, settings.law);
+  const std::size_t count = faces->size();
+  return std::make_shared<DoubleLoads>(std::move(faces), count, length, settings);
+}
+
 // The cheapest level that keeps the allowed error, if it is cheaper than all faces.
 const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
   constexpr double kSameAngle = 1e-9;
+  if (flow.law != PressureLaw::kPublished) return nullptr;  // levels are fitted to that one
   const LoadLevel* best = nullptr;
   double least = static_cast<double>(body.faces.size());
   for (const LoadLevel& level : body.levels) {
@@ -130,7 +173,7 @@ const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
 
 LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
   return {medium.density, medium.viscosity, separationCosine(flow.separation_angle),
-          flow.skin_friction};
+          flow.skin_friction, flow.law};
 }
 
 std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
@@ -142,16 +185,14 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
   if (!(settings.density > 0)) return nullptr;
   if (flow.own_law) return flow.own_law(body, settings);
   if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, settings, tables);
-  const double length = referenceLength(*body);
   if (const LoadLevel* level = chooseLevel(*body, flow))
     return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level),
-                                        level->clusters, length, settings);
-  const std::size_t faces = body->faces.size();
-  if (faces == 0) return nullptr;
-  if (flow.precision == LoadPrecision::kSingle)
-    return std::make_shared<SingleLoads>(tables.packedFaces(body), faces, length, settings);
-  return std::make_shared<DoubleLoads>(std::shared_ptr<const FaceTable>(body, &body->faces), faces,
-                                       length, settings);
+                                        level->clusters, referenceLength(*body), settings);
+  if (body->faces.size() == 0) return nullptr;
+  auto on_faces = loadsOnFaces(body, settings, flow.precision, tables);
+  if (flow.law == PressureLaw::kPublished) return on_faces;
+  return std::make_shared<FormLoads>(std::move(on_faces), FormLift(*body, flow.stall_lag),
+                                     settings.density);
 }
 
 }  // namespace ambient

@@ -9,8 +9,8 @@ struct Wrench;
 
 /// Pose of frame F in frame B: p_B = rotation p_F + translation [m].
 struct FrameOffset {
-  Matrix3 rotation = Matrix3::Identity();
-  Vector3 translation = Vector3::Zero();
+  Matrix3 rotation{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  Vector3 translation{0, 0, 0};
 
   /// The twist of the same rigid body at F's origin in F's axes, given at B's origin in B's axes.
   Twist toF(const Twist& x_B) const;

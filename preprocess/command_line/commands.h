@@ -42,6 +42,7 @@ struct LoadsArguments {
   double density = 0;             ///< [kg/m^3]
   double viscosity = 0;           ///< [Pa s]
   double separation_angle = kPi / 2;  ///< from pi/2 to pi [rad]
+  std::string law = "published";      ///< of the pressure: or form
   bool no_friction = false;
   bool json = false;
 };
@@ -56,6 +57,7 @@ struct PolarArguments {
   double speed = 1;                     ///< [m/s]; the same
   double viscosity = 0;                 ///< [Pa s]
   double separation_angle = kPi / 2;    ///< from pi/2 to pi [rad]
+  std::string law = "published";        ///< of the pressure: or form
   double reference_area = 0;            ///< [m^2]; 0: seen along `up`
   double reference_length = 0;          ///< [m]; 0: extent along `forward`
 };
@@ -63,7 +65,8 @@ struct PolarArguments {
 /// ambient_preprocess compare
 struct CompareArguments {
   std::string first, second;
-  double tolerance = 1e-6;  ///< relative
+  double tolerance = 1e-6;        ///< relative
+  std::string law = "published";  ///< of the pressure: or form
   bool json = false;
 };
 

@@ -100,6 +100,8 @@ CLI::App* addLoads(CLI::App& app, LoadsArguments& arguments) {
       ->add_option("--separation-angle", arguments.separation_angle,
                    "From pi/2 (default) to pi; larger = more attachment")
       ->type_name("RAD");
+  loads->add_option("--law", arguments.law, "Of the pressure: published (default) or form")
+      ->type_name("LAW");
   loads->add_flag("--no-friction", arguments.no_friction, "Leave skin friction out");
   loads->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
   return loads;
@@ -123,6 +125,7 @@ CLI::App* addPolar(CLI::App& app, PolarArguments& arguments) {
   option("--viscosity", arguments.viscosity, "Dynamic viscosity [Pa s] (default 0: no friction)",
          "MU");
   option("--separation-angle", arguments.separation_angle, "From pi/2 (default) to pi", "RAD");
+  option("--law", arguments.law, "Of the pressure: published (default) or form", "LAW");
   option("--reference-area", arguments.reference_area,
          "[m^2] (default: half the area projected along --up)", "A");
   option("--reference-length", arguments.reference_length, "[m] (default: extent along --forward)",
@@ -137,6 +140,8 @@ CLI::App* addCompare(CLI::App& app, CompareArguments& arguments) {
   compare->add_option("B", arguments.second, "Another one")->required();
   compare->add_option("--tolerance", arguments.tolerance, "Relative (default 1e-6)")
       ->type_name("T");
+  compare->add_option("--law", arguments.law, "Of the pressure: published (default) or form")
+      ->type_name("LAW");
   compare->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
   return compare;
 }

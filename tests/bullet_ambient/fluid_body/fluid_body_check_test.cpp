@@ -91,6 +91,18 @@ TEST(FluidBodyCheck, RefusesColumnsOfDifferentLength) {
             "b: face normal z has 79 entries, but there are 80 face areas");
 }
 
+TEST(FluidBodyCheck, RefusesASharpnessThatIsNone) {
+  EXPECT_EQ(refusalAfter([](FluidBody& b) {
+              b.faces.sharpness = {0.5, 1};
+            }),
+            "b: face sharpness has 2 entries, but there are 80 face areas");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) {
+              b.faces.sharpness.assign(80, 0.5);
+              b.faces.sharpness[7] = 1.5;
+            }),
+            "b: sharpness of face 7 is 1.5, but must be between 0 and 1");
+}
+
 TEST(FluidBodyCheck, RefusesTrianglesWithoutTheirVertices) {
   EXPECT_EQ(refusalAfter([](FluidBody& b) { b.surface.triangles[10] = 42; }),
             "b: triangle 3 refers to vertex 42, but there are 42 vertices");

@@ -16,9 +16,9 @@ std::shared_ptr<const FluidBody> sphere() {
 TEST(LoadTables, HaveOneTablePerFluidBody) {
   LoadTables tables;
   const auto body = sphere(), same = sphere();
-  const auto faces = tables.packedFaces(body);
-  EXPECT_EQ(tables.packedFaces(body), faces);
-  EXPECT_NE(tables.packedFaces(same), faces);
+  const auto faces = tables.packedFaces(body, PressureLaw::kPublished);
+  EXPECT_EQ(tables.packedFaces(body, PressureLaw::kPublished), faces);
+  EXPECT_NE(tables.packedFaces(same, PressureLaw::kPublished), faces);
 }
 
 TEST(LoadTables, TakeNoOtherFluidBodyAtTheSameAddressForTheOldOne) {
@@ -27,18 +27,18 @@ TEST(LoadTables, TakeNoOtherFluidBodyAtTheSameAddressForTheOldOne) {
   const auto keepPlace = [](const FluidBody*) {};
   place.faces = sphere()->faces;
   std::shared_ptr<const FluidBody> body(&place, keepPlace);
-  const auto before = tables.packedFaces(body);
+  const auto before = tables.packedFaces(body, PressureLaw::kPublished);
   body.reset();
   place.faces = test::faceTableOf(test::geodesicSphere(0));
   body.reset(&place, keepPlace);
-  EXPECT_EQ(tables.packedFaces(body)->size(), 20u);
+  EXPECT_EQ(tables.packedFaces(body, PressureLaw::kPublished)->size(), 20u);
   EXPECT_EQ(before->size(), 80u);
 }
 
 TEST(LoadTables, KeepNoFacesThatNobodyUses) {
   LoadTables tables;
   const auto body = sphere();
-  const std::weak_ptr<const PackedFaces> faces = tables.packedFaces(body);
+  const std::weak_ptr<const PackedFaces> faces = tables.packedFaces(body, PressureLaw::kPublished);
   EXPECT_TRUE(faces.expired());
 }
 

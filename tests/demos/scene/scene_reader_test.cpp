@@ -319,5 +319,19 @@ TEST(SceneReader, NamesAMissingFile) {
       std::exception);
 }
 
+TEST(SceneReader, TakesTheLawOfTheSceneUnlessABodyNamesItsOwn) {
+  nlohmann::json scene = ballScene();
+  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.law, PressureLaw::kPublished);
+  scene["law"] = "form";
+  scene["bodies"][0]["stall_lag"] = 0;
+  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.law, PressureLaw::kForm);
+  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.stall_lag, 0);
+  scene["bodies"][0]["law"] = "published";
+  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.law, PressureLaw::kPublished);
+  scene["bodies"][0]["law"] = "newton";
+  EXPECT_NE(complaintAbout(scene).find("bodies[0].law"), std::string::npos)
+      << complaintAbout(scene);
+}
+
 }  // namespace
 }  // namespace ambient
