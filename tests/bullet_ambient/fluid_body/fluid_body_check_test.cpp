@@ -45,6 +45,29 @@ TEST(FluidBodyCheck, NamesANumberThatIsNotFinite) {
             "b: vertex coordinate of entry 7 is inf, but must be finite");
 }
 
+TEST(FluidBodyCheck, RefusesPlacesBeyondAnyBody) {
+  const auto place = [](const std::string& what, const std::string& distance) {
+    return "b: " + what + " lies " + distance +
+           " m from the origin, limit 1e+12 times the size of the body of 2 m";
+  };
+  const auto refusal = [](const auto& change) {
+    return refusalAfter([&](FluidBody& b) {
+      b.area = 4;
+      b.volume = 1;
+      change(b);
+    });
+  };
+  EXPECT_EQ(refusal([](FluidBody& b) { b.centre_of_volume.x() = 2e108; }),
+            place("centre of volume", "2e+108"));
+  EXPECT_EQ(refusal([](FluidBody& b) { b.uniform_mass.centre.y() = -5e80; }),
+            place("centre of uniform mass", "5e+80"));
+  EXPECT_EQ(refusal([](FluidBody& b) { b.surface_mass.centre.z() = 2.5e12; }),
+            place("centre of surface mass", "2.5e+12"));
+  EXPECT_EQ(refusal([](FluidBody& b) { b.faces.centroid_y[1] = 1e300; }),
+            place("centroid of a face", "1e+300"));
+  EXPECT_EQ(refusal([](FluidBody& b) { b.centre_of_volume.x() = 1.9e12; }), "");
+}
+
 TEST(FluidBodyCheck, RefusesNegativeSizes) {
   EXPECT_EQ(refusalAfter([](FluidBody& b) { b.volume = -0.25; }),
             "b: volume is -0.25, but must not be negative");
