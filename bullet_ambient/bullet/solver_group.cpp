@@ -10,6 +10,7 @@
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/bullet/multibody_rows.h"
+#include "bullet_ambient/bullet/row_motion.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
 #include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/row_velocity.h"
@@ -39,14 +40,6 @@ void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
   solver_body.m_externalForceImpulse = toBullet(change_W.linear);
 }
 
-// What Bullet is about to write back.
-Twist solvedVelocity(btSolverBody& b) {
-  return {toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
-                    b.m_externalTorqueImpulse),
-          toVector3(b.m_linearVelocity + b.internalGetDeltaLinearVelocity() +
-                    b.m_externalForceImpulse)};
-}
-
 btVector3 whereZero(const btVector3& v) {
   return {btScalar(v.x() == 0), btScalar(v.y() == 0), btScalar(v.z() == 0)};
 }
@@ -69,7 +62,7 @@ void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& fact
 }
 
 // Velocity changes back into Bullet's basis.
-void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) {
+void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, double time_step) {
   const bool is_adrift = isUntouched(b);
   ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
   if (!is_adrift) {
@@ -78,7 +71,7 @@ void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) 
     fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
   }
   ambient.memory = {};
-  if (row_body.turn != Turn::kSlow) boundEnergy(ambient, solvedVelocity(b), row_body.turning_W);
+  beginRowMotion(ambient, row_body, b, time_step);
 }
 
 // A function of the item as a task; holds no memory of its own.
@@ -172,13 +165,13 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   if (!row.change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
     bodies_.complaints.say(Complaint::kNotFinite);
-    row.change_W = {};
+    row.change_W = row.turning_W = {};
   }
   setExternalImpulse(solver_body, row.change_W);
 
   RowBody& row_body = row_bodies_->add(member.solver_body);
   row_body.turning_W = row.turning_W;
-  row_body.turn = row.turn;
+  row_body.extent = row.extent;
   row_body.inverse_inertia = body.getInvInertiaTensorWorld();
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
@@ -260,14 +253,14 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
     const RowBody* row_body = row_bodies_->find(member.solver_body);
     // Rows that are near have allowed the velocity that they were solved against; a flight with a
     // fast turn would take the body elsewhere.
-    const bool may_fly = !row_body || (!member.is_locked && row_body->turn == Turn::kSlow);
+    const bool may_fly = !row_body || (!member.is_locked && row_body->extent <= kSlowTurn);
     if (row_body) member.ambient->counters.rows += row_body->rows;
     if (may_fly && isUntouched(solver_body)) {
       fliers_.push_back(&member);
     } else {
       // Whatever can move a body was there when those with rows were found.
       AMBIENT_ASSERT(row_body);
-      finishRows(*member.ambient, *row_body, solver_body);
+      finishRows(*member.ambient, *row_body, solver_body, time_step_);
     }
   }
   flyFreely(solver_bodies);
