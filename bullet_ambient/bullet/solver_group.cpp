@@ -5,6 +5,7 @@
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
@@ -20,6 +21,10 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
+
+// Part of a push along a face's normal that may go across it before friction holds both ways: a
+// millimetre in ten seconds on a slope.
+constexpr double kEvenPush = 1e-3;
 
 bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
 
@@ -183,6 +188,22 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   }
 }
 
+bool SolverGroup::slipsAcross(const btSolverConstraint& contact) const noexcept {
+  return slipsAcross(contact.m_solverBodyIdA, contact.m_contactNormal1) ||
+         slipsAcross(contact.m_solverBodyIdB, contact.m_contactNormal2);
+}
+
+bool SolverGroup::slipsAcross(int solver_body, const btVector3& normal_W) const noexcept {
+  const Member* member = memberOf(solver_body);
+  if (!member) return false;
+  const BodyModel& model = member->ambient->model;
+  if (!model.has_diagonal_inertia) return true;
+  const btMatrix3x3& rotation = member->ambient->body->getWorldTransform().getBasis();
+  const Vector3 normal = toVector3(normal_W * rotation);  // in B
+  const Vector3 push = model.inverse_inertia.diagonal().tail<3>().cwiseProduct(normal);
+  return push.cross(normal).squaredNorm() > kEvenPush * kEvenPush * push.squaredNorm();
+}
+
 void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                               const MultiBodyRows* multibodies,
                               const btContactSolverInfo& info) noexcept {
@@ -304,11 +325,15 @@ void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies)
     setExternalImpulse(solver_bodies[fliers[i]->solver_body], changes_W[i]);
 }
 
-SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
+const SolverGroup::Member* SolverGroup::memberOf(int solver_body) const noexcept {
   // Bodies appended after convertBodies (fixed, kinematic) are never ambient.
   if (static_cast<std::size_t>(solver_body) >= member_of_solver_body_.size()) return nullptr;
   const int index = member_of_solver_body_[solver_body];
   return index < 0 ? nullptr : &members_[index];
+}
+
+SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
+  return const_cast<Member*>(std::as_const(*this).memberOf(solver_body));
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

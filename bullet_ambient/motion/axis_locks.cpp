@@ -103,7 +103,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
     forced += (passiveKick(motion, {motion, sample}, dt).twist - x) / dt;
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
-  result.extent = extentOf(model, dt * (rates.acceleration(x) - forced), x, {1 / dt, 0.5});
+  result.extent = extentOf(model, dt * (rates.acceleration(x) - forced), x, {1 / dt, 0.3});
   Vector6 turning = Vector6::Zero();
   if (result.extent <= 1) turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
   const Vector6 free = projectionOf(factors);
