@@ -202,6 +202,13 @@ void checkLevel(const LoadLevel& level, const Checker& check) {
   checkBlocks(level, check);
 }
 
+void checkFormLevel(const FormLevel& level, const Checker& check) {
+  checkFaces(level.faces, check);
+  if (level.faces.sharpness.size() != level.faces.size())
+    check.fail("a level of the form law has no sharpness");
+  check.notNegative(level.p99_error, "error of a level");
+}
+
 }  // namespace
 
 void checkFluidBody(const FluidBody& body, const std::string& source) {
@@ -220,6 +227,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   checkFaces(body.faces, check);
   checkSurface(body.surface, check);
   for (const LoadLevel& level : body.levels) checkLevel(level, check);
+  for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
   checkPlaces(body, check);
 }
 

@@ -42,7 +42,6 @@ struct FlowSettings {
   LoadPrecision precision = LoadPrecision::kSingle;
   /// Allowed p99 error of reduced loads, LoadLevelError: the cheapest level of the fluid body for
   /// the separation angle that keeps it stands in for the faces. 0, or no such level: all faces.
-  /// kPublished only.
   double maximum_load_error = 0;
   PressureLaw law = PressureLaw::kPublished;  ///< a sphere is the same in both
   /// Delay of separation behind the incidence, kForm: lengths of the body over its speed. 0: none.

@@ -15,6 +15,7 @@
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
 #include "preprocess/mesh/plain_text.h"
+#include "preprocess/reduced_loads/form_levels.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 
 namespace ambient {
@@ -71,6 +72,7 @@ FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings&
     built = buildShape(shape, settings);
     built.body.levels = buildLoadLevels(built.body, arguments.levels,
                                         separationAngleOf(arguments.separation_angle));
+    built.body.form_levels = buildFormLevels(built.body, arguments.levels);
     built.body.provenance.settings = describeBody(shape, settings, arguments).settings;
   }
   for (const std::string& warning : built.warnings)
