@@ -33,8 +33,13 @@ std::shared_ptr<const FaceTable> LoadTables::faces(const Body& body, PressureLaw
 }
 
 std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Body& body, PressureLaw law) {
-  auto& packed = law == PressureLaw::kPublished ? packed_ : packed_form_;
-  return packed.get(body, [&] { return PackedFaces(*faces(body, law)); });
+  if (law == PressureLaw::kForm)
+    return packed_form_.get(body, [&] { return PackedFaces(*faces(body, law)); });
+  return packed_.get(body, [&] {
+    FaceTable faces = body->faces;
+    faces.sharpness.clear();  // packed, it would mean the form law
+    return PackedFaces(faces);
+  });
 }
 
 std::shared_ptr<const SphereTable> LoadTables::sphereTable(double separation_cosine) {
