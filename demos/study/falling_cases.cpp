@@ -1,11 +1,10 @@
 #include "demos/study/falling_cases.h"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "bullet_ambient/spatial/pi.h"
-#include "preprocess/builder/fluid_body_builder.h"
+#include "demos/study/falling_bodies.h"
 #include "preprocess/mesh/primitives.h"
 
 namespace ambient {
@@ -14,61 +13,22 @@ namespace {
 constexpr double kBroadside = 1.17;  // C_D that scales speeds and gravity where nothing else does
 const Medium kUnitFluid{1, 1.0 / 2000, Vector3::Zero(), Vector3::Zero()};
 
-Matrix6 diagonal(const Vector3& rotation, const Vector3& translation) {
-  Matrix6 made = Matrix6::Zero();
-  made.diagonal() << rotation, translation;
-  return made;
-}
-
-std::shared_ptr<const FluidBody> bodyOf(const TriangleMesh& mesh, BuildSettings settings) {
-  settings.name = "falling body";
-  settings.origin = Eigen::Vector3d::Zero();
-  settings.flow.max_panels = 800;
-  return std::make_shared<FluidBody>(makeFluidBody(mesh, settings));
-}
-
-std::shared_ptr<const FluidBody> sheetOf(const TriangleMesh& mesh,
-                                         const std::optional<Matrix6>& added_mass = {}) {
-  BuildSettings settings;
-  settings.flow.sheet = true;
-  settings.added_mass = added_mass;
-  return bodyOf(mesh, settings);
-}
-
-std::shared_ptr<const FluidBody> solidOf(const TriangleMesh& mesh,
-                                         const std::optional<Matrix6>& added_mass = {}) {
-  BuildSettings settings;
-  settings.added_mass = added_mass;
-  return bodyOf(mesh, settings);
-}
-
-Matrix6 addedMassOfDisc(double radius) {
-  const double turn = 16 * std::pow(radius, 5) / 45;
-  return diagonal({turn, turn, 0}, {0, 0, 8 * std::pow(radius, 3) / 3});
-}
-
-/// Of an elliptic cylinder of chord, span and thickness (x, y, z), flow in the x-z plane.
-Matrix6 addedMassOfStrip(const Vector3& size) {
-  const double a = size.x() / 2, c = size.z() / 2, span = size.y();
-  const double turn = kPi / 8 * std::pow(a * a - c * c, 2) * span;
-  const double x = kPi * c * c * span, z = kPi * a * a * span;
-  return diagonal({z * span * span / 12, turn, x * span * span / 12}, {x, 0, z});
-}
-
-Vector3 inertiaOfBox(double mass, const Vector3& size) {
-  const Vector3 squares = size.cwiseProduct(size);
-  return mass / 12 * (Vector3::Constant(squares.sum()) - squares);
-}
-
-/// With its weight such that it falls broadside with speed 1.
+/// With a weight in the fluid that makes it fall broadside with speed 1.
 void weigh(FallingCase& falling, double area) {
   falling.medium = kUnitFluid;
-  falling.gravity = kBroadside * area / (2 * falling.mass);
+  falling.gravity = kBroadside * area / (2 * (falling.mass - falling.body->volume));
   falling.time_step = 1.0 / 60;
   falling.duration = 120;
 }
 
 using Cases = std::vector<FallingCase>;
+
+void addReleases(Cases& cases, FallingCase falling, const std::vector<double>& tilts) {
+  for (const double tilt : tilts) {
+    falling.tilt = tilt;
+    cases.push_back(falling);
+  }
+}
 
 /// Field et al. 1997, by the dimensionless moment of inertia I*.
 void addDiscs(Cases& cases) {
@@ -79,10 +39,21 @@ void addDiscs(Cases& cases) {
     disc.mass = 16 * inertia;
     disc.inertia = disc.mass / 16 * Vector3(1, 1, 2);
     weigh(disc, kPi / 4);
-    for (const double tilt : {5.0, 45.0, 85.0}) {
-      disc.tilt = tilt;
-      cases.push_back(disc);
-    }
+    addReleases(cases, disc, {5, 45, 85});
+  }
+}
+
+/// The same with round edges, 10 : 1.
+void addSpheroids(Cases& cases) {
+  FallingCase disc{"spheroid", "spheroid 10:1"};
+  const Vector3 semi_axes(0.5, 0.5, 0.05);
+  disc.body = solidOf(makeEllipsoidMesh(semi_axes, 720), addedMassOfEllipsoid(semi_axes));
+  for (const double inertia : {.004, .006, .008, .015, .03, .1, .2, .3}) {
+    disc.parameter = inertia;
+    disc.mass = 20 * inertia;  // I = m d^2 / 20, about a diameter
+    disc.inertia = disc.mass / 5 * Vector3(0.2525, 0.2525, 0.5);
+    weigh(disc, kPi / 4);
+    addReleases(cases, disc, {5, 45, 85});
   }
 }
 
@@ -96,10 +67,7 @@ void addStrips(Cases& cases) {
     strip.mass = froude * froude * size.y();
     strip.inertia = inertiaOfBox(strip.mass, size);
     weigh(strip, size.y());
-    for (const double tilt : {20.0, 45.0, 70.0}) {
-      strip.tilt = tilt;
-      cases.push_back(strip);
-    }
+    addReleases(cases, strip, {20, 45, 70});
   }
 }
 
@@ -129,25 +97,34 @@ struct Card {
   double width, length, mass_per_area;
 };
 
+FallingCase cardOf(const char* family, const Card& c) {
+  FallingCase card{family, c.name, c.mass_per_area};
+  card.body = sheetOf(makeRectangularSheetMesh(c.width, c.length, 400));
+  card.mass = c.mass_per_area * c.width * c.length;
+  card.inertia = inertiaOfBox(card.mass, {c.width, c.length, 0});
+  card.medium = air();
+  card.time_step = 1.0 / 240;
+  card.duration = 6;
+  return card;
+}
+
 /// Cards in air that tumble about their long axis.
 void addCards(Cases& cases) {
-  const Card cards[] = {{"business card, 300 g/m2", .055, .085, .3},
-                        {"paper, 160 g/m2", .05, .1, .16},
-                        {"board, 1000 g/m2", .055, .085, 1},
-                        {"strip of paper, 80 g/m2", .02, .07, .08}};
-  for (const Card& c : cards) {
-    FallingCase card{"card", c.name, c.mass_per_area};
-    card.body = sheetOf(makeRectangularSheetMesh(c.width, c.length, 400));
-    card.mass = c.mass_per_area * c.width * c.length;
-    card.inertia = inertiaOfBox(card.mass, {c.width, c.length, 0});
-    card.medium = air();
-    card.time_step = 1.0 / 240;
-    card.duration = 6;
-    for (const double tilt : {60.0, 85.0}) {
-      card.tilt = tilt;
-      cases.push_back(card);
-    }
-  }
+  const Card cards[] = {{"business card 300 g/m2", .055, .085, .3},
+                        {"paper 160 g/m2", .05, .1, .16},
+                        {"board 1000 g/m2", .055, .085, 1},
+                        {"strip of paper 80 g/m2", .02, .07, .08}};
+  for (const Card& c : cards) addReleases(cases, cardOf("card", c), {60, 85});
+}
+
+/// Mahadevan et al. 1999: long cards, by width and by mass per area.
+void addLongCards(Cases& cases) {
+  const Card cards[] = {{"width 30 mm", .03, .3, .3},
+                        {"width 45 mm", .045, .3, .3},
+                        {"width 60 mm", .06, .3, .3},
+                        {"150 g/m2", .045, .3, .15},
+                        {"600 g/m2", .045, .3, .6}};
+  for (const Card& c : cards) addReleases(cases, cardOf("long card", c), {60});
 }
 
 /// Czech coins in water; the density is that of plated steel.
@@ -176,10 +153,7 @@ void addCoins(Cases& cases) {
 /// Cubes and balls of wood and of stone in water, by size.
 void addCubesAndSpheres(Cases& cases) {
   const auto cube = solidOf(makeBoxMesh(Vector3::Constant(0.5), 1200));
-  BuildSettings round;
-  round.sphere_radius = 0.5;
-  round.added_mass = diagonal(Vector3::Zero(), Vector3::Constant(kPi / 12));
-  const auto ball = bodyOf(makeEllipsoidMesh(Vector3::Constant(0.5), 320), round);
+  const auto ball = ballOf(0.5);
   for (const double density : {600.0, 2500.0}) {
     for (const double size : {0.05, 0.1, 0.2, 0.4}) {
       FallingCase falling{"cube", std::to_string(static_cast<int>(density)), size, 3};
@@ -205,10 +179,12 @@ std::vector<FallingCase> makeFallingCases() {
   Cases cases;
   addCubesAndSpheres(cases);
   addCards(cases);
+  addLongCards(cases);
   addCoins(cases);
   addPlates(cases);
   addStrips(cases);
   addDiscs(cases);
+  addSpheroids(cases);
   return cases;
 }
 

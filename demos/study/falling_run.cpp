@@ -1,9 +1,10 @@
+#include "demos/study/falling_run.h"
+
 #include <cmath>
 #include <cstdio>
 
 #include "bullet_ambient/spatial/pi.h"
 #include "demos/simulation/simulation.h"
-#include "demos/study/falling_cases.h"
 
 namespace ambient {
 namespace {
@@ -45,6 +46,13 @@ Vector3 meanVelocity(const std::vector<MotionSample>& motion) {
   return (to.position - from.position) / (to.time - from.time);
 }
 
+double meanSpin(const std::vector<MotionSample>& motion) {
+  const std::size_t begin = motion.size() / 2;
+  double sum = 0;
+  for (std::size_t i = begin; i < motion.size(); ++i) sum += motion[i].twist.angular.y();
+  return std::abs(sum) / static_cast<double>(motion.size() - begin);
+}
+
 }  // namespace
 
 FallingRun runFall(const FallingCase& c, PressureLaw law) {
@@ -69,13 +77,12 @@ std::string fallHeader() {
 
 std::string fallLine(const FallingCase& c, PressureLaw law, const FallingRun& run) {
   const Vector3 velocity = meanVelocity(run.motion);
-  const double spin = run.fall.turns * 4 * kPi / c.duration;
   char line[256];
   std::snprintf(line, sizeof line, "%s,\"%s\",%g,%g,%s,%s,%.4g,%.4g,%.4g,%.3g,%.3g,%.3g\n",
                 c.family.c_str(), c.name.c_str(), c.parameter, c.tilt, nameOf(law),
                 fallingModeName(run.fall.mode).c_str(), -velocity.z(),
-                std::hypot(velocity.x(), velocity.y()), spin, run.fall.largest_swing * 180 / kPi,
-                run.substeps, run.coarse);
+                std::hypot(velocity.x(), velocity.y()), meanSpin(run.motion),
+                run.fall.largest_swing * 180 / kPi, run.substeps, run.coarse);
   return line;
 }
 

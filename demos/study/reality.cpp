@@ -6,7 +6,7 @@
 #include <string>
 
 #include "demos/simulation/output_files.h"
-#include "demos/study/falling_cases.h"
+#include "demos/study/falling_run.h"
 #include "demos/study/measured_coefficient.h"
 #include "demos/study/measured_shapes.h"
 #include "preprocess/shape/json_text.h"
@@ -53,6 +53,21 @@ std::string coefficients(const fs::path& measurements) {
   return table;
 }
 
+/// C_N of a plate.
+std::string plateCurve() {
+  const FluidBody plate = makeMeasuredShape("plate", 1);
+  std::string table = "incidence,published,form\n";
+  for (int degrees = 1; degrees <= 90; ++degrees) {
+    const MeasuredFlow flow = readMeasuredFlow({{"of", "normal"}, {"incidence", degrees}});
+    char line[64];
+    std::snprintf(line, sizeof line, "%d,%.5g,%.5g\n", degrees,
+                  computeCoefficient(plate, flow, kLaws[0]),
+                  computeCoefficient(plate, flow, kLaws[1]));
+    table += line;
+  }
+  return table;
+}
+
 void writeFalls(const std::vector<FallingCase>& cases, const fs::path& folder) {
   std::string table = fallHeader(), paths = pathHeader();
   for (const FallingCase& c : cases) {
@@ -72,6 +87,7 @@ void writeFalls(const std::vector<FallingCase>& cases, const fs::path& folder) {
 int run(const fs::path& measurements, const fs::path& folder) {
   OutputFolder out(folder);
   writeFile(folder / "coefficients.csv", coefficients(measurements));
+  writeFile(folder / "plate.csv", plateCurve());
   out.keep();
   writeFalls(makeFallingCases(), folder);
   return 0;
@@ -87,7 +103,8 @@ int main(int argc, char** argv) {
   app.add_option("MEASUREMENTS", measurements, "data/reality/measurements.json")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("--out", out, "Folder of coefficients.csv, falls.csv and paths.csv")->required();
+  app.add_option("--out", out, "Folder of coefficients.csv, plate.csv, falls.csv and paths.csv")
+      ->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
