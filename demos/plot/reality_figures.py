@@ -23,7 +23,7 @@ def draw_coefficients(reality):
         for slope in (share, 1 / share):
             axes.plot(ends, [slope * end for end in ends], style, color="0.5", linewidth=0.8)
     for law, marker in zip(LAWS, "ox"):
-        points = [(case.value, max(case.model[law], FLOOR)) for case in reality.cases]
+        points = [(case.value, case.counted(law)) for case in reality.cases]
         axes.loglog(*zip(*points), marker, color=COLOURS[law], markersize=5, alpha=0.8, label=f"{law} law")
     axes.axhline(FLOOR, color="0.7", linewidth=0.6)
     axes.text(0.05, FLOOR * 1.06, "no drag at all", fontsize=8, color="0.4")
@@ -45,10 +45,10 @@ def draw_plate(reality):
         points = [(case.row["flow"]["incidence"], case.value) for case in cases]
         aspect = "infinite" if size == 100 else f"{size:g}"
         axes.plot(*zip(*points), next(markers), markersize=6, label=f"{origin}, span/chord {aspect}")
-    axes.set(xlabel="incidence [°]", ylabel="normal force coefficient [1]", xlim=(0, 91), ylim=(0, 1.7))
+    axes.set(xlabel="incidence [°]", ylabel="normal force coefficient [1]", xlim=(0, 91), ylim=(0, 2.3))
     axes.set_title("Thin plates: measured (marks) and by both laws", fontsize=10)
     axes.grid(True, linewidth=0.3)
-    axes.legend(fontsize=8, ncol=2, loc="lower right")
+    axes.legend(fontsize=8, ncol=2, loc="upper right")
     figure.tight_layout()
     return figure
 
@@ -101,36 +101,37 @@ def draw_regime_panel(axes, falls, family):
 
 def draw_plates(reality):
     names = ("1/14", "1/8", "1/5")
-    figure, panels = plt.subplots(1, 6, figsize=(13, 6.2))
-    for axes, (law, name) in zip(panels, [(law, name) for law in LAWS for name in names]):
-        draw_path(axes, [row for row in reality.paths if row["law"] == law and row["name"] == name])
-        measured = "flutters" if name == "1/14" else "tumbles"
-        mode = reality.fall("plate", name, law).mode
-        axes.set_title(f"h/l = {name}, {law} law\nhere: {mode}; measured: {measured}", fontsize=8)
-    panels[0].set_ylabel("[cm]", fontsize=8)
-    title = "Aluminium plates, 0.81 mm thick, in water, released at 11.5°, every 10 ms (Andersen et al. 2005)"
+    figure, panels = plt.subplots(2, 3, figsize=(11, 8.2))
+    for row, law in zip(panels, LAWS):
+        for axes, name in zip(row, names):
+            draw_path(axes, [row for row in reality.paths if row["law"] == law and row["name"] == name])
+            measured = "flutters" if name == "1/14" else "tumbles"
+            mode = reality.fall("plate", name, law).mode
+            axes.set_title(f"h/l = {name}, {law} law: {mode}; measured: {measured}", fontsize=9)
+        row[0].set_ylabel("[cm]", fontsize=8)
+    title = "Aluminium plates, 0.81 mm thick, in water, released at 11.5°, every 20 ms (Andersen et al. 2005)"
     figure.suptitle(title, fontsize=10)
     figure.tight_layout()
     return figure
 
 
-def draw_path(axes, rows):
+def draw_path(axes, rows, depth=30):
     """The chord at even intervals, as far as the picture reaches [cm]."""
     chord = 0.081 * int(rows[0]["name"].split("/")[1])
-    for row in rows:
-        x, z, angle = (float(row[key]) for key in ("x", "z", "angle"))
-        if z < -0.4:
-            break
+    points = [(100 * float(row["x"]), 100 * float(row["z"]), float(row["angle"])) for row in rows[::2]]
+    points = [point for point in points if point[1] > -depth]
+    points = [point for point in points if abs(point[0] - points[0][0]) < depth]
+    for x, z, angle in points:
         dx, dz = chord / 2 * math.cos(angle), chord / 2 * math.sin(angle)
-        colour = COLOURS[row["law"]]
-        axes.plot([100 * x - dx, 100 * x + dx], [100 * z - dz, 100 * z + dz], color=colour, linewidth=1)
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.set_ylim(-41, 2)
+        axes.plot((x - dx, x + dx), (z - dz, z + dz), color=COLOURS[rows[0]["law"]], linewidth=1)
+    middle = (min(point[0] for point in points) + max(point[0] for point in points)) / 2
+    axes.set(xlim=(middle - 0.55 * depth, middle + 0.55 * depth), ylim=(-depth - 1, 2), aspect="equal")
     axes.tick_params(labelsize=7)
     axes.set_xlabel("[cm]", fontsize=8)
 
 
 FREE_CUBE = 1.39 * (math.pi / 4) * (6 / math.pi) ** (2 / 3)  # on a side, Haider and Levenspiel's on the equal sphere
+SIZES = (0.05, 0.1, 0.2, 0.4)
 SPEED_PANELS = {
     "600": ("rise: 600 kg/m³ in water", 0.95, "ball, 0.95 (rising, Karamanev & Nikolov)"),
     "2500": ("fall: 2500 kg/m³ in water", 0.47, "ball, 0.47"),
@@ -149,21 +150,21 @@ def draw_speeds(reality):
         draw_own_speeds(axes, reality, density)
         axes.set_title(title, fontsize=10)
         axes.set_xlabel("edge or diameter [m]")
+        axes.set_xticks(SIZES, [f"{size:g}" for size in SIZES])
         axes.grid(True, linewidth=0.3)
         axes.legend(fontsize=7.5, loc="upper left")
     panels[0].set(ylabel="final speed [m/s]", ylim=(0.3, 90))
     panels[0].set_yticks((0.5, 1, 2, 5, 10, 20), ("0.5", "1", "2", "5", "10", "20"))
+    for axes in panels:
+        axes.minorticks_off()
     figure.tight_layout()
     return figure
 
 
 def draw_measured_speeds(axes, density, measured):
-    sizes = (0.05, 0.1, 0.2, 0.4)
     for family, drag, name, style in measured:
-        speeds = [terminal_speed(family, density, size, drag) for size in sizes]
-        axes.loglog(sizes, speeds, style, color="k", linewidth=1, label=f"measured: {name}")
-    axes.set_xticks(sizes, [f"{size:g}" for size in sizes])
-    axes.minorticks_off()
+        speeds = [terminal_speed(family, density, size, drag) for size in SIZES]
+        axes.loglog(SIZES, speeds, style, color="k", linewidth=1, label=f"measured: {name}")
 
 
 def draw_own_speeds(axes, reality, density):

@@ -5,7 +5,7 @@ import json
 import math
 
 LAWS = ("published", "form")
-FLOOR = 0.02  # what a coefficient of zero counts as in ratios
+FLOOR = 0.02  # what a coefficient of zero counts as in ratios, where more was measured
 
 
 def read_rows(file):
@@ -40,8 +40,11 @@ class Case:
         self.model = {law: float(model[law]) for law in LAWS}
         self.kind = kind_of(row)
 
+    def counted(self, law):
+        return max(self.model[law], FLOOR) if self.value > FLOOR else self.model[law]
+
     def error(self, law):
-        return math.log(max(self.model[law], FLOOR) / self.value)
+        return math.log(self.counted(law) / self.value)
 
 
 def rms(cases, law):
