@@ -40,6 +40,8 @@ def numbers_of(reality):
         right, runs = reality.regimes(families, law)
         made[f"regime_{law}"] = f"{right} of {runs}"
         made[f"share_{law}"] = f"{100 * right / runs:.0f} %"
+        falls = [fall for fall in reality.falls if fall.law == law]
+        made[f"coarse_{law}"], made["falls"] = sum(fall.coarse > 0.1 for fall in falls), len(falls)
     return made
 
 
@@ -70,11 +72,11 @@ def add_sums(page, reality, numbers):
     page.add_picture("plate", figures.draw_plate(reality), "Normal force of plates over incidence")
 
 
-def add_motions(page, reality):
+def add_motions(page, reality, numbers):
     page.add(texts.MOTION)
     page.add(table(("bodies", "measured", "right published", "right form"), tables.regime_rows(reality)))
     page.add_picture("regimes", figures.draw_regimes(reality), "Regimes of falling discs, spheroids and strips")
-    page.add(texts.REGIMES)
+    page.add(texts.REGIMES.format(**numbers))
     page.add_picture("plates", figures.draw_plates(reality), "Falling plates of Andersen et al.")
     head = ("motion", "measured", "source", "published", "ratio", "form", "ratio")
     page.add(table(head, tables.motion_rows(reality)))
@@ -108,7 +110,7 @@ def main():
         numbers = numbers_of(reality)
     page = Page(arguments.docs)
     add_sums(page, reality, numbers)
-    add_motions(page, reality)
+    add_motions(page, reality, numbers)
     add_tables(page, reality, numbers)
     page.write()
     print(f"\nPage: {(arguments.docs / 'reality.md').resolve()}")

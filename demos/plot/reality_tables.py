@@ -177,6 +177,6 @@ def source_rows(reality):
         for row in reality.rows.values():
             if row["source"] == name:
                 pages.update(dict.fromkeys(row.get("addresses", [])))
-        links = ", ".join(f"[{i}](<{page}>)" for i, page in enumerate(pages, 1))
+        links = ", ".join(f"[{i}]({page})" for i, page in enumerate(pages, 1))
         rows.append((name, entry["citation"], entry["seen"], links or "–"))
     return rows

@@ -4,23 +4,23 @@ HEAD = """\
 # Reality
 
 Measured coefficients and motions of bodies in air and water, and what this library makes of them by its two pressure
-laws, [theory](theory.md#11-flat-faces). In short:
+laws, [theory](theory.md#11-flat-faces).
 
-- **Boxes, polyhedra, prisms, plates, discs, cards, cylinders and cones: the form law.** Typical error of a coefficient
-  (the factor whose logarithm is the rms) {flat_form} for cubes, polyhedra, and plates and discs broadside, {end_form} for
-  cylinders end-on, {across_form} across, {cone_form} for cones; by the published law a flat face that meets the flow has
-  no drag at all. Long plates and rods get too little of it, by a factor of {long_form}; plates at incidence have
-  {incidence_form}.
-- **Half balls, cups and spheroids: the form law within {round_form}** (published {round_published}); neither knows a
-  shoulder's suction nor a hollow.
-- **Balls: the same in both**, within {ball_form}, by the default separation angle. **Streamlined bodies: neither**, ten
-  times too much; a pressure without recovery at the tail cannot.
-- **Falling and tumbling: the form law has the right regime in {regime_form}** of runs, the published one in
-  {regime_published}. Speeds of the form law are right to a factor of about 2, no better.
+| bodies | law to trust | off by a factor, typically |
+|---|---|---|
+| cubes, polyhedra, plates and discs broadside | form | {flat_form} (published: no drag on flat faces) |
+| cylinders across; end-on; cones | form | {across_form}; {end_form}; {cone_form} (published {across_published}; none; {cone_published}) |
+| plates at incidence | form | {incidence_form}, no stall (published {incidence_published}) |
+| long plates and rods, above 10 : 1 | form | {long_form}, too little (published: none) |
+| half balls, cups and spheroids | form | {round_form} (published {round_published}); no suction on shoulders, no hollows |
+| balls | the same in both | {ball_form} at the default separation angle |
+| streamlined bodies | neither | 10 and more: no pressure comes back at the tail |
+| falling discs, strips, plates and cards | form | regime right in {regime_form} runs (published {regime_published}); speeds off by 2 |
 
-Over the whole table the rms of ln(library/measured) is **{rms_published} by the published law, {rms_form} by the form
-law**; over what no parameter was fitted on {unfitted_published} and {unfitted_form}. Share of regimes that are right:
-**{share_published} by the published law, {share_form} by the form law**.
+A factor is that whose logarithm is the rms over the cases of the kind, drag coefficients and the like.
+Over the whole table the rms of ln(library/measured) is **{rms_published} by the published law and {rms_form} by the form
+law**, over what no parameter was fitted on {unfitted_published} and {unfitted_form}. The regime of falling is right in
+**{share_published} of runs by the published law and {share_form} by the form law**.
 
 Everything here but the words is written by
 
@@ -65,7 +65,8 @@ A regime counts as right only if the name is that of the measurement. What the f
 spheroids that are released at 5° stay broadside, strips at a Froude number of 0.6 glide off, discs at I* = 0.015 dive
 and turn over now and then, Andersen's plate of 1/8 flutters widely. Descents of fluttering bodies just below the
 border are too fast. The published law falls flat or dives edge-on at many times the broadside speed, and then uses all
-its substeps; with round edges it flutters and tumbles too.
+its substeps; with round edges it flutters and tumbles too. Above its tolerance in more than a tenth of the steps:
+{coarse_published} of {falls} falls by the published law, {coarse_form} by the form law.
 """
 
 SPEEDS = """\
@@ -77,7 +78,8 @@ ROUND = """\
 ## Balls
 
 Both laws share the closed forms of the smooth sphere. Real balls have more lift at small spin and less at large, and
-less drag beyond the drag crisis: a larger separation angle stands for it, docs and scenes of the golf balls.
+less drag beyond the drag crisis; a larger separation angle stands for that in the [scenes](experiments.md) of golf
+balls.
 """
 
 TABLE = """\
