@@ -66,7 +66,8 @@ spheroids that are released at 5° stay broadside, strips at a Froude number of 
 and turn over now and then, Andersen's plate of 1/8 flutters widely. Descents of fluttering bodies just below the
 border are too fast. The published law falls flat or dives edge-on at many times the broadside speed, and then uses all
 its substeps; with round edges it flutters and tumbles too. Above its tolerance in more than a tenth of the steps:
-{coarse_published} of {falls} falls by the published law, {coarse_form} by the form law.
+{coarse_published} of {falls} falls by the published law, {coarse_form} by the form law. Tried once with half and twice
+the steps, 80 and 79 of 106 regimes were right by the form law, 16 and 13 by the published one.
 """
 
 SPEEDS = """\

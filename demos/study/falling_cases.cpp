@@ -173,18 +173,32 @@ void addCubesAndSpheres(Cases& cases) {
   }
 }
 
+struct Group {
+  const char* name;
+  void (*add)(Cases&);
+};
+
+constexpr Group kGroups[] = {{"cubes and balls", addCubesAndSpheres},
+                             {"cards", addCards},
+                             {"long cards", addLongCards},
+                             {"coins", addCoins},
+                             {"plates", addPlates},
+                             {"strips", addStrips},
+                             {"discs", addDiscs},
+                             {"spheroids", addSpheroids}};
+
 }  // namespace
 
-std::vector<FallingCase> makeFallingCases() {
+std::vector<std::string> fallingGroups() {
+  std::vector<std::string> names;
+  for (const Group& group : kGroups) names.emplace_back(group.name);
+  return names;
+}
+
+std::vector<FallingCase> makeFallingCases(const std::string& group) {
   Cases cases;
-  addCubesAndSpheres(cases);
-  addCards(cases);
-  addLongCards(cases);
-  addCoins(cases);
-  addPlates(cases);
-  addStrips(cases);
-  addDiscs(cases);
-  addSpheroids(cases);
+  for (const Group& known : kGroups)
+    if (known.name == group) known.add(cases);
   return cases;
 }
 

@@ -26,7 +26,10 @@ struct FallingCase {
   bool keeps_path = false;
 };
 
-/// Bodies whose fall was measured.
-std::vector<FallingCase> makeFallingCases();
+/// "cubes and balls", "cards", ...: of bodies whose fall was measured.
+std::vector<std::string> fallingGroups();
+
+/// Those of one group; none of any other.
+std::vector<FallingCase> makeFallingCases(const std::string& group);
 
 }  // namespace ambient

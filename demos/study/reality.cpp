@@ -68,18 +68,22 @@ std::string plateCurve() {
   return table;
 }
 
-void writeFalls(const std::vector<FallingCase>& cases, const fs::path& folder) {
-  std::string table = fallHeader(), paths = pathHeader();
-  for (const FallingCase& c : cases) {
-    for (const PressureLaw law : kLaws) {
-      const FallingRun run = runFall(c, law);
-      const std::string line = fallLine(c, law, run);
-      std::fputs(line.c_str(), stdout);
-      std::fflush(stdout);
-      table += line;
-      if (c.keeps_path) paths += pathLines(c, law, run);
-    }
+/// Appends the falls of one body by both laws to the table, their paths to the other.
+void addFalls(const FallingCase& c, std::string& table, std::string& paths) {
+  for (const PressureLaw law : kLaws) {
+    const FallingRun run = runFall(c, law);
+    const std::string line = fallLine(c, law, run);
+    std::fputs(line.c_str(), stdout);
+    std::fflush(stdout);
+    table += line;
+    if (c.keeps_path) paths += pathLines(c, law, run);
   }
+}
+
+void writeFalls(const fs::path& folder) {
+  std::string table = fallHeader(), paths = pathHeader();
+  for (const std::string& group : fallingGroups())
+    for (const FallingCase& c : makeFallingCases(group)) addFalls(c, table, paths);
   writeFile(folder / "falls.csv", table);
   writeFile(folder / "paths.csv", paths);
 }
@@ -89,7 +93,7 @@ int run(const fs::path& measurements, const fs::path& folder) {
   writeFile(folder / "coefficients.csv", coefficients(measurements));
   writeFile(folder / "plate.csv", plateCurve());
   out.keep();
-  writeFalls(makeFallingCases(), folder);
+  writeFalls(folder);
   return 0;
 }
 

@@ -101,14 +101,8 @@ TEST(Measurements, AreNearerToTheFormLaw) {
   EXPECT_GT(std::sqrt(published / static_cast<double>(count)), 1);
 }
 
-FallingCase fallingCase(const std::string& family, const std::string& name) {
-  const std::vector<FallingCase> cases = makeFallingCases();
-  return *std::find_if(cases.begin(), cases.end(),
-                       [&](const FallingCase& c) { return c.family == family && c.name == name; });
-}
-
 TEST(Falls, ACardTumblesByTheFormLaw) {
-  const FallingCase card = fallingCase("card", "business card 300 g/m2");
+  const FallingCase card = makeFallingCases("cards").front();
   const FallingRun run = runFall(card, kForm);
   EXPECT_EQ(run.fall.mode, FallingMode::kTumbling);
   EXPECT_NEAR(run.fall.descent_speed, 0.81, 0.03);
@@ -116,7 +110,7 @@ TEST(Falls, ACardTumblesByTheFormLaw) {
 }
 
 TEST(Falls, ACubeOfWoodRisesByTheFormLawAtOneSubstepPerStep) {
-  FallingCase cube = fallingCase("cube", "600");
+  const FallingCase cube = makeFallingCases("cubes and balls").front();
   const FallingRun run = runFall(cube, kForm);
   // 0.94 of the speed by its measured drag coefficient of 1.05, face on.
   EXPECT_NEAR(run.fall.descent_speed, -0.576, 0.003);
