@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -11,6 +12,10 @@ namespace {
 
 // What is left of a quantity that is exact on paper after some thousand rounded operations.
 constexpr double kRounding = 1e-9;
+
+// Over the size of the body: as far as the preprocessor lets a body reach from its origin, whatever
+// its form. Beyond, what is left of its own coordinates is nothing.
+constexpr double kFarthest = 1e12;
 
 class Checker {
  public:
@@ -32,6 +37,14 @@ class Checker {
   void notNegative(double value, const char* what) const {
     finite(value, what);
     if (value < 0) fail(what, " is ", value, ", but must not be negative");
+  }
+
+  /// Whether a point of the body is as near as `size` allows; 0: the body has no size.
+  void near(const Vector3& point, double size, const char* what) const {
+    const double distance = point.stableNorm();
+    if (size > 0 && !(distance / size <= kFarthest))
+      fail(what, " lies ", distance, " m from the origin, limit ", kFarthest,
+           " times the size of the body of ", size, " m");
   }
 
   template <class Matrix>
@@ -85,6 +98,21 @@ void checkMassDistribution(const MassDistribution& mass, const Checker& check, c
   check.finiteMatrix(mass.centre, centre);
   check.finiteMatrix(mass.inertia, inertia);
   check.positiveSemiDefinite(mass.inertia, inertia);
+}
+
+/// Some length of the body [m].
+double sizeOf(const FluidBody& body) {
+  return std::max(std::sqrt(body.area), std::cbrt(body.volume));
+}
+
+void checkPlaces(const FluidBody& body, const Checker& check) {
+  const double size = sizeOf(body);
+  check.near(body.centre_of_volume, size, "centre of volume");
+  check.near(body.uniform_mass.centre, size, "centre of uniform mass");
+  check.near(body.surface_mass.centre, size, "centre of surface mass");
+  for (std::size_t i = 0; i < body.faces.size(); ++i)
+    check.near(body.faces.centroid(i), size, "centroid of a face");
+  for (const LoadLevel& level : body.levels) check.near(level.centre, size, "centre of a level");
 }
 
 void checkFaces(const FaceTable& faces, const Checker& check) {
@@ -192,6 +220,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   checkFaces(body.faces, check);
   checkSurface(body.surface, check);
   for (const LoadLevel& level : body.levels) checkLevel(level, check);
+  checkPlaces(body, check);
 }
 
 }  // namespace ambient

@@ -11,11 +11,12 @@ namespace ambient {
 /// The faces of a shape for loads in single precision: 47 bytes per face, in frame F. The units are
 /// powers of two, so that a shape of any size that is a power of two times another has the same
 /// bits. Faces that are alike in normal and place share a block: where the flow is detached from
-/// all of it, it is left out. A sharpness is packed where the faces have one.
+/// all of it, it is left out. The form law needs the sharpness as well: 4 bytes more.
 class PackedFaces {
  public:
   /// Cost: O(F log F), 0.1 us per face.
-  explicit PackedFaces(const FaceTable& faces);
+  /// @pre the faces have their sharpness, if it is asked for.
+  explicit PackedFaces(const FaceTable& faces, bool with_sharpness = false);
 
   FaceBlocks blocks() const {
     return {blocks_.data(), bounds_.data(), blocks_.size(),

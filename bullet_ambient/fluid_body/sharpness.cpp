@@ -14,30 +14,45 @@ namespace {
 /// Cosine of 41 degrees: what turns by more between two faces is an edge, to the flow as well.
 constexpr double kSmooth = 0.75470958;
 
-/// The faces at every vertex.
-class VertexStars {
+/// The normals at the vertices of a mesh.
+class VertexNormals {
  public:
-  explicit VertexStars(const SurfaceTriangles& mesh)
+  explicit VertexNormals(const SurfaceTriangles& mesh)
       : mesh_(mesh), stars_(static_cast<std::size_t>(mesh.vertexCount())) {
     for (int t = 0; t < mesh.size(); ++t)
-      for (int corner = 0; corner < 3; ++corner) star(mesh.vertex(t, corner)).push_back(t);
+      for (int corner = 0; corner < 3; ++corner)
+        stars_[static_cast<std::size_t>(mesh.vertex(t, corner))].push_back({t, weight(t, corner)});
   }
 
-  /// Mean normal at a vertex of the faces that go on smoothly from one of them.
-  Vector3 normal(int vertex, int triangle) {
+  /// Mean at a vertex over the faces that go on smoothly from one of them.
+  Vector3 normal(int vertex, int triangle) const {
     Vector3 sum = Vector3::Zero();
-    for (const int other : star(vertex))
-      if (mesh_.normal(other).dot(mesh_.normal(triangle)) >= kSmooth)
-        sum += mesh_.area(other) * mesh_.normal(other);
+    for (const Face& face : stars_[static_cast<std::size_t>(vertex)])
+      if (mesh_.normal(face.triangle).dot(mesh_.normal(triangle)) >= kSmooth)
+        sum += face.weight * mesh_.normal(face.triangle);
     const double length = sum.norm();
     return length > 0 ? Vector3(sum / length) : mesh_.normal(triangle);
   }
 
  private:
-  std::vector<int>& star(int vertex) { return stars_[static_cast<std::size_t>(vertex)]; }
+  struct Face {
+    int triangle;
+    double weight;
+  };
+
+  /// Makes the mean exact for every mesh inscribed in a sphere; Max 1999.
+  double weight(int t, int corner) const {
+    const auto edgeTo = [&](int other) {
+      return Vector3(mesh_.place(mesh_.vertex(t, (corner + other) % 3)) -
+                     mesh_.place(mesh_.vertex(t, corner)));
+    };
+    const Vector3 a = edgeTo(1), b = edgeTo(2);
+    const double weight = a.cross(b).norm() / (a.squaredNorm() * b.squaredNorm());
+    return std::isfinite(weight) ? weight : 0;  // a triangle without area
+  }
 
   const SurfaceTriangles& mesh_;
-  std::vector<std::vector<int>> stars_;
+  std::vector<std::vector<Face>> stars_;
 };
 
 struct Curvatures {
@@ -45,7 +60,7 @@ struct Curvatures {
 };
 
 /// Of the symmetric 2x2 matrix II with dn = II de along the edges, in the least-squares sense.
-Curvatures curvaturesOf(const SurfaceTriangles& mesh, VertexStars& stars, int t) {
+Curvatures curvaturesOf(const SurfaceTriangles& mesh, const VertexNormals& normals, int t) {
   const auto place = [&](int corner) { return mesh.place(mesh.vertex(t, corner)); };
   const Vector3 normal = mesh.normal(t);
   const Vector3 x_axis = (place(1) - place(0)).normalized();
@@ -56,7 +71,7 @@ Curvatures curvaturesOf(const SurfaceTriangles& mesh, VertexStars& stars, int t)
     const int next = (corner + 1) % 3;
     const Vector3 edge = place(next) - place(corner);
     const Vector3 turn =
-        stars.normal(mesh.vertex(t, next), t) - stars.normal(mesh.vertex(t, corner), t);
+        normals.normal(mesh.vertex(t, next), t) - normals.normal(mesh.vertex(t, corner), t);
     const double u = edge.dot(x_axis), v = edge.dot(y_axis);
     const Vector3 rows[2] = {{u, v, 0}, {0, u, v}};  // of (II_xx, II_xy, II_yy)
     const double values[2] = {turn.dot(x_axis), turn.dot(y_axis)};
@@ -82,11 +97,11 @@ double sharpnessOf(double curvature, double radius) {
 
 std::vector<double> computeSharpness(const FluidBody& body) {
   const SurfaceTriangles mesh(body);
-  VertexStars stars(mesh);
+  const VertexNormals normals(mesh);
   const double radius = std::sqrt(body.area / (4 * kPi));
   std::vector<double> front, back;
   for (int t = 0; t < mesh.size(); ++t) {
-    const Curvatures curvatures = curvaturesOf(mesh, stars, t);
+    const Curvatures curvatures = curvaturesOf(mesh, normals, t);
     front.push_back(sharpnessOf(curvatures.largest, radius));
     if (mesh.isSheet()) back.push_back(sharpnessOf(-curvatures.smallest, radius));
   }

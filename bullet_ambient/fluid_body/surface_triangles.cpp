@@ -25,7 +25,6 @@ SurfaceTriangles::SurfaceTriangles(const FluidBody& body) {
   for (std::size_t t = 0; t < count; ++t) {
     corners_.push_back({corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)});
     normals_.push_back(body.faces.normal(t));
-    areas_.push_back(body.faces.area[t]);
   }
 }
 

@@ -20,7 +20,6 @@ class SurfaceTriangles {
   int vertex(int triangle, int corner) const { return corners_[index(triangle)][index(corner)]; }
   const Vector3& place(int vertex) const { return places_[index(vertex)]; }
   const Vector3& normal(int triangle) const { return normals_[index(triangle)]; }
-  double area(int triangle) const { return areas_[index(triangle)]; }
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -29,7 +28,6 @@ class SurfaceTriangles {
   std::vector<Vector3> places_;
   std::vector<std::array<int, 3>> corners_;
   std::vector<Vector3> normals_;  ///< of the faces
-  std::vector<double> areas_;
 };
 
 }  // namespace ambient

@@ -33,13 +33,9 @@ std::shared_ptr<const FaceTable> LoadTables::faces(const Body& body, PressureLaw
 }
 
 std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Body& body, PressureLaw law) {
-  if (law == PressureLaw::kForm)
-    return packed_form_.get(body, [&] { return PackedFaces(*faces(body, law)); });
-  return packed_.get(body, [&] {
-    FaceTable faces = body->faces;
-    faces.sharpness.clear();  // packed, it would mean the form law
-    return PackedFaces(faces);
-  });
+  const bool is_form = law == PressureLaw::kForm;
+  auto& packed = is_form ? packed_form_ : packed_;
+  return packed.get(body, [&] { return PackedFaces(*faces(body, law), is_form); });
 }
 
 std::shared_ptr<const SphereTable> LoadTables::sphereTable(double separation_cosine) {

@@ -4,16 +4,17 @@
 #include <optional>
 #include <sstream>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/output_file.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
-#include "preprocess/command_line/blocked_signals.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
+#include "preprocess/mesh/plain_text.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 
 namespace ambient {
@@ -72,9 +73,10 @@ FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings&
                                         separationAngleOf(arguments.separation_angle));
     built.body.provenance.settings = describeBody(shape, settings, arguments).settings;
   }
-  for (const std::string& warning : built.warnings) std::cerr << "warning: " << warning << "\n";
+  for (const std::string& warning : built.warnings)
+    std::cerr << "warning: " << plainLine(warning) << "\n";
   const BlockedSignals until_renamed;
-  writeFluidBody(built.body, arguments.output);
+  writeThroughLinks(built.body, arguments.output);
   return built.body;
 }
 
@@ -102,6 +104,7 @@ int runBuild(const BuildArguments& arguments) {
   const ShapeBuildSettings settings = settingsOf(arguments);
   const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
   requireWritablePlace(arguments.output, arguments.input);
+  requireReplaceable(arguments.output);
   std::optional<FluidBody> body;
   if (!arguments.rebuild) {
     body = readIfSame(arguments.output, settings.name, describeBody(shape, settings, arguments));
@@ -110,7 +113,7 @@ int runBuild(const BuildArguments& arguments) {
   if (!body) body = buildAndWrite(shape, settings, arguments);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (is_reused && !arguments.json) {
-    std::cerr << arguments.output << ": nothing has changed since it was built\n";
+    std::cerr << plainLine(arguments.output) << ": nothing has changed since it was built\n";
   }
   std::cout << (arguments.json ? reportJson(*body, seconds.count())
                                : reportTable(*body, arguments.output));

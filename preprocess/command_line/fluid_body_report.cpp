@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "preprocess/command_line/json_numbers.h"
+#include "preprocess/mesh/plain_text.h"
 #include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
@@ -112,11 +113,12 @@ std::string reportJson(const FluidBody& body, std::optional<double> seconds) {
 }
 
 std::string reportTable(const FluidBody& body, const std::string& file) {
-  Table table(file);
-  table.row("name", body.name);
-  table.row("source", body.provenance.source, "  [", hashText(body.provenance.source_hash), "]");
-  table.row("settings", body.provenance.settings);
-  table.row("made by", body.provenance.generator);
+  Table table(plainLine(file));
+  table.row("name", plainLine(body.name));
+  table.row("source", plainLine(body.provenance.source), "  [",
+            hashText(body.provenance.source_hash), "]");
+  table.row("settings", plainLine(body.provenance.settings));
+  table.row("made by", plainLine(body.provenance.generator));
   table.row("vertices", body.surface.vertices.size() / 3);
   table.row("faces", body.surface.triangles.size() / 3, isSheet(body) ? ", a sheet" : "");
   table.row("size", extentsText(extentsOf(body)));

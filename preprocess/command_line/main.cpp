@@ -1,15 +1,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "preprocess/command_line/closest_word.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
+#include "preprocess/mesh/plain_text.h"
 
 namespace ambient {
 namespace {
@@ -160,18 +163,11 @@ CLI::App* addReport(CLI::App& app, ReportArguments& arguments) {
   return report;
 }
 
-/// Names of files and keys may hold anything; a message is one line all the same.
-std::string inOneLine(const std::string& message) {
-  std::string line;
-  for (const char c : message) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code >= 0x20 && code != 0x7f) {
-      line += c;
-    } else {
-      line += c == '\n' ? "\\n" : "?";
-    }
-  }
-  return line;
+int exitAt(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream errors;
+  const int code = app.exit(error, std::cout, errors);
+  std::cerr << plainText(errors.str());
+  return code == 0 ? 0 : kBadUsage;
 }
 
 /// A sentence about an argument without letters, which CLI11 takes for 0 where it should be a
@@ -214,13 +210,13 @@ int run(int argc, char** argv) {
   const CLI::App* compare = addCompare(app, compare_arguments);
   for (const std::string& message : {emptyArgument(argc, argv), unknownCommand(app, argc, argv)}) {
     if (message.empty()) continue;
-    std::cerr << "ambient_preprocess: " << message << "\n";
+    std::cerr << "ambient_preprocess: " << plainLine(message) << "\n";
     return kBadUsage;
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadUsage;
+    return exitAt(app, error);
   }
   try {
     if (build->parsed()) return runBuild(build_arguments);
@@ -230,13 +226,13 @@ int run(int argc, char** argv) {
     if (polar->parsed()) runPolar(polar_arguments);
     if (compare->parsed()) return runCompare(compare_arguments);
   } catch (const UsageError& error) {
-    std::cerr << "ambient_preprocess: " << inOneLine(error.what()) << "\n";
+    std::cerr << "ambient_preprocess: " << plainLine(error.what()) << "\n";
     return kBadUsage;
   } catch (const std::bad_alloc&) {
     std::cerr << "ambient_preprocess: there is not enough memory for an input of this size\n";
     return kBadInput;
   } catch (const std::exception& error) {
-    std::cerr << "ambient_preprocess: " << inOneLine(error.what()) << "\n";
+    std::cerr << "ambient_preprocess: " << plainLine(error.what()) << "\n";
     return kBadInput;
   }
   return 0;
@@ -246,6 +242,8 @@ int run(int argc, char** argv) {
 }  // namespace ambient
 
 int main(int argc, char** argv) {
+  // Beyond a limit of the file size, writing fails with a message in place of ending the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   const int exit_code = ambient::run(argc, argv);
   std::cout.flush();
   if (exit_code == 0 && (!std::cout || std::fflush(stdout) != 0)) {
