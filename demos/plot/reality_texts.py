@@ -15,7 +15,7 @@ laws, [theory](theory.md#11-flat-faces).
 | half balls, cups and spheroids | form | {round_form} (published {round_published}); no suction on shoulders, no hollows |
 | balls | the same in both | {ball_form} at the default separation angle |
 | streamlined bodies | neither | 10 and more: no pressure comes back at the tail |
-| falling discs, strips, plates and cards | form | regime right in {regime_form} runs (published {regime_published}); speeds off by 2 |
+| falling discs, strips, plates and cards | form | regime right in {regime_form} runs (published {regime_published}); speeds to a factor of 2 |
 
 A factor is that whose logarithm is the rms over the cases of the kind, drag coefficients and the like.
 Over the whole table the rms of ln(library/measured) is **{rms_published} by the published law and {rms_form} by the form
@@ -57,7 +57,7 @@ MOTION = """\
 Regimes as [falling_mode.h](../demos/analysis/falling_mode.h) has them, from the second half of each fall. Released at
 rest, with default settings. Discs, spheroids and strips are without size: their fluid is that of a Reynolds number of
 2000, their weight that of speed 1 broadside; 120 of their widths at that speed are run. `mixed` is what the literature
-calls chaotic. Strips within the measured error of the border (0.67 ± 0.05) are drawn and not counted.
+calls chaotic. The discs' borders, I* = 0.01 to some 0.05 and 0.1, are from memory, to a factor of 1.5. Strips within the measured error of the border (0.67 ± 0.05) are drawn and not counted.
 """
 
 REGIMES = """\
@@ -72,7 +72,8 @@ the steps, 80 and 79 of 106 regimes were right by the form law, 16 and 13 by the
 
 SPEEDS = """\
 Final speeds of cubes and balls in water, at 60 Hz, released 3° off level; measured: by the coefficient in brackets. By
-the published law a cube slips through the water edgewise, substeps are used up, and the speed depends on the step.
+the published law a cube turns a face ahead, which has no drag; it chatters about that attitude, uses up its substeps,
+and its speed depends on the step.
 """
 
 ROUND = """\
