@@ -15,7 +15,7 @@ laws, [theory](theory.md#11-flat-faces).
 | half balls, cups and spheroids | form | {round_form} (published {round_published}); no suction on shoulders, no hollows |
 | balls | the same in both | {ball_form} at the default separation angle |
 | streamlined bodies | neither | 10 and more: no pressure comes back at the tail |
-| falling discs, strips, plates and cards | form | regime right in {regime_form} runs (published {regime_published}); speeds to a factor of 2 |
+| falling discs, strips, plates and cards | form | regime right in {regime_form} runs (published {regime_published}); speeds to a factor of about 2 |
 
 A factor is that whose logarithm is the rms over the cases of the kind, drag coefficients and the like.
 Over the whole table the rms of ln(library/measured) is **{rms_published} by the published law and {rms_form} by the form
@@ -57,7 +57,8 @@ MOTION = """\
 Regimes as [falling_mode.h](../demos/analysis/falling_mode.h) has them, from the second half of each fall. Released at
 rest, with default settings. Discs, spheroids and strips are without size: their fluid is that of a Reynolds number of
 2000, their weight that of speed 1 broadside; 120 of their widths at that speed are run. `mixed` is what the literature
-calls chaotic. The discs' borders, I* = 0.01 to some 0.05 and 0.1, are from memory, to a factor of 1.5. Strips within the measured error of the border (0.67 ± 0.05) are drawn and not counted.
+calls chaotic. The discs' borders, I* = 0.01 to some 0.05 and 0.1, are from memory, to a factor of 1.5. Strips within
+the measured error of the border (0.67 ± 0.05) are drawn and not counted.
 """
 
 REGIMES = """\
@@ -96,14 +97,16 @@ Quoted from memory, none of which is counted above:
 """
 
 STALL = """\
-Incidence of largest lift of thin rectangular wings. By the published law the lift of a plate is largest at no incidence.
+Incidence of largest lift of thin rectangular wings. By the published law a plate has most lift at no
+incidence.
 """
 
 NOT = """\
 ## What is not compared
 
 - The drag crisis, Reynolds numbers below some 1000, vortex shedding: neither law has them.
-- Suction at the base of a plate: measured 0.38 (Eiffel), while the form law's 0.12 on the lee side stands for all bodies.
+- Suction at the base of a plate: measured 0.38 (Eiffel), while the form law's 0.12 on the lee side stands for all
+  bodies.
 - Winged seeds: their geometry is not in the sources.
 - Vibration of light rising balls, whose measured drag of 0.95 stands in the table.
 
