@@ -47,6 +47,15 @@ TEST(LoadTables, KeepNoFacesThatNobodyUses) {
   EXPECT_TRUE(faces.expired());
 }
 
+TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
+  LoadTables tables;
+  FluidBody body = *sphere();
+  body.faces.sharpness.assign(body.faces.size(), 0.5);
+  const auto sharp = std::make_shared<const FluidBody>(body);
+  EXPECT_EQ(tables.packedFaces(sharp, PressureLaw::kPublished)->blocks().sharpness, nullptr);
+  EXPECT_NE(tables.packedFaces(sharp, PressureLaw::kForm)->blocks().sharpness, nullptr);
+}
+
 TEST(LoadTables, KeepAnUnusedSphereTableUntilTheNext) {
   LoadTables tables;
   const std::weak_ptr<const SphereTable> first = tables.sphereTable(0);
