@@ -83,6 +83,9 @@ struct FluidBody {
   /// Of a body that is a sphere about its centre of volume [m]: its loads are those of the smooth
   /// sphere, and faces and levels are not evaluated. 0: any other shape.
   double sphere_radius = 0;
+  /// Measured drag coefficients along the axes of F, on the frontal areas, that the form law is
+  /// scaled to; 0: none, and then all are.
+  Vector3 drag{0, 0, 0};
 };
 
 /// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x is the slip velocity of fully attached

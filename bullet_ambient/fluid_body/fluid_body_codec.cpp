@@ -180,11 +180,12 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto origin = packMatrix<file::Vector3>(body.origin);
   flatbuffers::Optional<double> sphere_radius = flatbuffers::nullopt;
   if (body.sphere_radius > 0) sphere_radius = body.sphere_radius;
+  const auto drag = packMatrix<file::Vector3>(body.drag);
   file::FinishFluidBodyBuffer(
-      builder,
-      file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry, body.volume,
-                            body.area, &centre_of_volume, &origin, uniform_mass, surface_mass,
-                            faces, surface, levels, sphere_radius, form_levels));
+      builder, file::CreateFluidBody(
+                   builder, name, provenance, &added_mass, body.asymmetry, body.volume, body.area,
+                   &centre_of_volume, &origin, uniform_mass, surface_mass, faces, surface, levels,
+                   sphere_radius, form_levels, body.drag.isZero(0) ? nullptr : &drag));
 }
 
 FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
@@ -208,6 +209,7 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
     for (const file::FormLevel* level : *packed.form_levels())
       body.form_levels.push_back({unpack(*level->faces()), level->p99_error()});
   body.sphere_radius = packed.sphere_radius().value_or(0);
+  if (packed.drag()) body.drag = unpackMatrix<Vector3>(*packed.drag());
   return body;
 }
 

@@ -19,7 +19,7 @@ using LoadLaw = std::function<std::shared_ptr<const SurfaceLoads>(
 /// What the fluid presses with on a face.
 enum class PressureLaw {
   kPublished,  ///< of the slip, docs/theory.md eq. (14): Padilla et al. 2025
-  kForm,       ///< of the form drag, eq. (43) to (50): for boxes and whatever else has flat sides
+  kForm,       ///< of the form drag, eq. (43) to (51): for boxes and whatever else has flat sides
 };
 
 /// As scenes and commands name them.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_ambient/force/drag_scale.h"
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/form_lift.h"
 #include "bullet_ambient/force/load_tables.h"
@@ -63,22 +64,24 @@ struct LevelLoads final : SummedLoads<LoadLevel, computeLevelLoad> {
 /// The form law: faces as above, and what acts on the body as a whole.
 class FormLoads final : public SurfaceLoads {
  public:
-  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const FormLift& lift, double density)
-      : on_faces_(std::move(on_faces)), lift_(lift), density_(density) {}
+  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const DragScale& drag,
+            const FormLift& lift, double density)
+      : on_faces_(std::move(on_faces)), drag_(drag), lift_(lift), density_(density) {}
 
   Wrench load(const Twist& x) const noexcept override {
-    return on_faces_->load(x) + lift_.load(x, density_);
+    return drag_.factor(x) * on_faces_->load(x) + lift_.load(x, density_);
   }
   FaceLoads parts(const Twist& x) const noexcept override {
-    FaceLoads parts = on_faces_->parts(x);
-    parts.pressure += lift_.load(x, density_);
-    return parts;
+    const FaceLoads parts = on_faces_->parts(x);
+    const double factor = drag_.factor(x);
+    return {factor * parts.pressure + lift_.load(x, density_), factor * parts.friction};
   }
   int faces() const noexcept override { return on_faces_->faces(); }
   bool needsGuard() const noexcept override { return on_faces_->needsGuard(); }
 
  private:
   std::shared_ptr<const SurfaceLoads> on_faces_;
+  DragScale drag_;
   FormLift lift_;
   double density_;
 };
@@ -196,10 +199,10 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
   if (body->faces.size() == 0) return nullptr;
   const double length = referenceLength(*body);
   if (flow.law == PressureLaw::kForm) {
-    auto on_faces =
-        loadsOn(chooseFormFaces(body, flow, tables), length, settings, flow.precision, tables);
-    return std::make_shared<FormLoads>(std::move(on_faces), FormLift(*body, flow.stall_lag),
-                                       settings.density);
+    const LoadTables::Faces faces = chooseFormFaces(body, flow, tables);
+    auto on_faces = loadsOn(faces, length, settings, flow.precision, tables);
+    return std::make_shared<FormLoads>(std::move(on_faces), DragScale(*body, *faces),
+                                       FormLift(*body, flow.stall_lag), settings.density);
   }
   if (const LoadLevel* level = chooseLevel(*body, flow))
     return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level),
