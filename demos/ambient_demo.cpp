@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,9 +14,14 @@
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/geometry_text.h"
+#include "demos/simulation/output_folder.h"
+#include "demos/simulation/run_signals.h"
 #include "demos/simulation/scene_run.h"
 #include "demos/simulation/summary.h"
+#include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/output_file.h"
+#include "preprocess/mesh/plain_text.h"
 
 namespace ambient {
 namespace {
@@ -63,9 +70,11 @@ Parsed parseArguments(int argc, char** argv) {
     if (parsed.arguments.scene.empty() && !parsed.arguments.list)
       throw CLI::RequiredError("SCENE or --list");
   } catch (const CLI::ParseError& error) {
-    parsed.exit_code = app.exit(error) == 0 ? 0 : kBadUsage;
+    std::ostringstream errors;
+    parsed.exit_code = app.exit(error, std::cout, errors) == 0 ? 0 : kBadUsage;
+    std::cerr << plainText(errors.str());
   } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "%s\n", plainLine(error.what()).c_str());
     parsed.exit_code = kBadUsage;
   }
   return parsed;
@@ -79,13 +88,47 @@ void printScenes() {
     } catch (const std::exception& error) {
       description = std::string("not readable: ") + error.what();
     }
-    std::printf("%-24s %s\n", file.stem().c_str(), description.c_str());
+    std::printf("%-24s %s\n", plainLine(file.stem().string()).c_str(),
+                plainLine(description).c_str());
   }
 }
 
 std::vector<PreparedBody> prepare(const Scene& scene, FluidBodyCache& cache, bool quiet) {
   const ElapsedDisplay display(scene.name + ": preparing bodies", quiet);
   return prepareBodies(scene, cache);
+}
+
+/// What a run writes, none of it under its name yet.
+struct RunFiles {
+  RunFiles(const fs::path& out, const std::string& gltf_file)
+      : folder(out),
+        trajectory(out / "trajectory.csv"),
+        geometry(out / "geometry.json"),
+        summary(out / "summary.json") {
+    if (!gltf_file.empty()) gltf.emplace(gltf_file);
+    Unfinished unfinished{{trajectory.partial(), geometry.partial(), summary.partial()},
+                          folder.made()};
+    if (gltf) unfinished.files.push_back(gltf->partial());
+    hearSignals(unfinished);
+  }
+
+  OutputFolder folder;
+  OutputFile trajectory, geometry, summary;
+  std::optional<OutputFile> gltf;
+
+  void commit() {
+    trajectory.commit();
+    geometry.commit();
+    summary.commit();
+    if (gltf) gltf->commit();
+    folder.keep();
+  }
+};
+
+/// Signals that come while the files are made arrive when all are known.
+RunFiles openFiles(const fs::path& out, const std::string& gltf) {
+  const BlockedSignals until_known;
+  return RunFiles(out, gltf);
 }
 
 void runAndWrite(const Arguments& arguments) {
@@ -95,33 +138,25 @@ void runAndWrite(const Arguments& arguments) {
   FluidBodyCache cache(out / "fluid_bodies", scene.threads);
   const std::vector<PreparedBody> bodies = prepare(scene, cache, arguments.quiet);
   for (const std::string& warning : cache.warnings())
-    if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", plainLine(warning).c_str());
 
   // Before, there is nothing to tidy up: signals end the program at once.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    std::signal(signal, [](int) { interruptRun(); });
+  RunFiles files = openFiles(out, arguments.gltf);
+  files.geometry.write(makeGeometryText(scene, bodies));
+  const RunRecord record = runScene(scene, bodies, files.trajectory, arguments.quiet);
+  files.summary.write(makeSummary(scene, bodies, record));
+  if (files.gltf) files.gltf->write(makeGltf(arguments.gltf, scene, bodies, record.motion));
+  {
+    const BlockedSignals until_all_have_their_names;
+    files.commit();
+    cache.save();
   }
-  OutputFolder folder(out);
-  OutputFile trajectory(out / "trajectory.csv");
-  OutputFile geometry(out / "geometry.json");
-  OutputFile summary(out / "summary.json");
-  std::optional<OutputFile> gltf;
-  if (!arguments.gltf.empty()) gltf.emplace(arguments.gltf);
-  geometry.write(makeGeometryText(scene, bodies));
-  const RunRecord record = runScene(scene, bodies, trajectory, arguments.quiet);
-  summary.write(makeSummary(scene, bodies, record));
-  if (gltf) gltf->write(makeGltf(arguments.gltf, scene, bodies, record.motion));
-  trajectory.commit();
-  geometry.commit();
-  summary.commit();
-  if (gltf) gltf->commit();
-  folder.keep();
-  cache.save();
   if (!record.warning.empty() && !arguments.quiet)
-    std::fprintf(stderr, "warning: %s\n", record.warning.c_str());
+    std::fprintf(stderr, "warning: %s\n", plainLine(record.warning).c_str());
   if (!arguments.quiet)
     std::printf("%s: %lld steps in %.2f s; wrote trajectory.csv and summary.json to %s\n",
-                scene.name.c_str(), record.steps, record.wall_seconds, folder.path().c_str());
+                plainLine(scene.name).c_str(), record.steps, record.wall_seconds,
+                plainLine(files.folder.path().string()).c_str());
 }
 
 int run(int argc, char** argv) {
@@ -133,7 +168,7 @@ int run(int argc, char** argv) {
     else
       runAndWrite(parsed.arguments);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ambient_demo: %s\n", error.what());
+    std::fprintf(stderr, "ambient_demo: %s\n", plainLine(error.what()).c_str());
     return kBadInput;
   }
   return 0;
@@ -143,6 +178,8 @@ int run(int argc, char** argv) {
 }  // namespace ambient
 
 int main(int argc, char** argv) {
+  // Beyond a limit of the file size, writing fails with a message in place of ending the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   const int exit_code = ambient::run(argc, argv);
   if (exit_code == 0 && std::fflush(stdout) != 0) {
     std::fprintf(stderr, "ambient_demo: cannot write to standard output\n");

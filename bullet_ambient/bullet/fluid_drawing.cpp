@@ -3,6 +3,7 @@
 #include <LinearMath/btIDebugDraw.h>
 
 #include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/buoyancy.h"
 #include "bullet_ambient/force/face_flow.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
@@ -37,7 +38,10 @@ class Arrows {
 
 void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
                const Arrows& arrows) {
-  const FaceTable& faces = ambient.def.fluid_body->faces;
+  const FluidBody& body = *ambient.def.fluid_body;
+  const bool is_form = ambient.def.flow.law == PressureLaw::kForm;
+  const FaceTable form_faces = is_form ? formLawFaces(body) : FaceTable{};
+  const FaceTable& faces = is_form ? form_faces : body.faces;
   const FrameOffset& frame = ambient.def.fluid_frame;
   const LoadSettings settings = loadSettings(ambient.def.medium, ambient.def.flow);
   const double length = ambient.model.reference_length;
@@ -53,9 +57,10 @@ void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDra
       draw(normal_length, faces.normal(i),
            flow.is_attached ? fluid_colours::kAttached : fluid_colours::kSeparated);
     }
+    if (what.pressure && (flow.is_attached || is_form))
+      draw(what.length_per_face_force, flow.pressure, fluid_colours::kPressure);
     if (!flow.is_attached) continue;
     if (what.slip_velocity) draw(what.length_per_velocity, flow.slip, fluid_colours::kSlip);
-    if (what.pressure) draw(what.length_per_face_force, flow.pressure, fluid_colours::kPressure);
     if (what.friction) draw(what.length_per_face_force, flow.friction, fluid_colours::kFriction);
   }
 }

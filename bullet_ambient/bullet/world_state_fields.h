@@ -23,7 +23,9 @@ template <class Stream, class State>
 void transferSettings(Stream& s, State& def) {
   transferMedium(s, def.medium);
   s.number(def.flow.separation_angle);
+  transferEnum(s, def.flow.law, PressureLaw::kForm);
   transferFlag(s, def.flow.skin_friction);
+  s.number(def.flow.stall_lag);
   transferEnum(s, def.flow.precision, LoadPrecision::kDouble);
   s.number(def.flow.maximum_load_error);
   transferEnum(s, def.flight.integrator, Integrator::kSymplecticEuler);

@@ -18,9 +18,11 @@ struct FaceTable {
   std::vector<double> normal_x, normal_y, normal_z;        ///< unit normals into the fluid
   std::vector<double> centroid_x, centroid_y, centroid_z;  ///< barycentres [m]
   std::vector<double> area;                                ///< [m^2]
+  /// In [0, 1], from round to flat or edged, docs/theory.md eq. (45); empty: not known.
+  std::vector<double> sharpness;
 
   std::size_t size() const { return area.size(); }
-  /// All of them, in that order.
+  /// All of them in that order, but for the sharpness, which follows from the surface.
   std::array<const std::vector<double>*, 7> columns() const {
     return {&normal_x, &normal_y, &normal_z, &centroid_x, &centroid_y, &centroid_z, &area};
   }
@@ -28,6 +30,13 @@ struct FaceTable {
   Vector3 centroid(std::size_t i) const { return {centroid_x[i], centroid_y[i], centroid_z[i]}; }
   void reserve(std::size_t faces);
   void add(const Vector3& normal, const Vector3& centroid, double area);
+};
+
+/// Fewer faces that stand in for all of them by the form law.
+struct FormLevel {
+  FaceTable faces;  ///< with sharpness
+  double p99_error =
+      0;  ///< exceeded by one motion in a hundred, relative to 1/2 rho sum A_i |u_i|^2
 };
 
 /// Where the mass sits, for a body of mass 1 kg: centre [m] in F and inertia about it [m^2], in F's
@@ -69,10 +78,14 @@ struct FluidBody {
   MassDistribution surface_mass;      ///< uniform mass per area, at face barycentres
   FaceTable faces;
   Surface surface;
-  std::vector<LoadLevel> levels;  ///< of reduced loads; may be empty
+  std::vector<LoadLevel> levels;       ///< of reduced loads by the published law; may be empty
+  std::vector<FormLevel> form_levels;  ///< the same by the form law
   /// Of a body that is a sphere about its centre of volume [m]: its loads are those of the smooth
   /// sphere, and faces and levels are not evaluated. 0: any other shape.
   double sphere_radius = 0;
+  /// Measured drag coefficients along the axes of F, on the frontal areas, that the form law is
+  /// scaled to; 0: none, and then all are.
+  Vector3 drag{0, 0, 0};
 };
 
 /// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x is the slip velocity of fully attached

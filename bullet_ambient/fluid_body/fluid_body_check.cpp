@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -11,6 +12,10 @@ namespace {
 
 // What is left of a quantity that is exact on paper after some thousand rounded operations.
 constexpr double kRounding = 1e-9;
+
+// Over the size of the body: as far as the preprocessor lets a body reach from its origin, whatever
+// its form. Beyond, what is left of its own coordinates is nothing.
+constexpr double kFarthest = 1e12;
 
 class Checker {
  public:
@@ -32,6 +37,14 @@ class Checker {
   void notNegative(double value, const char* what) const {
     finite(value, what);
     if (value < 0) fail(what, " is ", value, ", but must not be negative");
+  }
+
+  /// Whether a point of the body is as near as `size` allows; 0: the body has no size.
+  void near(const Vector3& point, double size, const char* what) const {
+    const double distance = point.stableNorm();
+    if (size > 0 && !(distance / size <= kFarthest))
+      fail(what, " lies ", distance, " m from the origin, limit ", kFarthest,
+           " times the size of the body of ", size, " m");
   }
 
   template <class Matrix>
@@ -87,6 +100,21 @@ void checkMassDistribution(const MassDistribution& mass, const Checker& check, c
   check.positiveSemiDefinite(mass.inertia, inertia);
 }
 
+/// Some length of the body [m].
+double sizeOf(const FluidBody& body) {
+  return std::max(std::sqrt(body.area), std::cbrt(body.volume));
+}
+
+void checkPlaces(const FluidBody& body, const Checker& check) {
+  const double size = sizeOf(body);
+  check.near(body.centre_of_volume, size, "centre of volume");
+  check.near(body.uniform_mass.centre, size, "centre of uniform mass");
+  check.near(body.surface_mass.centre, size, "centre of surface mass");
+  for (std::size_t i = 0; i < body.faces.size(); ++i)
+    check.near(body.faces.centroid(i), size, "centroid of a face");
+  for (const LoadLevel& level : body.levels) check.near(level.centre, size, "centre of a level");
+}
+
 void checkFaces(const FaceTable& faces, const Checker& check) {
   constexpr std::array kNames{"face normal x",   "face normal y",   "face normal z",
                               "face centroid x", "face centroid y", "face centroid z",
@@ -99,6 +127,13 @@ void checkFaces(const FaceTable& faces, const Checker& check) {
                  " face areas");
     check.finiteColumn(column, kNames[k]);
   }
+  if (!faces.sharpness.empty() && faces.sharpness.size() != count)
+    check.fail("face sharpness has ", faces.sharpness.size(), " entries, but there are ", count,
+               " face areas");
+  for (std::size_t i = 0; i < faces.sharpness.size(); ++i)
+    if (!(faces.sharpness[i] >= 0) || !(faces.sharpness[i] <= 1))
+      check.fail("sharpness of face ", i, " is ", faces.sharpness[i],
+                 ", but must be between 0 and 1");
   for (std::size_t i = 0; i < count; ++i) {
     if (faces.area[i] < 0)
       check.fail("area of face ", i, " is ", faces.area[i], " m^2, but must not be negative");
@@ -167,6 +202,13 @@ void checkLevel(const LoadLevel& level, const Checker& check) {
   checkBlocks(level, check);
 }
 
+void checkFormLevel(const FormLevel& level, const Checker& check) {
+  checkFaces(level.faces, check);
+  if (level.faces.sharpness.size() != level.faces.size())
+    check.fail("a level of the form law has no sharpness");
+  check.notNegative(level.p99_error, "error of a level");
+}
+
 }  // namespace
 
 void checkFluidBody(const FluidBody& body, const std::string& source) {
@@ -175,6 +217,9 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   check.notNegative(body.volume, "volume");
   check.notNegative(body.area, "area");
   check.notNegative(body.sphere_radius, "radius of the sphere");
+  for (const double drag : body.drag) check.notNegative(drag, "measured drag coefficient");
+  if (!body.drag.isZero(0) && body.drag.minCoeff() == 0)
+    check.fail("a measured drag coefficient is 0, but must be positive where another one is given");
   check.finiteMatrix(body.centre_of_volume, "centre of volume");
   check.finiteMatrix(body.origin, "origin");
   checkAddedMass(body, check);
@@ -185,6 +230,8 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   checkFaces(body.faces, check);
   checkSurface(body.surface, check);
   for (const LoadLevel& level : body.levels) checkLevel(level, check);
+  for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
+  checkPlaces(body, check);
 }
 
 }  // namespace ambient

@@ -27,9 +27,9 @@ FluidBody decodeFluidBody(std::string_view bytes, const std::string& source);
 /// The bytes that writeFluidBody() writes; `source` stands for the file name in messages.
 std::string encodeFluidBody(const FluidBody& body, const std::string& source);
 
-/// What every fluid body must satisfy: finite everywhere, unit normals, areas >= 0, arrays of equal
-/// length, added mass symmetric and positive semi-definite up to rounding, volume >= 0, triangles
-/// that index existing vertices.
+/// What every fluid body must satisfy: finite everywhere, centres and faces within 1e12 of its
+/// sizes from the origin, unit normals, areas >= 0, arrays of equal length, added mass symmetric
+/// and positive semi-definite up to rounding, volume >= 0, triangles that index existing vertices.
 /// @throws std::runtime_error with one sentence that begins with `source`.
 void checkFluidBody(const FluidBody& body, const std::string& source);
 

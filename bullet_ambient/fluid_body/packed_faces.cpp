@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "bullet_ambient/spatial/ambient_assert.h"
+
 namespace ambient {
 namespace {
 
@@ -70,7 +72,7 @@ class BlockOrder {
 
 }  // namespace
 
-PackedFaces::PackedFaces(const FaceTable& faces)
+PackedFaces::PackedFaces(const FaceTable& faces, bool with_sharpness)
     : order_(faces.size()),
       length_unit_(unitFor(std::max({largestOf(faces.centroid_x), largestOf(faces.centroid_y),
                                      largestOf(faces.centroid_z)}))),
@@ -81,6 +83,7 @@ PackedFaces::PackedFaces(const FaceTable& faces)
   for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
   bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero
   for (std::size_t block = 0; block < count; ++block) setBounds(block);
+  if (with_sharpness) packSharpness(faces);
 }
 
 FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) const {
@@ -96,6 +99,14 @@ FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) cons
     packed.area[i] = static_cast<float>(faces.area[face] / area_unit_);
   }
   return packed;
+}
+
+void PackedFaces::packSharpness(const FaceTable& faces) {
+  AMBIENT_ASSERT(faces.sharpness.size() == size());
+  sharpness_.resize(blocks_.size());  // all zero
+  for (std::size_t i = 0; i < size(); ++i)
+    sharpness_[i / FaceBlock::kFaces].values[i % FaceBlock::kFaces] =
+        static_cast<float>(faces.sharpness[order_[i]]);
 }
 
 void PackedFaces::setBounds(std::size_t block) {

@@ -4,6 +4,10 @@
 // function with the rest of the program. Written with the vector types of GCC and Clang, which have
 // the +, -, *, > and ?: of IEEE 754 per lane.
 
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
 #include "bullet_ambient/force/lane_vectors.h"
 
 namespace ambient {
@@ -26,6 +30,17 @@ inline Doubles load(const double* from) {
 }
 
 inline void store(double* to, const Doubles& d) { __builtin_memcpy(to, &d, sizeof d); }
+
+/// Rounded correctly, as everywhere.
+#if defined(__AVX512F__)
+inline Doubles root(const Doubles& x) { return _mm512_maskz_sqrt_pd(0xff, x); }
+#elif defined(__AVX2__)
+inline Doubles root(const Doubles& x) { return _mm256_sqrt_pd(x); }
+#else
+inline Doubles root(const Doubles& x) {
+  return Doubles{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])};
+}
+#endif
 
 using Vectors = VectorsOf<Doubles>;
 

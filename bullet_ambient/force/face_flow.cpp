@@ -1,5 +1,6 @@
 #include "bullet_ambient/force/face_flow.h"
 
+#include "bullet_ambient/force/form_pressure.h"
 #include "bullet_ambient/force/skin_friction.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
 
@@ -11,16 +12,21 @@ FaceFlow computeFaceFlow(const FaceTable& faces, std::size_t face, double refere
   const Vector3 n = faces.normal(face);
   const Vector3 u = relative_twist.at(faces.centroid(face));
   FaceFlow flow;
-  flow.is_attached = n.dot(u) > settings.separation_cosine * u.norm();
+  const double normal_speed = n.dot(u);
+  const bool is_form = settings.law == PressureLaw::kForm;
+  AMBIENT_ASSERT(!is_form || face < faces.sharpness.size());
+  const double force = -0.5 * settings.density * faces.area[face];
+  if (is_form)
+    flow.pressure = force * formPressure<double>(normal_speed, u.norm(), faces.sharpness[face]) * n;
+  flow.is_attached = normal_speed > settings.separation_cosine * u.norm();
   if (!flow.is_attached) return flow;
-  flow.slip = n.dot(u) * n - u;
+  flow.slip = normal_speed * n - u;
   const double speed = flow.slip.norm();
-  const double area = faces.area[face];
-  flow.pressure = -0.5 * settings.density * speed * speed * area * n;
+  if (!is_form || normal_speed <= 0) flow.pressure += force * speed * speed * n;
   const double reynolds = settings.reynoldsPerSpeed(reference_length) * speed;
   if (!(reynolds > 0)) return flow;
   const double coefficient = kFrictionCoefficient * reynoldsPower(reynolds);
-  flow.friction = 0.5 * coefficient * settings.density * speed * area * flow.slip;
+  flow.friction = -coefficient * force * speed * flow.slip;
   return flow;
 }
 

@@ -10,12 +10,15 @@
 namespace ambient {
 namespace {
 
-FaceColumns columnsOf(const FaceTable& faces) noexcept {
+FaceColumns columnsOf(const FaceTable& faces, PressureLaw law) noexcept {
+  const bool is_form = law == PressureLaw::kForm;
   AMBIENT_ASSERT(faces.normal_x.size() == faces.size() && faces.centroid_z.size() == faces.size());
+  AMBIENT_ASSERT(!is_form || faces.sharpness.size() == faces.size());
   return {{faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
           {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
           faces.area.data(),
-          faces.size()};
+          faces.size(),
+          is_form ? faces.sharpness.data() : nullptr};
 }
 
 Wrench scaled(const double (&sums)[6], double factor) noexcept {
@@ -45,7 +48,7 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
   const double reynolds_per_speed = settings.reynoldsPerSpeed(reference_length);
   const bool with_friction = reynolds_per_speed > 0;
 
-  const FaceSums sums = sum_faces(columnsOf(faces), motion, with_friction);
+  const FaceSums sums = sum_faces(columnsOf(faces, settings.law), motion, with_friction);
   const double half_density = 0.5 * settings.density;
   FaceLoads loads;
   loads.pressure = scaled(sums.pressure, -half_density);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/flow_settings.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
@@ -16,6 +17,7 @@ struct LoadSettings {
   double viscosity = 0;          ///< dynamic viscosity [Pa s]
   double separation_cosine = 0;  ///< cos(alpha), alpha in [pi/2, pi]; see separationCosine()
   bool skin_friction = true;     ///< false, or viscosity 0: friction is not computed
+  PressureLaw law = PressureLaw::kPublished;
 
   /// Of a slip of 1 m/s; 0: no friction.
   double reynoldsPerSpeed(double reference_length) const noexcept {
@@ -32,19 +34,20 @@ struct FaceLoads {
 };
 
 /// Dynamic pressure with flow separation, and skin friction, of every face; docs/theory.md eq. (13)
-/// to (17), Padilla et al. 2025 with the corrections listed there. Frame: fluid body frame F
-/// (twist, wrench about F's origin). `relative_twist` is that of the body relative to the ambient
-/// flow; `reference_length` [m], the length in the Reynolds number, is sqrt(total area). Fixed
-/// summation order without fused operations: the same bits on every machine. Pressure is
-/// homogeneous of degree 2 in the twist, friction of degree 1.8. Cost O(F), about 1.5 ns per face,
-/// 3 ns with friction (AVX2); allocates nothing. A twist that is not finite gives loads that are
-/// not finite, or 0.
-/// @pre all columns of `faces` have one length.
+/// to (17), Padilla et al. 2025 with the corrections listed there, or (43) and (44) in place of
+/// (15). Frame: fluid body frame F (twist, wrench about F's origin). `relative_twist` is that of
+/// the body relative to the ambient flow; `reference_length` [m], the length in the Reynolds
+/// number, is sqrt(total area). Fixed summation order without fused operations: the same bits on
+/// every machine. Pressure is homogeneous of degree 2 in the twist, friction of degree 1.8. Cost
+/// O(F), about 1.5 ns per face, 3 ns with friction (AVX2); allocates nothing. A twist that is not
+/// finite gives loads that are not finite, or 0.
+/// @pre all columns of `faces` have one length, that of the sharpness too by the form law.
 FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                            const Twist& relative_twist, const LoadSettings& settings) noexcept;
 
 /// The total of computeFaceLoads() in single precision: on large meshes 0.45 ns per face with AVX2,
-/// 0.7 with friction. At alpha = pi/2 blocks of faces in the lee are left out. Arguments as there.
+/// 0.7 with friction. At alpha = pi/2 blocks of faces in the lee are left out by the published law.
+/// @pre `faces` have their sharpness by the form law, and only then. Arguments as there.
 /// Rounding errors grow with the velocity of the faces, not with their slip: about 1e-6 of 1/2 rho
 /// sum A_i |u_s,i| |u_i|, and a face at the separation angle may fall on the other side of it. No
 /// range is lost: the motion is scaled before it is rounded. The same bits on every machine.

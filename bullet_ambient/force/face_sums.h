@@ -15,6 +15,7 @@ struct FaceColumns {
   const double* centroid[3];
   const double* area;
   std::size_t size;
+  const double* sharpness = nullptr;  ///< not null: the form law
 };
 
 /// Motion of the body relative to the ambient flow, and where the flow separates.
@@ -25,7 +26,8 @@ struct FaceMotion {
   double sine_sq;           ///< sin^2(alpha)
 };
 
-/// Torque first. With the slip velocity u_s of attached faces and t = -u_s:
+/// Torque first. With the slip velocity u_s of attached faces and t = -u_s; by the form law q in
+/// place of |t|^2, eq. (44).
 struct FaceSums {
   double pressure[6];  ///< sum |t|^2 A (c x n, n) [m^5/s^2, m^4/s^2]
   double friction[6];  ///< sum |t|^0.8 A (c x t, t); 0 if not asked for

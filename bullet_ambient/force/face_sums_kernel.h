@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/force/double_lanes.h"
 #include "bullet_ambient/force/face_sums.h"
+#include "bullet_ambient/force/form_pressure.h"
 #include "bullet_ambient/force/skin_friction.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
 
@@ -74,8 +75,8 @@ inline Doubles strengthWhereAttached(Doubles normal_speed, Doubles strength, Dou
   return excess > zero ? strength : zero;
 }
 
-/// Faces [begin, end) of the kWidth lanes from `lane`; docs/theory.md eq. (12) to (15).
-template <bool kRightAngle, bool kKeepSlip>
+/// Faces [begin, end) of the kWidth lanes from `lane`; docs/theory.md eq. (12) to (15), (43), (44).
+template <bool kForm, bool kRightAngle, bool kKeepSlip>
 void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t begin,
                  std::size_t end, int lane, WrenchLanes& sums, BlockSlip& slip) {
   const Vectors w = broadcast(motion.angular);
@@ -91,7 +92,15 @@ void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t
     const Doubles speed_sq = dot(t, t);
     const Doubles strength = strengthWhereAttached<kRightAngle>(
         normal_speed, load(faces.area + i) * speed_sq, speed_sq, motion);
-    sum.add(strength * n, c);
+    if (kForm) {
+      const Doubles form = formPressure<double>(
+          normal_speed, root(normal_speed * normal_speed + speed_sq), load(faces.sharpness + i));
+      const Doubles zero = {};
+      const Doubles lee = kRightAngle ? zero : (normal_speed > zero ? zero : strength);
+      sum.add((load(faces.area + i) * form + lee) * n, c);
+    } else {
+      sum.add(strength * n, c);
+    }
     if (kKeepSlip) {
       slip.t_x[k] = t.x;
       slip.t_y[k] = t.y;
@@ -125,14 +134,15 @@ struct LaneSums {
 };
 
 /// @pre faces.size is a multiple of kLanes.
-template <bool kRightAngle, bool kFriction>
+template <bool kForm, bool kRightAngle, bool kFriction>
 void sumColumns(const FaceColumns& faces, const FaceMotion& motion, LaneSums& sums) {
   AMBIENT_ASSERT(faces.size % kLanes == 0);
   BlockSlip slip;
   for (std::size_t begin = 0; begin < faces.size; begin += kBlock) {
     const std::size_t end = begin + kBlock < faces.size ? begin + kBlock : faces.size;
     for (int lane = 0; lane < kLanes; lane += kWidth) {
-      sumPressure<kRightAngle, kFriction>(faces, motion, begin, end, lane, sums.pressure, slip);
+      sumPressure<kForm, kRightAngle, kFriction>(faces, motion, begin, end, lane, sums.pressure,
+                                                 slip);
       if (kFriction) sumFriction(faces, begin, end, lane, sums.friction, slip);
     }
   }
@@ -140,19 +150,22 @@ void sumColumns(const FaceColumns& faces, const FaceMotion& motion, LaneSums& su
 
 /// The last faces, fewer than kLanes, filled up with faces without normal and area.
 struct PaddedFaces {
-  double values[7][kLanes] = {};
+  double values[8][kLanes] = {};
 
   PaddedFaces(const FaceColumns& faces, std::size_t begin) {
-    const double* const columns[7] = {faces.normal[0],   faces.normal[1],   faces.normal[2],
+    const double* const columns[8] = {faces.normal[0],   faces.normal[1],   faces.normal[2],
                                       faces.centroid[0], faces.centroid[1], faces.centroid[2],
-                                      faces.area};
-    for (int column = 0; column < 7; ++column)
+                                      faces.area,        faces.sharpness};
+    for (int column = 0; column < (faces.sharpness ? 8 : 7); ++column)
       for (std::size_t i = begin; i < faces.size; ++i)
         values[column][i - begin] = columns[column][i];
   }
   FaceColumns columns() const {
-    return {
-        {values[0], values[1], values[2]}, {values[3], values[4], values[5]}, values[6], kLanes};
+    return {{values[0], values[1], values[2]},
+            {values[3], values[4], values[5]},
+            values[6],
+            kLanes,
+            values[7]};
   }
 };
 
@@ -163,15 +176,15 @@ void sumLanes(const WrenchLanes& sums, double wrench[6]) {
   }
 }
 
-template <bool kRightAngle, bool kFriction>
+template <bool kForm, bool kRightAngle, bool kFriction>
 FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion) {
   LaneSums lanes;
   FaceColumns whole = faces;
   whole.size -= faces.size % kLanes;
-  sumColumns<kRightAngle, kFriction>(whole, motion, lanes);
+  sumColumns<kForm, kRightAngle, kFriction>(whole, motion, lanes);
   if (whole.size != faces.size) {
     const PaddedFaces rest(faces, whole.size);
-    sumColumns<kRightAngle, kFriction>(rest.columns(), motion, lanes);
+    sumColumns<kForm, kRightAngle, kFriction>(rest.columns(), motion, lanes);
   }
   FaceSums sums;
   sumLanes(lanes.pressure, sums.pressure);
@@ -179,15 +192,21 @@ FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion) {
   return sums;
 }
 
+template <bool kForm>
+FaceSums sumFaces(const FaceColumns& faces, const FaceMotion& motion, bool with_friction) {
+  if (motion.signed_cosine_sq == 0)
+    return with_friction ? sumFaces<kForm, true, true>(faces, motion)
+                         : sumFaces<kForm, true, false>(faces, motion);
+  return with_friction ? sumFaces<kForm, false, true>(faces, motion)
+                       : sumFaces<kForm, false, false>(faces, motion);
+}
+
 }  // namespace
 
 FaceSums AMBIENT_KERNEL(const FaceColumns& faces, const FaceMotion& motion,
                         bool with_friction) noexcept {
-  if (motion.signed_cosine_sq == 0)
-    return with_friction ? sumFaces<true, true>(faces, motion)
-                         : sumFaces<true, false>(faces, motion);
-  return with_friction ? sumFaces<false, true>(faces, motion)
-                       : sumFaces<false, false>(faces, motion);
+  return faces.sharpness ? sumFaces<true>(faces, motion, with_friction)
+                         : sumFaces<false>(faces, motion, with_friction);
 }
 
 }  // namespace ambient

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <utility>
 
 namespace ambient {
 
@@ -13,6 +15,16 @@ class SurfaceLoads;
 /// fluid or shape changes; density > 0.
 using LoadLaw = std::function<std::shared_ptr<const SurfaceLoads>(
     const std::shared_ptr<const FluidBody>&, const LoadSettings&)>;
+
+/// What the fluid presses with on a face.
+enum class PressureLaw {
+  kPublished,  ///< of the slip, docs/theory.md eq. (14): Padilla et al. 2025
+  kForm,       ///< of the form drag, eq. (43) to (51): for boxes and whatever else has flat sides
+};
+
+/// As scenes and commands name them.
+constexpr std::array<std::pair<PressureLaw, const char*>, 2> kPressureLawNames{
+    {{PressureLaw::kPublished, "published"}, {PressureLaw::kForm, "form"}}};
 
 /// Arithmetic of the loads on faces. What a face does is rounded; sums, and all else, are in
 /// double.
@@ -31,6 +43,9 @@ struct FlowSettings {
   /// Allowed p99 error of reduced loads, LoadLevelError: the cheapest level of the fluid body for
   /// the separation angle that keeps it stands in for the faces. 0, or no such level: all faces.
   double maximum_load_error = 0;
+  PressureLaw law = PressureLaw::kPublished;  ///< a sphere is the same in both
+  /// Delay of separation behind the incidence, kForm: lengths of the body over its speed. 0: none.
+  double stall_lag = 4.5;
 };
 
 }  // namespace ambient

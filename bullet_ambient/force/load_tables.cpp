@@ -2,6 +2,8 @@
 
 #include <iterator>
 
+#include "bullet_ambient/fluid_body/sharpness.h"
+
 namespace ambient {
 namespace {
 
@@ -13,15 +15,27 @@ void eraseIf(Map& map, const Condition& condition) {
 
 }  // namespace
 
-std::shared_ptr<const PackedFaces> LoadTables::packedFaces(
-    const std::shared_ptr<const FluidBody>& body) {
-  if (const auto found = packed_.find(body.get()); found != packed_.end())
-    if (auto faces = found->second.faces.lock(); faces && found->second.body.lock() == body)
-      return faces;
-  eraseIf(packed_, [](const Packed& packed) { return packed.faces.expired(); });
-  auto faces = std::make_shared<const PackedFaces>(body->faces);
-  packed_[body.get()] = {body, faces};
-  return faces;
+template <class Source, class Table>
+template <class Make>
+std::shared_ptr<const Table> LoadTables::Made<Source, Table>::get(
+    const std::shared_ptr<const Source>& source, const Make& make) {
+  if (const auto found = entries_.find(source.get()); found != entries_.end())
+    if (auto table = found->second.table.lock(); table && found->second.source.lock() == source)
+      return table;
+  eraseIf(entries_, [](const Entry& entry) { return entry.table.expired(); });
+  auto table = std::make_shared<const Table>(make());
+  entries_[source.get()] = {source, table};
+  return table;
+}
+
+LoadTables::Faces LoadTables::formFaces(const Body& body) {
+  return form_faces_.get(body, [&] { return formLawFaces(*body); });
+}
+
+std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Faces& faces, PressureLaw law) {
+  const bool is_form = law == PressureLaw::kForm;
+  auto& packed = is_form ? packed_form_ : packed_;
+  return packed.get(faces, [&] { return PackedFaces(*faces, is_form); });
 }
 
 std::shared_ptr<const SphereTable> LoadTables::sphereTable(double separation_cosine) {

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "bullet_ambient/fluid_body/packed_faces.h"
+#include "bullet_ambient/force/flow_settings.h"
 #include "bullet_ambient/force/sphere_table.h"
 
 namespace ambient {
@@ -13,19 +14,37 @@ namespace ambient {
 /// thread at a time, and never read by the loads themselves.
 class LoadTables {
  public:
-  /// One for all who use those of the fluid body at the same time. Cost: PackedFaces().
-  std::shared_ptr<const PackedFaces> packedFaces(const std::shared_ptr<const FluidBody>& body);
+  using Body = std::shared_ptr<const FluidBody>;
+
+  using Faces = std::shared_ptr<const FaceTable>;
+
+  /// formLawFaces(). One for all who use it at the same time, as below.
+  Faces formFaces(const Body& body);
+  /// Faces as `law` reads them in single precision. Cost: PackedFaces().
+  std::shared_ptr<const PackedFaces> packedFaces(const Faces& faces, PressureLaw law);
 
   /// The table of a separation angle. Kept until another one is made while nobody uses it: a single
   /// ball may come and go. Cost: SphereTable().
   std::shared_ptr<const SphereTable> sphereTable(double separation_cosine);
 
  private:
-  struct Packed {
-    std::weak_ptr<const FluidBody> body;  ///< tells it from another one at its address
-    std::weak_ptr<const PackedFaces> faces;
+  /// What was made of something, as long as it is used.
+  template <class Source, class Table>
+  class Made {
+   public:
+    template <class Make>
+    std::shared_ptr<const Table> get(const std::shared_ptr<const Source>& source, const Make& make);
+
+   private:
+    struct Entry {
+      std::weak_ptr<const Source> source;  ///< tells it from another one at its address
+      std::weak_ptr<const Table> table;
+    };
+    std::unordered_map<const Source*, Entry> entries_;
   };
-  std::unordered_map<const FluidBody*, Packed> packed_;
+
+  Made<FluidBody, FaceTable> form_faces_;
+  Made<FaceTable, PackedFaces> packed_, packed_form_;
   std::map<double, std::shared_ptr<const SphereTable>> spheres_;  ///< by separation cosine
 };
 

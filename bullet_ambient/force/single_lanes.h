@@ -72,6 +72,18 @@ inline Floats plusProduct(Floats c, Floats a, Floats b) {
 inline Floats lessProduct(Floats c, Floats a, Floats b) { return plusProduct(c, -a, b); }
 #endif
 
+/// Rounded correctly, as everywhere.
+#if defined(__AVX512F__)
+inline Floats root(Floats x) { return _mm512_maskz_sqrt_ps(0xffff, x); }
+#elif defined(__AVX2__)
+inline Floats root(Floats x) { return _mm256_sqrt_ps(x); }
+#else
+inline Floats root(Floats x) {
+  for (int lane = 0; lane < kWidth; ++lane) x[lane] = __builtin_sqrtf(x[lane]);
+  return x;
+}
+#endif
+
 using Vectors = VectorsOf<Floats>;
 
 inline Vectors load(const float (&columns)[3][kLanes], int lane) {

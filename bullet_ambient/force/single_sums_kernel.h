@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bullet_ambient/force/form_pressure.h"
 #include "bullet_ambient/force/single_lanes.h"
 #include "bullet_ambient/force/single_sums.h"
 
@@ -26,15 +27,15 @@ inline Floats strengthWhereAttached(Floats normal_speed, Floats strength, Floats
   return excess > zero ? strength : zero;
 }
 
-/// kWidth lanes of a run of chosen blocks; docs/theory.md eq. (12) to (17).
-template <bool kRightAngle, bool kFriction>
-void sumRun(const FaceBlock* blocks, const int* chosen, int count, const SingleMotion& motion,
+/// kWidth lanes of a run of chosen blocks; docs/theory.md eq. (12) to (17), (43), (44).
+template <bool kForm, bool kRightAngle, bool kFriction>
+void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
             int lane, WrenchLanes& sums) {
   const Vectors w = broadcast(motion.angular);
   const Vectors v = broadcast(motion.linear);
   Vectors torque = {}, force = {};
   for (int k = 0; k < count; ++k) {
-    const FaceBlock& block = blocks[chosen[k]];
+    const FaceBlock& block = faces.blocks[chosen[k]];
     const Vectors n = load(block.normal, lane);
     const Vectors c = load(block.centroid, lane);
     const Vectors u = plusCross(v, w, c);
@@ -43,14 +44,22 @@ void sumRun(const FaceBlock* blocks, const int* chosen, int count, const SingleM
     const Floats speed_sq = dot(t, t);
     const Floats strength = strengthWhereAttached<kRightAngle>(
         normal_speed, load(block.area + lane) * speed_sq, speed_sq, motion);
+    Floats pressure = strength;
+    if (kForm) {
+      const Floats speed = root(plusProduct(speed_sq, normal_speed, normal_speed));
+      const Floats sharpness = load(faces.sharpness[chosen[k]].values + lane);
+      const Floats area = load(block.area + lane);
+      pressure = area * formPressure<float>(normal_speed, speed, sharpness);
+      if (!kRightAngle) pressure = pressure + (normal_speed > Floats{} ? Floats{} : strength);
+    }
     if (kFriction) {
       const Floats along = (strength * motion.friction) * slipPower(speed_sq);
-      const Vectors f = plusProduct(strength * n, along, t);
+      const Vectors f = plusProduct(pressure * n, along, t);
       force = force + f;
       torque = plusCross(torque, c, f);
     } else {
-      force = plusProduct(force, strength, n);
-      torque = plusProduct(torque, strength, load(block.moment, lane));
+      force = plusProduct(force, pressure, n);
+      torque = plusProduct(torque, pressure, load(block.moment, lane));
     }
   }
   sums.set(torque, force, lane);
@@ -72,72 +81,92 @@ inline void markAttached(const FaceBounds& bounds, const SingleMotion& motion,
   }
 }
 
-/// Those of `size` blocks that the flow may be attached to. Returns how many.
-inline int chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion& motion,
-                        int (&chosen)[kChoice]) {
+/// Some blocks: first those that the flow may be attached to, by the form law also the others.
+struct Choice {
+  int attached[kChoice], rest[kChoice];
+  int count = 0;
+};
+
+template <bool kForm>
+inline void chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion& motion,
+                         Choice& choice) {
   int count = 0;
   for (int first = 0; first < size; first += kLanes) {
     std::int32_t marks[kLanes];
     markAttached(bounds[first / kLanes], motion, marks);
     const int end = size - first < kLanes ? size - first : kLanes;
     for (int i = 0; i < end; ++i) {
-      chosen[count] = first + i;
+      choice.attached[count] = first + i;
+      if (kForm) choice.rest[first + i - count] = first + i;
       count -= marks[i];
     }
   }
-  return count;
+  choice.count = count;
 }
 
-template <bool kRightAngle, bool kFriction>
-void sumChosen(const FaceBlock* blocks, const int* chosen, int count, const SingleMotion& motion,
+template <bool kForm, bool kRightAngle, bool kFriction>
+void sumChosen(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
                WrenchTotal& total) {
   WrenchLanes run;
   for (int lane = 0; lane < kLanes; lane += kWidth)
-    sumRun<kRightAngle, kFriction>(blocks, chosen, count, motion, lane, run);
+    sumRun<kForm, kRightAngle, kFriction>(faces, chosen, count, motion, lane, run);
   total.add(run);
+}
+
+template <bool kForm, bool kFriction>
+void sumRuns(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
+             WrenchTotal& total) {
+  for (int first = 0; first < count; first += kRun)
+    sumChosen<kForm, true, kFriction>(faces, chosen + first,
+                                      count - first < kRun ? count - first : kRun, motion, total);
 }
 
 inline int atMost(std::size_t count, int limit) {
   return count < static_cast<std::size_t>(limit) ? static_cast<int>(count) : limit;
 }
 
-/// Chosen blocks. Beyond a right angle the flow is attached to nearly all.
-template <bool kFriction>
+/// Beyond a right angle the flow is attached to nearly all. Without friction the form law has all
+/// to do in the lee, too.
+template <bool kForm, bool kFriction>
 LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   WrenchTotal total;
-  int chosen[kChoice];
+  Choice choice;
   for (std::size_t begin = 0; begin < faces.count; begin += kChoice) {
-    const int count = chooseBlocks(faces.bounds + begin / kLanes,
-                                   atMost(faces.count - begin, kChoice), motion, chosen);
-    for (int first = 0; first < count; first += kRun)
-      sumChosen<true, kFriction>(faces.blocks + begin, chosen + first,
-                                 count - first < kRun ? count - first : kRun, motion, total);
+    const int size = atMost(faces.count - begin, kChoice);
+    const FaceBlocks blocks = faces.from(begin);
+    chooseBlocks<kForm>(faces.bounds + begin / kLanes, size, motion, choice);
+    sumRuns<kForm, kFriction>(blocks, choice.attached, choice.count, motion, total);
+    if (kForm) sumRuns<kForm, false>(blocks, choice.rest, size - choice.count, motion, total);
   }
   return total.sum();
 }
 
-template <bool kRightAngle, bool kFriction>
+template <bool kForm, bool kRightAngle, bool kFriction>
 LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   static constexpr int kAll[kRun] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   WrenchTotal total;
   for (std::size_t begin = 0; begin < faces.count; begin += kRun)
-    sumChosen<kRightAngle, kFriction>(faces.blocks + begin, kAll, atMost(faces.count - begin, kRun),
-                                      motion, total);
+    sumChosen<kForm, kRightAngle, kFriction>(faces.from(begin), kAll,
+                                             atMost(faces.count - begin, kRun), motion, total);
   return total.sum();
 }
 
-template <bool kFriction>
+template <bool kForm, bool kFriction>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
   constexpr std::size_t kFewest = 12;  // to choose from: below, that costs more than it saves
-  if (motion.signed_cosine_sq != 0) return sumAll<false, kFriction>(faces, motion);
-  return faces.count < kFewest ? sumAll<true, kFriction>(faces, motion)
-                               : sumWhereAttached<kFriction>(faces, motion);
+  if (motion.signed_cosine_sq != 0) return sumAll<kForm, false, kFriction>(faces, motion);
+  return faces.count < kFewest || (kForm && !kFriction)
+             ? sumAll<kForm, true, kFriction>(faces, motion)
+             : sumWhereAttached<kForm, kFriction>(faces, motion);
 }
 
 }  // namespace
 
 LoadSums AMBIENT_KERNEL(const FaceBlocks& faces, const SingleMotion& motion) noexcept {
-  return motion.friction > 0 ? sumBlocks<true>(faces, motion) : sumBlocks<false>(faces, motion);
+  const bool friction = motion.friction > 0;
+  if (faces.sharpness)
+    return friction ? sumBlocks<true, true>(faces, motion) : sumBlocks<true, false>(faces, motion);
+  return friction ? sumBlocks<false, true>(faces, motion) : sumBlocks<false, false>(faces, motion);
 }
 
 }  // namespace ambient

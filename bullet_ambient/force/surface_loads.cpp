@@ -3,7 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_ambient/force/drag_scale.h"
 #include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/force/form_lift.h"
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/sphere_loads.h"
 #include "bullet_ambient/spatial/pi.h"
@@ -59,6 +61,31 @@ struct LevelLoads final : SummedLoads<LoadLevel, computeLevelLoad> {
   bool needsGuard() const noexcept override { return true; }  // fitted wrenches may push
 };
 
+/// The form law: faces as above, and what acts on the body as a whole.
+class FormLoads final : public SurfaceLoads {
+ public:
+  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const DragScale& drag,
+            const FormLift& lift, double density)
+      : on_faces_(std::move(on_faces)), drag_(drag), lift_(lift), density_(density) {}
+
+  Wrench load(const Twist& x) const noexcept override {
+    return drag_.factor(x) * on_faces_->load(x) + lift_.load(x, density_);
+  }
+  FaceLoads parts(const Twist& x) const noexcept override {
+    const FaceLoads parts = on_faces_->parts(x);
+    const double factor = drag_.factor(x);
+    return {factor * parts.pressure + lift_.load(x, density_), factor * parts.friction};
+  }
+  int faces() const noexcept override { return on_faces_->faces(); }
+  bool needsGuard() const noexcept override { return on_faces_->needsGuard(); }
+
+ private:
+  std::shared_ptr<const SurfaceLoads> on_faces_;
+  DragScale drag_;
+  FormLift lift_;
+  double density_;
+};
+
 class SphereLoads final : public SurfaceLoads {
  public:
   SphereLoads(const FluidBody& body, const LoadSettings& settings, LoadTables& tables)
@@ -106,6 +133,9 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
       !(flow.separation_angle <= kPi * (1 + kRounding))) {
     reject(body, "separation angle [rad]", flow.separation_angle, "between pi/2 and pi");
   }
+  if (!(flow.stall_lag >= 0) || !std::isfinite(flow.stall_lag)) {
+    reject(body, "stall lag [lengths over speed]", flow.stall_lag, "zero or positive and finite");
+  }
   if (!(flow.maximum_load_error >= 0)) {
     reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");
   }
@@ -126,11 +156,35 @@ const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
   return best;
 }
 
+using Body = std::shared_ptr<const FluidBody>;
+
+// Those that the form law is summed over: of the smallest level that keeps the allowed error, or
+// all.
+LoadTables::Faces chooseFormFaces(const Body& body, const FlowSettings& flow, LoadTables& tables) {
+  const FormLevel* best = nullptr;
+  for (const FormLevel& level : body->form_levels)
+    if (level.p99_error <= flow.maximum_load_error &&
+        (!best || level.faces.size() < best->faces.size()))
+      best = &level;
+  if (best) return {body, &best->faces};
+  return tables.formFaces(body);
+}
+
+std::shared_ptr<const SurfaceLoads> loadsOn(const LoadTables::Faces& faces, double length,
+                                            const LoadSettings& settings, LoadPrecision precision,
+                                            LoadTables& tables) {
+  const std::size_t count = faces->size();
+  if (precision == LoadPrecision::kDouble)
+    return std::make_shared<DoubleLoads>(faces, count, length, settings);
+  return std::make_shared<SingleLoads>(tables.packedFaces(faces, settings.law), count, length,
+                                       settings);
+}
+
 }  // namespace
 
 LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
   return {medium.density, medium.viscosity, separationCosine(flow.separation_angle),
-          flow.skin_friction};
+          flow.skin_friction, flow.law};
 }
 
 std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
@@ -142,16 +196,18 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
   if (!(settings.density > 0)) return nullptr;
   if (flow.own_law) return flow.own_law(body, settings);
   if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, settings, tables);
+  if (body->faces.size() == 0) return nullptr;
   const double length = referenceLength(*body);
+  if (flow.law == PressureLaw::kForm) {
+    const LoadTables::Faces faces = chooseFormFaces(body, flow, tables);
+    auto on_faces = loadsOn(faces, length, settings, flow.precision, tables);
+    return std::make_shared<FormLoads>(std::move(on_faces), DragScale(*body, *faces),
+                                       FormLift(*body, flow.stall_lag), settings.density);
+  }
   if (const LoadLevel* level = chooseLevel(*body, flow))
     return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level),
                                         level->clusters, length, settings);
-  const std::size_t faces = body->faces.size();
-  if (faces == 0) return nullptr;
-  if (flow.precision == LoadPrecision::kSingle)
-    return std::make_shared<SingleLoads>(tables.packedFaces(body), faces, length, settings);
-  return std::make_shared<DoubleLoads>(std::shared_ptr<const FaceTable>(body, &body->faces), faces,
-                                       length, settings);
+  return loadsOn({body, &body->faces}, length, settings, flow.precision, tables);
 }
 
 }  // namespace ambient

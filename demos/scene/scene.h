@@ -64,7 +64,8 @@ struct Scene {
   Vector3 gravity{0, 0, -9.81};  ///< [m/s^2]
   Medium medium = air();
   FluidModel model = FluidModel::kAmbient;
-  double linear_drag_speed = 1;  ///< of FluidModel::kUwrbd [m/s]
+  PressureLaw law = PressureLaw::kPublished;  ///< of bodies that do not name theirs
+  double linear_drag_speed = 1;               ///< of FluidModel::kUwrbd [m/s]
   FlightSettings flight;
   int threads = 0;  ///< of the preprocessing; 0: all cores
   std::vector<BodyDef> bodies;

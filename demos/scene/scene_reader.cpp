@@ -98,14 +98,18 @@ void readMotion(const json& from, BodyDef& body) {
   body.angular_velocity = vectorOr(from, "angular_velocity", Vector3::Zero());
 }
 
-BodyDef toBody(const json& from, std::size_t index, const std::filesystem::path& file) {
+BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path& file) {
+  const std::size_t index = scene.bodies.size();
   BodyDef body;
+  body.flow.law = scene.law;
   body.name = from.value("name", "body_" + std::to_string(index));
   body.shape = readShape(from.at("shape"), file.parent_path(),
                          file.string() + ": bodies[" + std::to_string(index) + "].shape");
   readMassProperties(from, body);
   readMotion(from, body);
   body.flow.separation_angle = from.value("separation_angle", kPi / 2);
+  if (from.contains("law")) body.flow.law = valueOf(from.at("law"), kPressureLawNames);
+  body.flow.stall_lag = from.value("stall_lag", body.flow.stall_lag);
   body.flow.skin_friction = from.value("skin_friction", true);
   body.flow.maximum_load_error = from.value("maximum_load_error", 0.0);
   if (from.contains("fluid_density")) body.fluid_density = from.at("fluid_density").get<double>();
@@ -136,8 +140,8 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   scene.linear_drag_speed = from.value("linear_drag_speed", scene.linear_drag_speed);
   scene.flight = toFlightSettings(from);
   scene.threads = from.value("threads", 0);
-  for (const json& body : from.at("bodies"))
-    scene.bodies.push_back(toBody(body, scene.bodies.size(), file));
+  if (from.contains("law")) scene.law = valueOf(from.at("law"), kPressureLawNames);
+  for (const json& body : from.at("bodies")) scene.bodies.push_back(toBody(body, scene, file));
   if (from.contains("joints"))
     for (const json& joint : from.at("joints")) scene.joints.push_back(toJoint(joint));
   return scene;

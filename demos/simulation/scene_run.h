@@ -6,8 +6,8 @@
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
-#include "demos/simulation/output_files.h"
 #include "demos/simulation/simulation.h"
+#include "preprocess/builder/output_file.h"
 
 namespace ambient {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "demos/simulation/output_files.h"
 #include "demos/study/atlas_run.h"
+#include "preprocess/builder/output_file.h"
 
 namespace ambient {
 namespace {

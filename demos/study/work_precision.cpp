@@ -8,8 +8,8 @@
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
-#include "demos/simulation/output_files.h"
 #include "demos/study/precision_run.h"
+#include "preprocess/builder/output_file.h"
 
 namespace ambient {
 namespace {

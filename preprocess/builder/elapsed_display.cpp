@@ -4,11 +4,12 @@
 
 #include <chrono>
 #include <cstdio>
-#include <utility>
+
+#include "preprocess/mesh/plain_text.h"
 
 namespace ambient {
 
-ElapsedDisplay::ElapsedDisplay(std::string label, bool quiet) : label_(std::move(label)) {
+ElapsedDisplay::ElapsedDisplay(const std::string& label, bool quiet) : label_(plainLine(label)) {
   if (!quiet && ::isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show(); });
 }
 

@@ -13,7 +13,7 @@ namespace ambient {
 /// standard error is not a terminal or `quiet`.
 class ElapsedDisplay {
  public:
-  explicit ElapsedDisplay(std::string label, bool quiet = false);
+  explicit ElapsedDisplay(const std::string& label, bool quiet = false);
   ~ElapsedDisplay();
   ElapsedDisplay(const ElapsedDisplay&) = delete;
   ElapsedDisplay& operator=(const ElapsedDisplay&) = delete;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
@@ -116,6 +117,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   body.centre_of_volume = properties.uniform.centre - origin;
   body.faces = facesOf(mesh, settings.flow.sheet);
   body.surface = surfaceOf(mesh);
+  body.faces.sharpness = computeSharpness(body);
   body.sphere_radius = settings.sphere_radius;
   return body;
 }

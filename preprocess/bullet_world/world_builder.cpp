@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/builder/output_file.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/bullet_world/world_file.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
@@ -25,7 +25,7 @@ void build(const WorldShape& shape, const WorldBuildSettings& settings, WorldSha
   result.status = body ? Status::kKept : Status::kBuilt;
   if (!body) {
     body = makeFluidBody(*shape.shape, shape_settings);
-    writeFluidBody(*body, result.file);
+    writeThroughLinks(*body, result.file);
   }
   result.faces = body->faces.size();
   result.extents = extentsOf(*body);
@@ -44,6 +44,7 @@ WorldBuild buildWorld(const std::filesystem::path& file, const std::filesystem::
     raiseInputError(folder.string(), "the folder cannot be made: ", no_folder.message());
   WorldBuild built;
   built.lost_bodies = world.lostBodies();
+  built.multibodies = world.multibodies();
   for (const WorldShape& shape : world.dynamicShapes()) {
     const auto start = std::chrono::steady_clock::now();
     WorldShapeResult result;

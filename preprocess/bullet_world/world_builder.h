@@ -36,6 +36,7 @@ struct WorldShapeResult {
 struct WorldBuild {
   std::vector<WorldShapeResult> shapes;
   int lost_bodies = 0;  ///< whose shape Bullet's importer does not know
+  int multibodies = 0;  ///< that the importer does not read
 };
 
 /// Makes `folder`/<name>.ambient of every distinct collision shape of a dynamic body in a .bullet

@@ -119,6 +119,7 @@ WorldFile::WorldFile(const std::filesystem::path& file) : importer_(std::make_un
       raiseInputError(file.string(), "Bullet cannot read it");
     }
     lost_bodies_ = parsed.m_rigidBodies.size() - importer_->getNumRigidBodies();
+    multibodies_ = parsed.m_multiBodies.size();
   }
   for (int i = 0; i < importer_->getNumRigidBodies(); ++i) {
     const btRigidBody* body = btRigidBody::upcast(importer_->getRigidBodyByIndex(i));

@@ -38,11 +38,15 @@ class WorldFile {
   /// Bodies that Bullet's importer left out because it does not know their shape.
   int lostBodies() const { return lost_bodies_; }
 
+  /// Bodies of joints that Bullet's importer does not read.
+  int multibodies() const { return multibodies_; }
+
  private:
   struct Importer;
   std::unique_ptr<Importer> importer_;
   std::vector<WorldShape> shapes_;
   int lost_bodies_ = 0;
+  int multibodies_ = 0;
 };
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

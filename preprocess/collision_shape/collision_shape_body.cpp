@@ -11,6 +11,7 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/shape_symmetry.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -125,9 +126,10 @@ std::optional<Matrix6> addedMassOf(const Solid& solid, const CollisionShapeSetti
   if (solid.added_mass) return solid.added_mass;
   if (solid.flow.triangleCount() == 0) return std::nullopt;
   const Matrix6 fine = solvedAddedMass(solid.flow, settings, name);
-  if (solid.flow_ratio == 0) return fine;
+  if (solid.flow_ratio == 0) return symmetrisedAddedMass(fine, solid.mesh);
   const Matrix6 coarse = solvedAddedMass(solid.coarse_flow, settings, name);
-  return withoutNegativePart(fine + (fine - coarse) / (solid.flow_ratio - 1));
+  return symmetrisedAddedMass(withoutNegativePart(fine + (fine - coarse) / (solid.flow_ratio - 1)),
+                              solid.mesh);
 }
 
 }  // namespace

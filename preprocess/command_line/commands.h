@@ -21,6 +21,7 @@ struct BuildArguments {
   int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
   std::vector<int> levels;                  ///< of reduced loads: their numbers of clusters
   double separation_angle = kPi / 2;        ///< of the levels, from pi/2 to pi [rad]
+  std::vector<double> drag;                 ///< measured: one, or one per axis; empty: none
   int threads = 0;                          ///< 0: all cores
   std::string solver;                       ///< dense or hierarchical; empty: by the panels
   std::optional<double> memory;             ///< for the flow [GB]; none: what is available
@@ -42,6 +43,7 @@ struct LoadsArguments {
   double density = 0;             ///< [kg/m^3]
   double viscosity = 0;           ///< [Pa s]
   double separation_angle = kPi / 2;  ///< from pi/2 to pi [rad]
+  std::string law = "published";      ///< of the pressure: or form
   bool no_friction = false;
   bool json = false;
 };
@@ -56,6 +58,7 @@ struct PolarArguments {
   double speed = 1;                     ///< [m/s]; the same
   double viscosity = 0;                 ///< [Pa s]
   double separation_angle = kPi / 2;    ///< from pi/2 to pi [rad]
+  std::string law = "published";        ///< of the pressure: or form
   double reference_area = 0;            ///< [m^2]; 0: seen along `up`
   double reference_length = 0;          ///< [m]; 0: extent along `forward`
 };
@@ -63,7 +66,8 @@ struct PolarArguments {
 /// ambient_preprocess compare
 struct CompareArguments {
   std::string first, second;
-  double tolerance = 1e-6;  ///< relative
+  double tolerance = 1e-6;        ///< relative
+  std::string law = "published";  ///< of the pressure: or form
   bool json = false;
 };
 

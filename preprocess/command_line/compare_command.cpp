@@ -56,13 +56,15 @@ Twist testTwist(int i, int count, double length) {
 
 /// Largest difference of the pressure loads over a spiral of motions, over the dynamic pressure
 /// times the area.
-double loadDifference(const FluidBody& a, const FluidBody& b) {
+double loadDifference(const FluidBody& a, const FluidBody& b, PressureLaw law) {
   constexpr int kMotions = 64;
   const double length = std::sqrt(std::max(a.area, b.area));
   if (!(length > 0)) return 0;
   Medium medium;
   medium.density = 2;  // dynamic pressure 1 at speed 1
-  const BodyLoads loads_on_a(a, medium, {}), loads_on_b(b, medium, {});
+  FlowSettings flow;
+  flow.law = law;
+  const BodyLoads loads_on_a(a, medium, flow), loads_on_b(b, medium, flow);
   double largest = 0;
   for (int i = 0; i < kMotions; ++i) {
     const Twist twist = testTwist(i, kMotions, length);
@@ -74,7 +76,7 @@ double loadDifference(const FluidBody& a, const FluidBody& b) {
   return largest;
 }
 
-std::vector<Difference> differencesOf(const FluidBody& a, const FluidBody& b) {
+std::vector<Difference> differencesOf(const FluidBody& a, const FluidBody& b, PressureLaw law) {
   const double length = std::sqrt(std::max(a.area, b.area));
   return {
       {"added_mass_rotation", blockDifference(a.added_mass, b.added_mass, 0, 0)},
@@ -85,7 +87,7 @@ std::vector<Difference> differencesOf(const FluidBody& a, const FluidBody& b) {
       {"centre_of_volume", relativeTo(length, (a.centre_of_volume - b.centre_of_volume).norm())},
       {"uniform_mass", massDifference(a.uniform_mass, b.uniform_mass)},
       {"surface_mass", massDifference(a.surface_mass, b.surface_mass)},
-      {"pressure", loadDifference(a, b)}};
+      {"pressure", loadDifference(a, b, law)}};
 }
 
 std::string comparisonJson(const std::vector<Difference>& differences, double tolerance,
@@ -112,8 +114,9 @@ std::string comparisonTable(const std::vector<Difference>& differences, double t
 
 int runCompare(const CompareArguments& arguments) {
   requireNotNegative("--tolerance", arguments.tolerance);
+  const PressureLaw law = lawOf(arguments.law);
   const FluidBody a = readFluidBody(arguments.first), b = readFluidBody(arguments.second);
-  const std::vector<Difference> differences = differencesOf(a, b);
+  const std::vector<Difference> differences = differencesOf(a, b, law);
   const bool is_same =
       std::all_of(differences.begin(), differences.end(),
                   [&](const Difference& d) { return d.second <= arguments.tolerance; });

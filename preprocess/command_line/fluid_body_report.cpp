@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "preprocess/command_line/json_numbers.h"
+#include "preprocess/mesh/plain_text.h"
 #include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
@@ -34,6 +35,13 @@ ordered_json levelsJson(const std::vector<LoadLevel>& levels) {
                     {"rms_error", level.error.rms},
                     {"broadside_error", level.error.broadside},
                     {"friction_error", level.error.friction}});
+  return list;
+}
+
+ordered_json levelsJson(const std::vector<FormLevel>& levels) {
+  ordered_json list = ordered_json::array();
+  for (const FormLevel& level : levels)
+    list.push_back({{"faces", level.faces.size()}, {"p99_error", level.p99_error}});
   return list;
 }
 
@@ -107,16 +115,18 @@ std::string reportJson(const FluidBody& body, std::optional<double> seconds) {
                       {"settings", body.provenance.settings},
                       {"generator", body.provenance.generator}};
   if (!body.levels.empty()) report["levels"] = levelsJson(body.levels);
+  if (!body.form_levels.empty()) report["form_levels"] = levelsJson(body.form_levels);
   if (seconds) report["seconds"] = *seconds;
   return jsonText(report);
 }
 
 std::string reportTable(const FluidBody& body, const std::string& file) {
-  Table table(file);
-  table.row("name", body.name);
-  table.row("source", body.provenance.source, "  [", hashText(body.provenance.source_hash), "]");
-  table.row("settings", body.provenance.settings);
-  table.row("made by", body.provenance.generator);
+  Table table(plainLine(file));
+  table.row("name", plainLine(body.name));
+  table.row("source", plainLine(body.provenance.source), "  [",
+            hashText(body.provenance.source_hash), "]");
+  table.row("settings", plainLine(body.provenance.settings));
+  table.row("made by", plainLine(body.provenance.generator));
   table.row("vertices", body.surface.vertices.size() / 3);
   table.row("faces", body.surface.triangles.size() / 3, isSheet(body) ? ", a sheet" : "");
   table.row("size", extentsText(extentsOf(body)));
@@ -127,6 +137,9 @@ std::string reportTable(const FluidBody& body, const std::string& file) {
   table.row("asymmetry", body.asymmetry, " of the added mass before it was made symmetric");
   for (const LoadLevel& level : body.levels)
     table.row(std::to_string(level.clusters) + " clusters", levelText(level));
+  for (const FormLevel& level : body.form_levels)
+    table.row("form law, " + std::to_string(level.faces.size()) + " faces", "p99 ",
+              100 * level.p99_error, " %");
   table.matrix("added mass per unit density, rotation first [m^5, m^4; m^4, m^3]", body.added_mass);
   return table.text();
 }

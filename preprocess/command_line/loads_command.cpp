@@ -22,6 +22,7 @@ Medium mediumOf(const LoadsArguments& arguments) {
 FlowSettings flowOf(const LoadsArguments& arguments) {
   FlowSettings flow;
   flow.separation_angle = separationAngleOf(arguments.separation_angle);
+  flow.law = lawOf(arguments.law);
   flow.skin_friction = !arguments.no_friction;
   return flow;
 }

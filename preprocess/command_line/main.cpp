@@ -1,15 +1,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "preprocess/command_line/closest_word.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
+#include "preprocess/mesh/plain_text.h"
 
 namespace ambient {
 namespace {
@@ -45,6 +48,12 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
                    "Levels of reduced loads, of so many clusters each (default none)")
       ->delimiter(',')
       ->type_name("N,N,...");
+  build
+      ->add_option("--drag", arguments.drag,
+                   "Measured drag coefficients along the axes, on the frontal areas, that the form "
+                   "law is scaled to (default none)")
+      ->delimiter(',')
+      ->type_name("C[,C,C]");
   build
       ->add_option("--separation-angle", arguments.separation_angle,
                    "For which the levels are fitted (default pi/2)")
@@ -97,6 +106,8 @@ CLI::App* addLoads(CLI::App& app, LoadsArguments& arguments) {
       ->add_option("--separation-angle", arguments.separation_angle,
                    "From pi/2 (default) to pi; larger = more attachment")
       ->type_name("RAD");
+  loads->add_option("--law", arguments.law, "Of the pressure: published (default) or form")
+      ->type_name("LAW");
   loads->add_flag("--no-friction", arguments.no_friction, "Leave skin friction out");
   loads->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
   return loads;
@@ -120,6 +131,7 @@ CLI::App* addPolar(CLI::App& app, PolarArguments& arguments) {
   option("--viscosity", arguments.viscosity, "Dynamic viscosity [Pa s] (default 0: no friction)",
          "MU");
   option("--separation-angle", arguments.separation_angle, "From pi/2 (default) to pi", "RAD");
+  option("--law", arguments.law, "Of the pressure: published (default) or form", "LAW");
   option("--reference-area", arguments.reference_area,
          "[m^2] (default: half the area projected along --up)", "A");
   option("--reference-length", arguments.reference_length, "[m] (default: extent along --forward)",
@@ -134,6 +146,8 @@ CLI::App* addCompare(CLI::App& app, CompareArguments& arguments) {
   compare->add_option("B", arguments.second, "Another one")->required();
   compare->add_option("--tolerance", arguments.tolerance, "Relative (default 1e-6)")
       ->type_name("T");
+  compare->add_option("--law", arguments.law, "Of the pressure: published (default) or form")
+      ->type_name("LAW");
   compare->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
   return compare;
 }
@@ -155,18 +169,11 @@ CLI::App* addReport(CLI::App& app, ReportArguments& arguments) {
   return report;
 }
 
-/// Names of files and keys may hold anything; a message is one line all the same.
-std::string inOneLine(const std::string& message) {
-  std::string line;
-  for (const char c : message) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code >= 0x20 && code != 0x7f) {
-      line += c;
-    } else {
-      line += c == '\n' ? "\\n" : "?";
-    }
-  }
-  return line;
+int exitAt(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream errors;
+  const int code = app.exit(error, std::cout, errors);
+  std::cerr << plainText(errors.str());
+  return code == 0 ? 0 : kBadUsage;
 }
 
 /// A sentence about an argument without letters, which CLI11 takes for 0 where it should be a
@@ -209,13 +216,13 @@ int run(int argc, char** argv) {
   const CLI::App* compare = addCompare(app, compare_arguments);
   for (const std::string& message : {emptyArgument(argc, argv), unknownCommand(app, argc, argv)}) {
     if (message.empty()) continue;
-    std::cerr << "ambient_preprocess: " << message << "\n";
+    std::cerr << "ambient_preprocess: " << plainLine(message) << "\n";
     return kBadUsage;
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadUsage;
+    return exitAt(app, error);
   }
   try {
     if (build->parsed()) return runBuild(build_arguments);
@@ -225,13 +232,13 @@ int run(int argc, char** argv) {
     if (polar->parsed()) runPolar(polar_arguments);
     if (compare->parsed()) return runCompare(compare_arguments);
   } catch (const UsageError& error) {
-    std::cerr << "ambient_preprocess: " << inOneLine(error.what()) << "\n";
+    std::cerr << "ambient_preprocess: " << plainLine(error.what()) << "\n";
     return kBadUsage;
   } catch (const std::bad_alloc&) {
     std::cerr << "ambient_preprocess: there is not enough memory for an input of this size\n";
     return kBadInput;
   } catch (const std::exception& error) {
-    std::cerr << "ambient_preprocess: " << inOneLine(error.what()) << "\n";
+    std::cerr << "ambient_preprocess: " << plainLine(error.what()) << "\n";
     return kBadInput;
   }
   return 0;
@@ -241,6 +248,8 @@ int run(int argc, char** argv) {
 }  // namespace ambient
 
 int main(int argc, char** argv) {
+  // Beyond a limit of the file size, writing fails with a message in place of ending the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   const int exit_code = ambient::run(argc, argv);
   std::cout.flush();
   if (exit_code == 0 && (!std::cout || std::fflush(stdout) != 0)) {

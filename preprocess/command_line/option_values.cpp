@@ -38,6 +38,12 @@ double separationAngleOf(double angle) {
   return std::clamp(angle, kRight, kStraight);
 }
 
+PressureLaw lawOf(const std::string& name) {
+  for (const auto& [law, its_name] : kPressureLawNames)
+    if (name == its_name) return law;
+  raiseUsageError("--law", "\"", name, "\" is neither published nor form");
+}
+
 FlowSolverKind parseSolver(const std::string& name) {
   if (name.empty()) return FlowSolverKind::Automatic;
   if (name == "dense") return FlowSolverKind::Dense;

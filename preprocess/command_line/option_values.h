@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/force/flow_settings.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/potential_flow/potential_flow.h"
 
@@ -32,6 +33,9 @@ void requireDivisions(const char* option, int count);
 
 /// The angle of --separation-angle, pi/2 to pi where its few digits miss them [rad].
 double separationAngleOf(double angle);
+
+/// The law named by --law.
+PressureLaw lawOf(const std::string& name);
 
 /// The solver named by --solver: dense, hierarchical, or none.
 FlowSolverKind parseSolver(const std::string& name);

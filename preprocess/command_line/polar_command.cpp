@@ -139,6 +139,7 @@ void runPolar(const PolarArguments& arguments) {
   checkNumbers(arguments);
   FlowSettings flow;
   flow.separation_angle = separationAngleOf(arguments.separation_angle);
+  flow.law = lawOf(arguments.law);
   const Medium medium{arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
   const FluidBody body = readFluidBody(arguments.file);
   const BodyLoads loads(body, medium, flow);

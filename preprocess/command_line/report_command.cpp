@@ -1,15 +1,17 @@
-#include <fstream>
 #include <iostream>
 #include <sstream>
 
 #include "bullet_ambient/spatial/pi.h"
+#include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/output_file.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/plain_text.h"
 #include "preprocess/mesh/usual_size.h"
 #include "preprocess/mesh_report/mesh_report.h"
 #include "preprocess/mesh_report/potential_picture.h"
@@ -122,9 +124,10 @@ std::string asTable(const MeshReport& report, const TriangleMesh& mesh) {
 }
 
 void writePicture(const MeshReport& report, bool sheet, const std::string& file) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << potentialPicture(report.surface, report.potential, sheet) << std::flush;
-  if (!stream) raiseInputError(file, "cannot be written");
+  const BlockedSignals until_renamed;
+  OutputFile picture(file);
+  picture.write(potentialPicture(report.surface, report.potential, sheet));
+  picture.commit();
 }
 
 }  // namespace
@@ -142,7 +145,8 @@ void runReport(const ReportArguments& arguments) {
   const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
   const CheckedMesh checked = makeShapeMesh(shape, arguments.scale);
   requireUsualSize(checked.mesh, isSheet(shape), shape.source);
-  for (const std::string& warning : checked.warnings) std::cerr << "warning: " << warning << "\n";
+  for (const std::string& warning : checked.warnings)
+    std::cerr << "warning: " << plainLine(warning) << "\n";
   PotentialFlowSettings settings;
   settings.sheet = isSheet(shape);
   settings.max_panels = arguments.panels;

@@ -9,6 +9,7 @@
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/plain_text.h"
 #include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
@@ -65,7 +66,10 @@ ordered_json shapeJson(const WorldShapeResult& shape) {
 std::string worldJson(const WorldBuild& built, int failed) {
   ordered_json shapes = ordered_json::array();
   for (const WorldShapeResult& shape : built.shapes) shapes.push_back(shapeJson(shape));
-  return jsonText({{"shapes", shapes}, {"failed", failed}, {"lost_bodies", built.lost_bodies}});
+  return jsonText({{"shapes", shapes},
+                   {"failed", failed},
+                   {"lost_bodies", built.lost_bodies},
+                   {"lost_multibodies", built.multibodies}});
 }
 
 std::string worldTable(const WorldBuild& built) {
@@ -84,6 +88,31 @@ std::string worldTable(const WorldBuild& built) {
     text += name(shape.name) + row + (is_made ? extentsText(shape.extents) : "-") + "\n";
   }
   return text;
+}
+
+int countFailed(const WorldBuild& built) {
+  const auto has_failed = [](const WorldShapeResult& s) { return s.status == Status::kFailed; };
+  return static_cast<int>(std::count_if(built.shapes.begin(), built.shapes.end(), has_failed));
+}
+
+/// What a user should know, one line each that begins with `input`.
+void printTroubles(const WorldBuild& built, const std::string& input) {
+  for (const WorldShapeResult& shape : built.shapes) {
+    for (const std::string& warning : shape.warnings)
+      std::cerr << "warning: " << input << ": " << plainLine(warning) << "\n";
+    if (shape.status == Status::kFailed)
+      std::cerr << input << ": " << plainLine(shape.message) << "\n";
+  }
+  if (built.lost_bodies > 0) {
+    std::cerr << input << ": " << built.lost_bodies
+              << " bodies were left out: Bullet's importer does not know their shape\n";
+  }
+  if (built.multibodies > 0) {
+    std::cerr << input << ": " << built.multibodies
+              << " multibodies were left out: links of multibodies are not supported\n";
+  } else if (built.shapes.empty()) {
+    std::cerr << "warning: " << input << ": no body has mass\n";
+  }
 }
 
 }  // namespace
@@ -105,23 +134,10 @@ int runWorldBuild(const BuildArguments& arguments) {
       display = std::make_unique<ElapsedDisplay>("building " + shape);
     });
   }
-  int failed = 0;
-  for (const WorldShapeResult& shape : built.shapes) {
-    for (const std::string& warning : shape.warnings)
-      std::cerr << "warning: " << arguments.input << ": " << warning << "\n";
-    if (shape.status != Status::kFailed) continue;
-    ++failed;
-    std::cerr << arguments.input << ": " << shape.message << "\n";
-  }
-  if (built.lost_bodies > 0) {
-    std::cerr << arguments.input << ": " << built.lost_bodies
-              << " bodies were left out: Bullet's importer does not know their shape\n";
-  }
-  if (built.shapes.empty()) {
-    std::cerr << "warning: " << arguments.input << ": no body has mass\n";
-  }
+  printTroubles(built, plainLine(arguments.input));
+  const int failed = countFailed(built);
   std::cout << (arguments.json ? worldJson(built, failed) : worldTable(built));
-  return failed > 0 || built.lost_bodies > 0 ? 1 : 0;
+  return failed > 0 || built.lost_bodies > 0 || built.multibodies > 0 ? 1 : 0;
 }
 
 }  // namespace ambient

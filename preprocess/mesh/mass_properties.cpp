@@ -1,5 +1,7 @@
 #include "preprocess/mesh/mass_properties.h"
 
+#include <cmath>
+
 #include "bullet_ambient/spatial/ambient_assert.h"
 #include "preprocess/mesh/mesh_topology.h"
 
@@ -65,6 +67,29 @@ struct MassAndDistribution {
   MassDistribution distribution;
 };
 
+// Of the size of the body: what the sums over its triangles leave of what symmetry forbids.
+constexpr double kRounding = 1e-12;
+
+/// Exactly the origin or the middle of the body, along each axis, where rounding is all between.
+Eigen::Vector3d withoutRounding(Eigen::Vector3d centre, const Eigen::Vector3d& middle,
+                                double size) {
+  for (int k = 0; k < 3; ++k) {
+    for (const double exact : {middle[k], 0.0})
+      if (std::abs(centre[k] - exact) <= kRounding * size) centre[k] = exact;
+  }
+  return centre;
+}
+
+/// Symmetric to the last bit, and diagonal where all but rounding is.
+Eigen::Matrix3d withoutRounding(const Eigen::Matrix3d& spread) {
+  Eigen::Matrix3d exact = (spread + spread.transpose()) / 2;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j)
+      if (i != j && std::abs(exact(i, j)) <= kRounding * spread.trace()) exact(i, j) = 0;
+  }
+  return exact;
+}
+
 // Two passes: the first finds the centre, the second integrates about it, where the second moments
 // need no subtraction, and finds what rounding has left of the first.
 template <class MomentsOf>
@@ -75,11 +100,10 @@ MassAndDistribution distributionOf(const TriangleMesh& mesh, MomentsOf momentsOf
   const Eigen::Vector3d centre = middle + about_middle.first / about_middle.mass;
   const Moments moments = sumMoments(mesh, centre, momentsOf);
   const Eigen::Vector3d residue = moments.first / moments.mass;
-  Eigen::Matrix3d spread = moments.second / moments.mass;
-  spread = (spread + spread.transpose().eval()) / 2;  // symmetric to the last bit
+  const Eigen::Matrix3d spread = withoutRounding(Eigen::Matrix3d(moments.second / moments.mass));
   MassAndDistribution result;
   result.mass = moments.mass;
-  result.distribution.centre = centre + residue;
+  result.distribution.centre = withoutRounding(centre + residue, middle, mesh.extents().norm());
   result.distribution.inertia = spread.trace() * Eigen::Matrix3d::Identity() - spread;
   return result;
 }

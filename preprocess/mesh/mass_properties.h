@@ -19,8 +19,10 @@ struct MeshProperties {
 
 /// Exact integrals over the polyhedron that a closed mesh bounds: signed tetrahedra on its faces.
 /// They are taken about the mesh itself, so that a far-off origin costs no digits beyond those the
-/// coordinates have lost already. Mirtich, "Fast and accurate computation of polyhedral mass
-/// properties", 1996, treats the same integrals by projection. Cost O(T).
+/// coordinates have lost already; centres that differ from the origin or from the middle of the
+/// bounding box, and products of inertia that differ from zero, by rounding only do not. Mirtich,
+/// "Fast and accurate computation of polyhedral mass properties", 1996, treats the same integrals
+/// by projection. Cost O(T).
 /// @pre the mesh is closed, outward oriented and encloses a volume (checkMesh()).
 MeshProperties computeMassProperties(const TriangleMesh& mesh);
 

@@ -1,22 +1,18 @@
 #include "preprocess/mesh/mesh_checks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 #include <vector>
 
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mesh_mending.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/mesh_shells.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
 namespace {
-
-// Height over longest edge below which the normal of a triangle is noise: the resolution of
-// single-precision coordinates.
-constexpr double kLeastHeight = 1e-7;
 
 std::string vertexText(const TriangleMesh& mesh, int vertex) {
   std::ostringstream text;
@@ -54,10 +50,7 @@ void requireValidIndices(const TriangleMesh& mesh, const std::string& name) {
 
 void requireProperTriangles(const TriangleMesh& mesh, const std::string& name) {
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Eigen::Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    // The edges are scaled to 1 first: the square of a tiny length may not be a number.
-    const double ratio = longest > 0 ? ((b - a) / longest).cross((c - a) / longest).norm() : 0.0;
+    const double ratio = heightRatio(mesh, t);
     if (ratio >= kLeastHeight) continue;
     raiseInputError(name, "triangle ", t, " is degenerate: its height is ", ratio,
                     " of its longest edge, at least ", kLeastHeight, " needed; corners ",
@@ -68,20 +61,7 @@ void requireProperTriangles(const TriangleMesh& mesh, const std::string& name) {
 }
 
 void requireDistinctTriangles(const TriangleMesh& mesh, const std::string& name) {
-  struct Entry {
-    std::array<int, 3> corners;
-    Eigen::Index triangle;
-    bool operator<(const Entry& other) const {
-      return corners != other.corners ? corners < other.corners : triangle < other.triangle;
-    }
-  };
-  std::vector<Entry> entries;
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    Entry entry{{mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)}, t};
-    std::sort(entry.corners.begin(), entry.corners.end());
-    entries.push_back(entry);
-  }
-  std::sort(entries.begin(), entries.end());
+  const std::vector<SortedTriangle> entries = sortedByCorners(mesh);
   for (std::size_t i = 1; i < entries.size(); ++i) {
     if (entries[i].corners != entries[i - 1].corners) continue;
     raiseInputError(name, "triangles ", entries[i - 1].triangle, " and ", entries[i].triangle,
@@ -206,10 +186,12 @@ CheckedMesh checkMesh(const TriangleMesh& mesh, const std::string& name,
   if (mesh.triangleCount() == 0) raiseInputError(name, "there are no triangles");
   requireFiniteVertices(mesh, name);
   requireValidIndices(mesh, name);
-  requireProperTriangles(mesh, name);
-  requireDistinctTriangles(mesh, name);
+  CheckedMesh result = withoutCopies(mesh, name);
+  takeStep(result, withoutFlatTriangles(result.mesh, name));
+  requireProperTriangles(result.mesh, name);
+  requireDistinctTriangles(result.mesh, name);
 
-  CheckedMesh result = withoutUnusedVertices(mesh, name);
+  takeStep(result, withoutUnusedVertices(result.mesh, name));
   const MeshEdges edges = computeMeshEdges(result.mesh);
   if (!settings.sheet) requireClosed(result.mesh, edges, name);
   requireManifoldEdges(result.mesh, edges, name);

@@ -52,6 +52,7 @@ ImportedMesh importMesh(const std::filesystem::path& file, double scale) {
   SceneTriangles scene = readSceneTriangles(file);
   ImportedMesh imported{std::move(scene.mesh), {}};
   if (imported.mesh.triangleCount() == 0) raiseInputError(name, "there are no triangles");
+  if (!scene.warning.empty()) imported.warnings.push_back(name + ": " + scene.warning);
   if (scene.points_and_lines > 0) {
     imported.warnings.push_back(name + ": " + std::to_string(scene.points_and_lines) +
                                 " points and lines were left out");

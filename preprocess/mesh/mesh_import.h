@@ -17,9 +17,10 @@ struct ImportedMesh {
   std::vector<std::string> warnings;
 };
 
-/// Reads the triangles of a mesh file: OBJ, STL, PLY, glTF and whatever else assimp reads. All
+/// Reads the triangles of a mesh file: OBJ, STL, PLY, glTF, OFF and whatever else assimp reads. All
 /// meshes of the scene count, each as often and where its nodes place it; polygons are divided into
-/// triangles, points and lines left out. Vertices closer than kWeldTolerance are welded, across
+/// triangles, points and lines left out. Axes are those of the file, or a warning says how its
+/// format's reader has turned them. Vertices closer than kWeldTolerance are welded, across
 /// meshes too, and triangles that vanish by it dropped. Coordinates are in single precision in
 /// assimp, whatever the file holds, and are multiplied by `scale` in double. Nothing is checked
 /// beyond that: see checkMesh().

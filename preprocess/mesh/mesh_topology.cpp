@@ -33,6 +33,19 @@ MeshEdges computeMeshEdges(const TriangleMesh& mesh) {
   return result;
 }
 
+std::vector<SortedTriangle> sortedByCorners(const TriangleMesh& mesh) {
+  std::vector<SortedTriangle> sorted;
+  for (int t = 0; t < static_cast<int>(mesh.triangleCount()); ++t) {
+    SortedTriangle entry{{mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)}, t};
+    std::sort(entry.corners.begin(), entry.corners.end());
+    sorted.push_back(entry);
+  }
+  std::sort(sorted.begin(), sorted.end(), [](const SortedTriangle& p, const SortedTriangle& q) {
+    return std::tie(p.corners, p.triangle) < std::tie(q.corners, q.triangle);
+  });
+  return sorted;
+}
+
 bool isManifold(const MeshEdges& edges) {
   return std::all_of(edges.edges.begin(), edges.edges.end(),
                      [](const EdgeGroup& edge) { return edge.size() <= 2; });

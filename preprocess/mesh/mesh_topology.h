@@ -1,6 +1,6 @@
 #pragma once
 
-#include <utility>
+#include <array>
 #include <vector>
 
 #include "preprocess/mesh/triangle_mesh.h"
@@ -30,6 +30,15 @@ struct MeshEdges {
 
 /// Cost O(T log T), independent of the order of the triangles up to their numbers.
 MeshEdges computeMeshEdges(const TriangleMesh& mesh);
+
+/// A triangle by its corners in the order of their numbers.
+struct SortedTriangle {
+  std::array<int, 3> corners{};
+  int triangle = 0;
+};
+
+/// All triangles, those on the same corners side by side. Cost O(T log T).
+std::vector<SortedTriangle> sortedByCorners(const TriangleMesh& mesh);
 
 /// Every edge has one or two triangles.
 bool isManifold(const MeshEdges& edges);

@@ -57,6 +57,7 @@ SceneTriangles readWithProgram(const std::filesystem::path& file) {
   scene.points_and_lines = counts(0);
   scene.mesh.vertices = take<double>(reader.output, place, counts(1));
   scene.mesh.triangles = take<int>(reader.output, place, counts(2));
+  scene.warning = reader.output.substr(place);
   return scene;
 }
 

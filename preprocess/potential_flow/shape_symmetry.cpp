@@ -5,7 +5,9 @@
 #include <map>
 #include <utility>
 
+#include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/potential_flow/edge_cuts.h"
 
@@ -85,10 +87,11 @@ class BentEdges {
   const Vector3d direction_ = Vector3d(0.5772, 0.6931, 0.4319).normalized();  // along no symmetry
 };
 
-/// Axes of the mesh and principal axes of its vertices.
+/// Principal axes of its vertices, then axes of the mesh: what these forbid is zero to the last
+/// bit, and a turn about others would round it again.
 std::vector<Matrix3d> candidateAxes(const TriangleMesh& mesh, const Vector3d& centre) {
   const Eigen::Matrix3Xd offsets = mesh.vertices.colwise() - centre;
-  return {Matrix3d::Identity(), symmetricEigen<3>(offsets * offsets.transpose()).vectors};
+  return {symmetricEigen<3>(offsets * offsets.transpose()).vectors, Matrix3d::Identity()};
 }
 
 }  // namespace
@@ -114,6 +117,14 @@ Matrix6 symmetrised(Matrix6 inertia, const std::vector<Matrix3d>& symmetries) {
     inertia = (inertia + both * inertia * both.transpose()) / 2;
   }
   return inertia;
+}
+
+Matrix6 symmetrisedAddedMass(const Matrix6& added_mass, const TriangleMesh& mesh) {
+  const Vector3d centre = computeMassProperties(mesh).uniform.centre;
+  const Matrix6 about_centre =
+      symmetrised(shiftOrigin(added_mass, centre), findSymmetries(mesh, centre));
+  const Matrix6 shifted = shiftOrigin(about_centre, -centre);
+  return (shifted + shifted.transpose()) / 2;  // the shift rounds both halves apart
 }
 
 }  // namespace ambient

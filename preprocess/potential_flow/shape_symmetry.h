@@ -18,4 +18,8 @@ std::vector<Eigen::Matrix3d> findSymmetries(const TriangleMesh& mesh,
 /// each of them and none.
 Matrix6 symmetrised(Matrix6 inertia, const std::vector<Eigen::Matrix3d>& symmetries);
 
+/// The added mass about the mesh's origin, which somebody has extrapolated or found on another mesh
+/// of the body, without what the symmetries of this one forbid.
+Matrix6 symmetrisedAddedMass(const Matrix6& added_mass, const TriangleMesh& mesh);
+
 }  // namespace ambient

@@ -100,6 +100,40 @@ TEST(AmbientDemo, LeavesNothingWhenItIsInterrupted) {
   EXPECT_TRUE(output.empty());
 }
 
+TEST(AmbientDemo, ASecondSignalEndsItWithinAStepAndLeavesNothing) {
+  nlohmann::json scene = smallBall();
+  // Prepared at once, for its added mass is known; then one step of a million substeps.
+  scene["bodies"][0]["shape"] = {
+      {"type", "ellipsoid"}, {"semi_axes", {1, 0.6, 0.3}}, {"faces", 20000}};
+  scene["integrator"] = {{"method", "symplectic_euler"}, {"max_substeps", 1000000}};
+  scene["time_step"] = scene["duration"] = 1e-3;
+  const TemporaryFolder input, output;
+  const std::string file = writeScene(input, scene.dump());
+  std::filesystem::create_directories(output / "gltf");
+  const ProgramResult result = interruptProgram(
+      AMBIENT_DEMO_PROGRAM, {file, "--out", output / "a/b", "--gltf", output / "gltf/ball.glb"},
+      1500, 2);
+  EXPECT_EQ(result.exit_code, -1) << result.errors;
+  std::filesystem::remove(output / "gltf");
+  EXPECT_TRUE(output.empty());
+}
+
+TEST(AmbientDemo, EscapesInNamesDoNotReachTheTerminal) {
+  const TemporaryFolder input, output;
+  const std::string escape = "\033[2J\u009b2J";
+  for (const Arguments& arguments :
+       {Arguments{"no" + escape}, Arguments{"plate_8cm", "--set", escape},
+        Arguments{"plate_8cm", "--no" + escape}}) {
+    const ProgramResult result = demo(arguments);
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_EQ((result.output + result.errors).find_first_of("\033\302"), std::string::npos);
+  }
+  const auto file = writeScene(input, smallBall().dump());
+  const ProgramResult result = demo({file, "--out", output / escape, "--set", "model=vacuum"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ((result.output + result.errors).find_first_of("\033\302"), std::string::npos);
+}
+
 TEST(AmbientDemo, RefusesALinearDragThatIsNotPositive) {
   expectRefusal(smallBall(), {"--set", "model=uwrbd", "--set", "linear_drag_speed=0"},
                 "linear_drag_speed is 0; must be > 0");

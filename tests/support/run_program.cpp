@@ -25,7 +25,7 @@ namespace {
 }
 
 ProgramResult run(const std::string& program, const std::vector<std::string>& arguments,
-                  int interrupt_after) {
+                  int interrupt_after, int times) {
   const TemporaryFolder folder;
   const std::string output = (folder / "output").string();
   const std::string errors = (folder / "errors").string();
@@ -38,7 +38,7 @@ ProgramResult run(const std::string& program, const std::vector<std::string>& ar
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) becomeProgram(argv, output.c_str(), errors.c_str());
-  if (interrupt_after >= 0) {
+  for (int i = 0; i < times; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after));
     ::kill(child, SIGINT);
   }
@@ -50,12 +50,13 @@ ProgramResult run(const std::string& program, const std::vector<std::string>& ar
 }  // namespace
 
 ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments) {
-  return run(program, arguments, -1);
+  return run(program, arguments, 0, 0);
 }
 
 ProgramResult interruptProgram(const std::string& program,
-                               const std::vector<std::string>& arguments, int milliseconds) {
-  return run(program, arguments, milliseconds);
+                               const std::vector<std::string>& arguments, int milliseconds,
+                               int times) {
+  return run(program, arguments, milliseconds, times);
 }
 
 }  // namespace ambient

@@ -15,8 +15,9 @@ struct ProgramResult {
 /// Runs a program without a shell and waits for it.
 ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments);
 
-/// Starts a program, sends it SIGINT after that many milliseconds, and waits for it.
+/// Starts a program, sends it SIGINT each time so many milliseconds have passed, and waits for it.
 ProgramResult interruptProgram(const std::string& program,
-                               const std::vector<std::string>& arguments, int milliseconds);
+                               const std::vector<std::string>& arguments, int milliseconds,
+                               int times = 1);
 
 }  // namespace ambient

@@ -45,6 +45,29 @@ TEST(FluidBodyCheck, NamesANumberThatIsNotFinite) {
             "b: vertex coordinate of entry 7 is inf, but must be finite");
 }
 
+TEST(FluidBodyCheck, RefusesPlacesBeyondAnyBody) {
+  const auto place = [](const std::string& what, const std::string& distance) {
+    return "b: " + what + " lies " + distance +
+           " m from the origin, limit 1e+12 times the size of the body of 2 m";
+  };
+  const auto refusal = [](const auto& change) {
+    return refusalAfter([&](FluidBody& b) {
+      b.area = 4;
+      b.volume = 1;
+      change(b);
+    });
+  };
+  EXPECT_EQ(refusal([](FluidBody& b) { b.centre_of_volume.x() = 2e108; }),
+            place("centre of volume", "2e+108"));
+  EXPECT_EQ(refusal([](FluidBody& b) { b.uniform_mass.centre.y() = -5e80; }),
+            place("centre of uniform mass", "5e+80"));
+  EXPECT_EQ(refusal([](FluidBody& b) { b.surface_mass.centre.z() = 2.5e12; }),
+            place("centre of surface mass", "2.5e+12"));
+  EXPECT_EQ(refusal([](FluidBody& b) { b.faces.centroid_y[1] = 1e300; }),
+            place("centroid of a face", "1e+300"));
+  EXPECT_EQ(refusal([](FluidBody& b) { b.centre_of_volume.x() = 1.9e12; }), "");
+}
+
 TEST(FluidBodyCheck, RefusesNegativeSizes) {
   EXPECT_EQ(refusalAfter([](FluidBody& b) { b.volume = -0.25; }),
             "b: volume is -0.25, but must not be negative");
@@ -66,6 +89,18 @@ TEST(FluidBodyCheck, RefusesANormalThatIsNotAUnitVector) {
 TEST(FluidBodyCheck, RefusesColumnsOfDifferentLength) {
   EXPECT_EQ(refusalAfter([](FluidBody& b) { b.faces.normal_z.pop_back(); }),
             "b: face normal z has 79 entries, but there are 80 face areas");
+}
+
+TEST(FluidBodyCheck, RefusesASharpnessThatIsNone) {
+  EXPECT_EQ(refusalAfter([](FluidBody& b) {
+              b.faces.sharpness = {0.5, 1};
+            }),
+            "b: face sharpness has 2 entries, but there are 80 face areas");
+  EXPECT_EQ(refusalAfter([](FluidBody& b) {
+              b.faces.sharpness.assign(80, 0.5);
+              b.faces.sharpness[7] = 1.5;
+            }),
+            "b: sharpness of face 7 is 1.5, but must be between 0 and 1");
 }
 
 TEST(FluidBodyCheck, RefusesTrianglesWithoutTheirVertices) {

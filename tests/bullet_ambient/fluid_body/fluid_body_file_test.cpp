@@ -53,6 +53,17 @@ TEST(FluidBodyFile, GivesBackEveryFieldBitForBit) {
   expectSame(readFluidBody(folder / "body.ambient"), body);
 }
 
+TEST(FluidBodyFile, KeepsASharpnessInSinglePrecisionAndInTheSameVersion) {
+  FluidBody body = test::exampleBody();
+  for (std::size_t i = 0; i < body.faces.size(); ++i)
+    body.faces.sharpness.push_back(static_cast<double>(1.0f / static_cast<float>(i + 1)));
+  const std::string bytes = encodeFluidBody(body, "a");
+  EXPECT_EQ(decodeFluidBody(bytes, "a").faces.sharpness, body.faces.sharpness);
+  const std::string without = encodeFluidBody(test::exampleBody(), "a");
+  EXPECT_EQ(bytes.substr(0, 16), without.substr(0, 16));  // magic and version
+  EXPECT_LT(bytes.size(), without.size() + 4 * body.faces.size() + 64);
+}
+
 TEST(FluidBodyFile, HasTheSameBytesForTheSameBody) {
   EXPECT_EQ(encodeFluidBody(test::exampleBody(), "a"), encodeFluidBody(test::exampleBody(), "b"));
   FluidBody other = test::exampleBody();

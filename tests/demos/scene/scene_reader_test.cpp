@@ -119,6 +119,43 @@ TEST(SceneReader, RejectsAWrongTypeOrLength) {
   EXPECT_EQ(complaintAfter("/bodies", json::array()), "bodies is []; must be at least 1 values");
 }
 
+TEST(SceneReader, RejectsIntegersThatNoIntHolds) {
+  const std::int64_t wrapped = (std::int64_t{1} << 32) + 1;
+  EXPECT_NE(complaintAfter("/integrator", {{"max_substeps", wrapped}})
+                .find("integrator.max_substeps is 4294967297; must be <= 1000000"),
+            std::string::npos);
+  EXPECT_NE(complaintAfter("/threads", wrapped).find("threads is 4294967297; must be <= 256"),
+            std::string::npos);
+}
+
+/// Places of the integers in a schema that have no bounds.
+std::string unboundedIntegers(const json& schema, const std::string& place) {
+  std::string found;
+  if (schema.is_object() && schema.value("type", json()) == "integer" &&
+      !(schema.contains("minimum") && schema.contains("maximum")))
+    found = place + " ";
+  if (schema.is_structured())
+    for (const auto& [key, part] : schema.items())
+      found += unboundedIntegers(part, place + "/" + key);
+  return found;
+}
+
+TEST(SceneReader, EveryIntegerHasBounds) {
+  for (const char* const name : {"scene", "shape"}) {
+    const std::string file = std::string(AMBIENT_SCHEMAS) + "/" + name + ".schema.json";
+    const json schema = json::parse(ambient::readText(file));
+    EXPECT_EQ(unboundedIntegers(schema, name), "");
+  }
+}
+
+TEST(SceneReader, TellsTheNameOfEveryIntegrator) {
+  for (const char* const name : {"leapfrog", "dormand_prince", "rk4", "symplectic_euler"}) {
+    json scene = ballScene();
+    scene["integrator"] = {{"method", name}};
+    EXPECT_EQ(integratorName(readText(scene).flight.integrator), name);
+  }
+}
+
 TEST(SceneReader, RejectsErrorsOfLoadsThatCannotBe) {
   EXPECT_EQ(complaintAfter("/bodies/0/maximum_load_error", -0.01),
             "bodies[0].maximum_load_error is -0.01; must be >= 0");
@@ -280,6 +317,20 @@ TEST(SceneReader, NamesAMissingFile) {
         throw;
       },
       std::exception);
+}
+
+TEST(SceneReader, TakesTheLawOfTheSceneUnlessABodyNamesItsOwn) {
+  nlohmann::json scene = ballScene();
+  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.law, PressureLaw::kPublished);
+  scene["law"] = "form";
+  scene["bodies"][0]["stall_lag"] = 0;
+  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.law, PressureLaw::kForm);
+  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.stall_lag, 0);
+  scene["bodies"][0]["law"] = "published";
+  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.law, PressureLaw::kPublished);
+  scene["bodies"][0]["law"] = "newton";
+  EXPECT_NE(complaintAbout(scene).find("bodies[0].law"), std::string::npos)
+      << complaintAbout(scene);
 }
 
 }  // namespace

@@ -1,3 +1,6 @@
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
@@ -140,6 +143,31 @@ TEST_F(WorldBuild, FilesAreKeptUntilSomethingChanges) {
   EXPECT_EQ(statusOf(changed, "crate"), "built");
   EXPECT_EQ(statusOf(changed, "_._ball"), "built");
   EXPECT_NEAR(readFluidBody(path("out/crate.ambient")).volume, 1.01, 1e-6);
+}
+
+TEST_F(WorldBuild, MultibodiesAreLeftOutWithASentence) {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btDbvtBroadphase broadphase;
+  btMultiBodyConstraintSolver solver;
+  btMultiBodyDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
+  btMultiBody pendulum(1, 1, btVector3(1, 1, 1), true, false);
+  pendulum.setupRevolute(0, 1, btVector3(1, 1, 1), -1, btQuaternion::getIdentity(),
+                         btVector3(0, 1, 0), btVector3(0, 0, 0), btVector3(0, 0, -1));
+  pendulum.finalizeMultiDof();
+  world.addMultiBody(&pendulum);
+  btDefaultSerializer serializer;
+  world.serialize(&serializer);
+  std::ofstream(path("w.bullet"), std::ios::binary)
+      .write(reinterpret_cast<const char*>(serializer.getBufferPointer()),
+             serializer.getCurrentBufferSize());
+  const ProgramResult result = build();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.errors, path("w.bullet") +
+                               ": 1 multibodies were left out: links of multibodies are not "
+                               "supported\n");
+  EXPECT_EQ(json::parse(result.output)["lost_multibodies"], 1);
+  world.removeMultiBody(&pendulum);
 }
 
 TEST_F(WorldBuild, OneBadShapeDoesNotStopTheOthers) {

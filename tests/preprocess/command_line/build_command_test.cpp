@@ -191,17 +191,6 @@ TEST_F(CommandLine, HollowMeshesDisplaceWhatTheirOutsideEncloses) {
   EXPECT_NEAR(body.uniform_mass.inertia(0, 0), (8 * 2.0 / 3 - 1 / 6.0) / 7, 1e-5);
 }
 
-TEST_F(CommandLine, BuildReplacesTheOutputAtOnceOrNotAtAll) {
-  const std::string input = write("ball.json", sphereText());
-  write("out.ambient", "something older");
-  const std::string open = write("open.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
-  EXPECT_NE(buildRefusal(open), "");
-  EXPECT_EQ(bytesOfFile("out.ambient"), "something older");
-  resultOf({"build", input, "-o", path("out.ambient"), "--json"});
-  EXPECT_EQ(readFluidBody(path("out.ambient")).name, "ball");
-  EXPECT_EQ(fileCount(), 3u);
-}
-
 TEST_F(CommandLine, InterruptedBuildsLeaveNothing) {
   // Some seconds of work, interrupted early and late.
   const std::string input = write("ball.json", R"({"type":"sphere","radius":1,"faces":5000})");

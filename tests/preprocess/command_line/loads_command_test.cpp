@@ -69,6 +69,38 @@ TEST_F(CommandLine, LoadsOnASphereAboutAnotherOriginAreThoseAtItsCentre) {
   EXPECT_GT(std::abs(at(centred, 3)), 1);
 }
 
+TEST_F(CommandLine, LoadsOfTheFormLawPressOnAFlatFace) {
+  const std::string box = write("box.json", R"({"type":"box","size":[1,1,1]})");
+  resultOf({"build", box, "-o", path("b.ambient"), "--panels", "0", "--json"});
+  const Arguments motion{"loads", path("b.ambient"), "--twist", "0",     "0", "0", "0", "0",
+                         "2",     "--density",       "3",       "--json"};
+  EXPECT_EQ(resultOf(motion)["total"][5].get<double>(), 0) << "published is the default";
+  Arguments form = motion;
+  form.insert(form.end(), {"--law", "form"});
+  EXPECT_NEAR(resultOf(form)["total"][5].get<double>(), -1.17 * 0.5 * 3 * 2 * 2, 1e-12);
+  form.back() = "newton";
+  const ProgramResult refused = run(form);
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_NE(refused.errors.find("--law: \"newton\" is neither published nor form"),
+            std::string::npos)
+      << refused.errors;
+}
+
+TEST_F(CommandLine, LoadsOfTheFormLawHaveTheMeasuredDrag) {
+  const std::string box = write("box.json", R"({"type":"box","size":[1,1,1]})");
+  resultOf({"build", box, "-o", path("b.ambient"), "--panels", "0", "--drag", "1.05", "--json"});
+  const json loads = resultOf({"loads", path("b.ambient"), "--twist", "0", "0", "0", "0", "2", "0",
+                               "--density", "3", "--law", "form", "--json"});
+  EXPECT_NEAR(loads["total"][4].get<double>(), -1.05 * 0.5 * 3 * 2 * 2, 1e-12);
+  const ProgramResult two =
+      run({"build", box, "-o", path("b.ambient"), "--panels", "0", "--drag", "1,2"});
+  EXPECT_NE(two.errors.find("--drag: 2 numbers are neither one nor three"), std::string::npos)
+      << two.errors;
+  const ProgramResult ball =
+      run({"build", write("ball.json", sphereText()), "-o", path("ball.ambient"), "--drag", "0.2"});
+  EXPECT_NE(ball.errors.find("--drag needs faces"), std::string::npos) << ball.errors;
+}
+
 TEST_F(CommandLine, LoadsPrintATable) {
   resultOf({"build", write("ball.json", sphereText()), "-o", path("b.ambient"), "--json"});
   const ProgramResult loads =

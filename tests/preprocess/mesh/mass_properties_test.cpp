@@ -28,6 +28,21 @@ TEST(MeshProperties, BoxIsExact) {
   EXPECT_LT(relativeError(box.uniform.inertia, inertia), kRounding);
 }
 
+TEST(MeshProperties, CentresAreExactWhereTheShapeIsSymmetric) {
+  const Vector3 somewhere(1.5, -2, 0.25);
+  for (const TriangleMesh& mesh :
+       {makeEllipsoidMesh({0.37, 0.37, 0.37}, 1300), makeEllipsoidMesh({1, 0.6, 0.3}, 500),
+        makeCapsuleMesh(0.3, 1.7, 700), makeBoxMesh({0.1, 0.7, 1.3}, 300)}) {
+    for (const Vector3& centre : {Vector3(0, 0, 0), somewhere}) {
+      const MeshProperties body = computeMassProperties(moved(mesh, centre));
+      EXPECT_LT((body.uniform.centre - centre).norm(), 1e-16 * (1 + centre.norm()));
+      EXPECT_EQ(body.uniform.centre, body.surface.centre) << "both are the middle";
+      EXPECT_TRUE(body.uniform.inertia.isDiagonal(0) && body.surface.inertia.isDiagonal(0));
+    }
+    EXPECT_EQ(computeMassProperties(mesh).uniform.centre, Vector3::Zero());
+  }
+}
+
 TEST(MeshProperties, TetrahedronIsExactWithItsProductsOfInertia) {
   const MeshProperties body = computeMassProperties(unitTetrahedron());
   EXPECT_NEAR(body.volume, 1.0 / 6, 1e-16);

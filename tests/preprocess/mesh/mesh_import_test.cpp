@@ -4,40 +4,13 @@
 
 #include <limits>
 
-#include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/primitives.h"
-#include "tests/preprocess/mesh/mesh_files.h"
-#include "tests/preprocess/mesh/mesh_fixtures.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/preprocess/mesh/mesh_import_fixture.h"
 
 namespace ambient {
 namespace {
 
 constexpr double kSingle = std::numeric_limits<float>::epsilon();  // of coordinates in assimp
-
-class MeshImport : public ::testing::Test {
- protected:
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path file = folder_ / name;
-    writeText(file, text);
-    return file;
-  }
-
-  std::string refusal(const std::filesystem::path& file, double scale = 1) const {
-    std::string message = messageOf([&] { importMesh(file, scale); });
-    const std::string path = file.string();
-    EXPECT_EQ(message.substr(0, path.size() + 2), path + ": ") << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    return message.substr(std::min(message.size(), path.size() + 2));
-  }
-
-  TemporaryFolder folder_;
-};
-
-MeshProperties propertiesOf(const std::filesystem::path& file, double scale = 1) {
-  return computeMassProperties(checkMesh(importMesh(file, scale).mesh, file.string()).mesh);
-}
 
 TEST_F(MeshImport, ReadsTheCommonFormatsAlike) {
   const TriangleMesh cone = makeConeMesh(0.3, 0.7, 200);

@@ -1,39 +1,14 @@
-#include "demos/simulation/output_files.h"
+#include "demos/simulation/output_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "demos/simulation/trajectory_text.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
-
-TEST(OutputFile, HasItsNameOnlyAfterCommit) {
-  const TemporaryFolder folder;
-  const auto file = folder / "a.txt";
-  {
-    OutputFile output(file);
-    output.write("text");
-    EXPECT_FALSE(std::filesystem::exists(file));
-    output.commit();
-  }
-  EXPECT_EQ(readText(file), "text");
-}
-
-TEST(OutputFile, LeavesNothingWithoutCommitAndKeepsTheOldFile) {
-  const TemporaryFolder folder;
-  const auto file = folder / "a.txt";
-  std::ofstream(file) << "old";
-  { OutputFile(file).write("new"); }
-  EXPECT_EQ(readText(file), "old");
-  std::filesystem::remove(file);
-  EXPECT_TRUE(folder.empty());
-}
-
-TEST(OutputFile, NamesAFileThatCannotBeWritten) {
-  EXPECT_THROW(OutputFile("no/such/folder/a.txt"), std::runtime_error);
-}
 
 TEST(OutputFolder, VanishesWithItsParentsUnlessKept) {
   const TemporaryFolder folder;

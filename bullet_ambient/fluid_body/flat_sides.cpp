@@ -1,0 +1,110 @@
+#include "bullet_ambient/fluid_body/flat_sides.h"
+
+#include <Eigen/Geometry>
+#include <map>
+#include <utility>
+
+namespace ambient {
+namespace {
+
+constexpr double kFlat = 1e-6;  // of unit vectors: rounding of a mesh in single precision
+
+using Edge = std::pair<int, int>;
+
+class SideFinder {
+ public:
+  explicit SideFinder(const SurfaceTriangles& mesh)
+      : mesh_(mesh), is_taken_(static_cast<std::size_t>(mesh.size())) {
+    for (int t = 0; t < mesh.size(); ++t)
+      for (int corner = 0; corner < 3; ++corner) triangle_at_[edge(t, corner)] = t;
+  }
+
+  std::vector<FlatSide> sides() {
+    std::vector<FlatSide> found;
+    for (int t = 0; t < mesh_.size(); ++t) {
+      if (isTaken(t)) continue;
+      FlatSide side{planeFrom(t), {}, mesh_.normal(t)};
+      side.corners = cornersOf(side);
+      if (side.corners.size() >= 3) found.push_back(std::move(side));
+    }
+    return found;
+  }
+
+ private:
+  Edge edge(int t, int corner) const {
+    return {mesh_.vertex(t, corner), mesh_.vertex(t, (corner + 1) % 3)};
+  }
+  std::vector<bool>::reference isTaken(int t) { return is_taken_[static_cast<std::size_t>(t)]; }
+
+  /// The triangle beyond an edge; -1: none.
+  int beyond(const Edge& edge) const {
+    const auto found = triangle_at_.find({edge.second, edge.first});
+    return found == triangle_at_.end() ? -1 : found->second;
+  }
+  bool isOnPlaneOf(int t, const FlatSide& side) const {
+    return t >= 0 && (mesh_.normal(t) - side.normal).cwiseAbs().maxCoeff() <= kFlat;
+  }
+
+  std::vector<int> planeFrom(int first) {
+    const FlatSide plane{{}, {}, mesh_.normal(first)};
+    std::vector<int> triangles{first};
+    isTaken(first) = true;
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      for (int corner = 0; corner < 3; ++corner) {
+        const int next = beyond(edge(triangles[i], corner));
+        if (!isOnPlaneOf(next, plane) || isTaken(next)) continue;
+        isTaken(next) = true;
+        triangles.push_back(next);
+      }
+    return triangles;
+  }
+
+  /// Vertices around the side; empty if they are more than one ring.
+  std::vector<int> outlineOf(const FlatSide& side) const {
+    std::map<int, int> next;
+    std::size_t edges = 0;
+    for (const int t : side.triangles)
+      for (int corner = 0; corner < 3; ++corner) {
+        const Edge e = edge(t, corner);
+        if (isOnPlaneOf(beyond(e), side)) continue;
+        next[e.first] = e.second;
+        ++edges;
+      }
+    std::vector<int> ring;
+    for (int at = next.begin()->first; ring.size() < edges;) {
+      ring.push_back(at);
+      const auto found = next.find(at);
+      if (found == next.end()) return {};
+      at = found->second;
+      if (at == ring.front()) break;
+    }
+    return ring.size() == edges ? ring : std::vector<int>{};
+  }
+
+  /// Where the outline turns; empty if it turns inwards anywhere.
+  std::vector<Vector3> cornersOf(const FlatSide& side) const {
+    const std::vector<int> ring = outlineOf(side);
+    std::vector<Vector3> corners;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vector3& here = mesh_.place(ring[i]);
+      const Vector3 in = here - mesh_.place(ring[(i + ring.size() - 1) % ring.size()]);
+      const Vector3 out = mesh_.place(ring[(i + 1) % ring.size()]) - here;
+      const double sine = side.normal.dot(in.normalized().cross(out.normalized()));
+      if (sine < -kFlat) return {};
+      if (sine > kFlat) corners.push_back(here);
+    }
+    return corners;
+  }
+
+  const SurfaceTriangles& mesh_;
+  std::map<Edge, int> triangle_at_;
+  std::vector<bool> is_taken_;
+};
+
+}  // namespace
+
+std::vector<FlatSide> findFlatSides(const SurfaceTriangles& mesh) {
+  return SideFinder(mesh).sides();
+}
+
+}  // namespace ambient

@@ -1,0 +1,106 @@
+#include <Eigen/Geometry>
+#include <array>
+
+#include "bullet_ambient/fluid_body/flat_sides.h"
+#include "bullet_ambient/fluid_body/sharpness.h"
+
+namespace ambient {
+namespace {
+
+constexpr std::size_t kNodes = 4;  // Gauss points per direction
+constexpr std::size_t kPoints = kNodes * kNodes;
+
+struct Node {
+  double place, weight;  // on [0, 1]
+};
+
+/// Gauss-Legendre rule of 4 points.
+constexpr std::array<Node, kNodes> kRule{{{0.06943184420297371, 0.17392742256872693},
+                                          {0.33000947820757187, 0.32607257743127307},
+                                          {0.6699905217924281, 0.32607257743127307},
+                                          {0.9305681557970263, 0.17392742256872693}}};
+
+/// A flat face of the form law.
+struct Point {
+  Vector3 place;
+  double area;
+};
+
+/// Of a plane quadrilateral; of a triangle if two corners are one.
+void addPoints(const std::array<Vector3, 4>& corners, std::vector<Point>& points) {
+  const auto& [a, b, c, d] = corners;
+  for (const Node& u : kRule)
+    for (const Node& v : kRule) {
+      const Vector3 low = a + u.place * (b - a), high = d + u.place * (c - d);
+      const Vector3 along = (1 - v.place) * (b - a) + v.place * (c - d);
+      points.push_back(
+          {low + v.place * (high - low), u.weight * v.weight * along.cross(high - low).norm()});
+    }
+}
+
+std::vector<Point> pointsOf(const FlatSide& side) {
+  std::vector<Point> points;
+  const std::vector<Vector3>& corners = side.corners;
+  for (std::size_t i = 1; i + 1 < corners.size(); i += 2)
+    addPoints(
+        {corners[0], corners[i], corners[i + 1], corners[i + 2 < corners.size() ? i + 2 : i + 1]},
+        points);
+  return points;
+}
+
+/// Whether a side is flat to the law, and either has more triangles than points or is a large part
+/// of the surface, of which one sample per triangle would tell too little.
+bool deservesPoints(const FlatSide& side, const FaceTable& faces, double surface_area) {
+  constexpr double kLarge = 0.02;
+  double area = 0;
+  for (const int t : side.triangles) {
+    const auto face = static_cast<std::size_t>(t);
+    if (faces.sharpness[face] != 1) return false;
+    area += faces.area[face];
+  }
+  const std::size_t points = (side.corners.size() - 1) / 2 * kPoints;
+  return points < side.triangles.size() || area >= kLarge * surface_area;
+}
+
+/// Faces of one side of the surface, then those of its back where it has one.
+class FaceCollector {
+ public:
+  explicit FaceCollector(const FaceTable& faces) : faces_(faces) {}
+
+  void copy(std::size_t face) {
+    add(faces_.normal(face), faces_.centroid(face), faces_.area[face], faces_.sharpness[face]);
+  }
+  void add(const Vector3& normal, const Vector3& place, double area, double sharpness) {
+    result.add(normal, place, area);
+    result.sharpness.push_back(sharpness);
+  }
+
+  FaceTable result;
+
+ private:
+  const FaceTable& faces_;
+};
+
+}  // namespace
+
+FaceTable formLawFaces(const FluidBody& body) {
+  FaceTable faces = body.faces;
+  if (faces.sharpness.empty()) faces.sharpness = computeSharpness(body);
+  if (body.surface.triangles.empty()) return faces;
+  const SurfaceTriangles mesh(body);
+  FaceCollector collector(faces);
+  std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
+  for (const FlatSide& side : findFlatSides(mesh)) {
+    if (!deservesPoints(side, faces, body.area)) continue;
+    for (const Point& point : pointsOf(side)) {
+      collector.add(side.normal, point.place, point.area, 1);
+      if (mesh.isSheet()) collector.add(-side.normal, point.place, point.area, 1);
+    }
+    for (const int t : side.triangles) is_replaced[static_cast<std::size_t>(t)] = true;
+  }
+  for (std::size_t face = 0; face < faces.size(); ++face)
+    if (!is_replaced[face % is_replaced.size()]) collector.copy(face);
+  return std::move(collector.result);
+}
+
+}  // namespace ambient

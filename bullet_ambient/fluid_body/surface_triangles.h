@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+
+namespace ambient {
+
+/// The triangles of a fluid body's surface; corners at one place are one vertex.
+class SurfaceTriangles {
+ public:
+  /// @throws std::invalid_argument in one sentence, if the faces of the body are not these
+  /// triangles, or once more their backs.
+  explicit SurfaceTriangles(const FluidBody& body);
+
+  int size() const { return static_cast<int>(corners_.size()); }
+  bool isSheet() const { return is_sheet_; }
+  int vertexCount() const { return static_cast<int>(places_.size()); }
+  int vertex(int triangle, int corner) const { return corners_[index(triangle)][index(corner)]; }
+  const Vector3& place(int vertex) const { return places_[index(vertex)]; }
+  const Vector3& normal(int triangle) const { return normals_[index(triangle)]; }
+
+ private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  bool is_sheet_ = false;
+  std::vector<Vector3> places_;
+  std::vector<std::array<int, 3>> corners_;
+  std::vector<Vector3> normals_;  ///< of the faces
+};
+
+}  // namespace ambient

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace ambient {
+
+/// Files and folders of a run that is not over, the outermost folder first.
+struct Unfinished {
+  std::vector<std::filesystem::path> files, folders;
+};
+
+/// From here on the first SIGINT, SIGTERM or SIGHUP makes runScene() stop after the step that it is
+/// in, and the second one removes what is unfinished and ends the program at once. Called once.
+void hearSignals(const Unfinished& unfinished);
+
+}  // namespace ambient

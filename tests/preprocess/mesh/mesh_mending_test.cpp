@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/weld_vertices.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+TEST(MeshMending, OneCopyIsKeptWhereEveryTriangleStandsTwice) {
+  const TriangleMesh mesh = makeBoxMesh({1, 2, 3}, 300);
+  for (const TriangleMesh& copy : {mesh, insideOut(mesh)}) {
+    TriangleMesh doubled = mesh;
+    doubled.triangles.resize(3, 2 * mesh.triangleCount());
+    doubled.triangles << copy.triangles, mesh.triangles;
+    const CheckedMesh checked = checkMesh(doubled, "thing.obj");
+    EXPECT_EQ(checked.mesh.triangleCount(), mesh.triangleCount());
+    EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 48, 1e-12);
+    EXPECT_EQ(checked.warnings.at(0),
+              "thing.obj: every triangle stands twice, one copy of each was left out");
+  }
+  const TriangleMesh sheet = makeRectangularSheetMesh(1, 1, 100);
+  const CheckedMesh checked =
+      checkMesh(weldVertices(joined(sheet, insideOut(sheet)), 0), "sheet.obj", {true});
+  EXPECT_EQ(checked.mesh.vertices, sheet.vertices);
+  EXPECT_EQ(checked.mesh.triangles, sheet.triangles);
+}
+
+/// A cube whose upper side meets the edge of its front one in points that the front one lacks: flat
+/// triangles lie between them.
+TriangleMesh cubeWithFlatTriangles(int points, bool is_nested) {
+  TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 12);
+  const int before = static_cast<int>(mesh.vertexCount());
+  // The side from corner 0 to 1 of triangle 0 is divided; its neighbour is not.
+  const int a = mesh.triangles(0, 0), b = mesh.triangles(1, 0), c = mesh.triangles(2, 0);
+  mesh.vertices.conservativeResize(3, before + points);
+  std::vector<int> row{a};
+  for (int i = 0; i < points; ++i) {
+    const double along = (i + 1.0) / (points + 1);
+    mesh.vertices.col(before + i) =
+        (1 - along) * mesh.vertices.col(a) + along * mesh.vertices.col(b);
+    row.push_back(before + i);
+  }
+  row.push_back(b);
+  const Eigen::Index triangles = mesh.triangleCount();
+  mesh.triangles.conservativeResize(3, triangles + 2 * points);
+  mesh.triangles.col(0) << row[0], row[1], c;
+  for (int i = 0; i < points; ++i) {
+    mesh.triangles.col(triangles + i) << row[i + 1], row[i + 2], c;
+    // A fan from a, or a chain that halves the row again and again.
+    if (is_nested) {
+      mesh.triangles.col(triangles + points + i) << row[i], b, row[i + 1];
+    } else {
+      mesh.triangles.col(triangles + points + i) << a, row[i + 2], row[i + 1];
+    }
+  }
+  return mesh;
+}
+
+TEST(MeshMending, FlatTrianglesAreJoinedToTheirNeighbours) {
+  for (const int points : {1, 2, 7}) {
+    for (const bool is_nested : {false, true}) {
+      const TriangleMesh mesh = cubeWithFlatTriangles(points, is_nested);
+      const CheckedMesh checked = checkMesh(mesh, "thing.obj");
+      EXPECT_EQ(checked.mesh.triangleCount(), 12 + 2 * points);
+      const MeshProperties properties = computeMassProperties(checked.mesh);
+      EXPECT_NEAR(properties.volume, 8, 1e-14);
+      EXPECT_NEAR(properties.area, 24, 1e-13) << "no fold";
+      ASSERT_EQ(checked.warnings.size(), 1u);
+      EXPECT_NE(checked.warnings[0].find(" flat triangles were joined to their neighbours"),
+                std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ambient
