@@ -81,20 +81,27 @@ inline void markAttached(const FaceBounds& bounds, const SingleMotion& motion,
   }
 }
 
-/// Those of `size` blocks that the flow may be attached to. Returns how many.
-inline int chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion& motion,
-                        int (&chosen)[kChoice]) {
+/// Some blocks: first those that the flow may be attached to, by the form law also the others.
+struct Choice {
+  int attached[kChoice], rest[kChoice];
+  int count = 0;
+};
+
+template <bool kForm>
+inline void chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion& motion,
+                         Choice& choice) {
   int count = 0;
   for (int first = 0; first < size; first += kLanes) {
     std::int32_t marks[kLanes];
     markAttached(bounds[first / kLanes], motion, marks);
     const int end = size - first < kLanes ? size - first : kLanes;
     for (int i = 0; i < end; ++i) {
-      chosen[count] = first + i;
+      choice.attached[count] = first + i;
+      if (kForm) choice.rest[first + i - count] = first + i;
       count -= marks[i];
     }
   }
-  return count;
+  choice.count = count;
 }
 
 template <bool kForm, bool kRightAngle, bool kFriction>
@@ -106,21 +113,30 @@ void sumChosen(const FaceBlocks& faces, const int* chosen, int count, const Sing
   total.add(run);
 }
 
+template <bool kForm, bool kFriction>
+void sumRuns(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
+             WrenchTotal& total) {
+  for (int first = 0; first < count; first += kRun)
+    sumChosen<kForm, true, kFriction>(faces, chosen + first,
+                                      count - first < kRun ? count - first : kRun, motion, total);
+}
+
 inline int atMost(std::size_t count, int limit) {
   return count < static_cast<std::size_t>(limit) ? static_cast<int>(count) : limit;
 }
 
-/// Chosen blocks. Beyond a right angle the flow is attached to nearly all.
-template <bool kFriction>
+/// Beyond a right angle the flow is attached to nearly all. Without friction the form law has all
+/// to do in the lee, too.
+template <bool kForm, bool kFriction>
 LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   WrenchTotal total;
-  int chosen[kChoice];
+  Choice choice;
   for (std::size_t begin = 0; begin < faces.count; begin += kChoice) {
-    const int count = chooseBlocks(faces.bounds + begin / kLanes,
-                                   atMost(faces.count - begin, kChoice), motion, chosen);
-    for (int first = 0; first < count; first += kRun)
-      sumChosen<false, true, kFriction>(faces.from(begin), chosen + first,
-                                        count - first < kRun ? count - first : kRun, motion, total);
+    const int size = atMost(faces.count - begin, kChoice);
+    const FaceBlocks blocks = faces.from(begin);
+    chooseBlocks<kForm>(faces.bounds + begin / kLanes, size, motion, choice);
+    sumRuns<kForm, kFriction>(blocks, choice.attached, choice.count, motion, total);
+    if (kForm) sumRuns<kForm, false>(blocks, choice.rest, size - choice.count, motion, total);
   }
   return total.sum();
 }
@@ -135,22 +151,22 @@ LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   return total.sum();
 }
 
-template <bool kFriction>
+template <bool kForm, bool kFriction>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
   constexpr std::size_t kFewest = 12;  // to choose from: below, that costs more than it saves
-  const bool right_angle = motion.signed_cosine_sq == 0;
-  if (faces.sharpness)
-    return right_angle ? sumAll<true, true, kFriction>(faces, motion)
-                       : sumAll<true, false, kFriction>(faces, motion);
-  if (!right_angle) return sumAll<false, false, kFriction>(faces, motion);
-  return faces.count < kFewest ? sumAll<false, true, kFriction>(faces, motion)
-                               : sumWhereAttached<kFriction>(faces, motion);
+  if (motion.signed_cosine_sq != 0) return sumAll<kForm, false, kFriction>(faces, motion);
+  return faces.count < kFewest || (kForm && !kFriction)
+             ? sumAll<kForm, true, kFriction>(faces, motion)
+             : sumWhereAttached<kForm, kFriction>(faces, motion);
 }
 
 }  // namespace
 
 LoadSums AMBIENT_KERNEL(const FaceBlocks& faces, const SingleMotion& motion) noexcept {
-  return motion.friction > 0 ? sumBlocks<true>(faces, motion) : sumBlocks<false>(faces, motion);
+  const bool friction = motion.friction > 0;
+  if (faces.sharpness)
+    return friction ? sumBlocks<true, true>(faces, motion) : sumBlocks<true, false>(faces, motion);
+  return friction ? sumBlocks<false, true>(faces, motion) : sumBlocks<false, false>(faces, motion);
 }
 
 }  // namespace ambient

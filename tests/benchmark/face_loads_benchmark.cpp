@@ -5,9 +5,13 @@
 #include "bullet_ambient/fluid_body/packed_faces.h"
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/face_sums.h"
+#include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/single_sums.h"
 #include "bullet_ambient/force/skin_friction.h"
 #include "bullet_ambient/force/sphere_loads.h"
+#include "bullet_ambient/force/surface_loads.h"
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/mesh/primitives.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/support/geodesic.h"
 
@@ -99,10 +103,11 @@ void faceLoads(benchmark::State& state, bool friction) {
 BENCHMARK_CAPTURE(faceLoads, pressure, false)->DenseRange(0, 5);
 BENCHMARK_CAPTURE(faceLoads, friction, true)->DenseRange(0, 5);
 
-void singleLoads(benchmark::State& state, bool friction) {
-  const FaceTable faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
-  const PackedFaces packed(faces);
-  const LoadSettings settings{1.204, 1.82e-5, 0, friction};
+void singleLoads(benchmark::State& state, bool friction, PressureLaw law) {
+  FaceTable faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
+  faces.sharpness.assign(faces.size(), 0.5);
+  const PackedFaces packed(faces, law == PressureLaw::kForm);
+  const LoadSettings settings{1.204, 1.82e-5, 0, friction, law};
   const double length = test::referenceLength(faces);
   Twist twist = someTwist();
   for (auto _ : state) {
@@ -111,8 +116,32 @@ void singleLoads(benchmark::State& state, bool friction) {
   }
   reportPerFace(state, faces.size());
 }
-BENCHMARK_CAPTURE(singleLoads, pressure, false)->DenseRange(0, 5);
-BENCHMARK_CAPTURE(singleLoads, friction, true)->DenseRange(0, 5);
+BENCHMARK_CAPTURE(singleLoads, pressure, false, PressureLaw::kPublished)->DenseRange(0, 5);
+BENCHMARK_CAPTURE(singleLoads, friction, true, PressureLaw::kPublished)->DenseRange(0, 5);
+BENCHMARK_CAPTURE(singleLoads, form_pressure, false, PressureLaw::kForm)->DenseRange(0, 5);
+BENCHMARK_CAPTURE(singleLoads, form_friction, true, PressureLaw::kForm)->DenseRange(0, 5);
+
+/// A box as a world has it: 1200 triangles, by the form law 96 points.
+void boxLoads(benchmark::State& state, bool friction, PressureLaw law) {
+  BuildSettings settings;
+  settings.added_mass = Matrix6::Identity();
+  const auto box =
+      std::make_shared<FluidBody>(makeFluidBody(makeBoxMesh({1, 0.5, 0.25}, 1200), settings));
+  FlowSettings flow;
+  flow.law = law;
+  flow.skin_friction = friction;
+  LoadTables tables;
+  const auto loads = makeSurfaceLoads(box, water(), flow, tables);
+  Twist twist = someTwist();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(twist);
+    benchmark::DoNotOptimize(loads->load(twist));
+  }
+}
+BENCHMARK_CAPTURE(boxLoads, pressure, false, PressureLaw::kPublished);
+BENCHMARK_CAPTURE(boxLoads, friction, true, PressureLaw::kPublished);
+BENCHMARK_CAPTURE(boxLoads, form_pressure, false, PressureLaw::kForm);
+BENCHMARK_CAPTURE(boxLoads, form_friction, true, PressureLaw::kForm);
 
 /// Arguments: subdivision level of the mesh, clusters.
 void levelLoads(benchmark::State& state, bool friction, double angle) {

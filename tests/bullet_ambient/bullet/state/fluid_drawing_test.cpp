@@ -168,6 +168,23 @@ TEST_F(Drawing, SlipVelocitiesLieInTheirFaces) {
   }
 }
 
+TEST_F(Drawing, PressureOfTheFormLawIsDrawnInTheLeeAsWell) {
+  AttachDef def = ambient().def;
+  auto shape = std::make_shared<FluidBody>(*def.fluid_body);
+  shape->faces.sharpness.assign(shape->faces.size(), 0.5);
+  def.fluid_body = shape;
+  def.flow.law = PressureLaw::kForm;
+  fluid.registry.detach(*body);
+  fluid.registry.attach(*body, def);
+  FluidDrawing what = unitLengths();
+  what.pressure = true;
+  draw(what);
+  EXPECT_EQ(lines(), faceCount());
+  const Vector3 expected = fromFluidFrame(loads().pressure.force);
+  EXPECT_LT((recorder.sumOf(fluid_colours::kPressure) - expected).norm(),
+            tolerance * expected.norm());
+}
+
 TEST_F(Drawing, PressureArrowsSumToThePressureForce) {
   FluidDrawing what = unitLengths();
   what.pressure = true;

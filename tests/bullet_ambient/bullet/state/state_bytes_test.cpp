@@ -49,6 +49,18 @@ TEST_F(StateBytes, CarryTheStateBitForBit) {
   EXPECT_EQ(scene.motion() == other.motion(), true);
 }
 
+TEST_F(StateBytes, CarryTheLaw) {
+  const auto in_fluid = std::find_if(state.bodies.begin(), state.bodies.end(),
+                                     [](const BodyState& body) { return body.ambient; });
+  in_fluid->ambient->def.flow.law = PressureLaw::kForm;
+  in_fluid->ambient->def.flow.stall_lag = 1.25;
+  const WorldState decoded = decodeState(encodeState(state), "quick.save", scene.lookup());
+  const auto& flow =
+      decoded.bodies[static_cast<std::size_t>(in_fluid - state.bodies.begin())].ambient->def.flow;
+  EXPECT_EQ(flow.law, PressureLaw::kForm);
+  EXPECT_EQ(flow.stall_lag, 1.25);
+}
+
 TEST_F(StateBytes, NameEveryFluidBodyOnce) {
   const auto in_fluid = std::find_if(state.bodies.begin(), state.bodies.end(),
                                      [](const BodyState& body) { return body.ambient; });
