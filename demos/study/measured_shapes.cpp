@@ -14,7 +14,7 @@
 namespace ambient {
 namespace {
 
-constexpr int kFaces = 4000;
+constexpr int kMeshFaces = 4000;
 constexpr double kLong = 100;  // what sources call infinite
 
 struct Made {
@@ -42,7 +42,7 @@ TriangleMesh triangularRod() {
 }
 
 TriangleMesh cone(double half_angle) {
-  return makeConeMesh(0.5, 0.5 / std::tan(half_angle * kPi / 180), kFaces);
+  return makeConeMesh(0.5, 0.5 / std::tan(half_angle * kPi / 180), kMeshFaces);
 }
 
 using Maker = std::function<Made(double)>;
@@ -59,25 +59,25 @@ const std::map<std::string, Maker>& makers() {
        }},
       {"cube",
        [](double) {
-         return Made{makeBoxMesh({0.5, 0.5, 0.5}, kFaces)};
+         return Made{makeBoxMesh({0.5, 0.5, 0.5}, kMeshFaces)};
        }},
       {"rod",
        [](double x) {
-         return Made{makeBoxMesh({x / 2, kLong / 2, 0.5}, kFaces)};
+         return Made{makeBoxMesh({x / 2, kLong / 2, 0.5}, kMeshFaces)};
        }},
       {"plate",
        [](double x) {
-         return Made{makeRectangularSheetMesh(1, x, kFaces), true};
+         return Made{makeRectangularSheetMesh(1, x, kMeshFaces), true};
        }},
       {"disc",
        [](double) {
-         return Made{makeEllipticSheetMesh(0.5, 0.5, kFaces), true};
+         return Made{makeEllipticSheetMesh(0.5, 0.5, kMeshFaces), true};
        }},
-      {"cylinder", [](double x) { return Made{makeCylinderMesh(0.5, x, kFaces)}; }},
+      {"cylinder", [](double x) { return Made{makeCylinderMesh(0.5, x, kMeshFaces)}; }},
       {"cone", [](double x) { return Made{cone(x)}; }},
       {"spheroid",
        [](double x) {
-         return Made{makeEllipsoidMesh({0.5, 0.5, x / 2}, kFaces)};
+         return Made{makeEllipsoidMesh({0.5, 0.5, x / 2}, kMeshFaces)};
        }},
       {"hemisphere", [](double) { return Made{hemisphereMesh(true)}; }},
       {"cup",

@@ -51,7 +51,7 @@ TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
   LoadTables tables;
   FluidBody body = *sphere();
   body.faces.sharpness.assign(body.faces.size(), 0.5);
-  const auto sharp = std::make_shared<const FluidBody>(body);
+  const auto sharp = std::make_shared<const FaceTable>(body.faces);
   EXPECT_EQ(tables.packedFaces(sharp, PressureLaw::kPublished)->blocks().sharpness, nullptr);
   EXPECT_NE(tables.packedFaces(sharp, PressureLaw::kForm)->blocks().sharpness, nullptr);
 }
