@@ -132,7 +132,7 @@ TEST(WorldState, SleepingBodiesSleepOnAndAreWokenAsBefore) {
     s.step(5);
     s.body(3).activate();
     s.body(3).setLinearVelocity(btVector3(0, 0, 2));
-    return record(s, 12);
+    return record(s, 8);
   };
   const auto motions = wake(scene);
   restoreState(state, scene.fluid.world, scene.fluid.registry);
