@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/row_motion.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -38,15 +39,11 @@ bool isStillIn(const btCollisionWorld& world, const AmbientBodies& bodies,
   return index < objects.size() && bodies.find(objects[index]) == &ambient;
 }
 
-bool isComplete(Outcome kind, const AmbientBody& ambient) {
-  return kind == Outcome::kStock || (kind == Outcome::kRows && !ambient.outcome.rows.energy_bound);
-}
-
-void complete(Outcome kind, AmbientBody& ambient, double time_step) {
+void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& complaints) {
   if (kind == Outcome::kFlown) {
     endFlight(ambient, time_step);
   } else {
-    limitEnergy(ambient);
+    endRowMotion(ambient, time_step, complaints);
   }
   if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
 }
@@ -68,8 +65,8 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotMet);
     if (kind == Outcome::kNotMet) continue;
     any_solved = true;
-    if (isComplete(kind, *ambient) || !isStillIn(*world, bodies, *ambient)) continue;
-    complete(kind, *ambient, static_cast<double>(time_step));
+    if (kind == Outcome::kStock || !isStillIn(*world, bodies, *ambient)) continue;
+    complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }
   if (isSolverMissing(*world, any_solved)) bodies.complaints.say(Complaint::kNoSolver);
 }

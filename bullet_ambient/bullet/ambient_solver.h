@@ -9,7 +9,9 @@
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/solver_group.h"
 
+class btMLCPSolver;
 class btMultiBodyConstraintSolver;
+class btSequentialImpulseConstraintSolverMt;
 class btDeformableMultiBodyConstraintSolver;
 
 namespace ambient {
@@ -29,6 +31,10 @@ class AmbientSolver : public Base {
                 "together with deformable ones in a way that cannot be rewritten; use "
                 "btSoftRigidDynamicsWorld or btMultiBodyDynamicsWorld");
   static constexpr bool kHasMultiBodies = std::is_base_of_v<btMultiBodyConstraintSolver, Base>;
+  // These infer the number of rows from the sizes of their pools, or keep pools of their own.
+  static constexpr bool kHasEvenFrictions =
+      std::is_base_of_v<btMLCPSolver, Base> ||
+      std::is_base_of_v<btSequentialImpulseConstraintSolverMt, Base>;
 
  public:
   /// Further arguments go to Base. The registry must outlive the solver.
@@ -57,6 +63,7 @@ class AmbientSolver : public Base {
   void convertContacts(btPersistentManifold** manifolds, int manifold_count,
                        const btContactSolverInfo& info) override {
     Base::convertContacts(manifolds, manifold_count, info);
+    if constexpr (!kHasEvenFrictions) addSecondFrictions(info);
     if constexpr (kHasMultiBodies) {
       const MultiBodyRows multibodies{this->m_multiBodyNormalContactConstraints,
                                       this->m_multiBodyFrictionContactConstraints,
@@ -77,6 +84,46 @@ class AmbientSolver : public Base {
   }
 
  private:
+  // A push along the normal makes a body with an uneven K slip, and not along the slip that Bullet
+  // has seen and turned its one friction row to.
+  void addSecondFrictions(const btContactSolverInfo& info) {
+    constexpr int kEvenModes =
+        SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
+    if (group_.empty() || (info.m_solverMode & kEvenModes)) return;
+    const btConstraintArray& frictions = this->m_tmpSolverContactFrictionConstraintPool;
+    const int count = frictions.size();
+    for (int i = 0; i < count; ++i) {
+      const btSolverConstraint first = frictions[i];  // the pool moves as it grows
+      const btSolverConstraint& contact =
+          this->m_tmpSolverContactConstraintPool[first.m_frictionIndex];
+      if (group_.slipsAcross(contact)) addSecondFriction(first, contact, info);
+    }
+  }
+
+  void addSecondFriction(const btSolverConstraint& first, const btSolverConstraint& contact,
+                         const btContactSolverInfo& info) {
+    auto& point = *static_cast<btManifoldPoint*>(contact.m_originalContactPoint);
+    const btSolverBody& a = this->m_tmpSolverBodyPool[first.m_solverBodyIdA];
+    const btSolverBody& b = this->m_tmpSolverBodyPool[first.m_solverBodyIdB];
+    const bool is_given =
+        (info.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) &&
+        (point.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED);
+    btVector3 direction = point.m_lateralFrictionDir2;
+    if (!is_given) {
+      direction = point.m_lateralFrictionDir1.cross(point.m_normalWorldOnB).normalized();
+      for (btRigidBody* body : {a.m_originalBody, b.m_originalBody})
+        if (body)
+          this->applyAnisotropicFriction(body, direction,
+                                         btCollisionObject::CF_ANISOTROPIC_FRICTION);
+    }
+    this->addFrictionConstraint(
+        direction, first.m_solverBodyIdA, first.m_solverBodyIdB, first.m_frictionIndex, point,
+        point.getPositionWorldOnA() - a.getWorldTransform().getOrigin(),
+        point.getPositionWorldOnB() - b.getWorldTransform().getOrigin(), nullptr, nullptr,
+        info.m_sor, info, is_given ? point.m_contactMotion2 : btScalar(0),
+        is_given ? point.m_frictionCFM : btScalar(0));
+  }
+
   RowPools pools() {
     return {this->m_tmpSolverContactConstraintPool, this->m_tmpSolverContactFrictionConstraintPool,
             this->m_tmpSolverContactRollingFrictionConstraintPool,

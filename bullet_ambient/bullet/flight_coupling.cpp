@@ -1,6 +1,5 @@
 #include "bullet_ambient/bullet/flight_coupling.h"
 
-#include <cmath>
 #include <exception>
 
 namespace ambient {
@@ -9,10 +8,6 @@ namespace {
 
 constexpr double kRestingTravel = 0.01;  // of the body's size, within kRestingTime
 constexpr double kRestingTime = 2;       // [s], Bullet's gDeactivationTime by default
-
-Twist worldTwist(const RigidState& state) {
-  return {state.orientation * state.twist.angular, state.orientation * state.twist.linear};
-}
 
 }  // namespace
 
@@ -46,31 +41,6 @@ bool stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   ++ambient.counters.rejected;
   complaints.say(Complaint::kNotFinite);
   return true;
-}
-
-void boundEnergy(AmbientBody& ambient, const Twist& solved_W, const Twist& turning_W) noexcept {
-  RigidState state = readState(*ambient.body);
-  const Quaternion to_body = state.orientation.conjugate();
-  const Vector3 flow_W = ambient.def.medium.velocity;
-  state.twist.angular = to_body * (solved_W.angular - turning_W.angular);
-  state.twist.linear = to_body * (solved_W.linear - turning_W.linear - flow_W);
-  const double energy = inertiaNormSquared(ambient.model, state.twist.vector());
-  if (energy >= 0) ambient.outcome.rows.energy_bound = energy;  // else it is not finite
-}
-
-void limitEnergy(AmbientBody& ambient) noexcept {
-  const std::optional<double>& bound = ambient.outcome.rows.energy_bound;
-  if (!bound) return;
-  btRigidBody& body = *ambient.body;
-  RigidState state = readState(body);
-  const Vector3 flow_W = ambient.def.medium.velocity;
-  state.twist.linear -= state.orientation.conjugate() * flow_W;
-  const double energy = inertiaNormSquared(ambient.model, state.twist.vector());
-  if (!(energy > *bound)) return;
-  const double scale = std::sqrt(*bound / energy);
-  const Twist now = worldTwist(state);
-  body.setAngularVelocity(toBullet(Vector3(scale * now.angular)));
-  body.setLinearVelocity(toBullet(Vector3(scale * now.linear + flow_W)));
 }
 
 void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept {

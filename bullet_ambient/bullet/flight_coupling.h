@@ -15,15 +15,6 @@ bool prepareStep(AmbientBody& ambient, Complaints& complaints) noexcept;
 /// it; returns whether it did.
 bool stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
 
-/// For a body that rows have moved to `solved_W` while it turns fast: bounds the kinetic energy
-/// that it may have in its next pose, docs/theory.md eq. (31). `turning_W`: the turning part of the
-/// velocity that the rows were solved against.
-void boundEnergy(AmbientBody& ambient, const Twist& solved_W, const Twist& turning_W) noexcept;
-
-/// After Bullet has moved the body: scales its velocity relative to the fluid down to that energy,
-/// if there is a bound.
-void limitEnergy(AmbientBody& ambient) noexcept;
-
 /// Keeps Bullet from putting a body to sleep that drifts freely: it may rest only when it moves by
 /// less than a hundredth of its size within Bullet's two seconds.
 void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept;

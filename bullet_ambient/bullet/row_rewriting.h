@@ -36,9 +36,9 @@ struct RowBody {
   btScalar inverse_mass = 0;       ///< Bullet's, without fluid
   btVector3 spin_change{0, 0, 0};  ///< of the step, outside the rows
   btVector3 velocity_change{0, 0, 0};
-  Twist turning_W;          ///< turning part of the velocity that the rows are solved against
-  Turn turn = Turn::kSlow;  ///< in this step
-  int rows = 0;             ///< how many were rewritten
+  Twist turning_W;    ///< share of the turning part in the velocity that rows are solved against
+  double extent = 0;  ///< of the turn in this step
+  int rows = 0;       ///< how many were rewritten
 
   bool is_locked = false;
   btVector3 locked_angular{0, 0, 0};  ///< 1 for an axis that is locked, else 0

@@ -5,11 +5,13 @@
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/bullet/multibody_rows.h"
+#include "bullet_ambient/bullet/row_motion.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
 #include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/row_velocity.h"
@@ -19,6 +21,10 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
+
+// Part of a push along a face's normal that may go across it before friction holds both ways: a
+// millimetre in ten seconds on a slope.
+constexpr double kEvenPush = 1e-3;
 
 bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
 
@@ -37,14 +43,6 @@ void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
 void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
   solver_body.m_externalTorqueImpulse = toBullet(change_W.angular);
   solver_body.m_externalForceImpulse = toBullet(change_W.linear);
-}
-
-// What Bullet is about to write back.
-Twist solvedVelocity(btSolverBody& b) {
-  return {toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
-                    b.m_externalTorqueImpulse),
-          toVector3(b.m_linearVelocity + b.internalGetDeltaLinearVelocity() +
-                    b.m_externalForceImpulse)};
 }
 
 btVector3 whereZero(const btVector3& v) {
@@ -69,7 +67,7 @@ void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& fact
 }
 
 // Velocity changes back into Bullet's basis.
-void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) {
+void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, double time_step) {
   const bool is_adrift = isUntouched(b);
   ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
   if (!is_adrift) {
@@ -78,7 +76,7 @@ void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) 
     fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
   }
   ambient.memory = {};
-  if (row_body.turn != Turn::kSlow) boundEnergy(ambient, solvedVelocity(b), row_body.turning_W);
+  beginRowMotion(ambient, row_body, b, time_step);
 }
 
 // A function of the item as a task; holds no memory of its own.
@@ -172,13 +170,13 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   if (!row.change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
     bodies_.complaints.say(Complaint::kNotFinite);
-    row.change_W = {};
+    row.change_W = row.turning_W = {};
   }
   setExternalImpulse(solver_body, row.change_W);
 
   RowBody& row_body = row_bodies_->add(member.solver_body);
   row_body.turning_W = row.turning_W;
-  row_body.turn = row.turn;
+  row_body.extent = row.extent;
   row_body.inverse_inertia = body.getInvInertiaTensorWorld();
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
@@ -188,6 +186,22 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   } else {
     row_body.basis = toWorld(ambient.basis_B, start.orientation.toRotationMatrix());
   }
+}
+
+bool SolverGroup::slipsAcross(const btSolverConstraint& contact) const noexcept {
+  return slipsAcross(contact.m_solverBodyIdA, contact.m_contactNormal1) ||
+         slipsAcross(contact.m_solverBodyIdB, contact.m_contactNormal2);
+}
+
+bool SolverGroup::slipsAcross(int solver_body, const btVector3& normal_W) const noexcept {
+  const Member* member = memberOf(solver_body);
+  if (!member) return false;
+  const BodyModel& model = member->ambient->model;
+  if (!model.has_diagonal_inertia) return true;
+  const btMatrix3x3& rotation = member->ambient->body->getWorldTransform().getBasis();
+  const Vector3 normal = toVector3(normal_W * rotation);  // in B
+  const Vector3 push = model.inverse_inertia.diagonal().tail<3>().cwiseProduct(normal);
+  return push.cross(normal).squaredNorm() > kEvenPush * kEvenPush * push.squaredNorm();
 }
 
 void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
@@ -260,14 +274,14 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
     const RowBody* row_body = row_bodies_->find(member.solver_body);
     // Rows that are near have allowed the velocity that they were solved against; a flight with a
     // fast turn would take the body elsewhere.
-    const bool may_fly = !row_body || (!member.is_locked && row_body->turn == Turn::kSlow);
+    const bool may_fly = !row_body || (!member.is_locked && row_body->extent <= kSlowTurn);
     if (row_body) member.ambient->counters.rows += row_body->rows;
     if (may_fly && isUntouched(solver_body)) {
       fliers_.push_back(&member);
     } else {
       // Whatever can move a body was there when those with rows were found.
       AMBIENT_ASSERT(row_body);
-      finishRows(*member.ambient, *row_body, solver_body);
+      finishRows(*member.ambient, *row_body, solver_body, time_step_);
     }
   }
   flyFreely(solver_bodies);
@@ -311,11 +325,15 @@ void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies)
     setExternalImpulse(solver_bodies[fliers[i]->solver_body], changes_W[i]);
 }
 
-SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
+const SolverGroup::Member* SolverGroup::memberOf(int solver_body) const noexcept {
   // Bodies appended after convertBodies (fixed, kinematic) are never ambient.
   if (static_cast<std::size_t>(solver_body) >= member_of_solver_body_.size()) return nullptr;
   const int index = member_of_solver_body_[solver_body];
   return index < 0 ? nullptr : &members_[index];
+}
+
+SolverGroup::Member* SolverGroup::memberOf(int solver_body) noexcept {
+  return const_cast<Member*>(std::as_const(*this).memberOf(solver_body));
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

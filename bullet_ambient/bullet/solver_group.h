@@ -64,6 +64,12 @@ class SolverGroup {
   /// (28).
   void begin(SolverBodies& solver_bodies, const GroupInput& input, btScalar time_step) noexcept;
 
+  /// Whether there is no ambient body.
+  bool empty() const { return members_.empty(); }
+
+  /// Whether a push along the normal of a contact row makes a body slip across it by its fluid.
+  bool slipsAcross(const btSolverConstraint& contact) const noexcept;
+
   /// After the stock conversion of joints and contacts: rewrites every row that touches an ambient
   /// body, and applies the impulses of warm starting in the new bases. `multibodies`: null for
   /// solvers without.
@@ -101,6 +107,8 @@ class SolverGroup {
   void flyFreely(SolverBodies& solver_bodies) noexcept;
   void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
   Member* memberOf(int solver_body) noexcept;
+  const Member* memberOf(int solver_body) const noexcept;
+  bool slipsAcross(int solver_body, const btVector3& normal_W) const noexcept;
 
   AmbientBodies& bodies_;
   double time_step_ = 0;

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/motion/kirchhoff.h"
 #include "bullet_ambient/motion/rigid_state.h"
 
 namespace ambient {
@@ -17,10 +18,14 @@ enum class Outcome {
   kFlown,   ///< moved by no row, and has flown
 };
 
-/// What rows leave to the action.
+/// What rows leave to the action; docs/theory.md eq. (31).
 struct RowMotion {
-  /// Twice the kinetic energy that the body may have in its next pose [J], docs/theory.md eq. (31);
-  /// none: any.
+  RigidState start;  ///< from where Bullet moves the body; twist relative to the flow
+  Vector3 flow_W = Vector3::Zero();
+  double turn = 0;  ///< that the body can make meanwhile [rad]
+  /// Relative to the flow, that it keeps; none: of a body with locked axes.
+  std::optional<WorldMomentum> momentum;
+  /// Twice the kinetic energy that it may have in its next pose [J]; none: any.
   std::optional<double> energy_bound;
 };
 

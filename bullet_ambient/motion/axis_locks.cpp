@@ -103,11 +103,9 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
     forced += (passiveKick(motion, {motion, sample}, dt).twist - x) / dt;
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
-  result.turn = classifyTurn(model, dt * (rates.acceleration(x) - forced), x, dt);
+  result.extent = extentOf(model, dt * (rates.acceleration(x) - forced), x, {1 / dt, 0.3});
   Vector6 turning = Vector6::Zero();
-  if (result.turn != Turn::kWild) {
-    turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
-  }
+  if (result.extent <= 1) turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
   const Vector6 free = projectionOf(factors);
   const auto inWorld = [&](const Vector6& change) {
     return Twist{free.head<3>().cwiseProduct(R * change.head<3>()),

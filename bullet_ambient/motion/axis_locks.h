@@ -21,8 +21,9 @@ Matrix6 freeInertia(const Matrix6& inertia_W, const AxisFactors& factors);
 /// projection on the axes that are not locked; symmetric positive semi-definite.
 Matrix6 lockedInverse(const Matrix6& inertia_W, const AxisFactors& factors);
 
-/// As computeRowVelocity(), for a body with locked axes: the velocity along them stays. Always by
-/// the implicit midpoint rule, so that it also serves a body that no row touches.
+/// As computeRowVelocity(), for a body with locked axes: the velocity along them stays. With the
+/// whole of the turning part, by the implicit midpoint rule, so that it also serves a body that no
+/// row touches; none of it beyond an extent of 1.
 RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& start,
                                   const AxisFactors& factors) noexcept;
 

@@ -4,28 +4,36 @@
 
 namespace ambient {
 
-/// How far a body turns within one step: by how much of the velocity its gyroscopic terms change
-/// it, in the norm of K, or by what angle; the worse of the two.
-enum class Turn {
-  kSlow,   ///< up to 15 %, 0.5 rad
-  kStiff,  ///< the explicit velocity is too far off, and could feed energy: docs/theory.md eq. (31)
-  kWild,   ///< beyond 50 %, 1 rad: no velocity holds for the whole step
+/// What the turn of the body does to its velocity in a step: by gyroscopic terms, and because the
+/// axes of the body turn; in B. Neither does work.
+struct Turning {
+  Vector6 change;     ///< of the velocity in world axes, written in body axes
+  double extent = 0;  ///< m of docs/theory.md eq. (28): 1 where a step turns too far for any of it
 };
 
-/// `gyroscopic_change`: of the twist x over `duration` [s], in body axes.
-Turn classifyTurn(const BodyModel& model, const Vector6& gyroscopic_change, const Vector6& x,
-                  double duration) noexcept;
+/// Where the extent is 1.
+struct TurnLimits {
+  double spin;    ///< [rad/s]
+  double change;  ///< over the twist, in the norm of K
+};
+/// The larger of both over their limits, for the twist x.
+double extentOf(const BodyModel& model, const Vector6& change, const Vector6& x,
+                const TurnLimits& limits) noexcept;
+
+/// Of a free body with the twist x (in B, relative to the flow), explicit.
+Turning computeTurning(const BodyModel& model, const Twist& x, double duration) noexcept;
+
+/// Up to this extent a step follows the turn, and needs no bound of energy.
+constexpr double kSlowTurn = 0.5;
 
 /// Change of velocity over one step that the constraint rows are solved against, docs/theory.md eq.
-/// (28): the acceleration at the start pose times the duration; implicit midpoint of the body-frame
-/// equations where the turn is stiff, and no turning part where it is wild. Rows must not see the
-/// velocity at the end of free flight: a pendulum would gain energy. Result in world axes: angular
-/// and linear velocity change of the centre of mass [rad/s, m/s].
+/// (28): that of the forces at the start pose, and half of the turning part, so that rows see the
+/// middle of the turn. In world axes: angular and linear velocity change of the centre of mass
+/// [rad/s, m/s].
 struct RowVelocity {
   Twist change_W;
-  /// The part of it by gyroscopic terms and by the turn of the body axes, which do no work.
-  Twist turning_W;
-  Turn turn = Turn::kSlow;
+  Twist turning_W;    ///< X of eq. (28): the share of the turning part in it
+  double extent = 0;  ///< of the turn
   FlightCount count;
 };
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept;

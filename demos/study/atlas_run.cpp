@@ -9,6 +9,7 @@
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 
 namespace ambient {
@@ -25,7 +26,7 @@ Vector3 randomDirection(std::mt19937& engine) {
 // The world of one case; gone with it.
 class AtlasWorld {
  public:
-  explicit AtlasWorld(const AtlasCase& atlas_case)
+  AtlasWorld(const AtlasCase& atlas_case, AtlasFluid fluid)
       : case_(atlas_case),
         has_gravity_(atlas_case.setting != AtlasSetting::kFree),
         fluid_body_(scaled(*atlas_case.shape->body, atlas_case.size)),
@@ -36,6 +37,7 @@ class AtlasWorld {
     world_.addAction(&action_);
     world_.setGravity({0, 0, has_gravity_ ? -kGravity : 0});
     addBody();
+    if (fluid == AtlasFluid::kAttached) attachBody();
     if (case_.setting == AtlasSetting::kOnPlane) world_.addRigidBody(&floor_);
     if (case_.setting == AtlasSetting::kOnJoint) {
       joint_ = std::make_unique<btPoint2PointConstraint>(*body_, btVector3(case_.size / 2, 0, 0));
@@ -55,14 +57,13 @@ class AtlasWorld {
   bool isFinite() const { return readState(*body_).isFinite(); }
   double kineticEnergy() const {
     const Vector6 x = readState(*body_).twist.vector();
-    return x.dot(registry_.inertia(*body_) * x) / 2;
+    return x.dot(inertia_ * x) / 2;
   }
   double potentialEnergy() const {
     if (!has_gravity_) return 0;
     const RigidState state = readState(*body_);
     const Vector3 centre_of_volume = state.position + state.orientation * centre_of_volume_B_;
-    const double displaced = medium_.density * fluid_body_.volume;
-    return kGravity * (mass_ * state.position.z() - displaced * centre_of_volume.z());
+    return kGravity * (mass_ * state.position.z() - displaced_mass_ * centre_of_volume.z());
   }
   double energyOfAFall() const { return has_gravity_ ? mass_ * kGravity * case_.size : 0; }
   AmbientCounters counters() const { return registry_.counters(); }
@@ -84,7 +85,11 @@ class AtlasWorld {
     body_->setAngularVelocity(toBullet(Vector3(case_.spin * randomDirection(engine))));
     body_->setActivationState(DISABLE_DEACTIVATION);
     world_.addRigidBody(body_.get());
-
+    inertia_ = rigidBodyInertia(mass_, principal.moments.asDiagonal());
+  }
+  void attachBody() {
+    const MassDistribution& distribution = fluid_body_.uniform_mass;
+    const PrincipalFrame principal = findPrincipalFrame(mass_ * distribution.inertia);
     AttachDef def;
     def.fluid_frame.rotation = principal.rotation.transpose();
     def.fluid_frame.translation = -(principal.rotation.transpose() * distribution.centre);
@@ -95,13 +100,16 @@ class AtlasWorld {
     def.flow.separation_angle = case_.shape->separation_angle;
     registry_.setReport(nullptr);
     registry_.attach(world_, *body_, def);
+    inertia_ = registry_.inertia(*body_);
+    displaced_mass_ = medium_.density * fluid_body_.volume;
   }
 
   const AtlasCase& case_;
   bool has_gravity_;
   FluidBody fluid_body_;
   Medium medium_;
-  double mass_ = 0;
+  double mass_ = 0, displaced_mass_ = 0;
+  Matrix6 inertia_;  // of body and fluid, in B
   Vector3 centre_of_volume_B_ = Vector3::Zero();
   AmbientRegistry registry_;
   AmbientSolver<> solver_{registry_};
@@ -119,8 +127,8 @@ class AtlasWorld {
 
 }  // namespace
 
-AtlasResult runAtlasCase(const AtlasCase& atlas_case) {
-  AtlasWorld world(atlas_case);
+AtlasResult runAtlasCase(const AtlasCase& atlas_case, AtlasFluid fluid) {
+  AtlasWorld world(atlas_case, fluid);
   AtlasResult result;
   double kinetic = world.kineticEnergy();
   double largest_kinetic = kinetic;

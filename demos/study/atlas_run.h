@@ -38,7 +38,10 @@ struct AtlasResult {
 
 constexpr double kAtlasDuration = 2;  ///< of a run [s]
 
-/// Runs one case in a btDiscreteDynamicsWorld with default settings.
-AtlasResult runAtlasCase(const AtlasCase& atlas_case);
+enum class AtlasFluid { kAttached, kNone };
+
+/// Runs one case in a btDiscreteDynamicsWorld with default settings; without the fluid, as stock
+/// Bullet in a vacuum.
+AtlasResult runAtlasCase(const AtlasCase& atlas_case, AtlasFluid fluid = AtlasFluid::kAttached);
 
 }  // namespace ambient

@@ -216,19 +216,15 @@ DenseMatrix6 turned(const DenseMatrix6& K, const Matrix3r& rotation) {
   return B * K * B.transpose();
 }
 
-DenseVector6 explicitFreeVelocity(const DenseMatrix6& K, const Matrix3r& rotation,
-                                  const DenseVector6& velocity, const DenseVector6& wrench,
-                                  Real dt) {
-  const DenseMatrix6 K_W = turned(K, rotation);
-  const DenseVector6 momentum = K_W * velocity;
+DenseVector6 turningRate(const DenseMatrix6& K, const DenseVector6& velocity) {
+  const DenseVector6 momentum = K * velocity;
   const Vector3r w = velocity.head<3>(), v = velocity.tail<3>();
   const Vector3r l = momentum.head<3>(), p = momentum.tail<3>();
-  DenseVector6 rate = wrench;
-  rate.head<3>() += l.cross(w) + p.cross(v);
-  rate.tail<3>() += p.cross(w);
-  DenseVector6 change = K_W.fullPivLu().solve(rate);
-  change.tail<3>() += w.cross(v);
-  return velocity + dt * change;
+  DenseVector6 rate;
+  rate << l.cross(w) + p.cross(v), p.cross(w);
+  rate = K.fullPivLu().solve(rate).eval();
+  rate.tail<3>() += w.cross(v);
+  return rate;
 }
 
 DenseRow pointRow(const Vector3r& direction, const Vector3r& from_a, const Vector3r& from_b) {

@@ -58,11 +58,9 @@ Real response(const std::vector<DenseBody>& bodies, const DenseRow& row, const D
 /// for rows that do not see each other, 0 for rows that say the same.
 Real independence(const std::vector<DenseBody>& bodies, const std::vector<DenseRow>& rows);
 
-/// Velocity of `K` (body axes, turned by `rotation`) after dt under a wrench (torque, force) in
-/// world axes, by the acceleration of Kirchhoff's equations at the start.
-DenseVector6 explicitFreeVelocity(const DenseMatrix6& K, const Eigen::Matrix<Real, 3, 3>& rotation,
-                                  const DenseVector6& velocity, const DenseVector6& wrench,
-                                  Real dt);
+/// Rate of change of the velocity of a body with the inertia K, both in world axes, by Kirchhoff's
+/// equations without a wrench.
+DenseVector6 turningRate(const DenseMatrix6& K, const DenseVector6& velocity);
 
 /// K turned into world axes.
 DenseMatrix6 turned(const DenseMatrix6& K, const Eigen::Matrix<Real, 3, 3>& rotation);

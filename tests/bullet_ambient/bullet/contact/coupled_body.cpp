@@ -98,12 +98,10 @@ reference::DenseBody CoupledBody::dense(Real dt) const {
   result.inertia = inertia();
   DenseVector6 wrench;
   wrench << exact(body_->getTotalTorque()), exact(body_->getTotalForce());
-  if (isAmbient()) {
-    result.free_velocity = reference::explicitFreeVelocity(result.inertia, Matrix3r::Identity(),
-                                                           velocity(), wrench, dt);
-  } else {
-    result.free_velocity = velocity() + dt * result.inertia.inverse() * wrench;
-  }
+  result.free_velocity = velocity() + dt * result.inertia.inverse() * wrench;
+  // Rows see the middle of the turn.
+  if (isAmbient())
+    result.free_velocity += dt / 2 * reference::turningRate(result.inertia, velocity());
   return result;
 }
 
@@ -121,8 +119,7 @@ DenseVector6 CoupledBody::momentum(const DenseVector6& velocity) const {
 double CoupledBody::gyroscopicTime(double part) const {
   const DenseMatrix6 K = inertia();
   const DenseVector6 u = velocity();
-  const DenseVector6 rate =
-      reference::explicitFreeVelocity(K, Matrix3r::Identity(), u, DenseVector6::Zero(), 1) - u;
+  const DenseVector6 rate = reference::turningRate(K, u);
   const Real turning = u.head<3>().norm();
   const Real time = std::sqrt(u.dot(K * u) / std::max<Real>(rate.dot(K * rate), 1e-30L));
   return part * static_cast<double>(std::min(time, 1 / turning));

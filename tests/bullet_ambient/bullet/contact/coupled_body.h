@@ -45,7 +45,7 @@ class CoupledBody {
   DenseVector6 velocity() const;  ///< now, world axes
   void setVelocity(const DenseVector6& velocity) const;
   DenseMatrix6 inertia() const;  ///< K in world axes
-  /// What the dense solver needs: K and the velocity after dt under the body's forces.
+  /// What the dense solver needs: K and the velocity of docs/theory.md eq. (28) after dt.
   reference::DenseBody dense(Real dt) const;
   Real kineticEnergy(const DenseVector6& velocity) const;
   /// Linear momentum and angular momentum about the world's origin.

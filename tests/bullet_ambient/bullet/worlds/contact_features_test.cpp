@@ -44,7 +44,7 @@ TEST(ContactFeatures, AKinematicBodyPushesWithItsVelocity) {
     row.target = speed;
     row.lower = 0;
     const auto expected = reference::solveDense({scene.coupled.dense(dt), fixedBody()}, {row});
-    scene.fluid.step(dt);
+    scene.solve(dt);
     EXPECT_GT(expected.velocities[0].norm(), 1.4);
     EXPECT_LT(scene.coupled.error(expected.velocities[0], expected.velocities[0]), kTolerance);
     scene.fluid.world.removeRigidBody(&paddle);

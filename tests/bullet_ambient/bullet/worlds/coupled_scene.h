@@ -35,6 +35,12 @@ class CoupledScene {
     body().setLinearVelocity({0, 0, 0});
     body().setAngularVelocity({0, 0, 0});
   }
+  /// A step without the action: velocities stay those that the rows were solved for.
+  void solve(double duration) {
+    fluid.world.removeAction(&fluid.action);
+    fluid.step(duration);
+    fluid.world.addAction(&fluid.action);
+  }
   /// In which forces and gyroscopic terms change the velocities by nothing; Bullet does not step
   /// over less than its epsilon.
   static constexpr double kInstant = byPrecision(1e-14, 1e-6);

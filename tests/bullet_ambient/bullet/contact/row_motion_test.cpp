@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "tests/bullet_ambient/bullet/contact/uneven_body.h"
+
+// What the action does to a body that rows have moved, and what it leaves alone.
+namespace ambient::test {
+namespace {
+
+class OtherAction : public btActionInterface {
+ public:
+  explicit OtherAction(std::function<void()> act) : act_(std::move(act)) {}
+  void updateAction(btCollisionWorld*, btScalar) override { act_(); }
+  void debugDraw(btIDebugDraw*) override {}
+
+ private:
+  std::function<void()> act_;
+};
+
+// A body on a ball joint, with an action that acts before the fluid's or after it.
+class Held {
+ public:
+  explicit Held(double spin) {
+    Arbitrary arbitrary(3);
+    BodyDef def = unevenBody();
+    const Vector3 axis = arbitrary.vector().normalized();
+    def.start.twist = {spin * axis, spin * kPivot.cross(axis)};
+    body = &scene.add(def, unevenFluid(arbitrary, 3), idealFluid(1));
+    joint = std::make_unique<btPoint2PointConstraint>(*body, toBullet(kPivot));
+    scene.world.addConstraint(joint.get());
+  }
+  ~Held() { scene.world.removeConstraint(joint.get()); }
+
+  /// Velocities after one step in which an action acts as well.
+  Vector6 after(std::function<void()> act, bool is_first) {
+    OtherAction other(std::move(act));
+    if (is_first) scene.world.removeAction(&scene.action);
+    scene.world.addAction(&other);
+    if (is_first) scene.world.addAction(&scene.action);
+    scene.step(1.0 / 60);
+    scene.world.removeAction(&other);
+    return stack(toVector3(body->getAngularVelocity()), toVector3(body->getLinearVelocity()));
+  }
+
+  static inline const Vector3 kPivot{0.5, 0, 0};
+  FluidWorld scene;
+  btRigidBody* body;
+  std::unique_ptr<btPoint2PointConstraint> joint;
+};
+
+TEST(RowMotion, LeavesImpulsesOfOtherActionsWhole) {
+  const btVector3 push(2, 0, 2);
+  for (const double spin : {1, 40, 200}) {
+    const Vector6 alone = Held(spin).after([] {}, true);
+    for (const bool is_first : {true, false}) {
+      Held held(spin);
+      const Vector6 pushed = held.after(
+          [&] { held.body->setLinearVelocity(held.body->getLinearVelocity() + push); }, is_first);
+      const Vector6 change = pushed - alone - stack(Vector3::Zero(), toVector3(push));
+      EXPECT_LT(change.norm(), byPrecision(1e-13, 1e-5) * (1 + alone.norm())) << spin;
+    }
+  }
+}
+
+TEST(RowMotion, LeavesABodyAloneThatAnActionHasPutElsewhere) {
+  const btQuaternion turned(btVector3(0, 0, 1), bt(1));
+  const btVector3 elsewhere(3, 2, 1);
+  for (const bool is_moved : {true, false}) {
+    Held held(1);
+    btVector3 before;
+    const Vector6 left = held.after(
+        [&] {
+          before = held.body->getLinearVelocity();
+          btTransform pose = held.body->getWorldTransform();
+          if (is_moved) pose.setOrigin(elsewhere);
+          if (!is_moved) pose.setRotation(turned);
+          held.body->setCenterOfMassTransform(pose);
+        },
+        true);
+    EXPECT_EQ(Vector3(left.tail<3>()), toVector3(before));
+  }
+}
+
+// A motor drives a ball against a thin wall within one step, in which a continuous collision stops
+// it: what changes its momentum about a place that is fixed is the impulse of the rail alone.
+TEST(RowMotion, KeepsTheMomentumOfABodyThatIsStoppedOnItsWay) {
+  constexpr double kLong = 1.0 / 60, kSpeed = -3, kGap = 0.03;
+  Arbitrary arbitrary(5);
+  FluidWorld scene;
+  btSphereShape ball(bt(0.01));
+  BodyDef def = unevenBody();
+  def.shape = &ball;
+  def.start.twist.angular = {3, 1, 2};
+  btRigidBody& body = scene.add(def, unevenFluid(arbitrary, 2), idealFluid(1));
+  body.setCcdMotionThreshold(bt(0.01));
+  body.setCcdSweptSphereRadius(bt(0.01));
+  btBoxShape thin({bt(0.005), 1, 1});
+  btRigidBody wall(0, nullptr, &thin);
+  wall.setWorldTransform(btTransform(btQuaternion::getIdentity(), {bt(kGap), 0, 0}));
+  scene.world.addRigidBody(&wall);
+  btGeneric6DofSpring2Constraint rail(body, btTransform::getIdentity());
+  rail.setLinearLowerLimit({1, 0, 0});
+  rail.setLinearUpperLimit({-1, 0, 0});
+  for (int axis : {3, 4, 5}) rail.setLimit(axis, 1, -1);
+  rail.enableMotor(0, true);
+  rail.setTargetVelocity(0, bt(kSpeed));
+  rail.setMaxMotorForce(0, bt(1e6));
+  btJointFeedback feedback;
+  rail.setJointFeedback(&feedback);
+  scene.world.addConstraint(&rail);
+
+  const Momentum before = worldMomentum(scene, body);
+  scene.step(kLong);
+  const Momentum after = worldMomentum(scene, body);
+  const auto way = static_cast<double>(body.getWorldTransform().getOrigin().x());
+  EXPECT_GT(way, 0.2 * kGap);
+  EXPECT_LT(way, kGap);
+  // It started at the origin.
+  const Vector3 torque = kLong * toVector3(feedback.m_appliedTorqueBodyB);
+  const Vector3 force = kLong * toVector3(feedback.m_appliedForceBodyB);
+  const double tolerance = byPrecision(1e-12, 1e-5) * force.norm();
+  EXPECT_GT(force.norm(), 1);
+  EXPECT_LT((after.linear - before.linear - force).norm(), tolerance);
+  EXPECT_LT((after.angular - before.angular - torque).norm(), tolerance);
+  scene.world.removeConstraint(&rail);
+  scene.world.removeRigidBody(&wall);
+}
+
+}  // namespace
+}  // namespace ambient::test
