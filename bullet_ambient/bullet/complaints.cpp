@@ -15,6 +15,11 @@ const char* sentenceOf(Complaint complaint) {
       return "bullet_ambient: bodies in fluid are awake but their AmbientSolver was not called; "
              "call Fluid::attachTo(world), construct the world with the solver or call "
              "world->setConstraintSolver(&solver)";
+    case Complaint::kNoMultiBodySolver:
+      return "bullet_ambient: bodies in fluid are awake but their AmbientSolver was not called: "
+             "setConstraintSolver does not reach the bodies of a btMultiBodyDynamicsWorld; call "
+             "world->setMultiBodyConstraintSolver(&solver) with an "
+             "AmbientSolver<btMultiBodyConstraintSolver>, or Fluid::attachTo(world)";
     case Complaint::kNotFinite:
       return "bullet_ambient: a velocity, force or result of a body in fluid is not finite; the "
              "body kept its velocity or, where that is not finite, stopped";

@@ -12,6 +12,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 enum class Complaint {
   kNoAction,
   kNoSolver,
+  kNoMultiBodySolver,
   kNotFinite,
   kNotPhysical,
   kCoarse,
