@@ -69,6 +69,7 @@ void computeArrivals(const Departures& departures, const Flight* const* flights,
                      double time_step, Arrivals& arrivals) {
   ArrivalLanes lanes{};
   lanes.duration = time_step;
+  lanes.least = leastVelocity(time_step);
   for (int i = 0; i < count; ++i) {
     const RigidState &start = departures.states[i], &end = flights[i]->body.state;
     setLane(lanes.start_orientation, i, start.orientation);

@@ -172,7 +172,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
     bodies_.complaints.say(Complaint::kNotFinite);
     row.change_W = row.turning_W = {};
   }
-  setExternalImpulse(solver_body, row.change_W);
+  setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
 
   RowBody& row_body = row_bodies_->add(member.solver_body);
   row_body.turning_W = row.turning_W;
