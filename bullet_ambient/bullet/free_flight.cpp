@@ -104,7 +104,8 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, d
   add(flight.count, ambient);
   FlightEnd& end = ambient.outcome.flight;
   // Who sets a bound of substeps has chosen what is too long.
-  end.is_too_long = flight.count.coarse && ambient.def.flight.max_substeps == 0;
+  end.is_too_long =
+      ambient.step_errors.add(flight.count.error) && ambient.def.flight.max_substeps == 0;
   if (!fitsBullet(flight.state, end_W)) {
     ambient.outcome.kind = Outcome::kAdrift;
     ++ambient.counters.rejected;

@@ -310,7 +310,7 @@ void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
   for (const Member* flier : fliers_) {
     const SubstepOutcome& outcome = flier->ambient->outcome;
     if (outcome.kind != Outcome::kFlown) bodies_.complaints.say(Complaint::kNotFinite);
-    if (outcome.flight.is_too_long) bodies_.complaints.say(Complaint::kCoarse);
+    if (outcome.flight.is_too_long) bodies_.complaints.sayTooLong(flier->ambient->def);
   }
   fliers_.clear();
 }
