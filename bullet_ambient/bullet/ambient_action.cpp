@@ -52,24 +52,24 @@ void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& 
 }  // namespace
 
 // In two substeps in a row: another action may have woken the body after the solver's turn.
-bool AmbientAction::isSolverMissing(const btCollisionWorld& world, bool any_solved) {
+bool AmbientAction::isSolverMissing(const btCollisionWorld& world) {
   const AmbientBodies& bodies = bodiesOf(registry_);
-  const bool is_missing = !any_solved && bodies.size() > 0 && hasAwakeMember(world, bodies);
+  const unsigned solved = bodies.solved;
+  const bool is_missing = std::exchange(solved_, solved) == solved && bodies.size() > 0 &&
+                          hasAwakeMember(world, bodies);
   return std::exchange(was_missing_, is_missing) && is_missing;
 }
 
 void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   world_ = world;
   AmbientBodies& bodies = bodiesOf(registry_);
-  bool any_solved = false;
   for (const auto& ambient : bodies.all()) {
     const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotMet);
     if (kind == Outcome::kNotMet) continue;
-    any_solved = true;
     if (kind == Outcome::kStock || !isStillIn(*world, bodies, *ambient)) continue;
     complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }
-  if (!isSolverMissing(*world, any_solved)) return;
+  if (!isSolverMissing(*world)) return;
   const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
   bodies.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);
 }

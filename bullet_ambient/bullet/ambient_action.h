@@ -25,9 +25,10 @@ class AmbientAction : public btActionInterface {
   void debugDraw(btIDebugDraw* drawer) override;
 
  private:
-  bool isSolverMissing(const btCollisionWorld& world, bool any_solved);
+  bool isSolverMissing(const btCollisionWorld& world);
 
   AmbientRegistry& registry_;
+  unsigned solved_ = 0;  // groups, until the last step
   bool was_missing_ = false;
   const btCollisionWorld* world_ = nullptr;  // of the last step
 };

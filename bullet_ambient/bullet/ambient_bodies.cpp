@@ -1,6 +1,5 @@
 #include "bullet_ambient/bullet/ambient_bodies.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -26,7 +25,8 @@ AmbientBody* AmbientBodies::find(const btCollisionObject* body) const {
   const auto found = by_object_.find(body);
   if (found == by_object_.end()) return nullptr;
   const btRigidBody* rigid = btRigidBody::upcast(body);
-  return rigid && instanceNumber(*rigid) == found->second->instance ? found->second : nullptr;
+  AmbientBody* ambient = found->second->get();
+  return rigid && instanceNumber(*rigid) == ambient->instance ? ambient : nullptr;
 }
 
 AmbientBody& AmbientBodies::require(const btRigidBody& body) const {
@@ -38,18 +38,17 @@ AmbientBody& AmbientBodies::require(const btRigidBody& body) const {
 void AmbientBodies::insert(std::unique_ptr<AmbientBody> ambient) {
   erase(*ambient->body);  // or what is left of one that was destroyed at this address
   ambient->instance = instanceNumber(*ambient->body);
-  bodies_.reserve(bodies_.size() + 1);
-  by_object_.emplace(ambient->body, ambient.get());
-  bodies_.push_back(std::move(ambient));
+  const btCollisionObject* body = ambient->body;
+  List last;
+  last.push_back(std::move(ambient));
+  by_object_.emplace(body, last.begin());
+  bodies_.splice(bodies_.end(), last);
 }
 
 bool AmbientBodies::erase(const btRigidBody& body) {
   const auto found = by_object_.find(&body);
   if (found == by_object_.end()) return false;
-  const auto owner =
-      std::find_if(bodies_.begin(), bodies_.end(),
-                   [&](const std::unique_ptr<AmbientBody>& b) { return b.get() == found->second; });
-  bodies_.erase(owner);
+  bodies_.erase(found->second);
   by_object_.erase(found);
   return true;
 }

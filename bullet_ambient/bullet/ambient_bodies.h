@@ -1,8 +1,9 @@
 #pragma once
 
+#include <atomic>
+#include <list>
 #include <memory>
 #include <unordered_map>
-#include <vector>
 
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/complaints.h"
@@ -22,7 +23,7 @@ class AmbientBodies {
  public:
   std::size_t size() const { return bodies_.size(); }
   /// In the order of attachment. They may have been destroyed.
-  const std::vector<std::unique_ptr<AmbientBody>>& all() const { return bodies_; }
+  const std::list<std::unique_ptr<AmbientBody>>& all() const { return bodies_; }
   /// The body that was attached, never another one at its address; null if there is none.
   /// @pre the body is alive, or nothing was attached at its address.
   AmbientBody* find(const btCollisionObject* body) const;
@@ -38,10 +39,12 @@ class AmbientBodies {
   Complaints complaints;
   LoadTables load_tables;  ///< what the loads of bodies share
   TaskRunner* task_runner = nullptr;
+  std::atomic<unsigned> solved{0};  ///< groups, by any solver of these bodies
 
  private:
-  std::vector<std::unique_ptr<AmbientBody>> bodies_;
-  std::unordered_map<const btCollisionObject*, AmbientBody*> by_object_;
+  using List = std::list<std::unique_ptr<AmbientBody>>;
+  List bodies_;
+  std::unordered_map<const btCollisionObject*, List::iterator> by_object_;
 };
 
 AmbientBodies& bodiesOf(const AmbientRegistry& registry);

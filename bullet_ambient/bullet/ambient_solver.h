@@ -79,6 +79,7 @@ class AmbientSolver : public Base {
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
                                          const btContactSolverInfo& info) override {
+    if constexpr (!kHasEvenFrictions) reportSecondFrictions();
     group_.finish(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool);
     return Base::solveGroupCacheFriendlyFinish(bodies, body_count, info);
   }
@@ -89,10 +90,10 @@ class AmbientSolver : public Base {
   void addSecondFrictions(const btContactSolverInfo& info) {
     constexpr int kEvenModes =
         SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
-    if (group_.empty() || (info.m_solverMode & kEvenModes)) return;
     const btConstraintArray& frictions = this->m_tmpSolverContactFrictionConstraintPool;
-    const int count = frictions.size();
-    for (int i = 0; i < count; ++i) {
+    first_frictions_ = frictions.size();
+    if (group_.empty() || (info.m_solverMode & kEvenModes)) return;
+    for (int i = 0; i < first_frictions_; ++i) {
       const btSolverConstraint first = frictions[i];  // the pool moves as it grows
       const btSolverConstraint& contact =
           this->m_tmpSolverContactConstraintPool[first.m_frictionIndex];
@@ -108,7 +109,7 @@ class AmbientSolver : public Base {
     const bool is_given =
         (info.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) &&
         (point.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED);
-    btVector3 direction = point.m_lateralFrictionDir2;
+    btVector3& direction = point.m_lateralFrictionDir2;
     if (!is_given) {
       direction = point.m_lateralFrictionDir1.cross(point.m_normalWorldOnB).normalized();
       for (btRigidBody* body : {a.m_originalBody, b.m_originalBody})
@@ -124,6 +125,17 @@ class AmbientSolver : public Base {
         is_given ? point.m_frictionCFM : btScalar(0));
   }
 
+  // As Bullet does in its mode of two directions.
+  void reportSecondFrictions() {
+    const btConstraintArray& frictions = this->m_tmpSolverContactFrictionConstraintPool;
+    for (int i = first_frictions_; i < frictions.size(); ++i) {
+      const btSolverConstraint& contact =
+          this->m_tmpSolverContactConstraintPool[frictions[i].m_frictionIndex];
+      static_cast<btManifoldPoint*>(contact.m_originalContactPoint)->m_appliedImpulseLateral2 =
+          frictions[i].m_appliedImpulse;
+    }
+  }
+
   RowPools pools() {
     return {this->m_tmpSolverContactConstraintPool, this->m_tmpSolverContactFrictionConstraintPool,
             this->m_tmpSolverContactRollingFrictionConstraintPool,
@@ -131,6 +143,7 @@ class AmbientSolver : public Base {
   }
 
   SolverGroup group_;
+  int first_frictions_ = 0;  // those that Bullet has made
   GroupInput input_;
 };
 

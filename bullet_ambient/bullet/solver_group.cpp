@@ -66,8 +66,26 @@ void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& fact
   solver_body.internalSetInvMass(btVector3(1, 1, 1) * body.getInvMass());
 }
 
-// Velocity changes back into Bullet's basis.
-void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, double time_step) {
+bool isFinite(btSolverBody& b) {
+  const btVector3 linear =
+      b.m_linearVelocity + b.internalGetDeltaLinearVelocity() + b.m_externalForceImpulse;
+  const btVector3 angular =
+      b.m_angularVelocity + b.internalGetDeltaAngularVelocity() + b.m_externalTorqueImpulse;
+  return toVector3(linear).allFinite() && toVector3(angular).allFinite() &&
+         toVector3(b.internalGetPushVelocity()).allFinite() &&
+         toVector3(b.internalGetTurnVelocity()).allFinite();
+}
+
+void dropRows(btSolverBody& b) {
+  for (btVector3* change :
+       {&b.internalGetDeltaLinearVelocity(), &b.internalGetDeltaAngularVelocity(),
+        &b.internalGetPushVelocity(), &b.internalGetTurnVelocity(), &b.m_externalForceImpulse,
+        &b.m_externalTorqueImpulse})
+    change->setZero();
+}
+
+// Velocity changes back into Bullet's basis; false if they are not finite, and dropped.
+bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, double time_step) {
   const bool is_adrift = isUntouched(b);
   ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
   if (!is_adrift) {
@@ -76,7 +94,13 @@ void finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, 
     fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
   }
   ambient.memory = {};
+  if (!isFinite(b)) {
+    dropRows(b);
+    ++ambient.counters.rejected;
+    return false;
+  }
   beginRowMotion(ambient, row_body, b, time_step);
+  return true;
 }
 
 // A function of the item as a task; holds no memory of its own.
@@ -103,6 +127,7 @@ void SolverGroup::begin(SolverBodies& solver_bodies, const GroupInput& input,
   members_.clear();
   saved_.clear();
   if (bodies_.size() == 0) return;
+  bodies_.solved.fetch_add(1, std::memory_order_relaxed);
   findMembers(solver_bodies);
   if (members_.empty()) return;
   row_bodies_->reset(solver_bodies.size());
@@ -281,7 +306,8 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
     } else {
       // Whatever can move a body was there when those with rows were found.
       AMBIENT_ASSERT(row_body);
-      finishRows(*member.ambient, *row_body, solver_body, time_step_);
+      if (!finishRows(*member.ambient, *row_body, solver_body, time_step_))
+        bodies_.complaints.say(Complaint::kNotFinite);
     }
   }
   flyFreely(solver_bodies);

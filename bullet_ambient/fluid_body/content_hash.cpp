@@ -26,6 +26,10 @@ std::uint64_t contentHash(const FluidBody& body) {
     bytes.append(reinterpret_cast<const char*>(level.blocks.data()),
                  level.blocks.size() * sizeof(ClusterBlock));
   }
+  for (const FormLevel& level : body.form_levels)
+    for (const std::vector<double>* column : level.faces.columns())
+      append(column->data(), column->size());
+  if (!body.drag.isZero(0)) append(body.drag.data(), 3);
   if (body.sphere_radius > 0) append(&body.sphere_radius, 1);
   return fnv1a64(bytes);
 }

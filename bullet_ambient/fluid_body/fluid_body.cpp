@@ -13,6 +13,12 @@ void scale(std::vector<double>& column, double factor) {
   for (double& value : column) value *= factor;
 }
 
+void scale(FaceTable& faces, double factor) {
+  for (std::vector<double>* column : {&faces.centroid_x, &faces.centroid_y, &faces.centroid_z})
+    scale(*column, factor);
+  scale(faces.area, factor * factor);
+}
+
 // Per unit mass.
 void scale(MassDistribution& mass, double factor) {
   mass.centre *= factor;
@@ -61,15 +67,14 @@ FluidBody scaled(const FluidBody& body, double factor) {
   result.origin *= factor;
   scale(result.uniform_mass, factor);
   scale(result.surface_mass, factor);
-  for (std::vector<double>* column : {&result.faces.centroid_x, &result.faces.centroid_y,
-                                      &result.faces.centroid_z, &result.surface.vertices})
-    scale(*column, factor);
-  scale(result.faces.area, factor * factor);
+  scale(result.faces, factor);
+  scale(result.surface.vertices, factor);
   result.sphere_radius *= factor;
   for (LoadLevel& level : result.levels) {
     level.centre *= factor;
     level.length *= factor;
   }
+  for (FormLevel& level : result.form_levels) scale(level.faces, factor);
   std::ostringstream settings;
   settings.precision(17);
   settings << body.provenance.settings << "; scaled by " << factor;

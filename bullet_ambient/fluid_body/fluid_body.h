@@ -32,6 +32,13 @@ struct FaceTable {
   void add(const Vector3& normal, const Vector3& centroid, double area);
 };
 
+/// Fewer faces that stand in for all of them by the form law.
+struct FormLevel {
+  FaceTable faces;  ///< with sharpness
+  double p99_error =
+      0;  ///< exceeded by one motion in a hundred, relative to 1/2 rho sum A_i |u_i|^2
+};
+
 /// Where the mass sits, for a body of mass 1 kg: centre [m] in F and inertia about it [m^2], in F's
 /// axes.
 struct MassDistribution {
@@ -71,10 +78,14 @@ struct FluidBody {
   MassDistribution surface_mass;      ///< uniform mass per area, at face barycentres
   FaceTable faces;
   Surface surface;
-  std::vector<LoadLevel> levels;  ///< of reduced loads; may be empty
+  std::vector<LoadLevel> levels;       ///< of reduced loads by the published law; may be empty
+  std::vector<FormLevel> form_levels;  ///< the same by the form law
   /// Of a body that is a sphere about its centre of volume [m]: its loads are those of the smooth
   /// sphere, and faces and levels are not evaluated. 0: any other shape.
   double sphere_radius = 0;
+  /// Measured drag coefficients along the axes of F, on the frontal areas, that the form law is
+  /// scaled to; 0: none, and then all are.
+  Vector3 drag{0, 0, 0};
 };
 
 /// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x is the slip velocity of fully attached

@@ -202,6 +202,13 @@ void checkLevel(const LoadLevel& level, const Checker& check) {
   checkBlocks(level, check);
 }
 
+void checkFormLevel(const FormLevel& level, const Checker& check) {
+  checkFaces(level.faces, check);
+  if (level.faces.sharpness.size() != level.faces.size())
+    check.fail("a level of the form law has no sharpness");
+  check.notNegative(level.p99_error, "error of a level");
+}
+
 }  // namespace
 
 void checkFluidBody(const FluidBody& body, const std::string& source) {
@@ -210,6 +217,9 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   check.notNegative(body.volume, "volume");
   check.notNegative(body.area, "area");
   check.notNegative(body.sphere_radius, "radius of the sphere");
+  for (const double drag : body.drag) check.notNegative(drag, "measured drag coefficient");
+  if (!body.drag.isZero(0) && body.drag.minCoeff() == 0)
+    check.fail("a measured drag coefficient is 0, but must be positive where another one is given");
   check.finiteMatrix(body.centre_of_volume, "centre of volume");
   check.finiteMatrix(body.origin, "origin");
   checkAddedMass(body, check);
@@ -220,6 +230,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   checkFaces(body.faces, check);
   checkSurface(body.surface, check);
   for (const LoadLevel& level : body.levels) checkLevel(level, check);
+  for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
   checkPlaces(body, check);
 }
 

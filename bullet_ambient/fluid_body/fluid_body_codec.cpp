@@ -154,6 +154,17 @@ Offset<flatbuffers::Vector<Offset<file::LoadLevel>>> pack(FlatBufferBuilder& bui
   return builder.CreateVector(packed);
 }
 
+Offset<flatbuffers::Vector<Offset<file::FormLevel>>> pack(FlatBufferBuilder& builder,
+                                                          const std::vector<FormLevel>& levels) {
+  if (levels.empty()) return 0;
+  std::vector<Offset<file::FormLevel>> packed;
+  for (const FormLevel& level : levels) {
+    const auto faces = pack(builder, level.faces);
+    packed.push_back(file::CreateFormLevel(builder, faces, level.p99_error));
+  }
+  return builder.CreateVector(packed);
+}
+
 void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   builder.ForceDefaults(true);  // else -0.0 would come back as +0.0
   const auto name = builder.CreateString(body.name);
@@ -163,16 +174,18 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto faces = pack(builder, body.faces);
   const auto surface = pack(builder, body.surface);
   const auto levels = pack(builder, body.levels);
+  const auto form_levels = pack(builder, body.form_levels);
   const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
   const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
   const auto origin = packMatrix<file::Vector3>(body.origin);
   flatbuffers::Optional<double> sphere_radius = flatbuffers::nullopt;
   if (body.sphere_radius > 0) sphere_radius = body.sphere_radius;
+  const auto drag = packMatrix<file::Vector3>(body.drag);
   file::FinishFluidBodyBuffer(
-      builder,
-      file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry, body.volume,
-                            body.area, &centre_of_volume, &origin, uniform_mass, surface_mass,
-                            faces, surface, levels, sphere_radius));
+      builder, file::CreateFluidBody(
+                   builder, name, provenance, &added_mass, body.asymmetry, body.volume, body.area,
+                   &centre_of_volume, &origin, uniform_mass, surface_mass, faces, surface, levels,
+                   sphere_radius, form_levels, body.drag.isZero(0) ? nullptr : &drag));
 }
 
 FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
@@ -192,18 +205,29 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   if (packed.levels())
     for (const file::LoadLevel* level : *packed.levels())
       body.levels.push_back(unpack(*level, source));
+  if (packed.form_levels())
+    for (const file::FormLevel* level : *packed.form_levels())
+      body.form_levels.push_back({unpack(*level->faces()), level->p99_error()});
   body.sphere_radius = packed.sphere_radius().value_or(0);
+  if (packed.drag()) body.drag = unpackMatrix<Vector3>(*packed.drag());
   return body;
+}
+
+std::size_t numbersIn(const FaceTable& faces) {
+  std::size_t numbers = faces.sharpness.size();
+  for (const std::vector<double>* column : faces.columns()) numbers += column->size();
+  return numbers;
 }
 
 /// An upper bound of the payload's size [bytes].
 std::size_t payloadBound(const FluidBody& body) {
   constexpr std::size_t kFixedPart = 4096;
-  std::size_t doubles = body.surface.vertices.size() + body.faces.sharpness.size();
-  for (const std::vector<double>* column : body.faces.columns()) doubles += column->size();
+  std::size_t doubles = body.surface.vertices.size() + numbersIn(body.faces);
   std::size_t level_bytes = 0;
   for (const LoadLevel& level : body.levels)
     level_bytes += kFixedPart + level.blocks.size() * sizeof(ClusterBlock);
+  for (const FormLevel& level : body.form_levels)
+    level_bytes += kFixedPart + numbersIn(level.faces) * sizeof(double);
   return kFixedPart + level_bytes + sizeof(double) * doubles +
          sizeof(std::int32_t) * body.surface.triangles.size() + body.name.size() +
          body.provenance.source.size() + body.provenance.settings.size() +

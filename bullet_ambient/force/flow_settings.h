@@ -19,7 +19,7 @@ using LoadLaw = std::function<std::shared_ptr<const SurfaceLoads>(
 /// What the fluid presses with on a face.
 enum class PressureLaw {
   kPublished,  ///< of the slip, docs/theory.md eq. (14): Padilla et al. 2025
-  kForm,       ///< of the form drag, eq. (43) to (50): for boxes and whatever else has flat sides
+  kForm,       ///< of the form drag, eq. (43) to (51): for boxes and whatever else has flat sides
 };
 
 /// As scenes and commands name them.
@@ -42,7 +42,6 @@ struct FlowSettings {
   LoadPrecision precision = LoadPrecision::kSingle;
   /// Allowed p99 error of reduced loads, LoadLevelError: the cheapest level of the fluid body for
   /// the separation angle that keeps it stands in for the faces. 0, or no such level: all faces.
-  /// kPublished only.
   double maximum_load_error = 0;
   PressureLaw law = PressureLaw::kPublished;  ///< a sphere is the same in both
   /// Delay of separation behind the incidence, kForm: lengths of the body over its speed. 0: none.

@@ -15,27 +15,27 @@ void eraseIf(Map& map, const Condition& condition) {
 
 }  // namespace
 
-template <class Table>
+template <class Source, class Table>
 template <class Make>
-std::shared_ptr<const Table> LoadTables::MadeOf<Table>::get(const Body& body, const Make& make) {
-  if (const auto found = entries_.find(body.get()); found != entries_.end())
-    if (auto table = found->second.table.lock(); table && found->second.body.lock() == body)
+std::shared_ptr<const Table> LoadTables::Made<Source, Table>::get(
+    const std::shared_ptr<const Source>& source, const Make& make) {
+  if (const auto found = entries_.find(source.get()); found != entries_.end())
+    if (auto table = found->second.table.lock(); table && found->second.source.lock() == source)
       return table;
   eraseIf(entries_, [](const Entry& entry) { return entry.table.expired(); });
   auto table = std::make_shared<const Table>(make());
-  entries_[body.get()] = {body, table};
+  entries_[source.get()] = {source, table};
   return table;
 }
 
-std::shared_ptr<const FaceTable> LoadTables::faces(const Body& body, PressureLaw law) {
-  if (law == PressureLaw::kPublished) return {body, &body->faces};
+LoadTables::Faces LoadTables::formFaces(const Body& body) {
   return form_faces_.get(body, [&] { return formLawFaces(*body); });
 }
 
-std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Body& body, PressureLaw law) {
+std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Faces& faces, PressureLaw law) {
   const bool is_form = law == PressureLaw::kForm;
   auto& packed = is_form ? packed_form_ : packed_;
-  return packed.get(body, [&] { return PackedFaces(*faces(body, law), is_form); });
+  return packed.get(faces, [&] { return PackedFaces(*faces, is_form); });
 }
 
 std::shared_ptr<const SphereTable> LoadTables::sphereTable(double separation_cosine) {

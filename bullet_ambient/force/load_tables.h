@@ -16,33 +16,35 @@ class LoadTables {
  public:
   using Body = std::shared_ptr<const FluidBody>;
 
-  /// The faces that a law sums over, in double and in single precision. One for all who use those
-  /// of the fluid body at the same time. Cost: formLawFaces() and PackedFaces().
-  std::shared_ptr<const FaceTable> faces(const Body& body, PressureLaw law);
-  std::shared_ptr<const PackedFaces> packedFaces(const Body& body, PressureLaw law);
+  using Faces = std::shared_ptr<const FaceTable>;
+
+  /// formLawFaces(). One for all who use it at the same time, as below.
+  Faces formFaces(const Body& body);
+  /// Faces as `law` reads them in single precision. Cost: PackedFaces().
+  std::shared_ptr<const PackedFaces> packedFaces(const Faces& faces, PressureLaw law);
 
   /// The table of a separation angle. Kept until another one is made while nobody uses it: a single
   /// ball may come and go. Cost: SphereTable().
   std::shared_ptr<const SphereTable> sphereTable(double separation_cosine);
 
  private:
-  /// What was made of fluid bodies, as long as it is used.
-  template <class Table>
-  class MadeOf {
+  /// What was made of something, as long as it is used.
+  template <class Source, class Table>
+  class Made {
    public:
     template <class Make>
-    std::shared_ptr<const Table> get(const Body& body, const Make& make);
+    std::shared_ptr<const Table> get(const std::shared_ptr<const Source>& source, const Make& make);
 
    private:
     struct Entry {
-      std::weak_ptr<const FluidBody> body;  ///< tells it from another one at its address
+      std::weak_ptr<const Source> source;  ///< tells it from another one at its address
       std::weak_ptr<const Table> table;
     };
-    std::unordered_map<const FluidBody*, Entry> entries_;
+    std::unordered_map<const Source*, Entry> entries_;
   };
 
-  MadeOf<FaceTable> form_faces_;
-  MadeOf<PackedFaces> packed_, packed_form_;
+  Made<FluidBody, FaceTable> form_faces_;
+  Made<FaceTable, PackedFaces> packed_, packed_form_;
   std::map<double, std::shared_ptr<const SphereTable>> spheres_;  ///< by separation cosine
 };
 

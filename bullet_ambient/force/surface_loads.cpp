@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_ambient/force/drag_scale.h"
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/form_lift.h"
 #include "bullet_ambient/force/load_tables.h"
@@ -63,22 +64,24 @@ struct LevelLoads final : SummedLoads<LoadLevel, computeLevelLoad> {
 /// The form law: faces as above, and what acts on the body as a whole.
 class FormLoads final : public SurfaceLoads {
  public:
-  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const FormLift& lift, double density)
-      : on_faces_(std::move(on_faces)), lift_(lift), density_(density) {}
+  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const DragScale& drag,
+            const FormLift& lift, double density)
+      : on_faces_(std::move(on_faces)), drag_(drag), lift_(lift), density_(density) {}
 
   Wrench load(const Twist& x) const noexcept override {
-    return on_faces_->load(x) + lift_.load(x, density_);
+    return drag_.factor(x) * on_faces_->load(x) + lift_.load(x, density_);
   }
   FaceLoads parts(const Twist& x) const noexcept override {
-    FaceLoads parts = on_faces_->parts(x);
-    parts.pressure += lift_.load(x, density_);
-    return parts;
+    const FaceLoads parts = on_faces_->parts(x);
+    const double factor = drag_.factor(x);
+    return {factor * parts.pressure + lift_.load(x, density_), factor * parts.friction};
   }
   int faces() const noexcept override { return on_faces_->faces(); }
   bool needsGuard() const noexcept override { return on_faces_->needsGuard(); }
 
  private:
   std::shared_ptr<const SurfaceLoads> on_faces_;
+  DragScale drag_;
   FormLift lift_;
   double density_;
 };
@@ -138,25 +141,9 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
   }
 }
 
-/// By the law of the settings, on all faces.
-std::shared_ptr<const SurfaceLoads> loadsOnFaces(const std::shared_ptr<const FluidBody>& body,
-                                                 const LoadSettings& settings,
-                                                 LoadPrecision precision, LoadTables& tables) {
-  const double length = referenceLength(*body);
-  if (precision == LoadPrecision::kSingle) {
-    auto faces = tables.packedFaces(body, settings.law);
-    const std::size_t count = faces->size();
-    return std::make_shared<SingleLoads>(std::move(faces), count, length, settings);
-  }
-  auto faces = tables.faces(body, settings.law);
-  const std::size_t count = faces->size();
-  return std::make_shared<DoubleLoads>(std::move(faces), count, length, settings);
-}
-
 // The cheapest level that keeps the allowed error, if it is cheaper than all faces.
 const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
   constexpr double kSameAngle = 1e-9;
-  if (flow.law != PressureLaw::kPublished) return nullptr;  // levels are fitted to that one
   const LoadLevel* best = nullptr;
   double least = static_cast<double>(body.faces.size());
   for (const LoadLevel& level : body.levels) {
@@ -167,6 +154,30 @@ const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
     best = &level;
   }
   return best;
+}
+
+using Body = std::shared_ptr<const FluidBody>;
+
+// Those that the form law is summed over: of the smallest level that keeps the allowed error, or
+// all.
+LoadTables::Faces chooseFormFaces(const Body& body, const FlowSettings& flow, LoadTables& tables) {
+  const FormLevel* best = nullptr;
+  for (const FormLevel& level : body->form_levels)
+    if (level.p99_error <= flow.maximum_load_error &&
+        (!best || level.faces.size() < best->faces.size()))
+      best = &level;
+  if (best) return {body, &best->faces};
+  return tables.formFaces(body);
+}
+
+std::shared_ptr<const SurfaceLoads> loadsOn(const LoadTables::Faces& faces, double length,
+                                            const LoadSettings& settings, LoadPrecision precision,
+                                            LoadTables& tables) {
+  const std::size_t count = faces->size();
+  if (precision == LoadPrecision::kDouble)
+    return std::make_shared<DoubleLoads>(faces, count, length, settings);
+  return std::make_shared<SingleLoads>(tables.packedFaces(faces, settings.law), count, length,
+                                       settings);
 }
 
 }  // namespace
@@ -185,14 +196,18 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
   if (!(settings.density > 0)) return nullptr;
   if (flow.own_law) return flow.own_law(body, settings);
   if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, settings, tables);
+  if (body->faces.size() == 0) return nullptr;
+  const double length = referenceLength(*body);
+  if (flow.law == PressureLaw::kForm) {
+    const LoadTables::Faces faces = chooseFormFaces(body, flow, tables);
+    auto on_faces = loadsOn(faces, length, settings, flow.precision, tables);
+    return std::make_shared<FormLoads>(std::move(on_faces), DragScale(*body, *faces),
+                                       FormLift(*body, flow.stall_lag), settings.density);
+  }
   if (const LoadLevel* level = chooseLevel(*body, flow))
     return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level),
-                                        level->clusters, referenceLength(*body), settings);
-  if (body->faces.size() == 0) return nullptr;
-  auto on_faces = loadsOnFaces(body, settings, flow.precision, tables);
-  if (flow.law == PressureLaw::kPublished) return on_faces;
-  return std::make_shared<FormLoads>(std::move(on_faces), FormLift(*body, flow.stall_lag),
-                                     settings.density);
+                                        level->clusters, length, settings);
+  return loadsOn({body, &body->faces}, length, settings, flow.precision, tables);
 }
 
 }  // namespace ambient

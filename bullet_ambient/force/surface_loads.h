@@ -38,7 +38,7 @@ LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow);
 
 /// The law of the settings, evaluated in the cheapest way that body, medium and settings allow;
 /// null where there is nothing to load, or no fluid. This library's: docs/theory.md eq. (13) to
-/// (17), reduced (36) to (39), on a sphere (40) to (42), by the form law (43) to (50). Cost: O(F);
+/// (17), reduced (36) to (39), on a sphere (40) to (42), by the form law (43) to (51). Cost: O(F);
 /// more where a table is made.
 /// @throws std::invalid_argument, naming value and limit, if faces or settings are not physical.
 std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,

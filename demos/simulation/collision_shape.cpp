@@ -87,7 +87,9 @@ CollisionShape makeCollisionShape(const BodyDef& def, const PreparedBody& prepar
     shape.triangles = makeTriangles(prepared.surface);
     shape.parts.push_back(std::make_unique<btBvhTriangleMeshShape>(shape.triangles.get(), true));
   }
-  if (isIdentity(S_in_B)) return shape;
+  // Bullet takes a contact of two plain shapes into a step when it is within its threshold of 2 cm,
+  // and a bounce loses what is left of the gap; children of compounds wait until their boxes meet.
+  if (prepared.mass == 0 && isIdentity(S_in_B)) return shape;
   auto compound = std::make_unique<btCompoundShape>();
   compound->addChildShape(S_in_B, shape.parts.back().get());
   shape.parts.push_back(std::move(compound));

@@ -18,6 +18,8 @@ struct CollisionShape {
 
 /// The Bullet shape of a body in whose frame the shape's frame S has the pose `S_in_B`: a
 /// primitive, else the convex hull of its surface or, of a static body, the triangles themselves.
+/// Of a body that moves it is the child of a compound, wherever it lies: where frames agree to the
+/// last bit, contacts shall not differ from where they do not.
 CollisionShape makeCollisionShape(const BodyDef& def, const PreparedBody& prepared,
                                   const btTransform& S_in_B);
 

@@ -10,6 +10,7 @@
 #include "preprocess/collision_shape/solid_contact.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
+#include "preprocess/mesh/plain_text.h"
 #include "preprocess/potential_flow/potential_flow.h"
 #include "preprocess/potential_flow/shape_symmetry.h"
 
@@ -135,8 +136,9 @@ std::optional<Matrix6> addedMassOf(const Solid& solid, const CollisionShapeSetti
 }  // namespace
 
 CollisionShapeSettings::CollisionShapeSettings()
-    : report([](const std::string& text) { std::fprintf(stderr, "warning: %s\n", text.c_str()); }) {
-}
+    : report([](const std::string& text) {
+        std::fprintf(stderr, "warning: %s\n", plainLine(text).c_str());
+      }) {}
 
 FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
   const std::vector<Solid> solids = solidsOf(shape, settings);

@@ -15,6 +15,7 @@
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
 #include "preprocess/mesh/plain_text.h"
+#include "preprocess/reduced_loads/form_levels.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 
 namespace ambient {
@@ -50,15 +51,26 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   return settings;
 }
 
+/// One number holds for all axes.
+Vector3 dragOf(const BuildArguments& arguments) {
+  const std::vector<double>& drag = arguments.drag;
+  if (drag.empty()) return Vector3::Zero();
+  if (drag.size() != 1 && drag.size() != 3)
+    raiseUsageError("--drag", drag.size(), " numbers are neither one nor three");
+  for (const double coefficient : drag) requirePositive("--drag", coefficient);
+  return {drag.front(), drag[drag.size() / 2], drag.back()};
+}
+
 Provenance describeBody(const ShapeDescription& shape, const ShapeBuildSettings& settings,
                         const BuildArguments& arguments) {
   Provenance provenance = describeShape(shape, settings);
-  if (arguments.levels.empty()) return provenance;
   std::ostringstream text;
   text.precision(17);
   for (const int clusters : arguments.levels)
     text << (text.tellp() == 0 ? "; levels " : ",") << clusters;
-  text << ", separation angle " << separationAngleOf(arguments.separation_angle);
+  if (!arguments.levels.empty())
+    text << ", separation angle " << separationAngleOf(arguments.separation_angle);
+  if (!arguments.drag.empty()) text << "; drag " << dragOf(arguments).transpose();
   provenance.settings += text.str();
   return provenance;
 }
@@ -71,6 +83,11 @@ FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings&
     built = buildShape(shape, settings);
     built.body.levels = buildLoadLevels(built.body, arguments.levels,
                                         separationAngleOf(arguments.separation_angle));
+    built.body.drag = dragOf(arguments);
+    if (built.body.sphere_radius > 0 && !arguments.drag.empty())
+      raiseInputError(arguments.input,
+                      "--drag needs faces: a sphere has the loads of a smooth one");
+    built.body.form_levels = buildFormLevels(built.body, arguments.levels);
     built.body.provenance.settings = describeBody(shape, settings, arguments).settings;
   }
   for (const std::string& warning : built.warnings)
@@ -92,6 +109,7 @@ void requireValues(const BuildArguments& arguments) {
                       kMostClusters);
   }
   separationAngleOf(arguments.separation_angle);
+  dragOf(arguments);
 }
 
 }  // namespace

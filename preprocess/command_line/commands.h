@@ -21,6 +21,7 @@ struct BuildArguments {
   int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
   std::vector<int> levels;                  ///< of reduced loads: their numbers of clusters
   double separation_angle = kPi / 2;        ///< of the levels, from pi/2 to pi [rad]
+  std::vector<double> drag;                 ///< measured: one, or one per axis; empty: none
   int threads = 0;                          ///< 0: all cores
   std::string solver;                       ///< dense or hierarchical; empty: by the panels
   std::optional<double> memory;             ///< for the flow [GB]; none: what is available

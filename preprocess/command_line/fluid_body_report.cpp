@@ -38,6 +38,13 @@ ordered_json levelsJson(const std::vector<LoadLevel>& levels) {
   return list;
 }
 
+ordered_json levelsJson(const std::vector<FormLevel>& levels) {
+  ordered_json list = ordered_json::array();
+  for (const FormLevel& level : levels)
+    list.push_back({{"faces", level.faces.size()}, {"p99_error", level.p99_error}});
+  return list;
+}
+
 std::string levelText(const LoadLevel& level) {
   const LoadLevelError& error = level.error;
   char text[160];
@@ -108,6 +115,7 @@ std::string reportJson(const FluidBody& body, std::optional<double> seconds) {
                       {"settings", body.provenance.settings},
                       {"generator", body.provenance.generator}};
   if (!body.levels.empty()) report["levels"] = levelsJson(body.levels);
+  if (!body.form_levels.empty()) report["form_levels"] = levelsJson(body.form_levels);
   if (seconds) report["seconds"] = *seconds;
   return jsonText(report);
 }
@@ -129,6 +137,9 @@ std::string reportTable(const FluidBody& body, const std::string& file) {
   table.row("asymmetry", body.asymmetry, " of the added mass before it was made symmetric");
   for (const LoadLevel& level : body.levels)
     table.row(std::to_string(level.clusters) + " clusters", levelText(level));
+  for (const FormLevel& level : body.form_levels)
+    table.row("form law, " + std::to_string(level.faces.size()) + " faces", "p99 ",
+              100 * level.p99_error, " %");
   table.matrix("added mass per unit density, rotation first [m^5, m^4; m^4, m^3]", body.added_mass);
   return table.text();
 }

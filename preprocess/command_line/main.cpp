@@ -49,6 +49,12 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
       ->delimiter(',')
       ->type_name("N,N,...");
   build
+      ->add_option("--drag", arguments.drag,
+                   "Measured drag coefficients along the axes, on the frontal areas, that the form "
+                   "law is scaled to (default none)")
+      ->delimiter(',')
+      ->type_name("C[,C,C]");
+  build
       ->add_option("--separation-angle", arguments.separation_angle,
                    "For which the levels are fitted (default pi/2)")
       ->type_name("RAD");

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/spatial/pi.h"
+#include "preprocess/reduced_loads/centred_faces.h"
 #include "preprocess/reduced_loads/face_clusters.h"
 #include "preprocess/reduced_loads/level_error.h"
 #include "preprocess/reduced_loads/level_fit.h"
@@ -17,30 +18,6 @@ constexpr double kRightAngle = kPi / 2;
 // One evaluation, in faces that cost as much. Measured by face_loads_benchmark with AVX-512 for 48,
 // 96 and 200 clusters: 80, 190, 420 with friction, 280, 385, 640 without.
 double costOf(int clusters) { return 100 + 2 * clusters; }
-
-// The faces about the centre of their area, in units of their mean distance from it.
-struct CentredFaces {
-  Vector3 centre = Vector3::Zero();
-  double length = 0;
-  FaceTable faces;
-
-  explicit CentredFaces(const FaceTable& source) {
-    double area = 0, moment = 0;
-    for (std::size_t i = 0; i < source.size(); ++i) {
-      area += source.area[i];
-      centre += source.area[i] * source.centroid(i);
-    }
-    if (!(area > 0)) return;
-    centre /= area;
-    for (std::size_t i = 0; i < source.size(); ++i)
-      moment += source.area[i] * (source.centroid(i) - centre).squaredNorm();
-    length = std::sqrt(moment / area);
-    if (!(length > 0)) return;
-    for (std::size_t i = 0; i < source.size(); ++i)
-      faces.add(source.normal(i), (source.centroid(i) - centre) / length,
-                source.area[i] / (length * length));
-  }
-};
 
 void requireAngle(const FluidBody& body, double angle) {
   if (angle >= kRightAngle * (1 - 1e-9) && angle <= 2 * kRightAngle * (1 + 1e-9)) return;
@@ -61,11 +38,7 @@ void requireClusters(const FluidBody& body, int clusters) {
 std::vector<LoadLevel> buildLoadLevels(const FluidBody& body, const std::vector<int>& clusters,
                                        double separation_angle) {
   requireAngle(body, separation_angle);
-  const CentredFaces centred(body.faces);
-  if (!(centred.length > 0)) {
-    throw std::invalid_argument("fluid body '" + body.name +
-                                "': reduced loads need faces that are apart and have an area");
-  }
+  const CentredFaces centred(body, body.faces);
   std::vector<LoadLevel> levels;
   for (const int count : clusters) {
     requireClusters(body, count);

@@ -76,6 +76,30 @@ TEST(BrokenNumbers, InTheForceOfOneStepAreForgottenInTheNext) {
             0.5);
 }
 
+// Finite, but their squares are not.
+TEST(BrokenNumbers, OfRowsAreDroppedAndReported) {
+  FluidWorld fluid;
+  std::vector<std::string> said;
+  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  btStaticPlaneShape plane({0, 0, 1}, 0);
+  btRigidBody floor(0, nullptr, &plane);
+  fluid.world.addRigidBody(&floor);
+  btBoxShape box({bt(0.5), bt(0.5), bt(0.5)});
+  BodyDef def;
+  def.shape = &box;
+  def.start.position = {0, 0, 0.5};
+  btRigidBody& body = fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+  body.applyCentralForce({0, 0, bt(byPrecision(-1e300, -1e37))});
+  fluid.step(1.0 / 60);
+  EXPECT_TRUE(readState(body).isFinite());
+  fluid.step(1.0 / 60, 10);
+  EXPECT_TRUE(readState(body).isFinite());
+  EXPECT_GT(fluid.registry.counters(body).rejected, 0);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("not finite"), std::string::npos);
+  fluid.world.removeRigidBody(&floor);
+}
+
 TEST(BrokenNumbers, InAMediumAreRefused) {
   Pair pair(50);
   for (int k = 0; k < 4; ++k) {

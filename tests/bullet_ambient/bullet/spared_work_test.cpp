@@ -127,9 +127,10 @@ TEST(SparedWork, BodiesOfOneShapeShareItsData) {
     def.medium = air();
     fluid.registry.attach(fluid.add(bodyAt(2.0 * i)), def);
   }
-  EXPECT_EQ(
-      bodiesOf(fluid.registry).load_tables.packedFaces(shape, PressureLaw::kPublished).use_count(),
-      5 + 1);
+  EXPECT_EQ(bodiesOf(fluid.registry)
+                .load_tables.packedFaces({shape, &shape->faces}, PressureLaw::kPublished)
+                .use_count(),
+            5 + 1);
   EXPECT_LT(sizeof(AmbientBody), 3000U);
 }
 

@@ -176,5 +176,17 @@ TEST(Interplay, ABodyLeavesTheWorldAndComesBack) {
   EXPECT_GT((body.getWorldTransform().getOrigin() - held).length(), btScalar(0.1));
 }
 
+TEST(Interplay, ASecondActionFindsNothingAmiss) {
+  FluidWorld fluid;
+  std::vector<std::string> said;
+  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  fluid.add(spinning(1), meshedEllipsoid(kUnequalAxes, 1), air());
+  AmbientAction second(fluid.registry);
+  fluid.world.addAction(&second);
+  fluid.step(kWorldStep, 5);
+  EXPECT_TRUE(said.empty()) << said[0];
+  fluid.world.removeAction(&second);
+}
+
 }  // namespace
 }  // namespace ambient::test

@@ -13,12 +13,17 @@ std::shared_ptr<const FluidBody> sphere() {
   return std::make_shared<const FluidBody>(body);
 }
 
+std::shared_ptr<const PackedFaces> packed(LoadTables& tables,
+                                          const std::shared_ptr<const FluidBody>& body) {
+  return tables.packedFaces({body, &body->faces}, PressureLaw::kPublished);
+}
+
 TEST(LoadTables, HaveOneTablePerFluidBody) {
   LoadTables tables;
   const auto body = sphere(), same = sphere();
-  const auto faces = tables.packedFaces(body, PressureLaw::kPublished);
-  EXPECT_EQ(tables.packedFaces(body, PressureLaw::kPublished), faces);
-  EXPECT_NE(tables.packedFaces(same, PressureLaw::kPublished), faces);
+  const auto faces = packed(tables, body);
+  EXPECT_EQ(packed(tables, body), faces);
+  EXPECT_NE(packed(tables, same), faces);
 }
 
 TEST(LoadTables, TakeNoOtherFluidBodyAtTheSameAddressForTheOldOne) {
@@ -27,19 +32,28 @@ TEST(LoadTables, TakeNoOtherFluidBodyAtTheSameAddressForTheOldOne) {
   const auto keepPlace = [](const FluidBody*) {};
   place.faces = sphere()->faces;
   std::shared_ptr<const FluidBody> body(&place, keepPlace);
-  const auto before = tables.packedFaces(body, PressureLaw::kPublished);
+  const auto before = packed(tables, body);
   body.reset();
   place.faces = test::faceTableOf(test::geodesicSphere(0));
   body.reset(&place, keepPlace);
-  EXPECT_EQ(tables.packedFaces(body, PressureLaw::kPublished)->size(), 20u);
+  EXPECT_EQ(packed(tables, body)->size(), 20u);
   EXPECT_EQ(before->size(), 80u);
 }
 
 TEST(LoadTables, KeepNoFacesThatNobodyUses) {
   LoadTables tables;
   const auto body = sphere();
-  const std::weak_ptr<const PackedFaces> faces = tables.packedFaces(body, PressureLaw::kPublished);
+  const std::weak_ptr<const PackedFaces> faces = packed(tables, body);
   EXPECT_TRUE(faces.expired());
+}
+
+TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
+  LoadTables tables;
+  FluidBody body = *sphere();
+  body.faces.sharpness.assign(body.faces.size(), 0.5);
+  const auto sharp = std::make_shared<const FaceTable>(body.faces);
+  EXPECT_EQ(tables.packedFaces(sharp, PressureLaw::kPublished)->blocks().sharpness, nullptr);
+  EXPECT_NE(tables.packedFaces(sharp, PressureLaw::kForm)->blocks().sharpness, nullptr);
 }
 
 TEST(LoadTables, KeepAnUnusedSphereTableUntilTheNext) {

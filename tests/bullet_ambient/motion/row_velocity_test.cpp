@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/ellipsoid_body.h"
 #include "tests/support/free_body.h"
 #include "tests/support/random_bodies.h"
@@ -12,10 +14,11 @@ namespace {
 using test::Arbitrary;
 using test::FreeBody;
 
-Vector6 rowChange(const FreeBody& body, double step) {
-  return computeRowVelocity({body.model(), body.surroundings, body.settings, step}, body.state)
-      .change_W.vector();
+RowVelocity rowOf(const FreeBody& body, double step) {
+  return computeRowVelocity({body.model(), body.surroundings, body.settings, step}, body.state);
 }
+
+Vector6 rowChange(const FreeBody& body, double step) { return rowOf(body, step).change_W.vector(); }
 
 FreeBody spinningBody(unsigned seed, double spin) {
   Arbitrary arbitrary(seed);
@@ -33,14 +36,23 @@ TEST(RowVelocity, IsTheAccelerationAtTheStartTimesTheStep) {
   }
 }
 
-TEST(RowVelocity, ApproachesTheAccelerationToFirstOrderWhereItIsStiff) {
-  // Beyond |w| dt = 0.5 the implicit midpoint takes over; it agrees to first order in the step.
+TEST(RowVelocity, HasHalfOfTheTurnUntilItFadesOut) {
+  constexpr double kSpin = 10;
+  bool has_whole = false, has_part = false, has_none = false;
   for (unsigned seed = 0; seed < 10; ++seed) {
-    const FreeBody body = spinningBody(seed, 1e4);
-    const Vector6 unit = rowChange(body, 1e-9) / 1e-9;
-    const double coarse = (rowChange(body, 0.51e-4) / 0.51e-4 - unit).norm() / unit.norm();
-    EXPECT_LT(coarse, 1) << seed;
+    const FreeBody body = spinningBody(seed, kSpin);
+    const Vector6 half = rowOf(body, 1e-9).turning_W.vector() / 1e-9;
+    for (const double step : {1e-3, 0.01, 0.02, 0.03, 0.051}) {
+      const RowVelocity row = rowOf(body, step);
+      const double share = std::clamp(2 * (1 - row.extent), 0.0, 1.0);
+      EXPECT_GE(row.extent, (1 - 1e-12) * kSpin * step / 0.5);
+      EXPECT_LT((row.turning_W.vector() - share * step * half).norm(), 1e-12 * step * half.norm());
+      has_whole |= share == 1;
+      has_part |= share > 0 && share < 1;
+      has_none |= share == 0;
+    }
   }
+  EXPECT_TRUE(has_whole && has_part && has_none);
 }
 
 TEST(RowVelocity, OfAFastSpinStaysBounded) {

@@ -59,6 +59,15 @@ class ScriptsTest(unittest.TestCase):
             text = self.refusal(script, self.folder / "run", "-o", self.folder / "out")
             self.assertEqual(text, f"{self.folder / 'run'}: is not a folder of results of ambient_demo")
 
+    def test_missing_measurements_and_results_are_named(self):
+        measurements = DEMOS.parent / "data/reality/measurements.json"
+        for arguments, missing in (
+            ((self.folder / "nosuch", self.folder), self.folder / "nosuch"),
+            ((measurements, self.folder), self.folder / "coefficients.csv"),
+        ):
+            text = self.refusal("plot/plot_reality.py", *arguments, "-o", self.folder)
+            self.assertEqual(text, f"{missing}: No such file or directory")
+
     def test_unwritable_pictures_are_named(self):
         table = self.write("table.csv", WORK_PRECISION)
         picture = self.folder / "nosuch" / "out.png"

@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/surface_loads.h"
@@ -242,6 +243,46 @@ TEST(FormLaw, IsContinuousWhereAFaceTurnsItsBack) {
     const Vector3 side = loadInTranslation(cube(), v).force;
     EXPECT_LT(std::abs(side.x()), 2 * tilt);
   }
+}
+
+TEST(MeasuredDrag, IsWhatABodyThenHas) {
+  FluidBody body = bodyOf(makeBoxMesh({1, 0.3, 0.5}, 400));
+  body.drag = {0.8, 1.4, 1.05};
+  const Vector3 areas(4 * 0.3 * 0.5, 4 * 0.5, 4 * 0.3);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double way : {2.0, -2.0})
+      EXPECT_NEAR(dragCoefficient(body, way * Vector3::Unit(axis), areas[axis]), body.drag[axis],
+                  1e-12);
+}
+
+TEST(MeasuredDrag, TakesEnergyInEveryMotion) {
+  FluidBody body = bodyOf(makeConeMesh(1, 2, 400));
+  body.drag = {0.2, 3, 0.5};
+  std::mt19937 generator(9);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] {
+    return Vector3(normal(generator), normal(generator), normal(generator));
+  };
+  LoadTables tables;
+  const auto loads =
+      makeSurfaceLoads(std::make_shared<FluidBody>(body), kUnitFluid, formLaw(), tables);
+  for (int i = 0; i < 10000; ++i) {
+    const Twist x{vector(), vector()};
+    EXPECT_LT(power(loads->load(x), x), 0);
+    const Twist twice{2 * x.angular, 2 * x.linear};  // of degree 2
+    EXPECT_LE((loads->load(twice).vector() - 4 * loads->load(x).vector()).norm(),
+              1e-12 * loads->load(twice).vector().norm());
+  }
+}
+
+TEST(MeasuredDrag, IsRefusedIfNotPositive) {
+  FluidBody body = cube();
+  body.drag = {1, 0, 1};
+  EXPECT_THROW(checkFluidBody(body, "cube"), std::runtime_error);
+  body.drag = {1, -1, 1};
+  EXPECT_THROW(checkFluidBody(body, "cube"), std::runtime_error);
+  body.drag = {1, 2, 1};
+  EXPECT_EQ(decodeFluidBody(encodeFluidBody(body, "cube"), "cube").drag, body.drag);
 }
 
 TEST(FormLawFaces, OfABoxAreGaussPoints) {

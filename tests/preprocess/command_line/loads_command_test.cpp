@@ -86,6 +86,21 @@ TEST_F(CommandLine, LoadsOfTheFormLawPressOnAFlatFace) {
       << refused.errors;
 }
 
+TEST_F(CommandLine, LoadsOfTheFormLawHaveTheMeasuredDrag) {
+  const std::string box = write("box.json", R"({"type":"box","size":[1,1,1]})");
+  resultOf({"build", box, "-o", path("b.ambient"), "--panels", "0", "--drag", "1.05", "--json"});
+  const json loads = resultOf({"loads", path("b.ambient"), "--twist", "0", "0", "0", "0", "2", "0",
+                               "--density", "3", "--law", "form", "--json"});
+  EXPECT_NEAR(loads["total"][4].get<double>(), -1.05 * 0.5 * 3 * 2 * 2, 1e-12);
+  const ProgramResult two =
+      run({"build", box, "-o", path("b.ambient"), "--panels", "0", "--drag", "1,2"});
+  EXPECT_NE(two.errors.find("--drag: 2 numbers are neither one nor three"), std::string::npos)
+      << two.errors;
+  const ProgramResult ball =
+      run({"build", write("ball.json", sphereText()), "-o", path("ball.ambient"), "--drag", "0.2"});
+  EXPECT_NE(ball.errors.find("--drag needs faces"), std::string::npos) << ball.errors;
+}
+
 TEST_F(CommandLine, LoadsPrintATable) {
   resultOf({"build", write("ball.json", sphereText()), "-o", path("b.ambient"), "--json"});
   const ProgramResult loads =

@@ -1,0 +1,121 @@
+#include "preprocess/reduced_loads/form_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/force/load_tables.h"
+#include "bullet_ambient/force/surface_loads.h"
+#include "tests/support/ellipsoid_body.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+/// An ellipsoid between round and flat, off the origin.
+FluidBody ellipsoid(int level = 3) {
+  FluidBody body = test::meshedEllipsoid({0.5, 0.3, 0.1}, level);
+  for (std::size_t i = 0; i < body.faces.size(); ++i) {
+    body.faces.sharpness.push_back(std::abs(body.faces.normal_z[i]));
+    body.faces.centroid_x[i] += 2;
+  }
+  return body;
+}
+
+Twist someTwist(test::Arbitrary& arbitrary, double length) {
+  const double angle = arbitrary.between(0, std::acos(0.0));
+  const Vector3 w = std::sin(angle) / length * arbitrary.vector().normalized();
+  const Vector3 v = std::cos(angle) * arbitrary.vector().normalized();
+  return {w, v - w.cross(Vector3(2, 0, 0))};  // of the middle of the body
+}
+
+Vector6 pressureOn(const FaceTable& faces, const Twist& x) {
+  const LoadSettings settings{1.2, 0, 0, false, PressureLaw::kForm};
+  return computeFaceLoads(faces, 1, x, settings).pressure.vector();
+}
+
+TEST(FormLevels, HaveTheErrorThatTheyState) {
+  const FluidBody body = ellipsoid();
+  double before = 1;
+  for (const FormLevel& level : buildFormLevels(body, {48, 96, 200})) {
+    EXPECT_LT(level.p99_error, 0.6 * before) << level.faces.size();
+    before = level.p99_error;
+    test::Arbitrary arbitrary(5);
+    constexpr double kLength = 0.35;  // root mean square distance from the middle
+    std::vector<double> errors;
+    for (int i = 0; i < 1000; ++i) {
+      const Twist x = someTwist(arbitrary, kLength);
+      double scale = 0;
+      for (std::size_t face = 0; face < body.faces.size(); ++face)
+        scale += 0.6 * body.faces.area[face] * x.at(body.faces.centroid(face)).squaredNorm();
+      Vector6 error = pressureOn(level.faces, x) - pressureOn(body.faces, x);
+      const Vector3 torque = error.head<3>() - Vector3(2, 0, 0).cross(error.tail<3>());
+      error.head<3>() = torque / kLength;
+      errors.push_back(error.norm() / scale);
+    }
+    std::sort(errors.begin(), errors.end());
+    EXPECT_NEAR(errors[990], level.p99_error, 0.3 * level.p99_error);
+  }
+  EXPECT_LT(before, 0.01);
+}
+
+TEST(FormLevels, TakeEnergyInEveryMotion) {
+  const FluidBody body = ellipsoid();
+  const FormLevel level = buildFormLevels(body, {48}).front();
+  test::Arbitrary arbitrary(6);
+  for (int i = 0; i < 10000; ++i) {
+    const Twist x = someTwist(arbitrary, 0.35);
+    EXPECT_LT(pressureOn(level.faces, x).dot(x.vector()), 0);
+  }
+}
+
+TEST(FormLevels, AreUsedWhereTheirErrorIsAllowed) {
+  FluidBody body = ellipsoid();
+  body.form_levels = buildFormLevels(body, {48, 96, 200, 100000});
+  ASSERT_EQ(body.form_levels.size(), 3u) << "no level has more faces than the body";
+  const auto shared = std::make_shared<FluidBody>(body);
+  FlowSettings flow;
+  flow.law = PressureLaw::kForm;
+  LoadTables tables;
+  const auto facesAt = [&](double error) {
+    flow.maximum_load_error = error;
+    return makeSurfaceLoads(shared, air(), flow, tables)->faces();
+  };
+  EXPECT_EQ(facesAt(0), static_cast<int>(body.faces.size()));
+  EXPECT_EQ(facesAt(body.form_levels[2].p99_error),
+            static_cast<int>(body.form_levels[2].faces.size()));
+  EXPECT_EQ(facesAt(1), static_cast<int>(body.form_levels[0].faces.size()));
+  flow.law = PressureLaw::kPublished;
+  EXPECT_EQ(facesAt(1), static_cast<int>(body.faces.size()));
+}
+
+TEST(FormLevels, AreKeptInFilesAndScaled) {
+  FluidBody body = ellipsoid(1);
+  body.form_levels = buildFormLevels(body, {16});
+  const FluidBody back = decodeFluidBody(encodeFluidBody(body, "a"), "a");
+  ASSERT_EQ(back.form_levels.size(), 1u);
+  const FormLevel &here = body.form_levels[0], &there = back.form_levels[0];
+  EXPECT_EQ(there.p99_error, here.p99_error);
+  EXPECT_EQ(there.faces.centroid_x, here.faces.centroid_x);
+  EXPECT_EQ(there.faces.sharpness, here.faces.sharpness);
+  const FormLevel large = scaled(body, 2).form_levels[0];
+  for (std::size_t i = 0; i < large.faces.size(); ++i) {
+    EXPECT_EQ(large.faces.centroid(i), 2 * here.faces.centroid(i));
+    EXPECT_EQ(large.faces.area[i], 4 * here.faces.area[i]);
+  }
+}
+
+TEST(FormLevels, NeedFacesThatAreApart) {
+  FluidBody body;
+  body.name = "point";
+  body.faces.add({0, 0, 1}, {1, 2, 3}, 1);
+  body.faces.sharpness = {1};
+  EXPECT_THROW(buildFormLevels(body, {16}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ambient
