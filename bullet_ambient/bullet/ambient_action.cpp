@@ -1,6 +1,7 @@
 #include "bullet_ambient/bullet/ambient_action.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include <utility>
 
@@ -68,7 +69,9 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     if (kind == Outcome::kStock || !isStillIn(*world, bodies, *ambient)) continue;
     complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }
-  if (isSolverMissing(*world)) bodies.complaints.say(Complaint::kNoSolver);
+  if (!isSolverMissing(*world)) return;
+  const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
+  bodies.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);
 }
 
 void AmbientAction::debugDraw(btIDebugDraw* drawer) {

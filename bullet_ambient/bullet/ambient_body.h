@@ -5,6 +5,7 @@
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/step_errors.h"
 #include "bullet_ambient/bullet/substep_outcome.h"
 #include "bullet_ambient/bullet/velocity_basis.h"
 #include "bullet_ambient/force/load_tables.h"
@@ -27,6 +28,7 @@ struct AmbientBody {
   FlightMemory memory;
   Twist left_W;  ///< velocity after the last flight, world axes
   AmbientCounters counters;
+  StepErrors step_errors;
   SubstepOutcome outcome;
 
   bool isInFluid() const { return def.medium.density > 0; }

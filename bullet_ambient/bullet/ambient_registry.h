@@ -67,9 +67,9 @@ class AmbientRegistry {
   AmbientCounters counters() const;
 
   /// Receives one sentence the first time something cannot be right: the action or the solver is
-  /// missing from the world, a step's result was not finite, a step was too long for a motion, a
-  /// body was attached whose moments of inertia no rigid body has, or whose fluid body is empty.
-  /// Default: standard error.
+  /// missing from the world, a step's result was not finite, a body was attached whose moments of
+  /// inertia no rigid body has, or whose fluid body is empty; and one of each body for whose motion
+  /// steps are so long that it is wrong by some per cent. Default: standard error.
   void setReport(std::function<void(const std::string&)> report);
 
   /// Flies the bodies of one group of the solver on the runner's threads; they end with the same

@@ -1,6 +1,10 @@
 #include "bullet_ambient/bullet/complaints.h"
 
+#include <string>
 #include <utility>
+
+#include "bullet_ambient/bullet/attach_def.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -15,22 +19,35 @@ const char* sentenceOf(Complaint complaint) {
       return "bullet_ambient: bodies in fluid are awake but their AmbientSolver was not called; "
              "call Fluid::attachTo(world), construct the world with the solver or call "
              "world->setConstraintSolver(&solver)";
+    case Complaint::kNoMultiBodySolver:
+      return "bullet_ambient: bodies in fluid are awake but their AmbientSolver was not called: "
+             "setConstraintSolver does not reach the bodies of a btMultiBodyDynamicsWorld; call "
+             "world->setMultiBodyConstraintSolver(&solver) with an "
+             "AmbientSolver<btMultiBodyConstraintSolver>, or Fluid::attachTo(world)";
     case Complaint::kNotFinite:
       return "bullet_ambient: a velocity, force or result of a body in fluid is not finite; the "
              "body kept its velocity or, where that is not finite, stopped";
     case Complaint::kNotPhysical:
       return "bullet_ambient: the mass properties of a body in fluid were changed to values that "
              "are not physical; it moves as in a vacuum until they are valid again";
-    case Complaint::kCoarse:
-      return "bullet_ambient: a step was too long for the motion of a body in fluid: its error "
-             "stayed above the tolerance at the largest number of substeps; raise "
-             "FlightSettings::max_substeps, or take shorter steps of the world";
     case Complaint::kInertia:  // these name the body
     case Complaint::kEmpty:
     case Complaint::kCount:
       break;
   }
   return "";
+}
+
+std::string tooLong(const AttachDef& def) {
+  const std::string sentence =
+      "bullet_ambient: the world's step is too long for the motion of a body with fluid body '" +
+      def.fluid_body->name +
+      "': errors of its velocity add up to more than 5 per cent; take shorter steps, or allow it "
+      "more substeps, say "
+      "flight.max_substeps = 256";
+  const bool may_chatter = def.flow.law == PressureLaw::kPublished && !def.flow.own_law;
+  if (!may_chatter) return sentence;
+  return sentence + "; if it has flat sides, flow.law = PressureLaw::kForm needs neither";
 }
 
 }  // namespace
@@ -43,6 +60,14 @@ void Complaints::say(Complaint complaint, const char* sentence) noexcept {
     if (report) report(sentence);
   } catch (...) {
     // A user's callback that throws must not unwind through Bullet's solver.
+  }
+}
+
+void Complaints::sayTooLong(const AttachDef& def) noexcept {
+  try {
+    if (report) report(tooLong(def));
+  } catch (...) {
+    // As above.
   }
 }
 

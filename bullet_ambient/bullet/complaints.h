@@ -8,24 +8,28 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+struct AttachDef;
+
 /// What cannot be right.
 enum class Complaint {
   kNoAction,
   kNoSolver,
+  kNoMultiBodySolver,
   kNotFinite,
   kNotPhysical,
-  kCoarse,
   kInertia,
   kEmpty,
   kCount
 };
 
-/// Says each complaint once.
+/// Says each complaint once, but for those that are said once of each body.
 class Complaints {
  public:
   /// In a sentence that fits all bodies, or in one that names the body.
   void say(Complaint complaint) noexcept;
   void say(Complaint complaint, const char* sentence) noexcept;
+  /// Of a body whose steps are too long.
+  void sayTooLong(const AttachDef& def) noexcept;
 
   std::function<void(const std::string&)> report;  ///< null: nobody hears
 

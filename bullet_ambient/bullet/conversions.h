@@ -4,6 +4,9 @@
 #include <LinearMath/btQuaternion.h>
 #include <LinearMath/btVector3.h>
 
+#include <cmath>
+#include <limits>
+
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
@@ -15,6 +18,18 @@ inline Vector3 toVector3(const btVector3& v) {
 }
 inline btVector3 toBullet(const Vector3& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+}
+
+/// The least velocity [m/s] or [rad/s] that reaches Bullet. Below it the square of half the turn in
+/// a step is a subnormal number, on which processors compute many times slower.
+inline double leastVelocity(double time_step) {
+  return 2 * std::sqrt(static_cast<double>(std::numeric_limits<btScalar>::min())) / time_step;
+}
+/// Without components below leastVelocity(). What is not finite stays.
+inline Twist withoutTraces(const Twist& change, double time_step) {
+  const double least = leastVelocity(time_step);
+  const auto pick = [&](double a) { return std::abs(a) < least ? 0 : a; };
+  return {change.angular.unaryExpr(pick), change.linear.unaryExpr(pick)};
 }
 
 /// Unit to double rounding, also from float32 quaternions.

@@ -69,6 +69,7 @@ void computeArrivals(const Departures& departures, const Flight* const* flights,
                      double time_step, Arrivals& arrivals) {
   ArrivalLanes lanes{};
   lanes.duration = time_step;
+  lanes.least = leastVelocity(time_step);
   for (int i = 0; i < count; ++i) {
     const RigidState &start = departures.states[i], &end = flights[i]->body.state;
     setLane(lanes.start_orientation, i, start.orientation);
@@ -103,7 +104,8 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, d
   add(flight.count, ambient);
   FlightEnd& end = ambient.outcome.flight;
   // Who sets a bound of substeps has chosen what is too long.
-  end.is_too_long = flight.count.coarse && ambient.def.flight.max_substeps == 0;
+  end.is_too_long =
+      ambient.step_errors.add(flight.count.error) && ambient.def.flight.max_substeps == 0;
   if (!fitsBullet(flight.state, end_W)) {
     ambient.outcome.kind = Outcome::kAdrift;
     ++ambient.counters.rejected;

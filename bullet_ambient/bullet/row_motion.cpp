@@ -103,7 +103,7 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
     end = twistOf(ambient.model, *rows.momentum, now.orientation, position).vector();
   }
   if (rows.energy_bound) end = withinEnergy(ambient.model, moved, end, *rows.energy_bound);
-  const Twist change_W = turnedBy(now.orientation, end - moved);
+  const Twist change_W = withoutTraces(turnedBy(now.orientation, end - moved), time_step);
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
     complaints.say(Complaint::kNotFinite);

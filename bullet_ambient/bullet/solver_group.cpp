@@ -197,7 +197,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
     bodies_.complaints.say(Complaint::kNotFinite);
     row.change_W = row.turning_W = {};
   }
-  setExternalImpulse(solver_body, row.change_W);
+  setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
 
   RowBody& row_body = row_bodies_->add(member.solver_body);
   row_body.turning_W = row.turning_W;
@@ -336,7 +336,7 @@ void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
   for (const Member* flier : fliers_) {
     const SubstepOutcome& outcome = flier->ambient->outcome;
     if (outcome.kind != Outcome::kFlown) bodies_.complaints.say(Complaint::kNotFinite);
-    if (outcome.flight.is_too_long) bodies_.complaints.say(Complaint::kCoarse);
+    if (outcome.flight.is_too_long) bodies_.complaints.sayTooLong(flier->ambient->def);
   }
   fliers_.clear();
 }

@@ -35,7 +35,7 @@ struct FlightEnd {
   Twist twist_W;
   Twist effective_W;         ///< constant twist that Bullet integrates onto the end pose
   double length_scale = 0;   ///< lengths whose rounding the end position carries [m]
-  bool is_too_long = false;  ///< the step was, for the tolerance and as many substeps as there are
+  bool is_too_long = false;  ///< steps are, which has become clear in this one
 };
 
 /// What a substep did to one body: written by the solver, taken once by the action.

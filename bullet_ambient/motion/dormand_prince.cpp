@@ -149,6 +149,7 @@ FlightResult flyDormandPrince(const FlightTask& task, const RigidState& start,
     flight.count.load_evaluations += rest.body.count.load_evaluations;
     flight.count.guarded += rest.body.count.guarded;
     flight.count.coarse = true;
+    flight.count.error = 1;
   }
   flight.memory = {};
   flight.memory.substep = h;

@@ -64,6 +64,7 @@ struct alignas(64) ArrivalLanes {
   FlightLane start_orientation[4], start_position[3];
   FlightLane orientation[4], position[3], twist_B[6];
   double duration;  ///< > 0
+  double least;     ///< components of the results below it are 0; >= 0
 
   FlightLane twist_W[6];  ///< result: at the end
   FlightLane mean_W[6];   ///< result: constant twist that takes the start to the end, by at most

@@ -159,8 +159,9 @@ class Leapfrog {
       FlightResult& result = way.flight->body;
       result.state = stateOf(lanes_, i, result.state.position);
       result.memory = {wrenchOf(lanes_.load_W, i), way.has_load, std::min(next, 4 * h)};
-      result.count.coarse =
-          lanes_.is_coarse[i] > 0 || (ratio > kAcceptance && way.substeps == way.most);
+      const bool is_flow_coarse = lanes_.is_coarse[i] > 0;
+      result.count.coarse = is_flow_coarse || (ratio > kAcceptance && way.substeps == way.most);
+      if (result.count.coarse) result.count.error = is_flow_coarse ? 1 : way.error;
       way.is_done = true;
       return;
     }

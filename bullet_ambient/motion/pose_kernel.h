@@ -58,17 +58,30 @@ inline void depart(DepartureLanes& bodies) noexcept {
   }
 }
 
+/// What is not finite stays.
+inline Lanes withoutTraces(const Lanes& a, const Lanes& least) {
+  return larger(a, -a) < least ? Lanes{} : a;
+}
+inline Vectors withoutTraces(const Vectors& a, const Lanes& least) {
+  return {withoutTraces(a.x, least), withoutTraces(a.y, least), withoutTraces(a.z, least)};
+}
+inline Spatials withoutTraces(const Spatials& a, const Lanes& least) {
+  return {withoutTraces(a.angular, least), withoutTraces(a.linear, least)};
+}
+
 inline void arrive(ArrivalLanes& bodies) noexcept {
-  const Lanes per_duration = all(1 / bodies.duration);
+  const Lanes per_duration = all(1 / bodies.duration), least = all(bodies.least);
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Orientations q{load(bodies.orientation, at), load(bodies.orientation[3] + at)};
     const Spatials twist_B = load6(bodies.twist_B, at);
-    store6(bodies.twist_W, at, {q.toWorld(twist_B.angular), q.toWorld(twist_B.linear)});
+    const Spatials twist_W{q.toWorld(twist_B.angular), q.toWorld(twist_B.linear)};
+    store6(bodies.twist_W, at, withoutTraces(twist_W, least));
     const Orientations start_inverse{zeroVectors() - load(bodies.start_orientation, at),
                                      load(bodies.start_orientation[3] + at)};
     const Vectors turn = rotationVectors(normalized(q * start_inverse));
     const Vectors way = load(bodies.position, at) - load(bodies.start_position, at);
-    store6(bodies.mean_W, at, {per_duration * turn, per_duration * way});
+    const Spatials mean_W{per_duration * turn, per_duration * way};
+    store6(bodies.mean_W, at, withoutTraces(mean_W, least));
   }
 }
 

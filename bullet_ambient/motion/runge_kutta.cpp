@@ -30,6 +30,7 @@ FlightResult flyRungeKutta(const FlightTask& task, const RigidState& start) noex
   FlightResult flight{start, {}, {}};
   flight.count.substeps = substeps;
   flight.count.coarse = wanted > most;
+  flight.count.error = flight.count.coarse ? 1 : 0;
   const MomentumEquations equations(task, start, flight.count);
   MomentumPhase s = equations.start();
   for (int i = 0; i < substeps; ++i) s = step(equations, s, task.duration / substeps);

@@ -14,6 +14,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bullet_ambient/ambient.h"
 #include "tests/support/ellipsoid_body.h"
@@ -100,6 +101,29 @@ TEST_F(FluidFacade, TakesAMultiBodyWorldThatHadAnotherSolver) {
   fluid.attachTo(world);
   stock.reset();
   expectRiseIn(world, fluid);
+}
+
+// It solves its bodies by a solver of its own that only setMultiBodyConstraintSolver() replaces,
+// and calls the one that setConstraintSolver() gives for nothing that would know the world.
+TEST_F(FluidFacade, IsToldHowAMultiBodyWorldTakesASolver) {
+  btMultiBodyConstraintSolver stock;
+  btMultiBodyDynamicsWorld world(&dispatcher, &broadphase, &stock, &configuration);
+  Fluid<btMultiBodyConstraintSolver> fluid;
+  std::vector<std::string> said;
+  fluid.registry().setReport([&](const std::string& sentence) { said.push_back(sentence); });
+  world.addAction(&fluid.action());
+  world.setConstraintSolver(&fluid.solver());
+  world.addRigidBody(&body);
+  fluid.add(body, inWater());
+  for (int i = 0; i < 5; ++i) world.stepSimulation(kTimeStep, 0, kTimeStep);
+  EXPECT_EQ(fluid.registry().counters(body).substeps, 0);
+  ASSERT_EQ(said.size(), 1u);
+  expectNames(said[0], "call world->setMultiBodyConstraintSolver(&solver)");
+  world.setMultiBodyConstraintSolver(&fluid.solver());
+  for (int i = 0; i < 5; ++i) world.stepSimulation(kTimeStep, 0, kTimeStep);
+  EXPECT_GE(fluid.registry().counters(body).substeps, 5);
+  EXPECT_EQ(said.size(), 1u);
+  world.removeRigidBody(&body);
 }
 
 TEST_F(FluidFacade, LeavesTheSolversOfAPool) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/motion/rotation.h"
@@ -105,6 +106,28 @@ TEST_P(PoseKernels, GiveTheVelocitiesThatReachTheEnd) {
   EXPECT_LT((from + 0.02 * mean.linear - to).norm(), 1e-15);
   EXPECT_LT((twist_W.angular - end * twist.angular).norm(), 1e-14);
   EXPECT_LT((twist_W.linear - end * twist.linear).norm(), 1e-14);
+}
+
+TEST_P(PoseKernels, LeaveOutVelocitiesBelowTheLeast) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  ArrivalLanes lanes{};
+  lanes.duration = 0.5;
+  lanes.least = 1e-6;
+  setLane(lanes.start_orientation, 2, Quaternion::Identity());
+  setLane(lanes.orientation, 2, Quaternion::Identity());
+  setLane(lanes.position, 2, Vector3(-0.49e-6, 0.51e-6, 0));
+  const Twist twist{Vector3(-0.99e-6, -1.01e-6, kNaN), Vector3(1.01e-6, 0.99e-6, 1)};
+  setLane(lanes.twist_B, 2, twist);
+  kernel_->arrive(lanes);
+  const Twist mean = twistOf(lanes.mean_W, 2);
+  EXPECT_EQ(mean.linear.x(), 0);
+  EXPECT_EQ(mean.linear.y(), 0.51e-6 / lanes.duration);
+  EXPECT_TRUE(std::isnan(lanes.twist_W[2][2]));
+  lanes.twist_B[2][2] = 0;
+  kernel_->arrive(lanes);
+  const Twist end = twistOf(lanes.twist_W, 2);
+  EXPECT_EQ(end.angular, Vector3(0, -1.01e-6, 0));
+  EXPECT_EQ(end.linear, Vector3(1.01e-6, 0, 1));
 }
 
 TEST_P(PoseKernels, HaveTheBitsOfTheBaseline) {

@@ -1,0 +1,68 @@
+#include "bullet_ambient/bullet/step_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+namespace ambient::test {
+namespace {
+
+/// How many of some steps of one error are within what is allowed.
+int stepsBeforeLarge(double error, int most) {
+  StepErrors errors;
+  for (int i = 0; i < most; ++i)
+    if (errors.add(error)) return i;
+  return most;
+}
+
+TEST(StepErrors, OneLargeStepIsTooMuch) {
+  EXPECT_EQ(stepsBeforeLarge(1.01 * StepErrors::kLargest, 10), 0);
+  EXPECT_EQ(stepsBeforeLarge(0.99 * StepErrors::kLargest, 10), 1);
+}
+
+// They tend to the square root of 64 times one of them.
+TEST(StepErrors, SmallOnesAddUpToEightTimesOne) {
+  EXPECT_LT(stepsBeforeLarge(1.01 / 8 * StepErrors::kLargest, 10000), 500);
+  EXPECT_EQ(stepsBeforeLarge(0.99 / 8 * StepErrors::kLargest, 10000), 10000);
+}
+
+TEST(StepErrors, AreForgotten) {
+  StepErrors errors;
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_FALSE(errors.add(0.8 * StepErrors::kLargest)) << i;
+    for (int calm = 0; calm < 256; ++calm) errors.add(0);
+  }
+}
+
+TEST(StepErrors, AreToldOnce) {
+  StepErrors errors;
+  EXPECT_TRUE(errors.add(1));
+  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(errors.add(i % 2));
+}
+
+TEST(StepErrors, AreReportedOnceOfEachBody) {
+  FluidWorld fluid;
+  std::vector<std::string> said;
+  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  const Vector3 semi_axes(0.05, 0.05, 0.01);
+  BodyDef def{2e-4, ellipsoidMoments(semi_axes, 2e-4), {}, nullptr};
+  def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};
+  FluidBody shape = meshedEllipsoid(semi_axes, 2);
+  for (const char* name : {"feather", "flake"}) {
+    shape.name = name;
+    fluid.add(def, shape, air());
+  }
+  fluid.step(1.0 / 60, 60);
+  ASSERT_EQ(said.size(), 2u);
+  for (const char* name : {"'feather'", "'flake'"})
+    EXPECT_EQ((said[0].find(name) != std::string::npos) + (said[1].find(name) != std::string::npos),
+              1)
+        << name;
+  EXPECT_NE(said[0].find("take shorter steps"), std::string::npos) << said[0];
+}
+
+}  // namespace
+}  // namespace ambient::test

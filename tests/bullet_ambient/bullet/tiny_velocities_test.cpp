@@ -1,0 +1,116 @@
+// Numbers so small that Bullet would compute on subnormal ones.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr double kStep = 1.0 / 60;
+constexpr double kRadius = 0.1;
+
+// Its square is the smallest number that is not subnormal.
+const double kTiny = std::sqrt(static_cast<double>(std::numeric_limits<btScalar>::min()));
+
+bool isTiny(const btVector3& v) {
+  for (int i = 0; i < 3; ++i)
+    if (v[i] != 0 && static_cast<double>(btFabs(v[i])) < kTiny) return true;
+  return false;
+}
+bool moves(const btVector3& v) { return !(v == btVector3(0, 0, 0)); }
+
+FluidBody ball(double radius) {
+  FluidBody shape = facelessEllipsoid(Vector3::Constant(radius));
+  shape.sphere_radius = radius;
+  return shape;
+}
+
+BodyDef ballOf(double mass, double radius) {
+  return {mass, ellipsoidMoments(Vector3::Constant(radius), mass), {}, nullptr};
+}
+
+// Rounding of friction and pressure spins it by 1e-22 rad/s: subnormal where it is squared.
+TEST(TinyVelocity, ABallThatFallsInWaterDoesNotSpinByRounding) {
+  FluidWorld fluid;
+  fluid.world.setGravity({0, bt(-9.81), 0});
+  const btRigidBody& body = fluid.add(ballOf(5, kRadius), ball(kRadius), water());
+  for (int i = 0; i < 600; ++i) {
+    fluid.step(kStep);
+    ASSERT_FALSE(isTiny(body.getAngularVelocity())) << i;
+    ASSERT_FALSE(isTiny(body.getLinearVelocity())) << i;
+  }
+  EXPECT_GT(body.getLinearVelocity().length(), 1);
+}
+
+TEST(TinyVelocity, BuoyancyBesideTheCentreOfMassByATraceTurnsNothing) {
+  FluidWorld fluid;
+  fluid.world.setGravity({0, bt(-9.81), 0});
+  FluidBody shape = facelessEllipsoid(Vector3::Constant(kRadius));
+  shape.centre_of_volume = {kTiny * 1e-6, 0, 2e-6 * kTiny};
+  const btRigidBody& body = fluid.add(ballOf(5, kRadius), shape, water());
+  for (int i = 0; i < 600; ++i) {
+    fluid.step(kStep);
+    ASSERT_FALSE(moves(body.getAngularVelocity())) << i;
+  }
+}
+
+TEST(TinyVelocity, ATorqueOfATraceDoesNotTurnABodyWithRows) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add(ballOf(5, kRadius), ball(kRadius), water());
+  btPoint2PointConstraint joint(body, btVector3(0, 0, 0));
+  fluid.world.addConstraint(&joint);
+  for (int i = 0; i < 10; ++i) {
+    body.applyTorque({bt(kTiny * 1e-6), 0, 0});
+    fluid.step(kStep);
+    EXPECT_FALSE(moves(body.getAngularVelocity())) << i;
+  }
+  fluid.world.removeConstraint(&joint);
+}
+
+TEST(TinyVelocity, WhatCountsIsNotTouched) {
+  FluidWorld fluid;
+  btRigidBody& body = fluid.add(ballOf(5, kRadius), ball(kRadius), water());
+  const double spin = 1e6 * kTiny;
+  body.setAngularVelocity({bt(spin), 0, 0});
+  fluid.step(kStep, 10);
+  EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().x()) / spin, 1, 1e-3);
+}
+
+// Newton's cradle in air: five steel balls side by side, the first is let go from 40 degrees.
+TEST(TinyVelocity, NewtonsCradleHasNone) {
+  constexpr double kBall = 0.05, kLength = 1, kAngle = 0.7;
+  FluidWorld fluid;
+  fluid.world.setGravity({0, bt(-9.81), 0});
+  btSphereShape shape(bt(kBall));
+  std::vector<btRigidBody*> balls;
+  std::vector<std::unique_ptr<btPoint2PointConstraint>> strings;
+  for (int i = 0; i < 5; ++i) {
+    const double angle = i == 0 ? kAngle : 0;
+    const Vector3 rod(std::sin(angle), std::cos(angle), 0);
+    BodyDef def = ballOf(4, kBall);
+    def.shape = &shape;
+    def.start.position = Vector3(2 * kBall * i, 0, 0) - kLength * rod;
+    balls.push_back(&fluid.add(def, ball(kBall), air()));
+    balls.back()->setRestitution(1);
+    strings.push_back(
+        std::make_unique<btPoint2PointConstraint>(*balls.back(), toBullet(kLength * rod)));
+    fluid.world.addConstraint(strings.back().get());
+  }
+  for (int i = 0; i < 600; ++i) {
+    fluid.step(kStep);
+    for (const btRigidBody* body : balls) {
+      ASSERT_FALSE(isTiny(body->getAngularVelocity())) << i;
+      ASSERT_FALSE(isTiny(body->getLinearVelocity())) << i;
+    }
+  }
+  for (const auto& string : strings) fluid.world.removeConstraint(string.get());
+}
+
+}  // namespace
+}  // namespace ambient::test
