@@ -12,8 +12,8 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kStep = 1.0 / 60;
-constexpr double kRadius = 0.1;
+constexpr double kTinyStep = 1.0 / 60;
+constexpr double kBallRadius = 0.1;
 
 // Its square is the smallest number that is not subnormal.
 const double kTiny = std::sqrt(static_cast<double>(std::numeric_limits<btScalar>::min()));
@@ -39,9 +39,9 @@ BodyDef ballOf(double mass, double radius) {
 TEST(TinyVelocity, ABallThatFallsInWaterDoesNotSpinByRounding) {
   FluidWorld fluid;
   fluid.world.setGravity({0, bt(-9.81), 0});
-  const btRigidBody& body = fluid.add(ballOf(5, kRadius), ball(kRadius), water());
+  const btRigidBody& body = fluid.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
   for (int i = 0; i < 600; ++i) {
-    fluid.step(kStep);
+    fluid.step(kTinyStep);
     ASSERT_FALSE(isTiny(body.getAngularVelocity())) << i;
     ASSERT_FALSE(isTiny(body.getLinearVelocity())) << i;
   }
@@ -51,23 +51,23 @@ TEST(TinyVelocity, ABallThatFallsInWaterDoesNotSpinByRounding) {
 TEST(TinyVelocity, BuoyancyBesideTheCentreOfMassByATraceTurnsNothing) {
   FluidWorld fluid;
   fluid.world.setGravity({0, bt(-9.81), 0});
-  FluidBody shape = facelessEllipsoid(Vector3::Constant(kRadius));
+  FluidBody shape = facelessEllipsoid(Vector3::Constant(kBallRadius));
   shape.centre_of_volume = {kTiny * 1e-6, 0, 2e-6 * kTiny};
-  const btRigidBody& body = fluid.add(ballOf(5, kRadius), shape, water());
+  const btRigidBody& body = fluid.add(ballOf(5, kBallRadius), shape, water());
   for (int i = 0; i < 600; ++i) {
-    fluid.step(kStep);
+    fluid.step(kTinyStep);
     ASSERT_FALSE(moves(body.getAngularVelocity())) << i;
   }
 }
 
 TEST(TinyVelocity, ATorqueOfATraceDoesNotTurnABodyWithRows) {
   FluidWorld fluid;
-  btRigidBody& body = fluid.add(ballOf(5, kRadius), ball(kRadius), water());
+  btRigidBody& body = fluid.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
   btPoint2PointConstraint joint(body, btVector3(0, 0, 0));
   fluid.world.addConstraint(&joint);
   for (int i = 0; i < 10; ++i) {
     body.applyTorque({bt(kTiny * 1e-6), 0, 0});
-    fluid.step(kStep);
+    fluid.step(kTinyStep);
     EXPECT_FALSE(moves(body.getAngularVelocity())) << i;
   }
   fluid.world.removeConstraint(&joint);
@@ -75,10 +75,10 @@ TEST(TinyVelocity, ATorqueOfATraceDoesNotTurnABodyWithRows) {
 
 TEST(TinyVelocity, WhatCountsIsNotTouched) {
   FluidWorld fluid;
-  btRigidBody& body = fluid.add(ballOf(5, kRadius), ball(kRadius), water());
+  btRigidBody& body = fluid.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
   const double spin = 1e6 * kTiny;
   body.setAngularVelocity({bt(spin), 0, 0});
-  fluid.step(kStep, 10);
+  fluid.step(kTinyStep, 10);
   EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().x()) / spin, 1, 1e-3);
 }
 
@@ -103,7 +103,7 @@ TEST(TinyVelocity, NewtonsCradleHasNone) {
     fluid.world.addConstraint(strings.back().get());
   }
   for (int i = 0; i < 600; ++i) {
-    fluid.step(kStep);
+    fluid.step(kTinyStep);
     for (const btRigidBody* body : balls) {
       ASSERT_FALSE(isTiny(body->getAngularVelocity())) << i;
       ASSERT_FALSE(isTiny(body->getLinearVelocity())) << i;
