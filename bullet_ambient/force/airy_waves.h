@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "bullet_ambient/force/water_surface.h"
+
+namespace ambient {
+
+/// One wave of a sea on deep water.
+struct WaveComponent {
+  double amplitude = 0;        ///< half of its height from trough to crest [m]
+  double period = 1;           ///< seen from the water [s]
+  Vector3 direction{1, 0, 0};  ///< in which it runs; its horizontal part, of any length, counts
+  double phase = 0;            ///< of its crest at the origin of W at time 0 [rad]
+};
+
+/// The water that waves run on.
+struct CalmSea {
+  double level = 0;          ///< up . x at rest [m]
+  Vector3 up{0, 0, 1};       ///< against gravity, of any length > 0
+  double gravity = 9.81;     ///< [m/s^2]
+  Vector3 current{0, 0, 0};  ///< carries the waves along; its horizontal part counts [m/s]
+};
+
+/// A sum of waves of small slope on deep water: docs/theory.md eq. (72), k = omega^2 / g. What a
+/// point above the mean level meets is what the water at the mean level does.
+class AiryWaves final : public WaterSurface {
+ public:
+  /// @throws std::invalid_argument, naming wave, value and limit.
+  AiryWaves(const CalmSea& sea, const std::vector<WaveComponent>& components);
+
+  /// Cost: O(waves), a sine, a cosine and an exponential each.
+  WaterSample sample(const Vector3& point_W, double time) const noexcept override;
+
+ private:
+  struct Wave {
+    double amplitude, frequency, phase;  ///< [m], [rad/s], [rad]
+    double wave_number;                  ///< [1/m]
+    Vector3 direction;                   ///< unit, horizontal
+  };
+
+  StillWater calm_;
+  Vector3 current_;
+  std::vector<Wave> waves_;
+};
+
+}  // namespace ambient

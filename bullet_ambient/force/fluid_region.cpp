@@ -1,0 +1,63 @@
+#include "bullet_ambient/force/fluid_region.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace ambient {
+namespace {
+
+[[noreturn]] void rejectRegion(const std::string& what, double value, const char* limit) {
+  std::ostringstream sentence;
+  sentence << "region of fluid: " << what << " is " << value << "; must be " << limit;
+  throw std::invalid_argument(sentence.str());
+}
+
+void checkRegionMedium(const Medium& medium, const std::string& which) {
+  if (!(medium.density >= 0) || !std::isfinite(medium.density))
+    rejectRegion("density " + which + " [kg/m^3]", medium.density, "zero or positive and finite");
+  if (!(medium.viscosity >= 0) || !std::isfinite(medium.viscosity))
+    rejectRegion("viscosity " + which + " [Pa s]", medium.viscosity, "zero or positive and finite");
+  if (!medium.velocity.allFinite())
+    rejectRegion("speed " + which + " [m/s]", medium.velocity.norm(), "finite");
+  if (!medium.acceleration.allFinite())
+    rejectRegion("acceleration " + which + " [m/s^2]", medium.acceleration.norm(), "finite");
+}
+
+}  // namespace
+
+RegionMedium mediumAt(const FluidRegion& region, const Vector3& point_W, double time) noexcept {
+  RegionMedium here{region.below, false};
+  if (region.surface) {
+    const WaterSample water = region.surface->sample(point_W, time);
+    here.is_above = !(water.height > 0);
+    if (here.is_above) {
+      here.medium = region.above;
+    } else {
+      here.medium.velocity += water.velocity;
+      here.medium.acceleration += water.acceleration;
+    }
+  }
+  if (region.flow) {
+    const FlowSample flow = region.flow(point_W, time);
+    here.medium.velocity += flow.velocity;
+    here.medium.acceleration += flow.acceleration;
+  }
+  return here;
+}
+
+void checkRegion(const FluidRegion& region) {
+  if (region.bounds) {
+    constexpr const char* kAxes[] = {"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double size = region.bounds->highest[axis] - region.bounds->lowest[axis];
+      if (!(size > 0))
+        rejectRegion(std::string("size along ") + kAxes[axis] + " [m]", size, "positive");
+    }
+  }
+  checkRegionMedium(region.below, region.surface ? "below the surface" : "of the medium");
+  if (region.surface) checkRegionMedium(region.above, "above the surface");
+}
+
+}  // namespace ambient

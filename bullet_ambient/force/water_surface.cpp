@@ -1,0 +1,14 @@
+#include "bullet_ambient/force/water_surface.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace ambient {
+
+StillWater::StillWater(double level, const Vector3& up) : level_(level), up_(up.normalized()) {
+  if (!std::isfinite(level)) throw std::invalid_argument("the level of the water is not finite");
+  if (!(up.norm() > 0) || !up.allFinite())
+    throw std::invalid_argument("the direction up of the water has no length, or is not finite");
+}
+
+}  // namespace ambient

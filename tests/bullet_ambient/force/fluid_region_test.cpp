@@ -1,0 +1,89 @@
+#include "bullet_ambient/force/fluid_region.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "bullet_ambient/force/airy_waves.h"
+
+namespace ambient::test {
+namespace {
+
+TEST(RegionBounds, SideBySideLeaveNoGap) {
+  const RegionBounds left{{-1, -1, -1}, {0, 1, 1}}, right{{0, -1, -1}, {1, 1, 1}};
+  EXPECT_TRUE(right.hold({0, 0, 0}));
+  EXPECT_FALSE(left.hold({0, 0, 0}));
+  EXPECT_TRUE(left.hold({-1, -1, -1}));
+  EXPECT_FALSE(right.hold({0.5, 0.5, 1}));
+  EXPECT_FALSE(right.hold({0.5, std::numeric_limits<double>::quiet_NaN(), 0}));
+}
+
+TEST(FluidRegion, AddsFlowAndWavesToItsMedium) {
+  FluidRegion region;
+  region.below = {900, 0.1, {1, 0, 0}, {0, 0, 1}};
+  region.above = {1.2, 1e-5, {0, 4, 0}, {0, 0, 0}};
+  region.flow = [](const Vector3& point, double time) {
+    return FlowSample{{point.x(), 0, 0}, {0, time, 0}};
+  };
+  region.surface = std::make_shared<WaterSurfaceFunction>([](const Vector3& point, double) {
+    return WaterSample{-point.z(), {0, 0, 3}, {5, 0, 0}};
+  });
+  const RegionMedium wet = mediumAt(region, {7, 0, -1}, 2);
+  EXPECT_FALSE(wet.is_above);
+  EXPECT_EQ(wet.medium.density, 900);
+  EXPECT_EQ(wet.medium.velocity, Vector3(8, 0, 3));
+  EXPECT_EQ(wet.medium.acceleration, Vector3(5, 2, 1));
+  const RegionMedium dry = mediumAt(region, {7, 0, 1}, 2);
+  EXPECT_TRUE(dry.is_above);
+  EXPECT_EQ(dry.medium.density, 1.2);
+  EXPECT_EQ(dry.medium.velocity, Vector3(7, 4, 0));
+  EXPECT_EQ(dry.medium.acceleration, Vector3(0, 2, 0));
+  region.surface = nullptr;
+  EXPECT_FALSE(mediumAt(region, {7, 0, 1}, 2).is_above);
+}
+
+TEST(FluidRegion, IsSteadyWithoutFunctionsAndMovingSurfaces) {
+  FluidRegion region;
+  EXPECT_TRUE(isSteady(region));
+  region.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
+  EXPECT_TRUE(isSteady(region));
+  region.surface = std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{});
+  EXPECT_FALSE(isSteady(region));
+  region.surface = nullptr;
+  region.flow = [](const Vector3&, double) { return FlowSample{}; };
+  EXPECT_FALSE(isSteady(region));
+}
+
+std::string regionError(const FluidRegion& region) {
+  try {
+    checkRegion(region);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FluidRegion, SaysWhatIsWrong) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  FluidRegion region;
+  region.bounds = RegionBounds{{-kInfinity, 0, 0}, {kInfinity, 1, 2}};
+  EXPECT_EQ(regionError(region), "");
+  region.bounds->lowest.y() = 1.5;
+  EXPECT_EQ(regionError(region), "region of fluid: size along y [m] is -0.5; must be positive");
+  region.bounds.reset();
+  region.below.density = -1;
+  EXPECT_EQ(regionError(region),
+            "region of fluid: density of the medium [kg/m^3] is -1; must be zero or positive and "
+            "finite");
+  region.below.density = 1;
+  region.above.viscosity = kInfinity;
+  EXPECT_EQ(regionError(region), "");  // there is nothing above
+  region.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
+  EXPECT_EQ(regionError(region),
+            "region of fluid: viscosity above the surface [Pa s] is inf; must be zero or positive "
+            "and finite");
+}
+
+}  // namespace
+}  // namespace ambient::test
