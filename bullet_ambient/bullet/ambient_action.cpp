@@ -47,6 +47,16 @@ void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& 
     endRowMotion(ambient, time_step, complaints);
   }
   if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
+  keepAwakeInUnsteadyFluid(ambient);
+}
+
+// Those that the world has: others may have been destroyed.
+void wakeFollowers(const btCollisionWorld& world, const AmbientBodies& bodies) {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const AmbientBody* ambient = bodies.find(objects[i]);
+    if (ambient && ambient->def.follow_regions) objects[i]->activate();
+  }
 }
 
 }  // namespace
@@ -69,6 +79,8 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     if (kind == Outcome::kStock || !isStillIn(*world, bodies, *ambient)) continue;
     complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }
+  bodies.regions.time += static_cast<double>(time_step);
+  if (std::exchange(bodies.regions.has_changed, false)) wakeFollowers(*world, bodies);
   if (!isSolverMissing(*world)) return;
   const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
   bodies.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);

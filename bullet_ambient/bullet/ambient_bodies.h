@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/complaints.h"
+#include "bullet_ambient/bullet/fluid_regions.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/force/load_tables.h"
 
@@ -37,6 +38,7 @@ class AmbientBodies {
   void clear();
 
   Complaints complaints;
+  FluidRegions regions;
   LoadTables load_tables;  ///< what the loads of bodies share
   TaskRunner* task_runner = nullptr;
   std::atomic<unsigned> solved{0};  ///< groups, by any solver of these bodies

@@ -1,5 +1,9 @@
 #include "bullet_ambient/bullet/ambient_body.h"
 
+#include <utility>
+
+#include "bullet_ambient/bullet/region_following.h"
+
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
@@ -7,7 +11,7 @@ namespace {
 BodyModel makeModel(const AmbientBody& ambient, const MassProperties& mass,
                     const std::shared_ptr<const SurfaceLoads>& loads) {
   const AttachDef& def = ambient.def;
-  return makeBodyModel(*def.fluid_body, def.fluid_frame, mass, def.medium, loads);
+  return makeBodyModel(*def.fluid_body, def.fluid_frame, mass, ambient.medium, loads);
 }
 
 void buildModel(AmbientBody& ambient, const std::shared_ptr<const SurfaceLoads>& loads) {
@@ -32,6 +36,8 @@ AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other) {
   coarse += other.coarse;
   rows += other.rows;
   rejected += other.rejected;
+  regions_asked += other.regions_asked;
+  medium_changes += other.medium_changes;
   return *this;
 }
 
@@ -54,8 +60,8 @@ Surroundings readSurroundings(const AmbientBody& ambient) {
   Surroundings s;
   s.gravity = toVector3(body.getGravity());
   s.applied = {toVector3(body.getTotalTorque()), toVector3(body.getTotalForce())};
-  s.ambient_velocity = ambient.def.medium.velocity;
-  s.ambient_acceleration = ambient.def.medium.acceleration;
+  s.ambient_velocity = ambient.medium.velocity;
+  s.ambient_acceleration = ambient.medium.acceleration;
   return s;
 }
 
@@ -67,13 +73,20 @@ bool isModelStale(const AmbientBody& ambient) {
          !(body.getInvInertiaDiagLocal() == ambient.seen_inverse_inertia);
 }
 
-void refreshModel(AmbientBody& ambient, LoadTables& tables) {
-  const AttachDef& def = ambient.def;
-  const auto loads = makeSurfaceLoads(def.fluid_body, def.medium, def.flow, tables);
-  if (ambient.body->getInvMass() > 0) return buildModel(ambient, loads);
-  ambient.model = makeModel(ambient, {1, Matrix3::Identity()}, loads);
-  ambient.seen_inverse_mass = -1;  // stale whatever its mass will be
-  ambient.memory = {};
+void refreshModel(AmbientBody& ambient, const FluidRegions& regions, LoadTables& tables) {
+  AmbientBody fresh = ambient;
+  fresh.media = makeMediumLoads(ambient.def, regions, tables, {});
+  fresh.medium = ambient.def.medium;
+  fresh.place = {};
+  const auto& loads = fresh.media.front().loads;
+  if (ambient.body->getInvMass() > 0) {
+    buildModel(fresh, loads);
+  } else {
+    fresh.model = makeModel(fresh, {1, Matrix3::Identity()}, loads);
+    fresh.memory = {};
+    markStale(fresh);
+  }
+  ambient = std::move(fresh);
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

@@ -2,9 +2,13 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <memory>
+#include <vector>
+
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/region_id.h"
 #include "bullet_ambient/bullet/step_errors.h"
 #include "bullet_ambient/bullet/substep_outcome.h"
 #include "bullet_ambient/bullet/velocity_basis.h"
@@ -16,11 +20,23 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+class FluidRegions;
+
+/// The loads of a body in one of the media that it may meet; null: there are none.
+struct MediumLoads {
+  double density, viscosity;
+  std::shared_ptr<const SurfaceLoads> loads;
+};
+
 /// One attached body.
 struct AmbientBody {
   btRigidBody* body = nullptr;  ///< may have been destroyed: look it up in a world first
   int instance = 0;             ///< instanceNumber() of the body that was attached
   AttachDef def;
+  Medium medium;      ///< around it now: its own, or that of its region
+  RegionPlace place;  ///< none, if the medium is its own
+  std::vector<MediumLoads> media;
+  bool may_rest = true;  ///< nothing around it changes with time
   BodyModel model;
   Matrix6 basis_B = Matrix6::Identity();
   btScalar seen_inverse_mass = 0;  ///< dry mass properties the model was built from
@@ -31,7 +47,7 @@ struct AmbientBody {
   StepErrors step_errors;
   SubstepOutcome outcome;
 
-  bool isInFluid() const { return def.medium.density > 0; }
+  bool isInFluid() const { return medium.density > 0; }
 };
 
 /// Counts evaluations of the loads on a body.
@@ -57,10 +73,14 @@ void rebuildModel(AmbientBody& ambient);
 /// Whether setMassProps was called since the model was built.
 bool isModelStale(const AmbientBody& ambient);
 
-/// Makes the loads, and builds the model if the body is dynamic at present, or else when it next
-/// is: until then, it has one of unit mass and inertia. What throws changes nothing.
+/// Has the model rebuilt when the body is next met.
+inline void markStale(AmbientBody& ambient) noexcept { ambient.seen_inverse_mass = -1; }
+
+/// Makes the loads in all media that the body may meet, puts it into its own, and builds the model
+/// if it is dynamic at present, or else when it next is: until then, it has one of unit mass and
+/// inertia. What throws changes nothing.
 /// @throws std::invalid_argument as makeSurfaceLoads() and makeBodyModel().
-void refreshModel(AmbientBody& ambient, LoadTables& tables);
+void refreshModel(AmbientBody& ambient, const FluidRegions& regions, LoadTables& tables);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

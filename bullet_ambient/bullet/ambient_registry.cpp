@@ -4,8 +4,10 @@
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/bullet/region_following.h"
 #include "bullet_ambient/bullet/world_tie.h"
 
 namespace ambient {
@@ -46,10 +48,17 @@ void sayOddities(const AmbientBody& ambient, Complaints& complaints) {
   }
 }
 
-void replaceDef(AmbientBody& ambient, AttachDef def, LoadTables& tables) {
+// Loads and model, in the medium where the body is now.
+void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
+  refreshModel(ambient, bodies.regions, bodies.load_tables);
+  followRegions(ambient, bodies.regions, bodies.complaints);
+  if (ambient.body->getInvMass() > 0 && isModelStale(ambient)) rebuildModel(ambient);
+}
+
+void replaceDef(AmbientBody& ambient, AttachDef def, AmbientBodies& bodies) {
   std::swap(ambient.def, def);
   try {
-    refreshModel(ambient, tables);
+    refresh(ambient, bodies);
   } catch (...) {
     std::swap(ambient.def, def);
     throw;
@@ -93,7 +102,7 @@ void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
   auto ambient = std::make_unique<AmbientBody>();
   ambient->body = &body;
   ambient->def = std::move(def);
-  refreshModel(*ambient, bodies_->load_tables);
+  refresh(*ambient, *bodies_);
   if (ambient->isInFluid()) body.activate();
   sayOddities(*ambient, bodies_->complaints);
   bodies_->insert(std::move(ambient));
@@ -112,9 +121,10 @@ void AmbientRegistry::setMedium(const btRigidBody& body, const Medium& medium) {
   if (medium.density != before.density || medium.viscosity != before.viscosity) {
     AttachDef def = ambient.def;
     def.medium = medium;
-    replaceDef(ambient, std::move(def), bodies_->load_tables);
+    replaceDef(ambient, std::move(def), *bodies_);
   } else if (medium.velocity != before.velocity || medium.acceleration != before.acceleration) {
     ambient.def.medium = medium;
+    if (ambient.place.region == RegionId::kNone) ambient.medium = medium;
     ambient.body->activate();
   }
 }
@@ -132,12 +142,48 @@ void AmbientRegistry::setFluidBody(const btRigidBody& body,
   AttachDef def = ambient.def;
   def.fluid_body = std::move(fluid_body);
   def.fluid_frame = fluid_frame;
-  replaceDef(ambient, std::move(def), bodies_->load_tables);
+  replaceDef(ambient, std::move(def), *bodies_);
 }
 
 const Medium& AmbientRegistry::medium(const btRigidBody& body) const {
-  return bodies_->require(body).def.medium;
+  return bodies_->require(body).medium;
 }
+
+// Changes a copy and makes all loads first: what throws changes nothing.
+template <class Change>
+auto AmbientRegistry::changeRegions(const Change& change) {
+  FluidRegions regions = bodies_->regions;
+  const auto result = change(regions);
+  std::vector<std::vector<MediumLoads>> media;
+  media.reserve(bodies_->size());
+  for (const auto& ambient : bodies_->all())
+    media.push_back(makeMediumLoads(ambient->def, regions, bodies_->load_tables, ambient->media));
+  bodies_->regions = std::move(regions);
+  auto next = media.begin();
+  for (const auto& ambient : bodies_->all()) ambient->media = std::move(*next++);
+  return result;
+}
+
+RegionId AmbientRegistry::addRegion(FluidRegion region) {
+  return changeRegions([&](FluidRegions& regions) { return regions.add(std::move(region)); });
+}
+
+void AmbientRegistry::setRegion(RegionId id, FluidRegion region) {
+  changeRegions([&](FluidRegions& regions) {
+    regions.set(id, std::move(region));
+    return id;
+  });
+}
+
+bool AmbientRegistry::removeRegion(RegionId id) {
+  return changeRegions([&](FluidRegions& regions) { return regions.remove(id); });
+}
+
+RegionId AmbientRegistry::region(const btRigidBody& body) const {
+  return bodies_->require(body).place.region;
+}
+
+double AmbientRegistry::time() const { return bodies_->regions.time; }
 
 const Matrix6& AmbientRegistry::inertia(const btRigidBody& body) const {
   return bodies_->require(body).model.inertia;

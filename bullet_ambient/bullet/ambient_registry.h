@@ -7,6 +7,8 @@
 
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/region_id.h"
+#include "bullet_ambient/force/fluid_region.h"
 
 class btDynamicsWorld;
 class btRigidBody;
@@ -45,11 +47,28 @@ class AmbientRegistry {
   void clear();
   bool isAttached(const btRigidBody& body) const;
 
-  /// Changes the fluid around an attached body; its velocity stays, and it wakes up if anything
-  /// did change. Cheap where density and viscosity stay: a current may be given in every step.
+  /// Changes the fluid of an attached body, AttachDef::medium; its velocity stays, and it wakes up
+  /// if anything did change. Cheap where density and viscosity stay: a current may be given in
+  /// every step.
   /// @throws std::invalid_argument if the body is not attached or the medium is not physical.
   void setMedium(const btRigidBody& body, const Medium& medium);
+  /// The fluid around it: that of its region, since its last step, or its own.
   const Medium& medium(const btRigidBody& body) const;
+
+  /// Fills a part of the world with a fluid. Bodies whose AttachDef follows regions find it by
+  /// themselves at the start of each step, and wake up at the end of the next. Regions that stay
+  /// cost a body one comparison with the bounds of each; without any, nothing.
+  /// @throws std::invalid_argument, naming value and limit, if bounds or media are not physical, or
+  /// as attach() for a body that may meet them; then nothing has changed.
+  RegionId addRegion(FluidRegion region);
+  /// Replaces a region, say to move it. @throws as addRegion(), or if there is none.
+  void setRegion(RegionId id, FluidRegion region);
+  /// False if there is none.
+  bool removeRegion(RegionId id);
+  /// The region that the body was in at the start of its last step; kNone. @throws as medium().
+  RegionId region(const btRigidBody& body) const;
+  /// How long the world was stepped with its action [s]: the time of regions' functions.
+  double time() const;
 
   /// Changes the shape of an attached body, say to scaled() of the old one after setLocalScaling()
   /// of its collision shape. `fluid_frame` as in AttachDef; without it, it stays. Set new mass
@@ -77,6 +96,8 @@ class AmbientRegistry {
   void setTaskRunner(TaskRunner* runner);
 
  private:
+  template <class Change>
+  auto changeRegions(const Change& change);
   friend AmbientBodies& bodiesOf(const AmbientRegistry& registry);
 
   std::unique_ptr<AmbientBodies> bodies_;

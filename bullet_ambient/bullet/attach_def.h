@@ -20,6 +20,9 @@ struct AttachDef {
   /// setLocalScaling(), which Bullet tells nobody, call AmbientRegistry::setFluidBody().
   std::shared_ptr<const FluidBody> fluid_body = nullptr;
   Medium medium = {};  ///< default: vacuum, in which the body moves as in stock Bullet
+  /// Whether the fluid is that of the region with the highest priority that holds the centre of
+  /// mass, and `medium` only where there is none; AmbientRegistry::addRegion().
+  bool follow_regions = true;
   FlowSettings flow = {};
   FlightSettings flight = {};
   FrameOffset fluid_frame = {};  ///< F in the btRigidBody's frame (centre of mass)
@@ -29,11 +32,13 @@ struct AttachDef {
 struct AmbientCounters {
   long long substeps = 0;  ///< of free flight
   long long load_evaluations = 0;
-  long long faces = 0;     ///< faces or clusters summed in them; a sphere has none
-  long long guarded = 0;   ///< load evaluations in which the passivity guard acted
-  long long coarse = 0;    ///< steps whose error stayed too large at the most substeps
-  long long rows = 0;      ///< constraint rows rewritten
-  long long rejected = 0;  ///< steps whose result was not finite and was not taken over
+  long long faces = 0;           ///< faces or clusters summed in them; a sphere has none
+  long long guarded = 0;         ///< load evaluations in which the passivity guard acted
+  long long coarse = 0;          ///< steps whose error stayed too large at the most substeps
+  long long rows = 0;            ///< constraint rows rewritten
+  long long rejected = 0;        ///< steps whose result was not finite and was not taken over
+  long long regions_asked = 0;   ///< whether they hold the body
+  long long medium_changes = 0;  ///< to another density or viscosity, by regions
 
   AmbientCounters& operator+=(const AmbientCounters& other);
 };

@@ -30,6 +30,9 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kNotPhysical:
       return "bullet_ambient: the mass properties of a body in fluid were changed to values that "
              "are not physical; it moves as in a vacuum until they are valid again";
+    case Complaint::kRegion:
+      return "bullet_ambient: the flow or the surface of a region is not finite where a body is; "
+             "the region's fluid is taken without both there";
     case Complaint::kInertia:  // these name the body
     case Complaint::kEmpty:
     case Complaint::kCount:

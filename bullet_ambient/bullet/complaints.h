@@ -17,6 +17,7 @@ enum class Complaint {
   kNoMultiBodySolver,
   kNotFinite,
   kNotPhysical,
+  kRegion,
   kInertia,
   kEmpty,
   kCount

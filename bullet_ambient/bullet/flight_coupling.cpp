@@ -2,6 +2,8 @@
 
 #include <exception>
 
+#include "bullet_ambient/bullet/region_following.h"
+
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
@@ -11,18 +13,20 @@ constexpr double kRestingTime = 2;       // [s], Bullet's gDeactivationTime by d
 
 }  // namespace
 
-bool prepareStep(AmbientBody& ambient, Complaints& complaints) noexcept {
+bool prepareStep(AmbientBody& ambient, const FluidRegions& regions,
+                 Complaints& complaints) noexcept {
   SubstepOutcome& outcome = ambient.outcome;
   if (outcome.kind == Outcome::kFlown) complaints.say(Complaint::kNoAction);
   outcome.kind = Outcome::kStock;
   outcome.world_index = ambient.body->getWorldArrayIndex();
   outcome.rows = {};
-  if (!ambient.isInFluid()) return false;
   if (ambient.body->isStaticOrKinematicObject()) return false;  // for now
+  const bool is_other_fluid = followRegions(ambient, regions, complaints);
+  if (!ambient.isInFluid() && !is_other_fluid) return false;
   if (!isModelStale(ambient)) return true;
   try {
     rebuildModel(ambient);
-    return true;
+    return ambient.isInFluid();
   } catch (const std::exception&) {
     complaints.say(Complaint::kNotPhysical);
     return false;
@@ -50,6 +54,10 @@ void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept {
       kRestingTime * (static_cast<double>(body.getLinearVelocity().length()) +
                       size * static_cast<double>(body.getAngularVelocity().length()));
   if (travel > kRestingTravel * size) body.setDeactivationTime(0);
+}
+
+void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept {
+  if (!ambient.may_rest) ambient.body->setDeactivationTime(0);
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

@@ -2,14 +2,16 @@
 
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/complaints.h"
+#include "bullet_ambient/bullet/fluid_regions.h"
 #include "bullet_ambient/bullet/precision_check.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
-/// The solver meets the body: begins its outcome, and says whether the fluid acts on it. Rebuilds a
-/// stale model, and reports an action that is missing.
-bool prepareStep(AmbientBody& ambient, Complaints& complaints) noexcept;
+/// The solver meets the body: begins its outcome, and says whether the fluid acts on it. Finds its
+/// region, rebuilds a stale model, and reports an action that is missing.
+bool prepareStep(AmbientBody& ambient, const FluidRegions& regions,
+                 Complaints& complaints) noexcept;
 
 /// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports
 /// it; returns whether it did.
@@ -18,6 +20,9 @@ bool stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
 /// Keeps Bullet from putting a body to sleep that drifts freely: it may rest only when it moves by
 /// less than a hundredth of its size within Bullet's two seconds.
 void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept;
+
+/// Keeps a body awake around which the fluid changes with time.
+void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept;
 
 /// Flies up to kFlightsTogether bodies over `time_step` [s] and keeps where they end. Writes the
 /// velocity changes in world axes that make Bullet's integrateTransform reach those poses,

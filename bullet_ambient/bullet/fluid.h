@@ -42,6 +42,12 @@ class Fluid {
   /// Puts a dynamic body into a fluid, before or after it is added to the world.
   /// @throws std::invalid_argument as AmbientRegistry::attach().
   void add(btRigidBody& body, AttachDef def) { registry_.attach(body, std::move(def)); }
+  /// Fills a part of the world, or all of it, with a fluid, or with water below a surface and air
+  /// above. @throws std::invalid_argument as AmbientRegistry::addRegion().
+  RegionId addRegion(FluidRegion region) { return registry_.addRegion(std::move(region)); }
+  /// As AmbientRegistry::setRegion() and removeRegion().
+  void setRegion(RegionId id, FluidRegion region) { registry_.setRegion(id, std::move(region)); }
+  bool removeRegion(RegionId id) { return registry_.removeRegion(id); }
   /// As AmbientRegistry::detach().
   bool remove(const btRigidBody& body) { return registry_.detach(body); }
   /// Removes all bodies, and lets go of the world: all of them may have been destroyed. Where the

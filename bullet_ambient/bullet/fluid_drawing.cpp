@@ -43,7 +43,7 @@ void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDra
   const FaceTable form_faces = is_form ? formLawFaces(body) : FaceTable{};
   const FaceTable& faces = is_form ? form_faces : body.faces;
   const FrameOffset& frame = ambient.def.fluid_frame;
-  const LoadSettings settings = loadSettings(ambient.def.medium, ambient.def.flow);
+  const LoadSettings settings = loadSettings(ambient.medium, ambient.def.flow);
   const double length = ambient.model.reference_length;
   const Twist x_F = frame.toF(relative);
   const double normal_length = what.normal_length * length;

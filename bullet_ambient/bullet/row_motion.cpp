@@ -61,7 +61,7 @@ Vector6 withinEnergy(const BodyModel& model, const Vector6& from, const Vector6&
 void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody& solver_body,
                     double time_step) noexcept {
   const BodyModel& model = ambient.model;
-  const Medium& medium = ambient.def.medium;
+  const Medium& medium = ambient.medium;
   RowMotion& rows = ambient.outcome.rows;
   rows.start = readState(*ambient.body);
   rows.flow_W = medium.velocity + time_step * medium.acceleration;

@@ -12,6 +12,7 @@
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/body_state.h"
 #include "bullet_ambient/bullet/contact_state.h"
+#include "bullet_ambient/bullet/region_following.h"
 #include "bullet_ambient/bullet/world_objects.h"
 
 namespace ambient {
@@ -19,7 +20,8 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
 AmbientState saveAmbient(const AmbientBody& ambient) {
-  AmbientState state{ambient.def, ambient.memory, ambient.left_W, ambient.counters};
+  AmbientState state{ambient.def,    ambient.medium, ambient.place,
+                     ambient.memory, ambient.left_W, ambient.counters};
   if (isModelStale(ambient)) state.memory = {};  // as the next step will do
   return state;
 }
@@ -44,7 +46,7 @@ void checkContacts(const WorldState& state) {
 // Models are built before anything is changed, so that a medium that is refused changes nothing.
 std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(const WorldState& state,
                                                             const std::vector<btRigidBody*>& bodies,
-                                                            LoadTables& tables) {
+                                                            AmbientBodies& registered) {
   std::vector<std::unique_ptr<AmbientBody>> result;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     result.emplace_back();
@@ -58,7 +60,11 @@ std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(const WorldState& st
     AmbientBody built;
     built.body = &with_mass;
     built.def = saved.def;
-    refreshModel(built, tables);
+    refreshModel(built, registered.regions, registered.load_tables);
+    // Of a region that is not here, the next step tells.
+    if (enterMedium(built, saved.place, saved.medium) && isModelStale(built) &&
+        with_mass.getInvMass() > 0)
+      rebuildModel(built);
     result.back() = std::make_unique<AmbientBody>(built);
     AmbientBody& ambient = *result.back();
     ambient.body = bodies[i];
@@ -99,6 +105,7 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientRegistry& regist
     btTypedConstraint& joint = *source.getConstraint(i);
     state.joints.push_back({joint.isEnabled(), joint.internalGetAppliedImpulse()});
   }
+  state.time = registry.time();
   if (const auto* solver = shufflingSolver(source)) state.random_seed = solver->getRandSeed();
   return state;
 }
@@ -108,7 +115,7 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegist
   checkCount("rigid bodies", state.bodies.size(), bodies.size());
   checkCount("joints", state.joints.size(), static_cast<std::size_t>(world.getNumConstraints()));
   checkContacts(state);
-  auto ambient_bodies = makeAmbientBodies(state, bodies, bodiesOf(registry).load_tables);
+  auto ambient_bodies = makeAmbientBodies(state, bodies, bodiesOf(registry));
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     registry.detach(*bodies[i]);
@@ -116,6 +123,7 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegist
     restoreBody(state.bodies[i], *bodies[i]);
     if (ambient_bodies[i]) bodiesOf(registry).insert(std::move(ambient_bodies[i]));
   }
+  bodiesOf(registry).regions.time = state.time;
   restoreJoints(state, world);
   restoreContacts(state.pairs, state.contacts, world);
   for (std::size_t i = 0; i < bodies.size(); ++i) restoreSleep(state.bodies[i], *bodies[i]);

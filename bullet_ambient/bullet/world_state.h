@@ -12,6 +12,7 @@
 
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/region_id.h"
 #include "bullet_ambient/motion/flight_memory.h"
 
 class btDynamicsWorld;
@@ -24,6 +25,8 @@ class AmbientRegistry;
 /// A body in its fluid, and what its flight remembers.
 struct AmbientState {
   AttachDef def;
+  Medium medium;  ///< around it now
+  RegionPlace place;
   FlightMemory memory;
   Twist left_W;
   AmbientCounters counters;
@@ -72,6 +75,7 @@ struct WorldState {
   std::vector<PairState> pairs;   // both in Bullet's order
   std::vector<ContactState> contacts;
   std::vector<JointState> joints;
+  double time = 0;                ///< AmbientRegistry::time() [s]
   unsigned long random_seed = 0;  ///< of a solver that shuffles its rows
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 // Header: magic, version, bytes per number of Bullet, FNV-1a of the payload, payload.
 constexpr std::string_view kMagic = "AMBSTATE";
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 constexpr std::size_t kBodySize = 200;  // at least [bytes]
 
 using Hashes = std::map<const FluidBody*, std::uint64_t>;
@@ -174,6 +174,7 @@ WorldState decodeState(std::string_view bytes, const std::string& source,
   transferContactsAndJoints(reader, state);
   for (const PairState& pair : state.pairs) checkPair(reader, pair);
   for (const ContactState& contact : state.contacts) checkContact(reader, contact);
+  if (!std::isfinite(state.time)) reader.fail("has a time that is not finite");
   if (reader.left() > 0) reader.fail("has bytes after its end");
   return state;
 }

@@ -22,6 +22,7 @@ void transferMedium(Stream& s, State& medium) {
 template <class Stream, class State>
 void transferSettings(Stream& s, State& def) {
   transferMedium(s, def.medium);
+  transferFlag(s, def.follow_regions);
   s.number(def.flow.separation_angle);
   transferEnum(s, def.flow.law, PressureLaw::kForm);
   transferFlag(s, def.flow.skin_friction);
@@ -37,6 +38,11 @@ void transferSettings(Stream& s, State& def) {
 
 template <class Stream, class State>
 void transferFlight(Stream& s, State& state) {
+  transferMedium(s, state.medium);
+  auto region = static_cast<std::int32_t>(state.place.region);
+  s.number(region);
+  if constexpr (Stream::kReads) state.place.region = static_cast<RegionId>(region);
+  transferFlag(s, state.place.is_above);
   transferMatrix(s, state.memory.load_W.torque);
   transferMatrix(s, state.memory.load_W.force);
   transferFlag(s, state.memory.has_load);
@@ -50,6 +56,8 @@ void transferFlight(Stream& s, State& state) {
   s.number(state.counters.coarse);
   s.number(state.counters.rows);
   s.number(state.counters.rejected);
+  s.number(state.counters.regions_asked);
+  s.number(state.counters.medium_changes);
 }
 
 template <class Stream, class State>
@@ -122,6 +130,7 @@ void transferContactsAndJoints(Stream& s, State& state) {
   }
   auto seed = static_cast<std::uint64_t>(state.random_seed);
   s.number(seed);
+  s.number(state.time);
   if constexpr (Stream::kReads) state.random_seed = static_cast<unsigned long>(seed);
 }
 

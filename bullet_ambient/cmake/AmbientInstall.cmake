@@ -47,6 +47,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   bullet/fluid.h
   bullet/fluid_drawing.h
   bullet/precision_check.h
+  bullet/region_id.h
   bullet/solver_group.h
   bullet/world_state.h
   bullet/world_tie.h
@@ -55,10 +56,13 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   fluid_body/fluid_body_file.h
   fluid_body/load_fluid_body.h
   fluid_body/load_level.h
+  force/airy_waves.h
   force/face_loads.h
   force/flow_settings.h
+  force/fluid_region.h
   force/medium.h
   force/surface_loads.h
+  force/water_surface.h
   motion/flight_memory.h
   motion/flight_settings.h
   spatial/frame_offset.h

@@ -22,8 +22,12 @@ struct CalmSea {
   Vector3 current{0, 0, 0};  ///< carries the waves along; its horizontal part counts [m/s]
 };
 
-/// A sum of waves of small slope on deep water: docs/theory.md eq. (72), k = omega^2 / g. What a
-/// point above the mean level meets is what the water at the mean level does.
+/// A sum of waves of small slope on deep water; theta = k d.x - omega t + phase, k = omega^2 / g,
+/// d the direction, z <= 0 the height over the mean level:
+///
+///   height a cos(theta),  velocity a omega e^(k z) (d cos(theta) + up sin(theta))
+///
+/// What is above the mean level meets what the water at the mean level does.
 class AiryWaves final : public WaterSurface {
  public:
   /// @throws std::invalid_argument, naming wave, value and limit.

@@ -28,22 +28,23 @@ void checkRegionMedium(const Medium& medium, const std::string& which) {
 }  // namespace
 
 RegionMedium mediumAt(const FluidRegion& region, const Vector3& point_W, double time) noexcept {
-  RegionMedium here{region.below, false};
-  if (region.surface) {
-    const WaterSample water = region.surface->sample(point_W, time);
-    here.is_above = !(water.height > 0);
-    if (here.is_above) {
-      here.medium = region.above;
-    } else {
-      here.medium.velocity += water.velocity;
-      here.medium.acceleration += water.acceleration;
-    }
+  WaterSample water;
+  if (region.surface) water = region.surface->sample(point_W, time);
+  const bool is_above = region.surface && !(water.height > 0);
+  const Medium& still = is_above ? region.above : region.below;
+  RegionMedium here{still, is_above, std::isfinite(water.height)};
+  Medium& medium = here.medium;
+  if (!is_above) {
+    medium.velocity += water.velocity;
+    medium.acceleration += water.acceleration;
   }
   if (region.flow) {
     const FlowSample flow = region.flow(point_W, time);
-    here.medium.velocity += flow.velocity;
-    here.medium.acceleration += flow.acceleration;
+    medium.velocity += flow.velocity;
+    medium.acceleration += flow.acceleration;
   }
+  here.is_finite = here.is_finite && medium.velocity.allFinite() && medium.acceleration.allFinite();
+  if (!here.is_finite) medium = still;
   return here;
 }
 

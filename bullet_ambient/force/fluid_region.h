@@ -50,6 +50,8 @@ inline bool isSteady(const FluidRegion& region) {
 struct RegionMedium {
   Medium medium;
   bool is_above = false;  ///< the surface
+  /// False if surface or flow are not: the medium then is without both.
+  bool is_finite = true;
 };
 RegionMedium mediumAt(const FluidRegion& region, const Vector3& point_W, double time) noexcept;
 

@@ -17,8 +17,8 @@ void* countedAllocation(std::size_t size, int alignment) {
   return std::aligned_alloc(a, (size + a - 1) / a * a);
 }
 
-// After the first steps have sized every buffer: free bodies, a body at rest on the floor and a
-// pendulum with feedback.
+// After the first steps have sized every buffer: free bodies, some of which go from region to
+// region, a body at rest on the floor and a pendulum with feedback.
 TEST(Step, AllocatesNothing) {
   btAlignedAllocSetCustomAligned(countedAllocation, std::free);
   {
@@ -45,16 +45,24 @@ TEST(Step, AllocatesNothing) {
     btJointFeedback feedback;
     joint.setJointFeedback(&feedback);
     fluid.world.addConstraint(&joint);
+    for (int layer = 0; layer < 20; ++layer) {
+      FluidRegion region;
+      region.below = layer % 2 ? air() : Medium{};
+      region.bounds = RegionBounds{{-100, -100, 400.0 + 5 * layer}, {100, 100, 405.0 + 5 * layer}};
+      fluid.registry.addRegion(region);
+    }
 
     fluid.step(1.0 / 60, 60);
     const std::size_t before = allocationCount();
     const std::size_t bullet_before = g_bullet_allocations;
     const long long evaluations = fluid.registry.counters().load_evaluations;
+    const long long changes = fluid.registry.counters().medium_changes;
     const long long rows = fluid.registry.counters().rows;
     fluid.step(1.0 / 60, 120);
     EXPECT_EQ(allocationCount(), before);
     EXPECT_EQ(g_bullet_allocations, bullet_before);
-    EXPECT_GT(fluid.registry.counters().load_evaluations, evaluations + 120 * 5);
+    EXPECT_GT(fluid.registry.counters().load_evaluations, evaluations + 120 * 3);
+    EXPECT_GT(fluid.registry.counters().medium_changes, changes + 4);
     EXPECT_GT(fluid.registry.counters().rows, rows + 120);
     fluid.world.removeConstraint(&joint);
   }

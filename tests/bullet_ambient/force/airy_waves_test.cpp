@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/spatial/pi.h"
 
-// docs/theory.md eq. (72): each expected value is a law of waves, by differences of samples.
+// Each expected value is a law of waves on deep water, by differences of samples.
 namespace ambient::test {
 namespace {
 

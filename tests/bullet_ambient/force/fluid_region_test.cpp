@@ -43,6 +43,23 @@ TEST(FluidRegion, AddsFlowAndWavesToItsMedium) {
   EXPECT_FALSE(mediumAt(region, {7, 0, 1}, 2).is_above);
 }
 
+TEST(FluidRegion, KeepsItsMediumWhereFunctionsAreNotFinite) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  FluidRegion region;
+  region.below.velocity = {3, 0, 0};
+  EXPECT_TRUE(mediumAt(region, {0, 0, 0}, 0).is_finite);
+  for (const FlowSample& bad : {FlowSample{{kNan, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {0, kNan, 0}}}) {
+    region.flow = [=](const Vector3&, double) { return bad; };
+    EXPECT_FALSE(mediumAt(region, {0, 0, 0}, 0).is_finite);
+    EXPECT_EQ(mediumAt(region, {0, 0, 0}, 0).medium.velocity, Vector3(3, 0, 0));
+  }
+  region.flow = nullptr;
+  region.surface = std::make_shared<WaterSurfaceFunction>([](const Vector3&, double) {
+    return WaterSample{kNan, {0, 0, 0}, {0, 0, 0}};
+  });
+  EXPECT_FALSE(mediumAt(region, {0, 0, 0}, 0).is_finite);
+}
+
 TEST(FluidRegion, IsSteadyWithoutFunctionsAndMovingSurfaces) {
   FluidRegion region;
   EXPECT_TRUE(isSteady(region));

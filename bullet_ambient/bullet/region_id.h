@@ -1,0 +1,23 @@
+#pragma once
+
+#include "bullet_ambient/bullet/precision_check.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// Names a region of one registry. Numbered from 0 in the order in which they were added; none is
+/// given twice.
+enum class RegionId : int { kNone = -1 };
+
+/// Where among the regions a body was at the start of its last step.
+struct RegionPlace {
+  RegionId region = RegionId::kNone;
+  bool is_above = false;  ///< the region's surface
+
+  friend bool operator==(const RegionPlace& a, const RegionPlace& b) {
+    return a.region == b.region && a.is_above == b.is_above;
+  }
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient
