@@ -51,7 +51,7 @@ void sayOddities(const AmbientBody& ambient, Complaints& complaints) {
 // Loads and model, in the medium where the body is now.
 void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
   refreshModel(ambient, bodies.regions, bodies.load_tables);
-  followRegions(ambient, bodies.regions, bodies.complaints);
+  followRegions(ambient, bodies.regions, 0, bodies.complaints);
   if (ambient.body->getInvMass() > 0 && isModelStale(ambient)) rebuildModel(ambient);
 }
 
@@ -155,12 +155,19 @@ auto AmbientRegistry::changeRegions(const Change& change) {
   FluidRegions regions = bodies_->regions;
   const auto result = change(regions);
   std::vector<std::vector<MediumLoads>> media;
-  media.reserve(bodies_->size());
-  for (const auto& ambient : bodies_->all())
-    media.push_back(makeMediumLoads(ambient->def, regions, bodies_->load_tables, ambient->media));
+  std::vector<std::vector<SurfaceMedia>> surfaces;
+  LoadTables& tables = bodies_->load_tables;
+  for (const auto& ambient : bodies_->all()) {
+    media.push_back(makeMediumLoads(ambient->def, regions, tables, ambient->media));
+    surfaces.push_back(makeSurfaceMedia(ambient->def, regions, tables, ambient->surfaces));
+  }
   bodies_->regions = std::move(regions);
-  auto next = media.begin();
-  for (const auto& ambient : bodies_->all()) ambient->media = std::move(*next++);
+  std::size_t next = 0;
+  for (const auto& ambient : bodies_->all()) {
+    ambient->media = std::move(media[next]);
+    ambient->surfaces = std::move(surfaces[next++]);
+    leaveSurface(*ambient);
+  }
   return result;
 }
 
@@ -185,8 +192,8 @@ RegionId AmbientRegistry::region(const btRigidBody& body) const {
 
 double AmbientRegistry::time() const { return bodies_->regions.time; }
 
-const Matrix6& AmbientRegistry::inertia(const btRigidBody& body) const {
-  return bodies_->require(body).model.inertia;
+Matrix6 AmbientRegistry::inertia(const btRigidBody& body) const {
+  return modelNow(bodies_->require(body)).inertia;
 }
 
 std::size_t AmbientRegistry::size() const { return bodies_->size(); }

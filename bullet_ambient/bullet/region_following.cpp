@@ -19,6 +19,22 @@ const MediumLoads* findLoads(const std::vector<MediumLoads>& loads, const Medium
   return found == loads.end() ? nullptr : &*found;
 }
 
+SurfaceMedia makeSurfaceMediaOf(const AttachDef& def, const FluidRegion& region,
+                                LoadTables& tables) {
+  SurfaceModelDef model;
+  model.shape = def.fluid_body;
+  model.fluid_frame = def.fluid_frame;
+  model.mass = {1, Matrix3::Identity()};
+  model.above = region.above;
+  model.below = region.below;
+  model.flow = def.flow;
+  model.wave_damping = def.wave_damping;
+  SurfaceMedia made{region.below, region.above, makeSurfaceModel(model, tables), nullptr};
+  const auto& loads = made.model.loads_below.loads;
+  if (loads) made.loads = std::make_shared<LoadsAtSurface>(loads);
+  return made;
+}
+
 }  // namespace
 
 std::vector<MediumLoads> makeMediumLoads(const AttachDef& def, const FluidRegions& regions,
@@ -40,6 +56,21 @@ std::vector<MediumLoads> makeMediumLoads(const AttachDef& def, const FluidRegion
   return made;
 }
 
+std::vector<SurfaceMedia> makeSurfaceMedia(const AttachDef& def, const FluidRegions& regions,
+                                           LoadTables& tables,
+                                           const std::vector<SurfaceMedia>& known) {
+  std::vector<SurfaceMedia> made;
+  if (!def.follow_regions) return made;
+  for (const FluidRegions::Entry& entry : regions.all()) {
+    const FluidRegion& region = entry.region;
+    if (!region.surface || findSurface(made, region.below, region.above) >= 0) continue;
+    const int old = findSurface(known, region.below, region.above);
+    made.push_back(old >= 0 ? known[static_cast<std::size_t>(old)]
+                            : makeSurfaceMediaOf(def, region, tables));
+  }
+  return made;
+}
+
 bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& medium) noexcept {
   const Medium& before = ambient.medium;
   if (medium.density != before.density || medium.viscosity != before.viscosity) {
@@ -50,31 +81,38 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
     markStale(ambient);
   }
   if (!(place == ambient.place)) ambient.memory.has_load = false;
+  if (!place.is_at_surface) {
+    if (ambient.is_frozen) markStale(ambient);
+    ambient.encounter.media = -1;
+    ambient.encounter.waves = {};
+  }
   ambient.place = place;
   ambient.medium = medium;
   return true;
 }
 
-bool followRegions(AmbientBody& ambient, const FluidRegions& regions,
+bool followRegions(AmbientBody& ambient, const FluidRegions& regions, double duration,
                    Complaints& complaints) noexcept {
   if (!ambient.def.follow_regions) return false;
   if (regions.empty() && ambient.place.region == RegionId::kNone) return false;
   const Vector3 centre = toVector3(ambient.body->getWorldTransform().getOrigin());
   const FluidRegions::Entry* entry = regions.find(centre, ambient.counters.regions_asked);
-  RegionPlace place;
-  Medium medium = ambient.def.medium;
-  if (entry) {
-    const RegionMedium here = mediumAt(entry->region, centre, regions.time);
-    place = {entry->id, here.is_above};
-    medium = here.medium;
-    if (!here.is_finite) {
-      ++ambient.counters.rejected;
-      complaints.say(Complaint::kRegion);
-    }
-  }
   ambient.may_rest = !entry || isSteady(entry->region);
   const long long changes = ambient.counters.medium_changes;
-  const bool has_loads = enterMedium(ambient, place, medium);
+  if (!entry) {
+    enterMedium(ambient, {}, ambient.def.medium);
+    return ambient.counters.medium_changes != changes;
+  }
+  const RegionSample sample = sampleRegion(entry->region, centre, regions.time);
+  if (!sample.is_finite) {
+    ++ambient.counters.rejected;
+    complaints.say(Complaint::kRegion);
+  }
+  const SurfaceSide side =
+      entry->region.surface ? meetSurface(ambient, sample, duration) : SurfaceSide::kBelow;
+  const bool is_above = side == SurfaceSide::kAbove;
+  const bool has_loads = enterMedium(ambient, {entry->id, is_above, side == SurfaceSide::kAt},
+                                     is_above ? sample.above : sample.below);
   AMBIENT_ASSERT(has_loads);
   return ambient.counters.medium_changes != changes;
 }

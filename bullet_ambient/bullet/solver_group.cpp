@@ -40,6 +40,13 @@ void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
   linear = T.linear * linear;
 }
 
+// That of its model, which changes at the surface of the water.
+Matrix6 basisOf(const AmbientBody& ambient) {
+  if (!ambient.surface()) return ambient.basis_B;
+  const Vector3 inverse_inertia = toVector3(ambient.body->getInvInertiaDiagLocal());
+  return makeVelocityBasis(ambient.model, inverse_inertia.cwiseInverse());
+}
+
 void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
   solver_body.m_externalTorqueImpulse = toBullet(change_W.angular);
   solver_body.m_externalForceImpulse = toBullet(change_W.linear);
@@ -147,7 +154,7 @@ void SolverGroup::findMembers(SolverBodies& solver_bodies) noexcept {
   for (int i = 0; i < solver_bodies.size(); ++i) {
     const btRigidBody* body = solver_bodies[i].m_originalBody;
     AmbientBody* ambient = bodies_.find(body);
-    if (!ambient || !prepareStep(*ambient, bodies_.regions, bodies_.complaints)) continue;
+    if (!ambient || !prepareStep(*ambient, bodies_.regions, time_step_, bodies_.complaints)) continue;
     if (stopIfNotFinite(*ambient, bodies_.complaints)) {
       solver_bodies[i].m_linearVelocity.setZero();
       solver_bodies[i].m_angularVelocity.setZero();
@@ -185,11 +192,15 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   ambient.body->updateInertiaTensor();
   const btRigidBody& body = *ambient.body;
   const RigidState start = readState(body);
+  Vector6 by_waves = Vector6::Zero();
+  if (ambient.surface()) by_waves = freezeAtSurface(ambient, time_step_);
   const Surroundings surroundings = readSurroundings(ambient);
   const FlightTask task{ambient.model, surroundings, ambient.def.flight, time_step_};
   const AxisFactors factors = axisFactors(body);
   RowVelocity row = member.is_locked ? computeLockedVelocity(task, start, factors)
                                      : computeRowVelocity(task, start);
+  row.change_W.angular += start.orientation * by_waves.head<3>();
+  row.change_W.linear += start.orientation * by_waves.tail<3>();
   countLoads(ambient, row.count.load_evaluations);
   ambient.counters.guarded += row.count.guarded;
   if (!row.change_W.vector().allFinite()) {
@@ -209,7 +220,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   if (member.is_locked) {
     lock(row_body, ambient, factors, solver_body);
   } else {
-    row_body.basis = toWorld(ambient.basis_B, start.orientation.toRotationMatrix());
+    row_body.basis = toWorld(basisOf(ambient), start.orientation.toRotationMatrix());
   }
 }
 

@@ -373,7 +373,7 @@ TEST(SceneReader, MakesRegionsOfWaterFirst) {
   EXPECT_EQ(regions[0].above.density, 1.204);
   EXPECT_FALSE(regions[0].surface->isStill());
   // Under water: that the waves run on it, once.
-  EXPECT_NEAR(mediumAt(regions[0], {0, -40, 0}, 0).medium.velocity.x(), 1, 1e-12);
+  EXPECT_NEAR(sampleRegion(regions[0], {0, -40, 0}, 0).here().velocity.x(), 1, 1e-12);
   EXPECT_EQ(regions[1].below.velocity.x(), 3);
   EXPECT_EQ(regions[1].priority, 4);
   EXPECT_TRUE(regions[1].bounds->hold({0.5, 0.5, 0.5}));
@@ -381,8 +381,8 @@ TEST(SceneReader, MakesRegionsOfWaterFirst) {
   text["water"].erase("waves");
   const FluidRegion still = makeRegions(readText(text))[0];
   EXPECT_TRUE(still.surface->isStill());
-  EXPECT_EQ(mediumAt(still, {0, 0, 0}, 0).medium.velocity, Vector3(1, 0, 0));
-  EXPECT_TRUE(mediumAt(still, {0, 0.6, 0}, 0).is_above);
+  EXPECT_EQ(sampleRegion(still, {0, 0, 0}, 0).here().velocity, Vector3(1, 0, 0));
+  EXPECT_TRUE(sampleRegion(still, {0, 0.6, 0}, 0).isAbove());
 }
 
 TEST(SceneReader, SaysWhatIsWrongWithWaterAndRegions) {
