@@ -15,18 +15,21 @@ static_assert(PartBlock::kParts == kLanes, "a block has one part per lane");
 /// The depths of a part, as three Gauss points of a patch that has its mean square along s.
 struct Depths {
   Doubles above, middle, below;
+  Doubles way;       // of the outer points from the middle
+  Doubles slope[3];  // of half its square, by s
 
   Depths(const PartBlock& block, int lane, const PartPlane& plane) {
     const double(&s)[3] = plane.normal;
     const auto centre = [&](int axis) { return load(block.centre[axis] + lane); };
     const auto spread = [&](int k) { return load(block.spread[k] + lane); };
     middle = plane.height - (s[0] * centre(0) + s[1] * centre(1) + s[2] * centre(2));
-    const Doubles square = (s[0] * s[0]) * spread(0) + (s[1] * s[1]) * spread(1) +
-                           (s[2] * s[2]) * spread(2) + (2 * s[0] * s[1]) * spread(3) +
-                           (2 * s[0] * s[2]) * spread(4) + (2 * s[1] * s[2]) * spread(5);
     constexpr double kNode = 9.0 / 5;  // sqrt(3/5) of a half width sqrt(3 s.C s)
+    slope[0] = kNode * (s[0] * spread(0) + s[1] * spread(3) + s[2] * spread(4));
+    slope[1] = kNode * (s[0] * spread(3) + s[1] * spread(1) + s[2] * spread(5));
+    slope[2] = kNode * (s[0] * spread(4) + s[1] * spread(5) + s[2] * spread(2));
+    const Doubles square = s[0] * slope[0] + s[1] * slope[1] + s[2] * slope[2];
     const Doubles zero = {};
-    const Doubles way = root(kNode * (square > zero ? square : zero));
+    way = root(square > zero ? square : zero);
     above = middle - way;
     below = middle + way;
   }
@@ -80,17 +83,20 @@ PartGradient sumGradient(const PartBlocks& parts, const PartPlane& plane,
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const PartBlock& block = parts.blocks[i];
       const Depths depths(block, lane, plane);
-      Doubles t = (5 * weight.slopeAt(depths.above) + 8 * weight.slopeAt(depths.middle) +
-                   5 * weight.slopeAt(depths.below)) /
-                  18;
+      const Doubles above = 5 * weight.slopeAt(depths.above);
+      const Doubles below = 5 * weight.slopeAt(depths.below);
       Doubles energy = {};
       for (int entry = 0; entry < PartBlock::kEntries; ++entry)
         energy = energy + products[entry] * load(block.inertia[entry] + lane);
-      t = t * energy;
+      energy = energy / 18;
+      const Doubles t = (above + 8 * weight.slopeAt(depths.middle) + below) * energy;
+      const Doubles zero = {};
+      const Doubles apart = depths.way > zero ? (below - above) * energy / depths.way : zero;
       store(lanes[0] + lane, load(lanes[0] + lane) + t);
       for (int axis = 0; axis < 3; ++axis)
-        store(lanes[axis + 1] + lane,
-              load(lanes[axis + 1] + lane) - t * load(block.centre[axis] + lane));
+        store(lanes[axis + 1] + lane, load(lanes[axis + 1] + lane) -
+                                          t * load(block.centre[axis] + lane) +
+                                          apart * depths.slope[axis]);
     }
   return {sumLanes(lanes[0]), {sumLanes(lanes[1]), sumLanes(lanes[2]), sumLanes(lanes[3])}};
 }
