@@ -40,7 +40,7 @@ struct AmbientBody {
   std::vector<SurfaceMedia> surfaces;
   SurfaceEncounter encounter;
   bool is_frozen = false;  ///< the model is that of the surface at some moment
-  bool may_rest = true;  ///< nothing around it changes with time
+  bool may_rest = true;    ///< nothing around it changes with time
   BodyModel model;
   Matrix6 basis_B = Matrix6::Identity();
   btScalar seen_inverse_mass = 0;  ///< dry mass properties the model was built from
@@ -54,10 +54,10 @@ struct AmbientBody {
   bool isInFluid() const { return medium.density > 0; }
   /// The fluids whose surface is near; null: none.
   const SurfaceMedia* surface() const {
-    return place.is_at_surface ? &surfaces[static_cast<std::size_t>(encounter.media)] : nullptr;
+    return encounter.media >= 0 ? &surfaces[static_cast<std::size_t>(encounter.media)] : nullptr;
   }
   /// In which sizes of its motion are compared.
-  const BodyModel& metric() const { return place.is_at_surface ? surface()->model.below : model; }
+  const BodyModel& metric() const { return surface() ? surface()->model.below : model; }
 };
 
 /// Counts evaluations of the loads on a body.

@@ -165,8 +165,7 @@ auto AmbientRegistry::changeRegions(const Change& change) {
   std::size_t next = 0;
   for (const auto& ambient : bodies_->all()) {
     ambient->media = std::move(media[next]);
-    ambient->surfaces = std::move(surfaces[next++]);
-    leaveSurface(*ambient);
+    replaceSurfaces(*ambient, std::move(surfaces[next++]));
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #include "bullet_ambient/bullet/region_following.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
 
@@ -69,6 +70,18 @@ std::vector<SurfaceMedia> makeSurfaceMedia(const AttachDef& def, const FluidRegi
                             : makeSurfaceMediaOf(def, region, tables));
   }
   return made;
+}
+
+void replaceSurfaces(AmbientBody& ambient, std::vector<SurfaceMedia> surfaces) {
+  int known = 0;
+  for (const SurfaceMedia& old : ambient.surfaces)
+    if (findSurface(surfaces, old.below, old.above) >= 0) ++known;
+  if (known < static_cast<int>(surfaces.size())) markStale(ambient);  // new ones lack the mass
+  if (const SurfaceMedia* at = ambient.surface()) {
+    ambient.encounter.media = findSurface(surfaces, at->below, at->above);
+    if (!ambient.surface() && ambient.is_frozen) markStale(ambient);
+  }
+  ambient.surfaces = std::move(surfaces);
 }
 
 bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& medium) noexcept {

@@ -103,7 +103,8 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
     end = twistOf(ambient.model, *rows.momentum, now.orientation, position).vector();
   }
   if (rows.energy_bound) end = withinEnergy(ambient.model, moved, end, *rows.energy_bound);
-  if (ambient.surface()) end = passWithRows(ambient, end, time_step);
+  if (ambient.surface())
+    end = passWithRows(ambient, end, rows.momentum ? Axes::kFree : Axes::kLocked, time_step);
   const Twist change_W = withoutTraces(turnedBy(now.orientation, end - moved), time_step);
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;

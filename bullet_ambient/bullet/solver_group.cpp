@@ -154,7 +154,8 @@ void SolverGroup::findMembers(SolverBodies& solver_bodies) noexcept {
   for (int i = 0; i < solver_bodies.size(); ++i) {
     const btRigidBody* body = solver_bodies[i].m_originalBody;
     AmbientBody* ambient = bodies_.find(body);
-    if (!ambient || !prepareStep(*ambient, bodies_.regions, time_step_, bodies_.complaints)) continue;
+    if (!ambient || !prepareStep(*ambient, bodies_.regions, time_step_, bodies_.complaints))
+      continue;
     if (stopIfNotFinite(*ambient, bodies_.complaints)) {
       solver_bodies[i].m_linearVelocity.setZero();
       solver_bodies[i].m_angularVelocity.setZero();

@@ -28,8 +28,7 @@ SurfacePlane planeAfter(const AmbientBody& ambient, double time) {
   const RigidState state = readState(*ambient.body);
   const Medium& water = ambient.medium;
   SurfacePlane plane = ambient.encounter.plane_W;
-  plane.height +=
-      plane.normal.dot(time * water.velocity + time * time / 2 * water.acceleration);
+  plane.height += plane.normal.dot(time * water.velocity + time * time / 2 * water.acceleration);
   return seenFrom(plane, state.orientation.toRotationMatrix(), state.position);
 }
 
@@ -72,8 +71,8 @@ SurfaceSide meetSurface(AmbientBody& ambient, const RegionSample& sample,
   const RigidState state = readState(body);
   const SurfacePlane plane_W = planeNear(state.position, sample, gravity);
   const double speed = (toVector3(body.getLinearVelocity()) - sample.below.velocity).norm();
-  const double travel = duration * (speed + model.radius * state.twist.angular.norm() +
-                                    duration * gravity.norm());
+  const double travel =
+      duration * (speed + model.radius * state.twist.angular.norm() + duration * gravity.norm());
   const SurfacePlane plane_B =
       seenFrom(plane_W, state.orientation.toRotationMatrix(), state.position);
   const SurfaceSide side = sideOf(model, plane_B, travel);
@@ -109,8 +108,13 @@ Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
          x;
 }
 
-Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, double duration) noexcept {
+Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, Axes axes,
+                     double duration) noexcept {
   const SurfaceStand after = standAfter(ambient, duration);
+  if (axes == Axes::kLocked) {
+    const double had = x.dot(ambient.model.inertia * x), has = x.dot(after.inertia * x);
+    return has > had ? Vector6(std::sqrt(had / has) * x) : x;
+  }
   return passSurface({ambient.surface()->model, ambient.model.inertia, after, duration}, x);
 }
 

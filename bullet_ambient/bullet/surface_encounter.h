@@ -40,7 +40,7 @@ struct SurfaceMedia {
 
 /// How a body meets a surface, of which it moves in one step.
 struct SurfaceEncounter {
-  int media = -1;  ///< which of AmbientBody::surfaces; -1: the surface is far
+  int media = -1;        ///< which of AmbientBody::surfaces; -1: the surface is far
   SurfacePlane plane_W;  ///< at the start of the step
   Vector3 velocity_above = Vector3::Zero();
   WaveMemory waves;  ///< that the body has made
@@ -60,13 +60,16 @@ SurfaceSide meetSurface(AmbientBody& ambient, const RegionSample& sample, double
 BodyModel modelNow(const AmbientBody& ambient);
 
 /// Before its rows are solved: makes the body's model that of the moment, and gives back the change
-/// of velocity in B by the waves that it makes. Allocates nothing. @pre it is at a surface; below as
-/// well
+/// of velocity in B by the waves that it makes. Allocates nothing. @pre it is at a surface; below
+/// as well
 Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept;
 
 /// After Bullet has moved a body with rows: its twist in B, relative to the water, after the change
-/// of its inertia on the way.
-Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, double duration) noexcept;
+/// of its inertia on the way. With locked axes, it loses what energy the change would give it, and
+/// nothing else.
+enum class Axes { kFree, kLocked };
+Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, Axes axes,
+                     double duration) noexcept;
 
 /// Of a body that hardly moves: whether it may fall asleep where it floats. False on a saddle.
 bool mayRestAtSurface(const AmbientBody& ambient) noexcept;

@@ -13,8 +13,8 @@
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/region_id.h"
-#include "bullet_ambient/motion/body_waves.h"
 #include "bullet_ambient/motion/flight_memory.h"
+#include "bullet_ambient/motion/wave_memory.h"
 
 class btDynamicsWorld;
 

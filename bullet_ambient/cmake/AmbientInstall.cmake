@@ -51,6 +51,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   bullet/solver_group.h
   bullet/world_state.h
   bullet/world_tie.h
+  fluid_body/added_mass_part.h
   fluid_body/cluster_block.h
   fluid_body/fluid_body.h
   fluid_body/fluid_body_file.h
@@ -65,6 +66,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   force/water_surface.h
   motion/flight_memory.h
   motion/flight_settings.h
+  motion/wave_memory.h
   spatial/frame_offset.h
   spatial/principal_frame.h
   spatial/spatial_vectors.h
