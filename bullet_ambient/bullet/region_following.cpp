@@ -93,7 +93,7 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
     ++ambient.counters.medium_changes;
     markStale(ambient);
   }
-  if (!(place == ambient.place)) ambient.memory.has_load = false;
+  if (!(place == ambient.place)) ambient.memory = {};
   if (!place.is_at_surface) {
     if (ambient.is_frozen) markStale(ambient);
     ambient.encounter.media = -1;
