@@ -50,6 +50,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   bullet/solver_group.h
   bullet/world_state.h
   bullet/world_tie.h
+  fluid_body/added_mass_part.h
   fluid_body/cluster_block.h
   fluid_body/fluid_body.h
   fluid_body/fluid_body_file.h
@@ -59,6 +60,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   force/flow_settings.h
   force/medium.h
   force/surface_loads.h
+  force/surface_plane.h
   motion/flight_memory.h
   motion/flight_settings.h
   spatial/frame_offset.h
