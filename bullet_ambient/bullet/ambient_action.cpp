@@ -69,9 +69,15 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     if (kind == Outcome::kStock || !isStillIn(*world, bodies, *ambient)) continue;
     complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }
-  if (!isSolverMissing(*world)) return;
-  const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
-  bodies.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);
+  if (isSolverMissing(*world)) {
+    const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
+    bodies.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);
+  }
+  for (const auto& attachment : followed_) attachment->update(*world);
+}
+
+void AmbientAction::follow(std::unique_ptr<WorldAttachment> attachment) {
+  followed_.push_back(std::move(attachment));
 }
 
 void AmbientAction::debugDraw(btIDebugDraw* drawer) {

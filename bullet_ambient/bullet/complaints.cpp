@@ -32,6 +32,7 @@ const char* sentenceOf(Complaint complaint) {
              "are not physical; it moves as in a vacuum until they are valid again";
     case Complaint::kInertia:  // these name the body
     case Complaint::kEmpty:
+    case Complaint::kLight:
     case Complaint::kCount:
       break;
   }

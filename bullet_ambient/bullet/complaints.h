@@ -19,6 +19,7 @@ enum class Complaint {
   kNotPhysical,
   kInertia,
   kEmpty,
+  kLight,
   kCount
 };
 

@@ -17,8 +17,12 @@ void* countedAllocation(std::size_t size, int alignment) {
   return std::aligned_alloc(a, (size + a - 1) / a * a);
 }
 
+struct NoShapes : FluidBodySource {
+  std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape&) override { return nullptr; }
+};
+
 // After the first steps have sized every buffer: free bodies, a body at rest on the floor and a
-// pendulum with feedback.
+// pendulum with feedback, in a world that is watched for bodies that come later.
 TEST(Step, AllocatesNothing) {
   btAlignedAllocSetCustomAligned(countedAllocation, std::free);
   {
@@ -45,6 +49,12 @@ TEST(Step, AllocatesNothing) {
     btJointFeedback feedback;
     joint.setJointFeedback(&feedback);
     fluid.world.addConstraint(&joint);
+
+    NoShapes no_shapes;
+    AttachSettings settings;
+    settings.later_bodies = true;
+    fluid.action.follow(
+        std::make_unique<WorldAttachment>(fluid.registry, no_shapes, water(), settings));
 
     fluid.step(1.0 / 60, 60);
     const std::size_t before = allocationCount();

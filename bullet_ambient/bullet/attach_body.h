@@ -1,0 +1,36 @@
+#pragma once
+
+#include "bullet_ambient/bullet/attach_def.h"
+#include "bullet_ambient/bullet/precision_check.h"
+
+class btRigidBody;
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+class AmbientBodies;
+class Complaints;
+
+/// Body and displaced medium.
+struct DisplacedMass {
+  double body = 0;    ///< [kg]
+  double medium = 0;  ///< [kg]
+
+  bool isLighter() const { return body < medium; }
+  /// So much that it rises at a good part of g, which hardly anybody means in air.
+  bool isMuchLighter() const { return 2 * body < medium; }
+};
+
+/// @pre the body is dynamic.
+DisplacedMass displacedMass(const btRigidBody& body, const AttachDef& def);
+
+/// AmbientRegistry::attach() but for what is said of light bodies.
+/// @throws std::invalid_argument as AmbientRegistry::attach().
+void attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def);
+
+/// Says once, of one body that is much lighter than what it displaces, both masses, and how many
+/// are.
+void sayLight(Complaints& complaints, const FluidBody& shape, const DisplacedMass& mass, int count);
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient
