@@ -14,12 +14,26 @@ BodyModel makeModel(const AmbientBody& ambient, const MassProperties& mass,
   return makeBodyModel(*def.fluid_body, def.fluid_frame, mass, ambient.medium, loads);
 }
 
+// Of the body of another mass; their loads stay.
+void rebuildSurfaces(AmbientBody& ambient, const MassProperties& mass) {
+  const AttachDef& def = ambient.def;
+  for (SurfaceMedia& surface : ambient.surfaces) {
+    SurfaceModel& model = surface.model;
+    model.below =
+        makeBodyModel(*def.fluid_body, def.fluid_frame, mass, surface.below, model.below.loads);
+    model.above =
+        makeBodyModel(*def.fluid_body, def.fluid_frame, mass, surface.above, model.above.loads);
+  }
+}
+
 void buildModel(AmbientBody& ambient, const std::shared_ptr<const SurfaceLoads>& loads) {
   const btRigidBody& body = *ambient.body;
   const Vector3 inverse_inertia = toVector3(body.getInvInertiaDiagLocal());
   const Vector3 inertia = inverse_inertia.cwiseInverse();
   const MassProperties mass{1 / static_cast<double>(body.getInvMass()), inertia.asDiagonal()};
   ambient.model = makeModel(ambient, mass, loads);
+  ambient.is_frozen = false;
+  rebuildSurfaces(ambient, mass);
   ambient.basis_B = makeVelocityBasis(ambient.model, inertia);
   ambient.seen_inverse_mass = body.getInvMass();
   ambient.seen_inverse_inertia = body.getInvInertiaDiagLocal();
@@ -76,8 +90,10 @@ bool isModelStale(const AmbientBody& ambient) {
 void refreshModel(AmbientBody& ambient, const FluidRegions& regions, LoadTables& tables) {
   AmbientBody fresh = ambient;
   fresh.media = makeMediumLoads(ambient.def, regions, tables, {});
+  fresh.surfaces = makeSurfaceMedia(ambient.def, regions, tables, {});
   fresh.medium = ambient.def.medium;
   fresh.place = {};
+  fresh.encounter = {};
   const auto& loads = fresh.media.front().loads;
   if (ambient.body->getInvMass() > 0) {
     buildModel(fresh, loads);

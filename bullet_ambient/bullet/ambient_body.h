@@ -11,6 +11,7 @@
 #include "bullet_ambient/bullet/region_id.h"
 #include "bullet_ambient/bullet/step_errors.h"
 #include "bullet_ambient/bullet/substep_outcome.h"
+#include "bullet_ambient/bullet/surface_encounter.h"
 #include "bullet_ambient/bullet/velocity_basis.h"
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/surface_loads.h"
@@ -36,7 +37,10 @@ struct AmbientBody {
   Medium medium;      ///< around it now: its own, or that of its region
   RegionPlace place;  ///< none, if the medium is its own
   std::vector<MediumLoads> media;
-  bool may_rest = true;  ///< nothing around it changes with time
+  std::vector<SurfaceMedia> surfaces;
+  SurfaceEncounter encounter;
+  bool is_frozen = false;  ///< the model is that of the surface at some moment
+  bool may_rest = true;    ///< nothing around it changes with time
   BodyModel model;
   Matrix6 basis_B = Matrix6::Identity();
   btScalar seen_inverse_mass = 0;  ///< dry mass properties the model was built from
@@ -48,13 +52,21 @@ struct AmbientBody {
   SubstepOutcome outcome;
 
   bool isInFluid() const { return medium.density > 0; }
+  /// The fluids whose surface is near; null: none.
+  const SurfaceMedia* surface() const {
+    return encounter.media >= 0 ? &surfaces[static_cast<std::size_t>(encounter.media)] : nullptr;
+  }
+  /// In which sizes of its motion are compared.
+  const BodyModel& metric() const { return surface() ? surface()->model.below : model; }
 };
 
 /// Counts evaluations of the loads on a body.
 inline void countLoads(AmbientBody& ambient, int evaluations) noexcept {
+  if (evaluations == 0) return;
+  const SurfaceMedia* surface = ambient.surface();
+  const auto& loads = surface ? surface->model.loads_below.loads : ambient.model.loads;
   ambient.counters.load_evaluations += evaluations;
-  if (evaluations > 0)
-    ambient.counters.faces += static_cast<long long>(evaluations) * ambient.model.loads->faces();
+  if (loads) ambient.counters.faces += static_cast<long long>(evaluations) * loads->faces();
 }
 
 /// Pose and twist of a btRigidBody, its twist in body axes.

@@ -20,8 +20,9 @@ Matrix6 inverseInertia(const AmbientBody& ambient) {
   const btRigidBody& body = *ambient.body;
   const Matrix3 R = readState(body).orientation.toRotationMatrix();
   const AxisFactors factors = axisFactors(body);
-  if (factors.areFree()) return rotateAxes(ambient.model.inverse_inertia, R);
-  return lockedInverse(rotateAxes(ambient.model.inertia, R), factors);
+  const BodyModel model = modelNow(ambient);
+  if (factors.areFree()) return rotateAxes(model.inverse_inertia, R);
+  return lockedInverse(rotateAxes(model.inertia, R), factors);
 }
 
 void applyWrenchImpulse(const AmbientBody& ambient, btRigidBody& body, const Wrench& impulse) {

@@ -94,12 +94,18 @@ auto AmbientRegistry::changeRegions(const Change& change) {
   FluidRegions regions = bodies_->regions;
   const auto result = change(regions);
   std::vector<std::vector<MediumLoads>> media;
-  media.reserve(bodies_->size());
-  for (const auto& ambient : bodies_->all())
-    media.push_back(makeMediumLoads(ambient->def, regions, bodies_->load_tables, ambient->media));
+  std::vector<std::vector<SurfaceMedia>> surfaces;
+  LoadTables& tables = bodies_->load_tables;
+  for (const auto& ambient : bodies_->all()) {
+    media.push_back(makeMediumLoads(ambient->def, regions, tables, ambient->media));
+    surfaces.push_back(makeSurfaceMedia(ambient->def, regions, tables, ambient->surfaces));
+  }
   bodies_->regions = std::move(regions);
-  auto next = media.begin();
-  for (const auto& ambient : bodies_->all()) ambient->media = std::move(*next++);
+  std::size_t next = 0;
+  for (const auto& ambient : bodies_->all()) {
+    ambient->media = std::move(media[next]);
+    replaceSurfaces(*ambient, std::move(surfaces[next++]));
+  }
   return result;
 }
 
@@ -124,8 +130,8 @@ RegionId AmbientRegistry::region(const btRigidBody& body) const {
 
 double AmbientRegistry::time() const { return bodies_->regions.time; }
 
-const Matrix6& AmbientRegistry::inertia(const btRigidBody& body) const {
-  return bodies_->require(body).model.inertia;
+Matrix6 AmbientRegistry::inertia(const btRigidBody& body) const {
+  return modelNow(bodies_->require(body)).inertia;
 }
 
 std::size_t AmbientRegistry::size() const { return bodies_->size(); }

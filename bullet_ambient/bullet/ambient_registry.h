@@ -79,7 +79,7 @@ class AmbientRegistry {
   void setFluidBody(const btRigidBody& body, std::shared_ptr<const FluidBody> fluid_body);
 
   /// Total inertia K in the body frame; docs/theory.md eq. (3). @throws as medium().
-  const Matrix6& inertia(const btRigidBody& body) const;
+  Matrix6 inertia(const btRigidBody& body) const;
 
   std::size_t size() const;
   AmbientCounters counters(const btRigidBody& body) const;

@@ -57,9 +57,10 @@ class AmbientSolver : public Base {
                      const btContactSolverInfo& info) override {
     bool all_stay = false;
     if constexpr (kHasMultiBodies) all_stay = this->m_tmpNumMultiBodyConstraints > 0;
-    const GroupBodies converted = group_.select({bodies, body_count}, input_, all_stay);
+    const GroupBodies converted =
+        group_.select({bodies, body_count}, input_, info.m_timeStep, all_stay);
     Base::convertBodies(converted.first, converted.count, info);
-    group_.begin(this->m_tmpSolverBodyPool, info.m_timeStep);
+    group_.begin(this->m_tmpSolverBodyPool);
   }
 
   // The last stock conversion: joints and contacts are rows by now.

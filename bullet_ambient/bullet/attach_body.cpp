@@ -51,7 +51,7 @@ void sayOddities(const AmbientBody& ambient, Complaints& complaints) {
 
 void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
   refreshModel(ambient, bodies.regions, bodies.load_tables);
-  followRegions(ambient, bodies.regions, bodies.complaints);
+  followRegions(ambient, bodies.regions, 0, bodies.complaints);
   if (ambient.body->getInvMass() > 0 && isModelStale(ambient)) rebuildModel(ambient);
 }
 

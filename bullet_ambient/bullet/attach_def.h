@@ -23,6 +23,8 @@ struct AttachDef {
   /// Whether the fluid is that of the region with the highest priority that holds the centre of
   /// mass, and `medium` only where there is none; AmbientRegistry::addRegion().
   bool follow_regions = true;
+  /// Factor on the damping of a floating body by the waves that it makes; docs/water.md.
+  double wave_damping = 1;
   FlowSettings flow = {};
   FlightSettings flight = {};
   FrameOffset fluid_frame = {};  ///< F in the btRigidBody's frame (centre of mass)

@@ -13,7 +13,7 @@ constexpr double kRestingTime = 2;       // [s], Bullet's gDeactivationTime by d
 
 }  // namespace
 
-bool prepareStep(AmbientBody& ambient, const FluidRegions& regions,
+bool prepareStep(AmbientBody& ambient, const FluidRegions& regions, double time_step,
                  Complaints& complaints) noexcept {
   SubstepOutcome& outcome = ambient.outcome;
   if (outcome.kind == Outcome::kFlown) complaints.say(Complaint::kNoAction);
@@ -21,7 +21,7 @@ bool prepareStep(AmbientBody& ambient, const FluidRegions& regions,
   outcome.world_index = ambient.body->getWorldArrayIndex();
   outcome.rows = {};
   if (ambient.body->isStaticOrKinematicObject()) return false;  // for now
-  const bool is_other_fluid = followRegions(ambient, regions, complaints);
+  const bool is_other_fluid = followRegions(ambient, regions, time_step, complaints);
   if (!ambient.isInFluid() && !is_other_fluid) return false;
   if (!isModelStale(ambient)) return true;
   try {
@@ -52,7 +52,8 @@ void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept {
   const double travel =
       kRestingTime * (static_cast<double>(body.getLinearVelocity().length()) +
                       size * static_cast<double>(body.getAngularVelocity().length()));
-  if (travel > kRestingTravel * size) body.setDeactivationTime(0);
+  const bool moves = travel > kRestingTravel * size;
+  if (moves || (ambient.surface() && !mayRestAtSurface(ambient))) body.setDeactivationTime(0);
 }
 
 void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept {

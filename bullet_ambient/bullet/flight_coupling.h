@@ -10,7 +10,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// The solver meets the body: begins its outcome, and says whether the fluid acts on it. Finds its
 /// region, rebuilds a stale model, and reports an action that is missing.
-bool prepareStep(AmbientBody& ambient, const FluidRegions& regions,
+bool prepareStep(AmbientBody& ambient, const FluidRegions& regions, double time_step,
                  Complaints& complaints) noexcept;
 
 /// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports

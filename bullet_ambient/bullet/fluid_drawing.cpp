@@ -76,7 +76,7 @@ FluidDrawing FluidDrawing::all() {
 
 void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer) {
   AMBIENT_ASSERT(ambient.isInFluid() && !ambient.body->isStaticOrKinematicObject());
-  const BodyModel& model = ambient.model;
+  const BodyModel model = modelNow(ambient);
   const RigidState state = readState(*ambient.body);
   const Surroundings s = readSurroundings(ambient);
   const Quaternion to_body = state.orientation.conjugate();

@@ -55,8 +55,33 @@ bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start, const
   const Quaternion to_body = start.orientation.conjugate();
   const Twist change{to_body * (now.angular - ambient.left_W.angular),
                      to_body * (now.linear - ambient.left_W.linear)};
-  return inertiaNormSquared(ambient.model, change.vector()) >
-         kSameVelocity * kSameVelocity * inertiaNormSquared(ambient.model, start.twist.vector());
+  return inertiaNormSquared(ambient.metric(), change.vector()) >
+         kSameVelocity * kSameVelocity * inertiaNormSquared(ambient.metric(), start.twist.vector());
+}
+
+void flyNearSurface(AmbientBody& ambient, Flight& flight) {
+  SurfaceEncounter& encounter = ambient.encounter;
+  const FlightTask& task = flight.task;
+  const SurfaceFlightResult result =
+      flyAtSurface({ambient.surface()->model, encounter.plane_W, task.surroundings,
+                    encounter.velocity_above, task.settings, task.duration},
+                   flight.body.state, flight.body.memory, encounter.waves);
+  flight.body = result.flight;
+  encounter.waves = result.waves;
+}
+
+// Those at a surface one by one, all others together.
+void flyAll(AmbientBody* const* bodies, Flight* const* flights, int count) {
+  Flight* free[kFlightsTogether];
+  int free_count = 0;
+  for (int i = 0; i < count; ++i) {
+    if (bodies[i]->surface()) {
+      flyNearSurface(*bodies[i], *flights[i]);
+    } else {
+      free[free_count++] = flights[i];
+    }
+  }
+  if (free_count > 0) flyTogether(free, free_count);
 }
 
 // Twists in world axes: at the end, and the mean one.
@@ -110,6 +135,7 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, d
     ambient.outcome.kind = Outcome::kAdrift;
     ++ambient.counters.rejected;
     ambient.memory = {};
+    ambient.encounter.waves = {};
     return;
   }
   ambient.outcome.kind = Outcome::kFlown;
@@ -144,7 +170,7 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
     const FlightTask task{ambient.model, departures.surroundings[i], ambient.def.flight, time_step};
     all[i] = &flights[i].emplace(task, start, ambient.memory);
   }
-  flyTogether(all, count);
+  flyAll(bodies, all, count);
   Arrivals arrivals;
   computeArrivals(departures, all, count, time_step, arrivals);
   for (int i = 0; i < count; ++i) {

@@ -1,6 +1,7 @@
 #include "bullet_ambient/bullet/region_following.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
 
@@ -17,6 +18,22 @@ const MediumLoads* findLoads(const std::vector<MediumLoads>& loads, const Medium
     return isSameFluid(entry, medium);
   });
   return found == loads.end() ? nullptr : &*found;
+}
+
+SurfaceMedia makeSurfaceMediaOf(const AttachDef& def, const FluidRegion& region,
+                                LoadTables& tables) {
+  SurfaceModelDef model;
+  model.shape = def.fluid_body;
+  model.fluid_frame = def.fluid_frame;
+  model.mass = {1, Matrix3::Identity()};
+  model.above = region.above;
+  model.below = region.below;
+  model.flow = def.flow;
+  model.wave_damping = def.wave_damping;
+  SurfaceMedia made{region.below, region.above, makeSurfaceModel(model, tables), nullptr};
+  const auto& loads = made.model.loads_below.loads;
+  if (loads) made.loads = std::make_shared<LoadsAtSurface>(loads);
+  return made;
 }
 
 }  // namespace
@@ -40,6 +57,33 @@ std::vector<MediumLoads> makeMediumLoads(const AttachDef& def, const FluidRegion
   return made;
 }
 
+std::vector<SurfaceMedia> makeSurfaceMedia(const AttachDef& def, const FluidRegions& regions,
+                                           LoadTables& tables,
+                                           const std::vector<SurfaceMedia>& known) {
+  std::vector<SurfaceMedia> made;
+  if (!def.follow_regions) return made;
+  for (const FluidRegions::Entry& entry : regions.all()) {
+    const FluidRegion& region = entry.region;
+    if (!region.surface || findSurface(made, region.below, region.above) >= 0) continue;
+    const int old = findSurface(known, region.below, region.above);
+    made.push_back(old >= 0 ? known[static_cast<std::size_t>(old)]
+                            : makeSurfaceMediaOf(def, region, tables));
+  }
+  return made;
+}
+
+void replaceSurfaces(AmbientBody& ambient, std::vector<SurfaceMedia> surfaces) {
+  int known = 0;
+  for (const SurfaceMedia& old : ambient.surfaces)
+    if (findSurface(surfaces, old.below, old.above) >= 0) ++known;
+  if (known < static_cast<int>(surfaces.size())) markStale(ambient);  // new ones lack the mass
+  if (const SurfaceMedia* at = ambient.surface()) {
+    ambient.encounter.media = findSurface(surfaces, at->below, at->above);
+    if (!ambient.surface() && ambient.is_frozen) markStale(ambient);
+  }
+  ambient.surfaces = std::move(surfaces);
+}
+
 bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& medium) noexcept {
   const Medium& before = ambient.medium;
   if (medium.density != before.density || medium.viscosity != before.viscosity) {
@@ -50,31 +94,38 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
     markStale(ambient);
   }
   if (!(place == ambient.place)) ambient.memory.has_load = false;
+  if (!place.is_at_surface) {
+    if (ambient.is_frozen) markStale(ambient);
+    ambient.encounter.media = -1;
+    ambient.encounter.waves = {};
+  }
   ambient.place = place;
   ambient.medium = medium;
   return true;
 }
 
-bool followRegions(AmbientBody& ambient, const FluidRegions& regions,
+bool followRegions(AmbientBody& ambient, const FluidRegions& regions, double duration,
                    Complaints& complaints) noexcept {
   if (!ambient.def.follow_regions) return false;
   if (regions.empty() && ambient.place.region == RegionId::kNone) return false;
   const Vector3 centre = toVector3(ambient.body->getWorldTransform().getOrigin());
   const FluidRegions::Entry* entry = regions.find(centre, ambient.counters.regions_asked);
-  RegionPlace place;
-  Medium medium = ambient.def.medium;
-  if (entry) {
-    const RegionMedium here = mediumAt(entry->region, centre, regions.time);
-    place = {entry->id, here.is_above};
-    medium = here.medium;
-    if (!here.is_finite) {
-      ++ambient.counters.rejected;
-      complaints.say(Complaint::kRegion);
-    }
-  }
   ambient.may_rest = !entry || isSteady(entry->region);
   const long long changes = ambient.counters.medium_changes;
-  const bool has_loads = enterMedium(ambient, place, medium);
+  if (!entry) {
+    enterMedium(ambient, {}, ambient.def.medium);
+    return ambient.counters.medium_changes != changes;
+  }
+  const RegionSample sample = sampleRegion(entry->region, centre, regions.time);
+  if (!sample.is_finite) {
+    ++ambient.counters.rejected;
+    complaints.say(Complaint::kRegion);
+  }
+  const SurfaceSide side =
+      entry->region.surface ? meetSurface(ambient, sample, duration) : SurfaceSide::kBelow;
+  const bool is_above = side == SurfaceSide::kAbove;
+  const bool has_loads = enterMedium(ambient, {entry->id, is_above, side == SurfaceSide::kAt},
+                                     is_above ? sample.above : sample.below);
   AMBIENT_ASSERT(has_loads);
   return ambient.counters.medium_changes != changes;
 }

@@ -12,10 +12,11 @@ enum class RegionId : int { kNone = -1 };
 /// Where among the regions a body was at the start of its last step.
 struct RegionPlace {
   RegionId region = RegionId::kNone;
-  bool is_above = false;  ///< the region's surface
+  bool is_above = false;       ///< the region's surface
+  bool is_at_surface = false;  ///< the surface cuts it, or is near
 
   friend bool operator==(const RegionPlace& a, const RegionPlace& b) {
-    return a.region == b.region && a.is_above == b.is_above;
+    return a.region == b.region && a.is_above == b.is_above && a.is_at_surface == b.is_at_surface;
   }
 };
 

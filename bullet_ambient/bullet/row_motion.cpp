@@ -90,7 +90,7 @@ void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody&
 
 void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints) noexcept {
   const RowMotion& rows = ambient.outcome.rows;
-  if (!rows.momentum && !rows.energy_bound) return;
+  if (!rows.momentum && !rows.energy_bound && !ambient.surface()) return;
   btRigidBody& body = *ambient.body;
   const RigidState now = readState(body);
   const std::optional<double> part = partOfWay(rows, now, time_step);
@@ -103,6 +103,8 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
     end = twistOf(ambient.model, *rows.momentum, now.orientation, position).vector();
   }
   if (rows.energy_bound) end = withinEnergy(ambient.model, moved, end, *rows.energy_bound);
+  if (ambient.surface())
+    end = passWithRows(ambient, end, rows.momentum ? Axes::kFree : Axes::kLocked, time_step);
   const Twist change_W = withoutTraces(turnedBy(now.orientation, end - moved), time_step);
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;

@@ -43,6 +43,13 @@ void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
   linear = T.linear * linear;
 }
 
+// That of its model, which changes at the surface of the water.
+Matrix6 basisOf(const AmbientBody& ambient) {
+  if (!ambient.surface()) return ambient.basis_B;
+  const Vector3 inverse_inertia = toVector3(ambient.body->getInvInertiaDiagLocal());
+  return makeVelocityBasis(ambient.model, inverse_inertia.cwiseInverse());
+}
+
 void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
   solver_body.m_externalTorqueImpulse = toBullet(change_W.angular);
   solver_body.m_externalForceImpulse = toBullet(change_W.linear);
@@ -131,7 +138,8 @@ SolverGroup::SolverGroup(AmbientRegistry& registry)
 SolverGroup::~SolverGroup() = default;
 
 GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& input,
-                                bool all_stay) noexcept {
+                                btScalar time_step, bool all_stay) noexcept {
+  time_step_ = static_cast<double>(time_step);
   members_.clear();
   saved_.clear();
   if (bodies_.size() == 0) return bodies;
@@ -147,7 +155,8 @@ void SolverGroup::findMembers(const GroupBodies& bodies) noexcept {
   for (int i = 0; i < bodies.count; ++i) {
     btCollisionObject& object = *bodies.first[i];
     AmbientBody* ambient = bodies_.find(&object);
-    if (!ambient || !prepareStep(*ambient, bodies_.regions, bodies_.complaints)) continue;
+    if (!ambient || !prepareStep(*ambient, bodies_.regions, time_step_, bodies_.complaints))
+      continue;
     stopIfNotFinite(*ambient, bodies_.complaints);
     object.setCompanionId(static_cast<int>(members_.size()));
     members_.push_back({ambient, !axisFactors(*ambient->body).areFree()});
@@ -194,8 +203,7 @@ GroupBodies SolverGroup::withoutLoners(const GroupBodies& bodies) noexcept {
   return {converted_.data(), static_cast<int>(converted_.size())};
 }
 
-void SolverGroup::begin(SolverBodies& solver_bodies, btScalar time_step) noexcept {
-  time_step_ = static_cast<double>(time_step);
+void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
   if (members_.empty()) return;
   member_of_solver_body_.assign(solver_bodies.size(), -1);
   row_bodies_->reset(solver_bodies.size());
@@ -219,11 +227,15 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   ambient.body->updateInertiaTensor();
   const btRigidBody& body = *ambient.body;
   const RigidState start = readState(body);
+  Vector6 by_waves = Vector6::Zero();
+  if (ambient.surface()) by_waves = freezeAtSurface(ambient, time_step_);
   const Surroundings surroundings = readSurroundings(ambient);
   const FlightTask task{ambient.model, surroundings, ambient.def.flight, time_step_};
   const AxisFactors factors = axisFactors(body);
   RowVelocity row = member.is_locked ? computeLockedVelocity(task, start, factors)
                                      : computeRowVelocity(task, start);
+  row.change_W.angular += start.orientation * by_waves.head<3>();
+  row.change_W.linear += start.orientation * by_waves.tail<3>();
   countLoads(ambient, row.count.load_evaluations);
   ambient.counters.guarded += row.count.guarded;
   if (!row.change_W.vector().allFinite()) {
@@ -243,7 +255,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   if (member.is_locked) {
     lock(row_body, ambient, factors, solver_body);
   } else {
-    row_body.basis = toWorld(ambient.basis_B, start.orientation.toRotationMatrix());
+    row_body.basis = toWorld(basisOf(ambient), start.orientation.toRotationMatrix());
   }
 }
 

@@ -68,11 +68,12 @@ class SolverGroup {
   /// Before the stock conversion of the bodies: finds the ambient ones among them, and returns
   /// those that the solver has to know. What floats alone, without a contact, a joint or anything
   /// near, is not among them: no row can move it. `all_stay`: rows may come from elsewhere.
-  GroupBodies select(const GroupBodies& bodies, const GroupInput& input, bool all_stay) noexcept;
+  GroupBodies select(const GroupBodies& bodies, const GroupInput& input, btScalar time_step,
+                     bool all_stay) noexcept;
 
   /// After it: gives those with contacts or joints the velocity that their rows are solved against,
   /// docs/theory.md eq. (28).
-  void begin(SolverBodies& solver_bodies, btScalar time_step) noexcept;
+  void begin(SolverBodies& solver_bodies) noexcept;
 
   /// Whether there is no ambient body.
   bool empty() const { return members_.empty(); }

@@ -20,8 +20,9 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
 AmbientState saveAmbient(const AmbientBody& ambient) {
-  AmbientState state{ambient.def,    ambient.medium, ambient.place,
-                     ambient.memory, ambient.left_W, ambient.counters};
+  AmbientState state{ambient.def,     ambient.medium,          ambient.place,
+                     ambient.memory,  ambient.encounter.waves, ambient.left_W,
+                     ambient.counters};
   if (isModelStale(ambient)) state.memory = {};  // as the next step will do
   return state;
 }
@@ -69,6 +70,7 @@ std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(const WorldState& st
     AmbientBody& ambient = *result.back();
     ambient.body = bodies[i];
     ambient.memory = saved.memory;
+    ambient.encounter.waves = saved.waves;
     ambient.left_W = saved.left_W;
     ambient.counters = saved.counters;
   }

@@ -14,6 +14,7 @@
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/region_id.h"
 #include "bullet_ambient/motion/flight_memory.h"
+#include "bullet_ambient/motion/wave_memory.h"
 
 class btDynamicsWorld;
 
@@ -28,6 +29,7 @@ struct AmbientState {
   Medium medium;  ///< around it now
   RegionPlace place;
   FlightMemory memory;
+  WaveMemory waves;
   Twist left_W;
   AmbientCounters counters;
 };

@@ -66,6 +66,11 @@ bool areFinite(const Parts&... parts) {
 
 void checkAmbient(const ByteReader& reader, const AmbientState& ambient) {
   const FlightMemory& memory = ambient.memory;
+  const WaveMemory& waves = ambient.waves;
+  if (!areFinite(waves.tilt_W[0], waves.tilt_W[1]) || !std::isfinite(waves.heave[0]) ||
+      !std::isfinite(waves.heave[1]) || !std::isfinite(waves.energy())) {
+    reader.fail("has waves whose numbers are not finite");
+  }
   if (!areFinite(memory.load_W.torque, memory.load_W.force, ambient.left_W.angular,
                  ambient.left_W.linear) ||
       !std::isfinite(memory.substep)) {

@@ -23,6 +23,7 @@ template <class Stream, class State>
 void transferSettings(Stream& s, State& def) {
   transferMedium(s, def.medium);
   transferFlag(s, def.follow_regions);
+  s.number(def.wave_damping);
   s.number(def.flow.separation_angle);
   transferEnum(s, def.flow.law, PressureLaw::kForm);
   transferFlag(s, def.flow.skin_friction);
@@ -43,6 +44,13 @@ void transferFlight(Stream& s, State& state) {
   s.number(region);
   if constexpr (Stream::kReads) state.place.region = static_cast<RegionId>(region);
   transferFlag(s, state.place.is_above);
+  transferFlag(s, state.place.is_at_surface);
+  for (int i = 0; i < 2; ++i) {
+    s.number(state.waves.heave[i]);
+    transferMatrix(s, state.waves.tilt_W[i]);
+  }
+  s.number(state.waves.heave_energy);
+  s.number(state.waves.tilt_energy);
   transferMatrix(s, state.memory.load_W.torque);
   transferMatrix(s, state.memory.load_W.force);
   transferFlag(s, state.memory.has_load);

@@ -53,6 +53,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   bullet/world_attachment.h
   bullet/world_state.h
   bullet/world_tie.h
+  fluid_body/added_mass_part.h
   fluid_body/cluster_block.h
   fluid_body/fluid_body.h
   fluid_body/fluid_body_file.h
@@ -67,6 +68,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   force/water_surface.h
   motion/flight_memory.h
   motion/flight_settings.h
+  motion/wave_memory.h
   spatial/frame_offset.h
   spatial/principal_frame.h
   spatial/spatial_vectors.h

@@ -74,6 +74,11 @@ FluidBody scaled(const FluidBody& body, double factor) {
     level.centre *= factor;
     level.length *= factor;
   }
+  for (AddedMassPart& part : result.added_mass_parts) {
+    part.centre *= factor;
+    part.spread *= factor * factor;
+    part.inertia = scaleShape(part.inertia, factor);
+  }
   for (FormLevel& level : result.form_levels) scale(level.faces, factor);
   std::ostringstream settings;
   settings.precision(17);

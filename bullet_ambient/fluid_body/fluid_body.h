@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/added_mass_part.h"
 #include "bullet_ambient/fluid_body/load_level.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
@@ -86,6 +87,9 @@ struct FluidBody {
   /// Measured drag coefficients along the axes of F, on the frontal areas, that the form law is
   /// scaled to; 0: none, and then all are.
   Vector3 drag{0, 0, 0};
+  /// Of patches all over the surface, for bodies that the surface of the water cuts. Their sum is
+  /// the added mass to the error of its discretisation; empty: not known.
+  std::vector<AddedMassPart> added_mass_parts;
 };
 
 /// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x is the slip velocity of fully attached

@@ -209,6 +209,13 @@ void checkFormLevel(const FormLevel& level, const Checker& check) {
   check.notNegative(level.p99_error, "error of a level");
 }
 
+void checkPart(const AddedMassPart& part, double size, const Checker& check) {
+  check.finiteMatrix(part.centre, "centre of a part of the added mass");
+  check.near(part.centre, size, "centre of a part of the added mass");
+  check.finiteMatrix(part.spread, "spread of a part of the added mass");
+  check.finiteMatrix(part.inertia, "a part of the added mass");
+}
+
 }  // namespace
 
 void checkFluidBody(const FluidBody& body, const std::string& source) {
@@ -231,6 +238,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   checkSurface(body.surface, check);
   for (const LoadLevel& level : body.levels) checkLevel(level, check);
   for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
+  for (const AddedMassPart& part : body.added_mass_parts) checkPart(part, sizeOf(body), check);
   checkPlaces(body, check);
 }
 

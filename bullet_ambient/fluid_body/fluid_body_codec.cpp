@@ -165,6 +165,40 @@ Offset<flatbuffers::Vector<Offset<file::FormLevel>>> pack(FlatBufferBuilder& bui
   return builder.CreateVector(packed);
 }
 
+Offset<flatbuffers::Vector<float>> pack(FlatBufferBuilder& builder,
+                                        const std::vector<AddedMassPart>& parts) {
+  if (parts.empty()) return 0;
+  std::vector<float> numbers;
+  numbers.reserve(parts.size() * AddedMassPart::kNumbers);
+  const auto add = [&](double value) { numbers.push_back(static_cast<float>(value)); };
+  for (const AddedMassPart& part : parts) {
+    for (const double value : part.centre) add(value);
+    for (const double value : part.spread) add(value);
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column) add(part.inertia(row, column));
+  }
+  return builder.CreateVector(numbers);
+}
+
+std::vector<AddedMassPart> unpackParts(const flatbuffers::Vector<float>& packed,
+                                       const std::string& source) {
+  if (packed.size() % AddedMassPart::kNumbers != 0)
+    throw std::runtime_error(
+        source + ": the parts of its added mass are " + std::to_string(packed.size()) +
+        " numbers, but must be a multiple of " + std::to_string(AddedMassPart::kNumbers));
+  std::vector<AddedMassPart> parts(packed.size() / AddedMassPart::kNumbers);
+  std::size_t at = 0;
+  const auto next = [&] { return static_cast<double>(elementOf(packed, at++)); };
+  for (AddedMassPart& part : parts) {
+    for (double& value : part.centre) value = next();
+    for (double& value : part.spread) value = next();
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column)
+        part.inertia(row, column) = part.inertia(column, row) = next();
+  }
+  return parts;
+}
+
 void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   builder.ForceDefaults(true);  // else -0.0 would come back as +0.0
   const auto name = builder.CreateString(body.name);
@@ -175,6 +209,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto surface = pack(builder, body.surface);
   const auto levels = pack(builder, body.levels);
   const auto form_levels = pack(builder, body.form_levels);
+  const auto parts = pack(builder, body.added_mass_parts);
   const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
   const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
   const auto origin = packMatrix<file::Vector3>(body.origin);
@@ -185,7 +220,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
       builder, file::CreateFluidBody(
                    builder, name, provenance, &added_mass, body.asymmetry, body.volume, body.area,
                    &centre_of_volume, &origin, uniform_mass, surface_mass, faces, surface, levels,
-                   sphere_radius, form_levels, body.drag.isZero(0) ? nullptr : &drag));
+                   sphere_radius, form_levels, body.drag.isZero(0) ? nullptr : &drag, parts));
 }
 
 FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
@@ -210,6 +245,8 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
       body.form_levels.push_back({unpack(*level->faces()), level->p99_error()});
   body.sphere_radius = packed.sphere_radius().value_or(0);
   if (packed.drag()) body.drag = unpackMatrix<Vector3>(*packed.drag());
+  if (packed.added_mass_parts())
+    body.added_mass_parts = unpackParts(*packed.added_mass_parts(), source);
   return body;
 }
 
@@ -228,6 +265,7 @@ std::size_t payloadBound(const FluidBody& body) {
     level_bytes += kFixedPart + level.blocks.size() * sizeof(ClusterBlock);
   for (const FormLevel& level : body.form_levels)
     level_bytes += kFixedPart + numbersIn(level.faces) * sizeof(double);
+  level_bytes += body.added_mass_parts.size() * AddedMassPart::kNumbers * sizeof(float);
   return kFixedPart + level_bytes + sizeof(double) * doubles +
          sizeof(std::int32_t) * body.surface.triangles.size() + body.name.size() +
          body.provenance.source.size() + body.provenance.settings.size() +

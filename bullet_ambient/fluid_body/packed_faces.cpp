@@ -1,11 +1,11 @@
 #include "bullet_ambient/fluid_body/packed_faces.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "bullet_ambient/fluid_body/block_order.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
 namespace {
@@ -28,57 +28,22 @@ void setColumn(float (&column)[3][FaceBlock::kFaces], std::size_t i, const Vecto
   for (int axis = 0; axis < 3; ++axis) column[axis][i] = static_cast<float>(v[axis]);
 }
 
-using Order = std::vector<std::uint32_t>;
-
-// Sorts faces by halves, across the widest of their coordinates, until a block is left.
-class BlockOrder {
- public:
-  BlockOrder(const FaceTable& faces, double length_unit) {
-    coordinates_.reserve(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      coordinates_.emplace_back();
-      coordinates_.back() << faces.normal(i), faces.centroid(i) / length_unit;
-    }
-  }
-
-  void sort(Order::iterator begin, Order::iterator end) const {
-    constexpr std::ptrdiff_t kFaces = FaceBlock::kFaces;
-    const std::ptrdiff_t blocks = (end - begin + kFaces - 1) / kFaces;
-    if (blocks <= 1) return std::sort(begin, end);
-    const auto middle = begin + (blocks + 1) / 2 * kFaces;
-    const Eigen::Index axis = widestAxis(begin, end);
-    std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
-      const double x = coordinates_[a][axis], y = coordinates_[b][axis];
-      return x < y || (x == y && a < b);
-    });
-    sort(begin, middle);
-    sort(middle, end);
-  }
-
- private:
-  Eigen::Index widestAxis(Order::iterator begin, Order::iterator end) const {
-    Vector6 low = coordinates_[*begin], high = low;
-    for (auto face = begin; face != end; ++face) {
-      low = low.cwiseMin(coordinates_[*face]);
-      high = high.cwiseMax(coordinates_[*face]);
-    }
-    Eigen::Index axis = 0;
-    (high - low).maxCoeff(&axis);
-    return axis;
-  }
-
-  std::vector<Vector6> coordinates_;
-};
+// Of faces that are alike in normal and place.
+std::vector<std::uint32_t> orderOf(const FaceTable& faces, double length_unit) {
+  std::vector<Vector6> coordinates;
+  coordinates.reserve(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    coordinates.push_back(stack(faces.normal(i), faces.centroid(i) / length_unit));
+  return orderInBlocks(coordinates, FaceBlock::kFaces);
+}
 
 }  // namespace
 
 PackedFaces::PackedFaces(const FaceTable& faces, bool with_sharpness)
-    : order_(faces.size()),
-      length_unit_(unitFor(std::max({largestOf(faces.centroid_x), largestOf(faces.centroid_y),
+    : length_unit_(unitFor(std::max({largestOf(faces.centroid_x), largestOf(faces.centroid_y),
                                      largestOf(faces.centroid_z)}))),
       area_unit_(unitFor(largestOf(faces.area))) {
-  std::iota(order_.begin(), order_.end(), 0u);
-  BlockOrder(faces, length_unit_).sort(order_.begin(), order_.end());
+  order_ = orderOf(faces, length_unit_);
   const std::size_t count = (size() + FaceBlock::kFaces - 1) / FaceBlock::kFaces;
   for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
   bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero

@@ -23,6 +23,14 @@ constexpr int kWidth = 2;
 
 using Doubles = double __attribute__((vector_size(kWidth * sizeof(double))));
 
+using Mask = decltype(Doubles{} < Doubles{});
+
+inline bool anyOf(const Mask& mask) {
+  decltype(mask[0] | mask[0]) any = 0;
+  for (int i = 0; i < kWidth; ++i) any |= mask[i];
+  return any != 0;
+}
+
 inline Doubles load(const double* from) {
   Doubles d;
   __builtin_memcpy(&d, from, sizeof d);

@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/force/surface_plane.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
@@ -19,6 +20,11 @@ FaceColumns columnsOf(const FaceTable& faces, PressureLaw law) noexcept {
           faces.area.data(),
           faces.size(),
           is_form ? faces.sharpness.data() : nullptr};
+}
+
+FaceCut cutBy(const SurfacePlane& plane) noexcept {
+  const Vector3& s = plane.normal;
+  return {{s.x(), s.y(), s.z()}, plane.height};
 }
 
 Wrench scaled(const double (&sums)[6], double factor) noexcept {
@@ -36,15 +42,18 @@ double separationCosine(double separation_angle) {
 }
 
 FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
-                           const Twist& relative_twist, const LoadSettings& settings) noexcept {
+                           const Twist& relative_twist, const LoadSettings& settings,
+                           const SurfacePlane* plane) noexcept {
   static const SumFaces sum_faces = kSumFaces.fastest();
   const double cosine = settings.separation_cosine;
   const Vector3& w = relative_twist.angular;
   const Vector3& v = relative_twist.linear;
+  const FaceCut cut = plane ? cutBy(*plane) : FaceCut{};
   const FaceMotion motion{{w.x(), w.y(), w.z()},
                           {v.x(), v.y(), v.z()},
                           -cosine * std::abs(cosine),
-                          1 - cosine * cosine};
+                          1 - cosine * cosine,
+                          plane ? &cut : nullptr};
   const double reynolds_per_speed = settings.reynoldsPerSpeed(reference_length);
   const bool with_friction = reynolds_per_speed > 0;
 

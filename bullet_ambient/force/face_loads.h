@@ -7,6 +7,7 @@
 namespace ambient {
 
 class PackedFaces;
+struct SurfacePlane;
 
 /// cos(alpha) of a separation angle [rad]; exactly 0 at pi/2, where std::cos leaves 6e-17.
 double separationCosine(double separation_angle);
@@ -41,9 +42,11 @@ struct FaceLoads {
 /// every machine. Pressure is homogeneous of degree 2 in the twist, friction of degree 1.8. Cost
 /// O(F), about 1.5 ns per face, 3 ns with friction (AVX2); allocates nothing. A twist that is not
 /// finite gives loads that are not finite, or 0.
+/// With a `plane` only what is below it is loaded: areas times their wet shares, eq. (59).
 /// @pre all columns of `faces` have one length, that of the sharpness too by the form law.
 FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
-                           const Twist& relative_twist, const LoadSettings& settings) noexcept;
+                           const Twist& relative_twist, const LoadSettings& settings,
+                           const SurfacePlane* plane = nullptr) noexcept;
 
 /// The total of computeFaceLoads() in single precision: on large meshes 0.45 ns per face with AVX2,
 /// 0.7 with friction. At alpha = pi/2 blocks of faces in the lee are left out by the published law.
@@ -52,7 +55,8 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
 /// sum A_i |u_s,i| |u_i|, and a face at the separation angle may fall on the other side of it. No
 /// range is lost: the motion is scaled before it is rounded. The same bits on every machine.
 Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
-                       const Twist& relative_twist, const LoadSettings& settings) noexcept;
+                       const Twist& relative_twist, const LoadSettings& settings,
+                       const SurfacePlane* plane = nullptr) noexcept;
 
 /// The total of computeFaceLoads() on the clusters of a level, docs/theory.md eq. (36) to (39),
 /// with the error that the level states. Arguments as there; `settings.separation_cosine` must be

@@ -18,12 +18,19 @@ struct FaceColumns {
   const double* sharpness = nullptr;  ///< not null: the form law
 };
 
+/// The surface of the fluid, docs/theory.md eq. (59).
+struct FaceCut {
+  double normal[3];  ///< out of the fluid
+  double height;     ///< of the plane above the origin [m]
+};
+
 /// Motion of the body relative to the ambient flow, and where the flow separates.
 struct FaceMotion {
-  double angular[3];        ///< [rad/s]
-  double linear[3];         ///< [m/s]
-  double signed_cosine_sq;  ///< -cos(alpha) |cos(alpha)|; 0 at a right angle
-  double sine_sq;           ///< sin^2(alpha)
+  double angular[3];             ///< [rad/s]
+  double linear[3];              ///< [m/s]
+  double signed_cosine_sq;       ///< -cos(alpha) |cos(alpha)|; 0 at a right angle
+  double sine_sq;                ///< sin^2(alpha)
+  const FaceCut* cut = nullptr;  ///< null: all is in the fluid
 };
 
 /// Torque first. With the slip velocity u_s of attached faces and t = -u_s; by the form law q in

@@ -4,6 +4,7 @@
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/form_pressure.h"
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/force/wet_share.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
 
 // Included once by each face_sums_<instruction set>.cpp, which is compiled for that set and names
@@ -75,6 +76,15 @@ inline Doubles strengthWhereAttached(Doubles normal_speed, Doubles strength, Dou
   return excess > zero ? strength : zero;
 }
 
+/// Eq. (59).
+inline Doubles wetShare(const FaceCut& cut, const Vectors& n, const Vectors& c,
+                        const Doubles& area) {
+  constexpr double kDisc = 1 / 3.14159265358979323846;
+  const Vectors s = broadcast(cut.normal);
+  return wetShareOf(cut.height - dot(s, c), dot(s, n), kDisc * area,
+                    [](const Doubles& x) { return root(x); });
+}
+
 /// Faces [begin, end) of the kWidth lanes from `lane`; docs/theory.md eq. (12) to (15), (43), (44).
 template <bool kForm, bool kRightAngle, bool kKeepSlip>
 void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t begin,
@@ -90,14 +100,16 @@ void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t
     const Doubles normal_speed = dot(n, u);
     const Vectors t = u - normal_speed * n;
     const Doubles speed_sq = dot(t, t);
-    const Doubles strength = strengthWhereAttached<kRightAngle>(
-        normal_speed, load(faces.area + i) * speed_sq, speed_sq, motion);
+    Doubles area = load(faces.area + i);
+    if (motion.cut) area = area * wetShare(*motion.cut, n, c, area);
+    const Doubles strength =
+        strengthWhereAttached<kRightAngle>(normal_speed, area * speed_sq, speed_sq, motion);
     if (kForm) {
       const Doubles form = formPressure<double>(
           normal_speed, root(normal_speed * normal_speed + speed_sq), load(faces.sharpness + i));
       const Doubles zero = {};
       const Doubles lee = kRightAngle ? zero : (normal_speed > zero ? zero : strength);
-      sum.add((load(faces.area + i) * form + lee) * n, c);
+      sum.add((area * form + lee) * n, c);
     } else {
       sum.add(strength * n, c);
     }

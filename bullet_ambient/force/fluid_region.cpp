@@ -1,6 +1,7 @@
 #include "bullet_ambient/force/fluid_region.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -25,27 +26,33 @@ void checkRegionMedium(const Medium& medium, const std::string& which) {
     rejectRegion("acceleration " + which + " [m/s^2]", medium.acceleration.norm(), "finite");
 }
 
+void add(const FlowSample& flow, Medium& medium) {
+  medium.velocity += flow.velocity;
+  medium.acceleration += flow.acceleration;
+}
+
+bool isFinite(const Medium& medium) {
+  return medium.velocity.allFinite() && medium.acceleration.allFinite();
+}
+
 }  // namespace
 
-RegionMedium mediumAt(const FluidRegion& region, const Vector3& point_W, double time) noexcept {
-  WaterSample water;
-  if (region.surface) water = region.surface->sample(point_W, time);
-  const bool is_above = region.surface && !(water.height > 0);
-  const Medium& still = is_above ? region.above : region.below;
-  RegionMedium here{still, is_above, std::isfinite(water.height)};
-  Medium& medium = here.medium;
-  if (!is_above) {
-    medium.velocity += water.velocity;
-    medium.acceleration += water.acceleration;
+RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, double time) noexcept {
+  RegionSample sample{region.below, region.above, std::numeric_limits<double>::infinity()};
+  bool is_finite = true;
+  if (region.surface) {
+    const WaterSample water = region.surface->sample(point_W, time);
+    sample.height = water.height;
+    is_finite = std::isfinite(water.height);
+    add({water.velocity, water.acceleration}, sample.below);
   }
   if (region.flow) {
     const FlowSample flow = region.flow(point_W, time);
-    medium.velocity += flow.velocity;
-    medium.acceleration += flow.acceleration;
+    add(flow, sample.below);
+    add(flow, sample.above);
   }
-  here.is_finite = here.is_finite && medium.velocity.allFinite() && medium.acceleration.allFinite();
-  if (!here.is_finite) medium = still;
-  return here;
+  if (is_finite && isFinite(sample.below) && isFinite(sample.above)) return sample;
+  return {region.below, region.above, is_finite ? sample.height : 0, false};
 }
 
 void checkRegion(const FluidRegion& region) {

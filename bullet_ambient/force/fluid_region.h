@@ -46,14 +46,17 @@ inline bool isSteady(const FluidRegion& region) {
   return !region.flow && (!region.surface || region.surface->isStill());
 }
 
-/// The fluid around a point of the region.
-struct RegionMedium {
-  Medium medium;
-  bool is_above = false;  ///< the surface
-  /// False if surface or flow are not: the medium then is without both.
+/// The fluids of a region around a point: surface and flow sampled.
+struct RegionSample {
+  Medium below, above;
+  double height = 0;  ///< of the surface above the point, vertically [m]; infinite without one
+  /// False if surface or flow are not: the media then are without both.
   bool is_finite = true;
+
+  bool isAbove() const { return !(height > 0); }  ///< the point is dry
+  const Medium& here() const { return isAbove() ? above : below; }
 };
-RegionMedium mediumAt(const FluidRegion& region, const Vector3& point_W, double time) noexcept;
+RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, double time) noexcept;
 
 /// @throws std::invalid_argument, naming value and limit, if bounds or media are not physical.
 void checkRegion(const FluidRegion& region);

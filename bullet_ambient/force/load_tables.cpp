@@ -38,6 +38,14 @@ std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Faces& faces, P
   return packed.get(faces, [&] { return PackedFaces(*faces, is_form); });
 }
 
+std::shared_ptr<const PackedHull> LoadTables::hull(const Body& body) {
+  return hulls_.get(body, [&] { return PackedHull(*body); });
+}
+
+std::shared_ptr<const PackedParts> LoadTables::addedMassParts(const Body& body) {
+  return parts_.get(body, [&] { return PackedParts(body->added_mass_parts); });
+}
+
 std::shared_ptr<const SphereTable> LoadTables::sphereTable(double separation_cosine) {
   if (const auto found = spheres_.find(separation_cosine); found != spheres_.end())
     return found->second;

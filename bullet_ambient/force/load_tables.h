@@ -5,6 +5,8 @@
 #include <unordered_map>
 
 #include "bullet_ambient/fluid_body/packed_faces.h"
+#include "bullet_ambient/fluid_body/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed_parts.h"
 #include "bullet_ambient/force/flow_settings.h"
 #include "bullet_ambient/force/sphere_table.h"
 
@@ -22,6 +24,10 @@ class LoadTables {
   Faces formFaces(const Body& body);
   /// Faces as `law` reads them in single precision. Cost: PackedFaces().
   std::shared_ptr<const PackedFaces> packedFaces(const Faces& faces, PressureLaw law);
+  /// The triangles of a body that floats. Cost: PackedHull().
+  std::shared_ptr<const PackedHull> hull(const Body& body);
+  /// The parts of its added mass. Cost: PackedParts().
+  std::shared_ptr<const PackedParts> addedMassParts(const Body& body);
 
   /// The table of a separation angle. Kept until another one is made while nobody uses it: a single
   /// ball may come and go. Cost: SphereTable().
@@ -45,6 +51,8 @@ class LoadTables {
 
   Made<FluidBody, FaceTable> form_faces_;
   Made<FaceTable, PackedFaces> packed_, packed_form_;
+  Made<FluidBody, PackedHull> hulls_;
+  Made<FluidBody, PackedParts> parts_;
   std::map<double, std::shared_ptr<const SphereTable>> spheres_;  ///< by separation cosine
 };
 

@@ -9,6 +9,13 @@ namespace ambient {
 
 // The sums over faces in single precision. Plain data only, as in face_sums.h.
 
+/// As FaceCut, in units of length.
+struct SingleCut {
+  float normal[3];
+  float height;
+  float disc;  ///< squared radius of a disc of unit area
+};
+
 /// As FaceMotion, with the skin friction. Lengths and times in units that make all components at
 /// most 1.
 struct SingleMotion {
@@ -16,7 +23,8 @@ struct SingleMotion {
   float linear[3];
   float signed_cosine_sq;
   float sine_sq;
-  float friction;  ///< C_f of a face that slips with the unit of speed; 0: none
+  float friction;                  ///< C_f of a face that slips with the unit of speed; 0: none
+  const SingleCut* cut = nullptr;  ///< null: all is in the fluid
 };
 
 /// Torque first: sum |t|^2 A (c x n, n) + friction |t|^0.8 A (c x t, t) over attached faces.

@@ -3,6 +3,7 @@
 #include "bullet_ambient/force/form_pressure.h"
 #include "bullet_ambient/force/single_lanes.h"
 #include "bullet_ambient/force/single_sums.h"
+#include "bullet_ambient/force/wet_share.h"
 
 // Included once by each single_sums_<instruction set>.cpp, which is compiled for that set and names
 // the AMBIENT_KERNEL.
@@ -27,12 +28,32 @@ inline Floats strengthWhereAttached(Floats normal_speed, Floats strength, Floats
   return excess > zero ? strength : zero;
 }
 
-/// kWidth lanes of a run of chosen blocks; docs/theory.md eq. (12) to (17), (43), (44).
-template <bool kForm, bool kRightAngle, bool kFriction>
+/// The plane in all lanes.
+struct Cuts {
+  Vectors normal = {};
+  Floats height = {}, disc = {};
+
+  explicit Cuts(const SingleCut* cut) {
+    if (!cut) return;
+    normal = broadcast(cut->normal);
+    height = height + cut->height;
+    disc = disc + cut->disc;
+  }
+
+  /// Eq. (59).
+  Floats wetShare(const Vectors& n, const Vectors& c, Floats area) const {
+    return wetShareOf(height - dot(normal, c), dot(normal, n), disc * area,
+                      [](Floats x) { return root(x); });
+  }
+};
+
+/// kWidth lanes of a run of chosen blocks; docs/theory.md eq. (12) to (17), (43), (44), (59).
+template <bool kForm, bool kRightAngle, bool kFriction, bool kCut>
 void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
             int lane, WrenchLanes& sums) {
   const Vectors w = broadcast(motion.angular);
   const Vectors v = broadcast(motion.linear);
+  const Cuts cuts(kCut ? motion.cut : nullptr);
   Vectors torque = {}, force = {};
   for (int k = 0; k < count; ++k) {
     const FaceBlock& block = faces.blocks[chosen[k]];
@@ -42,13 +63,14 @@ void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleM
     const Floats normal_speed = dot(n, u);
     const Vectors t = lessProduct(u, normal_speed, n);
     const Floats speed_sq = dot(t, t);
-    const Floats strength = strengthWhereAttached<kRightAngle>(
-        normal_speed, load(block.area + lane) * speed_sq, speed_sq, motion);
+    Floats area = load(block.area + lane);
+    if (kCut) area = area * cuts.wetShare(n, c, area);
+    const Floats strength =
+        strengthWhereAttached<kRightAngle>(normal_speed, area * speed_sq, speed_sq, motion);
     Floats pressure = strength;
     if (kForm) {
       const Floats speed = root(plusProduct(speed_sq, normal_speed, normal_speed));
       const Floats sharpness = load(faces.sharpness[chosen[k]].values + lane);
-      const Floats area = load(block.area + lane);
       pressure = area * formPressure<float>(normal_speed, speed, sharpness);
       if (!kRightAngle) pressure = pressure + (normal_speed > Floats{} ? Floats{} : strength);
     }
@@ -104,21 +126,21 @@ inline void chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion&
   choice.count = count;
 }
 
-template <bool kForm, bool kRightAngle, bool kFriction>
+template <bool kForm, bool kRightAngle, bool kFriction, bool kCut>
 void sumChosen(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
                WrenchTotal& total) {
   WrenchLanes run;
   for (int lane = 0; lane < kLanes; lane += kWidth)
-    sumRun<kForm, kRightAngle, kFriction>(faces, chosen, count, motion, lane, run);
+    sumRun<kForm, kRightAngle, kFriction, kCut>(faces, chosen, count, motion, lane, run);
   total.add(run);
 }
 
-template <bool kForm, bool kFriction>
+template <bool kForm, bool kFriction, bool kCut>
 void sumRuns(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
              WrenchTotal& total) {
   for (int first = 0; first < count; first += kRun)
-    sumChosen<kForm, true, kFriction>(faces, chosen + first,
-                                      count - first < kRun ? count - first : kRun, motion, total);
+    sumChosen<kForm, true, kFriction, kCut>(
+        faces, chosen + first, count - first < kRun ? count - first : kRun, motion, total);
 }
 
 inline int atMost(std::size_t count, int limit) {
@@ -127,7 +149,7 @@ inline int atMost(std::size_t count, int limit) {
 
 /// Beyond a right angle the flow is attached to nearly all. Without friction the form law has all
 /// to do in the lee, too.
-template <bool kForm, bool kFriction>
+template <bool kForm, bool kFriction, bool kCut>
 LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   WrenchTotal total;
   Choice choice;
@@ -135,38 +157,45 @@ LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
     const int size = atMost(faces.count - begin, kChoice);
     const FaceBlocks blocks = faces.from(begin);
     chooseBlocks<kForm>(faces.bounds + begin / kLanes, size, motion, choice);
-    sumRuns<kForm, kFriction>(blocks, choice.attached, choice.count, motion, total);
-    if (kForm) sumRuns<kForm, false>(blocks, choice.rest, size - choice.count, motion, total);
+    sumRuns<kForm, kFriction, kCut>(blocks, choice.attached, choice.count, motion, total);
+    if (kForm) sumRuns<kForm, false, kCut>(blocks, choice.rest, size - choice.count, motion, total);
   }
   return total.sum();
 }
 
-template <bool kForm, bool kRightAngle, bool kFriction>
+template <bool kForm, bool kRightAngle, bool kFriction, bool kCut>
 LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   static constexpr int kAll[kRun] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   WrenchTotal total;
   for (std::size_t begin = 0; begin < faces.count; begin += kRun)
-    sumChosen<kForm, kRightAngle, kFriction>(faces.from(begin), kAll,
-                                             atMost(faces.count - begin, kRun), motion, total);
+    sumChosen<kForm, kRightAngle, kFriction, kCut>(
+        faces.from(begin), kAll, atMost(faces.count - begin, kRun), motion, total);
   return total.sum();
 }
 
-template <bool kForm, bool kFriction>
+template <bool kForm, bool kFriction, bool kCut>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
   constexpr std::size_t kFewest = 12;  // to choose from: below, that costs more than it saves
-  if (motion.signed_cosine_sq != 0) return sumAll<kForm, false, kFriction>(faces, motion);
+  if (motion.signed_cosine_sq != 0) return sumAll<kForm, false, kFriction, kCut>(faces, motion);
   return faces.count < kFewest || (kForm && !kFriction)
-             ? sumAll<kForm, true, kFriction>(faces, motion)
-             : sumWhereAttached<kForm, kFriction>(faces, motion);
+             ? sumAll<kForm, true, kFriction, kCut>(faces, motion)
+             : sumWhereAttached<kForm, kFriction, kCut>(faces, motion);
+}
+
+template <bool kCut>
+LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
+  const bool friction = motion.friction > 0;
+  if (faces.sharpness)
+    return friction ? sumBlocks<true, true, kCut>(faces, motion)
+                    : sumBlocks<true, false, kCut>(faces, motion);
+  return friction ? sumBlocks<false, true, kCut>(faces, motion)
+                  : sumBlocks<false, false, kCut>(faces, motion);
 }
 
 }  // namespace
 
 LoadSums AMBIENT_KERNEL(const FaceBlocks& faces, const SingleMotion& motion) noexcept {
-  const bool friction = motion.friction > 0;
-  if (faces.sharpness)
-    return friction ? sumBlocks<true, true>(faces, motion) : sumBlocks<true, false>(faces, motion);
-  return friction ? sumBlocks<false, true>(faces, motion) : sumBlocks<false, false>(faces, motion);
+  return motion.cut ? sumBlocks<true>(faces, motion) : sumBlocks<false>(faces, motion);
 }
 
 }  // namespace ambient

@@ -16,9 +16,9 @@ namespace {
 /// The length in the Reynolds number, docs/theory.md eq. (16).
 double referenceLength(const FluidBody& body) { return std::sqrt(body.area); }
 
-/// Eq. (13) to (17) by one of the ways to sum them.
-template <class Table,
-          Wrench (*kSum)(const Table&, double, const Twist&, const LoadSettings&) noexcept>
+/// Eq. (13) to (17) by one of the ways to sum them, below a plane or on all faces.
+template <class Table, Wrench (*kSum)(const Table&, double, const Twist&, const LoadSettings&,
+                                      const SurfacePlane*) noexcept>
 class SummedLoads : public SurfaceLoads {
  public:
   SummedLoads(std::shared_ptr<const Table> table, std::size_t faces, double length,
@@ -29,7 +29,10 @@ class SummedLoads : public SurfaceLoads {
         settings_(settings) {}
 
   Wrench load(const Twist& x) const noexcept override {
-    return kSum(*table_, length_, x, settings_);
+    return kSum(*table_, length_, x, settings_, nullptr);
+  }
+  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
+    return kSum(*table_, length_, x, settings_, &wet.plane);
   }
   int faces() const noexcept override { return faces_; }
   /// At alpha = pi/2 no face can push its body along: both laws are dissipative term by term.
@@ -43,8 +46,14 @@ class SummedLoads : public SurfaceLoads {
 };
 
 Wrench sumInDouble(const FaceTable& faces, double length, const Twist& x,
-                   const LoadSettings& settings) noexcept {
-  return computeFaceLoads(faces, length, x, settings).total();
+                   const LoadSettings& settings, const SurfacePlane* plane) noexcept {
+  return computeFaceLoads(faces, length, x, settings, plane).total();
+}
+
+/// Clusters have no place: see LevelLoads::wetLoad().
+Wrench sumClusters(const LoadLevel& level, double length, const Twist& x,
+                   const LoadSettings& settings, const SurfacePlane*) noexcept {
+  return computeLevelLoad(level, length, x, settings);
 }
 
 using SingleLoads = SummedLoads<PackedFaces, computeFaceLoad>;
@@ -56,8 +65,11 @@ struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
   }
 };
 
-struct LevelLoads final : SummedLoads<LoadLevel, computeLevelLoad> {
+struct LevelLoads final : SummedLoads<LoadLevel, sumClusters> {
   using SummedLoads::SummedLoads;
+  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
+    return SurfaceLoads::wetLoad(x, wet);
+  }
   bool needsGuard() const noexcept override { return true; }  // fitted wrenches may push
 };
 
@@ -70,6 +82,9 @@ class FormLoads final : public SurfaceLoads {
 
   Wrench load(const Twist& x) const noexcept override {
     return drag_.factor(x) * on_faces_->load(x) + lift_.load(x, density_);
+  }
+  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
+    return drag_.factor(x) * on_faces_->wetLoad(x, wet) + wet.share * lift_.load(x, density_);
   }
   FaceLoads parts(const Twist& x) const noexcept override {
     const FaceLoads parts = on_faces_->parts(x);
@@ -180,6 +195,18 @@ std::shared_ptr<const SurfaceLoads> loadsOn(const LoadTables::Faces& faces, doub
                                        settings);
 }
 
+std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, const LoadSettings& settings,
+                                                 const FlowSettings& flow, LoadTables& tables) {
+  if (body->faces.size() == 0) return nullptr;
+  const double length = referenceLength(*body);
+  if (settings.law == PressureLaw::kPublished)
+    return loadsOn({body, &body->faces}, length, settings, flow.precision, tables);
+  const LoadTables::Faces faces = chooseFormFaces(body, flow, tables);
+  auto on_faces = loadsOn(faces, length, settings, flow.precision, tables);
+  return std::make_shared<FormLoads>(std::move(on_faces), DragScale(*body, *faces),
+                                     FormLift(*body, flow.stall_lag), settings.density);
+}
+
 }  // namespace
 
 LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
@@ -196,18 +223,25 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
   if (!(settings.density > 0)) return nullptr;
   if (flow.own_law) return flow.own_law(body, settings);
   if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, settings, tables);
-  if (body->faces.size() == 0) return nullptr;
-  const double length = referenceLength(*body);
-  if (flow.law == PressureLaw::kForm) {
-    const LoadTables::Faces faces = chooseFormFaces(body, flow, tables);
-    auto on_faces = loadsOn(faces, length, settings, flow.precision, tables);
-    return std::make_shared<FormLoads>(std::move(on_faces), DragScale(*body, *faces),
-                                       FormLift(*body, flow.stall_lag), settings.density);
-  }
-  if (const LoadLevel* level = chooseLevel(*body, flow))
-    return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level),
-                                        level->clusters, length, settings);
-  return loadsOn({body, &body->faces}, length, settings, flow.precision, tables);
+  if (flow.law == PressureLaw::kPublished)
+    if (const LoadLevel* level = chooseLevel(*body, flow))
+      return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level),
+                                          level->clusters, referenceLength(*body), settings);
+  return loadsOnFaces(body, settings, flow, tables);
+}
+
+std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
+                                                       const Medium& medium,
+                                                       const FlowSettings& flow,
+                                                       LoadTables& tables) {
+  const bool has_places = body->faces.size() > 0 && !flow.own_law;
+  if (!has_places) return makeSurfaceLoads(body, medium, flow, tables);
+  checkFaces(*body);
+  checkFlow(*body, flow);
+  LoadSettings settings = loadSettings(medium, flow);
+  if (!(settings.density > 0)) return nullptr;
+  if (body->sphere_radius > 0) settings.law = PressureLaw::kPublished;  // the one of SphereLoads
+  return loadsOnFaces(body, settings, flow, tables);
 }
 
 }  // namespace ambient

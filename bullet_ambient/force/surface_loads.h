@@ -5,11 +5,18 @@
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/flow_settings.h"
 #include "bullet_ambient/force/medium.h"
+#include "bullet_ambient/force/surface_plane.h"
 #include "bullet_ambient/spatial/frame_offset.h"
 
 namespace ambient {
 
 class LoadTables;
+
+/// How much of a body is in the fluid.
+struct WetPart {
+  SurfacePlane plane;  ///< of the fluid, in the frame of the loads
+  double share = 1;    ///< of its volume
+};
 
 /// What the fluid does to the surface of one body: a law, bound to a shape and a fluid. Never
 /// changes, and owns or shares all that it reads. Derive from it for another law than those of
@@ -21,6 +28,11 @@ class SurfaceLoads {
   /// The load on the body for a twist relative to the ambient flow, both in frame(). Called from
   /// every thread that flies a body; allocates nothing.
   virtual Wrench load(const Twist& relative_twist) const noexcept = 0;
+  /// The same where only a part of the body is in the fluid. A law that knows no places takes the
+  /// share of the load on all of it.
+  virtual Wrench wetLoad(const Twist& relative_twist, const WetPart& wet) const noexcept {
+    return wet.share * load(relative_twist);
+  }
   /// The same, split by origin, to be shown. A law that knows no parts has pressure alone.
   virtual FaceLoads parts(const Twist& relative_twist) const noexcept {
     return {load(relative_twist), {}};
@@ -44,5 +56,13 @@ LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow);
 std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
                                                      const Medium& medium, const FlowSettings& flow,
                                                      LoadTables& tables);
+
+/// The same for a body that the surface of its fluid may cut: by places, on faces even where
+/// makeSurfaceLoads() knows a closed form or clusters. The loads are those of a body in the fluid
+/// if there is no other way, times its share.
+std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
+                                                       const Medium& medium,
+                                                       const FlowSettings& flow,
+                                                       LoadTables& tables);
 
 }  // namespace ambient

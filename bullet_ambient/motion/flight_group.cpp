@@ -24,9 +24,14 @@ const FlightKernel& fastestFlightKernel() noexcept {
   return fastest;
 }
 
+void setInertia(FlightLanes& lanes, int body, const Matrix6& inertia, const Matrix6& inverse,
+                bool is_diagonal) noexcept {
+  setSymmetric(lanes.inertia, body, inertia, is_diagonal);
+  setSymmetric(lanes.inverse_inertia, body, inverse, is_diagonal);
+}
+
 void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept {
-  setSymmetric(lanes.inertia, body, model.inertia, model.has_diagonal_inertia);
-  setSymmetric(lanes.inverse_inertia, body, model.inverse_inertia, model.has_diagonal_inertia);
+  setInertia(lanes, body, model.inertia, model.inverse_inertia, model.has_diagonal_inertia);
   setLane(lanes.centre_of_volume_B, body, model.centre_of_volume);
 }
 

@@ -16,6 +16,9 @@ const FlightKernel& fastestFlightKernel() noexcept;
 /// Writes one body into its lane; lanes of no body are zero, FlightLanes{}.
 void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept;
 void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept;
+/// Its total inertia in B and the inverse.
+void setInertia(FlightLanes& lanes, int body, const Matrix6& inertia, const Matrix6& inverse,
+                bool is_diagonal) noexcept;
 /// Its twist relative to the frame that moves with the ambient flow, in B.
 void setState(FlightLanes& lanes, int body, const BodyModel& model,
               const RigidState& state) noexcept;

@@ -14,15 +14,8 @@ namespace ambient {
 namespace {
 
 using Lanes = Doubles;
-using Mask = decltype(Lanes{} < Lanes{});
 
 inline Lanes all(double value) { return value - Lanes{}; }
-
-inline bool anyOf(const Mask& mask) {
-  decltype(mask[0] | mask[0]) any = 0;
-  for (int i = 0; i < kWidth; ++i) any |= mask[i];
-  return any != 0;
-}
 
 inline Lanes squareRoot(const Lanes& a) {
 #if defined(__AVX512F__)

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/force/airy_waves.h"
 #include "bullet_ambient/force/flow_settings.h"
+#include "bullet_ambient/force/fluid_region.h"
 #include "bullet_ambient/force/medium.h"
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/spatial/vector_types.h"
@@ -53,6 +55,14 @@ struct JointDef {
   std::optional<Vector3> axis;      ///< of a hinge, in W at t = 0; none: a ball joint
 };
 
+/// Water with a surface, which is level or carries waves. Above it is the scene's medium.
+struct WaterDef {
+  CalmSea sea;                       ///< up is against the scene's gravity
+  std::vector<WaveComponent> waves;  ///< none: still
+  Medium medium = water();
+  std::optional<RegionBounds> bounds;  ///< of a pool; none: a sea
+};
+
 /// One scene, checked. SI units; W is the world frame.
 struct Scene {
   std::string name;  ///< file name without extension
@@ -63,6 +73,8 @@ struct Scene {
   double output_step = 0;        ///< [s]
   Vector3 gravity{0, 0, -9.81};  ///< [m/s^2]
   Medium medium = air();
+  std::optional<WaterDef> water;
+  std::vector<FluidRegion> regions;  ///< others, filled with one medium each
   FluidModel model = FluidModel::kAmbient;
   PressureLaw law = PressureLaw::kPublished;  ///< of bodies that do not name theirs
   double linear_drag_speed = 1;               ///< of FluidModel::kUwrbd [m/s]

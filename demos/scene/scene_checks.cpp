@@ -4,9 +4,11 @@
 #include <cmath>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "demos/scene/scene_water.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {
@@ -117,10 +119,22 @@ void checkJoint(const Scene& scene, const JointDef& joint, const Checker& check)
   if (joint.axis) check.require(joint.axis->norm() > 0, "axis is 0, 0, 0; must have a length > 0");
 }
 
+void checkFluids(const Scene& scene) {
+  const Checker check(scene, "");
+  check.require(!scene.water || scene.gravity.norm() > 0,
+                "water is given, but gravity is 0, 0, 0; must have a length > 0");
+  try {
+    makeRegions(scene);
+  } catch (const std::invalid_argument& error) {
+    check.require(false, error.what());
+  }
+}
+
 }  // namespace
 
 void checkScene(const Scene& scene) {
   checkTimes(scene);
+  checkFluids(scene);
   checkNames(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Checker check(scene, "bodies[" + std::to_string(i) + "] (" + scene.bodies[i].name + ") ");

@@ -9,6 +9,7 @@
 #include "bullet_ambient/spatial/pi.h"
 #include "demos/scene/scene_checks.h"
 #include "demos/scene/scene_schema.h"
+#include "demos/scene/scene_water.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_reader.h"
 
@@ -56,17 +57,6 @@ template <class Value, class Words>
 std::string wordOf(Value value, const Words& words) {
   const auto has_it = [&](const auto& entry) { return value == entry.first; };
   return std::find_if(words.begin(), words.end(), has_it)->second;
-}
-
-Medium toMedium(const json& scene) {
-  const auto found = scene.find("medium");
-  if (found == scene.end()) return air();
-  Medium medium;
-  medium.density = found->at("density").get<double>();
-  medium.viscosity = found->value("viscosity", 0.0);
-  medium.velocity = vectorOr(*found, "velocity", Vector3::Zero());
-  medium.acceleration = vectorOr(*found, "acceleration", Vector3::Zero());
-  return medium;
 }
 
 FlightSettings toFlightSettings(const json& scene) {
@@ -135,7 +125,10 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   scene.time_step = from.at("time_step").get<double>();
   scene.output_step = from.value("output_step", scene.time_step);
   scene.gravity = vectorOr(from, "gravity", scene.gravity);
-  scene.medium = toMedium(from);
+  if (from.contains("medium")) scene.medium = toMedium(from.at("medium"), Medium{});
+  if (from.contains("water")) scene.water = toWater(from.at("water"), scene.gravity);
+  if (from.contains("regions"))
+    for (const json& region : from.at("regions")) scene.regions.push_back(toRegion(region));
   scene.model = valueOf(from.value("model", "ambient"), kModels);
   scene.linear_drag_speed = from.value("linear_drag_speed", scene.linear_drag_speed);
   scene.flight = toFlightSettings(from);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_registry.h"
@@ -13,6 +14,7 @@
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/rivals/rival_laws.h"
+#include "demos/scene/scene_water.h"
 #include "demos/simulation/collision_shape.h"
 #include "demos/simulation/joint.h"
 
@@ -172,6 +174,7 @@ Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& bodi
   w.registry.setReport([&w](const std::string& sentence) { w.report = sentence; });
   w.world.setGravity(toBullet(scene.gravity));
   w.world.addAction(&w.action);
+  for (FluidRegion& region : makeRegions(scene)) w.registry.addRegion(std::move(region));
   for (std::size_t i = 0; i < bodies.size(); ++i) w.add(scene, scene.bodies[i], bodies[i]);
   for (const JointDef& joint : scene.joints) w.add(joint);
 }

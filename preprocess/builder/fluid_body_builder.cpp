@@ -9,6 +9,7 @@
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/usual_size.h"
+#include "preprocess/potential_flow/added_mass_parts.h"
 #include "preprocess/potential_flow/refined_flow.h"
 #include "preprocess/potential_flow/solver_revision.h"
 #include "preprocess/potential_flow/surface_refinement.h"
@@ -98,6 +99,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   if (body.provenance.generator.empty()) body.provenance.generator = libraryVersion();
   if (settings.added_mass) {
     body.added_mass = shiftOrigin(*settings.added_mass, origin);
+    body.added_mass_parts = placed(settings.added_mass_parts, 1, -origin);
   } else {
     const RefinedFlow flow = solveFlow(mesh, settings);
     if (flow.is_coarse && settings.warn) {
@@ -107,6 +109,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
           "at worst tens of per cent off; cut them into shorter ones, or give more panels");
     }
     body.added_mass = flow.added_mass;
+    body.added_mass_parts = flow.parts;
     body.asymmetry = flow.asymmetry;
   }
   body.volume = properties.volume;

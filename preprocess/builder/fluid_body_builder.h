@@ -34,6 +34,7 @@ struct BuildSettings {
   double sphere_radius = 0;  ///< of a mesh that stands for a sphere [m]; 0: any other shape
   /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
   std::optional<Matrix6> added_mass;
+  std::vector<AddedMassPart> added_mass_parts;  ///< with it, about the mesh's origin; may be empty
   int least_faces = 0;  ///< the mesh is divided into at least so many triangles for the loads
   /// The flow is solved on up to max_panels, finer than the mesh where that helps, and on four
   /// times as many where long triangles need them; the faces remain those of the mesh.

@@ -164,6 +164,9 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
     // Spin about an axis of revolution moves nothing, but for rounding of either sign.
     const Vector6 diagonal = ellipsoidAddedMass(settings.scale * *semiAxesOf(shape)).cwiseMax(0);
     build.added_mass = diagonal.asDiagonal().toDenseMatrix();
+    if (!std::holds_alternative<SphereShape>(shape.geometry))
+      build.added_mass_parts =
+          joinPanels(ellipsoidPanels(checked.mesh, settings.scale * *semiAxesOf(shape)));
   }
   build.least_faces = settings.least_faces;
   build.flow = settings.flow;

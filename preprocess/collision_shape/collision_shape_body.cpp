@@ -103,10 +103,10 @@ TriangleMesh joined(const std::vector<Solid>& solids, TriangleMesh Solid::*surfa
   return joinMeshes(parts);
 }
 
-Matrix6 solvedAddedMass(const TriangleMesh& mesh, const CollisionShapeSettings& settings,
+PotentialFlow solveFlow(const TriangleMesh& mesh, const CollisionShapeSettings& settings,
                         const std::string& name) {
   try {
-    return solvePotentialFlow(mesh, settings.flow).added_mass;
+    return solvePotentialFlow(mesh, settings.flow);
   } catch (const std::runtime_error& error) {
     raiseInputError(name, error.what());
   }
@@ -122,15 +122,18 @@ Matrix6 withoutNegativePart(const Matrix6& K) {
 }
 
 /// The added mass of a single solid about the shape's origin, if it is not that of its mesh.
-std::optional<Matrix6> addedMassOf(const Solid& solid, const CollisionShapeSettings& settings,
-                                   const std::string& name) {
-  if (solid.added_mass) return solid.added_mass;
-  if (solid.flow.triangleCount() == 0) return std::nullopt;
-  const Matrix6 fine = solvedAddedMass(solid.flow, settings, name);
-  if (solid.flow_ratio == 0) return symmetrisedAddedMass(fine, solid.mesh);
-  const Matrix6 coarse = solvedAddedMass(solid.coarse_flow, settings, name);
-  return symmetrisedAddedMass(withoutNegativePart(fine + (fine - coarse) / (solid.flow_ratio - 1)),
-                              solid.mesh);
+void setAddedMass(const Solid& solid, const CollisionShapeSettings& settings,
+                  BuildSettings& build) {
+  build.added_mass = solid.added_mass;
+  if (solid.added_mass || solid.flow.triangleCount() == 0) return;
+  const PotentialFlow flow = solveFlow(solid.flow, settings, build.name);
+  build.added_mass_parts = flow.parts;
+  Matrix6 added_mass = flow.added_mass;
+  if (solid.flow_ratio != 0) {
+    const Matrix6 coarse = solveFlow(solid.coarse_flow, settings, build.name).added_mass;
+    added_mass = withoutNegativePart(added_mass + (added_mass - coarse) / (solid.flow_ratio - 1));
+  }
+  build.added_mass = symmetrisedAddedMass(added_mass, solid.mesh);
 }
 
 }  // namespace
@@ -149,7 +152,7 @@ FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSetti
   build.provenance = provenanceOf(shape, solids, settings);
   requireGaps(solids, build.name);
   if (solids.size() == 1) {
-    build.added_mass = addedMassOf(solids.front(), settings, build.name);
+    setAddedMass(solids.front(), settings, build);
     build.sphere_radius = solids.front().sphere_radius;
   }
   build.cavities = joined(solids, &Solid::cavities);

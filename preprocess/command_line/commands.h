@@ -33,6 +33,10 @@ struct BuildArguments {
 /// ambient_preprocess inspect
 struct InspectArguments {
   std::string file;
+  std::optional<double> mass;          ///< [kg]; none: it is not put on water
+  std::vector<double> centre_of_mass;  ///< x, y, z in F [m]; empty: spread evenly over the volume
+  double density = 998;                ///< of the water [kg/m^3]
+  double gravity = 9.81;               ///< [m/s^2]
   bool json = false;
 };
 

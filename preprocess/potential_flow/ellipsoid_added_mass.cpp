@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
 namespace {
@@ -47,6 +48,46 @@ Vector6 ellipsoidAddedMass(const Vector3& semi_axes) {
            (2 * difference - (squares[i] + squares[j]) * twist) * std::pow(size, 5);
   }
   return K;
+}
+
+namespace {
+
+PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector6& translation,
+                            const Vector3& rotation) {
+  const Vector3 twice_area = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+  PanelInertia panel;
+  panel.normal = twice_area.normalized();
+  panel.centroid = (corner[0] + corner[1] + corner[2]) / 3;
+  panel.area = twice_area.norm() / 2;
+  for (std::size_t k = 0; k < 3; ++k) {  // the rule of the edges' middles
+    const Vector3 z = (corner[k] + corner[(k + 1) % 3]) / 2, r = z - panel.centroid;
+    const Vector3 bilinear(z.y() * z.z(), z.z() * z.x(), z.x() * z.y());
+    Vector6 phi;
+    phi << rotation.cwiseProduct(bilinear), translation.tail<3>().cwiseProduct(z);
+    panel.inertia -= panel.area / 3 * stack(z.cross(panel.normal), panel.normal) * phi.transpose();
+    Vector6 products;
+    products << r.cwiseAbs2(), r.x() * r.y(), r.x() * r.z(), r.y() * r.z();
+    panel.spread += products / 3;
+  }
+  return panel;
+}
+
+}  // namespace
+
+std::vector<PanelInertia> ellipsoidPanels(const TriangleMesh& mesh, const Vector3& semi_axes) {
+  const Vector6 K = ellipsoidAddedMass(semi_axes);
+  const double volume = 4 * kPi / 3 * semi_axes.prod();
+  const Vector3 squares = semi_axes.cwiseAbs2();
+  Vector3 rotation(0, 0, 0);  // phi_i = rotation_i z_j z_k
+  for (int i = 0; i < 3; ++i) {
+    const double difference = squares[(i + 1) % 3] - squares[(i + 2) % 3];
+    if (difference != 0) rotation[i] = -5 * K[i] / (volume * difference);
+  }
+  std::vector<PanelInertia> panels;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
+    panels.push_back(ellipsoidPanel({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
+                                    -K / volume, rotation));
+  return panels;
 }
 
 }  // namespace ambient

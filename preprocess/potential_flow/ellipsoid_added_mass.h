@@ -1,6 +1,9 @@
 #pragma once
 
-#include "bullet_ambient/spatial/vector_types.h"
+#include <vector>
+
+#include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/potential_flow/added_mass_parts.h"
 
 namespace ambient {
 
@@ -9,5 +12,9 @@ namespace ambient {
 /// integrals by Carlson's duplication (1979), to rounding.
 /// @pre semi-axes positive and finite
 Vector6 ellipsoidAddedMass(const Vector3& semi_axes);
+
+/// What the triangles of its mesh, about its centre, contribute: its potentials are linear in
+/// translation and bilinear in rotation (art. 114, 115).
+std::vector<PanelInertia> ellipsoidPanels(const TriangleMesh& mesh, const Vector3& semi_axes);
 
 }  // namespace ambient

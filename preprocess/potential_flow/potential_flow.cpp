@@ -6,10 +6,12 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/potential_flow/added_mass_parts.h"
 #include "preprocess/potential_flow/dense_solver.h"
 #include "preprocess/potential_flow/hierarchical_solver.h"
 #include "preprocess/potential_flow/memory_limit.h"
@@ -28,6 +30,7 @@ using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 struct UnitFlow {
   MatrixX6 potential;  ///< V x 6
   Matrix6 inertia = Matrix6::Zero();
+  std::vector<AddedMassPart> parts;
   double asymmetry = 0;
   double reciprocal_condition = 0;
   int iterations = 0;
@@ -50,17 +53,46 @@ Matrix6 integrateEnergy(const PanelSurface& surface, const Unknowns& unknowns,
   return K;
 }
 
-/// -int phi_j g_i, the inertia by definition, from the potentials' moments.
-Matrix6 integrateInertia(const PanelSurface& surface, const PanelMoments& moments) {
-  Matrix6 K = Matrix6::Zero();
-  for (Index t = 0; t < surface.panelCount(); ++t)
+/// -int phi_j g_i of each panel, from the potentials' moments.
+std::vector<PanelInertia> integratePanels(const PanelSurface& surface,
+                                          const PanelMoments& moments) {
+  std::vector<PanelInertia> panels(static_cast<std::size_t>(surface.panelCount()));
+  for (std::size_t t = 0; t < panels.size(); ++t) {
+    const Panel& panel = surface.panels[t];
+    const PanelArrays& arrays = surface.arrays;
+    const auto i = static_cast<Index>(t);
+    panels[t].normal = panel.normal;
+    panels[t].centroid = panel.centroid;
+    panels[t].area = panel.area;
+    panels[t].spread << arrays.xx[i], arrays.yy[i], arrays.zz[i], arrays.xy[i], arrays.xz[i],
+        arrays.yz[i];
     for (int a = 0; a < 3; ++a) {
-      const Panel& panel = surface.panels[t];
       Vector6 g;
       g << panel.corner[a].cross(panel.normal), panel.normal;
-      K -= g * moments[t].row(a);
+      panels[t].inertia -= g * moments[t].row(a);
     }
+  }
+  return panels;
+}
+
+/// The inertia by definition.
+Matrix6 sumOf(const std::vector<PanelInertia>& panels) {
+  Matrix6 K = Matrix6::Zero();
+  for (const PanelInertia& panel : panels) K += panel.inertia;
   return K;
+}
+
+/// Of a potential that is linear on the panels.
+PanelMoments momentsOf(const PanelSurface& surface, const MatrixX6& potential) {
+  PanelMoments moments(static_cast<std::size_t>(surface.panelCount()));
+  for (std::size_t t = 0; t < moments.size(); ++t) {
+    const Eigen::Vector3i corners = surface.triangles.col(static_cast<Index>(t));
+    Eigen::Matrix<double, 3, 6> values;
+    for (int a = 0; a < 3; ++a) values.row(a) = potential.row(corners[a]);
+    const Eigen::Matrix<double, 1, 6> sum = values.colwise().sum();
+    moments[t] = surface.panels[t].area / 12 * (values.rowwise() + sum);
+  }
+  return moments;
 }
 
 UnitFlow solveSheet(FlowSolver& solver) {
@@ -73,6 +105,7 @@ UnitFlow solveSheet(FlowSolver& solver) {
   flow.iterations = jump.iterations;
   flow.inertia = integrateEnergy(surface, unknowns, flow.potential);
   flow.asymmetry = largestAsymmetry(flow.inertia);
+  flow.parts = joinPanels(integratePanels(surface, momentsOf(surface, flow.potential)));
   return flow;
 }
 
@@ -81,12 +114,14 @@ UnitFlow solveClosed(FlowSolver& solver) {
   const Unknowns unknowns = numberUnknowns(surface);
   const Jump jump = solver.solveJump(unknowns);
   const PanelMoments moments = solver.computeMoments(jump);
-  const Matrix6 direct = integrateInertia(surface, moments);
+  const std::vector<PanelInertia> panels = integratePanels(surface, moments);
+  const Matrix6 direct = sumOf(panels);
 
   UnitFlow flow;
   flow.reciprocal_condition = jump.reciprocal_condition;
   flow.iterations = jump.iterations;
   flow.potential = projectOnVertices(surface, moments);
+  flow.parts = joinPanels(panels);
   flow.asymmetry = largestAsymmetry(direct);
   // The energy holds the interior flow too. In translation that moves as a solid, volume times
   // unity and, about the centre of volume, without coupling; in rotation it is not known.
@@ -164,6 +199,7 @@ PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSe
   flow.removed_eigenvalue = removeNegativePart(unit.inertia);
   const double size = surface.length;
   flow.added_mass = symmetricPart(shiftOrigin(scaleShape(unit.inertia, size), -surface.centre));
+  flow.parts = placed(std::move(unit.parts), size, surface.centre);
   // The mesh's vertices come first. A rotation about its origin moves the centre c with w x c.
   const auto own = unit.potential.topRows(mesh.vertexCount());
   flow.potential.resize(mesh.vertexCount(), 6);

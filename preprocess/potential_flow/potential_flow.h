@@ -1,6 +1,8 @@
 #pragma once
 
-#include "bullet_ambient/spatial/vector_types.h"
+#include <vector>
+
+#include "bullet_ambient/fluid_body/added_mass_part.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
@@ -30,6 +32,9 @@ struct PotentialFlow {
   Eigen::Matrix<double, Eigen::Dynamic, 6> potential;
   /// Symmetric positive semi-definite, rotation first.
   Matrix6 added_mass = Matrix6::Zero();
+  /// What patches of the surface contribute; their sum differs from the added mass by its
+  /// discretisation. Rounded to single precision.
+  std::vector<AddedMassPart> parts;
   /// Largest |K - K^T| over the largest |K| of K = -int phi_j g_i dA integrated directly, before
   /// any symmetrising; about the centre of volume, lengths divided by the body's size [1]. A
   /// measure of the discretisation; rounding only for sheets.

@@ -68,7 +68,7 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
       mesh.triangleCount() > kMostDenseSmoothPanels)
     undivided_settings.solver = FlowSolverKind::Hierarchical;
   const PotentialFlow flow = solvePotentialFlow(levels.fine.mesh, undivided_settings);
-  RefinedFlow refined{flow.added_mass, flow.asymmetry, flow.panels};
+  RefinedFlow refined{flow.added_mass, flow.parts, flow.asymmetry, flow.panels};
   if (levels.coarse && (!settings.sheet || hasVerticesInside(*levels.coarse))) {
     const PotentialFlow coarse = solvePotentialFlow(*levels.coarse, undivided_settings);
     refined.added_mass =

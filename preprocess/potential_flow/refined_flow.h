@@ -7,6 +7,7 @@ namespace ambient {
 /// The fluid's inertia of the body that a mesh stands for.
 struct RefinedFlow {
   Matrix6 added_mass = Matrix6::Zero();  ///< per unit density, about the mesh's origin
+  std::vector<AddedMassPart> parts;      ///< as PotentialFlow::parts, without corrections
   double asymmetry = 0;                  ///< as PotentialFlow::asymmetry
   Eigen::Index panels = 0;               ///< the most that equations were solved on
   /// Long triangles left too few panels across sharp edges, also of those added: some, at worst

@@ -48,7 +48,11 @@ bool knowsPlace(const Node& unresolved, Path::const_iterator part, Path::const_i
   });
 }
 
-bool hasType(const json& value, const std::string& type) {
+bool hasType(const json& value, const json& type) {
+  if (type.is_array()) {
+    return std::any_of(type.begin(), type.end(),
+                       [&](const json& choice) { return hasType(value, choice); });
+  }
   return type == "integer" ? value.is_number_integer() : value.type_name() == type;
 }
 

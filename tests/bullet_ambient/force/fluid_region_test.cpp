@@ -29,35 +29,35 @@ TEST(FluidRegion, AddsFlowAndWavesToItsMedium) {
   region.surface = std::make_shared<WaterSurfaceFunction>([](const Vector3& point, double) {
     return WaterSample{-point.z(), {0, 0, 3}, {5, 0, 0}};
   });
-  const RegionMedium wet = mediumAt(region, {7, 0, -1}, 2);
-  EXPECT_FALSE(wet.is_above);
-  EXPECT_EQ(wet.medium.density, 900);
-  EXPECT_EQ(wet.medium.velocity, Vector3(8, 0, 3));
-  EXPECT_EQ(wet.medium.acceleration, Vector3(5, 2, 1));
-  const RegionMedium dry = mediumAt(region, {7, 0, 1}, 2);
-  EXPECT_TRUE(dry.is_above);
-  EXPECT_EQ(dry.medium.density, 1.2);
-  EXPECT_EQ(dry.medium.velocity, Vector3(7, 4, 0));
-  EXPECT_EQ(dry.medium.acceleration, Vector3(0, 2, 0));
+  const RegionSample wet = sampleRegion(region, {7, 0, -1}, 2);
+  EXPECT_FALSE(wet.isAbove());
+  EXPECT_EQ(wet.here().density, 900);
+  EXPECT_EQ(wet.here().velocity, Vector3(8, 0, 3));
+  EXPECT_EQ(wet.here().acceleration, Vector3(5, 2, 1));
+  const RegionSample dry = sampleRegion(region, {7, 0, 1}, 2);
+  EXPECT_TRUE(dry.isAbove());
+  EXPECT_EQ(dry.here().density, 1.2);
+  EXPECT_EQ(dry.here().velocity, Vector3(7, 4, 0));
+  EXPECT_EQ(dry.here().acceleration, Vector3(0, 2, 0));
   region.surface = nullptr;
-  EXPECT_FALSE(mediumAt(region, {7, 0, 1}, 2).is_above);
+  EXPECT_FALSE(sampleRegion(region, {7, 0, 1}, 2).isAbove());
 }
 
 TEST(FluidRegion, KeepsItsMediumWhereFunctionsAreNotFinite) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   FluidRegion region;
   region.below.velocity = {3, 0, 0};
-  EXPECT_TRUE(mediumAt(region, {0, 0, 0}, 0).is_finite);
+  EXPECT_TRUE(sampleRegion(region, {0, 0, 0}, 0).is_finite);
   for (const FlowSample& bad : {FlowSample{{kNan, 0, 0}, {0, 0, 0}}, {{0, 0, 0}, {0, kNan, 0}}}) {
     region.flow = [=](const Vector3&, double) { return bad; };
-    EXPECT_FALSE(mediumAt(region, {0, 0, 0}, 0).is_finite);
-    EXPECT_EQ(mediumAt(region, {0, 0, 0}, 0).medium.velocity, Vector3(3, 0, 0));
+    EXPECT_FALSE(sampleRegion(region, {0, 0, 0}, 0).is_finite);
+    EXPECT_EQ(sampleRegion(region, {0, 0, 0}, 0).here().velocity, Vector3(3, 0, 0));
   }
   region.flow = nullptr;
   region.surface = std::make_shared<WaterSurfaceFunction>([](const Vector3&, double) {
     return WaterSample{kNan, {0, 0, 0}, {0, 0, 0}};
   });
-  EXPECT_FALSE(mediumAt(region, {0, 0, 0}, 0).is_finite);
+  EXPECT_FALSE(sampleRegion(region, {0, 0, 0}, 0).is_finite);
 }
 
 TEST(FluidRegion, IsSteadyWithoutFunctionsAndMovingSurfaces) {

@@ -1,0 +1,126 @@
+#include "bullet_ambient/bullet/surface_encounter.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include "bullet_ambient/bullet/ambient_body.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+bool isSameFluid(const Medium& a, const Medium& b) {
+  return a.density == b.density && a.viscosity == b.viscosity;
+}
+
+// The surface as a plane in W: against gravity as the water feels it, through the point of the
+// surface above the body.
+SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
+                       const Vector3& gravity) {
+  const Vector3 felt = gravity - sample.below.acceleration;
+  const Vector3 normal = -felt.normalized();
+  const Vector3 above = position - sample.height * gravity.normalized();
+  return {normal, normal.dot(above), sample.below.density - sample.above.density, felt.norm()};
+}
+
+// In B, after a time since the step began: the plane moves with the water.
+SurfacePlane planeAfter(const AmbientBody& ambient, double time) {
+  const RigidState state = readState(*ambient.body);
+  const Medium& water = ambient.medium;
+  SurfacePlane plane = ambient.encounter.plane_W;
+  plane.height += plane.normal.dot(time * water.velocity + time * time / 2 * water.acceleration);
+  return seenFrom(plane, state.orientation.toRotationMatrix(), state.position);
+}
+
+SurfaceStand standAfter(const AmbientBody& ambient, double time) {
+  return standAtSurface(ambient.surface()->model, planeAfter(ambient, time));
+}
+
+BodyModel freeze(const SurfaceMedia& surface, const SurfaceStand& stand,
+                 const std::shared_ptr<LoadsAtSurface>& loads) {
+  BodyModel model = frozenAt(surface.model, stand);
+  if (!loads) return model;
+  const FrameOffset& frame = surface.model.loads_below.frame;
+  loads->setPart(
+      {seenFrom(stand.plane, frame), wetShare(stand.immersion_F, surface.model.shape->volume)});
+  model.loads = loads;
+  model.load_frame = frame;
+  return model;
+}
+
+}  // namespace
+
+int findSurface(const std::vector<SurfaceMedia>& surfaces, const Medium& below,
+                const Medium& above) noexcept {
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    if (isSameFluid(surfaces[i].below, below) && isSameFluid(surfaces[i].above, above))
+      return static_cast<int>(i);
+  return -1;
+}
+
+SurfaceSide meetSurface(AmbientBody& ambient, const RegionSample& sample,
+                        double duration) noexcept {
+  SurfaceEncounter& encounter = ambient.encounter;
+  const SurfaceSide by_centre = sample.isAbove() ? SurfaceSide::kAbove : SurfaceSide::kBelow;
+  const btRigidBody& body = *ambient.body;
+  const Vector3 gravity = toVector3(body.getGravity());
+  const int media = findSurface(ambient.surfaces, sample.below, sample.above);
+  if (media < 0 || !(gravity.norm() > 0) || !((gravity - sample.below.acceleration).norm() > 0))
+    return by_centre;
+  const SurfaceModel& model = ambient.surfaces[static_cast<std::size_t>(media)].model;
+  const RigidState state = readState(body);
+  const SurfacePlane plane_W = planeNear(state.position, sample, gravity);
+  const double speed = (toVector3(body.getLinearVelocity()) - sample.below.velocity).norm();
+  const double travel =
+      duration * (speed + model.radius * state.twist.angular.norm() + duration * gravity.norm());
+  const SurfacePlane plane_B =
+      seenFrom(plane_W, state.orientation.toRotationMatrix(), state.position);
+  const SurfaceSide side = sideOf(model, plane_B, travel);
+  if (side != SurfaceSide::kAt) return side;
+  encounter.media = media;
+  encounter.plane_W = plane_W;
+  encounter.velocity_above = sample.above.velocity;
+  return side;
+}
+
+BodyModel modelNow(const AmbientBody& ambient) {
+  const SurfaceMedia* surface = ambient.surface();
+  if (!surface) return ambient.model;
+  const auto& loads = surface->model.loads_below.loads;
+  return freeze(*surface, standAfter(ambient, 0),
+                loads ? std::make_shared<LoadsAtSurface>(loads) : nullptr);
+}
+
+Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
+  const SurfaceMedia& surface = *ambient.surface();
+  const SurfaceStand stand = standAfter(ambient, 0);
+  ambient.model = freeze(surface, stand, surface.loads);
+  ambient.is_frozen = true;
+  const RigidState state = readState(*ambient.body);
+  const Matrix3 R = state.orientation.toRotationMatrix();
+  const WaveModes modes = waveModesAt(surface.model, stand);
+  Twist relative = state.twist;
+  relative.linear -= R.transpose() * ambient.medium.velocity;
+  const Vector6 x = relative.vector();
+  meetModes(modes, R, ambient.encounter.waves);
+  return exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x,
+                       ambient.encounter.waves) -
+         x;
+}
+
+Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, Axes axes,
+                     double duration) noexcept {
+  const SurfaceStand after = standAfter(ambient, duration);
+  if (axes == Axes::kLocked) {
+    const double had = x.dot(ambient.model.inertia * x), has = x.dot(after.inertia * x);
+    return has > had ? Vector6(std::sqrt(had / has) * x) : x;
+  }
+  return passSurface({ambient.surface()->model, ambient.model.inertia, after, duration}, x);
+}
+
+bool mayRestAtSurface(const AmbientBody& ambient) noexcept {
+  return isStable(waveModesAt(ambient.surface()->model, standAfter(ambient, 0)));
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

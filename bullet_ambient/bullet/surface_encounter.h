@@ -1,0 +1,78 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/region_id.h"
+#include "bullet_ambient/force/fluid_region.h"
+#include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/motion/surface_flight.h"
+#include "bullet_ambient/motion/surface_stand.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+struct AmbientBody;
+
+/// Loads on the part of a body that is in the water, for the moment that it was last told of.
+class LoadsAtSurface final : public SurfaceLoads {
+ public:
+  explicit LoadsAtSurface(std::shared_ptr<const SurfaceLoads> loads) : loads_(std::move(loads)) {}
+
+  void setPart(const WetPart& part) noexcept { part_ = part; }
+  Wrench load(const Twist& x) const noexcept override { return loads_->wetLoad(x, part_); }
+  int faces() const noexcept override { return loads_->faces(); }
+  bool needsGuard() const noexcept override { return loads_->needsGuard(); }
+
+ private:
+  std::shared_ptr<const SurfaceLoads> loads_;
+  WetPart part_;
+};
+
+/// A body between two fluids of a region.
+struct SurfaceMedia {
+  Medium below, above;
+  SurfaceModel model;
+  std::shared_ptr<LoadsAtSurface> loads;  ///< this body's own; null: there are none
+};
+
+/// How a body meets a surface, of which it moves in one step.
+struct SurfaceEncounter {
+  int media = -1;        ///< which of AmbientBody::surfaces; -1: the surface is far
+  SurfacePlane plane_W;  ///< at the start of the step
+  Vector3 velocity_above = Vector3::Zero();
+  WaveMemory waves;  ///< that the body has made
+};
+
+/// The index of a pair of fluids of the same densities and viscosities; -1: none.
+int findSurface(const std::vector<SurfaceMedia>& surfaces, const Medium& below,
+                const Medium& above) noexcept;
+
+/// The body is where the sample was taken: whether the surface matters to it in a step of
+/// `duration` [s]; if it does, keeps what the step needs to know. Without gravity there is no
+/// surface, and the centre of mass decides. Allocates nothing.
+SurfaceSide meetSurface(AmbientBody& ambient, const RegionSample& sample, double duration) noexcept;
+
+/// Total inertia and the fluids around the body as they are now: its model, or what it is at the
+/// surface.
+BodyModel modelNow(const AmbientBody& ambient);
+
+/// Before its rows are solved: makes the body's model that of the moment, and gives back the change
+/// of velocity in B by the waves that it makes. Allocates nothing. @pre it is at a surface; below
+/// as well
+Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept;
+
+/// After Bullet has moved a body with rows: its twist in B, relative to the water, after the change
+/// of its inertia on the way. With locked axes, it loses what energy the change would give it, and
+/// nothing else.
+enum class Axes { kFree, kLocked };
+Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, Axes axes,
+                     double duration) noexcept;
+
+/// Of a body that hardly moves: whether it may fall asleep where it floats. False on a saddle.
+bool mayRestAtSurface(const AmbientBody& ambient) noexcept;
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,84 @@
+#include "bullet_ambient/force/hydrostatics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/force/hull_sums.h"
+#include "bullet_ambient/spatial/pi.h"
+
+namespace ambient {
+namespace {
+
+/// Two unit vectors that make a right-handed frame with a third one.
+struct PlaneAxes {
+  Vector3 first, second;
+
+  explicit PlaneAxes(const Vector3& normal) {
+    Eigen::Index least = 0;
+    normal.cwiseAbs().minCoeff(&least);
+    first = Vector3::Unit(least).cross(normal).normalized();
+    second = normal.cross(first);
+  }
+};
+
+HullPlane planeOf(const SurfacePlane& plane, const PlaneAxes& axes) {
+  const Vector3 &s = plane.normal, &e = axes.first, &f = axes.second;
+  return {{s.x(), s.y(), s.z()}, {{e.x(), e.y(), e.z()}, {f.x(), f.y(), f.z()}}, plane.height};
+}
+
+Waterplane waterplaneOf(const HullSums& sums, const SurfacePlane& plane, const PlaneAxes& axes) {
+  const double area = sums.area;
+  if (!(area > 0)) return {};
+  const double x = sums.first[0] / area, y = sums.first[1] / area;
+  const double xx = std::max(0.0, sums.second[0] - area * x * x);
+  const double yy = std::max(0.0, sums.second[2] - area * y * y);
+  const double xy = sums.second[1] - area * x * y;
+  const Vector3 &e = axes.first, &f = axes.second;
+  return {area, plane.height * plane.normal + x * e + y * f,
+          xx * e * e.transpose() + xy * (e * f.transpose() + f * e.transpose()) +
+              yy * f * f.transpose()};
+}
+
+}  // namespace
+
+WetVolume WetVolume::inB(const FrameOffset& frame) const {
+  const Matrix3& R = frame.rotation;
+  return {volume,
+          R * moment + volume * frame.translation,
+          depth_integral,
+          {waterplane.area, R * waterplane.centroid + frame.translation,
+           R * waterplane.spread * R.transpose()}};
+}
+
+WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) noexcept {
+  static const SumHull sum_hull = kSumHull.fastest();
+  const PlaneAxes axes(plane.normal);
+  const HullSums sums = sum_hull(hull.blocks(), planeOf(plane, axes));
+  const Vector3 moment(sums.moment[0], sums.moment[1], sums.moment[2]);
+  const double factor = hull.volumeFactor();
+  WetVolume wet{factor * sums.volume, factor * (moment + sums.depth * plane.normal),
+                factor * sums.depth, waterplaneOf(sums, plane, axes)};
+  wet.waterplane.area *= factor;
+  wet.waterplane.spread *= factor;
+  return wet;
+}
+
+WetVolume computeWetSphere(double radius, const Vector3& centre,
+                           const SurfacePlane& plane) noexcept {
+  const double depth = std::clamp(plane.depth(centre) + radius, 0.0, 2 * radius);
+  const double volume = kPi * depth * depth * (3 * radius - depth) / 3;
+  // First moment of the cap along s, about the sphere's centre: V times -3 (2R - d)^2 / (4 (3R -
+  // d)).
+  const double left = 2 * radius - depth;
+  const double along = -kPi * depth * depth * left * left / 4;
+  const double integral = plane.depth(centre) * volume - along;
+  const double area = kPi * depth * left;
+  const Vector3& s = plane.normal;
+  WetVolume wet{volume, volume * centre + along * s, integral, {}};
+  if (area > 0)
+    wet.waterplane = {area, centre + plane.depth(centre) * s,
+                      area * area / (4 * kPi) * (Matrix3::Identity() - s * s.transpose())};
+  return wet;
+}
+
+}  // namespace ambient

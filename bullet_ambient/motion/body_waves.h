@@ -1,0 +1,42 @@
+#pragma once
+
+#include "bullet_ambient/force/hydrostatics.h"
+#include "bullet_ambient/motion/wave_memory.h"
+
+namespace ambient {
+
+/// What the waves of a body depend on, in B.
+struct WaveSource {
+  const WetVolume& wet;
+  const SurfacePlane& plane;
+  double heave_inertia;  ///< added mass along the normal per unit density, times c [m^3]
+  double damping;        ///< factor on the waves
+};
+
+/// One oscillator behind a velocity of the body: G, a, b of eq. (69).
+struct WaveMode {
+  Vector6 motion = Vector6::Zero();  ///< N: the velocity is N.x
+  double strength = 0;               ///< G [N/m, N m]
+  double stiffness = 0;              ///< of the buoyancy: rho g A_w, rho g V GM [N/m, N m]
+  double loss = 0, rate = 0;         ///< a, b [1/s]
+};
+
+/// Heave of the waterplane's centroid, and tilt about its two principal axes.
+struct WaveModes {
+  WaveMode heave, tilt[2];
+};
+
+/// Eq. (69), (70). All zero without a waterplane.
+WaveModes waveModesOf(const WaveSource& source) noexcept;
+
+/// Brings the waves to the present modes: they lose energy, or keep it; eq. (72). `to_world`: B to
+/// W.
+void meetModes(const WaveModes& modes, const Matrix3& to_world, WaveMemory& waves) noexcept;
+
+/// Twist and waves after a time [s], eq. (71): x.K x / 2 and the energy of the waves together do
+/// not grow, whatever the time. The waves have met the modes.
+Vector6 exchangeWaves(const WaveModes& modes, const Matrix3& to_world,
+                      const Matrix6& inverse_inertia, double duration, const Vector6& x,
+                      WaveMemory& waves) noexcept;
+
+}  // namespace ambient

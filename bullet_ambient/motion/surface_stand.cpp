@@ -1,0 +1,71 @@
+#include "bullet_ambient/motion/surface_stand.h"
+
+#include <Eigen/Cholesky>
+
+#include "bullet_ambient/motion/surface_passage.h"
+
+namespace ambient {
+namespace {
+
+Matrix6 inverseOfInertia(const Matrix6& K) {
+  using Matrix = Eigen::Matrix<double, 6, 6>;
+  const Matrix6 inverse = Eigen::LLT<Matrix>(K).solve(Matrix::Identity());
+  return 0.5 * (inverse + inverse.transpose());
+}
+
+}  // namespace
+
+SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
+  SurfaceStand stand;
+  stand.plane = plane_B;
+  stand.immersion_F = immersionOf(model, plane_B);
+  stand.wet = stand.immersion_F.wet.inB(model.fluid_frame);
+  stand.inertia = inertiaAt(model, stand.immersion_F);
+  return stand;
+}
+
+WaveModes waveModesAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
+  if (!(model.excess_density > 0)) return {};
+  const Vector3& s = stand.plane.normal;
+  const Matrix3 fluid =
+      (stand.inertia - model.above.inertia).bottomRightCorner<3, 3>() / model.excess_density;
+  return waveModesOf(
+      {stand.wet, stand.plane, model.heave_factor * s.dot(fluid * s), model.wave_damping});
+}
+
+bool isStable(const WaveModes& modes) noexcept {
+  return modes.heave.stiffness > 0 && modes.tilt[0].stiffness > 0 && modes.tilt[1].stiffness > 0;
+}
+
+BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
+  BodyModel frozen = model.above;
+  frozen.inertia = stand.inertia;
+  frozen.inverse_inertia = inverseOfInertia(stand.inertia);
+  frozen.has_diagonal_inertia = false;
+  const double water = model.excess_density * stand.wet.volume;
+  frozen.displaced_mass = model.above.displaced_mass + water;
+  if (frozen.displaced_mass > 0) {
+    frozen.centre_of_volume = (model.above.displaced_mass * model.above.centre_of_volume +
+                               model.excess_density * stand.wet.moment) /
+                              frozen.displaced_mass;
+  }
+  frozen.loads = nullptr;
+  return frozen;
+}
+
+Vector6 passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
+  const SurfaceModel& model = move.model;
+  const SurfaceStand& after = move.after;
+  const FrameOffset& frame = model.fluid_frame;
+  const Twist in_F = frame.toF(Twist::fromVector(x));
+  const Immersion& at = after.immersion_F;
+  const Wrench gradient = frame.toB(model.wetted->gradient(at, in_F).wrench(at.plane));
+  const Vector3 centre = after.wet.volume > 0 ? Vector3(after.wet.moment / after.wet.volume)
+                                              : model.above.centre_of_volume;
+  return passSurface({move.inertia_before, after.inertia, inverseOfInertia(after.inertia),
+                      model.excess_density * gradient, after.plane.normal, centre, at.draught(),
+                      at.cover(), after.plane.gravity, move.duration},
+                     x);
+}
+
+}  // namespace ambient

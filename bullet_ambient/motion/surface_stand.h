@@ -1,0 +1,40 @@
+#pragma once
+
+#include "bullet_ambient/motion/body_waves.h"
+#include "bullet_ambient/motion/surface_model.h"
+
+namespace ambient {
+
+/// A body at one pose against the surface of the water; in B but for what is named otherwise.
+struct SurfaceStand {
+  SurfacePlane plane;
+  Immersion immersion_F;
+  WetVolume wet;
+  Matrix6 inertia;  ///< K of body and fluids, docs/theory.md eq. (63)
+};
+
+/// `plane_B` with the density and gravity that count. Cost: 1 us for a hull of some hundred
+/// triangles.
+SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
+
+/// The waves that it makes there.
+WaveModes waveModesAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
+
+/// Whether small displacements are turned back: up and down, and about both axes of the waterplane.
+bool isStable(const WaveModes& modes) noexcept;
+
+/// The body as one of constant inertia and displacement, for a step in which rows move it. Its
+/// loads, in the frame of `loads_below`, are left to the caller.
+BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
+
+/// Where a body passes the surface between two poses: x_1 of docs/theory.md eq. (66) to (68), from
+/// the twist that it would have at the second with the inertia of the first, K_0.
+struct SurfaceMove {
+  const SurfaceModel& model;
+  const Matrix6& inertia_before;
+  const SurfaceStand& after;
+  double duration;
+};
+Vector6 passSurface(const SurfaceMove& move, const Vector6& x) noexcept;
+
+}  // namespace ambient

@@ -1,0 +1,100 @@
+#include "demos/scene/scene_water.h"
+
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+Vector3 vectorAt(const json& parent, const char* key, const Vector3& absent) {
+  const auto found = parent.find(key);
+  if (found == parent.end()) return absent;
+  return {found->at(0).get<double>(), found->at(1).get<double>(), found->at(2).get<double>()};
+}
+
+/// Null: open that way.
+Vector3 cornerAt(const json& bounds, const char* key, double open) {
+  Vector3 corner = Vector3::Constant(open);
+  const auto found = bounds.find(key);
+  if (found == bounds.end()) return corner;
+  for (int axis = 0; axis < 3; ++axis) {
+    const json& side = found->at(static_cast<std::size_t>(axis));
+    if (!side.is_null()) corner[axis] = side.get<double>();
+  }
+  return corner;
+}
+
+std::optional<RegionBounds> toBounds(const json& parent) {
+  const auto found = parent.find("bounds");
+  if (found == parent.end()) return std::nullopt;
+  constexpr double kOpen = std::numeric_limits<double>::infinity();
+  return RegionBounds{cornerAt(*found, "lowest", -kOpen), cornerAt(*found, "highest", kOpen)};
+}
+
+WaveComponent toWave(const json& from) {
+  WaveComponent wave;
+  wave.amplitude = from.at("amplitude").get<double>();
+  wave.period = from.at("period").get<double>();
+  wave.direction = vectorAt(from, "direction", wave.direction);
+  wave.phase = from.value("phase", wave.phase);
+  return wave;
+}
+
+FluidRegion makeWaterRegion(const WaterDef& water, const Medium& above) {
+  FluidRegion region;
+  region.bounds = water.bounds;
+  region.below = water.medium;
+  region.above = above;
+  if (water.waves.empty()) {
+    region.surface = std::make_shared<StillWater>(water.sea.level, water.sea.up);
+    region.below.velocity = water.sea.current;
+  } else {
+    region.surface = std::make_shared<AiryWaves>(water.sea, water.waves);
+  }
+  return region;
+}
+
+}  // namespace
+
+Medium toMedium(const json& from, const Medium& absent) {
+  Medium medium;
+  medium.density = from.value("density", absent.density);
+  medium.viscosity = from.value("viscosity", absent.viscosity);
+  medium.velocity = vectorAt(from, "velocity", absent.velocity);
+  medium.acceleration = vectorAt(from, "acceleration", absent.acceleration);
+  return medium;
+}
+
+WaterDef toWater(const json& from, const Vector3& gravity) {
+  WaterDef def;
+  def.medium = toMedium(from, water());
+  def.sea.level = from.at("level").get<double>();
+  def.sea.up = -gravity;
+  def.sea.gravity = gravity.norm();
+  def.sea.current = vectorAt(from, "current", def.sea.current);
+  if (from.contains("waves"))
+    for (const json& wave : from.at("waves")) def.waves.push_back(toWave(wave));
+  def.bounds = toBounds(from);
+  return def;
+}
+
+FluidRegion toRegion(const json& from) {
+  FluidRegion region;
+  region.bounds = toBounds(from);
+  region.below = toMedium(from.at("medium"), Medium{});
+  region.priority = from.value("priority", 0);
+  return region;
+}
+
+std::vector<FluidRegion> makeRegions(const Scene& scene) {
+  std::vector<FluidRegion> regions;
+  if (scene.water) regions.push_back(makeWaterRegion(*scene.water, scene.medium));
+  regions.insert(regions.end(), scene.regions.begin(), scene.regions.end());
+  for (const FluidRegion& region : regions) checkRegion(region);
+  return regions;
+}
+
+}  // namespace ambient

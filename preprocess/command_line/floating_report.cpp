@@ -1,0 +1,93 @@
+#include "preprocess/command_line/floating_report.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "preprocess/command_line/json_numbers.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int kMostAlike = 48;  // by the symmetry of a box; more: it turns freely
+
+template <class... Numbers>
+std::string line(const char* format, Numbers... numbers) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+std::string vectorText(const Vector3& v) {
+  return line("%.4g, %.4g, %.4g", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
+
+// Of body and water without waves; infinite where nothing turns the body back.
+std::string modeText(const FloatingMode& mode) {
+  const std::string name = mode.is_heave ? "heave" : "turn about " + vectorText(mode.turn);
+  return "    period          " +
+         (std::isfinite(mode.period) ? line("%.4g s, ", mode.period) : std::string("none, ")) +
+         name + "\n";
+}
+
+std::string attitudeText(const FloatingAttitude& attitude) {
+  std::string text = "  up is " + vectorText(attitude.up);
+  if (attitude.alike > kMostAlike) {
+    text += ", or turned freely";
+  } else if (attitude.alike > 1) {
+    text += line(", and %d alike", attitude.alike - 1);
+  }
+  text += line("; reached from %.0f %% of all attitudes\n", 100 * attitude.share);
+  text += line("    draught         %.5g m\n", attitude.draught);
+  text += line("    centre of mass  %.5g m above the water\n", attitude.height_of_mass);
+  text += line("    waterplane      %.5g m^2\n", attitude.wet.waterplane.area);
+  for (const Metacentre& metacentre : attitude.metacentres)
+    text += line("    GM              %.4g m, about ", metacentre.height) +
+            vectorText(metacentre.axis) + "\n";
+  for (const FloatingMode& mode : attitude.modes) text += modeText(mode);
+  return text;
+}
+
+ordered_json modeJson(const FloatingMode& mode) {
+  ordered_json json{{"heave", mode.is_heave}, {"turn", vectorJson(mode.turn)}};
+  json["period"] = std::isfinite(mode.period) ? ordered_json(mode.period) : ordered_json();
+  return json;
+}
+
+ordered_json attitudeJson(const FloatingAttitude& attitude) {
+  ordered_json json{{"up", vectorJson(attitude.up)},
+                    {"alike", attitude.alike},
+                    {"share", attitude.share},
+                    {"draught", attitude.draught},
+                    {"height_of_mass", attitude.height_of_mass},
+                    {"waterplane_area", attitude.wet.waterplane.area},
+                    {"metacentres", ordered_json::array()},
+                    {"modes", ordered_json::array()}};
+  for (const Metacentre& metacentre : attitude.metacentres)
+    json["metacentres"].push_back(
+        {{"height", metacentre.height}, {"axis", vectorJson(metacentre.axis)}});
+  for (const FloatingMode& mode : attitude.modes) json["modes"].push_back(modeJson(mode));
+  return json;
+}
+
+}  // namespace
+
+std::string floatingTable(const FloatingBody& body) {
+  std::string text = line("with %.6g kg on water of %.6g kg/m^3\n", body.mass, body.density);
+  const auto attitudes = findFloatingAttitudes(body);
+  if (attitudes.empty())
+    return text + line("  it sinks: it displaces %.6g kg\n", body.density * body.shape->volume);
+  for (const FloatingAttitude& attitude : attitudes) text += attitudeText(attitude);
+  return text;
+}
+
+ordered_json floatingJson(const FloatingBody& body) {
+  ordered_json list = ordered_json::array();
+  for (const FloatingAttitude& attitude : findFloatingAttitudes(body))
+    list.push_back(attitudeJson(attitude));
+  return list;
+}
+
+}  // namespace ambient

@@ -1,0 +1,96 @@
+#include "preprocess/floating/floating_energy.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace ambient {
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+// The height of the plane at which the water carries the body: Newton's method within an interval
+// that halving keeps.
+void balance(const FloatingBody& body, const PackedHull& hull, FloatingPose& pose) {
+  const auto [low, high] = hull.extent(pose.plane.normal);
+  const double wanted = body.mass / body.density;
+  double below = low, above = high;
+  pose.plane.height = (low + high) / 2;
+  for (int i = 0; i < 100; ++i) {
+    pose.wet = computeWetVolume(hull, pose.plane);
+    const double excess = pose.wet.volume - wanted;
+    if (std::abs(excess) <= kRounding * wanted) return;
+    (excess > 0 ? above : below) = pose.plane.height;
+    const double newton = pose.plane.height - excess / pose.wet.waterplane.area;
+    pose.plane.height = newton > below && newton < above ? newton : (below + above) / 2;
+  }
+}
+
+Matrix3 projector(const Vector3& normal) {
+  return Matrix3::Identity() - normal * normal.transpose();
+}
+
+}  // namespace
+
+std::array<Vector3, 2> planeAxes(const Vector3& normal) {
+  Eigen::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  const Vector3 first = Vector3::Unit(least).cross(normal).normalized();
+  return {first, normal.cross(first)};
+}
+
+PlaneEigen planeEigen(const Matrix3& matrix, const std::array<Vector3, 2>& axes) {
+  const auto& [e, f] = axes;
+  const double a = e.dot(matrix * e), b = e.dot(matrix * f), d = f.dot(matrix * f);
+  const double angle = 0.5 * std::atan2(2 * b, a - d);
+  const Vector3 large = std::cos(angle) * e + std::sin(angle) * f;
+  const Vector3 small = -std::sin(angle) * e + std::cos(angle) * f;
+  return {{small.dot(matrix * small), large.dot(matrix * large)}, {small, large}};
+}
+
+FloatingPose floatAt(const FloatingBody& body, const PackedHull& hull, const Vector3& up) {
+  FloatingPose pose;
+  pose.plane = {up, 0, body.density, body.gravity};
+  balance(body, hull, pose);
+  const double weight = body.mass * body.gravity;
+  const Vector3 lever = body.centre_of_mass - pose.wet.moment / pose.wet.volume;
+  const Matrix3 in_plane = projector(up);
+  pose.energy = hydrostaticEnergy(pose.wet, pose.plane) +
+                weight * (up.dot(body.centre_of_mass) - pose.plane.height);
+  pose.gradient = weight * (in_plane * lever);
+  pose.stiffness =
+      body.density * body.gravity * (in_plane * pose.wet.waterplane.spread * in_plane) -
+      weight * up.dot(lever) * in_plane;
+  return pose;
+}
+
+FloatingPose settle(const FloatingBody& body, const PackedHull& hull, const Vector3& up) {
+  constexpr int kMostSteps = 200;
+  constexpr double kLongest = 0.3;  // [rad]
+  FloatingPose pose = floatAt(body, hull, up);
+  const auto [low, high] = hull.extent(up);
+  const double scale = body.mass * body.gravity * (high - low);
+  for (int i = 0; i < kMostSteps; ++i) {
+    if (pose.gradient.norm() <= 1e-10 * scale) break;
+    const PlaneEigen eigen = planeEigen(pose.stiffness, planeAxes(pose.plane.normal));
+    Vector3 step = Vector3::Zero();
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double stiffness = std::max(std::abs(eigen.values[k]), 1e-3 * scale);
+      step -= eigen.vectors[k].dot(pose.gradient) / stiffness * eigen.vectors[k];
+    }
+    step *= std::min(1.0, kLongest / step.norm());
+    bool is_lower = false;
+    for (int halving = 0; halving < 30 && !is_lower; ++halving, step *= 0.5) {
+      const FloatingPose next = floatAt(body, hull, (pose.plane.normal + step).normalized());
+      // Near the end, where the energy's rounding hides it, by the gradient.
+      is_lower = next.energy < pose.energy - kRounding * scale ||
+                 (next.energy <= pose.energy + kRounding * scale &&
+                  next.gradient.norm() < pose.gradient.norm());
+      if (is_lower) pose = next;
+    }
+    if (!is_lower) break;
+  }
+  return pose;
+}
+
+}  // namespace ambient

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "bullet_ambient/fluid_body/packed_hull.h"
+#include "preprocess/floating/floating_attitudes.h"
+
+namespace ambient {
+
+/// A body that floats at a given attitude, the water's normal s in F:
+///
+///   E(s) = min_h ( rho g W(s, h) + m g (s.c - h) ),  c the centre of mass
+struct FloatingPose {
+  SurfacePlane plane;
+  WetVolume wet;
+  double energy = 0;                    ///< E [J]
+  Vector3 gradient{0, 0, 0};            ///< of E by s, in the plane [J]
+  Matrix3 stiffness = Matrix3::Zero();  ///< second derivative of E by s, in the plane [J]
+};
+
+/// @pre 0 < mass < density times the volume of the hull.
+FloatingPose floatAt(const FloatingBody& body, const PackedHull& hull, const Vector3& up);
+
+/// Goes down to the least energy near an attitude.
+FloatingPose settle(const FloatingBody& body, const PackedHull& hull, const Vector3& up);
+
+/// The body about a floating attitude: draught, metacentres, periods.
+FloatingAttitude describe(const FloatingBody& body, const PackedHull& hull,
+                          const FloatingPose& pose);
+
+/// Two unit vectors that make a right-handed frame with a third one.
+std::array<Vector3, 2> planeAxes(const Vector3& normal);
+
+/// Eigenvalues in ascending order, and eigenvectors, of a symmetric matrix that maps the plane of
+/// two unit vectors into itself.
+struct PlaneEigen {
+  std::array<double, 2> values;
+  std::array<Vector3, 2> vectors;
+};
+PlaneEigen planeEigen(const Matrix3& matrix, const std::array<Vector3, 2>& axes);
+
+}  // namespace ambient

@@ -1,0 +1,108 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/force/load_tables.h"
+#include "bullet_ambient/force/wetted_inertia.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/floating/floating_energy.h"
+
+namespace ambient {
+namespace {
+
+// Heave along the normal and turns about two axes of the plane, about the centre of mass.
+struct Floaters {
+  Vector3 up;
+  std::array<Vector3, 2> axes;
+};
+
+// Potential energy 1/2 q.K q of small displacements q: the water rises at r by
+// -(1, e.(r x s), f.(r x s)).q, and the weight is above the centre of buoyancy.
+Eigen::Matrix3d stiffnessOf(const FloatingBody& body, const FloatingPose& pose,
+                            const Floaters& of) {
+  const Waterplane& plane = pose.wet.waterplane;
+  const Vector3 lever = body.centre_of_mass - pose.wet.moment / pose.wet.volume;
+  const Vector3 arm = plane.centroid - body.centre_of_mass;
+  Eigen::Vector3d rise(1, of.axes[0].dot(arm.cross(of.up)), of.axes[1].dot(arm.cross(of.up)));
+  Eigen::Matrix3d K = plane.area * rise * rise.transpose();
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j)
+      K(i + 1, j + 1) += of.up.cross(of.axes[static_cast<std::size_t>(i)])
+                             .dot(plane.spread * of.up.cross(of.axes[static_cast<std::size_t>(j)]));
+  K *= body.density * body.gravity;
+  const double pull = body.mass * body.gravity * of.up.dot(lever);
+  K(1, 1) -= pull;
+  K(2, 2) -= pull;
+  return K;
+}
+
+// Of body and water; sway, surge and yaw follow freely.
+Eigen::Matrix3d inertiaOf(const FloatingBody& body, const PackedHull& hull,
+                          const FloatingPose& pose, const Floaters& of) {
+  LoadTables tables;
+  const auto [low, high] = hull.extent(of.up);
+  const Matrix6 added =
+      makeWettedInertia(body.shape, tables)->inertia({pose.plane, low, high, pose.wet});
+  const FrameOffset about_mass{Matrix3::Identity(), -body.centre_of_mass};
+  const Matrix6 total =
+      rigidBodyInertia(body.mass, body.inertia) + body.density * about_mass.inertiaToB(added);
+  Eigen::Matrix<double, 6, 3> motions;
+  motions << stack(Vector3::Zero(), of.up), stack(of.axes[0], Vector3::Zero()),
+      stack(of.axes[1], Vector3::Zero());
+  const Eigen::Matrix<double, 6, 6> K = total;
+  const Eigen::Matrix3d response = motions.transpose() * K.llt().solve(motions);
+  return response.inverse();
+}
+
+FloatingMode modeOf(const Eigen::Vector3d& q, double square, const Eigen::Matrix3d& stiffness,
+                    const Floaters& of) {
+  FloatingMode mode;
+  mode.period = square > 0 ? 2 * kPi / std::sqrt(square) : HUGE_VAL;
+  const Vector3 turn = q[1] * of.axes[0] + q[2] * of.axes[1];
+  if (turn.norm() > 0) mode.turn = turn.normalized();
+  mode.is_heave = 2 * q[0] * q[0] * stiffness(0, 0) > q.dot(stiffness * q);
+  if (mode.is_heave) mode.turn.setZero();
+  return mode;
+}
+
+std::array<FloatingMode, 3> modesOf(const FloatingBody& body, const PackedHull& hull,
+                                    const FloatingPose& pose) {
+  const Floaters of{pose.plane.normal, planeAxes(pose.plane.normal)};
+  const Eigen::Matrix3d K = stiffnessOf(body, pose, of), M = inertiaOf(body, hull, pose, of);
+  const Eigen::LLT<Eigen::Matrix3d> factor(M);
+  const Eigen::Matrix3d half = factor.matrixL().solve(K);
+  const Eigen::Matrix3d reduced = factor.matrixL().solve(half.transpose().eval());
+  const SymmetricEigen<3> eigen = symmetricEigen<3>(reduced);
+  std::array<FloatingMode, 3> modes;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d q = factor.matrixU().solve(eigen.vectors.col(i));
+    modes[static_cast<std::size_t>(i)] = modeOf(q, eigen.values[i], K, of);
+  }
+  return modes;
+}
+
+}  // namespace
+
+FloatingAttitude describe(const FloatingBody& body, const PackedHull& hull,
+                          const FloatingPose& pose) {
+  FloatingAttitude attitude;
+  attitude.up = pose.plane.normal;
+  attitude.plane = pose.plane;
+  attitude.wet = pose.wet;
+  attitude.energy = pose.energy;
+  attitude.draught = pose.plane.height - hull.extent(pose.plane.normal).first;
+  attitude.height_of_mass = -pose.plane.depth(body.centre_of_mass);
+  // Turned about an axis a, the normal moves along a x s, in which the stiffness is given.
+  const PlaneEigen eigen = planeEigen(pose.stiffness, planeAxes(pose.plane.normal));
+  for (std::size_t i = 0; i < 2; ++i)
+    attitude.metacentres[i] = {eigen.vectors[i].cross(attitude.up),
+                               eigen.values[i] / (body.mass * body.gravity)};
+  attitude.modes = modesOf(body, hull, pose);
+  return attitude;
+}
+
+}  // namespace ambient

@@ -1,0 +1,57 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/preprocess/command_line/command_line.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+class FloatingCommand : public CommandLine {
+ protected:
+  std::string barge() {
+    const std::string box = write("barge.json", R"({"type":"box","size":[2,1,0.5]})");
+    resultOf({"build", box, "-o", path("barge.ambient"), "--panels", "0", "--json"});
+    return path("barge.ambient");
+  }
+};
+
+// A box of half the water's density and low weight: T = 0.25, GM = B^2 / 12 T - KG + KB.
+TEST_F(FloatingCommand, InspectTellsHowABargeFloats) {
+  const std::string file = barge();
+  const Arguments floating{"inspect",          file, "--mass", "500",  "--density", "1000",
+                           "--centre-of-mass", "0",  "0",      "-0.2", "--json"};
+  json report = resultOf(floating);
+  ASSERT_EQ(report["floating"].size(), 1u);
+  const json& upright = report["floating"][0];
+  EXPECT_NEAR(upright["draught"].get<double>(), 0.25, 1e-9);
+  EXPECT_NEAR(upright["up"][2].get<double>(), 1, 1e-9);
+  EXPECT_NEAR(upright["height_of_mass"].get<double>(), -0.2, 1e-9);
+  EXPECT_NEAR(upright["metacentres"][0]["height"].get<double>(), 1 / (12 * 0.25) - 0.05 + 0.125,
+              1e-9);
+  EXPECT_EQ(upright["modes"].size(), 3u);
+  report.erase("floating");
+  EXPECT_EQ(report, resultOf({"inspect", file, "--json"}));
+  const std::string table = run({"inspect", file, "--mass", "500", "--density", "1000"}).output;
+  EXPECT_NE(table.find("with 500 kg on water of 1000 kg/m^3\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("    draught         0.25 m\n"), std::string::npos) << table;
+}
+
+TEST_F(FloatingCommand, InspectTellsThatABodySinks) {
+  const std::string file = barge();
+  EXPECT_TRUE(resultOf({"inspect", file, "--mass", "1001", "--json"})["floating"].empty());
+  EXPECT_NE(run({"inspect", file, "--mass", "1001"}).output.find("it sinks: it displaces 998 kg"),
+            std::string::npos);
+}
+
+TEST_F(FloatingCommand, InspectSaysWhatIsWrong) {
+  const std::string file = barge();
+  EXPECT_NE(refusal({"inspect", file, "--mass", "-1"}).find("mass [kg] is -1; must be positive"),
+            std::string::npos);
+  EXPECT_NE(usageRefusal({"inspect", file, "--density", "3"}).find("--mass"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,196 @@
+#include "preprocess/floating/floating_attitudes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "bullet_ambient/spatial/pi.h"
+#include "tests/support/hull_bodies.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr double kWater = 1000, kFloatGravity = 9.81;
+
+// A homogeneous box of the specific gravity, without added mass.
+FloatingBody floatingBox(const Vector3& size, double specific_gravity) {
+  FloatingBody body;
+  body.shape = std::make_shared<FluidBody>(boxBody(size));
+  body.density = kWater;
+  body.gravity = kFloatGravity;
+  body.mass = specific_gravity * kWater * size.prod();
+  const Vector3 q = size.cwiseAbs2() / 12;
+  body.inertia = body.mass * Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y()).asDiagonal();
+  return body;
+}
+
+Vector3 sortedSizes(const Vector3& v) {
+  Vector3 sizes = v.cwiseAbs();
+  std::sort(sizes.data(), sizes.data() + 3);
+  return sizes;
+}
+
+// The attitude that most descents come to.
+FloatingAttitude mainAttitude(const FloatingBody& body) {
+  return findFloatingAttitudes(body).at(0);
+}
+
+// Between flat and on its corner, a cube turns about the vertical without a force.
+TEST(FloatingAttitudes, ATiltedCubeIsNeutral) {
+  const FloatingAttitude tilted = mainAttitude(floatingBox({1, 1, 1}, 0.225));
+  EXPECT_NEAR(tilted.metacentres[0].height, 0, 1e-9);
+  EXPECT_GT(tilted.metacentres[1].height, 0.01);
+}
+
+// 6 s (1 - s) < 1: the metacentre of a cube that floats flat is above its centre.
+TEST(FloatingAttitudes, ACubeIsFlatTiltedOrOnACorner) {
+  const double kFlatBelow = 0.5 - std::sqrt(1.0 / 12);  // 0.2113
+  for (const double s : {0.05, 0.2, kFlatBelow - 0.002, 1 - kFlatBelow + 0.002, 0.9}) {
+    const FloatingAttitude flat = mainAttitude(floatingBox({1, 1, 1}, s));
+    EXPECT_NEAR(sortedSizes(flat.up)[2], 1, 1e-6) << s;
+    EXPECT_NEAR(flat.draught, s, 1e-9) << s;
+    EXPECT_EQ(flat.alike, 6) << s;
+    EXPECT_GT(flat.share, 0.75) << s;  // near the limits, on its corner as well
+    // GM = B^2 / 12 T - (B - T) / 2
+    for (const Metacentre& metacentre : flat.metacentres)
+      EXPECT_NEAR(metacentre.height, 1 / (12 * s) - (1 - s) / 2, 1e-9) << s;
+  }
+  for (const double s : {kFlatBelow + 0.002, 0.225, 0.775}) {
+    const Vector3 tilted = sortedSizes(mainAttitude(floatingBox({1, 1, 1}, s)).up);
+    EXPECT_LT(tilted[2], 0.9999) << s;
+    EXPECT_GT(tilted[2], 0.8) << s;
+  }
+  for (const double s : {0.3, 0.5, 0.7}) {
+    const FloatingAttitude corner = mainAttitude(floatingBox({1, 1, 1}, s));
+    EXPECT_LT((sortedSizes(corner.up) - Vector3::Constant(std::sqrt(1.0 / 3))).norm(), 1e-5) << s;
+    EXPECT_EQ(corner.alike, 8) << s;
+  }
+}
+
+// A long square bar floats on an edge for 9/32 < s < 23/32 (Reid 1963).
+TEST(FloatingAttitudes, ALongBarFloatsOnItsEdge) {
+  for (const double s : {9.0 / 32 + 0.003, 0.5, 23.0 / 32 - 0.003}) {
+    const Vector3 up = sortedSizes(mainAttitude(floatingBox({9, 1, 1}, s)).up);
+    EXPECT_NEAR(up[0], 0, 1e-6) << s;
+    EXPECT_NEAR(up[1], std::sqrt(0.5), 1e-4) << s;
+  }
+  for (const double s : {9.0 / 32 - 0.003, 23.0 / 32 + 0.003})
+    EXPECT_LT(sortedSizes(mainAttitude(floatingBox({9, 1, 1}, s)).up)[1], 0.7) << s;
+}
+
+const FloatingAttitude* withUp(const std::vector<FloatingAttitude>& all, const Vector3& up) {
+  for (const FloatingAttitude& each : all)
+    if (each.up.cwiseAbs().dot(up) > 1 - 1e-6) return &each;
+  return nullptr;
+}
+
+// Without added mass: heave sqrt(m / rho g A), turns sqrt(I / m g GM).
+TEST(FloatingAttitudes, ABargeHasTheMetacentresAndPeriodsOfItsBox) {
+  const Vector3 size(4, 2, 1);
+  const double s = 0.4, draught = 0.4;
+  const FloatingBody body = floatingBox(size, s);
+  const auto all = findFloatingAttitudes(body);
+  const FloatingAttitude* upright = withUp(all, Vector3::UnitZ());
+  ASSERT_NE(upright, nullptr);
+  EXPECT_NEAR(upright->draught, draught, 1e-9);
+  EXPECT_NEAR(upright->height_of_mass, 0.5 - draught, 1e-9);
+  EXPECT_NEAR(upright->wet.waterplane.area, 8, 1e-9);
+  const double below = 0.5 - draught / 2;
+  const double roll = 4 / (12 * draught) - below, pitch = 16 / (12 * draught) - below;
+  EXPECT_NEAR(upright->metacentres[0].height, roll, 1e-6 * roll);
+  EXPECT_NEAR(std::abs(upright->metacentres[0].axis.x()), 1, 1e-6);
+  EXPECT_NEAR(upright->metacentres[1].height, pitch, 1e-6 * pitch);
+  EXPECT_NEAR(std::abs(upright->metacentres[1].axis.y()), 1, 1e-6);
+  const auto period = [&](double inertia, double stiffness) {
+    return 2 * kPi * std::sqrt(inertia / stiffness);
+  };
+  const double weight = body.mass * kFloatGravity;
+  const double heave = period(body.mass, kWater * kFloatGravity * 8);
+  int heaves = 0;
+  for (const FloatingMode& mode : upright->modes) {
+    heaves += mode.is_heave;
+    if (mode.is_heave) {
+      EXPECT_NEAR(mode.period, heave, 1e-6);
+    }
+    if (std::abs(mode.turn.x()) > 0.9) {
+      EXPECT_NEAR(mode.period, period(body.inertia(0, 0), weight * roll), 1e-6);
+    }
+    if (std::abs(mode.turn.y()) > 0.9) {
+      EXPECT_NEAR(mode.period, period(body.inertia(1, 1), weight * pitch), 1e-6);
+    }
+  }
+  EXPECT_EQ(heaves, 1);
+}
+
+TEST(FloatingAttitudes, AddedMassMakesPeriodsLonger) {
+  FloatingBody body = floatingBox({4, 2, 1}, 0.4);
+  const double dry = withUp(findFloatingAttitudes(body), Vector3::UnitZ())->modes[0].period;
+  FluidBody heavy = *body.shape;
+  // Without parts, the added mass times the wet share.
+  heavy.added_mass = 3 * heavy.volume * Matrix6::Identity();
+  body.shape = std::make_shared<FluidBody>(heavy);
+  const auto all = findFloatingAttitudes(body);
+  for (const FloatingMode& mode : withUp(all, Vector3::UnitZ())->modes)
+    if (mode.is_heave) {
+      EXPECT_NEAR(mode.period, 2 * kPi * std::sqrt(4 * 0.4 / kFloatGravity), 1e-6);
+    }
+  EXPECT_GT(withUp(all, Vector3::UnitZ())->modes[0].period, dry);
+}
+
+// A mass near the bottom: one attitude alone, whatever the shape.
+TEST(FloatingAttitudes, ALowCentreOfMassSettlesIt) {
+  FloatingBody body = floatingBox({1, 1, 1}, 0.5);
+  body.centre_of_mass = {0, 0, -0.45};
+  const auto all = findFloatingAttitudes(body);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].alike, 1);
+  EXPECT_NEAR(all[0].up.z(), 1, 1e-9);
+  EXPECT_NEAR(all[0].metacentres[0].height, 1 / (12 * 0.5) - (-0.45 + 0.25), 1e-9);
+}
+
+TEST(FloatingAttitudes, DoNotDependOnSizeAndFrame) {
+  FloatingBody small = floatingBox({0.04, 0.02, 0.01}, 0.4);
+  const auto large = findFloatingAttitudes(floatingBox({400, 200, 100}, 0.4));
+  const auto all = findFloatingAttitudes(small);
+  ASSERT_EQ(all.size(), large.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_NEAR(all[i].draught, 1e-4 * large[i].draught, 1e-10 * large[i].draught);
+    EXPECT_NEAR(all[i].modes[0].period, 1e-2 * large[i].modes[0].period, 1e-6);
+  }
+  FluidBody moved = *small.shape;
+  for (std::size_t i = 0; i < moved.surface.vertices.size(); i += 3) moved.surface.vertices[i] += 3;
+  moved.centre_of_volume.x() = 3;
+  small.centre_of_mass.x() = 3;
+  small.shape = std::make_shared<FluidBody>(moved);
+  EXPECT_NEAR(findFloatingAttitudes(small)[0].draught, all[0].draught, 1e-9);
+}
+
+TEST(FloatingAttitudes, WhatIsTooHeavyHasNone) {
+  EXPECT_TRUE(findFloatingAttitudes(floatingBox({1, 1, 1}, 1.0)).empty());
+  EXPECT_EQ(findFloatingAttitudes(floatingBox({1, 1, 1}, 0.999)).at(0).alike, 6);
+}
+
+TEST(FloatingAttitudes, SayWhatIsWrong) {
+  const auto complaint = [](FloatingBody body) -> std::string {
+    try {
+      findFloatingAttitudes(body);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  FloatingBody body = floatingBox({1, 1, 1}, 0.5);
+  body.mass = 0;
+  EXPECT_EQ(complaint(body), "fluid body 'hull': mass [kg] is 0; must be positive and finite");
+  body = floatingBox({1, 1, 1}, 0.5);
+  auto sheet = std::make_shared<FluidBody>(*body.shape);
+  sheet->volume = 0;
+  body.shape = sheet;
+  EXPECT_EQ(complaint(body), "fluid body 'hull': volume [m^3] is 0; must be positive and finite");
+}
+
+}  // namespace
+}  // namespace ambient::test

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/motion/surface_flight.h"
+#include "tests/support/body_models.h"
+#include "tests/support/part_bodies.h"
+
+namespace ambient::test {
+
+constexpr double kWaterDensity = 1000;
+
+struct FloatingDef {
+  FluidBody shape;
+  double specific_gravity = 0.5;
+  Vector3 gyration{0.4, 0.4, 0.4};  ///< radii about the centre of mass [m]
+  Vector3 centre_of_mass{0, 0, 0};  ///< in F
+  double gravity = 9.81;
+  bool has_loads = false;
+  double wave_damping = 1;
+  Medium above{0, 0, {0, 0, 0}, {0, 0, 0}};
+};
+
+/// A body at the plane z = 0 of still water, below vacuum by default; it moves step by step.
+class FloatingRun {
+ public:
+  explicit FloatingRun(const FloatingDef& def) : gravity_(0, 0, -def.gravity) {
+    SurfaceModelDef model;
+    model.shape = std::make_shared<const FluidBody>(def.shape);
+    mass_ = def.specific_gravity * kWaterDensity * def.shape.volume;
+    model.mass = {mass_, (mass_ * def.gyration.cwiseAbs2()).asDiagonal()};
+    model.fluid_frame.translation = -def.centre_of_mass;
+    model.above = def.above;
+    model.below = {kWaterDensity, 1e-3, {0, 0, 0}, {0, 0, 0}};
+    if (!def.has_loads) model.flow.own_law = [](const auto&, const auto&) { return nullptr; };
+    model.wave_damping = def.wave_damping;
+    model_ = makeSurfaceModel(model, loadTables());
+    surroundings_.gravity = gravity_;
+    surroundings_.applied.force = mass_ * gravity_;
+  }
+
+  RigidState state;
+  FlightMemory memory;
+  WaveMemory waves;
+  FlightCount count;
+
+  const SurfaceModel& model() const { return model_; }
+  Surroundings& surroundings() { return surroundings_; }
+  double mass() const { return mass_; }
+
+  void step(double duration) {
+    const SurfacePlane plane{{0, 0, 1}, 0, 0, 0};
+    const SurfaceFlightResult result = flyAtSurface(
+        {model_, plane, surroundings_, Vector3::Zero(), settings_, duration}, state, memory, waves);
+    state = result.flight.state;
+    memory = result.flight.memory;
+    count = result.flight.count;
+    waves = result.waves;
+  }
+  void run(double time, double duration) {
+    const int steps = static_cast<int>(std::lround(time / duration));
+    for (int i = 0; i < steps; ++i) step(duration);
+  }
+
+  Immersion immersion() const {
+    const Matrix3 R = state.orientation.toRotationMatrix();
+    const SurfacePlane plane{{0, 0, 1}, 0, model_.excess_density, -gravity_.z()};
+    return immersionOf(model_, seenFrom(plane, R, state.position));
+  }
+  Matrix6 inertia() const { return inertiaAt(model_, immersion()); }
+  Vector3 velocity_W() const { return state.orientation * state.twist.linear; }
+  Vector3 momentum_W() const {
+    const Vector6 p = inertia() * state.twist.vector();
+    return state.orientation * Vector3(p.tail<3>());
+  }
+  /// Of body, water and waves; docs/theory.md eq. (64).
+  double energy() const {
+    const Immersion at = immersion();
+    const Vector6 x = state.twist.vector();
+    return 0.5 * x.dot(inertiaAt(model_, at) * x) - mass_ * gravity_.dot(state.position) +
+           hydrostaticEnergy(at.wet, at.plane) + waves.energy();
+  }
+
+ private:
+  Vector3 gravity_;
+  double mass_ = 0;
+  SurfaceModel model_;
+  Surroundings surroundings_;
+  FlightSettings settings_;
+};
+
+/// Extremes of a signal after its start.
+struct Extreme {
+  double time, value;
+};
+inline std::vector<Extreme> extremesOf(const std::vector<double>& signal, double time_step) {
+  std::vector<Extreme> extremes;
+  for (std::size_t i = 1; i + 1 < signal.size(); ++i) {
+    const double before = signal[i] - signal[i - 1], after = signal[i + 1] - signal[i];
+    if (before * after > 0 || before == 0) continue;
+    const double shift = before == after ? 0 : 0.5 * (before + after) / (before - after);
+    extremes.push_back({time_step * (static_cast<double>(i) + shift),
+                        signal[i] + 0.25 * shift * (before + after)});
+  }
+  return extremes;
+}
+
+}  // namespace ambient::test
