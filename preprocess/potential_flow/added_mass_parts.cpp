@@ -8,7 +8,7 @@
 namespace ambient {
 namespace {
 
-constexpr std::size_t kLeastPanels = 16, kMostParts = 96;
+constexpr std::size_t kPanelsOfAPart = 16, kMostParts = 96;
 
 Vector6 productsOf(const Vector3& r) {
   Vector6 products;
@@ -47,7 +47,7 @@ std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels) {
   coordinates.reserve(panels.size());
   for (const PanelInertia& panel : panels)
     coordinates.push_back(stack(panel.normal, panel.centroid / (size > 0 ? size : 1)));
-  const std::size_t each = std::max(kLeastPanels, (panels.size() + kMostParts - 1) / kMostParts);
+  const std::size_t each = std::max(kPanelsOfAPart, (panels.size() + kMostParts - 1) / kMostParts);
   const std::vector<std::uint32_t> order = orderInBlocks(coordinates, each);
   std::vector<AddedMassPart> parts;
   for (std::size_t begin = 0; begin < order.size(); begin += each)
