@@ -93,7 +93,7 @@ void printScenes() {
   }
 }
 
-std::vector<PreparedBody> prepare(const Scene& scene, FluidBodyCache& cache, bool quiet) {
+std::vector<PreparedBody> prepare(const Scene& scene, SceneBodyCache& cache, bool quiet) {
   const ElapsedDisplay display(scene.name + ": preparing bodies", quiet);
   return prepareBodies(scene, cache);
 }
@@ -135,7 +135,7 @@ void runAndWrite(const Arguments& arguments) {
   const Scene scene = readScene(findScene(arguments.scene, sceneFolders()), arguments.overrides);
   const fs::path out =
       arguments.out.empty() ? "out" / fs::path(scene.name) : fs::path(arguments.out);
-  FluidBodyCache cache(out / "fluid_bodies", scene.threads);
+  SceneBodyCache cache(out / "fluid_bodies", scene.threads);
   const std::vector<PreparedBody> bodies = prepare(scene, cache, arguments.quiet);
   for (const std::string& warning : cache.warnings())
     if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", plainLine(warning).c_str());

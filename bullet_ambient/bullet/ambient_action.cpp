@@ -81,9 +81,15 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   }
   bodies.regions.time += static_cast<double>(time_step);
   if (std::exchange(bodies.regions.has_changed, false)) wakeFollowers(*world, bodies);
-  if (!isSolverMissing(*world)) return;
-  const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
-  bodies.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);
+  if (isSolverMissing(*world)) {
+    const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
+    bodies.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);
+  }
+  for (const auto& attachment : followed_) attachment->update(*world);
+}
+
+void AmbientAction::follow(std::unique_ptr<WorldAttachment> attachment) {
+  followed_.push_back(std::move(attachment));
 }
 
 void AmbientAction::debugDraw(btIDebugDraw* drawer) {

@@ -2,9 +2,13 @@
 
 #include <BulletDynamics/Dynamics/btActionInterface.h>
 
+#include <memory>
+#include <vector>
+
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/fluid_drawing.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/world_attachment.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -18,6 +22,11 @@ class AmbientAction : public btActionInterface {
 
   void updateAction(btCollisionWorld* world, btScalar time_step) override;
 
+  /// Keeps the world's bodies attached: WorldAttachment::update() at the end of every substep.
+  void follow(std::unique_ptr<WorldAttachment> attachment);
+  /// Forgets all that it follows.
+  void followNothing() { followed_.clear(); }
+
   /// What world->debugDrawWorld() draws of the fluid around the bodies of that world, after its
   /// first step with this action. Nothing by default; costs nothing until then. An action that
   /// moves to another world must be stepped there before it draws again.
@@ -28,6 +37,7 @@ class AmbientAction : public btActionInterface {
   bool isSolverMissing(const btCollisionWorld& world);
 
   AmbientRegistry& registry_;
+  std::vector<std::unique_ptr<WorldAttachment>> followed_;
   unsigned solved_ = 0;  // groups, until the last step
   bool was_missing_ = false;
   const btCollisionWorld* world_ = nullptr;  // of the last step

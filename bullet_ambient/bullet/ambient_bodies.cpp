@@ -5,11 +5,6 @@
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
-namespace {
-
-/// The number that Bullet gives to each btRigidBody when it is constructed. It tells a body from a
-/// later one at the same address. @pre the body is alive.
-int instanceNumber(const btRigidBody& body) noexcept;
 
 // Bullet has no accessor for the number. The arguments of an explicit instantiation are not subject
 // to access control ([temp.spec.general]), which lends one without a change of Bullet.
@@ -18,8 +13,6 @@ struct NumberReader {
   friend int instanceNumber(const btRigidBody& body) noexcept { return body.*kNumber; }
 };
 template struct NumberReader<&btRigidBody::m_debugBodyId>;
-
-}  // namespace
 
 AmbientBody* AmbientBodies::find(const btCollisionObject* body) const {
   const auto found = by_object_.find(body);

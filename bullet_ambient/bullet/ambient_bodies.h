@@ -19,6 +19,10 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 class AmbientRegistry;
 
+/// The number that Bullet gives to each btRigidBody when it is constructed. It tells a body from a
+/// later one at the same address. @pre the body is alive.
+int instanceNumber(const btRigidBody& body) noexcept;
+
 /// What a registry holds, for solver, action and saved states.
 class AmbientBodies {
  public:

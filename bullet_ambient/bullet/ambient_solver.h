@@ -55,8 +55,12 @@ class AmbientSolver : public Base {
 
   void convertBodies(btCollisionObject** bodies, int body_count,
                      const btContactSolverInfo& info) override {
-    Base::convertBodies(bodies, body_count, info);
-    group_.begin(this->m_tmpSolverBodyPool, input_, info.m_timeStep);
+    bool all_stay = false;
+    if constexpr (kHasMultiBodies) all_stay = this->m_tmpNumMultiBodyConstraints > 0;
+    const GroupBodies converted =
+        group_.select({bodies, body_count}, input_, info.m_timeStep, all_stay);
+    Base::convertBodies(converted.first, converted.count, info);
+    group_.begin(this->m_tmpSolverBodyPool);
   }
 
   // The last stock conversion: joints and contacts are rows by now.

@@ -35,6 +35,7 @@ const char* sentenceOf(Complaint complaint) {
              "the region's fluid is taken without both there";
     case Complaint::kInertia:  // these name the body
     case Complaint::kEmpty:
+    case Complaint::kLight:
     case Complaint::kCount:
       break;
   }

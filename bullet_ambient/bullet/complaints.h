@@ -20,6 +20,7 @@ enum class Complaint {
   kRegion,
   kInertia,
   kEmpty,
+  kLight,
   kCount
 };
 

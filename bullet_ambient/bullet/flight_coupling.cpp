@@ -33,18 +33,17 @@ bool prepareStep(AmbientBody& ambient, const FluidRegions& regions, double time_
   }
 }
 
-bool stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
+void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   btRigidBody& body = *ambient.body;
   if (toVector3(body.getLinearVelocity()).allFinite() &&
       toVector3(body.getAngularVelocity()).allFinite()) {
-    return false;
+    return;
   }
   body.setLinearVelocity({0, 0, 0});
   body.setAngularVelocity({0, 0, 0});
   ambient.memory = {};
   ++ambient.counters.rejected;
   complaints.say(Complaint::kNotFinite);
-  return true;
 }
 
 void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept {

@@ -14,8 +14,8 @@ bool prepareStep(AmbientBody& ambient, const FluidRegions& regions, double time_
                  Complaints& complaints) noexcept;
 
 /// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports
-/// it; returns whether it did.
-bool stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
+/// it.
+void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
 
 /// Keeps Bullet from putting a body to sleep that drifts freely: it may rest only when it moves by
 /// less than a hundredth of its size within Bullet's two seconds.

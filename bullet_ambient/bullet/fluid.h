@@ -1,10 +1,15 @@
 #pragma once
 
+#include <BulletDynamics/Dynamics/btDynamicsWorld.h>
+
+#include <memory>
 #include <utility>
 
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/bullet/fluid_body_source.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/world_attachment.h"
 #include "bullet_ambient/bullet/world_tie.h"
 
 namespace ambient {
@@ -39,6 +44,26 @@ class Fluid {
   /// this kind of world cannot carry the fluid or does not go with Base.
   void attachTo(btDynamicsWorld& world) { tie_.tie(world, solver_, action_); }
 
+  /// attachTo(world), and puts all its dynamic rigid bodies into a fluid, whatever their mass:
+  ///
+  ///     FluidBodyCache shapes;
+  ///     const AttachReport report = fluid.attachAll(world, shapes, water());
+  ///
+  /// Bodies that are attached already stay as they are, so that several calls with filters may
+  /// share out a world. What cannot be attached is in the report. The source must outlive the
+  /// fluid, or the next clear().
+  /// @throws std::invalid_argument as attachTo().
+  AttachReport attachAll(btDynamicsWorld& world, FluidBodySource& shapes, const Medium& medium,
+                         AttachSettings settings = {}) {
+    attachTo(world);
+    const bool later_bodies = settings.later_bodies;
+    auto attachment =
+        std::make_unique<WorldAttachment>(registry_, shapes, medium, std::move(settings));
+    AttachReport report = attachment->attachNew(world);
+    if (later_bodies || report.attached > 0) action_.follow(std::move(attachment));
+    return report;
+  }
+
   /// Puts a dynamic body into a fluid, before or after it is added to the world.
   /// @throws std::invalid_argument as AmbientRegistry::attach().
   void add(btRigidBody& body, AttachDef def) { registry_.attach(body, std::move(def)); }
@@ -54,6 +79,7 @@ class Fluid {
   /// world lives on, it goes on with this solver, without fluid until a body is added.
   void clear() {
     registry_.clear();
+    action_.followNothing();
     tie_.forget();
   }
 

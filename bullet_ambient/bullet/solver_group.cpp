@@ -26,6 +26,9 @@ namespace {
 // millimetre in ten seconds on a slope.
 constexpr double kEvenPush = 1e-3;
 
+// In place of a number in the solver's pool.
+constexpr int kAlone = -1;
+
 bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
 
 // No row has moved the body: neither its velocity nor, by split impulses, its position.
@@ -50,6 +53,12 @@ Matrix6 basisOf(const AmbientBody& ambient) {
 void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
   solver_body.m_externalTorqueImpulse = toBullet(change_W.angular);
   solver_body.m_externalForceImpulse = toBullet(change_W.linear);
+}
+
+// What Bullet's write-back does.
+void addVelocity(btRigidBody& body, const Twist& change_W) {
+  body.setAngularVelocity(body.getAngularVelocity() + toBullet(change_W.angular));
+  body.setLinearVelocity(body.getLinearVelocity() + toBullet(change_W.linear));
 }
 
 btVector3 whereZero(const btVector3& v) {
@@ -128,18 +137,81 @@ SolverGroup::SolverGroup(AmbientRegistry& registry)
 
 SolverGroup::~SolverGroup() = default;
 
-void SolverGroup::begin(SolverBodies& solver_bodies, const GroupInput& input,
-                        btScalar time_step) noexcept {
+GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& input,
+                                btScalar time_step, bool all_stay) noexcept {
   time_step_ = static_cast<double>(time_step);
   members_.clear();
   saved_.clear();
-  if (bodies_.size() == 0) return;
+  if (bodies_.size() == 0) return bodies;
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
-  findMembers(solver_bodies);
+  findMembers(bodies);
+  if (members_.empty()) return bodies;
+  markPairs(input);
+  return all_stay ? bodies : withoutLoners(bodies);
+}
+
+// Bullet's companion number, which it sets when it converts a body, tells the member until then.
+void SolverGroup::findMembers(const GroupBodies& bodies) noexcept {
+  for (int i = 0; i < bodies.count; ++i) {
+    btCollisionObject& object = *bodies.first[i];
+    AmbientBody* ambient = bodies_.find(&object);
+    if (!ambient || !prepareStep(*ambient, bodies_.regions, time_step_, bodies_.complaints))
+      continue;
+    stopIfNotFinite(*ambient, bodies_.complaints);
+    object.setCompanionId(static_cast<int>(members_.size()));
+    members_.push_back({ambient, !axisFactors(*ambient->body).areFree()});
+  }
+}
+
+void SolverGroup::markPairs(const GroupInput& input) noexcept {
+  for (int i = 0; i < input.manifold_count; ++i) {
+    const btPersistentManifold& manifold = *input.manifolds[i];
+    const bool has_rows = manifold.getNumContacts() > 0;
+    mark(*manifold.getBody0(), has_rows);
+    mark(*manifold.getBody1(), has_rows);
+  }
+  for (int i = 0; i < input.constraint_count; ++i) {
+    const btTypedConstraint& constraint = *input.constraints[i];
+    if (!constraint.isEnabled()) continue;
+    mark(constraint.getRigidBodyA(), true);
+    mark(constraint.getRigidBodyB(), true);
+  }
+}
+
+void SolverGroup::mark(const btCollisionObject& body, bool has_rows) noexcept {
+  const int id = body.getCompanionId();
+  if (id < 0 || static_cast<std::size_t>(id) >= members_.size()) return;
+  Member& member = members_[id];
+  if (member.ambient->body != &body) return;  // a number of another group
+  member.is_near = true;
+  member.has_rows = member.has_rows || has_rows;
+}
+
+GroupBodies SolverGroup::withoutLoners(const GroupBodies& bodies) noexcept {
+  converted_.clear();
+  std::size_t next = 0;
+  for (int i = 0; i < bodies.count; ++i) {
+    btCollisionObject* object = bodies.first[i];
+    const bool is_member = next < members_.size() && members_[next].ambient->body == object;
+    const Member* member = is_member ? &members_[next++] : nullptr;
+    if (!member || member->is_near || member->is_locked) {
+      converted_.push_back(object);
+    } else {
+      object->setCompanionId(kAlone);
+    }
+  }
+  return {converted_.data(), static_cast<int>(converted_.size())};
+}
+
+void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
   if (members_.empty()) return;
+  member_of_solver_body_.assign(solver_bodies.size(), -1);
   row_bodies_->reset(solver_bodies.size());
-  markBodiesWithRows(solver_bodies, input);
-  for (Member& member : members_) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Member& member = members_[i];
+    member.solver_body = member.ambient->body->getCompanionId();
+    if (member.solver_body == kAlone) continue;
+    member_of_solver_body_[member.solver_body] = static_cast<int>(i);
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     if (member.has_rows || member.is_locked) {
       prepareForRows(member, solver_body);
@@ -147,44 +219,6 @@ void SolverGroup::begin(SolverBodies& solver_bodies, const GroupInput& input,
       setExternalImpulse(solver_body, Twist{});
     }
   }
-}
-
-void SolverGroup::findMembers(SolverBodies& solver_bodies) noexcept {
-  member_of_solver_body_.assign(solver_bodies.size(), -1);
-  for (int i = 0; i < solver_bodies.size(); ++i) {
-    const btRigidBody* body = solver_bodies[i].m_originalBody;
-    AmbientBody* ambient = bodies_.find(body);
-    if (!ambient || !prepareStep(*ambient, bodies_.regions, time_step_, bodies_.complaints))
-      continue;
-    if (stopIfNotFinite(*ambient, bodies_.complaints)) {
-      solver_bodies[i].m_linearVelocity.setZero();
-      solver_bodies[i].m_angularVelocity.setZero();
-    }
-    member_of_solver_body_[i] = static_cast<int>(members_.size());
-    members_.push_back({ambient, i, false, !axisFactors(*body).areFree()});
-  }
-}
-
-void SolverGroup::markBodiesWithRows(const SolverBodies& solver_bodies,
-                                     const GroupInput& input) noexcept {
-  for (int i = 0; i < input.manifold_count; ++i) {
-    const btPersistentManifold& manifold = *input.manifolds[i];
-    if (manifold.getNumContacts() == 0) continue;
-    mark(solver_bodies, *manifold.getBody0());
-    mark(solver_bodies, *manifold.getBody1());
-  }
-  for (int i = 0; i < input.constraint_count; ++i) {
-    const btTypedConstraint& constraint = *input.constraints[i];
-    if (!constraint.isEnabled()) continue;
-    mark(solver_bodies, constraint.getRigidBodyA());
-    mark(solver_bodies, constraint.getRigidBodyB());
-  }
-}
-
-void SolverGroup::mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept {
-  const int id = body.getCompanionId();
-  if (id < 0 || id >= solver_bodies.size() || solver_bodies[id].m_originalBody != &body) return;
-  if (Member* member = memberOf(id)) member->has_rows = true;
 }
 
 void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noexcept {
@@ -272,6 +306,7 @@ void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& 
   const bool for_multibodies = multibodies && (solver_mode & SOLVER_USE_ARTICULATED_WARMSTARTING);
   if (!(solver_mode & SOLVER_USE_WARMSTARTING) && !for_multibodies) return;
   for (const Member& member : members_) {
+    if (member.solver_body == kAlone) continue;
     solver_bodies[member.solver_body].internalGetDeltaLinearVelocity().setZero();
     solver_bodies[member.solver_body].internalGetDeltaAngularVelocity().setZero();
   }
@@ -307,6 +342,10 @@ void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
 void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
   restoreFeedbackJacobians(joints);
   for (const Member& member : members_) {
+    if (member.solver_body == kAlone) {
+      fliers_.push_back(&member);
+      continue;
+    }
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     const RowBody* row_body = row_bodies_->find(member.solver_body);
     // Rows that are near have allowed the velocity that they were solved against; a flight with a
@@ -359,8 +398,14 @@ void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies)
   const Member* const* fliers = fliers_.data() + first;
   for (int i = 0; i < count; ++i) bodies[i] = fliers[i]->ambient;
   beginFlights(bodies, count, time_step_, changes_W);
-  for (int i = 0; i < count; ++i)
-    setExternalImpulse(solver_bodies[fliers[i]->solver_body], changes_W[i]);
+  for (int i = 0; i < count; ++i) {
+    const Member& flier = *fliers[i];
+    if (flier.solver_body == kAlone) {
+      addVelocity(*flier.ambient->body, changes_W[i]);
+    } else {
+      setExternalImpulse(solver_bodies[flier.solver_body], changes_W[i]);
+    }
+  }
 }
 
 const SolverGroup::Member* SolverGroup::memberOf(int solver_body) const noexcept {

@@ -41,7 +41,13 @@ struct MultiBodyRows {
   const btMultiBodyJacobianData& data;  ///< Jacobians of the multibodies and their responses
 };
 
-/// What Bullet hands to the solver for one group, before anything is converted.
+/// The bodies of a group.
+struct GroupBodies {
+  btCollisionObject** first = nullptr;
+  int count = 0;
+};
+
+/// What else Bullet hands to the solver for one group, before anything is converted.
 struct GroupInput {
   btPersistentManifold** manifolds = nullptr;
   int manifold_count = 0;
@@ -59,10 +65,15 @@ class SolverGroup {
   explicit SolverGroup(AmbientRegistry& registry);
   ~SolverGroup();
 
-  /// After the stock conversion of the bodies: finds the ambient ones among them, and gives those
-  /// with contacts or joints the velocity that their rows are solved against, docs/theory.md eq.
-  /// (28).
-  void begin(SolverBodies& solver_bodies, const GroupInput& input, btScalar time_step) noexcept;
+  /// Before the stock conversion of the bodies: finds the ambient ones among them, and returns
+  /// those that the solver has to know. What floats alone, without a contact, a joint or anything
+  /// near, is not among them: no row can move it. `all_stay`: rows may come from elsewhere.
+  GroupBodies select(const GroupBodies& bodies, const GroupInput& input, btScalar time_step,
+                     bool all_stay) noexcept;
+
+  /// After it: gives those with contacts or joints the velocity that their rows are solved against,
+  /// docs/theory.md eq. (28).
+  void begin(SolverBodies& solver_bodies) noexcept;
 
   /// Whether there is no ambient body.
   bool empty() const { return members_.empty(); }
@@ -83,9 +94,10 @@ class SolverGroup {
  private:
   struct Member {
     AmbientBody* ambient;
-    int solver_body;
-    bool has_rows;
     bool is_locked;
+    bool is_near = false;  // to another body: Bullet converts it with the pair
+    bool has_rows = false;
+    int solver_body = -1;  // kAlone: the solver does not know it
   };
   // The Jacobian of a joint row with feedback, as the joint made it.
   struct SavedJacobian {
@@ -93,9 +105,10 @@ class SolverGroup {
     btVector3 angular_a, linear_a, angular_b, linear_b;
   };
 
-  void findMembers(SolverBodies& solver_bodies) noexcept;
-  void markBodiesWithRows(const SolverBodies& solver_bodies, const GroupInput& input) noexcept;
-  void mark(const SolverBodies& solver_bodies, const btCollisionObject& body) noexcept;
+  void findMembers(const GroupBodies& bodies) noexcept;
+  void markPairs(const GroupInput& input) noexcept;
+  void mark(const btCollisionObject& body, bool has_rows) noexcept;
+  GroupBodies withoutLoners(const GroupBodies& bodies) noexcept;
   void prepareForRows(Member& member, btSolverBody& solver_body) noexcept;
   void prepareJoinedToMultiBodies(
       SolverBodies& solver_bodies,
@@ -113,8 +126,9 @@ class SolverGroup {
   AmbientBodies& bodies_;
   double time_step_ = 0;
   std::vector<Member> members_;
-  std::vector<int> member_of_solver_body_;  // -1: not ambient
-  std::vector<const Member*> fliers_;       // members that no row has moved
+  std::vector<btCollisionObject*> converted_;  // those that the solver has to know
+  std::vector<int> member_of_solver_body_;     // -1: not ambient
+  std::vector<const Member*> fliers_;          // members that no row has moved
   std::unique_ptr<RowBodies> row_bodies_;
   std::vector<SavedJacobian> saved_;
 };

@@ -45,10 +45,12 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   bullet/bullet_task_runner.h
   bullet/conversions.h
   bullet/fluid.h
+  bullet/fluid_body_source.h
   bullet/fluid_drawing.h
   bullet/precision_check.h
   bullet/region_id.h
   bullet/solver_group.h
+  bullet/world_attachment.h
   bullet/world_state.h
   bullet/world_tie.h
   fluid_body/added_mass_part.h
@@ -77,6 +79,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
 set(BULLET_AMBIENT_PUBLIC_PREPROCESS_HEADERS
   builder/fluid_body_builder.h
   collision_shape/collision_shape_body.h
+  collision_shape/fluid_body_cache.h
   mesh/mesh_checks.h
   mesh/mesh_import.h
   mesh/primitives.h

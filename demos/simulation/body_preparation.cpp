@@ -40,7 +40,7 @@ PreparedBody prepareDynamic(const BodyDef& def, std::shared_ptr<const FluidBody>
 
 }  // namespace
 
-std::vector<PreparedBody> prepareBodies(const Scene& scene, FluidBodyCache& fluid_bodies) {
+std::vector<PreparedBody> prepareBodies(const Scene& scene, SceneBodyCache& fluid_bodies) {
   std::vector<PreparedBody> bodies;
   for (const BodyDef& def : scene.bodies)
     bodies.push_back(def.mass > 0 ? prepareDynamic(def, fluid_bodies.get(def.shape, def.name))

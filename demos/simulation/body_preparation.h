@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "demos/scene/scene.h"
-#include "demos/simulation/fluid_body_cache.h"
+#include "demos/simulation/scene_body_cache.h"
 
 namespace ambient {
 
@@ -21,7 +21,7 @@ struct PreparedBody {
 /// The bodies of a scene: the fluid body of every dynamic body, the surface and the mass of all.
 /// Cost: the boundary element solutions that the cache does not have.
 /// @throws std::runtime_error, one line that names the file or the body and what is wrong.
-std::vector<PreparedBody> prepareBodies(const Scene& scene, FluidBodyCache& fluid_bodies);
+std::vector<PreparedBody> prepareBodies(const Scene& scene, SceneBodyCache& fluid_bodies);
 
 /// A surface in another place.
 Surface moved(Surface surface, const Vector3& by);

@@ -73,7 +73,7 @@ std::string lineOf(const PrecisionCase& c, const PrecisionMethod& method, const 
 std::string studyCase(const PrecisionCase& c, int takes) {
   Scene scene = readScene(findScene(c.scene, sceneFolders()), c.changes);
   scene.duration = c.duration;
-  FluidBodyCache cache;
+  SceneBodyCache cache;
   const std::vector<PreparedBody> bodies = prepareBodies(scene, cache);
   // The contacts' errors are of first order in the world's step, whatever flies between.
   const PrecisionMethod exact{

@@ -12,6 +12,14 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+/// What stands for children of a compound that touch or overlap and cannot be united.
+enum class CompoundFallback {
+  kHull,    ///< their convex hull: the flow around it, more volume
+  kSum,     ///< the sum of what each has alone: the right volume where they only touch, no flow
+            ///< between them
+  kRefuse,  ///< nothing: an exception
+};
+
 /// How a fluid body is made from a collision shape.
 struct CollisionShapeSettings {
   CollisionShapeSettings();
@@ -21,9 +29,10 @@ struct CollisionShapeSettings {
                         ///< margin included; false: as they were given
   int faces = 1300;     ///< triangles aimed at, where the shape has no mesh of its own
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
+  CompoundFallback fallback = CompoundFallback::kHull;
   /// Receives one line for everything a user should know about a body that was made: margins that
-  /// add more than a tenth to its volume, triangles that were turned round. Default: standard
-  /// error; null: nobody.
+  /// add more than a tenth to its volume, triangles that were turned round, children that could not
+  /// be united. Default: standard error; null: nobody.
   std::function<void(const std::string&)> report;
 };
 
@@ -31,18 +40,18 @@ struct CollisionShapeSettings {
 /// shape needs no offset. Spheres and ellipsoids have closed forms; all else is solved.
 ///
 /// Takes spheres, boxes, cylinders, capsules, cones, convex hulls, tetrahedra, multi-spheres,
-/// btGImpactMeshShape (a closed mesh), btUniformScalingShape, and btCompoundShape of these, nested,
-/// whose children do not touch. Local scalings count. docs/preprocessor.md says what margins do.
-/// Added mass is within 0.5 % of the largest entry of its block, for convex hulls within 1 % and,
-/// where a margin rounds them, 3 %; docs/preprocessor.md has the table.
+/// btGImpactMeshShape (a closed mesh), btUniformScalingShape, and btCompoundShape of these, nested;
+/// children that touch or overlap are united. Local scalings count. docs/preprocessor.md says what
+/// margins do. Added mass is within 0.5 % of the largest entry of its block, for convex hulls
+/// within 1 % and, where a margin rounds them, 3 %; docs/preprocessor.md has the table.
 /// @throws std::runtime_error in one line that begins with the name: a plane, a height field, a
 /// static triangle mesh, an empty or flat shape, a size that is not positive and finite, a mesh
-/// that is not closed, children that touch or overlap, settings that cannot be.
+/// that is not closed, settings that cannot be.
 FluidBody makeFluidBody(const btCollisionShape& shape, const CollisionShapeSettings& settings = {});
 
 /// Where makeFluidBody() says that its result came from: the kind of the shape, a hash of its
-/// geometry, and the settings. Costs a small part of it; the same provenance means the same result.
-/// @throws std::runtime_error as makeFluidBody().
+/// numbers, and the settings. Costs next to nothing; the same provenance means the same result.
+/// @throws std::runtime_error for shapes and settings of a kind that makeFluidBody() refuses.
 Provenance describeCollisionShape(const btCollisionShape& shape,
                                   const CollisionShapeSettings& settings = {});
 

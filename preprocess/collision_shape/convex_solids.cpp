@@ -99,18 +99,6 @@ TriangleMesh ballHull(const std::vector<HullBall>& balls, int n, const std::stri
   return makeHullMesh(points, name);
 }
 
-/// Triangles with edges at most 2.5 times as long as those of equilateral ones of that number;
-/// longer if narrow strips would make more than twice as many.
-TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces) {
-  constexpr double kLongest = 2.5, kLonger = 1.4;
-  double longest =
-      kLongest * std::sqrt(4 / std::sqrt(3.0) * computeMassProperties(mesh).area / faces);
-  const auto limit = std::max<Eigen::Index>(2 * faces, mesh.triangleCount());
-  TriangleMesh divided = divideLongEdges(mesh, longest);
-  while (divided.triangleCount() > limit) divided = divideLongEdges(mesh, longest *= kLonger);
-  return divided;
-}
-
 /// Solid of a smooth body whose error shrinks as the number of its triangles grows.
 Solid smoothSolid(const TriangleMesh& mesh, const TriangleMesh& flow) {
   Solid solid;
@@ -145,6 +133,16 @@ Solid makeEllipsoidSolid(const HullBall& ball, const SolidResolution& resolution
 }
 
 }  // namespace
+
+TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces) {
+  constexpr double kLongest = 2.5, kLonger = 1.4;
+  double longest =
+      kLongest * std::sqrt(4 / std::sqrt(3.0) * computeMassProperties(mesh).area / faces);
+  const auto limit = std::max<Eigen::Index>(2 * faces, mesh.triangleCount());
+  TriangleMesh divided = divideLongEdges(mesh, longest);
+  while (divided.triangleCount() > limit) divided = divideLongEdges(mesh, longest *= kLonger);
+  return divided;
+}
 
 Solid makeBallSolid(double radius, const SolidResolution& resolution, const std::string& name) {
   requireSize(name, "the radius", radius);

@@ -44,5 +44,9 @@ Solid makeHullSolid(const std::vector<Eigen::Vector3d>& points, double margin,
 Solid makeBallHullSolid(const std::vector<HullBall>& balls, const SolidResolution& resolution,
                         const std::string& name);
 
+/// The same surface in triangles with edges at most 2.5 times as long as those of equilateral ones
+/// of that number; longer if narrow strips would make more than twice as many.
+TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces);
+
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

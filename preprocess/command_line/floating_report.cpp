@@ -20,20 +20,20 @@ std::string line(const char* format, Numbers... numbers) {
   return text;
 }
 
-std::string axisText(const Vector3& v) {
+std::string directionText(const Vector3& v) {
   return line("%.4g, %.4g, %.4g", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
 // Of body and water without waves; infinite where nothing turns the body back.
 std::string modeText(const FloatingMode& mode) {
-  const std::string name = mode.is_heave ? "heave" : "turn about " + axisText(mode.turn);
+  const std::string name = mode.is_heave ? "heave" : "turn about " + directionText(mode.turn);
   return "    period          " +
          (std::isfinite(mode.period) ? line("%.4g s, ", mode.period) : std::string("none, ")) +
          name + "\n";
 }
 
 std::string attitudeText(const FloatingAttitude& attitude) {
-  std::string text = "  up is " + axisText(attitude.up);
+  std::string text = "  up is " + directionText(attitude.up);
   if (attitude.alike > kMostAlike) {
     text += ", or turned freely";
   } else if (attitude.alike > 1) {
@@ -45,7 +45,7 @@ std::string attitudeText(const FloatingAttitude& attitude) {
   text += line("    waterplane      %.5g m^2\n", attitude.wet.waterplane.area);
   for (const Metacentre& metacentre : attitude.metacentres)
     text += line("    GM              %.4g m, about ", metacentre.height) +
-            axisText(metacentre.axis) + "\n";
+            directionText(metacentre.axis) + "\n";
   for (const FloatingMode& mode : attitude.modes) text += modeText(mode);
   return text;
 }

@@ -20,7 +20,7 @@ void add(GoldenTrace& trace, const MotionSample& sample) {
 
 // Scenes, and the two runs of each, share what they have solved.
 std::vector<PreparedBody> prepareOnce(const Scene& scene) {
-  static FluidBodyCache cache;
+  static SceneBodyCache cache;
   return prepareBodies(scene, cache);
 }
 

@@ -87,9 +87,10 @@ std::vector<std::string> saidAbout(const BodyDef& body_def, const AttachDef& def
 TEST(Attach, ReportsMomentsOfInertiaOfNoRigidBodyOnce) {
   AttachDef def = ball();
   BodyDef sheet;
+  sheet.mass = 4000;  // more than half of the water that it displaces
   sheet.moments = {1, 2, 3};
   EXPECT_TRUE(saidAbout(sheet, def).empty());
-  BodyDef odd;
+  BodyDef odd = sheet;
   odd.moments = {1, 10, 1};
   const std::vector<std::string> said = saidAbout(odd, def);
   ASSERT_EQ(said.size(), 1u);

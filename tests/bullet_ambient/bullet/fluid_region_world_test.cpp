@@ -232,7 +232,7 @@ TEST(FluidRegions, FlowsSeeTheTimeOfTheWorldAtTheStartOfTheStep) {
 TEST(FluidRegions, AFlowThatIsNotFiniteIsDroppedAndCounted) {
   FluidWorld fluid;
   std::string said;
-  fluid.registry.setReport([&](const std::string& sentence) { said = sentence; });
+  fluid.registry.setReport([&](const std::string& sentence) { said += sentence; });
   FluidRegion region = filledWith(water());
   region.flow = [](const Vector3&, double) { return FlowSample{{std::nan(""), 0, 0}, {0, 0, 0}}; };
   fluid.registry.addRegion(region);

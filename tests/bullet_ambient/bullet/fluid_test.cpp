@@ -28,7 +28,7 @@ AttachDef inWater() {
   return {std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1)), water()};
 }
 
-// What a world needs besides its solver, and a body of a tenth of the density of water.
+// What a world needs besides its solver, and a body lighter than water.
 class FluidFacade : public testing::Test {
  protected:
   template <class World, class Base>
@@ -71,7 +71,7 @@ class FluidFacade : public testing::Test {
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   btSphereShape shape{1};
-  btRigidBody body{400, nullptr, &shape, btVector3(160, 160, 160)};
+  btRigidBody body{2500, nullptr, &shape, btVector3(1000, 1000, 1000)};
 };
 
 TEST_F(FluidFacade, WorksWithEveryWorldAndSolver) {
@@ -223,7 +223,7 @@ TEST_P(FluidDestruction, LooksAtNothingThatIsGone) {
   auto fluid = std::make_unique<Fluid<>>();
   auto world = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &fluid->solver(),
                                                          &configuration);
-  auto body = std::make_unique<btRigidBody>(400, nullptr, &shape, btVector3(160, 160, 160));
+  auto body = std::make_unique<btRigidBody>(2500, nullptr, &shape, btVector3(1000, 1000, 1000));
   fluid->attachTo(*world);
   world->addRigidBody(body.get());
   fluid->add(*body, inWater());

@@ -95,6 +95,47 @@ TEST(SparedWork, ABodyThatIsOnlyNearAnotherIsNotRewritten) {
   EXPECT_EQ(countStep(fluid).rows, 0);
 }
 
+// Tells how many bodies the last group of Bullet's solver had.
+class WatchedSolver : public AmbientSolver<> {
+ public:
+  using AmbientSolver<>::AmbientSolver;
+  int bodies = -1;
+
+ protected:
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** objects, int object_count,
+                                             btPersistentManifold** manifolds, int manifold_count,
+                                             btTypedConstraint** constraints, int constraint_count,
+                                             const btContactSolverInfo& info,
+                                             btIDebugDraw* drawer) override {
+    bodies = m_tmpSolverBodyPool.size();
+    return AmbientSolver<>::solveGroupCacheFriendlyIterations(objects, object_count, manifolds,
+                                                              manifold_count, constraints,
+                                                              constraint_count, info, drawer);
+  }
+};
+
+TEST(SparedWork, TheSolverDoesNotKnowABodyThatFloatsAlone) {
+  btSphereShape ball(btScalar(0.1));
+  FluidWorld fluid;
+  WatchedSolver solver(fluid.registry);
+  fluid.world.setConstraintSolver(&solver);
+  BodyDef def = bodyAt(0);
+  def.shape = &ball;
+  def.start.twist = {};
+  btRigidBody& in_fluid = fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+  fluid.step(kStep);
+  EXPECT_EQ(solver.bodies, 0);
+  EXPECT_EQ(fluid.registry.counters(in_fluid).substeps, 1);
+  def.start.position = {10, 0, 0};
+  fluid.add(def);
+  fluid.step(kStep);
+  EXPECT_EQ(solver.bodies, 1) << "of a body without a fluid";
+  def.start.position = {0.15, 0.15, 0};
+  fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+  fluid.step(kStep);
+  EXPECT_EQ(solver.bodies, 3) << "of two whose bounds overlap";
+}
+
 TEST(SparedWork, ALargeSlowBodyNeedsOneEvaluationPerStep) {
   const Vector3 semi_axes(5, 3, 2);
   FluidWorld fluid;

@@ -35,8 +35,13 @@ void addFloatingBodies(FluidWorld& fluid, BodyDef def) {
   }
 }
 
+struct NoShapes : FluidBodySource {
+  std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape&) override { return nullptr; }
+};
+
 // After the first steps have sized every buffer: free bodies, some of which go from region to
-// region, a body at rest on the floor and a pendulum with feedback.
+// region, a body at rest on the floor and a pendulum with feedback, in a world that is watched for
+// bodies that come later.
 TEST(Step, AllocatesNothing) {
   btAlignedAllocSetCustomAligned(countedAllocation, std::free);
   {
@@ -70,6 +75,12 @@ TEST(Step, AllocatesNothing) {
       region.bounds = RegionBounds{{-100, -100, 400.0 + 5 * layer}, {100, 100, 405.0 + 5 * layer}};
       fluid.registry.addRegion(region);
     }
+
+    NoShapes no_shapes;
+    AttachSettings settings;
+    settings.later_bodies = true;
+    fluid.action.follow(
+        std::make_unique<WorldAttachment>(fluid.registry, no_shapes, water(), settings));
 
     fluid.step(1.0 / 60, 60);
     const std::size_t before = allocationCount();

@@ -31,13 +31,13 @@ inline RunRecord runPrepared(const Scene& scene, const std::vector<PreparedBody>
 }
 
 inline std::vector<PreparedBody> prepare(const Scene& scene) {
-  FluidBodyCache cache;
+  SceneBodyCache cache;
   return prepareBodies(scene, cache);
 }
 
 /// Runs a scene; scenes of one shape share its fluid body.
 inline RunRecord runSharing(const Scene& scene) {
-  static FluidBodyCache cache;
+  static SceneBodyCache cache;
   return runPrepared(scene, prepareBodies(scene, cache));
 }
 

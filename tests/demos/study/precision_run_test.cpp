@@ -15,7 +15,7 @@ class PrecisionRuns : public ::testing::Test {
   void SetUp() override {
     scene_ = readScene(std::string(AMBIENT_DATA) + "/scenes/underwater_ellipsoid.json",
                        {{"duration", "0.5"}});
-    FluidBodyCache cache;
+    SceneBodyCache cache;
     bodies_ = prepareBodies(scene_, cache);
   }
 

@@ -89,41 +89,6 @@ TEST(CompoundShape, LocalScalingMovesAndScalesChildren) {
   EXPECT_NEAR(body.centre_of_volume.x(), 4, 1e-5);
 }
 
-std::string refusalOf(const btVector3& shift, const btVector3& half_sizes) {
-  btBoxShape first(btVector3(1, 1, 1)), second(half_sizes);
-  btCompoundShape compound;
-  compound.addChildShape(at(0, 0, 0), &first);
-  compound.addChildShape(btTransform(btQuaternion::getIdentity(), shift), &second);
-  return messageOf([&] { makeFluidBody(compound, coarse()); });
-}
-
-TEST(CompoundShape, ChildrenThatOverlapOrTouchAreRefused) {
-  const std::string message =
-      "Compound: child 0 (Box) and child 1 (Box) overlap or touch, and the flow needs the surface "
-      "of their union: make the fluid body of one closed mesh or one convex hull of them (the "
-      "collision shape may stay as it is), or leave a gap of 0.001 of the smaller one's size";
-  const btVector3 cube(1, 1, 1);
-  EXPECT_EQ(refusalOf({1, 0, 0}, cube), message) << "overlap";
-  EXPECT_EQ(refusalOf({2, 0, 0}, cube), message) << "touch in a side";
-  EXPECT_EQ(refusalOf({0, 0, 0}, cube * btScalar(0.5)), message) << "one inside the other";
-  EXPECT_EQ(refusalOf({0, 0, 0}, {3, btScalar(0.5), btScalar(0.5)}), message) << "a cross";
-  EXPECT_EQ(refusalOf({btScalar(2.2), 0, 0}, cube), "no error");
-  EXPECT_EQ(refusalOf({btScalar(2.2), btScalar(2.2), 0}, cube), "no error");
-}
-
-TEST(CompoundShape, NestedChildrenThatOverlapAreNamed) {
-  btBoxShape box(btVector3(1, 1, 1));
-  btSphereShape ball(1);
-  btCompoundShape inner, outer;
-  inner.addChildShape(at(0, 0, 0), &ball);
-  inner.addChildShape(at(5, 0, 0), &ball);
-  outer.addChildShape(at(5, 0, 0), &box);
-  outer.addChildShape(at(0, 0, 0), &inner);
-  const std::string message = messageOf([&] { makeFluidBody(outer, coarse()); });
-  EXPECT_EQ(message.find("Compound: child 0 (Box) and child 1: child 1 (SPHERE) overlap "), 0u)
-      << message;
-}
-
 TEST(CompoundShape, BadChildrenAreNamed) {
   btBoxShape box(btVector3(1, 1, 1));
   btStaticPlaneShape plane(btVector3(0, 1, 0), 0);

@@ -15,10 +15,10 @@ namespace ambient {
 /// by .ambient files in a folder. A file is named by a hash of the shape, the bytes of its mesh
 /// file and the program itself, so that neither an edited mesh nor a rebuilt program meets an old
 /// file.
-class FluidBodyCache {
+class SceneBodyCache {
  public:
   /// `folder` need not exist; empty: no files. `threads` solve; 0: all cores.
-  explicit FluidBodyCache(std::filesystem::path folder = {}, int threads = 0);
+  explicit SceneBodyCache(std::filesystem::path folder = {}, int threads = 0);
 
   /// @throws std::runtime_error in one line that names the file or the shape's source.
   std::shared_ptr<const FluidBody> get(const ShapeDescription& shape, const std::string& name);

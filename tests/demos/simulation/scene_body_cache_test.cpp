@@ -1,4 +1,4 @@
-#include "demos/simulation/fluid_body_cache.h"
+#include "demos/simulation/scene_body_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -22,27 +22,27 @@ std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder) 
   return files;
 }
 
-TEST(FluidBodyCache, SolvesAShapeOnce) {
-  FluidBodyCache cache;
+TEST(SceneBodyCache, SolvesAShapeOnce) {
+  SceneBodyCache cache;
   const auto first = cache.get(ball(1), "a");
   EXPECT_EQ(cache.get(ball(1), "b"), first);
   EXPECT_NE(cache.get(ball(2), "c"), first);
 }
 
-TEST(FluidBodyCache, WritesNothingBeforeItIsSaved) {
+TEST(SceneBodyCache, WritesNothingBeforeItIsSaved) {
   const TemporaryFolder folder;
-  FluidBodyCache cache(folder / "cache");
+  SceneBodyCache cache(folder / "cache");
   cache.get(ball(1), "a");
   EXPECT_TRUE(folder.empty());
 }
 
-TEST(FluidBodyCache, ReadsInTheNextRunWhatThisOneSolved) {
+TEST(SceneBodyCache, ReadsInTheNextRunWhatThisOneSolved) {
   const TemporaryFolder folder;
-  FluidBodyCache cache(folder.path());
+  SceneBodyCache cache(folder.path());
   const auto solved = cache.get(ball(1), "a");
   EXPECT_EQ(cache.solved(), 1);
   cache.save();
-  FluidBodyCache next(folder.path());
+  SceneBodyCache next(folder.path());
   const auto read = next.get(ball(1), "a");
   EXPECT_EQ(next.solved(), 0);
   EXPECT_EQ(encodeFluidBody(*read, ""), encodeFluidBody(*solved, ""));
@@ -50,32 +50,32 @@ TEST(FluidBodyCache, ReadsInTheNextRunWhatThisOneSolved) {
   EXPECT_EQ(next.solved(), 1);
 }
 
-TEST(FluidBodyCache, ReplacesADamagedFile) {
+TEST(SceneBodyCache, ReplacesADamagedFile) {
   const TemporaryFolder folder;
-  FluidBodyCache cache(folder.path());
+  SceneBodyCache cache(folder.path());
   const auto solved = cache.get(ball(1), "a");
   cache.save();
   ASSERT_EQ(filesIn(folder.path()).size(), 1u);
   const auto file = filesIn(folder.path())[0];
   std::filesystem::resize_file(file, 100);
-  FluidBodyCache next(folder.path());
+  SceneBodyCache next(folder.path());
   EXPECT_EQ(encodeFluidBody(*next.get(ball(1), "a"), ""), encodeFluidBody(*solved, ""));
   next.save();
   EXPECT_NO_THROW(readFluidBody(file));
 }
 
-TEST(FluidBodyCache, AnEditedMeshIsAnotherBody) {
+TEST(SceneBodyCache, AnEditedMeshIsAnotherBody) {
   const TemporaryFolder folder;
   const auto mesh = folder / "tetrahedron.obj";
   const char* const triangles = "v 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   const ShapeDescription shape =
       readShape({{"type", "mesh"}, {"file", mesh.string()}}, "", "tetrahedron");
   std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\n" << triangles;
-  FluidBodyCache cache(folder / "cache");
+  SceneBodyCache cache(folder / "cache");
   const double volume = cache.get(shape, "a")->volume;
   cache.save();
   std::ofstream(mesh) << "v 0 0 0\nv 3 0 0\n" << triangles;
-  FluidBodyCache next(folder / "cache");
+  SceneBodyCache next(folder / "cache");
   EXPECT_NEAR(next.get(shape, "a")->volume, 3 * volume, 1e-9);
 }
 

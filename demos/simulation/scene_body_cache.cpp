@@ -1,4 +1,4 @@
-#include "demos/simulation/fluid_body_cache.h"
+#include "demos/simulation/scene_body_cache.h"
 
 #include <cstdio>
 #include <stdexcept>
@@ -25,17 +25,17 @@ std::string programStamp() {
 
 }  // namespace
 
-FluidBodyCache::FluidBodyCache(fs::path folder, int threads)
+SceneBodyCache::SceneBodyCache(fs::path folder, int threads)
     : folder_(std::move(folder)), threads_(threads) {}
 
-std::shared_ptr<const FluidBody> FluidBodyCache::get(const ShapeDescription& shape,
+std::shared_ptr<const FluidBody> SceneBodyCache::get(const ShapeDescription& shape,
                                                      const std::string& name) {
   std::shared_ptr<const FluidBody>& known = by_text_[shape.text];
   if (!known) known = readOrBuild(shape, name);
   return known;
 }
 
-fs::path FluidBodyCache::fileFor(const ShapeDescription& shape) const {
+fs::path SceneBodyCache::fileFor(const ShapeDescription& shape) const {
   const fs::path mesh = fileOf(shape);
   const std::string bytes = mesh.empty() ? "" : readBytes(mesh);
   char hash[17];
@@ -45,7 +45,7 @@ fs::path FluidBodyCache::fileFor(const ShapeDescription& shape) const {
   return folder_ / (std::string(hash) + ".ambient");
 }
 
-std::shared_ptr<const FluidBody> FluidBodyCache::readOrBuild(const ShapeDescription& shape,
+std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescription& shape,
                                                              const std::string& name) {
   const bool cached = !folder_.empty() && !std::holds_alternative<FluidBodyShape>(shape.geometry);
   const fs::path file = cached ? fileFor(shape) : fs::path();
@@ -66,7 +66,7 @@ std::shared_ptr<const FluidBody> FluidBodyCache::readOrBuild(const ShapeDescript
   return body;
 }
 
-void FluidBodyCache::save() {
+void SceneBodyCache::save() {
   if (unsaved_.empty()) return;
   fs::create_directories(folder_);
   for (const auto& [file, body] : unsaved_) writeFluidBody(*body, file);

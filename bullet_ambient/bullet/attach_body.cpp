@@ -1,0 +1,102 @@
+#include "bullet_ambient/bullet/attach_body.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/bullet/region_following.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+void checkFlight(const std::string& who, const FlightSettings& flight) {
+  if (!(flight.tolerance > 0) || !std::isfinite(flight.tolerance)) {
+    throw std::invalid_argument(who + " has a flight tolerance of " +
+                                std::to_string(flight.tolerance) +
+                                ", which must be positive and finite");
+  }
+  if (flight.max_substeps < 0) {
+    throw std::invalid_argument(who + " has max_substeps of " +
+                                std::to_string(flight.max_substeps) +
+                                ", which must be zero or positive");
+  }
+}
+
+// Of what can be computed, but hardly was meant.
+void sayOddities(const AmbientBody& ambient, Complaints& complaints) {
+  constexpr double kRounding = 1e-3;
+  const FluidBody& shape = *ambient.def.fluid_body;
+  const std::string who = "bullet_ambient: body with fluid body '" + shape.name + "' ";
+  const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
+  const double largest = moments.maxCoeff(), others = moments.sum() - largest;
+  if (largest > (1 + kRounding) * others) {
+    const std::string text = who + "has a principal moment of inertia of " +
+                             std::to_string(largest) + " kg m^2, but no rigid body has one above " +
+                             std::to_string(others) + " kg m^2, the sum of the other two";
+    complaints.say(Complaint::kInertia, text.c_str());
+  }
+  if (ambient.isInFluid() && !ambient.model.loads && !(shape.volume > 0) &&
+      shape.added_mass.isZero(0)) {
+    const std::string text =
+        who + "feels no fluid: without faces, volume and added mass its shape is empty";
+    complaints.say(Complaint::kEmpty, text.c_str());
+  }
+}
+
+}  // namespace
+
+void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
+  refreshModel(ambient, bodies.regions, bodies.load_tables);
+  followRegions(ambient, bodies.regions, 0, bodies.complaints);
+  if (ambient.body->getInvMass() > 0 && isModelStale(ambient)) rebuildModel(ambient);
+}
+
+DisplacedMass displacedMass(const AmbientBody& ambient) {
+  return {1 / static_cast<double>(ambient.body->getInvMass()),
+          ambient.def.fluid_body->volume * ambient.medium.density};
+}
+
+void attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def) {
+  if (!def.fluid_body) {
+    throw std::invalid_argument("attach: the fluid body is null; load one with loadFluidBody()");
+  }
+  const std::string who = "attach: body with fluid body '" + def.fluid_body->name + "'";
+  if (body.isStaticOrKinematicObject()) {
+    throw std::invalid_argument(
+        who + " is static or kinematic (mass 0); only dynamic bodies feel a fluid");
+  }
+  if (!(body.getInvMass() > 0)) {
+    throw std::invalid_argument(who + " has an inverse mass of " +
+                                std::to_string(body.getInvMass()) +
+                                "; must be positive and finite");
+  }
+  if (bodies.find(&body)) {
+    throw std::invalid_argument(who + " is attached already; use setMedium() or detach it first");
+  }
+  checkFlight(who, def.flight);
+  auto ambient = std::make_unique<AmbientBody>();
+  ambient->body = &body;
+  ambient->def = std::move(def);
+  refresh(*ambient, bodies);
+  if (ambient->isInFluid()) body.activate();
+  sayOddities(*ambient, bodies.complaints);
+  bodies.insert(std::move(ambient));
+}
+
+void sayLight(Complaints& complaints, const FluidBody& shape, const DisplacedMass& mass,
+              int count) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "bullet_ambient: body with fluid body '" << shape.name << "' has a mass of " << mass.body
+       << " kg and displaces " << mass.medium << " kg of its medium, so that it rises";
+  if (count > 1) text << ", and so do " << count - 1 << " more of less than half that mass";
+  text << "; if they are no balls, floats or balloons, give them the mass of their volume";
+  complaints.say(Complaint::kLight, text.str().c_str());
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,180 @@
+#include "bullet_ambient/bullet/world_attachment.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <exception>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+#include <utility>
+
+#include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/bullet/ambient_registry.h"
+#include "bullet_ambient/bullet/attach_body.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+int instanceOf(const btCollisionObject& object) noexcept {
+  const btRigidBody* body = btRigidBody::upcast(&object);
+  return body ? instanceNumber(*body) : -1;
+}
+
+bool isDynamic(const btRigidBody& body) {
+  return !body.isStaticOrKinematicObject() && body.getInvMass() != 0;
+}
+
+std::string nameOf(int index, const btCollisionShape& shape) {
+  return "body " + std::to_string(index) + " (" + shape.getName() + "): ";
+}
+
+// What is said of all bodies together that were just attached.
+struct Tally {
+  std::set<const FluidBody*> shapes;
+  std::shared_ptr<const FluidBody> lightest;  // for its share of what it displaces
+  DisplacedMass mass;
+  int light_count = 0;
+
+  void add(int index, const AmbientBody& ambient, AttachReport& report) {
+    ++report.attached;
+    shapes.insert(ambient.def.fluid_body.get());
+    const DisplacedMass own = displacedMass(ambient);
+    if (own.isLighter()) report.light.push_back({index, own.body, own.medium});
+    if (!own.isMuchLighter()) return;
+    if (light_count++ > 0 && own.body * mass.medium >= mass.body * own.medium) return;
+    lightest = ambient.def.fluid_body;
+    mass = own;
+  }
+};
+
+}  // namespace
+
+std::string AttachReport::text() const {
+  std::ostringstream text;
+  text << attached << " bodies attached with " << fluid_bodies << " fluid bodies, "
+       << refused.size() << " refused, " << light.size() << " lighter than what they displace\n";
+  for (const Refusal& refusal : refused) text << refusal.reason << '\n';
+  return text.str();
+}
+
+WorldAttachment::WorldAttachment(AmbientRegistry& registry, FluidBodySource& source,
+                                 const Medium& medium, AttachSettings settings)
+    : registry_(registry),
+      source_(source),
+      medium_(medium),
+      settings_(std::move(settings)),
+      revision_(source.revision()) {}
+
+const AmbientBody* WorldAttachment::attach(btRigidBody& body, Met& met, AttachReport& report) {
+  if (!isDynamic(body) || (settings_.filter && !settings_.filter(body))) return nullptr;
+  if (registry_.isAttached(body)) {
+    ++report.attached_before;
+    return nullptr;
+  }
+  AttachDef def;
+  def.medium = medium_;
+  def.flow = settings_.flow;
+  def.flight = settings_.flight;
+  def.fluid_body = source_.fluidBody(*body.getCollisionShape());
+  met.given = def.fluid_body.get();
+  if (settings_.adjust) settings_.adjust(body, def);
+  if (!def.fluid_body) return nullptr;
+  attachBody(bodiesOf(registry_), body, std::move(def));
+  return bodiesOf(registry_).find(&body);
+}
+
+std::vector<btRigidBody*> WorldAttachment::meetAll(const btCollisionWorld& world) {
+  std::unordered_map<const btCollisionObject*, Met> before;
+  for (const Met& met : met_) before.emplace(met.object, met);
+  met_.clear();
+  std::vector<btRigidBody*> strangers;
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const Met met{objects[i], instanceOf(*objects[i])};
+    const auto known = before.find(met.object);
+    const bool is_known = known != before.end() && known->second.instance == met.instance;
+    met_.push_back(is_known ? known->second : met);
+    strangers.push_back(is_known ? nullptr : btRigidBody::upcast(objects[i]));
+  }
+  return strangers;
+}
+
+AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
+  AttachReport report;
+  Tally tally;
+  const std::vector<btRigidBody*> strangers = meetAll(world);
+  for (std::size_t i = 0; i < strangers.size(); ++i) {
+    btRigidBody* body = strangers[i];
+    if (!body) continue;
+    const int index = static_cast<int>(i);
+    try {
+      if (const AmbientBody* ambient = attach(*body, met_[i], report)) {
+        tally.add(index, *ambient, report);
+      }
+    } catch (const std::exception& error) {
+      report.refused.push_back({index, nameOf(index, *body->getCollisionShape()) + error.what()});
+    }
+  }
+  report.fluid_bodies = static_cast<int>(tally.shapes.size());
+  if (tally.lightest) {
+    sayLight(bodiesOf(registry_).complaints, *tally.lightest, tally.mass, tally.light_count);
+  }
+  return report;
+}
+
+// Removals swap the world's array, and a new body may stand where a destroyed one did.
+bool WorldAttachment::hasMetAll(const btCollisionWorld& world) const noexcept {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  if (static_cast<std::size_t>(objects.size()) != met_.size()) return false;
+  for (int i = 0; i < objects.size(); ++i) {
+    const Met& met = met_[static_cast<std::size_t>(i)];
+    if (met.object != objects[i] || met.instance != instanceOf(*objects[i])) return false;
+  }
+  return true;
+}
+
+// What the program has given to a body meanwhile stays, and so does what cannot be replaced.
+void WorldAttachment::replaceFluidBodies(btCollisionWorld& world) {
+  std::unordered_map<const btCollisionObject*, Met*> met_bodies;
+  for (Met& met : met_) {
+    if (met.given) met_bodies.emplace(met.object, &met);
+  }
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const auto met = met_bodies.find(objects[i]);
+    if (met == met_bodies.end()) continue;
+    const AmbientBody* ambient = bodiesOf(registry_).find(objects[i]);
+    if (!ambient || ambient->def.fluid_body.get() != met->second->given) continue;
+    try {
+      std::shared_ptr<const FluidBody> better = source_.fluidBody(*objects[i]->getCollisionShape());
+      if (better.get() == met->second->given) continue;
+      registry_.setFluidBody(*ambient->body, better);
+      met->second->given = better.get();
+    } catch (const std::exception& error) {
+      tell(nameOf(i, *objects[i]->getCollisionShape()) + error.what());
+    }
+  }
+}
+
+void WorldAttachment::tell(const std::string& sentence) const {
+  const Complaints& complaints = bodiesOf(registry_).complaints;
+  if (complaints.report) complaints.report("bullet_ambient: " + sentence);
+}
+
+void WorldAttachment::update(btCollisionWorld& world) noexcept {
+  try {
+    if (settings_.later_bodies && !hasMetAll(world)) {
+      for (const AttachReport::Refusal& refusal : attachNew(world).refused) tell(refusal.reason);
+    }
+    const unsigned revision = source_.revision();
+    if (std::exchange(revision_, revision) != revision) replaceFluidBodies(world);
+  } catch (...) {
+    // Out of memory, or a callback that throws: neither must unwind through Bullet's step.
+  }
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/bullet/attach_def.h"
+#include "bullet_ambient/bullet/fluid_body_source.h"
+#include "bullet_ambient/bullet/precision_check.h"
+
+class btCollisionObject;
+class btCollisionWorld;
+class btRigidBody;
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+struct AmbientBody;
+class AmbientRegistry;
+
+/// How the bodies of a world meet the fluid.
+struct AttachSettings {
+  FlowSettings flow = {};
+  FlightSettings flight = {};
+  /// Which of the dynamic rigid bodies; empty: all.
+  std::function<bool(const btRigidBody&)> filter = nullptr;
+  /// Changes what a body is attached with: another medium, law or fluid body, or none, and then it
+  /// is left out.
+  std::function<void(const btRigidBody&, AttachDef&)> adjust = nullptr;
+  /// Attaches bodies that are added to the world later, at the end of the first substep that they
+  /// are in; in that one they move as in stock Bullet.
+  bool later_bodies = false;
+};
+
+/// What became of the bodies of a world. Bodies are numbered as in its array of objects.
+struct AttachReport {
+  struct Refusal {
+    int body = 0;
+    std::string reason;  ///< one line
+  };
+  struct LightBody {
+    int body = 0;
+    double mass = 0;            ///< [kg]
+    double displaced_mass = 0;  ///< of the medium [kg]
+  };
+
+  int attached = 0;
+  int fluid_bodies = 0;     ///< distinct ones, which these share
+  int attached_before = 0;  ///< left as they are
+  std::vector<Refusal> refused;
+  std::vector<LightBody> light;  ///< lighter than the medium that they displace
+
+  /// One line of numbers, and one for each body that was refused: "body 3 (Box): ...".
+  std::string text() const;
+};
+
+/// Attaches the dynamic rigid bodies of a world, whatever their mass, each with the fluid body that
+/// a source has for its collision shape, in its frame.
+class WorldAttachment {
+ public:
+  /// Registry and source must outlive it.
+  WorldAttachment(AmbientRegistry& registry, FluidBodySource& source, const Medium& medium,
+                  AttachSettings settings);
+
+  /// Attaches those that it has not met. Cost: that of fluid bodies that the source has to make.
+  AttachReport attachNew(btCollisionWorld& world);
+
+  /// Between two steps: attaches bodies that have come since, and gives all of them what the source
+  /// has come to know better. Without news it allocates nothing, takes no lock and costs a
+  /// comparison for each object of the world. What cannot be attached is told to the registry's
+  /// report.
+  void update(btCollisionWorld& world) noexcept;
+
+ private:
+  // An object as it was met, and the fluid body that it was given.
+  struct Met {
+    const btCollisionObject* object = nullptr;
+    int instance = -1;
+    const FluidBody* given = nullptr;
+  };
+
+  bool hasMetAll(const btCollisionWorld& world) const noexcept;
+  // The bodies that it has not met before, null in place of all other objects.
+  std::vector<btRigidBody*> meetAll(const btCollisionWorld& world);
+  const AmbientBody* attach(btRigidBody& body, Met& met, AttachReport& report);
+  void replaceFluidBodies(btCollisionWorld& world);
+  void tell(const std::string& sentence) const;
+
+  AmbientRegistry& registry_;
+  FluidBodySource& source_;
+  Medium medium_;
+  AttachSettings settings_;
+  std::vector<Met> met_;  // in the order of the world
+  unsigned revision_;
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,176 @@
+#include "preprocess/collision_shape/form_body.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/collision_shape/collision_solids.h"
+#include "preprocess/collision_shape/shape_parts.h"
+#include "preprocess/collision_shape/solid_union.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/join_meshes.h"
+#include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/shape_symmetry.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+const std::string& nameOf(const ShapeForm& form, const CollisionShapeSettings& settings) {
+  return settings.name.empty() ? form.kind : settings.name;
+}
+
+const char* nameOf(CompoundFallback fallback) {
+  switch (fallback) {
+    case CompoundFallback::kHull:
+      return "hull";
+    case CompoundFallback::kSum:
+      return "sum";
+    case CompoundFallback::kRefuse:
+      break;
+  }
+  return "union";
+}
+
+void requireUsable(const CollisionShapeSettings& settings, const std::string& name) {
+  const auto require = [&](const char* what, int value, int least) {
+    if (value >= least && value <= kMostDivisions) return;
+    raiseInputError(name, what, " = ", value, " is not between ", least, " and ", kMostDivisions);
+  };
+  require("faces", settings.faces, 1);
+  require("max_panels", settings.flow.max_panels, 0);
+  require("threads", settings.flow.threads, 0);
+}
+
+std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
+                            const CollisionShapeSettings& settings) {
+  SolidResolution resolution;
+  resolution.faces = settings.faces;
+  resolution.flow_faces = std::max(settings.faces, settings.flow.max_panels);
+  return makeSolids(parts, resolution);
+}
+
+/// What a user should know about the body, one line each.
+void reportSolids(const std::vector<Solid>& solids, const FluidBody& body, double size,
+                  const CollisionShapeSettings& settings) {
+  constexpr double kMuch = 0.1;
+  const double unit = size * size * size, volume = unit * body.volume;
+  double margins = 0;
+  for (const Solid& solid : solids) {
+    margins += unit * solid.margin_volume;
+    for (const std::string& warning : solid.warnings) settings.report(warning);
+  }
+  if (margins <= kMuch * (volume - margins)) return;
+  std::ostringstream text;
+  text.precision(4);
+  text << body.name << ": the margin that Bullet collides with is part of the body: its volume is "
+       << volume << " m^3, without the margin it would be " << volume - margins
+       << " m^3; set a smaller margin, or leave margins out (CollisionShapeSettings::margins, "
+       << "--no-margins)";
+  settings.report(text.str());
+}
+
+/// One surface of all solids, or of all cavities.
+TriangleMesh joined(const std::vector<Solid>& solids, TriangleMesh Solid::*surface) {
+  std::vector<TriangleMesh> parts;
+  for (const Solid& solid : solids) parts.push_back(solid.*surface);
+  return joinMeshes(parts);
+}
+
+PotentialFlow solveFlow(const TriangleMesh& mesh, const CollisionShapeSettings& settings,
+                        const std::string& name) {
+  try {
+    return solvePotentialFlow(mesh, settings.flow);
+  } catch (const std::runtime_error& error) {
+    raiseInputError(name, error.what());
+  }
+}
+
+/// The nearest symmetric positive semi-definite matrix: extrapolation may leave a tiny negative
+/// eigenvalue where the true inertia vanishes.
+Matrix6 withoutNegativePart(const Matrix6& K) {
+  const SymmetricEigen<6> eigen = symmetricEigen<6>(K);
+  const Matrix6 positive =
+      eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
+  return (positive + positive.transpose()) / 2;
+}
+
+struct AddedMass {
+  Matrix6 total = Matrix6::Zero();
+  std::vector<AddedMassPart> parts;  // empty where no flow was solved
+};
+
+/// About the shape's origin.
+AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings,
+                      const std::string& name) {
+  if (solid.added_mass) return {*solid.added_mass, {}};
+  const bool has_flow = solid.flow.triangleCount() > 0;
+  const PotentialFlow fine = solveFlow(has_flow ? solid.flow : solid.mesh, settings, name);
+  if (!has_flow) return {fine.added_mass, fine.parts};
+  Matrix6 total = fine.added_mass;
+  if (solid.flow_ratio != 0) {
+    const Matrix6 coarse = solveFlow(solid.coarse_flow, settings, name).added_mass;
+    total = withoutNegativePart(total + (total - coarse) / (solid.flow_ratio - 1));
+  }
+  return {symmetrisedAddedMass(total, solid.mesh), fine.parts};
+}
+
+/// Of a single solid, if it is not that of its mesh, which the builder solves.
+bool hasOwnAddedMass(const Solid& solid) {
+  return solid.added_mass || solid.flow.triangleCount() > 0;
+}
+
+Matrix6 sumOfAddedMasses(const std::vector<Solid>& solids, const CollisionShapeSettings& settings,
+                         const std::string& name) {
+  Matrix6 sum = Matrix6::Zero();
+  for (const Solid& solid : solids) sum += addedMassOf(solid, settings, name).total;
+  return sum;
+}
+
+}  // namespace
+
+ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
+  const std::string name = settings.name.empty() ? shape.getName() : settings.name;
+  requireUsable(settings, name);
+  return {shape.getName(), readShapeParts(shape, settings.margins, name), 1};
+}
+
+FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& settings) {
+  BuildSettings build;
+  build.name = nameOf(form, settings);
+  build.origin = Eigen::Vector3d::Zero();
+  build.flow = settings.flow;
+  build.provenance = describeForm(form, settings);
+  const auto [solids, is_sum] = uniteSolids(solidsOf(form.parts, settings), settings, build.name);
+  if (solids.size() == 1) {
+    if (hasOwnAddedMass(solids.front())) {
+      AddedMass own = addedMassOf(solids.front(), settings, build.name);
+      build.added_mass = own.total;
+      build.added_mass_parts = std::move(own.parts);
+    }
+    build.sphere_radius = solids.front().sphere_radius;
+  } else if (is_sum) {
+    build.added_mass = sumOfAddedMasses(solids, settings, build.name);
+  }
+  build.cavities = joined(solids, &Solid::cavities);
+  const FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
+  if (settings.report) reportSolids(solids, body, form.size, settings);
+  return body;
+}
+
+Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& settings) {
+  Provenance provenance;
+  provenance.source = "collision shape " + form.kind;
+  provenance.source_hash = fnv1a64(contentOf(form.parts));
+  provenance.settings = std::string(settings.margins ? "with" : "without") + " margins, faces " +
+                        std::to_string(settings.faces) + ", panels " +
+                        std::to_string(settings.flow.max_panels) + ", " + nameOf(settings.fallback);
+  provenance.generator = libraryVersion();
+  return provenance;
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

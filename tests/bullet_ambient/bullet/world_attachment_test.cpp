@@ -1,0 +1,263 @@
+#include "bullet_ambient/bullet/world_attachment.h"
+
+#include <btBulletDynamicsCommon.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/ambient.h"
+#include "tests/support/ellipsoid_body.h"
+
+namespace ambient::test {
+namespace {
+
+// Balls of 4.19 m^3; no other shapes.
+class BallTable : public FluidBodySource {
+ public:
+  std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override {
+    ++asked;
+    if (shape.getShapeType() != SPHERE_SHAPE_PROXYTYPE) throw std::runtime_error("not a ball");
+    return ball;
+  }
+  unsigned revision() const noexcept override { return revision_; }
+  void improve(const std::shared_ptr<const FluidBody>& better) {
+    ball = better;
+    ++revision_;
+  }
+
+  int asked = 0;
+  std::shared_ptr<const FluidBody> ball =
+      std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
+
+ private:
+  unsigned revision_ = 7;
+};
+
+class WorldInFluid : public testing::Test {
+ protected:
+  WorldInFluid() {
+    fluid.registry().setReport([this](const std::string& sentence) { said.push_back(sentence); });
+  }
+  ~WorldInFluid() override {
+    for (const auto& body : bodies) world.removeRigidBody(body.get());
+  }
+  btRigidBody& add(double mass, btCollisionShape& shape) {
+    const btVector3 inertia = btVector3(1, 1, 1) * static_cast<btScalar>(0.4 * mass);
+    bodies.push_back(
+        std::make_unique<btRigidBody>(static_cast<btScalar>(mass), nullptr, &shape, inertia));
+    const auto x = static_cast<btScalar>(5 * bodies.size());
+    bodies.back()->setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(x, 0, 0)));
+    world.addRigidBody(bodies.back().get());
+    return *bodies.back();
+  }
+  void step() {
+    const btScalar time_step = btScalar(1) / 60;
+    world.stepSimulation(time_step, 0, time_step);
+  }
+  bool isAttached(const btRigidBody& body) const { return fluid.registry().isAttached(body); }
+
+  static constexpr double kHeavy = 9000;  // water: 4180 kg
+  Fluid<> fluid;
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, nullptr, &configuration};
+  btSphereShape sphere{1};
+  btBoxShape box{btVector3(1, 1, 1)};
+  BallTable shapes;
+  std::vector<std::string> said;
+  std::vector<std::unique_ptr<btRigidBody>> bodies;
+};
+
+TEST_F(WorldInFluid, TakesEveryDynamicBodyAndSaysWhy) {
+  btRigidBody& floor = add(0, box);
+  btRigidBody& first = add(kHeavy, sphere);
+  btRigidBody& crate = add(kHeavy, box);
+  btRigidBody& second = add(2 * kHeavy, sphere);
+  const AttachReport report = fluid.attachAll(world, shapes, water());
+  EXPECT_EQ(report.attached, 2);
+  EXPECT_EQ(report.fluid_bodies, 1);
+  EXPECT_TRUE(report.light.empty());
+  ASSERT_EQ(report.refused.size(), 1u);
+  EXPECT_EQ(report.refused[0].body, 2);
+  EXPECT_EQ(report.refused[0].reason, "body 2 (Box): not a ball");
+  EXPECT_EQ(report.text(),
+            "2 bodies attached with 1 fluid bodies, 1 refused, 0 lighter than what they displace\n"
+            "body 2 (Box): not a ball\n");
+  EXPECT_TRUE(isAttached(first) && isAttached(second));
+  EXPECT_FALSE(isAttached(floor) || isAttached(crate));
+  first.setLinearVelocity({1, 0, 0});
+  step();
+  EXPECT_GE(fluid.registry().counters(first).substeps, 1);  // solver and action are in the world
+}
+
+TEST_F(WorldInFluid, LeavesWhatIsAttachedAndWhatTheFilterDoesNotWant) {
+  btRigidBody& own = add(kHeavy, sphere);
+  btRigidBody& left = add(kHeavy, sphere);
+  btRigidBody& right = add(kHeavy, sphere);
+  fluid.add(own, {shapes.ball, air()});
+  AttachSettings settings;
+  settings.filter = [&](const btRigidBody& body) { return &body != &right; };
+  const AttachReport report = fluid.attachAll(world, shapes, water(), settings);
+  EXPECT_EQ(report.attached, 1);
+  EXPECT_EQ(report.attached_before, 1);
+  EXPECT_TRUE(isAttached(left));
+  EXPECT_FALSE(isAttached(right));
+  EXPECT_EQ(fluid.registry().medium(own).density, air().density);
+  fluid.attachAll(world, shapes, air());  // the rest
+  EXPECT_EQ(fluid.registry().medium(left).density, water().density);
+  EXPECT_EQ(fluid.registry().medium(right).density, air().density);
+}
+
+TEST_F(WorldInFluid, GivesEachBodyWhatAFunctionSays) {
+  btRigidBody& first = add(kHeavy, sphere);
+  btRigidBody& second = add(kHeavy, sphere);
+  btRigidBody& third = add(kHeavy, sphere);
+  AttachSettings settings;
+  settings.flow.skin_friction = false;
+  settings.adjust = [&](const btRigidBody& body, AttachDef& def) {
+    EXPECT_FALSE(def.flow.skin_friction);
+    if (&body == &second) def.medium = air();
+    if (&body == &third) def.fluid_body = nullptr;
+  };
+  EXPECT_EQ(fluid.attachAll(world, shapes, water(), settings).attached, 2);
+  EXPECT_EQ(fluid.registry().medium(first).density, water().density);
+  EXPECT_EQ(fluid.registry().medium(second).density, air().density);
+  EXPECT_FALSE(isAttached(third));
+}
+
+TEST_F(WorldInFluid, NamesWhatIsNoMassAndGoesOn) {
+  add(kHeavy, sphere);
+  add(kHeavy, sphere).setMassProps(btScalar(1e-300), btVector3(0, 0, 0));
+  add(kHeavy, sphere);
+  AttachSettings settings;
+  settings.adjust = [&](const btRigidBody& body, AttachDef& def) {
+    if (&body == bodies[0].get()) def.flight.max_substeps = -1;
+  };
+  const AttachReport report = fluid.attachAll(world, shapes, water(), settings);
+  ASSERT_GE(report.refused.size(), 1u);
+  EXPECT_NE(report.refused[0].reason.find("body 0 (SPHERE): attach: body with fluid body "
+                                          "'ellipsoid' has max_substeps of -1"),
+            std::string::npos)
+      << report.refused[0].reason;
+  EXPECT_TRUE(isAttached(*bodies[2]));
+}
+
+TEST_F(WorldInFluid, SaysOnceWhichBodiesAreLight) {
+  add(3000, sphere);  // floats, as wood does
+  add(2000, sphere);
+  add(10, sphere);
+  add(1000, sphere);
+  const AttachReport report = fluid.attachAll(world, shapes, water());
+  ASSERT_EQ(report.light.size(), 4u);
+  EXPECT_EQ(report.light[2].body, 2);
+  EXPECT_NEAR(report.light[2].mass, 10, 1e-5);
+  EXPECT_NEAR(report.light[2].displaced_mass, ellipsoidVolume(Vector3::Ones()) * 998, 1e-3);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0],
+            "bullet_ambient: body with fluid body 'ellipsoid' has a mass of 10 kg and displaces "
+            "4.18e+03 kg of its medium, so that it rises, and so do 2 more of less than half that "
+            "mass; if they are no balls, floats or balloons, give them the mass of their volume");
+  fluid.add(add(1, sphere), {shapes.ball, water()});
+  EXPECT_EQ(said.size(), 1u);
+}
+
+TEST_F(WorldInFluid, OneLightBodyIsSaidWithBothMasses) {
+  const AttachDef def{shapes.ball, air()};  // 5.04 kg
+  fluid.add(add(2.6, sphere), def);
+  EXPECT_TRUE(said.empty());
+  fluid.add(add(2.4, sphere), def);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("has a mass of 2.4 kg and displaces 5.04 kg"), std::string::npos)
+      << said[0];
+}
+
+TEST_F(WorldInFluid, TakesBodiesThatComeLater) {
+  AttachSettings settings;
+  settings.later_bodies = true;
+  add(kHeavy, sphere);
+  fluid.attachAll(world, shapes, water(), settings);
+  step();
+  btRigidBody& later = add(kHeavy, sphere);
+  EXPECT_FALSE(isAttached(later));
+  step();
+  EXPECT_TRUE(isAttached(later));
+  // What was detached on purpose stays so, and nobody is asked again.
+  fluid.remove(later);
+  const int asked = shapes.asked;
+  step();
+  EXPECT_FALSE(isAttached(later));
+  EXPECT_EQ(shapes.asked, asked);
+  add(kHeavy, box);
+  step();
+  step();
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0], "bullet_ambient: body 2 (Box): not a ball");
+}
+
+TEST_F(WorldInFluid, WithoutTheFlagLaterBodiesStayDry) {
+  add(kHeavy, sphere);
+  fluid.attachAll(world, shapes, water());
+  btRigidBody& later = add(kHeavy, sphere);
+  step();
+  step();
+  EXPECT_FALSE(isAttached(later));
+}
+
+// At the same place of the array, and as a rule at the same address.
+TEST_F(WorldInFluid, TellsABodyFromADestroyedOneInItsPlace) {
+  AttachSettings settings;
+  settings.later_bodies = true;
+  add(kHeavy, sphere);
+  add(kHeavy, sphere);
+  fluid.attachAll(world, shapes, water(), settings);
+  for (int i = 0; i < 20; ++i) {
+    world.removeRigidBody(bodies.back().get());
+    bodies.pop_back();
+    btRigidBody& next = add(kHeavy, sphere);
+    EXPECT_FALSE(isAttached(next));
+    step();
+    EXPECT_TRUE(isAttached(next));
+  }
+}
+
+TEST_F(WorldInFluid, ReplacesFluidBodiesWhenTheSourceKnowsBetter) {
+  btRigidBody& first = add(kHeavy, sphere);
+  btRigidBody& second = add(kHeavy, sphere);
+  btRigidBody& own = add(kHeavy, sphere);
+  fluid.attachAll(world, shapes, water());
+  const double before = fluid.registry().inertia(first)(3, 3);
+  const auto mine = std::make_shared<FluidBody>(facelessEllipsoid(Vector3(1, 1, 2)));
+  fluid.registry().setFluidBody(own, mine);
+  const double kept = fluid.registry().inertia(own)(3, 3);
+  first.setLinearVelocity({1, 2, 3});
+  shapes.improve(std::make_shared<FluidBody>(scaled(*shapes.ball, 1.1)));
+  EXPECT_EQ(fluid.registry().inertia(first)(3, 3), before);
+  step();
+  const double wet = before - kHeavy;
+  EXPECT_NEAR(fluid.registry().inertia(first)(3, 3) - kHeavy, wet * 1.331, 1e-6 * before);
+  EXPECT_EQ(fluid.registry().inertia(second)(3, 3), fluid.registry().inertia(first)(3, 3));
+  EXPECT_EQ(fluid.registry().inertia(own)(3, 3), kept);
+  const int asked = shapes.asked;
+  step();
+  EXPECT_EQ(shapes.asked, asked);
+}
+
+TEST_F(WorldInFluid, ClearFollowsNothing) {
+  AttachSettings settings;
+  settings.later_bodies = true;
+  add(kHeavy, sphere);
+  fluid.attachAll(world, shapes, water(), settings);
+  fluid.clear();
+  btRigidBody& later = add(kHeavy, sphere);
+  step();
+  EXPECT_FALSE(isAttached(later));
+  EXPECT_EQ(fluid.registry().size(), 0u);
+}
+
+}  // namespace
+}  // namespace ambient::test

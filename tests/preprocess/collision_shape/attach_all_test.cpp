@@ -1,0 +1,64 @@
+#include <btBulletDynamicsCommon.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "bullet_ambient/ambient.h"
+#include "preprocess/collision_shape/fluid_body_cache.h"
+#include "tests/preprocess/collision_shape/shape_fixtures.h"
+
+namespace ambient {
+namespace {
+
+// A scene as programs have them: a floor, and crates and barrels with shapes of their own.
+class CrateScene {
+ public:
+  CrateScene() {
+    world.setGravity(btVector3(0, 0, btScalar(-9.81)));
+    add(0, std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), btScalar(0)));
+    for (int i = 0; i < 4; ++i) {
+      const auto half = static_cast<btScalar>(i < 2 ? 0.5 : 0.25);
+      add(2000 * half, std::make_unique<btBoxShape>(btVector3(half, half, half)));
+      add(300, std::make_unique<btCylinderShapeZ>(btVector3(half, half, 1)));
+    }
+  }
+  ~CrateScene() {
+    for (const auto& body : bodies) world.removeRigidBody(body.get());
+  }
+  void add(double mass, std::unique_ptr<btCollisionShape> shape) {
+    btVector3 inertia(0, 0, 0);
+    if (mass > 0) shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
+    bodies.push_back(
+        std::make_unique<btRigidBody>(static_cast<btScalar>(mass), nullptr, shape.get(), inertia));
+    const auto x = static_cast<btScalar>(3 * bodies.size());
+    bodies.back()->setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(x, 0, 5)));
+    world.addRigidBody(bodies.back().get());
+    shapes.push_back(std::move(shape));
+  }
+
+  Fluid<> fluid;
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, nullptr, &configuration};
+  std::vector<std::unique_ptr<btCollisionShape>> shapes;
+  std::vector<std::unique_ptr<btRigidBody>> bodies;
+};
+
+TEST(AttachAll, PutsAWorldIntoWaterInOneCall) {
+  CrateScene scene;
+  FluidBodyCache shapes(test::coarse());
+  const AttachReport report = scene.fluid.attachAll(scene.world, shapes, water());
+  EXPECT_EQ(report.attached, 8);
+  EXPECT_EQ(report.fluid_bodies, 4);
+  EXPECT_TRUE(report.refused.empty());
+  EXPECT_EQ(shapes.counts().made, 3);           // cubes of two sizes are one form
+  const btRigidBody& crate = *scene.bodies[1];  // 1000 kg in 998 kg of water
+  for (int i = 0; i < 60; ++i) scene.world.stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60);
+  // It sinks by (1 - 0.998) g / (1 + C) at most, where in air it would have hit the floor.
+  EXPECT_GT(crate.getWorldTransform().getOrigin().z(), 4.9);
+}
+
+}  // namespace
+}  // namespace ambient

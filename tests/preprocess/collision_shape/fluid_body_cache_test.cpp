@@ -1,0 +1,210 @@
+#include "preprocess/collision_shape/fluid_body_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "tests/preprocess/collision_shape/shape_fixtures.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ambient {
+namespace {
+
+using test::coarse;
+using test::differenceOf;
+
+namespace fs = std::filesystem;
+
+btVector3 sizes(double x, double y, double z) { return toBullet(Vector3(x, y, z)); }
+
+std::vector<fs::path> filesIn(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  return files;
+}
+
+// The corners of a wedge.
+const std::vector<btVector3> kWedge{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}, {3, 0, 1}};
+
+std::unique_ptr<btConvexHullShape> wedge(double factor = 1, double margin = 0.04) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const btVector3& point : kWedge) hull->addPoint(point * static_cast<btScalar>(factor));
+  hull->setMargin(static_cast<btScalar>(margin));
+  return hull;
+}
+
+TEST(FluidBodyCache, EqualShapesAreOneWhereverTheyAre) {
+  FluidBodyCache cache(coarse());
+  const btBoxShape first(sizes(0.5, 1, 2)), same(sizes(0.5, 1, 2)), other(sizes(0.5, 1, 2.1));
+  const auto body = cache.fluidBody(first);
+  EXPECT_EQ(cache.fluidBody(same), body);
+  EXPECT_NE(cache.fluidBody(other), body);
+  EXPECT_EQ(cache.counts().made, 2);
+  EXPECT_EQ(cache.fluidBody(*wedge()), cache.fluidBody(*wedge()));
+  EXPECT_NE(cache.fluidBody(*wedge()), cache.fluidBody(*wedge(1, 0.05)));
+  EXPECT_EQ(cache.counts().made, 4);
+}
+
+// As makeFluidBody() makes it, but for numbers that are rounded to a millionth.
+TEST(FluidBodyCache, GivesWhatTheShapeIs) {
+  FluidBodyCache cache(coarse());
+  btBoxShape box(sizes(0.15, 0.21, 0.33));
+  const auto body = cache.fluidBody(box);
+  const FluidBody direct = makeFluidBody(box, coarse());
+  EXPECT_EQ(body->name, "Box");
+  EXPECT_EQ(body->origin, Vector3::Zero());
+  EXPECT_NEAR(body->volume / direct.volume, 1, 3e-6);
+  const double size = 1 / 0.33;
+  EXPECT_LT(differenceOf(scaleShape(body->added_mass, size), scaleShape(direct.added_mass, size)),
+            1e-5);
+  EXPECT_LT((extentsOf(*body) - extentsOf(direct)).norm(), 1e-6);
+}
+
+TEST(FluidBodyCache, ScaledShapesAreSolvedOnce) {
+  FluidBodyCache cache(coarse());
+  const auto cube = cache.fluidBody(btBoxShape(sizes(1, 1, 1)));
+  const auto large = cache.fluidBody(btBoxShape(sizes(3, 3, 3)));
+  EXPECT_EQ(cache.counts().made, 1);
+  EXPECT_NEAR(large->volume / cube->volume, 27, 1e-5);
+  EXPECT_NEAR(large->added_mass(0, 0) / cube->added_mass(0, 0), 243, 243e-5);
+  EXPECT_NEAR(large->added_mass(3, 3) / cube->added_mass(3, 3), 27, 27e-5);
+}
+
+TEST(FluidBodyCache, KnowsHullsByTheirLocalScaling) {
+  CollisionShapeSettings settings = coarse();
+  settings.margins = false;
+  FluidBodyCache cache(settings);
+  const auto own = wedge(), scaled_hull = wedge(), stretched = wedge();
+  scaled_hull->setLocalScaling(sizes(0.3, 0.3, 0.3));
+  stretched->setLocalScaling(sizes(1, 1, 2));
+  const auto body = cache.fluidBody(*own);
+  const auto small = cache.fluidBody(*scaled_hull);
+  EXPECT_EQ(cache.counts().made, 1);
+  EXPECT_NEAR(small->volume / body->volume, 0.027, 1e-7);
+  cache.fluidBody(*stretched);
+  EXPECT_EQ(cache.counts().made, 2);
+}
+
+TEST(FluidBodyCache, WhatAShapeGetsDoesNotDependOnThoseBefore) {
+  const btBoxShape small(sizes(0.1, 0.2, 0.3)), large(sizes(0.2, 0.4, 0.6));
+  FluidBodyCache forwards(coarse()), backwards(coarse());
+  forwards.fluidBody(small);
+  backwards.fluidBody(large);
+  EXPECT_EQ(encodeFluidBody(*forwards.fluidBody(large), ""),
+            encodeFluidBody(*backwards.fluidBody(large), ""));
+  EXPECT_EQ(encodeFluidBody(*forwards.fluidBody(small), ""),
+            encodeFluidBody(*backwards.fluidBody(small), ""));
+}
+
+TEST(FluidBodyCache, CompoundsAreKnownByTheirChildren) {
+  const auto compound = [](double gap) {
+    auto shape = std::make_unique<btCompoundShape>();
+    static btSphereShape ball(1);
+    shape->addChildShape(btTransform(btQuaternion::getIdentity(), sizes(-1 - gap, 0, 0)), &ball);
+    shape->addChildShape(btTransform(btQuaternion::getIdentity(), sizes(1 + gap, 0, 0)), &ball);
+    return shape;
+  };
+  FluidBodyCache cache(coarse());
+  const auto body = cache.fluidBody(*compound(1));
+  EXPECT_EQ(cache.fluidBody(*compound(1)), body);
+  EXPECT_NE(cache.fluidBody(*compound(2)), body);
+}
+
+TEST(FluidBodyCache, RefusesAsOftenAsItIsAsked) {
+  FluidBodyCache cache(coarse());
+  const btStaticPlaneShape plane(sizes(0, 0, 1), 0);
+  const btBoxShape flat(sizes(1, 0, 1));
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(messageOf([&] { cache.fluidBody(plane); }),
+              "STATICPLANE: a plane (STATICPLANE) is unbounded and cannot move in a fluid");
+    const std::string message = messageOf([&] { cache.fluidBody(flat); });
+    EXPECT_EQ(message.rfind("Box: ", 0), 0u) << message;
+  }
+}
+
+TEST(FluidBodyCache, ThreadsThatAskForOneShapeMakeItOnce) {
+  FluidBodyCache cache(coarse());
+  std::vector<std::thread> threads;
+  std::vector<std::shared_ptr<const FluidBody>> bodies(4);
+  for (auto& body : bodies) {
+    threads.emplace_back([&cache, &body] { body = cache.fluidBody(*wedge()); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& body : bodies) EXPECT_EQ(body, bodies[0]);
+  EXPECT_EQ(cache.counts().made, 1);
+}
+
+TEST(FluidBodyCache, AnotherRunReadsWhatThisOneMade) {
+  const TemporaryFolder folder;
+  FluidBodyCache first(coarse(), folder / "kept"), second(coarse(), folder / "kept");
+  const btBoxShape box(sizes(0.5, 1, 2)), twice(sizes(1, 2, 4));
+  const auto made = first.fluidBody(box);
+  const auto read = second.fluidBody(box);
+  EXPECT_EQ(second.counts().made, 0);
+  EXPECT_EQ(second.counts().read, 1);
+  EXPECT_EQ(encodeFluidBody(*read, ""), encodeFluidBody(*made, ""));
+  second.fluidBody(twice);
+  EXPECT_EQ(second.counts().made, 0);
+  EXPECT_EQ(filesIn(folder / "kept").size(), 1u);
+  CollisionShapeSettings finer = coarse();
+  finer.faces = 500;
+  FluidBodyCache third(finer, folder / "kept");
+  third.fluidBody(box);
+  EXPECT_EQ(third.counts().made, 1) << "other settings";
+}
+
+TEST(FluidBodyCache, MakesAnewWhatIsDamagedOrForeign) {
+  const TemporaryFolder folder;
+  const btBoxShape box(sizes(0.5, 1, 2));
+  FluidBodyCache(coarse(), folder.path()).fluidBody(box);
+  ASSERT_EQ(filesIn(folder.path()).size(), 1u);
+  const fs::path file = filesIn(folder.path())[0];
+  const FluidBody made = readFluidBody(file);
+  const auto expectMadeAnew = [&](const char* what) {
+    FluidBodyCache cache(coarse(), folder.path());
+    cache.fluidBody(box);
+    EXPECT_EQ(cache.counts().made, 1) << what;
+    EXPECT_EQ(encodeFluidBody(readFluidBody(file), ""), encodeFluidBody(made, "")) << what;
+  };
+  fs::resize_file(file, 100);
+  expectMadeAnew("cut off");
+  std::ofstream(file, std::ios::trunc) << "something else";
+  expectMadeAnew("foreign");
+  FluidBody older = made;
+  older.provenance.generator = "bullet_ambient 0.0.1, solver revision 1";
+  writeFluidBody(older, file);
+  expectMadeAnew("older");
+}
+
+TEST(FluidBodyCache, ThatCannotWriteSaysSoAndGoesOn) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "kept") << "a file where the folder should be";
+  CollisionShapeSettings settings = coarse();
+  std::vector<std::string> said;
+  settings.report = [&](const std::string& text) { said.push_back(text); };
+  FluidBodyCache cache(settings, folder / "kept");
+  EXPECT_NE(cache.fluidBody(btBoxShape(sizes(0.5, 1, 2))), nullptr);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].rfind("the fluid body is not kept: ", 0), 0u) << said[0];
+}
+
+TEST(FluidBodyCache, WarnsOfVolumesAtTheirSize) {
+  CollisionShapeSettings settings = coarse();
+  std::vector<std::string> said;
+  settings.report = [&](const std::string& text) { said.push_back(text); };
+  FluidBodyCache cache(settings);
+  makeFluidBody(*wedge(0.1), settings);
+  cache.fluidBody(*wedge(0.1));
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_EQ(said[0], said[1]);  // to the four digits that are said
+}
+
+}  // namespace
+}  // namespace ambient

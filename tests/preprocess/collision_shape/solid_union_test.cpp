@@ -1,0 +1,129 @@
+#include "preprocess/collision_shape/solid_union.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "preprocess/mesh/crack_mending.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/solid_tree.h"
+#include "tests/preprocess/collision_shape/shape_fixtures.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+FlatPolygon squareAt(double height, double half, bool upwards) {
+  FlatPolygon square;
+  square.corners = {
+      {-half, -half, height}, {half, -half, height}, {half, half, height}, {-half, half, height}};
+  square.normal = {0, 0, 1};
+  if (upwards) return square;
+  std::swap(square.corners[1], square.corners[3]);
+  square.normal = {0, 0, -1};
+  return square;
+}
+
+double areaOf(const std::vector<FlatPolygon>& polygons) {
+  Eigen::Vector3d twice = Eigen::Vector3d::Zero();
+  for (const FlatPolygon& polygon : polygons) {
+    for (std::size_t i = 2; i < polygon.corners.size(); ++i) {
+      twice += (polygon.corners[i - 1] - polygon.corners[0])
+                   .cross(polygon.corners[i] - polygon.corners[0]);
+    }
+  }
+  return twice.norm() / 2;
+}
+
+TEST(SolidTree, TakesOffWhatIsInside) {
+  const SolidTree cube(makeBoxMesh({1, 1, 1}, 200), 1e-9);
+  EXPECT_NEAR(areaOf(cube.cutOff(squareAt(0, 2, true), true)), 16 - 4, 1e-12);
+  EXPECT_EQ(areaOf(cube.cutOff(squareAt(0, 0.5, true), true)), 0);
+  EXPECT_EQ(cube.cutOff(squareAt(1.1, 2, true), true).size(), 1u) << "not cut where not needed";
+}
+
+TEST(SolidTree, DecidesOnItsSurfaceByTheNormal) {
+  const SolidTree cube(makeBoxMesh({1, 1, 1}, 200), 1e-9);
+  // The other solid above touches; below, it is flush, and one of the two keeps what is.
+  for (const bool keep : {false, true}) {
+    EXPECT_NEAR(areaOf(cube.cutOff(squareAt(1, 2, false), keep)), 12, 1e-12);
+    EXPECT_NEAR(areaOf(cube.cutOff(squareAt(1, 2, true), keep)), keep ? 16 : 12, 1e-12);
+    EXPECT_NEAR(areaOf(cube.cutOff(squareAt(-1, 2, true), keep)), 12, 1e-12);
+    EXPECT_NEAR(areaOf(cube.cutOff(squareAt(-1, 2, false), keep)), keep ? 16 : 12, 1e-12);
+  }
+}
+
+TEST(Cracks, AreClosedWhereAVertexLiesOnAnEdge) {
+  // A tetrahedron, one of whose triangles is cut in two at the middle of an edge.
+  const TriangleMesh mesh = meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 1e-9, 0}},
+                                   {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+  EXPECT_FALSE(isClosed(computeMeshEdges(mesh)));
+  EXPECT_TRUE(isClosed(computeMeshEdges(withoutCracks(mesh, 1e-7))));
+  EXPECT_FALSE(isClosed(computeMeshEdges(withoutCracks(mesh, 1e-10))));
+}
+
+Solid cubeSolid(double x, const char* part) {
+  Solid solid;
+  solid.mesh = moved(makeBoxMesh({0.5, 0.5, 0.5}, 48), {x, 0, 0});
+  solid.part = part;
+  return solid;
+}
+
+// Two cubes that overlap by half, one of them with a hole.
+std::vector<Solid> leakingPair() {
+  std::vector<Solid> solids{cubeSolid(0, "child 0 (Box)"), cubeSolid(0.5, "child 1 (Box)")};
+  solids[0].mesh = withoutTriangle(solids[0].mesh, 0);
+  return solids;
+}
+
+CollisionShapeSettings fallingBackTo(CompoundFallback fallback) {
+  CollisionShapeSettings settings = test::coarse();
+  settings.fallback = fallback;
+  return settings;
+}
+
+TEST(SolidUnion, LeavesSolidsWithGapsAlone) {
+  const SeparateSolids separate = uniteSolids(
+      {cubeSolid(0, "a"), cubeSolid(2, "b"), cubeSolid(2.5, "c")}, test::coarse(), "it");
+  ASSERT_EQ(separate.solids.size(), 2u);
+  EXPECT_FALSE(separate.is_sum);
+  EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume, 1, 1e-12);
+  EXPECT_NEAR(computeMassProperties(separate.solids[1].mesh).volume, 1.5, 1e-12);
+}
+
+TEST(SolidUnion, FallsBackToTheHullWithItsCost) {
+  const SeparateSolids separate =
+      uniteSolids(leakingPair(), fallingBackTo(CompoundFallback::kHull), "it");
+  ASSERT_EQ(separate.solids.size(), 1u);
+  EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume, 1.5, 1e-12);
+  ASSERT_EQ(separate.solids[0].warnings.size(), 1u);
+  const std::string& warning = separate.solids[0].warnings[0];
+  EXPECT_EQ(warning.rfind("it: child 0 (Box) and child 1 (Box) cannot be united (", 0), 0u);
+  EXPECT_NE(warning.find("their convex hull stands for them, with -2"), std::string::npos)
+      << warning;
+}
+
+TEST(SolidUnion, FallsBackToTheSum) {
+  const SeparateSolids separate =
+      uniteSolids(leakingPair(), fallingBackTo(CompoundFallback::kSum), "it");
+  EXPECT_EQ(separate.solids.size(), 2u);
+  EXPECT_TRUE(separate.is_sum);
+  ASSERT_EQ(separate.solids[0].warnings.size(), 1u);
+}
+
+TEST(SolidUnion, RefusesIfToldTo) {
+  const std::string message =
+      messageOf([] { uniteSolids(leakingPair(), fallingBackTo(CompoundFallback::kRefuse), "it"); });
+  EXPECT_EQ(message.rfind("it: child 0 (Box) and child 1 (Box) touch or overlap and cannot be "
+                          "united (it: ",
+                          0),
+            0u)
+      << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ambient
