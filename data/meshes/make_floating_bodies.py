@@ -8,7 +8,7 @@ from pathlib import Path
 LENGTH, BEAM, DEPTH, FREEBOARD = 2.0, 0.5, 0.2, 0.15  # of the boat [m]; z = 0 where its sides get upright
 STATIONS, WATERLINES = 24, 6
 WEDGE = dict(length=1.2, beam=0.6, deadrise=25, side=0.15)  # [m], [degrees]
-WEDGE_CELLS = 8
+WEDGE_CELLS, EDGE_CELLS = 12, 3  # along the keel, along each edge of a section
 
 
 def boat():
@@ -48,19 +48,23 @@ def boat():
 
 
 def wedge():
-    """Slices of a pentagon along x, closed at both ends."""
+    """Slices of a pentagon along x, closed by a fan at both ends."""
     half, rise = WEDGE["beam"] / 2, WEDGE["beam"] / 2 * tan(WEDGE["deadrise"] * pi / 180)
-    section = [(0, 0), (half, rise), (half, rise + WEDGE["side"]), (-half, rise + WEDGE["side"]), (-half, rise)]
+    pentagon = [(0, 0), (half, rise), (half, rise + WEDGE["side"]), (-half, rise + WEDGE["side"]), (-half, rise)]
+    section = []
+    for (y, z), (y_next, z_next) in zip(pentagon, pentagon[1:] + pentagon[:1]):
+        for share in (k / EDGE_CELLS for k in range(EDGE_CELLS)):
+            section.append((y + share * (y_next - y), z + share * (z_next - z)))
     corners, n = len(section), WEDGE_CELLS
     vertices = [(WEDGE["length"] * (i / n - 0.5), y, z) for i in range(n + 1) for y, z in section]
+    vertices += [(side * WEDGE["length"] / 2, 0, rise) for side in (-1, 1)]
     faces = []
-    for i in range(n):
-        for k in range(corners):
-            a, b = i * corners + k, i * corners + (k + 1) % corners
+    for k in range(corners):
+        after = (k + 1) % corners
+        for i in range(n):
+            a, b = i * corners + k, i * corners + after
             faces += [(a, a + corners, b + corners), (a, b + corners, b)]
-    for first, turn in ((0, 1), (n * corners, -1)):
-        for k in range(1, corners - 1):
-            faces.append((first, first + k, first + k + 1)[::turn])
+        faces += [(len(vertices) - 2, k, after), (len(vertices) - 1, n * corners + after, n * corners + k)]
     return vertices, orient(vertices, faces)
 
 

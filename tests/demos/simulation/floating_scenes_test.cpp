@@ -71,7 +71,7 @@ TEST(WedgeDrop, TheWaterStopsIt) {
       fastest = std::min(fastest, sample.twist.linear.z());
       lowest = std::min(lowest, sample.position.z());
     }
-    EXPECT_LT(fastest, -3.9);
+    EXPECT_LT(fastest, -3.9);  // at 4 m/s
     EXPECT_GT(lowest, -1);
     EXPECT_LT(std::abs(motion.back().twist.linear.z()), 1);
   }
