@@ -59,6 +59,7 @@ class AmbientSolver : public Base {
     if constexpr (kHasMultiBodies) all_stay = this->m_tmpNumMultiBodyConstraints > 0;
     const GroupBodies converted =
         group_.select({bodies, body_count}, input_, info.m_timeStep, all_stay);
+    this->m_tmpSolverBodyPool.reserve(body_count + 1);
     Base::convertBodies(converted.first, converted.count, info);
     group_.begin(this->m_tmpSolverBodyPool);
   }

@@ -50,6 +50,10 @@ struct RowBody {
 /// memory.
 class RowBodies {
  public:
+  void reserve(int solver_bodies) {
+    bodies_.reserve(static_cast<std::size_t>(solver_bodies));
+    index_.reserve(static_cast<std::size_t>(solver_bodies));
+  }
   void reset(int solver_body_count);
   RowBody& add(int solver_body);
   bool empty() const { return bodies_.empty(); }

@@ -146,6 +146,10 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
   findMembers(bodies);
   if (members_.empty()) return bodies;
+  // For all of them: how many the solver knows changes from step to step.
+  converted_.reserve(static_cast<std::size_t>(bodies.count));
+  member_of_solver_body_.reserve(static_cast<std::size_t>(bodies.count));
+  row_bodies_->reserve(bodies.count);
   markPairs(input);
   return all_stay ? bodies : withoutLoners(bodies);
 }
