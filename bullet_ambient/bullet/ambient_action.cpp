@@ -94,6 +94,13 @@ void AmbientAction::follow(std::unique_ptr<WorldAttachment> attachment) {
 
 void AmbientAction::debugDraw(btIDebugDraw* drawer) {
   if (!drawer || !world_ || !drawing.drawsAnything()) return;
+  const FluidRegions& regions = bodiesOf(registry_).regions;
+  const auto* dynamics = dynamic_cast<const btDynamicsWorld*>(world_);
+  if (drawing.water_surface && dynamics) {
+    const btVector3 gravity = const_cast<btDynamicsWorld*>(dynamics)->getGravity();
+    for (const FluidRegions::Entry& entry : regions.all())
+      drawSurface({entry.region, gravity, regions.time}, drawing, *drawer);
+  }
   const btCollisionObjectArray& objects = world_->getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     const AmbientBody* ambient = bodiesOf(registry_).find(objects[i]);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <BulletDynamics/Dynamics/btDynamicsWorld.h>
+
 #include <memory>
 #include <utility>
 

@@ -6,6 +6,7 @@
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/buoyancy.h"
 #include "bullet_ambient/force/face_flow.h"
+#include "bullet_ambient/force/fluid_region.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
@@ -65,13 +66,45 @@ void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDra
   }
 }
 
+// The point of a region's surface straight above or below a point.
+Vector3 onSurface(const DrawnSurface& surface, const Vector3& up, const Vector3& point) {
+  return point + surface.region.surface->sample(point, surface.time).height * up;
+}
+
 }  // namespace
 
 FluidDrawing FluidDrawing::all() {
   FluidDrawing all;
   all.separation = all.slip_velocity = all.pressure = all.friction = true;
-  all.buoyancy = all.total_wrench = all.centre_of_volume = true;
+  all.buoyancy = all.total_wrench = all.centre_of_volume = all.water_surface = true;
   return all;
+}
+
+void drawSurface(const DrawnSurface& surface, const FluidDrawing& what, btIDebugDraw& drawer) {
+  constexpr int kCells = 16;
+  const Vector3 gravity = toVector3(surface.gravity);
+  if (!surface.region.surface || !(gravity.norm() > 0)) return;
+  const Vector3 up = -gravity.normalized();
+  Eigen::Index vertical = 0;
+  up.cwiseAbs().maxCoeff(&vertical);
+  RegionBounds bounds{Vector3::Constant(-what.surface_extent),
+                      Vector3::Constant(what.surface_extent)};
+  if (surface.region.bounds) {
+    bounds.lowest = bounds.lowest.cwiseMax(surface.region.bounds->lowest);
+    bounds.highest = bounds.highest.cwiseMin(surface.region.bounds->highest);
+  }
+  const auto corner = [&](int i, int j) {
+    Vector3 point = (bounds.lowest + bounds.highest) / 2;
+    const Eigen::Index u = (vertical + 1) % 3, v = (vertical + 2) % 3;
+    point[u] = bounds.lowest[u] + (bounds.highest[u] - bounds.lowest[u]) * i / kCells;
+    point[v] = bounds.lowest[v] + (bounds.highest[v] - bounds.lowest[v]) * j / kCells;
+    return toBullet(onSurface(surface, up, point));
+  };
+  for (int i = 0; i <= kCells; ++i)
+    for (int j = 0; j < kCells; ++j) {
+      drawer.drawLine(corner(i, j), corner(i, j + 1), fluid_colours::kWater);
+      drawer.drawLine(corner(j, i), corner(j + 1, i), fluid_colours::kWater);
+    }
 }
 
 void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer) {

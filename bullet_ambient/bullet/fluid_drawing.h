@@ -7,6 +7,9 @@
 class btIDebugDraw;
 
 namespace ambient {
+
+struct FluidRegion;
+
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 struct AmbientBody;
@@ -22,18 +25,20 @@ struct FluidDrawing {
   bool buoyancy = false;          ///< at the centre of volume, cyan
   bool total_wrench = false;      ///< force white and torque magenta at the centre of mass
   bool centre_of_volume = false;  ///< a small cross, cyan
+  bool water_surface = false;     ///< a net over each region's surface, blue
 
   double length_per_velocity = 0.1;  ///< [m per m/s]
   double length_per_force = 0.01;    ///< [m per N]; of the whole body
   /// [m per N] of single faces, whose forces are smaller the more faces there are.
   double length_per_face_force = 1;
   double length_per_torque = 0.1;  ///< [m per N m]
+  double surface_extent = 10;      ///< of the net over a region without bounds, from the origin [m]
   double normal_length = 0.05;     ///< of the normals and the cross, in sqrt(wetted area) [1]
 
   static FluidDrawing all();
   bool drawsFaces() const { return separation || slip_velocity || pressure || friction; }
   bool drawsAnything() const {
-    return drawsFaces() || buoyancy || total_wrench || centre_of_volume;
+    return drawsFaces() || buoyancy || total_wrench || centre_of_volume || water_surface;
   }
 };
 
@@ -41,13 +46,21 @@ struct FluidDrawing {
 namespace fluid_colours {
 inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
     kSlip(btScalar(0.2), btScalar(0.4), 1), kPressure(1, btScalar(0.5), 0), kFriction(1, 1, 0),
-    kBuoyancy(0, 1, 1), kForce(1, 1, 1), kTorque(1, 0, 1);
+    kBuoyancy(0, 1, 1), kForce(1, 1, 1), kTorque(1, 0, 1), kWater(0, btScalar(0.3), btScalar(0.8));
 }  // namespace fluid_colours
 
 /// Draws one body as it moves now. The total wrench is that of pressure, friction (after the
 /// passivity guard) and buoyancy; the inertia of the fluid is no part of it. @pre it is in a fluid,
 /// alive and dynamic.
 void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer);
+
+/// Draws the surface of a region at a time, where gravity says what is up; nothing without it.
+struct DrawnSurface {
+  const FluidRegion& region;
+  btVector3 gravity;
+  double time;  ///< [s]
+};
+void drawSurface(const DrawnSurface& surface, const FluidDrawing& what, btIDebugDraw& drawer);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

@@ -65,6 +65,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   force/fluid_region.h
   force/medium.h
   force/surface_loads.h
+  force/surface_plane.h
   force/water_surface.h
   motion/flight_memory.h
   motion/flight_settings.h

@@ -10,15 +10,24 @@
 namespace ambient {
 namespace {
 
-/// Of a body that enters the water: docs/theory.md eq. (65).
-Immersion raised(const Immersion& immersion) {
-  constexpr double kPileUp = 0.4;
-  const double size = immersion.size();
-  if (!(immersion.draught() < size)) return immersion;
-  const double dry = 1 - immersion.draught() / size;
-  const double dry4 = dry * dry * dry * dry;
+/// By how much an entering body raises the water, docs/theory.md eq. (65), and its derivative by
+/// the height of the plane.
+struct PileUp {
+  double rise = 0, slope = 0;
+
+  explicit PileUp(const Immersion& at) {
+    constexpr double kPileUp = 0.4;
+    if (!(at.draught() < at.size())) return;
+    const double wet = at.draught() / at.size(), dry = 1 - wet;
+    const double dry7 = dry * dry * dry * (dry * dry) * (dry * dry);
+    rise = kPileUp * dry7 * dry * at.draught();
+    slope = kPileUp * dry7 * (dry - 8 * wet);
+  }
+};
+
+Immersion raised(const Immersion& immersion, const PileUp& pile_up) {
   Immersion result = immersion;
-  result.plane.height += kPileUp * dry4 * dry4 * immersion.draught();
+  result.plane.height += pile_up.rise;
   return result;
 }
 
@@ -53,13 +62,20 @@ double wetShare(const Immersion& immersion, double volume) noexcept {
 
 Matrix6 WettedInertia::inertia(const Immersion& immersion) const noexcept {
   if (immersion.isDry()) return Matrix6::Zero();
-  return immersion.isDeep() ? deep_ : inertiaAt(raised(immersion));
+  return immersion.isDeep() ? deep_ : inertiaAt(raised(immersion, PileUp(immersion)));
 }
 
 InertiaGradient WettedInertia::gradient(const Immersion& immersion,
                                         const Twist& twist) const noexcept {
   if (immersion.isDry() || immersion.isDeep()) return {};
-  return gradientAt(raised(immersion), twist);
+  const PileUp pile_up(immersion);
+  InertiaGradient gradient = gradientAt(raised(immersion, pile_up), twist);
+  if (pile_up.slope == 0 || !(immersion.wet.volume > 0)) return gradient;
+  // The lowest point, on which the rise depends, is below the centre of buoyancy or not far off.
+  const double by_rise = pile_up.slope * gradient.by_height;
+  gradient.by_height += by_rise;
+  gradient.by_normal -= by_rise * (immersion.wet.moment / immersion.wet.volume);
+  return gradient;
 }
 
 std::shared_ptr<const WettedInertia> makeWettedInertia(const std::shared_ptr<const FluidBody>& body,

@@ -95,6 +95,7 @@ def pack(folders):
             "gravity": summary["gravity"],
             "medium_velocity": geometry["medium_velocity"],
             "joints": geometry["joints"],
+            "water": geometry["water"],
             "bodies": bodies,
             "rivals": [],
         }

@@ -21,6 +21,7 @@ class RunView {
     this.bodies = [];
     this.rivals = {};
     this.followed = null;
+    this.water = null;
     this.magnification = 1;
     this.showSeparation = false;
   }
@@ -50,9 +51,18 @@ class RunView {
     this.world.updateMatrixWorld();
     this.measure();
     this.frame();
+    if (run.water) {
+      this.water = new WaterView(run.water, this.box, (vector) => this.viewed(vector));
+      this.scene.add(this.water.mesh);
+    }
   }
 
   clear() {
+    if (this.water) {
+      this.scene.remove(this.water.mesh);
+      this.water.dispose();
+      this.water = null;
+    }
     for (const view of this.allViews()) view.dispose();
     this.world.children.slice().forEach((child) => this.world.remove(child));
     this.bodies = [];
@@ -75,8 +85,8 @@ class RunView {
     this.ownBox = this.sweptBy(this.subjects());
     const span = this.ownBox.getSize(new THREE.Vector3()).length();
     const wanted = 0.03 * span / Math.min(...this.subjects().map((view) => view.radius()));
-    // Bodies that meet others keep their size.
-    const canMeet = this.bodies.length > this.moving().length || this.run.joints.length > 0;
+    // Bodies that meet others, or water, keep their size.
+    const canMeet = this.bodies.length > this.moving().length || this.run.joints.length > 0 || Boolean(this.run.water);
     this.naturalMagnification = canMeet ? 1 : Math.max(1, wanted);
   }
 
@@ -182,6 +192,7 @@ class RunView {
   moveTo(time) {
     const before = this.followed && this.placeOf(this.followed);
     for (const view of this.allViews()) view.moveTo(time, this.magnification);
+    if (this.water) this.water.moveTo(time);
     if (this.followed) {
       const step = this.placeOf(this.followed).sub(before);
       this.controls.target.add(step);

@@ -1,7 +1,9 @@
 #include "demos/simulation/geometry_text.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
@@ -35,13 +37,43 @@ RoundedJson toRoundedJson(const JointDef& joint) {
   return text;
 }
 
+RoundedJson cornerJson(const Vector3& corner) {
+  RoundedJson text = RoundedJson::array();
+  for (const double side : corner)
+    text.push_back(std::isfinite(side) ? RoundedJson(static_cast<float>(side)) : RoundedJson());
+  return text;
+}
+
+RoundedJson toRoundedJson(const WaterDef& water) {
+  RoundedJson text = {{"level", static_cast<float>(water.sea.level)},
+                      {"current", toRoundedJson(water.sea.current)},
+                      {"waves", RoundedJson::array()}};
+  const Vector3 up = water.sea.up.normalized();
+  for (const WaveComponent& wave : water.waves) {
+    const double frequency = 2 * kPi / wave.period;
+    const Vector3 along = wave.direction - up.dot(wave.direction) * up;
+    text["waves"].push_back(
+        {{"amplitude", static_cast<float>(wave.amplitude)},
+         {"frequency", static_cast<float>(frequency)},
+         {"wave_number", static_cast<float>(frequency * frequency / water.sea.gravity)},
+         {"direction", toRoundedJson(Vector3(along.normalized()))},
+         {"phase", static_cast<float>(wave.phase)}});
+  }
+  if (water.bounds) {
+    text["bounds"] = {{"lowest", cornerJson(water.bounds->lowest)},
+                      {"highest", cornerJson(water.bounds->highest)}};
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string makeGeometryText(const Scene& scene, const std::vector<PreparedBody>& bodies) {
   RoundedJson geometry = {{"scene", scene.name},
                           {"medium_velocity", toRoundedJson(scene.medium.velocity)},
                           {"bodies", RoundedJson::array()},
-                          {"joints", RoundedJson::array()}};
+                          {"joints", RoundedJson::array()},
+                          {"water", scene.water ? toRoundedJson(*scene.water) : RoundedJson()}};
   for (std::size_t i = 0; i < bodies.size(); ++i)
     geometry["bodies"].push_back(toRoundedJson(scene.bodies[i], bodies[i]));
   for (const JointDef& joint : scene.joints) geometry["joints"].push_back(toRoundedJson(joint));

@@ -14,8 +14,8 @@ struct PanelInertia {
   Matrix6 inertia = Matrix6::Zero();  ///< -int g phi^T dA, perhaps not symmetric
 };
 
-/// Joins panels that are alike in place and normal to at most 96 parts of 16 panels or more. Their
-/// sum is that of the panels, made symmetric. Independent of the unit of length.
+/// Joins panels that are alike in normal and place to at most 96 parts. Their sum is that of the
+/// panels, made symmetric. Independent of the unit of length. Cost: O(panels).
 std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels);
 
 /// In another unit of length and about another origin: z = length z' + centre, where z' are the

@@ -3,8 +3,10 @@
 
 #include <cstdlib>
 
+#include "bullet_ambient/force/airy_waves.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/part_bodies.h"
 
 namespace ambient::test {
 namespace {
@@ -15,6 +17,22 @@ void* countedAllocation(std::size_t size, int alignment) {
   ++g_bullet_allocations;
   const auto a = static_cast<std::size_t>(alignment);
   return std::aligned_alloc(a, (size + a - 1) / a * a);
+}
+
+// Two that fall into the sea far away, one upon the other.
+void addFloatingBodies(FluidWorld& fluid, BodyDef def) {
+  FluidRegion sea;
+  sea.bounds = RegionBounds{{900, -100, -100}, {1100, 100, 100}};
+  sea.below = water();
+  sea.surface =
+      std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{{0.1, 3, {1, 0, 0}, 0}});
+  fluid.registry.addRegion(sea);
+  FluidBody shape = floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2);
+  def.mass = 15;
+  for (const double height : {1.0, 2.0}) {
+    def.start.position = Vector3(1000, 0, height);
+    fluid.add(def, shape, Medium{});
+  }
 }
 
 struct NoShapes : FluidBodySource {
@@ -50,6 +68,7 @@ TEST(Step, AllocatesNothing) {
     btJointFeedback feedback;
     joint.setJointFeedback(&feedback);
     fluid.world.addConstraint(&joint);
+    addFloatingBodies(fluid, def);
     for (int layer = 0; layer < 20; ++layer) {
       FluidRegion region;
       region.below = layer % 2 ? air() : Medium{};

@@ -64,6 +64,32 @@ TEST(FluidBodyFile, KeepsASharpnessInSinglePrecisionAndInTheSameVersion) {
   EXPECT_LT(bytes.size(), without.size() + 4 * body.faces.size() + 64);
 }
 
+TEST(FluidBodyFile, KeepsPartsOfTheAddedMassInSinglePrecisionAndInTheSameVersion) {
+  FluidBody body = test::exampleBody();
+  for (int i = 0; i < 3; ++i) {
+    AddedMassPart part;
+    part.centre = {0.5 + i, -0.25, 2};
+    part.spread << 1, 2, 3, 4, 5, 0.125 * i;
+    for (int row = 0; row < 6; ++row)
+      for (int column = 0; column < 6; ++column) part.inertia(row, column) = i + row * column;
+    body.added_mass_parts.push_back(part);
+  }
+  const std::string bytes = encodeFluidBody(body, "a");
+  const FluidBody back = decodeFluidBody(bytes, "a");
+  ASSERT_EQ(back.added_mass_parts.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(back.added_mass_parts[i].centre, body.added_mass_parts[i].centre);
+    EXPECT_EQ(back.added_mass_parts[i].spread, body.added_mass_parts[i].spread);
+    EXPECT_EQ(back.added_mass_parts[i].inertia, body.added_mass_parts[i].inertia);
+  }
+  const std::string without = encodeFluidBody(test::exampleBody(), "a");
+  EXPECT_EQ(bytes.substr(0, 16), without.substr(0, 16));  // magic and version
+  EXPECT_LT(bytes.size(), without.size() + 3 * 120 + 64);
+  body.added_mass_parts[1].centre.x() = std::nan("");
+  EXPECT_EQ(test::refusalOf([&] { encodeFluidBody(body, "a"); }),
+            "a: centre of a part of the added mass is nan, but must be finite");
+}
+
 TEST(FluidBodyFile, HasTheSameBytesForTheSameBody) {
   EXPECT_EQ(encodeFluidBody(test::exampleBody(), "a"), encodeFluidBody(test::exampleBody(), "b"));
   FluidBody other = test::exampleBody();

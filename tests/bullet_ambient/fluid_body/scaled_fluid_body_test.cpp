@@ -39,6 +39,15 @@ TEST(ScaledFluidBody, ScalesCouplingMassDistributionAndSurface) {
   EXPECT_EQ(body.provenance.settings, unit.provenance.settings + "; scaled by 2");
 }
 
+TEST(ScaledFluidBody, ScalesThePartsOfTheAddedMass) {
+  FluidBody unit = exampleBody();
+  unit.added_mass_parts.push_back({{1, 2, 3}, Vector6::Ones(), unit.added_mass});
+  const FluidBody body = scaled(unit, 2);
+  EXPECT_EQ(body.added_mass_parts[0].centre, Vector3(2, 4, 6));
+  EXPECT_EQ(body.added_mass_parts[0].spread, Vector6(4 * Vector6::Ones()));
+  EXPECT_EQ(body.added_mass_parts[0].inertia, body.added_mass);
+}
+
 TEST(ScaledFluidBody, RefusesAFactorThatIsNotPositive) {
   EXPECT_THROW(scaled(exampleBody(), 0), std::invalid_argument);
   EXPECT_THROW(scaled(exampleBody(), -1), std::invalid_argument);

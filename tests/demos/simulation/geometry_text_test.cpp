@@ -77,5 +77,21 @@ TEST(GeometryText, HasStaticBodiesJointsAndTheFlow) {
   EXPECT_FLOAT_EQ(geometry["medium_velocity"][0].get<float>(), 0.1f);
 }
 
+TEST(GeometryText, HasTheWaterWithItsWaves) {
+  json scene = hungBall();
+  EXPECT_TRUE(geometryOf(scene)["water"].is_null());
+  scene["water"] = json::parse(R"({"level": 0.5,
+    "waves": [{"amplitude": 0.1, "period": 2, "direction": [0, 3, 1], "phase": 0.25}],
+    "bounds": {"lowest": [-1, -2, null], "highest": [1, 2, null]}})");
+  const json water = geometryOf(scene)["water"];
+  EXPECT_EQ(water["level"], 0.5);
+  EXPECT_EQ(water["bounds"]["lowest"], json({-1, -2, nullptr}));
+  const json& wave = water["waves"][0];
+  EXPECT_EQ(wave["direction"], json({0, 1, 0}));
+  EXPECT_EQ(wave["phase"], 0.25);
+  EXPECT_NEAR(wave["frequency"].get<double>(), 3.14159265, 1e-6);
+  EXPECT_NEAR(wave["wave_number"].get<double>(), 3.14159265 * 3.14159265 / 9.81, 1e-6);
+}
+
 }  // namespace
 }  // namespace ambient

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/force/water_surface.h"
 #include "bullet_ambient/motion/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
@@ -250,6 +251,33 @@ TEST_F(Drawing, LeavesOutBodiesWithoutAFluidAndRemovedOnes) {
   fluid.world.removeRigidBody(body);
   draw(FluidDrawing::all());
   EXPECT_EQ(lines(), 0u);
+}
+
+TEST(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
+  Recorder recorder;
+  FluidWorld fluid;
+  fluid.world.setDebugDrawer(&recorder);
+  fluid.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
+  FluidRegion pool;
+  pool.bounds = RegionBounds{{-1, -2, -3}, {1, 2, 3}};
+  pool.below = water();
+  pool.surface = std::make_shared<WaterSurfaceFunction>([](const Vector3& at, double time) {
+    return WaterSample{0.5 + 0.1 * at.x() + time - at.z(), {0, 0, 0}, {0, 0, 0}};
+  });
+  fluid.registry.addRegion(pool);
+  fluid.step(0.25);
+  fluid.action.drawing.water_surface = true;
+  recorder.clear();
+  fluid.world.debugDrawWorld();
+  const auto lines = recorder.linesOf(fluid_colours::kWater);
+  EXPECT_EQ(lines.size(), 2U * 17 * 16);
+  for (const Line& line : lines) {
+    const Vector3 from = toVector3(line.from);
+    EXPECT_NEAR(from.z(), 0.75 + 0.1 * from.x(), 1e-6);
+    EXPECT_LE(std::abs(from.x()), 1 + 1e-6);
+    EXPECT_LE(std::abs(from.y()), 2 + 1e-6);
+  }
+  fluid.world.setDebugDrawer(nullptr);
 }
 
 }  // namespace

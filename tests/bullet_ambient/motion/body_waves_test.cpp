@@ -1,0 +1,143 @@
+#include "bullet_ambient/motion/body_waves.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <complex>
+
+#include "bullet_ambient/spatial/pi.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+const SurfacePlane kPlane{{0, 0, 1}, 0, 1, 1};
+
+/// A hemisphere of radius 1 in water of density 1 and gravity 1.
+WaveModes hemisphere() {
+  const WetVolume wet = computeWetSphere(1, {0, 0, 0}, kPlane);
+  return waveModesOf({wet, kPlane, kPi / 3, 1});
+}
+
+/// Force over velocity of a mode, B + i omega (A - A(inf)).
+std::complex<double> impedance(const WaveMode& mode, double frequency) {
+  const std::complex<double> s(0, frequency);
+  return mode.strength * s / (s * s + mode.loss * s + mode.rate * mode.rate);
+}
+
+TEST(BodyWaves, DampTheHeaveOfAHemisphereAsHulmeSays) {
+  // Hulme 1982: A33 and B33 (in units of rho R^3, and of rho R^3 sqrt(g/R)) at k R; A33(inf) is
+  // pi/3. Two states are good to a tenth of the total inertia near the natural frequency, k R =
+  // 1.05.
+  const WaveMode heave = hemisphere().heave;
+  const double total = 2 * kPi / 3 + kPi / 3;
+  const struct {
+    double frequency, added, damping;
+  } cases[] = {{0.7511, 1.1606, 0.5227}, {1.0623, 0.8622, 0.4961}, {1.4052, 0.8127, 0.3102}};
+  for (const auto& c : cases) {
+    const std::complex<double> z = impedance(heave, c.frequency);
+    EXPECT_NEAR(z.real(), c.damping, 0.04 * total * c.frequency) << c.frequency;
+    EXPECT_NEAR(z.imag() / c.frequency, c.added - kPi / 3, 0.04 * total) << c.frequency;
+  }
+}
+
+TEST(BodyWaves, BallThatTurnsMakesNone) {
+  const WaveModes modes = hemisphere();
+  EXPECT_GT(modes.heave.strength, 0);
+  EXPECT_LT(modes.tilt[0].strength, 1e-20);
+  EXPECT_LT(modes.tilt[1].strength, 1e-20);
+}
+
+TEST(BodyWaves, AreNoneWithoutAWaterplane) {
+  const SurfacePlane above{{0, 0, 1}, -2, 1, 1};
+  const WetVolume dry = computeWetSphere(1, {0, 0, 0}, above);
+  const WaveModes modes = waveModesOf({dry, above, 0, 1});
+  WaveMemory waves;
+  waves.heave[0] = 1;
+  waves.heave_energy = 1;
+  meetModes(modes, Matrix3::Identity(), waves);
+  EXPECT_EQ(waves.energy(), 0);
+  EXPECT_EQ(waves.heave[0], 0);
+}
+
+WaveMode arbitraryMode(test::Arbitrary& arbitrary) {
+  WaveMode mode;
+  mode.motion = arbitrary.twist().vector();
+  mode.strength = arbitrary.between(0, 10);
+  mode.loss = arbitrary.between(0, 3);
+  mode.rate = arbitrary.between(0.01, 3);
+  return mode;
+}
+
+TEST(BodyWaves, NeverAddEnergyWhateverTheStep) {
+  test::Arbitrary arbitrary(1);
+  for (int i = 0; i < 300; ++i) {
+    const Matrix6 K = arbitrary.positiveDefinite(), inverse = K.inverse();
+    Vector6 x = arbitrary.twist().vector();
+    const Matrix3 turn = arbitrary.rotation();
+    WaveMemory waves;
+    double energy = 0.5 * x.dot(K * x);
+    for (int n = 0; n < 20; ++n) {
+      WaveModes modes{arbitraryMode(arbitrary),
+                      {arbitraryMode(arbitrary), arbitraryMode(arbitrary)}};
+      modes.tilt[0].motion = stack(Vector3::UnitX(), Vector3::Zero());
+      modes.tilt[1].motion = stack(Vector3::UnitY(), Vector3::Zero());
+      meetModes(modes, turn, waves);
+      x = exchangeWaves(modes, turn, inverse, std::pow(10, arbitrary.between(-2, 1)), x, waves);
+      const double now = 0.5 * x.dot(K * x) + waves.energy();
+      ASSERT_LE(now, energy * (1 + 1e-12)) << i;
+      energy = now;
+    }
+  }
+}
+
+TEST(BodyWaves, AreAsAnOscillatorBehindAVelocity) {
+  // A heavy body keeps its velocity u.
+  WaveModes modes;
+  modes.heave = {stack(Vector3::Zero(), Vector3::UnitZ()), 1, 0, 1.5, 1};
+  modes.tilt[0].motion = stack(Vector3::UnitX(), Vector3::Zero());
+  modes.tilt[1].motion = stack(Vector3::UnitY(), Vector3::Zero());
+  const Matrix6 inverse = 1e-12 * Matrix6::Identity();
+  Vector6 x = Vector6::Zero();
+  x[5] = 2;
+  WaveMemory waves;
+  // s'' + a s' + b^2 s = u' has for a sudden u: s_1 = u/p exp(-at/2) sin pt, p^2 = b^2 - a^2/4.
+  const double p = std::sqrt(1 - 0.5625), time = 1;
+  for (int i = 0; i < 1000; ++i)
+    x = exchangeWaves(modes, Matrix3::Identity(), inverse, time / 1000, x, waves);
+  EXPECT_NEAR(waves.heave[0], 2 / p * std::exp(-0.75 * time) * std::sin(p * time), 1e-5);
+}
+
+TEST(BodyWaves, OfTheTiltStayInTheWorld) {
+  // The body turns by a quarter about the vertical: its axes change places, its waves do not.
+  WaveModes modes;
+  for (int i = 0; i < 2; ++i) {
+    modes.tilt[i] = {stack(Vector3::Unit(i), Vector3::Zero()), 2, 0, 0.1, 1};
+    modes.heave.rate = 1;
+  }
+  WaveMemory waves;
+  waves.tilt_W[0] = {0.3, 0.4, 0};
+  waves.tilt_W[1] = {-0.1, 0.2, 0};
+  waves.tilt_energy = 100;
+  const Matrix3 quarter{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+  meetModes(modes, Matrix3::Identity(), waves);
+  const double energy = waves.tilt_energy;
+  meetModes(modes, quarter, waves);
+  EXPECT_LT((waves.tilt_W[0] - Vector3(0.3, 0.4, 0)).norm(), 1e-15);
+  EXPECT_NEAR(waves.tilt_energy, energy, 1e-15);
+  EXPECT_NEAR(energy, 0.5 * 2 * (0.25 + 0.05), 1e-15);
+}
+
+TEST(BodyWaves, LoseEnergyWhereTheirStrengthGrows) {
+  WaveModes modes = hemisphere();
+  WaveMemory waves;
+  waves.heave[0] = 0.1;
+  waves.heave_energy = 1e-4;
+  meetModes(modes, Matrix3::Identity(), waves);
+  EXPECT_NEAR(waves.heave_energy, 1e-4, 1e-18);
+  EXPECT_NEAR(0.5 * modes.heave.strength * waves.heave[0] * waves.heave[0], 1e-4, 1e-18);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,78 @@
+#include "bullet_ambient/motion/surface_passage.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "bullet_ambient/spatial/inertia.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kHuge = 1e30;  // of gravity: the Froude number of any entry is 0
+
+/// A body of 1 kg whose added mass along z grows with the depth d as d^2, and falls: steps of the
+/// depth, far from equal in time.
+double speedAfterEntry(double gravity, double start, int steps) {
+  double speed = start;
+  const double step = 1.0 / steps;
+  for (int i = 0; i < steps; ++i) {
+    const double from = i * step, to = from + step, duration = step / speed;
+    const auto inertiaAt = [](double depth) {
+      Matrix6 K = Matrix6::Identity();
+      K(5, 5) += depth * depth;
+      return K;
+    };
+    const Matrix6 before = inertiaAt(from), after = inertiaAt(to), inverse = after.inverse();
+    Vector6 x = Vector6::Zero();
+    x[5] = -speed;
+    const double by_height = 0.5 * 2 * from * speed * speed;
+    const SurfacePassage passage{before,    after,     inverse, {{0, 0, 0}, {0, 0, -by_height}},
+                                 {0, 0, 1}, {0, 0, 0}, to,      to - 10,
+                                 gravity,   duration};
+    speed = -passSurface(passage, x)[5];
+  }
+  return speed;
+}
+
+TEST(SurfacePassage, KeepsMomentumWhereItIsFastAndEnergyWhereItIsSlow) {
+  // (m + K) v = m v_0 with K = 1 at the end; and (m + K) v^2 = m v_0^2.
+  EXPECT_NEAR(speedAfterEntry(0, 2, 100), 1, 1e-12);
+  EXPECT_NEAR(speedAfterEntry(kHuge, 2, 100), std::sqrt(2), 2e-2);
+  EXPECT_NEAR(speedAfterEntry(kHuge, 2, 1000), std::sqrt(2), 2e-3);
+}
+
+TEST(SurfacePassage, NeverAddsEnergyWhateverChanges) {
+  test::Arbitrary arbitrary(1);
+  for (int i = 0; i < 300; ++i) {
+    const Matrix6 before = arbitrary.positiveDefinite(), after = arbitrary.positiveDefinite();
+    const Matrix6 inverse = after.inverse();
+    const Vector6 x = arbitrary.twist().vector();
+    const SurfacePassage passage{before,
+                                 after,
+                                 inverse,
+                                 {arbitrary.vector(10), arbitrary.vector(10)},
+                                 arbitrary.vector().normalized(),
+                                 arbitrary.vector(),
+                                 arbitrary.between(-1, 1),
+                                 arbitrary.between(-1, 1),
+                                 arbitrary.between(0, 10),
+                                 arbitrary.between(0, 1)};
+    const Vector6 end = passSurface(passage, x);
+    EXPECT_LE(end.dot(after * end), x.dot(before * x) * (1 + 1e-12));
+  }
+}
+
+TEST(SurfacePassage, LeavesABodyAloneWhoseInertiaStays) {
+  test::Arbitrary arbitrary(2);
+  const Matrix6 K = arbitrary.positiveDefinite(), inverse = K.inverse();
+  const Vector6 x = arbitrary.twist().vector();
+  const SurfacePassage passage{K, K,    inverse, {{1, 2, 3}, {4, 5, 6}}, {0, 0, 1}, {0, 0, 0}, 1,
+                               1, 9.81, 0.01};
+  EXPECT_EQ(passSurface(passage, x), x);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "preprocess/builder/shape_builder.h"
+#include "preprocess/shape/shape_reader.h"
+#include "tests/support/floating_runs.h"
+
+namespace ambient {
+namespace {
+
+using test::FloatingDef;
+using test::FloatingRun;
+
+FluidBody bodyOf(const std::string& shape) {
+  ShapeBuildSettings settings;
+  settings.flow.max_panels = 1200;
+  return buildShape(readShape(nlohmann::json::parse(shape), "", "shape.json"), settings).body;
+}
+
+FluidBody barge() { return bodyOf(R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})"); }
+FluidBody cube() { return bodyOf(R"({"type": "box", "size": [1, 1, 1], "faces": 300})"); }
+
+/// Added mass of a body half in the water, its z axis up.
+Matrix6 halfSubmerged(const FluidBody& body) {
+  FloatingDef def;
+  def.shape = body;
+  const FloatingRun run(def);
+  return run.model().wetted->inertia(run.immersion());
+}
+
+TEST(Floating, AddedMassIsThatOfImageBoundaryElementsAndItsKnownError) {
+  // Heave and surge at infinite frequency by Capytaine 3.0, and the largest error of eq. (60).
+  struct Case {
+    const char* shape;
+    double heave, heave_error, surge, surge_error;
+  };
+  const Case cases[] = {
+      {R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})", 0.7878, -0.10, 0.0465, 0.91},
+      {R"({"type": "box", "size": [1, 1, 1], "faces": 300})", 0.3213, -0.11, 0.1588, 0.46},
+      {R"({"type": "box", "size": [4, 4, 0.2], "faces": 300})", 16.0031, -0.10, 0.0345, 2.01},
+      {R"({"type": "ellipsoid", "semi_axes": [1.5, 0.75, 0.5]})", 1.3047, -0.15, 0.0919, 0.37}};
+  for (const Case& c : cases) {
+    const FluidBody body = bodyOf(c.shape);
+    ASSERT_FALSE(body.added_mass_parts.empty());
+    const Matrix6 K = halfSubmerged(body);
+    EXPECT_NEAR(K(5, 5), (1 + c.heave_error) * c.heave, 0.03 * c.heave) << c.shape;
+    EXPECT_GT(K(3, 3), 0.95 * c.surge) << c.shape;
+    EXPECT_LT(K(3, 3), (1.15 + c.surge_error) * c.surge) << c.shape;
+    // Without the weights it would be half of that of the body in unbounded water.
+    EXPECT_NEAR(K(5, 5) / (0.5 * body.added_mass(5, 5)), 0.88, 0.05);
+  }
+}
+
+struct Swing {
+  double extremes[4];
+  double period;
+};
+
+template <class Value>
+Swing swingOf(FloatingRun& run, double time, const Value& value) {
+  constexpr double kStep = 1 / 240.0;
+  const double start = value();
+  std::vector<double> signal;
+  for (int i = 0; i * kStep < time; ++i) {
+    signal.push_back(value() / start);
+    run.step(kStep);
+  }
+  const auto extremes = test::extremesOf(signal, kStep);
+  EXPECT_GE(extremes.size(), 4u);
+  Swing swing{};
+  for (std::size_t i = 0; i < 4 && i < extremes.size(); ++i) swing.extremes[i] = extremes[i].value;
+  if (extremes.size() >= 4) swing.period = extremes[2].time - extremes[0].time;
+  return swing;
+}
+
+void expectSwing(const Swing& swing, const Swing& theory, double period_error) {
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(swing.extremes[i], theory.extremes[i], 0.06) << i;
+  EXPECT_NEAR(swing.period, theory.period, period_error * theory.period);
+}
+
+/// Gyration 0.4 of the widths B_i = sqrt(12 I_i / A_w), centre of mass in the waterline.
+FloatingDef floatingDef(const FluidBody& body, double length, double breadth) {
+  FloatingDef def;
+  def.shape = body;
+  def.gyration = 0.4 * Vector3(breadth, length, length);
+  return def;
+}
+
+TEST(Floating, HeavesAsLinearTheorySays) {
+  // Cummins' equation with Capytaine's coefficients; periods in sqrt(L/g), L the root of the
+  // waterplane's area.
+  FloatingRun box(floatingDef(barge(), 2, 1));
+  box.state.position.z() = 0.01;
+  const auto height = [](FloatingRun& run) { return [&run] { return run.state.position.z(); }; };
+  const double root = std::sqrt(std::sqrt(2.0) / 9.81);
+  expectSwing(swingOf(box, 4, height(box)), {{-0.82, 0.52, -0.33, 0.22}, 4.12 * root}, 0.05);
+  FloatingRun die(floatingDef(cube(), 1, 1));
+  die.state.position.z() = 0.01;
+  expectSwing(swingOf(die, 5, height(die)), {{-0.94, 0.82, -0.71, 0.62}, 5.63 / std::sqrt(9.81)},
+              0.05);
+}
+
+TEST(Floating, RollsAndPitchesAsLinearTheorySays) {
+  const FluidBody body = barge();
+  const double root = std::sqrt(std::sqrt(2.0) / 9.81), angle = 0.02;
+  const auto tilt = [](FloatingRun& run, int axis) {
+    return [&run, axis] { return run.state.orientation.toRotationMatrix()(2, axis); };
+  };
+  FloatingRun roll(floatingDef(body, 2, 1));
+  roll.state.orientation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX());
+  expectSwing(swingOf(roll, 5, tilt(roll, 1)), {{-1.00, 0.99, -0.98, 0.97}, 5.37 * root}, 0.05);
+  FloatingRun pitch(floatingDef(body, 2, 1));
+  pitch.state.orientation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
+  expectSwing(swingOf(pitch, 5, tilt(pitch, 0)), {{-0.97, 0.90, -0.83, 0.77}, 4.75 * root}, 0.05);
+}
+
+}  // namespace
+}  // namespace ambient
