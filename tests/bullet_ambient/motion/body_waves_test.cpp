@@ -42,6 +42,34 @@ TEST(BodyWaves, DampTheHeaveOfAHemisphereAsHulmeSays) {
   }
 }
 
+TEST(RestoringModes, OfABoxAreThoseOfItsWaterplane) {
+  // 2 x 1, draught 0.25, about a centre of mass in the waterline: V GM = I - V T/2.
+  const SurfacePlane plane{{0, 0, 1}, 0, 2, 3};
+  WetVolume wet{0.5, {0, 0, -0.5 * 0.125}, 0, {2, {0, 0, 0}, Matrix3::Zero()}};
+  wet.waterplane.spread.diagonal() << 2 * 4 / 12.0, 2 / 12.0, 0;
+  const RestoringModes modes = restoringModesOf(wet, plane);
+  EXPECT_NEAR(modes[0].stiffness, 6 * 2, 1e-14);
+  for (const std::size_t i : {1, 2}) {
+    const bool is_roll = std::abs(modes[i].motion[0]) > 0.5;
+    EXPECT_NEAR(std::abs(modes[i].motion[is_roll ? 0 : 1]), 1, 1e-14);
+    EXPECT_NEAR(modes[i].stiffness, 6 * ((is_roll ? 1 / 6.0 : 2 / 3.0) - 0.0625), 1e-14);
+  }
+}
+
+TEST(RestoringModes, HavePrincipalAxesWhateverTheAttitude) {
+  test::Arbitrary arbitrary(2);
+  for (int i = 0; i < 50; ++i) {
+    const Matrix3 R = arbitrary.rotation();
+    const SurfacePlane plane{R.col(2), 0, 1, 1};
+    WetVolume wet{0.5, {0, 0, 0}, 0, {2, {0, 0, 0}, Matrix3::Zero()}};
+    wet.waterplane.spread = R * Vector3(0.7, 0.2, 0).asDiagonal() * R.transpose();
+    const RestoringModes modes = restoringModesOf(wet, plane);
+    const double a = modes[1].second_moment, b = modes[2].second_moment;
+    EXPECT_NEAR(std::max(a, b), 0.7, 1e-13);
+    EXPECT_NEAR(std::min(a, b), 0.2, 1e-13);
+  }
+}
+
 TEST(BodyWaves, BallThatTurnsMakesNone) {
   const WaveModes modes = hemisphere();
   EXPECT_GT(modes.heave.strength, 0);
@@ -95,7 +123,7 @@ TEST(BodyWaves, NeverAddEnergyWhateverTheStep) {
 TEST(BodyWaves, AreAsAnOscillatorBehindAVelocity) {
   // A heavy body keeps its velocity u.
   WaveModes modes;
-  modes.heave = {stack(Vector3::Zero(), Vector3::UnitZ()), 1, 0, 1.5, 1};
+  modes.heave = {stack(Vector3::Zero(), Vector3::UnitZ()), 1, 1.5, 1};
   modes.tilt[0].motion = stack(Vector3::UnitX(), Vector3::Zero());
   modes.tilt[1].motion = stack(Vector3::UnitY(), Vector3::Zero());
   const Matrix6 inverse = 1e-12 * Matrix6::Identity();
@@ -113,7 +141,7 @@ TEST(BodyWaves, OfTheTiltStayInTheWorld) {
   // The body turns by a quarter about the vertical: its axes change places, its waves do not.
   WaveModes modes;
   for (int i = 0; i < 2; ++i) {
-    modes.tilt[i] = {stack(Vector3::Unit(i), Vector3::Zero()), 2, 0, 0.1, 1};
+    modes.tilt[i] = {stack(Vector3::Unit(i), Vector3::Zero()), 2, 0.1, 1};
     modes.heave.rate = 1;
   }
   WaveMemory waves;
