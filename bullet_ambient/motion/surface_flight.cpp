@@ -60,18 +60,23 @@ class SurfaceFlight {
     const Stand begin = standAt({start_.orientation, Vector3::Zero()});
     const int most =
         task_.settings.max_substeps > 0 ? task_.settings.max_substeps : kSurfaceSubsteps;
-    double substep = task_.duration;
-    if (memory_.substep > 0) substep = std::min(substep, memory_.substep);
-    const double swing = swingOf(begin);
-    int count = substepsOf(std::min(substep, kLongestSwing / swing), most);
-    is_stiff_ = task_.duration / count * swing > kLongestSwing * (1 + 1e-9);
+    const double duration = task_.duration;
+    const double remembered = memory_.substep > 0 ? memory_.substep : duration;
+    swing_ = swingOf(begin);
+    int count = substepsOf(std::min(remembered, kLongestSwing / swing_), most);
     for (int attempt = 1;; ++attempt) {
       run(begin, count);
-      const double ratio = error_ / task_.settings.tolerance, h = task_.duration / count;
+      const double ratio = error_ / task_.settings.tolerance, h = duration / count;
       const double next = ratio > 0 ? std::min(4 * h, 0.9 * h / std::sqrt(ratio)) : 4 * h;
-      if (!(ratio > kMostSurfaceError) || attempt == kSurfaceAttempts || count == most)
-        return resultOf(next, ratio > kMostSurfaceError && count == most);
-      count = std::max(count + 1, substepsOf(next, most));
+      const int needed = substepsOf(kLongestSwing / swing_, most);
+      const bool is_coarse = ratio > kMostSurfaceError || has_gained_;
+      const bool is_done = !is_coarse && needed <= count;
+      if (is_done || attempt == kSurfaceAttempts || count == most) {
+        if (has_gained_) stayAt(begin);
+        return resultOf(next, is_coarse && count == most);
+      }
+      count = std::min(
+          most, std::max({has_gained_ ? 2 * count : count + 1, needed, substepsOf(next, most)}));
     }
   }
 
@@ -97,6 +102,8 @@ class SurfaceFlight {
   }
 
   void run(const Stand& begin, int count) {
+    is_stiff_ = task_.duration / count * swing_ > kLongestSwing * (1 + 1e-9);
+    has_gained_ = false;
     pose_ = {start_.orientation, Vector3::Zero()};
     x_ = start_.twist.vector();
     waves_ = start_waves_;
@@ -134,6 +141,7 @@ class SurfaceFlight {
   }
 
   void kick(double h) {
+    swing_ = std::max(swing_, swingOf(stand_));
     const WaveModes modes = waveModesAt(model_, stand_);
     meetModes(modes, stand_.to_world, waves_);
     const Vector6 fall = h / 2 * fallOver(h);
@@ -217,8 +225,19 @@ class SurfaceFlight {
   void boundEnergy(double before) {
     const bool has_wind = model_.loads_above.loads && !wind_W_.isZero(0);
     if (has_wind || !task_.surroundings.applied.torque.isZero(0)) return;
-    const double has = kinetic2(), allowed = std::max(0.0, 2 * (before - potential()));
+    constexpr double kRounding = 1e-13;
+    const double left = before - potential();
+    has_gained_ = left < -kRounding * (fall_scale_ * fall_scale_ + std::abs(before));
+    const double has = kinetic2(), allowed = std::max(0.0, 2 * left);
     if (has > allowed) x_ *= std::sqrt(allowed / has);
+  }
+
+  /// Of a body that would come to a place with more energy than it has: its steps are too long.
+  void stayAt(const Stand& begin) {
+    stand_ = begin;
+    pose_ = {start_.orientation, Vector3::Zero()};
+    x_.setZero();
+    waves_ = start_waves_;
   }
 
   SurfaceFlightResult resultOf(double next_substep, bool is_coarse) {
@@ -236,7 +255,9 @@ class SurfaceFlight {
   Vector3 gravity_W_, wind_W_;
   SurfacePlane plane_W_;  // from where the step began
   double fall_scale_ = 0;
-  bool is_stiff_ = false;  // substeps are too long for the stiffness of the buoyancy
+  double swing_ = 0;         // the largest natural frequency that was met [1/s]
+  bool is_stiff_ = false;    // substeps are too long for the stiffness of the buoyancy
+  bool has_gained_ = false;  // more energy of place than it had in all
   FlightLanes lanes_{};
 
   Pose pose_;
