@@ -42,6 +42,34 @@ TEST(BodyWaves, DampTheHeaveOfAHemisphereAsHulmeSays) {
   }
 }
 
+/// Of a box in water of density 1 and gravity 1.
+WaveModes boxModes(double length, double breadth, double draught, double added_mass) {
+  const double area = length * breadth, volume = area * draught;
+  WetVolume wet{volume, {0, 0, -volume * draught / 2}, 0, {area, {0, 0, 0}, Matrix3::Zero()}};
+  wet.waterplane.spread.diagonal() << area * length * length / 12, area * breadth * breadth / 12, 0;
+  return waveModesOf({wet, kPlane, added_mass, 1});
+}
+
+TEST(BodyWaves, OfTheHeaveOfBoxesHaveTheImpedanceOfTheFit) {
+  // Over the frequency times the total inertia M, which is that of the added mass A33(inf) by
+  // Capytaine; linear theory has 0.318, +0.09 and 0.245, -0.07 for the barge, 0.647, +0.47 and
+  // 0.629, +0.19 for the raft.
+  const struct {
+    double length, breadth, draught, added_mass, wave_number, damping, added;
+  } cases[] = {{2, 1, 0.25, 0.7878, 1, 0.340, 0.09},
+               {2, 1, 0.25, 0.7878, 2, 0.248, -0.05},
+               {4, 4, 0.1, 16.0031, 1, 0.572, 0.51},
+               {4, 4, 0.1, 16.0031, 2, 0.634, 0.24}};
+  for (const auto& c : cases) {
+    const double area = c.length * c.breadth, total = area * c.draught + c.added_mass;
+    const double frequency = std::sqrt(c.wave_number / std::sqrt(area));
+    const WaveModes modes = boxModes(c.length, c.breadth, c.draught, c.added_mass);
+    const std::complex<double> z = impedance(modes.heave, frequency) / (frequency * total);
+    EXPECT_NEAR(z.real(), c.damping, 0.006) << c.length << " " << c.wave_number;
+    EXPECT_NEAR(z.imag(), c.added, 0.006) << c.length << " " << c.wave_number;
+  }
+}
+
 TEST(RestoringModes, OfABoxAreThoseOfItsWaterplane) {
   // 2 x 1, draught 0.25, about a centre of mass in the waterline: V GM = I - V T/2.
   const SurfacePlane plane{{0, 0, 1}, 0, 2, 3};
