@@ -56,6 +56,9 @@ void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
 }
 
 DisplacedMass displacedMass(const AmbientBody& ambient) {
+  // What rises to a surface floats, as it may have been meant to.
+  const bool may_float = ambient.place.region != RegionId::kNone && !ambient.surfaces.empty();
+  if (may_float) return {1 / static_cast<double>(ambient.body->getInvMass()), 0};
   return {1 / static_cast<double>(ambient.body->getInvMass()),
           ambient.def.fluid_body->volume * ambient.medium.density};
 }

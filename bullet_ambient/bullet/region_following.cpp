@@ -28,6 +28,8 @@ SurfaceMedia makeSurfaceMediaOf(const AttachDef& def, const FluidRegion& region,
   model.mass = {1, Matrix3::Identity()};
   model.above = region.above;
   model.below = region.below;
+  // Whether it blows decides on loads; a function may blow.
+  if (region.flow && model.above.velocity.isZero(0)) model.above.velocity = Vector3::Ones();
   model.flow = def.flow;
   model.wave_damping = def.wave_damping;
   SurfaceMedia made{region.below, region.above, makeSurfaceModel(model, tables), nullptr};

@@ -102,10 +102,10 @@ Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
   Twist relative = state.twist;
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
-  meetModes(modes, R, ambient.encounter.waves);
-  return exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x,
-                       ambient.encounter.waves) -
-         x;
+  WaveMemory& waves = ambient.encounter.waves_with_rows;
+  waves = ambient.encounter.waves;
+  meetModes(modes, R, waves);
+  return exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x, waves) - x;
 }
 
 Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, Axes axes,

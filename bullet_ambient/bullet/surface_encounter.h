@@ -43,7 +43,8 @@ struct SurfaceEncounter {
   int media = -1;        ///< which of AmbientBody::surfaces; -1: the surface is far
   SurfacePlane plane_W;  ///< at the start of the step
   Vector3 velocity_above = Vector3::Zero();
-  WaveMemory waves;  ///< that the body has made
+  WaveMemory waves;            ///< that the body has made
+  WaveMemory waves_with_rows;  ///< after the step, if rows move the body
 };
 
 /// The index of a pair of fluids of the same densities and viscosities; -1: none.

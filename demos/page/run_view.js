@@ -85,8 +85,8 @@ class RunView {
     this.ownBox = this.sweptBy(this.subjects());
     const span = this.ownBox.getSize(new THREE.Vector3()).length();
     const wanted = 0.03 * span / Math.min(...this.subjects().map((view) => view.radius()));
-    // Bodies that meet others keep their size.
-    const canMeet = this.bodies.length > this.moving().length || this.run.joints.length > 0;
+    // Bodies that meet others, or water, keep their size.
+    const canMeet = this.bodies.length > this.moving().length || this.run.joints.length > 0 || Boolean(this.run.water);
     this.naturalMagnification = canMeet ? 1 : Math.max(1, wanted);
   }
 

@@ -43,6 +43,7 @@ struct BodyDef {
   Vector3 angular_velocity = Vector3::Zero();       ///< in W [rad/s]
   FlowSettings flow;                                ///< separation, skin friction, reduced loads
   std::optional<double> fluid_density;              ///< overrides the medium's [kg/m^3]
+  double wave_damping = 1;                          ///< of a floating body
   double restitution = 0;
   double friction = 0.5;
 };

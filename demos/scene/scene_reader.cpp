@@ -103,6 +103,7 @@ BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path
   body.flow.skin_friction = from.value("skin_friction", true);
   body.flow.maximum_load_error = from.value("maximum_load_error", 0.0);
   if (from.contains("fluid_density")) body.fluid_density = from.at("fluid_density").get<double>();
+  body.wave_damping = from.value("wave_damping", body.wave_damping);
   body.restitution = from.value("restitution", body.restitution);
   body.friction = from.value("friction", body.friction);
   return body;

@@ -85,6 +85,7 @@ AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBo
   if (def.fluid_density) attach.medium.density = *def.fluid_density;
   attach.flow = def.flow;
   attach.flow.own_law = loadLawOf(scene);
+  attach.wave_damping = def.wave_damping;
   attach.flight = scene.flight;
   attach.fluid_frame.rotation = R_SB.transpose();
   attach.fluid_frame.translation =

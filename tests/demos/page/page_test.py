@@ -71,6 +71,7 @@ class PageTest(unittest.TestCase):
             run_scene(cls.out / f"golf_dimpled_spin-{model}", "golf_dimpled_spin", f"model={model}", *golf)
         run_scene(cls.out / "ball_on_bottom", "ball_on_bottom", "duration=0.5")
         run_scene(cls.out / "flap_in_current", "flap_in_current", "duration=0.3")
+        run_scene(cls.out / "duck_dive", "duck_dive", "duration=0.5", "water.waves=[{\"amplitude\": 0.1, \"period\": 2}]")
         cls.page = cls.out / "page.html"
         make_page(cls.page, *sorted(cls.out.iterdir()), "--tables", ROOT / "docs/experiments.md")
         cls.browser = start_browser(cls.out / "profile")
@@ -158,6 +159,15 @@ class PageTest(unittest.TestCase):
             largest.append(np.linalg.norm(slip, axis=1).max())
         shown = self.browser.execute_script("return player.view.moveTo(0.3)")
         self.assertAlmostEqual(shown, max(largest), delta=1e-4 * max(largest))
+
+    def test_water_has_its_waves(self):
+        self.choose("duck dive")
+        height = "return player.view.water.height(arguments[0], 0, arguments[1])"
+        length = 9.81 * 2**2 / (2 * np.pi)
+        for x, time, expected in ((0, 0, 0.1), (length / 2, 0, -0.1), (0, 1, -0.1), (length / 2, 1, 0.1)):
+            self.assertAlmostEqual(self.browser.execute_script(height, x, time), expected, places=5)
+        self.choose("golf dimpled spin")
+        self.assertIsNone(self.browser.execute_script("return player.view.water"))
 
     def test_rivals_can_be_hidden(self):
         def orange(picture):

@@ -45,6 +45,7 @@ TEST(SceneReader, TakesEveryValueOver) {
   body["skin_friction"] = false;
   body["maximum_load_error"] = 0.02;
   body["fluid_density"] = 998;
+  body["wave_damping"] = 0.5;
   text["integrator"] = {{"method", "rk4"}, {"tolerance", 1e-4}, {"max_substeps", 7}};
   const Scene scene = readText(text);
 
@@ -59,6 +60,7 @@ TEST(SceneReader, TakesEveryValueOver) {
   EXPECT_EQ(scene.flight.tolerance, 1e-4);
   EXPECT_EQ(scene.flight.max_substeps, 7);
   ASSERT_EQ(scene.bodies.size(), 1u);
+  EXPECT_EQ(scene.bodies[0].wave_damping, 0.5);
   const BodyDef& ball = scene.bodies[0];
   EXPECT_EQ(ball.name, "ball");
   EXPECT_EQ(ball.mass, 0.43);
