@@ -112,6 +112,7 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   model.inverse_inertia = 0.5 * (model.inverse_inertia + model.inverse_inertia.transpose()).eval();
   AMBIENT_ASSERT(model.inverse_inertia.diagonal().minCoeff() > 0);
   model.has_diagonal_inertia = model.inertia.isDiagonal(0) && model.inverse_inertia.isDiagonal(0);
+  model.even_response = makeEvenResponse(model.inverse_inertia, mass.inertia);
   model.mass = mass.mass;
   model.displaced_mass = medium.density * fluid_body.volume;
   model.centre_of_volume =
