@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/output_file.h"
 #include "demos/gltf/gltf_text.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
@@ -20,7 +21,6 @@
 #include "demos/simulation/summary.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
-#include "preprocess/builder/output_file.h"
 #include "preprocess/mesh/plain_text.h"
 
 namespace ambient {

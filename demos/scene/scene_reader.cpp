@@ -40,11 +40,6 @@ constexpr std::array<std::pair<FluidModel, const char*>, 4> kModels{
      {FluidModel::kVacuum, "vacuum"},
      {FluidModel::kUwrbd, "uwrbd"},
      {FluidModel::kGwtf, "gwtf"}}};
-constexpr std::array<std::pair<Integrator, const char*>, 4> kIntegrators{
-    {{Integrator::kPassiveLeapfrog, "leapfrog"},
-     {Integrator::kDormandPrince, "dormand_prince"},
-     {Integrator::kRungeKutta4, "rk4"},
-     {Integrator::kSymplecticEuler, "symplectic_euler"}}};
 
 /// @pre the schema has let the word pass
 template <class Words>
@@ -63,7 +58,7 @@ FlightSettings toFlightSettings(const json& scene) {
   FlightSettings settings;
   const auto found = scene.find("integrator");
   if (found == scene.end()) return settings;
-  settings.integrator = valueOf(found->value("method", "leapfrog"), kIntegrators);
+  settings.integrator = valueOf(found->value("method", "leapfrog"), kIntegratorNames);
   settings.tolerance = found->value("tolerance", settings.tolerance);
   settings.max_substeps = found->value("max_substeps", settings.max_substeps);
   return settings;
@@ -155,7 +150,7 @@ void removeRounding(Scene& scene) {
 
 std::string modelName(FluidModel model) { return wordOf(model, kModels); }
 
-std::string integratorName(Integrator integrator) { return wordOf(integrator, kIntegrators); }
+std::string integratorName(Integrator integrator) { return wordOf(integrator, kIntegratorNames); }
 
 Scene readScene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides) {
   json document = parseJson(readBytes(file), file.string());
