@@ -194,7 +194,7 @@ scene : Scene
 cache : a folder that keeps the fluid bodies that were solved
 
 >>> with World(Scene("sphere_fall")) as world:
-...     world.bodies["sphere"].apply_force([1, 0, 0])
+...     world.bodies["ball"].apply_force([1, 0, 0])
 ...     world.step()
 ...     bool(world.position[0, 0] > 0)
 True
@@ -228,7 +228,8 @@ True
             w.simulation().restoreState(std::string(state));
           },
           py::arg("state"),
-          "Goes on from a state, bit for bit, of this world or another one of the same scene.")
+          "Goes on from a state of this world or another one of the same scene: bit for bit, but "
+          "where boxes, hulls and the like touch each other, whose contacts are found anew.")
       .def("close", &PythonWorld::close, "Frees its memory; nothing can be asked of it then.")
       .def("__enter__", [](const std::shared_ptr<PythonWorld>& w) { return w; })
       .def("__exit__", [](PythonWorld& w, const py::args&) { w.close(); });

@@ -51,7 +51,8 @@ class Simulation {
 
   /// Everything that changes from step to step, as bytes; applied forces included.
   std::string saveState() const;
-  /// Goes on from there, bit for bit, in this simulation or another one of the same scene.
+  /// Goes on from there in this simulation or another one of the same scene, bit for bit where
+  /// ambient::restoreState() does: contacts of bodies that move are those of compound shapes.
   /// @throws std::runtime_error or std::invalid_argument, one sentence, if the bytes are damaged or
   /// of another scene; the simulation then stays as it was.
   void restoreState(std::string_view bytes);

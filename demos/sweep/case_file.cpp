@@ -47,6 +47,13 @@ fs::path sceneFileOf(const std::string& scene, const fs::path& folder) {
   return found == scene ? folder / found : found;
 }
 
+/// 8 and 8.0 are the same number.
+void unifyNumbers(json& value) {
+  if (value.is_number_integer()) value = value.get<double>();
+  if (value.is_structured())
+    for (json& part : value) unifyNumbers(part);
+}
+
 }  // namespace
 
 std::vector<Case> readCases(const fs::path& file) {
@@ -80,6 +87,7 @@ Scene sceneOf(const Case& line) {
 std::string keyOf(const Scene& scene) {
   json document = json::parse(scene.text);
   for (const char* key : {"$schema", "description", "threads"}) document.erase(key);
+  unifyNumbers(document);
   std::string content = libraryVersion() + "\n" + document.dump();
   for (const BodyDef& body : scene.bodies) {
     const fs::path file = fileOf(body.shape);

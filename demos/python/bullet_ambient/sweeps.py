@@ -42,7 +42,7 @@ class Rollout:
         if self.motion is not None:
             for name in ("t", "position", "orientation", "twist"):
                 arrays[name] = getattr(self.motion, name)
-        np.savez_compressed(path, **arrays)  # type: ignore[arg-type]
+        np.savez_compressed(path, **arrays)
 
 
 class CaseCounts(NamedTuple):
@@ -104,7 +104,7 @@ def rollout(
     >>> from bullet_ambient import Scene
     >>> out = rollout(Scene("sphere_fall"), {"bodies.0.mass": [1, 2, 4]}, duration=0.1)
     >>> out.motion.position.shape, out.failed.size
-    ((3, 11, 1, 3), 0)
+    ((3, 7, 1, 3), 0)
     """
     if isinstance(scenes, _core.Scene):
         sets: list[dict[str, Any]] = [{}] if overrides is None else _override_sets(overrides)

@@ -78,6 +78,7 @@ TEST(CaseKey, IsOfWhatTheRunDependsOn) {
   EXPECT_EQ(key.size(), 16u);
   EXPECT_EQ(keyWith({{"bodies.0.mass", 0.43}}), key);  // as it is anyway
   EXPECT_EQ(keyWith({{"description", "a ball"}, {"threads", 3}}), key);
+  EXPECT_EQ(keyWith({{"bodies.0.position", {0.0, 0.0, 1.0}}}), key);
   EXPECT_NE(keyWith({{"bodies.0.mass", 0.44}}), key);
 }
 

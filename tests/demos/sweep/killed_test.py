@@ -5,21 +5,13 @@ import json
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
+from sweep_cases import done, kill_after, write_cases
+
 PROGRAM = sys.argv.pop(1)
 CASES = 60
-
-
-def scene():
-    ball = {"name": "ball", "mass": 1, "position": [0, 0, 10], "shape": {"type": "sphere", "radius": 0.1, "faces": 80}}
-    return {"duration": 2, "time_step": 0.001, "output_step": 0.1, "bodies": [ball]}
-
-
-def done(out):
-    return len(list(out.glob("*/summary.json")))
 
 
 class KilledTest(unittest.TestCase):
@@ -28,8 +20,7 @@ class KilledTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         self.cases = self.folder / "cases.jsonl"
-        lines = [{"scene": scene(), "set": {"bodies.0.mass": 1 + i / 8}} for i in range(CASES)]
-        self.cases.write_text("".join(json.dumps(line) + "\n" for line in lines))
+        write_cases(self.cases, CASES)
 
     def command(self, out, *more):
         return [PROGRAM, "--cases", self.cases, "--out", out, "--quiet", *more]
@@ -39,20 +30,16 @@ class KilledTest(unittest.TestCase):
         subprocess.run(self.command(out, "--collect", file), check=True)
         return file.read_text()
 
-    def kill_after(self, out, more, shard="0/1"):
-        """Ends two threads without warning when some more cases are done; whether there was need to."""
-        before = done(out)
-        process = subprocess.Popen(self.command(out, "--threads", "2", "--shard", shard))
-        while process.poll() is None and done(out) < before + more:
-            time.sleep(0.002)
-        process.kill()
-        return process.wait() != 0
+    def kill(self, out, more):
+        """Two threads, until some more cases are done."""
+        enough = done(out) + more
+        return kill_after(self.command(out, "--threads", "2"), lambda: done(out) >= enough)
 
     def test_ends_with_the_same_results(self):
         whole, killed = self.folder / "whole", self.folder / "killed"
         subprocess.run(self.command(whole), check=True)
         kills = 0
-        while self.kill_after(killed, 9):
+        while self.kill(killed, 9):
             kills += 1
         self.assertGreaterEqual(kills, 3)
         self.assertEqual(done(killed), CASES)
@@ -64,7 +51,7 @@ class KilledTest(unittest.TestCase):
 
     def test_what_a_kill_leaves_is_no_result(self):
         killed = self.folder / "killed"
-        self.kill_after(killed, 5)
+        self.kill(killed, 5)
         for summary in killed.glob("*/summary.json"):
             json.loads(summary.read_text())
             self.assertTrue((summary.parent / "trajectory.csv").read_text().endswith("\n"))
