@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How 10 000 plates fall in air: steady, fluttering, tumbling or both, over thickness and mass, as a map.
+"""How 10 000 plates fall in water: steady, fluttering, tumbling or both, over thickness and mass, as a map.
 
 plate_map.py [--side N] [--out DIR] [--picture FILE.png]: N x N plates (100), whose cases and results go to the folder
 (out/plate_map). Killed and started again, it goes on. docs/sweeps.md shows the map and says how long it took.
@@ -19,7 +19,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 WIDTH, LENGTH = 0.04, 0.12  # [m]
 THICKNESS = (0.0004, 0.012)  # [m]
-MASS = (0.0002, 0.1)  # [kg]
+MASS = (0.002, 0.6)  # [kg]
 RELEASE = 60  # from horizontal about the long axis [degrees]
 
 
@@ -31,7 +31,8 @@ def scene():
         "mass": MASS[0],
         "orientation": [np.cos(half), 0, np.sin(half), 0],
     }
-    return {"duration": 6, "time_step": 1 / 240, "output_step": 1 / 120, "law": "form", "bodies": [plate]}
+    water = {"density": ba.water().density, "viscosity": ba.water().viscosity}
+    return {"duration": 6, "time_step": 1 / 240, "output_step": 1 / 120, "law": "form", "medium": water, "bodies": [plate]}
 
 
 def run(side, out):
@@ -58,7 +59,7 @@ def draw(thickness, mass, table, file):
     mesh = axes.pcolormesh(1e3 * thickness, 1e3 * mass, share, cmap="coolwarm", vmin=0, vmax=1, shading="nearest")
     bar = figure.colorbar(mesh, label="share of overturns: 0 flutters, 1 tumbles; grey: neither swings nor overturns")
     bar.set_ticks([0, 0.25, 0.5, 0.75, 1])
-    for density, name in ((30, "foam"), (700, "wood"), (2700, "aluminium")):
+    for density, name in ((998, "water"), (2700, "aluminium"), (11340, "lead")):
         grams = 1e3 * density * WIDTH * LENGTH * thickness[0]
         axes.plot(1e3 * thickness[0], grams, "k--", linewidth=0.8)
         inside = np.flatnonzero((grams > 1e3 * MASS[0]) & (grams < 1e3 * MASS[1]))
@@ -66,7 +67,7 @@ def draw(thickness, mass, table, file):
         axes.annotate(name, (1e3 * thickness[0][place], grams[place]), textcoords="offset points", xytext=(4, -10), fontsize=8)
     axes.set(xscale="log", yscale="log", xlabel="thickness [mm]", ylabel="mass [g]")
     axes.set_ylim(1e3 * MASS[0], 1e3 * MASS[1])
-    axes.set_title(f"{side * side} plates of {100 * WIDTH:.0f} x {100 * LENGTH:.0f} cm fall 6 s in air, released {RELEASE}° from horizontal")
+    axes.set_title(f"{side * side} plates of {100 * WIDTH:.0f} x {100 * LENGTH:.0f} cm fall 6 s in water, released {RELEASE}° from horizontal")
     figure.savefig(file, dpi=110)
 
 
