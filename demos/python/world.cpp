@@ -22,7 +22,7 @@ class PythonWorld {
  public:
   PythonWorld(const Scene& scene, const std::filesystem::path& cache) : scene_(scene) {
     const py::gil_scoped_release others_run;
-    FluidBodyCache fluid_bodies(cache, scene.threads);
+    SceneBodyCache fluid_bodies(cache, scene.threads);
     const std::vector<PreparedBody> bodies = prepareBodies(scene, fluid_bodies);
     if (!cache.empty()) fluid_bodies.save();
     simulation_ = std::make_unique<Simulation>(scene, bodies);

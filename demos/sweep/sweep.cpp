@@ -84,7 +84,7 @@ class RunningSweep {
   const std::vector<Scene>& scenes_;
   const SweepSettings& settings_;
   std::mutex preparing_;
-  FluidBodyCache fluid_bodies_;
+  SceneBodyCache fluid_bodies_;
   std::atomic<int> next_{0};
   std::atomic<bool> is_stopped_{false};
   std::mutex mutex_;  // guards what follows
