@@ -125,8 +125,7 @@ void write(const FluidBody& body, const py::object& path) {
 }
 
 /// Loads for each row of twists.
-py::array_t<double> loads(const FluidBodyPtr& body, const InputArray& twists, const Medium& medium,
-                          const FlowSettings& flow) {
+py::array_t<double> loadsFor(const BodyLoads& body_loads, const InputArray& twists) {
   const bool is_one = twists.ndim() == 1;
   if (twists.ndim() < 1 || twists.ndim() > 2 || twists.shape(twists.ndim() - 1) != 6)
     throw py::value_error("twists must be of shape (N, 6) or (6,), not " + shapeText(twists));
@@ -136,12 +135,16 @@ py::array_t<double> loads(const FluidBodyPtr& body, const InputArray& twists, co
   const double* from = twists.data();
   double* to = wrenches.mutable_data();
   const py::gil_scoped_release others_run;
-  const BodyLoads body_loads(body, medium, flow);
   for (py::ssize_t i = 0; i < count; ++i) {
     const Twist twist = Twist::fromVector(Eigen::Map<const Vector6>(from + 6 * i));
     Eigen::Map<Vector6>(to + 6 * i) = body_loads.at(twist).total().vector();
   }
   return wrenches;
+}
+
+py::array_t<double> loads(const FluidBodyPtr& body, const InputArray& twists, const Medium& medium,
+                          const FlowSettings& flow) {
+  return loadsFor(BodyLoads(body, medium, flow), twists);
 }
 
 struct PolarRow {
@@ -274,6 +277,8 @@ Frame F: the axes of the mesh, its origin at the centre of volume unless chosen 
 >>> round(ball.added_mass[3, 3] / ball.volume, 3)   # a sphere carries half of what it displaces
 0.5
 )");
+  py::class_<BodyLoads>(module, "Loads", "What FluidBody.loads_in() gives.")
+      .def("__call__", &loadsFor, py::arg("twists"), "Wrenches as of FluidBody.loads().");
   bindProperties(type);
   type.def_static("from_mesh", &fromMesh, py::arg("mesh"), py::arg("faces") = py::none(),
                   py::kw_only(), py::arg("sheet") = false, py::arg("name") = "mesh",
@@ -316,12 +321,21 @@ medium : density and viscosity count
 flow : how the flow follows the surface
 
 Returns wrenches of the same shape in F: torque about its origin [N m], then force [N]. Other
-threads run meanwhile. Cost: 1.5 to 3 ns per face and twist, and once some microseconds per face.
+threads run meanwhile. Cost: 1.5 to 3 ns per face and twist, and per call what loads_in() costs.
 
 >>> ball = FluidBody.from_shape({"type": "sphere", "radius": 0.1})
 >>> ball.loads([0, 0, 0, 1, 0, 0], water())[3] < 0
 True
 )")
+      .def(
+          "loads_in",
+          [](const FluidBodyPtr& body, const Medium& medium, const FlowSettings& flow) {
+            return BodyLoads(body, medium, flow);
+          },
+          py::arg("medium"), py::arg("flow") = FlowSettings(),
+          R"(The same as a function of the twists, for many calls.
+
+Cost: some nanoseconds per face by the published law, some microseconds by the law "form".)")
       .def("polar", &polar, py::arg("attack"), py::arg("side_slip") = 0.0,
            R"(Coefficients of lift, drag and moments of the body in a steady stream.
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How 10 000 plates fall in water: steady, fluttering, tumbling or both, over thickness and mass, as a map.
+"""How 10 000 plates fall or rise in water: steady, fluttering, tumbling or both, over thickness and mass, as a map.
 
 plate_map.py [--side N] [--out DIR] [--picture FILE.png]: N x N plates (100), whose cases and results go to the folder
 (out/plate_map). Killed and started again, it goes on. docs/sweeps.md shows the map and says how long it took.
@@ -23,7 +23,7 @@ MASS = (0.002, 0.6)  # [kg]
 RELEASE = 60  # from horizontal about the long axis [degrees]
 
 
-def scene():
+def scene(duration):
     half = np.radians(RELEASE) / 2
     plate = {
         "name": "plate",
@@ -32,16 +32,16 @@ def scene():
         "orientation": [np.cos(half), 0, np.sin(half), 0],
     }
     water = {"density": ba.water().density, "viscosity": ba.water().viscosity}
-    return {"duration": 6, "time_step": 1 / 240, "output_step": 1 / 120, "law": "form", "medium": water, "bodies": [plate]}
+    return {"duration": duration, "time_step": 1 / 240, "output_step": 1 / 120, "law": "form", "medium": water, "bodies": [plate]}
 
 
-def run(side, out):
+def run(side, duration, out):
     """The table of all plates."""
     thickness, mass = np.meshgrid(np.geomspace(*THICKNESS, side), np.geomspace(*MASS, side))
     sizes = [[WIDTH, LENGTH, t] for t in thickness.ravel()]
     out.mkdir(parents=True, exist_ok=True)
     cases = out / "cases.jsonl"
-    ba.write_cases(cases, scene(), {"bodies.0.shape.size": sizes, "bodies.0.mass": mass.ravel()})
+    ba.write_cases(cases, scene(duration), {"bodies.0.shape.size": sizes, "bodies.0.mass": mass.ravel()})
     begin, used = time.time(), time.process_time()
     counts = ba.run_cases(cases, out, motion=False, progress=lambda done, runs: print(f"\r{done} of {runs}", end=""))
     print(f"\n{counts.cases} cases, {counts.done_before} done before, {len(counts.failures)} failed: ", end="")
@@ -67,17 +67,18 @@ def draw(thickness, mass, table, file):
         axes.annotate(name, (1e3 * thickness[0][place], grams[place]), textcoords="offset points", xytext=(4, -10), fontsize=8)
     axes.set(xscale="log", yscale="log", xlabel="thickness [mm]", ylabel="mass [g]")
     axes.set_ylim(1e3 * MASS[0], 1e3 * MASS[1])
-    axes.set_title(f"{side * side} plates of {100 * WIDTH:.0f} x {100 * LENGTH:.0f} cm fall 6 s in water, released {RELEASE}° from horizontal")
+    axes.set_title(f"{side * side} plates of {100 * WIDTH:.0f} x {100 * LENGTH:.0f} cm in water, released {RELEASE}° from horizontal")
     figure.savefig(file, dpi=110)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--side", type=int, default=100)
+    parser.add_argument("--duration", type=float, default=10, help="of each fall [s]")
     parser.add_argument("--out", type=Path, default=Path("out/plate_map"))
     parser.add_argument("--picture", type=Path, default=Path("out/plate_map.png"))
     arguments = parser.parse_args()
-    thickness, mass, table = run(arguments.side, arguments.out)
+    thickness, mass, table = run(arguments.side, arguments.duration, arguments.out)
     modes, counts = np.unique(table["mode"], return_counts=True)
     print(", ".join(f"{mode}: {count}" for mode, count in zip(modes, counts)))
     draw(thickness, mass, table, arguments.picture)

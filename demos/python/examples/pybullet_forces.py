@@ -24,7 +24,8 @@ def rotation(x, y, z, w):
 
 class FluidForces:
     def __init__(self, client, body, fluid_body, mass, inertia, medium, flow=ba.FlowSettings(), gravity=(0, 0, -9.81)):
-        self.client, self.body, self.fluid_body, self.medium, self.flow = client, body, fluid_body, medium, flow
+        self.client, self.body, self.fluid_body, self.medium = client, body, fluid_body, medium
+        self.loads = fluid_body.loads_in(medium, flow)
         self.mass, self.inertia, self.gravity = mass, np.asarray(inertia), np.asarray(gravity)
         self.dry = np.block([[self.inertia, np.zeros((3, 3))], [np.zeros((3, 3)), mass * np.eye(3)]])
         self.wet = self.dry + medium.density * fluid_body.added_mass
@@ -35,7 +36,7 @@ class FluidForces:
         axes = rotation(*quaternion)  # of the body, as columns in the world
         linear, angular = (np.asarray(v) @ axes for v in self.client.getBaseVelocity(self.body))
         gravity, buoyancy = self.gravity @ axes, -self.medium.density * self.fluid_body.volume * self.gravity @ axes
-        wrench = self.fluid_body.loads(np.r_[angular, linear - self.medium.velocity @ axes], self.medium, self.flow)
+        wrench = self.loads(np.r_[angular, linear - self.medium.velocity @ axes])
         wrench += np.r_[np.cross(self.fluid_body.centre_of_volume, buoyancy), self.mass * gravity + buoyancy]
         momentum = self.dry @ np.r_[angular, linear]
         momentum += (self.wet - self.dry) @ np.r_[angular, linear - self.medium.velocity @ axes]

@@ -2,7 +2,10 @@
 """Runs the examples in the docstrings of the module, and checks that everything public has a docstring."""
 
 import doctest
+import re
+import tomllib
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -27,6 +30,12 @@ class DocstringsTest(unittest.TestCase):
         for name, text in documented():
             if name not in ("Rollout.motion", "Rollout.summary", "Rollout.errors") and not name.startswith("CaseCounts."):
                 self.assertTrue(text and len(text.split()) > 0, name)
+
+    def test_a_wheel_has_the_version_of_the_library(self):
+        root = Path(__file__).resolve().parents[3]
+        settings = tomllib.loads((root / "demos/python/pyproject.toml").read_text())["tool"]["scikit-build"]
+        version = re.search(settings["metadata"]["version"]["regex"], (root / "CMakeLists.txt").read_text())["value"]
+        self.assertEqual(version, ba.__version__)
 
     def test_examples_are_true(self):
         runner, parser = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS), doctest.DocTestParser()

@@ -111,6 +111,7 @@ class FluidBodyTest(Temporary):
         self.assertEqual(wrenches.shape, (20, 6))
         for twist, wrench in zip(twists, wrenches):
             self.assertSameBits(body.loads(twist, ba.water()), wrench)
+        self.assertSameBits(body.loads_in(ba.water())(twists), wrenches)
         self.assertLess((wrenches * twists).sum(axis=1).max(), 0)  # the fluid only takes energy
         double = body.loads(2 * twists, ba.Medium(density=1))
         np.testing.assert_allclose(double, 4 * body.loads(twists, ba.Medium(density=1)), rtol=1e-12)
