@@ -264,22 +264,7 @@ void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
       "Of all that acts on the motion: equal bodies have equal hashes.");
 }
 
-}  // namespace
-
-void bindFluidBody(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(PolarRow, attack, side_slip, C_L, C_D, C_Y, C_l, C_m, C_n);
-  py::class_<FluidBody, FluidBodyPtr> type(
-      module, "FluidBody", R"(What the fluid needs to know of one shape, per unit density.
-
-Frame F: the axes of the mesh, its origin at the centre of volume unless chosen otherwise. Never changes.
-
->>> ball = FluidBody.from_shape({"type": "sphere", "radius": 0.1})
->>> round(ball.added_mass[3, 3] / ball.volume, 3)   # a sphere carries half of what it displaces
-0.5
-)");
-  py::class_<BodyLoads>(module, "Loads", "What FluidBody.loads_in() gives.")
-      .def("__call__", &loadsFor, py::arg("twists"), "Wrenches as of FluidBody.loads().");
-  bindProperties(type);
+void bindMakers(py::class_<FluidBody, FluidBodyPtr>& type) {
   type.def_static("from_mesh", &fromMesh, py::arg("mesh"), py::arg("faces") = py::none(),
                   py::kw_only(), py::arg("sheet") = false, py::arg("name") = "mesh",
                   R"(Solves the flow around a closed mesh, or an open sheet.
@@ -309,8 +294,11 @@ Cost: a second or two for a thousand faces.)")
           [](const FluidBody& body, double factor) {
             return std::make_shared<FluidBody>(scaled(body, factor));
           },
-          py::arg("factor"), "The same shape, `factor` times as large about F's origin.")
-      .def("loads", &loads, py::arg("twists"), py::arg("medium"), py::arg("flow") = FlowSettings(),
+          py::arg("factor"), "The same shape, `factor` times as large about F's origin.");
+}
+
+void bindLoads(py::class_<FluidBody, FluidBodyPtr>& type) {
+  type.def("loads", &loads, py::arg("twists"), py::arg("medium"), py::arg("flow") = FlowSettings(),
            R"(Pressure and friction of the fluid on the body, without added mass and buoyancy.
 
 Parameters
@@ -348,8 +336,28 @@ flow : FlowSettings
 forward, up : axes of F with a sign; default "x", "z"
 reference_area, reference_length : default: silhouette along up [m^2], extent along forward [m]
 
-Returns a structured array: attack, side_slip [rad], C_L, C_D, C_Y, C_l, C_m, C_n about F's origin.)")
-      .def("__repr__",
+Returns a structured array: attack, side_slip [rad], C_L, C_D, C_Y, C_l, C_m, C_n about F's origin.)");
+}
+
+}  // namespace
+
+void bindFluidBody(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(PolarRow, attack, side_slip, C_L, C_D, C_Y, C_l, C_m, C_n);
+  py::class_<FluidBody, FluidBodyPtr> type(
+      module, "FluidBody", R"(What the fluid needs to know of one shape, per unit density.
+
+Frame F: the axes of the mesh, its origin at the centre of volume unless chosen otherwise. Never changes.
+
+>>> ball = FluidBody.from_shape({"type": "sphere", "radius": 0.1})
+>>> round(ball.added_mass[3, 3] / ball.volume, 3)   # a sphere carries half of what it displaces
+0.5
+)");
+  py::class_<BodyLoads>(module, "Loads", "What FluidBody.loads_in() gives.")
+      .def("__call__", &loadsFor, py::arg("twists"), "Wrenches as of FluidBody.loads().");
+  bindProperties(type);
+  bindMakers(type);
+  bindLoads(type);
+  type.def("__repr__",
            [](const FluidBody& b) {
              return "<FluidBody \"" + b.name + "\": " + std::to_string(b.faces.size()) + " faces>";
            })
