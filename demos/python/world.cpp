@@ -159,7 +159,9 @@ void bindBody(py::module_& module) {
           [](const PythonBody& b, const Medium& medium) {
             b.world->simulation().setMedium(b.index, medium);
           },
-          py::arg("medium"), "Changes the fluid around it; its velocity stays.");
+          py::arg("medium"),
+          "Changes the fluid around it, outside of the scene's water and regions; its velocity "
+          "stays.");
 }
 
 void bindWorldMotion(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {

@@ -240,6 +240,19 @@ class WorldTest(Temporary):
         with self.assertRaisesRegex(ValueError, 'body "ball": .*density'):
             world.bodies["ball"].set_medium(ba.Medium(density=-1))
 
+    def test_a_raft_floats_and_goes_on_from_a_state(self):
+        raft = {"name": "raft", "mass": 998 * 0.4 * 0.3 * 0.1 / 2, "shape": {"type": "box", "size": [0.4, 0.3, 0.1]}}
+        scene = ba.Scene({"duration": 1, "time_step": 1 / 120, "water": {"level": 0}, "bodies": [raft]})
+        world = ba.World(scene)
+        world.step(60)
+        state = world.state()
+        world.step(60)
+        end = world.position
+        self.assertLess(abs(end[0, 2]), 1e-3)  # half of it displaces its mass
+        world.restore(state)
+        world.step(60)
+        self.assertSameBits(world.position, end)
+
     def test_run_is_what_ambient_demo_writes(self):
         subprocess.run([DEMO, "plate_9cm", "--out", self.folder, "--quiet", "--set", "duration=1"], check=True)
         with open(self.folder / "trajectory.csv") as file:
