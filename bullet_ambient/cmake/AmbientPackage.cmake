@@ -1,7 +1,7 @@
 # `cpack` in the build folder: one Debian package of all that is installed; `cpack --config CPackSourceConfig.cmake`: a
 # source tarball. The libraries are static: who links them needs Bullet and Eigen, the tools what they are linked with.
 set(CPACK_PACKAGE_NAME bullet-ambient)
-set(CPACK_PACKAGE_CONTACT "The bullet_ambient maintainers <bullet-ambient@invalid>")
+set(CPACK_PACKAGE_CONTACT "The bullet_ambient maintainers <maintainers@bullet-ambient.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

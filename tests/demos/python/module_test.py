@@ -352,6 +352,13 @@ class RolloutTest(Temporary):
         np.testing.assert_array_equal(one.summary["mass"][:, 0], self.MASSES)
         np.testing.assert_array_equal(one.summary["end_position_z"], one.motion.position[:, -1, :, 2])
 
+    def test_worlds_side_by_side_do_not_disturb_each_other(self):
+        scenes = [ba.Scene("box_pile"), ba.Scene("box_pile"), ba.Scene("box_pile")]
+        side_by_side = ba.rollout(scenes, threads=3, duration=0.3)
+        alone = ba.World(scenes[0]).run(0.3)
+        for run in side_by_side.motion.twist:
+            self.assertSameBits(run, alone.twist)
+
     def test_failed_runs_are_apart(self):
         speeds = [[1, 0, 0], [1e200, 0, 0], [2, 0, 0]]
         out = ba.rollout(ba.Scene(STILL), {"bodies.0.linear_velocity": speeds})
