@@ -168,7 +168,8 @@ TEST(AmbientDemo, ARunOfCasesThatIsInterruptedSaysSo) {
       interruptProgram(AMBIENT_DEMO_PROGRAM, {"--cases", cases, "--out", out}, 500);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.errors.find("interrupted"), std::string::npos) << result.errors;
-  EXPECT_TRUE(std::filesystem::is_empty(out));
+  for (const auto& entry : std::filesystem::directory_iterator(out))
+    EXPECT_EQ(entry.path().filename(), "fluid_bodies");  // what was solved is kept
 }
 
 TEST(AmbientDemo, RefusesALinearDragThatIsNotPositive) {

@@ -342,7 +342,7 @@ class RolloutTest(Temporary):
     def test_the_same_bits_on_any_number_of_threads(self):
         one = self.plates(threads=1)
         self.assertEqual(one.motion.position.shape, (6, 51, 1, 3))
-        self.assertEqual(one.failed.size, 0)
+        self.assertEqual(one.errors, {})
         for threads in (2, 5):
             other = self.plates(threads=threads)
             self.assertSameBits(other.motion.twist, one.motion.twist)
