@@ -116,6 +116,7 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   Scene scene;
   scene.name = file.stem().string();
   scene.file = file;
+  scene.text = from.dump();
   scene.description = from.value("description", "");
   scene.duration = from.at("duration").get<double>();
   scene.time_step = from.at("time_step").get<double>();
@@ -153,7 +154,12 @@ std::string modelName(FluidModel model) { return wordOf(model, kModels); }
 std::string integratorName(Integrator integrator) { return wordOf(integrator, kIntegratorNames); }
 
 Scene readScene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides) {
-  json document = parseJson(readBytes(file), file.string());
+  return parseScene(readBytes(file), file, overrides);
+}
+
+Scene parseScene(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<SceneOverride>& overrides) {
+  json document = parseJson(text, file.string());
   for (const SceneOverride& change : overrides) applyOverride(document, change, file.string());
   sceneSchema().check(document, file.string());
   Scene scene = toScene(document, file);
