@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/output_file.h"
+#include "demos/cases_command.h"
 #include "demos/gltf/gltf_text.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
@@ -18,9 +20,10 @@
 #include "demos/simulation/run_signals.h"
 #include "demos/simulation/scene_run.h"
 #include "demos/simulation/summary.h"
+#include "demos/simulation/trajectory_text.h"
+#include "demos/sweep/case_runs.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
-#include "preprocess/builder/output_file.h"
 #include "preprocess/mesh/plain_text.h"
 
 namespace ambient {
@@ -38,6 +41,7 @@ struct Arguments {
   std::string out;
   std::string gltf;
   std::vector<SceneOverride> overrides;
+  CasesArguments cases;
 };
 
 /// The arguments, or the exit code if there is nothing more to do.
@@ -45,6 +49,34 @@ struct Parsed {
   Arguments arguments;
   std::optional<int> exit_code;
 };
+
+void addCasesOptions(CLI::App& app, CasesArguments& cases) {
+  auto* file = app.add_option("--cases", cases.cases,
+                              "Run many scenes: {\"scene\": ..., \"set\": {PATH: VALUE}} per line")
+                   ->type_name("FILE.jsonl");
+  app.add_option("--shard", cases.shard, "Of the cases those with index I modulo N (default: 0/1)")
+      ->type_name("I/N")
+      ->needs(file);
+  app.add_option("--threads", cases.threads, "That run cases (default, 0: all cores)")
+      ->check(CLI::Range(0, 1024))
+      ->needs(file);
+  app.add_flag("--summaries", cases.summaries, "Of cases: keep no motion, only summary.json")
+      ->needs(file);
+  app.add_option("--collect", cases.collect, "Write the table of the cases that are done, and stop")
+      ->type_name("FILE.csv")
+      ->needs(file);
+}
+
+/// One scene, many cases, or the list.
+void checkChoice(const Arguments& arguments) {
+  const bool has_cases = !arguments.cases.cases.empty();
+  const int choices = arguments.list + has_cases + !arguments.scene.empty();
+  if (choices != 1) throw CLI::RequiredError("One of SCENE, --cases or --list");
+  if (has_cases && arguments.out.empty()) throw CLI::RequiredError("--out (with --cases)");
+  if (has_cases && (!arguments.overrides.empty() || !arguments.gltf.empty()))
+    throw CLI::ExcludesError("--cases", "--set and --gltf");
+  if (has_cases) Shard::parse(arguments.cases.shard);
+}
 
 Parsed parseArguments(int argc, char** argv) {
   Parsed parsed;
@@ -64,11 +96,11 @@ Parsed parseArguments(int argc, char** argv) {
         return isGltfName(file) ? "" : file + ": the name must end in .glb or .gltf";
       });
   app.add_flag("--quiet", parsed.arguments.quiet, "Print errors only");
+  addCasesOptions(app, parsed.arguments.cases);
   try {
     app.parse(argc, argv);
     for (const std::string& text : sets) parsed.arguments.overrides.push_back(parseOverride(text));
-    if (parsed.arguments.scene.empty() && !parsed.arguments.list)
-      throw CLI::RequiredError("SCENE or --list");
+    checkChoice(parsed.arguments);
   } catch (const CLI::ParseError& error) {
     std::ostringstream errors;
     parsed.exit_code = app.exit(error, std::cout, errors) == 0 ? 0 : kBadUsage;
@@ -131,6 +163,14 @@ RunFiles openFiles(const fs::path& out, const std::string& gltf) {
   return RunFiles(out, gltf);
 }
 
+RunRecord runShown(const Scene& scene, const std::vector<PreparedBody>& bodies, bool quiet) {
+  ElapsedDisplay display(scene.name + ": simulating", quiet);
+  return runScene(scene, bodies, [&display](double share) {
+    display.update(share);
+    return !wasInterrupted();
+  });
+}
+
 void runAndWrite(const Arguments& arguments) {
   const Scene scene = readScene(findScene(arguments.scene, sceneFolders()), arguments.overrides);
   const fs::path out =
@@ -143,7 +183,8 @@ void runAndWrite(const Arguments& arguments) {
   // Before, there is nothing to tidy up: signals end the program at once.
   RunFiles files = openFiles(out, arguments.gltf);
   files.geometry.write(makeGeometryText(scene, bodies));
-  const RunRecord record = runScene(scene, bodies, files.trajectory, arguments.quiet);
+  const RunRecord record = runShown(scene, bodies, arguments.quiet);
+  files.trajectory.write(makeTrajectoryText(scene, record.motion));
   files.summary.write(makeSummary(scene, bodies, record));
   if (files.gltf) files.gltf->write(makeGltf(arguments.gltf, scene, bodies, record.motion));
   {
@@ -159,12 +200,21 @@ void runAndWrite(const Arguments& arguments) {
                 plainLine(files.folder.path().string()).c_str());
 }
 
+CasesArguments casesOf(const Arguments& arguments) {
+  CasesArguments cases = arguments.cases;
+  cases.out = arguments.out;
+  cases.quiet = arguments.quiet;
+  return cases;
+}
+
 int run(int argc, char** argv) {
   const Parsed parsed = parseArguments(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
   try {
     if (parsed.arguments.list)
       printScenes();
+    else if (!parsed.arguments.cases.cases.empty())
+      return runCasesCommand(casesOf(parsed.arguments)) ? 0 : kBadInput;
     else
       runAndWrite(parsed.arguments);
   } catch (const std::exception& error) {

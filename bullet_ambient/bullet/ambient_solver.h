@@ -59,6 +59,7 @@ class AmbientSolver : public Base {
     if constexpr (kHasMultiBodies) all_stay = this->m_tmpNumMultiBodyConstraints > 0;
     const GroupBodies converted =
         group_.select({bodies, body_count}, input_, info.m_timeStep, all_stay);
+    this->m_tmpSolverBodyPool.reserve(body_count + 1);
     Base::convertBodies(converted.first, converted.count, info);
     group_.begin(this->m_tmpSolverBodyPool);
   }
@@ -66,8 +67,10 @@ class AmbientSolver : public Base {
   // The last stock conversion: joints and contacts are rows by now.
   void convertContacts(btPersistentManifold** manifolds, int manifold_count,
                        const btContactSolverInfo& info) override {
+    group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kEven);
     Base::convertContacts(manifolds, manifold_count, info);
     if constexpr (!kHasEvenFrictions) addSecondFrictions(info);
+    group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kTrue);
     if constexpr (kHasMultiBodies) {
       const MultiBodyRows multibodies{this->m_multiBodyNormalContactConstraints,
                                       this->m_multiBodyFrictionContactConstraints,
@@ -89,27 +92,23 @@ class AmbientSolver : public Base {
   }
 
  private:
-  // A push along the normal makes a body with an uneven K slip, and not along the slip that Bullet
-  // has seen and turned its one friction row to.
+  // On a face that is aslant to the push, one friction row per contact holds the push, but the
+  // iterations do not get to the end of what pushes along the normal do across it.
   void addSecondFrictions(const btContactSolverInfo& info) {
     constexpr int kEvenModes =
         SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
-    const btConstraintArray& frictions = this->m_tmpSolverContactFrictionConstraintPool;
-    first_frictions_ = frictions.size();
+    const btConstraintArray& contacts = this->m_tmpSolverContactConstraintPool;
+    first_frictions_ = this->m_tmpSolverContactFrictionConstraintPool.size();
     if (group_.empty() || (info.m_solverMode & kEvenModes)) return;
-    for (int i = 0; i < first_frictions_; ++i) {
-      const btSolverConstraint first = frictions[i];  // the pool moves as it grows
-      const btSolverConstraint& contact =
-          this->m_tmpSolverContactConstraintPool[first.m_frictionIndex];
-      if (group_.slipsAcross(contact)) addSecondFriction(first, contact, info);
-    }
+    for (int i = 0; i < contacts.size(); ++i)
+      if (group_.holdsSlope(this->m_tmpSolverBodyPool, contacts[i])) addSecondFriction(i, info);
   }
 
-  void addSecondFriction(const btSolverConstraint& first, const btSolverConstraint& contact,
-                         const btContactSolverInfo& info) {
+  void addSecondFriction(int index, const btContactSolverInfo& info) {
+    const btSolverConstraint& contact = this->m_tmpSolverContactConstraintPool[index];
     auto& point = *static_cast<btManifoldPoint*>(contact.m_originalContactPoint);
-    const btSolverBody& a = this->m_tmpSolverBodyPool[first.m_solverBodyIdA];
-    const btSolverBody& b = this->m_tmpSolverBodyPool[first.m_solverBodyIdB];
+    const btSolverBody& a = this->m_tmpSolverBodyPool[contact.m_solverBodyIdA];
+    const btSolverBody& b = this->m_tmpSolverBodyPool[contact.m_solverBodyIdB];
     const bool is_given =
         (info.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) &&
         (point.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED);
@@ -122,7 +121,7 @@ class AmbientSolver : public Base {
                                          btCollisionObject::CF_ANISOTROPIC_FRICTION);
     }
     this->addFrictionConstraint(
-        direction, first.m_solverBodyIdA, first.m_solverBodyIdB, first.m_frictionIndex, point,
+        direction, contact.m_solverBodyIdA, contact.m_solverBodyIdB, index, point,
         point.getPositionWorldOnA() - a.getWorldTransform().getOrigin(),
         point.getPositionWorldOnB() - b.getWorldTransform().getOrigin(), nullptr, nullptr,
         info.m_sor, info, is_given ? point.m_contactMotion2 : btScalar(0),

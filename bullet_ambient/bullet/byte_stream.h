@@ -109,14 +109,16 @@ void transferFlag(Stream& stream, Bool& flag) {
   }
 }
 
-/// As one byte, from 0 to the number of `last`.
-template <class Stream, class Enum, class Last>
-void transferEnum(Stream& stream, Enum& value, Last last) {
+/// As one byte, one of those that have a name.
+template <class Stream, class Enum, class Names>
+void transferEnum(Stream& stream, Enum& value, const Names& names) {
   auto byte = static_cast<std::uint8_t>(value);
   stream.number(byte);
   if constexpr (Stream::kReads) {
-    if (byte > static_cast<std::uint8_t>(last)) stream.fail("has a choice that does not exist");
     value = static_cast<Enum>(byte);
+    for (const auto& [known, name] : names)
+      if (known == value) return;
+    stream.fail("has a choice that does not exist");
   }
 }
 

@@ -15,10 +15,13 @@ struct Party {
   RowSide side;
 };
 
-// J_a . (change of spin outside the rows): stock friction rows leave it out of their relative
-// velocity.
-btScalar unseenSpin(const Party& party) {
-  return party.ambient ? party.side.angular.dot(party.ambient->spin_change) : btScalar(0);
+// J (change of velocity outside the rows), less what the row has been set up with. Stock friction
+// rows leave the spin out; joints see all of it.
+btScalar unseenChange(RowKind kind, const Party& party) {
+  if (!party.ambient || kind == RowKind::kJoint) return 0;
+  const RowBody& body = *party.ambient;
+  const btVector3 spin = kind == RowKind::kContact ? -body.spin_aside : body.spin_change;
+  return party.side.angular.dot(spin) - party.side.linear.dot(body.velocity_aside);
 }
 
 btScalar inverseEffectiveMass(const Party& party) {
@@ -87,8 +90,7 @@ void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a, const Par
       return;
     }
   }
-  const bool sees_spin = kind == RowKind::kContact || kind == RowKind::kJoint;
-  const btScalar unseen = sees_spin ? btScalar(0) : unseenSpin(a) + unseenSpin(b);
+  const btScalar unseen = unseenChange(kind, a) + unseenChange(kind, b);
   const btScalar new_inverse =
       relaxation / (inverseEffectiveMass(a) + inverseEffectiveMass(b) + cfm);
   const btScalar ratio = new_inverse / old_inverse;

@@ -25,9 +25,10 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 //
 //   J' = J T,  j' = relaxation / (sum of J' D J'^T + softness),  rhs' = s rhs
 //
-// and the stock iterations, which know J', D and j', solve J K^-1 J^T. For friction rows alone, out
-// of which stock Bullet leaves it, j' J_a dw is taken from rhs', with dw the change of spin outside
-// the rows in this step. After the iterations du = T du'.
+// and the stock iterations, which know J', D and j', solve J K^-1 J^T. What a row has not seen of
+// the change of velocity outside the rows in this step, or too much, is taken from rhs' by j' J:
+// friction rows leave out the change of spin, and those of contacts were set up with a push that
+// does not turn aside. After the iterations du = T du'.
 
 /// One ambient body as its rows see it during one step. World axes.
 struct RowBody {
@@ -36,6 +37,8 @@ struct RowBody {
   btScalar inverse_mass = 0;       ///< Bullet's, without fluid
   btVector3 spin_change{0, 0, 0};  ///< of the step, outside the rows
   btVector3 velocity_change{0, 0, 0};
+  btVector3 spin_aside{0, 0, 0};  ///< more than that is shown to contacts as they are set up
+  btVector3 velocity_aside{0, 0, 0};
   Twist turning_W;    ///< share of the turning part in the velocity that rows are solved against
   double extent = 0;  ///< of the turn in this step
   int rows = 0;       ///< how many were rewritten
@@ -50,6 +53,10 @@ struct RowBody {
 /// memory.
 class RowBodies {
  public:
+  void reserve(int solver_bodies) {
+    bodies_.reserve(static_cast<std::size_t>(solver_bodies));
+    index_.reserve(static_cast<std::size_t>(solver_bodies));
+  }
   void reset(int solver_body_count);
   RowBody& add(int solver_body);
   bool empty() const { return bodies_.empty(); }

@@ -13,6 +13,7 @@
 #include "bullet_ambient/bullet/multibody_rows.h"
 #include "bullet_ambient/bullet/row_motion.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
+#include "bullet_ambient/bullet/slope_friction.h"
 #include "bullet_ambient/motion/axis_locks.h"
 #include "bullet_ambient/motion/row_velocity.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
@@ -21,10 +22,6 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
-
-// Part of a push along a face's normal that may go across it before friction holds both ways: a
-// millimetre in ten seconds on a slope.
-constexpr double kEvenPush = 1e-3;
 
 // In place of a number in the solver's pool.
 constexpr int kAlone = -1;
@@ -147,6 +144,10 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
   findMembers(bodies);
   if (members_.empty()) return bodies;
+  // For all of them: how many the solver knows changes from step to step.
+  converted_.reserve(static_cast<std::size_t>(bodies.count));
+  member_of_solver_body_.reserve(static_cast<std::size_t>(bodies.count));
+  row_bodies_->reserve(bodies.count);
   markPairs(input);
   return all_stay ? bodies : withoutLoners(bodies);
 }
@@ -242,7 +243,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   if (!row.change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
     bodies_.complaints.say(Complaint::kNotFinite);
-    row.change_W = row.turning_W = {};
+    row.change_W = row.turning_W = row.aside_W = {};
   }
   setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
 
@@ -253,6 +254,8 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
   row_body.velocity_change = solver_body.m_externalForceImpulse;
+  row_body.spin_aside = toBullet(row.aside_W.angular);
+  row_body.velocity_aside = toBullet(row.aside_W.linear);
   if (member.is_locked) {
     lock(row_body, ambient, factors, solver_body);
   } else {
@@ -260,20 +263,32 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   }
 }
 
-bool SolverGroup::slipsAcross(const btSolverConstraint& contact) const noexcept {
-  return slipsAcross(contact.m_solverBodyIdA, contact.m_contactNormal1) ||
-         slipsAcross(contact.m_solverBodyIdB, contact.m_contactNormal2);
+void SolverGroup::showPush(SolverBodies& solver_bodies, Push push) noexcept {
+  for (const Member& member : members_) {
+    const RowBody* row_body = row_bodies_->find(member.solver_body);
+    if (!row_body) continue;
+    btSolverBody& solver_body = solver_bodies[member.solver_body];
+    solver_body.m_externalTorqueImpulse = row_body->spin_change;
+    solver_body.m_externalForceImpulse = row_body->velocity_change;
+    if (push == Push::kTrue) continue;
+    solver_body.m_externalTorqueImpulse += row_body->spin_aside;
+    solver_body.m_externalForceImpulse += row_body->velocity_aside;
+  }
 }
 
-bool SolverGroup::slipsAcross(int solver_body, const btVector3& normal_W) const noexcept {
-  const Member* member = memberOf(solver_body);
-  if (!member) return false;
-  const BodyModel& model = member->ambient->model;
-  if (!model.has_diagonal_inertia) return true;
-  const btMatrix3x3& rotation = member->ambient->body->getWorldTransform().getBasis();
-  const Vector3 normal = toVector3(normal_W * rotation);  // in B
-  const Vector3 push = model.inverse_inertia.diagonal().tail<3>().cwiseProduct(normal);
-  return push.cross(normal).squaredNorm() > kEvenPush * kEvenPush * push.squaredNorm();
+bool SolverGroup::holdsSlope(const SolverBodies& solver_bodies,
+                             const btSolverConstraint& contact) const noexcept {
+  // One of the two is zero where Bullet knows no body.
+  const btVector3 normal =
+      isZero(contact.m_contactNormal1) ? -contact.m_contactNormal2 : contact.m_contactNormal1;
+  const btVector3 push = solver_bodies[contact.m_solverBodyIdA].m_externalForceImpulse -
+                         solver_bodies[contact.m_solverBodyIdB].m_externalForceImpulse;
+  if (!isHeldAslant(push, normal, contact.m_friction)) return false;
+  for (const int id : {contact.m_solverBodyIdA, contact.m_solverBodyIdB}) {
+    const Member* member = memberOf(id);
+    if (member && turnsAside(*member->ambient, normal)) return true;
+  }
+  return false;
 }
 
 void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,

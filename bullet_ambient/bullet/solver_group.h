@@ -78,8 +78,15 @@ class SolverGroup {
   /// Whether there is no ambient body.
   bool empty() const { return members_.empty(); }
 
-  /// Whether a push along the normal of a contact row makes a body slip across it by its fluid.
-  bool slipsAcross(const btSolverConstraint& contact) const noexcept;
+  /// Around the stock conversion of contacts: shows it the push of forces and loads as an even
+  /// response takes it, k' of eq. (28b), so that friction lies along the force.
+  enum class Push { kEven, kTrue };
+  void showPush(SolverBodies& solver_bodies, Push push) noexcept;
+
+  /// While it is shown: whether a contact is pushed along its face, by no more than friction can
+  /// hold, and a push along its normal makes a body slip across it by its fluid.
+  bool holdsSlope(const SolverBodies& solver_bodies,
+                  const btSolverConstraint& contact) const noexcept;
 
   /// After the stock conversion of joints and contacts: rewrites every row that touches an ambient
   /// body, and applies the impulses of warm starting in the new bases. `multibodies`: null for
@@ -121,7 +128,6 @@ class SolverGroup {
   void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
   Member* memberOf(int solver_body) noexcept;
   const Member* memberOf(int solver_body) const noexcept;
-  bool slipsAcross(int solver_body, const btVector3& normal_W) const noexcept;
 
   AmbientBodies& bodies_;
   double time_step_ = 0;

@@ -115,11 +115,14 @@ Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, Axes axes,
     const double had = x.dot(ambient.model.inertia * x), has = x.dot(after.inertia * x);
     return has > had ? Vector6(std::sqrt(had / has) * x) : x;
   }
-  return passSurface({ambient.surface()->model, ambient.model.inertia, after, duration}, x);
+  const SurfaceModel& model = ambient.surface()->model;
+  return passSurface({model, ambient.model.inertia, after, duration, gradientAt(model, after, x)},
+                     x);
 }
 
 bool mayRestAtSurface(const AmbientBody& ambient) noexcept {
-  return isStable(waveModesAt(ambient.surface()->model, standAfter(ambient, 0)));
+  const SurfaceStand stand = standAfter(ambient, 0);
+  return isStable(restoringModesOf(stand.wet, stand.plane));
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

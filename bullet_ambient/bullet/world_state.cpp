@@ -6,6 +6,7 @@
 
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
@@ -14,6 +15,7 @@
 #include "bullet_ambient/bullet/contact_state.h"
 #include "bullet_ambient/bullet/region_following.h"
 #include "bullet_ambient/bullet/world_objects.h"
+#include "bullet_ambient/bullet/world_state_faults.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -35,13 +37,9 @@ void checkCount(const char* what, std::size_t saved, std::size_t found) {
   throw std::invalid_argument(sentence.str());
 }
 
-void checkContacts(const WorldState& state) {
-  for (const ContactState& contact : state.contacts) {
-    if (contact.points.size() <= MANIFOLD_CACHE_SIZE) continue;
-    throw std::invalid_argument("restoreState: a contact of the state has " +
-                                std::to_string(contact.points.size()) + " points; at most " +
-                                std::to_string(MANIFOLD_CACHE_SIZE) + " are possible");
-  }
+void checkNumbers(const WorldState& state) {
+  const std::string fault = findFault(state);
+  if (!fault.empty()) throw std::invalid_argument("restoreState: the saved state " + fault);
 }
 
 // Models are built before anything is changed, so that a medium that is refused changes nothing.
@@ -116,7 +114,7 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegist
   const std::vector<btRigidBody*> bodies = rigidBodiesOf(world);
   checkCount("rigid bodies", state.bodies.size(), bodies.size());
   checkCount("joints", state.joints.size(), static_cast<std::size_t>(world.getNumConstraints()));
-  checkContacts(state);
+  checkNumbers(state);
   auto ambient_bodies = makeAmbientBodies(state, bodies, bodiesOf(registry));
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {

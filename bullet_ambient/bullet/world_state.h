@@ -91,8 +91,9 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientRegistry& regist
 /// The world has the same bodies and joints in the same order: it is the same one, or was built by
 /// the same code, or loaded from a file. Attaches and detaches as needed. Runs Bullet's collision
 /// detection once, with its callbacks, so that contacts have their places.
-/// @throws std::invalid_argument if the numbers of bodies or joints differ, a contact has too many
-/// points, a fluid body is missing or a medium is not physical; the world is then unchanged.
+/// @throws std::invalid_argument if the numbers of bodies or joints differ, a number is none that a
+/// world can have, a fluid body is missing or a medium is not physical; the world is then
+/// unchanged.
 void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegistry& registry);
 
 /// Fluid bodies are not part of saved bytes, which hold their names and content hashes. This finds

@@ -1,7 +1,7 @@
-#include <cmath>
 #include <map>
 
 #include "bullet_ambient/bullet/world_state.h"
+#include "bullet_ambient/bullet/world_state_faults.h"
 #include "bullet_ambient/bullet/world_state_fields.h"
 #include "bullet_ambient/fluid_body/content_hash.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
@@ -59,63 +59,8 @@ std::shared_ptr<const FluidBody> findFluidBody(ByteReader& reader, const FluidBo
   return found;
 }
 
-template <class... Parts>
-bool areFinite(const Parts&... parts) {
-  return (parts.allFinite() && ...);
-}
-
-void checkAmbient(const ByteReader& reader, const AmbientState& ambient) {
-  const FlightMemory& memory = ambient.memory;
-  const WaveMemory& waves = ambient.waves;
-  if (!areFinite(waves.tilt_W[0], waves.tilt_W[1]) || !std::isfinite(waves.heave[0]) ||
-      !std::isfinite(waves.heave[1]) || !std::isfinite(waves.energy())) {
-    reader.fail("has waves whose numbers are not finite");
-  }
-  if (!areFinite(memory.load_W.torque, memory.load_W.force, ambient.left_W.angular,
-                 ambient.left_W.linear) ||
-      !std::isfinite(memory.substep)) {
-    reader.fail("has a flight whose numbers are not finite");
-  }
-}
-
-bool isFinite(const btVector3& v) {
-  return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
-}
-
-bool isFinite(const btTransform& pose) {
-  return isFinite(pose.getOrigin()) && isFinite(pose.getBasis()[0]) &&
-         isFinite(pose.getBasis()[1]) && isFinite(pose.getBasis()[2]);
-}
-
-void checkBody(const ByteReader& reader, const BodyState& body) {
-  if (!isFinite(body.pose) || !isFinite(body.interpolation_pose) ||
-      !isFinite(body.linear_velocity) || !isFinite(body.angular_velocity) ||
-      !isFinite(body.interpolation_linear_velocity) ||
-      !isFinite(body.interpolation_angular_velocity)) {
-    reader.fail("has a body whose pose or velocity is not finite");
-  }
-  if (body.activation_state < ACTIVE_TAG || body.activation_state > FIXED_BASE_MULTI_BODY) {
-    reader.fail("has a body of an unknown activation state");
-  }
-  if (!(body.inverse_mass >= 0) || !std::isfinite(body.inverse_mass)) {
-    reader.fail("has a body whose inverse mass is negative or not finite");
-  }
-}
-
-void checkPair(const ByteReader& reader, const PairState& pair) {
-  if (pair.object_a < 0 || pair.object_b < 0) reader.fail("has a contact without an object");
-}
-
-void checkContact(const ByteReader& reader, const ContactState& contact) {
-  checkPair(reader, contact.pair);
-  if (contact.points.size() > MANIFOLD_CACHE_SIZE) {
-    reader.fail("has a contact of more than " + std::to_string(MANIFOLD_CACHE_SIZE) + " points");
-  }
-}
-
 void readBody(ByteReader& reader, BodyState& body, const FluidBodyLookup& lookup, Hashes& hashes) {
   transferBody(reader, body);
-  checkBody(reader, body);
   bool has_fluid = false;
   transferFlag(reader, has_fluid);
   if (!has_fluid) return;
@@ -123,7 +68,6 @@ void readBody(ByteReader& reader, BodyState& body, const FluidBodyLookup& lookup
   ambient.def.fluid_body = findFluidBody(reader, lookup, hashes);
   transferSettings(reader, ambient.def);
   transferFlight(reader, ambient);
-  checkAmbient(reader, ambient);
 }
 
 void checkHeader(ByteReader& reader) {
@@ -177,10 +121,9 @@ WorldState decodeState(std::string_view bytes, const std::string& source,
   transferSize(reader, state.bodies, kBodySize);
   for (BodyState& body : state.bodies) readBody(reader, body, lookup, hashes);
   transferContactsAndJoints(reader, state);
-  for (const PairState& pair : state.pairs) checkPair(reader, pair);
-  for (const ContactState& contact : state.contacts) checkContact(reader, contact);
-  if (!std::isfinite(state.time)) reader.fail("has a time that is not finite");
   if (reader.left() > 0) reader.fail("has bytes after its end");
+  const std::string fault = findFault(state);
+  if (!fault.empty()) reader.fail(fault);
   return state;
 }
 

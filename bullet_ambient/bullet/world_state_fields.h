@@ -25,12 +25,12 @@ void transferSettings(Stream& s, State& def) {
   transferFlag(s, def.follow_regions);
   s.number(def.wave_damping);
   s.number(def.flow.separation_angle);
-  transferEnum(s, def.flow.law, PressureLaw::kForm);
+  transferEnum(s, def.flow.law, kPressureLawNames);
   transferFlag(s, def.flow.skin_friction);
   s.number(def.flow.stall_lag);
-  transferEnum(s, def.flow.precision, LoadPrecision::kDouble);
+  transferEnum(s, def.flow.precision, kLoadPrecisionNames);
   s.number(def.flow.maximum_load_error);
-  transferEnum(s, def.flight.integrator, Integrator::kSymplecticEuler);
+  transferEnum(s, def.flight.integrator, kIntegratorNames);
   s.number(def.flight.tolerance);
   s.number(def.flight.max_substeps);
   transferMatrix(s, def.fluid_frame.rotation);

@@ -3,12 +3,12 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <random>
 #include <stdexcept>
 #include <system_error>
 
 #include "bullet_ambient/fluid_body/fluid_body_file_header.h"
 #include "bullet_ambient/fluid_body/load_fluid_body.h"
+#include "bullet_ambient/fluid_body/output_file.h"
 
 namespace ambient {
 namespace {
@@ -51,31 +51,6 @@ std::string readBytes(const fs::path& file) {
   return bytes;
 }
 
-/// A name beside `file` that no other writer uses.
-fs::path temporaryNameFor(const fs::path& file) {
-  std::random_device random;
-  fs::path name = file;
-  name += ".tmp-" + std::to_string(random()) + std::to_string(random());
-  return name;
-}
-
-/// Removes a file on the way out, unless it was kept.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(fs::path name) : name_(std::move(name)) {}
-  ~TemporaryFile() {
-    std::error_code ignored;
-    fs::remove(name_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  const fs::path& name() const { return name_; }
-
- private:
-  fs::path name_;
-};
-
 }  // namespace
 
 FluidBody readFluidBody(const fs::path& file) {
@@ -88,19 +63,9 @@ std::shared_ptr<const FluidBody> loadFluidBody(const std::string& file) {
 
 void writeFluidBody(const FluidBody& body, const fs::path& file) {
   const std::string bytes = encodeFluidBody(body, file.string());
-  std::error_code no_status;
-  const fs::file_status target = fs::status(file, no_status);
-  if (fs::is_other(target)) fail(file, "is not a regular file");  // renaming would replace a device
-  const TemporaryFile temporary(temporaryNameFor(file));
-  errno = 0;
-  std::ofstream stream(temporary.name(), std::ios::binary | std::ios::trunc);
-  if (!stream) fail(file, std::string("cannot be written: ") + std::strerror(errno));
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (!stream) fail(file, std::string("cannot be written: ") + std::strerror(errno));
-  std::error_code error;
-  fs::rename(temporary.name(), file, error);
-  if (error) fail(file, "cannot be written: " + error.message());
+  OutputFile output(file);
+  output.write(bytes);
+  output.commit();
 }
 
 }  // namespace ambient

@@ -17,7 +17,8 @@ namespace ambient {
 FluidBody readFluidBody(const std::filesystem::path& file);
 
 /// Writes a .ambient file under a temporary name beside `file` and renames it: the old file or the
-/// new one, never half of it. The same fluid body gives the same bytes.
+/// new one, never half of it. A symbolic link stays, what it leads to is replaced. The same fluid
+/// body gives the same bytes.
 /// @throws std::runtime_error as readFluidBody(), also if `body` fails checkFluidBody().
 void writeFluidBody(const FluidBody& body, const std::filesystem::path& file);
 

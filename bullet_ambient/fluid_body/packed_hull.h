@@ -9,7 +9,7 @@
 namespace ambient {
 
 /// What hydrostatics needs of a shape, in frame F: the triangles of its surface in blocks of
-/// neighbours with their moments, 180 bytes per triangle. A sheet has none: it displaces nothing.
+/// neighbours with their moments, 130 bytes per triangle. A sheet has none: it displaces nothing.
 class PackedHull {
  public:
   /// Cost: O(T log T), 1 us per triangle.

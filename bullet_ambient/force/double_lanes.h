@@ -25,10 +25,17 @@ using Doubles = double __attribute__((vector_size(kWidth * sizeof(double))));
 
 using Mask = decltype(Doubles{} < Doubles{});
 
+/// Whether a lane of a comparison is true.
 inline bool anyOf(const Mask& mask) {
+#if defined(__AVX512F__)
+  return _mm512_movepi64_mask((__m512i)mask) != 0;
+#elif defined(__AVX2__)
+  return _mm256_movemask_pd((__m256d)mask) != 0;
+#else
   decltype(mask[0] | mask[0]) any = 0;
   for (int i = 0; i < kWidth; ++i) any |= mask[i];
   return any != 0;
+#endif
 }
 
 inline Doubles load(const double* from) {

@@ -33,6 +33,9 @@ enum class LoadPrecision {
   kDouble,
 };
 
+constexpr std::array<std::pair<LoadPrecision, const char*>, 2> kLoadPrecisionNames{
+    {{LoadPrecision::kSingle, "single"}, {LoadPrecision::kDouble, "double"}}};
+
 /// How the flow follows the surface of one body.
 struct FlowSettings {
   double separation_angle =

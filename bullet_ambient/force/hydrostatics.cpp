@@ -9,18 +9,6 @@
 namespace ambient {
 namespace {
 
-/// Two unit vectors that make a right-handed frame with a third one.
-struct PlaneAxes {
-  Vector3 first, second;
-
-  explicit PlaneAxes(const Vector3& normal) {
-    Eigen::Index least = 0;
-    normal.cwiseAbs().minCoeff(&least);
-    first = Vector3::Unit(least).cross(normal).normalized();
-    second = normal.cross(first);
-  }
-};
-
 HullPlane planeOf(const SurfacePlane& plane, const PlaneAxes& axes) {
   const Vector3 &s = plane.normal, &e = axes.first, &f = axes.second;
   return {{s.x(), s.y(), s.z()}, {{e.x(), e.y(), e.z()}, {f.x(), f.y(), f.z()}}, plane.height};

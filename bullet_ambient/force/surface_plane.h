@@ -29,4 +29,16 @@ inline SurfacePlane seenFrom(const SurfacePlane& plane, const FrameOffset& frame
   return seenFrom(plane, frame.rotation, frame.translation);
 }
 
+/// Two unit vectors that make a right-handed frame with a third one, in this order.
+struct PlaneAxes {
+  Vector3 first, second;
+
+  explicit PlaneAxes(const Vector3& normal) {
+    Eigen::Index least = 0;
+    normal.cwiseAbs().minCoeff(&least);
+    first = Vector3::Unit(least).cross(normal).normalized();
+    second = normal.cross(first);
+  }
+};
+
 }  // namespace ambient

@@ -112,7 +112,11 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
                  free.tail<3>().cwiseProduct(R * change.tail<3>())};
   };
   result.turning_W = inWorld(turning);
-  result.change_W = inWorld(turning + dt * forced);
+  const Vector6 kick = dt * forced;
+  result.change_W = inWorld(turning + kick);
+  const Vector6 push = inWorld(model.inertia * kick).vector();  // what the locks let through
+  const Vector6 push_B = stack(R.transpose() * push.head<3>(), R.transpose() * push.tail<3>());
+  result.aside_W = inWorld(model.even_response * push_B - kick);
   result.change_W.linear += dt * free.tail<3>().cwiseProduct(s.ambient_acceleration);
   return result;
 }

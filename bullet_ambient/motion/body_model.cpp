@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -63,6 +64,16 @@ void checkFrame(const FluidBody& body, const FrameOffset& frame) {
   }
 }
 
+// Float holds no body of which buoyancy acts farther away: 2^23 times its size.
+void checkLever(const FluidBody& body, const BodyModel& model) {
+  constexpr double kSizes = 8388608;
+  const double size = std::max(std::sqrt(body.area), std::cbrt(body.volume));
+  const double lever = model.centre_of_volume.norm();
+  if (model.displaced_mass > 0 && !(lever <= kSizes * size))
+    reject(body, "distance of its centre of volume from the centre of mass [m]", lever,
+           "at most 2^23 times its size");
+}
+
 // K as it was before the frame change, whose rounding leaves an asymmetry and, where symmetry makes
 // a coupling vanish, something close to zero.
 Matrix6 withoutRounding(const Matrix6& inertia) {
@@ -112,10 +123,12 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   model.inverse_inertia = 0.5 * (model.inverse_inertia + model.inverse_inertia.transpose()).eval();
   AMBIENT_ASSERT(model.inverse_inertia.diagonal().minCoeff() > 0);
   model.has_diagonal_inertia = model.inertia.isDiagonal(0) && model.inverse_inertia.isDiagonal(0);
+  model.even_response = makeEvenResponse(model.inverse_inertia, mass.inertia);
   model.mass = mass.mass;
   model.displaced_mass = medium.density * fluid_body.volume;
   model.centre_of_volume =
       fluid_frame.rotation * fluid_body.centre_of_volume + fluid_frame.translation;
+  checkLever(fluid_body, model);
   if (loads) model.load_frame = loads->frame(fluid_frame);
   model.loads = std::move(loads);
   model.reference_length = std::sqrt(fluid_body.area);

@@ -6,6 +6,7 @@
 #include "bullet_ambient/force/medium.h"
 #include "bullet_ambient/force/passivity_guard.h"
 #include "bullet_ambient/motion/dual_pair.h"
+#include "bullet_ambient/motion/even_response.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -24,9 +25,10 @@ struct BodyModel {
   Matrix6 inertia;                    ///< K = K_body + rho K_fluid, docs/theory.md eq. (3); SPD
   Matrix6 inverse_inertia;            ///< K^-1
   bool has_diagonal_inertia = false;  ///< both are: three planes of symmetry
-  double mass = 0;                    ///< of the body without fluid [kg]
-  double displaced_mass = 0;          ///< m_f = rho volume [kg]
-  Vector3 centre_of_volume;           ///< in B [m]
+  EvenResponse even_response;
+  double mass = 0;                            ///< of the body without fluid [kg]
+  double displaced_mass = 0;                  ///< m_f = rho volume [kg]
+  Vector3 centre_of_volume;                   ///< in B [m]
   std::shared_ptr<const SurfaceLoads> loads;  ///< null: there are none
   FrameOffset load_frame;                     ///< that of the loads, in B
   double reference_length = 0;                ///< sqrt(area) [m]

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/spatial/symmetric_eigen.h"
-
 namespace ambient {
 namespace {
 
@@ -54,6 +52,20 @@ Vector6 exchangeMode(const WaveMode& mode, const Matrix6& inverse_inertia, doubl
   return x - duration * mode.strength * first * answer;
 }
 
+/// Of a symmetric tensor across s.
+Vector3 principalAxis(const Matrix3& tensor, const Vector3& s) {
+  const PlaneAxes e(s);
+  const Vector3 along = tensor * e.first;
+  const double xx = e.first.dot(along), xy = e.second.dot(along);
+  const double yy = e.second.dot(tensor * e.second);
+  const double half = 0.5 * (xx - yy), size = std::sqrt(half * half + xy * xy);
+  if (!(size > 0)) return e.first;
+  // The eigenvector of the larger moment, from the row of the matrix that does not cancel.
+  const double x = half > 0 ? half + size : std::abs(xy);
+  const double y = half > 0 ? xy : std::copysign(size - half, xy);
+  return (x * e.first + y * e.second).normalized();
+}
+
 struct Scales {
   double length;     ///< L [m]
   double per_depth;  ///< L/d
@@ -61,43 +73,56 @@ struct Scales {
   double steepness;  ///< q
 };
 
-}  // namespace
-
-WaveModes waveModesOf(const WaveSource& source) noexcept {
-  const Waterplane& plane = source.wet.waterplane;
-  const double area = plane.area, gravity = source.plane.gravity;
-  if (!(area > 0) || !(gravity > 0)) return {};
-  const Vector3& s = source.plane.normal;
-  // The largest two of its three moments are those of the waterplane; the third is along s.
-  const auto eigen = symmetricEigen<3>(plane.spread);
-  Vector3 axes[2] = {eigen.vectors.col(2), eigen.vectors.col(1)};
-  axes[0] = (axes[0] - s.dot(axes[0]) * s).normalized();
-  axes[1] = s.cross(axes[0]);
-  const double about[2] = {std::max(0.0, axes[1].dot(plane.spread * axes[1])),
-                           std::max(0.0, axes[0].dot(plane.spread * axes[0]))};  // I_1, I_2
+Scales scalesOf(const WaveSource& source, const RestoringModes& restoring) {
+  const double area = source.wet.waterplane.area;
   Scales k;
   k.length = std::sqrt(area);
   const double depth = (source.wet.volume + source.heave_inertia) / area;
   k.per_depth = std::clamp(k.length / depth, 0.1, 8.0);
-  for (int i = 0; i < 2; ++i)
-    k.width[i] = std::clamp(std::sqrt(12 * about[i] / area) / k.length, 0.2, 5.0);
+  for (std::size_t i = 0; i < 2; ++i)
+    k.width[i] =
+        std::clamp(std::sqrt(12 * restoring[i + 1].second_moment / area) / k.length, 0.2, 5.0);
   const double steep = std::max(k.width[0], k.width[1]) * k.per_depth;
   k.steepness = 1 + steep * steep / 30;
+  return k;
+}
 
-  WaveModes modes;
+}  // namespace
+
+RestoringModes restoringModesOf(const WetVolume& wet, const SurfacePlane& surface) noexcept {
+  const Waterplane& plane = wet.waterplane;
+  const double pull = surface.density * surface.gravity;
+  if (!(plane.area > 0) || !(pull > 0)) return {};
+  const Vector3& s = surface.normal;
+  const Vector3 axis = principalAxis(plane.spread, s);
+  const Vector3 axes[2] = {axis, s.cross(axis)};
+  RestoringModes modes;
+  modes[0] = {stack(plane.centroid.cross(s), s), pull * plane.area, 0};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vector3& across = axes[1 - i];
+    const double moment = std::max(0.0, across.dot(plane.spread * across));
+    modes[i + 1] = {stack(axes[i], Vector3::Zero()), pull * (moment + s.dot(wet.moment)), moment};
+  }
+  return modes;
+}
+
+WaveModes waveModesOf(const WaveSource& source) noexcept {
+  const RestoringModes restoring = restoringModesOf(source.wet, source.plane);
+  if (!(restoring[0].stiffness > 0)) return {};
+  const Scales k = scalesOf(source, restoring);
+  const double area = source.wet.waterplane.area, gravity = source.plane.gravity;
   const double pull = source.plane.density * gravity;
-  modes.heave.motion = stack(plane.centroid.cross(s), s);
-  modes.heave.stiffness = pull * area;
-  modes.heave.strength = source.damping * pull * area * 0.075 * k.per_depth * k.per_depth *
-                         std::pow(k.steepness, -0.63);
+  WaveModes modes;
+  modes.heave.motion = restoring[0].motion;
+  modes.heave.strength = source.damping * restoring[0].stiffness * 0.075 * k.per_depth *
+                         k.per_depth * std::pow(k.steepness, -0.63);
   modes.heave.rate =
       0.66 * std::pow(k.per_depth, 0.9) / std::cbrt(k.steepness) * std::sqrt(gravity / k.length);
   modes.heave.loss = 1.5 * modes.heave.rate;
-  for (int i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double dipole = restoring[i + 1].stiffness / pull;  // V GM
     WaveMode& mode = modes.tilt[i];
-    const double dipole = about[i] + s.dot(source.wet.moment);  // V GM
-    mode.motion = stack(axes[i], Vector3::Zero());
-    mode.stiffness = pull * dipole;
+    mode.motion = restoring[i + 1].motion;
     mode.strength = source.damping * pull * dipole * dipole / (area * area) * 1.14 *
                     std::pow(k.per_depth, 1.2) * std::pow(k.width[i], -2.6);
     mode.rate = 2.7 * std::sqrt(gravity / (k.width[i] * k.length));

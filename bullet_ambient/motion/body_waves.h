@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "bullet_ambient/force/hydrostatics.h"
 #include "bullet_ambient/motion/wave_memory.h"
 
@@ -13,15 +15,25 @@ struct WaveSource {
   double damping;        ///< factor on the waves
 };
 
+/// A velocity of the body that the buoyancy acts against.
+struct RestoringMode {
+  Vector6 motion = Vector6::Zero();  ///< N: the velocity is N.x
+  double stiffness = 0;              ///< rho g A_w, rho g V GM_i [N/m, N m]
+  double second_moment = 0;          ///< of the waterplane about the axis of a tilt, I_i [m^4]
+};
+
+/// Heave of the waterplane's centroid, and tilt about its two principal axes. All zero without a
+/// waterplane.
+using RestoringModes = std::array<RestoringMode, 3>;
+RestoringModes restoringModesOf(const WetVolume& wet, const SurfacePlane& plane) noexcept;
+
 /// One oscillator behind a velocity of the body: G, a, b of eq. (69).
 struct WaveMode {
-  Vector6 motion = Vector6::Zero();  ///< N: the velocity is N.x
+  Vector6 motion = Vector6::Zero();  ///< N
   double strength = 0;               ///< G [N/m, N m]
-  double stiffness = 0;              ///< of the buoyancy: rho g A_w, rho g V GM [N/m, N m]
   double loss = 0, rate = 0;         ///< a, b [1/s]
 };
 
-/// Heave of the waterplane's centroid, and tilt about its two principal axes.
 struct WaveModes {
   WaveMode heave, tilt[2];
 };

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <utility>
+
 namespace ambient {
 
 /// How free flight is integrated over one step of the world.
@@ -9,6 +12,13 @@ enum class Integrator {
   kRungeKutta4,      ///< the paper's: |w| h < 5.7 degrees, four load evaluations per substep
   kSymplecticEuler,  ///< the paper's default: one evaluation per step; not stable at every speed
 };
+
+/// As scenes and summaries name them.
+constexpr std::array<std::pair<Integrator, const char*>, 4> kIntegratorNames{
+    {{Integrator::kPassiveLeapfrog, "leapfrog"},
+     {Integrator::kDormandPrince, "dormand_prince"},
+     {Integrator::kRungeKutta4, "rk4"},
+     {Integrator::kSymplecticEuler, "symplectic_euler"}}};
 
 struct FlightSettings {
   Integrator integrator = Integrator::kPassiveLeapfrog;

@@ -47,6 +47,8 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   result.extent = turning.extent;
   const Quaternion& q = start.orientation;
   result.turning_W = {q * share.head<3>(), q * share.tail<3>()};
+  const Vector6 aside = model.even_response * pairOfTwist(model, impulse).momentum - impulse;
+  result.aside_W = {q * aside.head<3>(), q * aside.tail<3>()};
   result.change_W.angular = result.turning_W.angular + q * impulse.head<3>();
   result.change_W.linear =
       result.turning_W.linear + q * impulse.tail<3>() + dt * s.ambient_acceleration;

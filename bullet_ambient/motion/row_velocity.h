@@ -33,6 +33,7 @@ constexpr double kSlowTurn = 0.5;
 struct RowVelocity {
   Twist change_W;
   Twist turning_W;    ///< X of eq. (28): the share of the turning part in it
+  Twist aside_W;      ///< k' - k of eq. (28b): to what an even response would have changed it
   double extent = 0;  ///< of the turn
   FlightCount count;
 };

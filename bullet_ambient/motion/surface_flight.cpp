@@ -2,13 +2,12 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bullet_ambient/force/surface_loads.h"
 #include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/motion/passive_kick.h"
-#include "bullet_ambient/motion/surface_passage.h"
+#include "bullet_ambient/motion/surface_stand.h"
 
 namespace ambient {
 namespace {
@@ -21,20 +20,9 @@ constexpr double kMostSurfaceError = 2;  // of an accepted step, in tolerances
 
 using Matrix = Eigen::Matrix<double, 6, 6>;
 
-Matrix6 inverseOf(const Matrix6& K) {
-  const Matrix6 inverse = Eigen::LLT<Matrix>(K).solve(Matrix::Identity());
-  return 0.5 * (inverse + inverse.transpose());
-}
-
-/// A body at one pose against the surface; in B.
-struct Stand {
+/// With its axes in the world.
+struct Stand : SurfaceStand {
   Matrix3 to_world;
-  SurfacePlane plane;
-  double draught, cover;
-  Immersion immersion_F;
-  WetVolume wet;
-  Matrix6 inertia, inverse;
-  WaveModes modes;
 
   DualPair motion(const Vector6& x) const { return {x, inertia * x}; }
   DualPair load(const Wrench& wrench) const {
@@ -72,17 +60,23 @@ class SurfaceFlight {
     const Stand begin = standAt({start_.orientation, Vector3::Zero()});
     const int most =
         task_.settings.max_substeps > 0 ? task_.settings.max_substeps : kSurfaceSubsteps;
-    double substep = task_.duration;
-    if (memory_.substep > 0) substep = std::min(substep, memory_.substep);
-    substep = std::min(substep, kLongestSwing / swingOf(begin));
-    int count = substepsOf(substep, most);
+    const double duration = task_.duration;
+    const double remembered = memory_.substep > 0 ? memory_.substep : duration;
+    swing_ = swingOf(begin);
+    int count = substepsOf(std::min(remembered, kLongestSwing / swing_), most);
     for (int attempt = 1;; ++attempt) {
       run(begin, count);
-      const double ratio = error_ / task_.settings.tolerance, h = task_.duration / count;
+      const double ratio = error_ / task_.settings.tolerance, h = duration / count;
       const double next = ratio > 0 ? std::min(4 * h, 0.9 * h / std::sqrt(ratio)) : 4 * h;
-      if (!(ratio > kMostSurfaceError) || attempt == kSurfaceAttempts || count == most)
-        return resultOf(next, ratio > kMostSurfaceError && count == most);
-      count = std::max(count + 1, substepsOf(next, most));
+      const int needed = substepsOf(kLongestSwing / swing_, most);
+      const bool is_coarse = ratio > kMostSurfaceError || has_gained_;
+      const bool is_done = !is_coarse && needed <= count;
+      if (is_done || attempt == kSurfaceAttempts || count == most) {
+        if (has_gained_) stayAt(begin);
+        return resultOf(next, is_coarse && count == most);
+      }
+      count = std::min(
+          most, std::max({has_gained_ ? 2 * count : count + 1, needed, substepsOf(next, most)}));
     }
   }
 
@@ -93,42 +87,23 @@ class SurfaceFlight {
   }
 
   Stand standAt(const Pose& pose) const {
-    Stand stand;
-    stand.to_world = pose.orientation.toRotationMatrix();
-    stand.plane = seenFrom(plane_W_, stand.to_world, pose.way_W);
-    stand.immersion_F = immersionOf(model_, stand.plane);
-    stand.draught = stand.immersion_F.draught();
-    stand.cover = stand.immersion_F.cover();
-    stand.wet = stand.immersion_F.wet.inB(model_.fluid_frame);
-    stand.inertia = inertiaAt(model_, stand.immersion_F);
-    stand.inverse = inverseOf(stand.inertia);
-    stand.modes = modesAt(stand);
-    return stand;
-  }
-
-  WaveModes modesAt(const Stand& stand) const {
-    const Vector3& s = stand.plane.normal;
-    const Matrix3 fluid =
-        (stand.inertia - model_.above.inertia).bottomRightCorner<3, 3>() / model_.excess_density;
-    const double along = model_.excess_density > 0 ? s.dot(fluid * s) : 0;
-    return waveModesOf({stand.wet, stand.plane, model_.heave_factor * along, model_.wave_damping});
-  }
-
-  static std::array<const WaveMode*, 3> modesOf(const Stand& stand) {
-    return {&stand.modes.heave, &stand.modes.tilt[0], &stand.modes.tilt[1]};
+    const Matrix3 R = pose.orientation.toRotationMatrix();
+    return {standAtSurface(model_, seenFrom(plane_W_, R, pose.way_W)), R};
   }
 
   /// The largest natural frequency [1/s].
   double swingOf(const Stand& stand) const {
     double square = 1e-12;
-    for (const WaveMode* mode : modesOf(stand)) {
-      const double inertia = mode->motion.dot(stand.inertia * mode->motion);
-      if (inertia > 0) square = std::max(square, mode->stiffness / inertia);
+    for (const RestoringMode& mode : restoringModesOf(stand.wet, stand.plane)) {
+      const double inertia = mode.motion.dot(stand.inertia * mode.motion);
+      if (inertia > 0) square = std::max(square, mode.stiffness / inertia);
     }
     return std::sqrt(square);
   }
 
   void run(const Stand& begin, int count) {
+    is_stiff_ = task_.duration / count * swing_ > kLongestSwing * (1 + 1e-9);
+    has_gained_ = false;
     pose_ = {start_.orientation, Vector3::Zero()};
     x_ = start_.twist.vector();
     waves_ = start_waves_;
@@ -136,14 +111,12 @@ class SurfaceFlight {
     has_load_ = memory_.has_load;
     error_ = 0;
     stand_ = begin;
-    meetModes(stand_.modes, stand_.to_world, waves_);
     const double before = energy(), h = task_.duration / count;
     move(h / 2);
     for (int substep = 1; substep <= count; ++substep) {
       kick(h);
       move(substep < count ? h : h / 2);
     }
-    meetModes(stand_.modes, stand_.to_world, waves_);
     boundEnergy(before);
     flight_count_.substeps += count;
   }
@@ -152,7 +125,7 @@ class SurfaceFlight {
   void move(double duration) {
     static const FlightKernel& kernel = fastestFlightKernel();
     const DualPair motion = stand_.motion(x_);
-    const Wrench gradient = gradientAt(stand_);
+    const Wrench gradient = gradientAt(model_, stand_, x_);
     setInertia(lanes_, 0, stand_.inertia, stand_.inverse, false);
     setLane(lanes_.orientation, 0, pose_.orientation);
     setLane(lanes_.way_W, 0, pose_.way_W);
@@ -162,35 +135,20 @@ class SurfaceFlight {
     kernel.flow(lanes_);
     pose_ = {orientationOf(lanes_.orientation, 0), vectorOf(lanes_.way_W, 0)};
     x_ = twistOf(lanes_.twist_B, 0).vector();
-    pass(duration, gradient);
-  }
-
-  /// F_K, eq. (66).
-  Wrench gradientAt(const Stand& stand) const {
-    const FrameOffset& frame = model_.fluid_frame;
-    const Immersion& at = stand.immersion_F;
-    const Twist in_F = frame.toF(Twist::fromVector(x_));
-    return model_.excess_density * frame.toB(model_.wetted->gradient(at, in_F).wrench(at.plane));
-  }
-
-  void pass(double duration, const Wrench& gradient) {
     const Matrix6 before = stand_.inertia;
     stand_ = standAt(pose_);
-    const double volume = stand_.wet.volume;
-    const Vector3 centre =
-        volume > 0 ? Vector3(stand_.wet.moment / volume) : model_.above.centre_of_volume;
-    x_ = passSurface({before, stand_.inertia, stand_.inverse, gradient, stand_.plane.normal, centre,
-                      stand_.draught, stand_.cover, plane_W_.gravity, duration},
-                     x_);
+    x_ = passSurface({model_, before, stand_, duration, gradient}, x_);
   }
 
   void kick(double h) {
-    meetModes(stand_.modes, stand_.to_world, waves_);
+    swing_ = std::max(swing_, swingOf(stand_));
+    const WaveModes modes = waveModesAt(model_, stand_);
+    meetModes(modes, stand_.to_world, waves_);
     const Vector6 fall = h / 2 * fallOver(h);
     x_ += fall;
     if (model_.loads_below.loads) takeLoads(h);
     if (model_.loads_above.loads) takeWind(h);
-    x_ = exchangeWaves(stand_.modes, stand_.to_world, stand_.inverse, h, x_, waves_);
+    x_ = exchangeWaves(modes, stand_.to_world, stand_.inverse, h, x_, waves_);
     x_ += fall;
   }
 
@@ -200,10 +158,10 @@ class SurfaceFlight {
     const Vector6 wrench = (externalWrench(model_.above, task_.surroundings, stand_.to_world) +
                             hydrostaticWrench(stand_.wet, stand_.plane))
                                .vector();
-    if (!(h * swingOf(stand_) > 1.01 * kLongestSwing)) return stand_.inverse * wrench;
+    if (!is_stiff_) return stand_.inverse * wrench;
     Matrix K = stand_.inertia;
-    for (const WaveMode* mode : modesOf(stand_))
-      K += h * h / 4 * std::max(0.0, mode->stiffness) * mode->motion * mode->motion.transpose();
+    for (const RestoringMode& mode : restoringModesOf(stand_.wet, stand_.plane))
+      K += h * h / 4 * std::max(0.0, mode.stiffness) * mode.motion * mode.motion.transpose();
     return Eigen::LLT<Matrix>(K).solve(wrench);
   }
 
@@ -267,8 +225,19 @@ class SurfaceFlight {
   void boundEnergy(double before) {
     const bool has_wind = model_.loads_above.loads && !wind_W_.isZero(0);
     if (has_wind || !task_.surroundings.applied.torque.isZero(0)) return;
-    const double has = kinetic2(), allowed = std::max(0.0, 2 * (before - potential()));
+    constexpr double kRounding = 1e-13;
+    const double left = before - potential();
+    has_gained_ = left < -kRounding * (fall_scale_ * fall_scale_ + std::abs(before));
+    const double has = kinetic2(), allowed = std::max(0.0, 2 * left);
     if (has > allowed) x_ *= std::sqrt(allowed / has);
+  }
+
+  /// Of a body that would come to a place with more energy than it has: its steps are too long.
+  void stayAt(const Stand& begin) {
+    stand_ = begin;
+    pose_ = {start_.orientation, Vector3::Zero()};
+    x_.setZero();
+    waves_ = start_waves_;
   }
 
   SurfaceFlightResult resultOf(double next_substep, bool is_coarse) {
@@ -286,6 +255,9 @@ class SurfaceFlight {
   Vector3 gravity_W_, wind_W_;
   SurfacePlane plane_W_;  // from where the step began
   double fall_scale_ = 0;
+  double swing_ = 0;         // the largest natural frequency that was met [1/s]
+  bool is_stiff_ = false;    // substeps are too long for the stiffness of the buoyancy
+  bool has_gained_ = false;  // more energy of place than it had in all
   FlightLanes lanes_{};
 
   Pose pose_;

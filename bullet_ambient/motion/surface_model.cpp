@@ -46,11 +46,6 @@ bool isFeltAbove(const SurfaceModelDef& def) {
   return def.above.density >= kLittle * def.below.density || !def.above.velocity.isZero(0);
 }
 
-bool isPositiveDefinite(const Matrix6& K) {
-  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> cholesky(K);
-  return cholesky.info() == Eigen::Success;
-}
-
 }  // namespace
 
 SurfaceModel makeSurfaceModel(const SurfaceModelDef& def, LoadTables& tables) {
@@ -113,14 +108,30 @@ Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) no
   return immersion;
 }
 
-Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept {
-  const Matrix6 wet = model.fluid_frame.inertiaToB(model.wetted->inertia(immersion));
-  const Matrix6 K = model.above.inertia + model.excess_density * (wet + wet.transpose()) / 2;
-  if (isPositiveDefinite(K)) return K;
-  const auto eigen = symmetricEigen<6>(wet);
-  const Matrix6 positive =
-      eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
-  return model.above.inertia + model.excess_density * positive;
+namespace {
+
+using Factorisation = Eigen::LLT<Eigen::Matrix<double, 6, 6>>;
+
+Matrix6 withoutNegativePart(const Matrix6& K) {
+  const auto eigen = symmetricEigen<6>(K);
+  return eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
+}
+
+}  // namespace
+
+TotalInertia inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept {
+  const Matrix6 in_B = model.fluid_frame.inertiaToB(model.wetted->inertia(immersion));
+  const Matrix6 wet = 0.5 * (in_B + in_B.transpose());
+  TotalInertia total;
+  total.inertia = model.above.inertia + model.excess_density * wet;
+  Factorisation factors(total.inertia);
+  if (factors.info() != Eigen::Success) {
+    total.inertia = model.above.inertia + model.excess_density * withoutNegativePart(wet);
+    factors.compute(total.inertia);
+  }
+  const Matrix6 inverse = factors.solve(Eigen::Matrix<double, 6, 6>::Identity());
+  total.inverse = 0.5 * (inverse + inverse.transpose());
+  return total;
 }
 
 }  // namespace ambient

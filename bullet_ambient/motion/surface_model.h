@@ -58,8 +58,12 @@ SurfaceSide sideOf(const SurfaceModel& model, const SurfacePlane& plane_B, doubl
 /// In F, for a plane in B.
 Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
 
-/// Total inertia of body and fluids at an immersion, in B; docs/theory.md eq. (63). Positive
-/// definite.
-Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept;
+/// Total inertia of body and fluids, in B: positive definite.
+struct TotalInertia {
+  Matrix6 inertia, inverse;
+};
+
+/// At an immersion; docs/theory.md eq. (63). Cost: that of WettedInertia, and a factorisation.
+TotalInertia inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept;
 
 }  // namespace ambient

@@ -5,7 +5,7 @@
 namespace ambient {
 
 /// The change of the total inertia of a body that passes the surface of the water, over a time in
-/// which it moved from one pose to another; all in B, at the second pose.
+/// which it moved from one pose to another; in B, at the second pose but for the gradient.
 struct SurfacePassage {
   const Matrix6& before;         ///< K_0
   const Matrix6& after;          ///< K_1

@@ -1,26 +1,16 @@
 #include "bullet_ambient/motion/surface_stand.h"
 
-#include <Eigen/Cholesky>
-
 #include "bullet_ambient/motion/surface_passage.h"
 
 namespace ambient {
-namespace {
-
-Matrix6 inverseOfInertia(const Matrix6& K) {
-  using Matrix = Eigen::Matrix<double, 6, 6>;
-  const Matrix6 inverse = Eigen::LLT<Matrix>(K).solve(Matrix::Identity());
-  return 0.5 * (inverse + inverse.transpose());
-}
-
-}  // namespace
-
 SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
   SurfaceStand stand;
   stand.plane = plane_B;
   stand.immersion_F = immersionOf(model, plane_B);
   stand.wet = stand.immersion_F.wet.inB(model.fluid_frame);
-  stand.inertia = inertiaAt(model, stand.immersion_F);
+  const TotalInertia total = inertiaAt(model, stand.immersion_F);
+  stand.inertia = total.inertia;
+  stand.inverse = total.inverse;
   return stand;
 }
 
@@ -33,14 +23,14 @@ WaveModes waveModesAt(const SurfaceModel& model, const SurfaceStand& stand) noex
       {stand.wet, stand.plane, model.heave_factor * s.dot(fluid * s), model.wave_damping});
 }
 
-bool isStable(const WaveModes& modes) noexcept {
-  return modes.heave.stiffness > 0 && modes.tilt[0].stiffness > 0 && modes.tilt[1].stiffness > 0;
+bool isStable(const RestoringModes& modes) noexcept {
+  return modes[0].stiffness > 0 && modes[1].stiffness > 0 && modes[2].stiffness > 0;
 }
 
 BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
   BodyModel frozen = model.above;
   frozen.inertia = stand.inertia;
-  frozen.inverse_inertia = inverseOfInertia(stand.inertia);
+  frozen.inverse_inertia = stand.inverse;
   frozen.has_diagonal_inertia = false;
   const double water = model.excess_density * stand.wet.volume;
   frozen.displaced_mass = model.above.displaced_mass + water;
@@ -53,19 +43,22 @@ BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcep
   return frozen;
 }
 
-Vector6 passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
-  const SurfaceModel& model = move.model;
-  const SurfaceStand& after = move.after;
+Wrench gradientAt(const SurfaceModel& model, const SurfaceStand& stand, const Vector6& x) noexcept {
   const FrameOffset& frame = model.fluid_frame;
+  const Immersion& at = stand.immersion_F;
   const Twist in_F = frame.toF(Twist::fromVector(x));
+  return model.excess_density * frame.toB(model.wetted->gradient(at, in_F).wrench(at.plane));
+}
+
+Vector6 passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
+  const SurfaceStand& after = move.after;
   const Immersion& at = after.immersion_F;
-  const Wrench gradient = frame.toB(model.wetted->gradient(at, in_F).wrench(at.plane));
   const Vector3 centre = after.wet.volume > 0 ? Vector3(after.wet.moment / after.wet.volume)
-                                              : model.above.centre_of_volume;
-  return passSurface({move.inertia_before, after.inertia, inverseOfInertia(after.inertia),
-                      model.excess_density * gradient, after.plane.normal, centre, at.draught(),
-                      at.cover(), after.plane.gravity, move.duration},
-                     x);
+                                              : move.model.above.centre_of_volume;
+  return passSurface(
+      {move.inertia_before, after.inertia, after.inverse, move.gradient, after.plane.normal, centre,
+       at.draught(), at.cover(), after.plane.gravity, move.duration},
+      x);
 }
 
 }  // namespace ambient

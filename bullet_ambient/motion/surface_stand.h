@@ -11,6 +11,7 @@ struct SurfaceStand {
   Immersion immersion_F;
   WetVolume wet;
   Matrix6 inertia;  ///< K of body and fluids, docs/theory.md eq. (63)
+  Matrix6 inverse;  ///< K^-1
 };
 
 /// `plane_B` with the density and gravity that count. Cost: 1 us for a hull of some hundred
@@ -21,11 +22,14 @@ SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane
 WaveModes waveModesAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
 
 /// Whether small displacements are turned back: up and down, and about both axes of the waterplane.
-bool isStable(const WaveModes& modes) noexcept;
+bool isStable(const RestoringModes& modes) noexcept;
 
 /// The body as one of constant inertia and displacement, for a step in which rows move it. Its
 /// loads, in the frame of `loads_below`, are left to the caller.
 BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
+
+/// F_K of docs/theory.md eq. (66) for a twist in B relative to the water.
+Wrench gradientAt(const SurfaceModel& model, const SurfaceStand& stand, const Vector6& x) noexcept;
 
 /// Where a body passes the surface between two poses: x_1 of docs/theory.md eq. (66) to (68), from
 /// the twist that it would have at the second with the inertia of the first, K_0.
@@ -34,6 +38,7 @@ struct SurfaceMove {
   const Matrix6& inertia_before;
   const SurfaceStand& after;
   double duration;
+  Wrench gradient;  ///< F_K at the first pose or the second
 };
 Vector6 passSurface(const SurfaceMove& move, const Vector6& x) noexcept;
 

@@ -69,6 +69,7 @@ struct Scene {
   std::string name;  ///< file name without extension
   std::string description;
   std::filesystem::path file;    ///< where it was read from
+  std::string text;              ///< the whole scene after overrides, as JSON on one line
   double duration = 0;           ///< [s]
   double time_step = 0;          ///< [s]
   double output_step = 0;        ///< [s]

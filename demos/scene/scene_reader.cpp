@@ -40,11 +40,6 @@ constexpr std::array<std::pair<FluidModel, const char*>, 4> kModels{
      {FluidModel::kVacuum, "vacuum"},
      {FluidModel::kUwrbd, "uwrbd"},
      {FluidModel::kGwtf, "gwtf"}}};
-constexpr std::array<std::pair<Integrator, const char*>, 4> kIntegrators{
-    {{Integrator::kPassiveLeapfrog, "leapfrog"},
-     {Integrator::kDormandPrince, "dormand_prince"},
-     {Integrator::kRungeKutta4, "rk4"},
-     {Integrator::kSymplecticEuler, "symplectic_euler"}}};
 
 /// @pre the schema has let the word pass
 template <class Words>
@@ -63,7 +58,7 @@ FlightSettings toFlightSettings(const json& scene) {
   FlightSettings settings;
   const auto found = scene.find("integrator");
   if (found == scene.end()) return settings;
-  settings.integrator = valueOf(found->value("method", "leapfrog"), kIntegrators);
+  settings.integrator = valueOf(found->value("method", "leapfrog"), kIntegratorNames);
   settings.tolerance = found->value("tolerance", settings.tolerance);
   settings.max_substeps = found->value("max_substeps", settings.max_substeps);
   return settings;
@@ -121,6 +116,7 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   Scene scene;
   scene.name = file.stem().string();
   scene.file = file;
+  scene.text = from.dump();
   scene.description = from.value("description", "");
   scene.duration = from.at("duration").get<double>();
   scene.time_step = from.at("time_step").get<double>();
@@ -155,10 +151,15 @@ void removeRounding(Scene& scene) {
 
 std::string modelName(FluidModel model) { return wordOf(model, kModels); }
 
-std::string integratorName(Integrator integrator) { return wordOf(integrator, kIntegrators); }
+std::string integratorName(Integrator integrator) { return wordOf(integrator, kIntegratorNames); }
 
 Scene readScene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides) {
-  json document = parseJson(readBytes(file), file.string());
+  return parseScene(readBytes(file), file, overrides);
+}
+
+Scene parseScene(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<SceneOverride>& overrides) {
+  json document = parseJson(text, file.string());
   for (const SceneOverride& change : overrides) applyOverride(document, change, file.string());
   sceneSchema().check(document, file.string());
   Scene scene = toScene(document, file);

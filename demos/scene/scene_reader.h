@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "demos/scene/scene.h"
@@ -13,5 +14,10 @@ namespace ambient {
 /// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
 Scene readScene(const std::filesystem::path& file,
                 const std::vector<SceneOverride>& overrides = {});
+
+/// The same from a text; `file` stands for it in messages, and files that it names are looked for
+/// beside that. Scene::text gives the same scene again.
+Scene parseScene(const std::string& text, const std::filesystem::path& file,
+                 const std::vector<SceneOverride>& overrides = {});
 
 }  // namespace ambient

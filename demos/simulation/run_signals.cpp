@@ -7,7 +7,6 @@
 #include <string>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
-#include "demos/simulation/scene_run.h"
 
 namespace ambient {
 namespace {
@@ -18,10 +17,7 @@ std::atomic<bool> is_interrupted{false};
 
 // What may be called here: POSIX, "async-signal-safe functions".
 void handle(int signal) {
-  if (!is_interrupted.exchange(true)) {
-    interruptRun();
-    return;
-  }
+  if (!is_interrupted.exchange(true)) return;
   for (const std::string& file : files) ::unlink(file.c_str());
   for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) ::rmdir(folder->c_str());
   std::signal(signal, SIG_DFL);
@@ -36,5 +32,7 @@ void hearSignals(const Unfinished& unfinished) {
   for (const std::filesystem::path& folder : unfinished.folders) folders.push_back(folder.string());
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, handle);
 }
+
+bool wasInterrupted() noexcept { return is_interrupted; }
 
 }  // namespace ambient

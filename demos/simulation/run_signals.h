@@ -10,8 +10,11 @@ struct Unfinished {
   std::vector<std::filesystem::path> files, folders;
 };
 
-/// From here on the first SIGINT, SIGTERM or SIGHUP makes runScene() stop after the step that it is
-/// in, and the second one removes what is unfinished and ends the program at once. Called once.
-void hearSignals(const Unfinished& unfinished);
+/// From here on the first SIGINT, SIGTERM or SIGHUP asks to stop, wasInterrupted(), and the second
+/// one removes what is unfinished and ends the program at once. Called once.
+void hearSignals(const Unfinished& unfinished = {});
+
+/// Whether a signal has come: a run that is asked after each step stops then.
+bool wasInterrupted() noexcept;
 
 }  // namespace ambient

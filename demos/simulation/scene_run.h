@@ -1,17 +1,19 @@
 #pragma once
 
+#include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/output_file.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/simulation.h"
-#include "preprocess/builder/output_file.h"
 
 namespace ambient {
 
-/// What came of a run, besides its trajectory file.
+/// What came of a run.
 struct RunRecord {
   long long steps = 0;
   double wall_seconds = 0;                        ///< spent stepping
@@ -20,19 +22,24 @@ struct RunRecord {
   std::string warning;                            ///< of the library, one sentence; mostly empty
 };
 
+/// Is told after every step how much is done, from 0 to 1; the run goes on if it answers true.
+using RunProgress = std::function<bool(double share)>;
+
+/// A run was told to stop.
+struct RunStopped : std::runtime_error {
+  RunStopped() : std::runtime_error("interrupted") {}
+};
+
 /// The times of the rows: multiples of the output step from 0 on, and the duration.
 std::vector<double> outputTimes(const Scene& scene);
 
-/// Steps that cover the duration.
-long long countSteps(const Scene& scene);
+/// Steps that cover a time [s].
+long long countSteps(double duration, double time_step);
 
-/// Runs a scene and writes trajectory.csv into `file`, which stays uncommitted.
-/// Output times between two steps are interpolated.
-/// @throws std::runtime_error naming body and time if a state is not finite, or if interrupted.
-RunRecord runScene(const Scene& scene, const std::vector<PreparedBody>& bodies, OutputFile& file,
-                   bool quiet);
-
-/// Makes a running runScene() stop with an exception; may be called from a signal handler.
-void interruptRun() noexcept;
+/// Runs a scene. Output times between two steps are interpolated.
+/// @throws std::runtime_error naming body and time if a state is not finite; RunStopped.
+RunRecord runScene(
+    const Scene& scene, const std::vector<PreparedBody>& bodies,
+    const RunProgress& progress = [](double) { return true; });
 
 }  // namespace ambient

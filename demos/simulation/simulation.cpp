@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
 #include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/world_state.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/rivals/rival_laws.h"
 #include "demos/scene/scene_water.h"
@@ -28,6 +30,7 @@ struct WorldBody {
   Matrix3 R_SB = Matrix3::Identity();  // B's axes to S's
   CollisionShape shape;
   std::unique_ptr<btRigidBody> body;
+  std::shared_ptr<const FluidBody> fluid_body;
   bool is_ambient = false;
 };
 
@@ -48,6 +51,7 @@ btTransform toBulletPose(const Matrix3& rotation, const Vector3& translation) {
 WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
   WorldBody made;
   made.name = def.name;
+  made.fluid_body = prepared.fluid_body;
   made.start = startOf(def);
   PrincipalFrame principal;
   if (prepared.mass > 0) principal = findPrincipalFrame(prepared.inertia);
@@ -128,6 +132,7 @@ struct Simulation::World {
   void add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared);
   void add(const JointDef& def);
   btRigidBody& find(const std::string& name) const;
+  std::shared_ptr<const FluidBody> findFluidBody(const std::string& name) const;
   MotionSample sample(const WorldBody& of) const;
 };
 
@@ -148,6 +153,13 @@ btRigidBody& Simulation::World::find(const std::string& name) const {
   const auto found = std::find_if(bodies.begin(), bodies.end(),
                                   [&](const WorldBody& body) { return body.name == name; });
   return *found->body;
+}
+
+std::shared_ptr<const FluidBody> Simulation::World::findFluidBody(const std::string& name) const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const WorldBody& body) {
+    return body.fluid_body && body.fluid_body->name == name;
+  });
+  return found == bodies.end() ? nullptr : found->fluid_body;
 }
 
 void Simulation::World::add(const JointDef& def) {
@@ -199,6 +211,43 @@ std::vector<MotionSample> Simulation::sample() const {
   std::vector<MotionSample> samples;
   for (const WorldBody& body : world_->bodies) samples.push_back(world_->sample(body));
   return samples;
+}
+
+void Simulation::applyForce(std::size_t body, const Vector3& force, const Vector3& point) {
+  btRigidBody& of = *world_->bodies.at(body).body;
+  of.applyForce(toBullet(force), toBullet(point) - of.getCenterOfMassPosition());
+}
+
+void Simulation::applyTorque(std::size_t body, const Vector3& torque) {
+  world_->bodies.at(body).body->applyTorque(toBullet(torque));
+}
+
+void Simulation::setMedium(std::size_t body, const Medium& medium) {
+  const WorldBody& of = world_->bodies.at(body);
+  try {
+    world_->registry.setMedium(*of.body, medium);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("body \"" + of.name + "\": " + error.what());
+  }
+}
+
+std::string Simulation::saveState() const {
+  std::string bytes(sizeof world_->steps, '\0');
+  std::memcpy(bytes.data(), &world_->steps, sizeof world_->steps);
+  return bytes + encodeState(ambient::saveState(world_->world, world_->registry));
+}
+
+void Simulation::restoreState(std::string_view bytes) {
+  World& w = *world_;
+  const std::string source = "saved state";
+  if (bytes.size() < sizeof w.steps) throw std::runtime_error(source + ": is cut short");
+  long long steps = 0;
+  std::memcpy(&steps, bytes.data(), sizeof steps);
+  if (steps < 0) throw std::runtime_error(source + ": is damaged: its steps are below 0");
+  const auto lookup = [&w](const std::string& name) { return w.findFluidBody(name); };
+  ambient::restoreState(decodeState(bytes.substr(sizeof steps), source, lookup), w.world,
+                        w.registry);
+  w.steps = steps;
 }
 
 const std::string& Simulation::warning() const { return world_->report; }

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "demos/analysis/motion_sample.h"
@@ -37,6 +38,24 @@ class Simulation {
   std::vector<MotionSample> sample() const;
 
   FlightWork work(std::size_t body) const;
+
+  /// Adds a force [N] that acts at a point [m] during the next step; world axes.
+  void applyForce(std::size_t body, const Vector3& force, const Vector3& point);
+  /// The same for a torque [N m].
+  void applyTorque(std::size_t body, const Vector3& torque);
+
+  /// Changes the fluid around a body, as AmbientRegistry::setMedium().
+  /// @throws std::invalid_argument naming the body if the fluid does not act on it or the medium is
+  /// not physical.
+  void setMedium(std::size_t body, const Medium& medium);
+
+  /// Everything that changes from step to step, as bytes; applied forces included.
+  std::string saveState() const;
+  /// Goes on from there in this simulation or another one of the same scene, bit for bit where
+  /// ambient::restoreState() does: contacts of bodies that move are those of compound shapes.
+  /// @throws std::runtime_error or std::invalid_argument, one sentence, if the bytes are damaged or
+  /// of another scene; the simulation then stays as it was.
+  void restoreState(std::string_view bytes);
 
   /// What the library has reported last, one sentence; empty: nothing.
   const std::string& warning() const;

@@ -25,4 +25,13 @@ std::string trajectoryRow(const std::string& body, const MotionSample& sample) {
   return row + "\n";
 }
 
+std::string makeTrajectoryText(const Scene& scene,
+                               const std::vector<std::vector<MotionSample>>& motion) {
+  std::string text = std::string(kTrajectoryHeader) + "\n";
+  for (std::size_t row = 0; row < motion.front().size(); ++row)
+    for (std::size_t body = 0; body < motion.size(); ++body)
+      text += trajectoryRow(scene.bodies[body].name, motion[body][row]);
+  return text;
+}
+
 }  // namespace ambient

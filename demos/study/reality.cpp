@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "bullet_ambient/fluid_body/output_file.h"
 #include "demos/simulation/output_folder.h"
 #include "demos/study/falling_run.h"
 #include "demos/study/measured_coefficient.h"
 #include "demos/study/measured_shapes.h"
-#include "preprocess/builder/output_file.h"
 #include "preprocess/shape/json_text.h"
 
 namespace ambient {

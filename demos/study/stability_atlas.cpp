@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/output_file.h"
 #include "demos/study/atlas_run.h"
-#include "preprocess/builder/output_file.h"
 
 namespace ambient {
 namespace {

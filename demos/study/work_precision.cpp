@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/output_file.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/study/precision_run.h"
-#include "preprocess/builder/output_file.h"
 
 namespace ambient {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "preprocess/builder/output_file.h"
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/bullet_world/world_file.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
@@ -25,7 +25,7 @@ void build(const WorldShape& shape, const WorldBuildSettings& settings, WorldSha
   result.status = body ? Status::kKept : Status::kBuilt;
   if (!body) {
     body = makeFluidBody(*shape.shape, shape_settings);
-    writeThroughLinks(*body, result.file);
+    writeFluidBody(*body, result.file);
   }
   result.faces = body->faces.size();
   result.extents = extentsOf(*body);

@@ -4,9 +4,9 @@
 #include <optional>
 #include <sstream>
 
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
-#include "preprocess/builder/output_file.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/command_line/commands.h"
@@ -93,7 +93,7 @@ FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings&
   for (const std::string& warning : built.warnings)
     std::cerr << "warning: " << plainLine(warning) << "\n";
   const BlockedSignals until_renamed;
-  writeThroughLinks(built.body, arguments.output);
+  writeFluidBody(built.body, arguments.output);
   return built.body;
 }
 

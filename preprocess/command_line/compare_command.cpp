@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "preprocess/command_line/body_loads.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
+#include "preprocess/polar/body_loads.h"
 
 namespace ambient {
 namespace {

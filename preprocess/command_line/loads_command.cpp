@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "preprocess/command_line/body_loads.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/polar/body_loads.h"
 
 namespace ambient {
 namespace {

@@ -1,16 +1,16 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/spatial/pi.h"
-#include "preprocess/command_line/body_loads.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
+#include "preprocess/polar/polar.h"
 
 namespace ambient {
 namespace {
@@ -41,56 +41,25 @@ AngleRange parseRange(const std::string& option, const std::string& text) {
   return range;
 }
 
-/// Forward, left and up, right-handed, as columns in F.
+Vector3 parseAxis(const char* option, const std::string& text) {
+  try {
+    return axisNamed(text);
+  } catch (const std::invalid_argument& error) {
+    raiseUsageError(option, error.what());
+  }
+}
+
 Matrix3 parseAxes(const std::string& forward, const std::string& up) {
-  const auto axisOf = [](const char* option, const std::string& text) {
-    const bool has_sign = text.size() == 2 && (text[0] == '-' || text[0] == '+');
-    const char letter = text.empty() ? ' ' : text.back();
-    if ((text.size() != 1 && !has_sign) || letter < 'x' || letter > 'z') {
-      raiseUsageError(option, "\"", text, "\" is none of x, y, z, -x, -y, -z");
-    }
-    Vector3 axis = Vector3::Zero();
-    axis[letter - 'x'] = text[0] == '-' ? -1 : 1;
-    return axis;
-  };
-  Matrix3 axes;
-  axes.col(0) = axisOf("--forward", forward);
-  axes.col(2) = axisOf("--up", up);
-  if (axes.col(0).dot(axes.col(2)) != 0) {
-    raiseUsageError("--up", up, " is along --forward ", forward);
-  }
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  return axes;
+  const Vector3 ahead = parseAxis("--forward", forward), above = parseAxis("--up", up);
+  if (ahead.dot(above) != 0) raiseUsageError("--up", up, " is along --forward ", forward);
+  return flightAxes(ahead, above);
 }
 
-struct Reference {
-  double area = 0;
-  double length = 0;
-};
-
-/// Half the area projected along an axis, both sides counted: the silhouette of a convex body or of
-/// a flat sheet.
-double silhouetteAlong(const Vector3& axis, const FluidBody& body) {
-  if (body.sphere_radius > 0) return kPi * body.sphere_radius * body.sphere_radius;
-  const FaceTable& faces = body.faces;
-  double sum = 0;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    sum += faces.area[i] * std::abs(faces.normal(i).dot(axis));
-  }
-  return sum / 2;
-}
-
-double extentAlong(const Vector3& axis, const FluidBody& body) {
-  if (body.sphere_radius > 0) return 2 * body.sphere_radius;
-  return axis.cwiseAbs().dot(extentsOf(body));
-}
-
-Reference referenceOf(const PolarArguments& arguments, const FluidBody& body, const Matrix3& axes) {
-  Reference reference;
-  reference.area =
-      arguments.reference_area > 0 ? arguments.reference_area : silhouetteAlong(axes.col(2), body);
-  reference.length =
-      arguments.reference_length > 0 ? arguments.reference_length : extentAlong(axes.col(0), body);
+PolarReference referenceOf(const PolarArguments& arguments, const FluidBody& body,
+                           const Matrix3& axes) {
+  PolarReference reference = usualReference(body, axes);
+  if (arguments.reference_area > 0) reference.area = arguments.reference_area;
+  if (arguments.reference_length > 0) reference.length = arguments.reference_length;
   if (!(reference.area > 0)) {
     raiseInputError(arguments.file, "has no area seen along --up: give --reference-area");
   }
@@ -106,23 +75,6 @@ void checkNumbers(const PolarArguments& arguments) {
   requireNotNegative("--viscosity", arguments.viscosity);
   requireNotNegative("--reference-area", arguments.reference_area);
   requireNotNegative("--reference-length", arguments.reference_length);
-}
-
-/// C_L, C_D, C_Y, C_l, C_m, C_n at one attitude; forward, left and up axes.
-std::array<double, 6> coefficientsAt(double attack, double side_slip, const BodyLoads& loads,
-                                     const Matrix3& axes, const PolarArguments& arguments,
-                                     const Reference& reference) {
-  const double ca = std::cos(attack), sa = std::sin(attack);
-  const double cb = std::cos(side_slip), sb = std::sin(side_slip);
-  const Vector3 motion(ca * cb, -sb, -sa * cb), lift(sa, 0, ca);
-  const Vector3 side = motion.cross(lift);  // to the right
-  const Twist twist{Vector3::Zero(), axes * motion * arguments.speed};
-  const Wrench load = loads.at(twist).total();
-  const double scale = 0.5 * arguments.density * arguments.speed * arguments.speed * reference.area;
-  const Vector3 force = axes.transpose() * load.force / scale;
-  const Vector3 moment = axes.transpose() * load.torque / (scale * reference.length);
-  return {force.dot(lift), -force.dot(motion), force.dot(side),
-          moment.x(),      -moment.y(),        -moment.z()};
 }
 
 }  // namespace
@@ -143,13 +95,14 @@ void runPolar(const PolarArguments& arguments) {
   const Medium medium{arguments.density, arguments.viscosity, Vector3::Zero(), Vector3::Zero()};
   const FluidBody body = readFluidBody(arguments.file);
   const BodyLoads loads(body, medium, flow);
-  const Reference reference = referenceOf(arguments, body, axes);
+  const PolarFlight flight{axes, arguments.density, arguments.speed,
+                           referenceOf(arguments, body, axes)};
   const double dynamic_pressure = 0.5 * arguments.density * arguments.speed * arguments.speed;
   std::string text = "attack,side_slip,C_L,C_D,C_Y,C_l,C_m,C_n\n";
   for (int j = 0; j < side_slip.count(); ++j) {
     for (int i = 0; i < attack.count(); ++i) {
-      const auto coefficients = coefficientsAt(attack[i] * kPi / 180, side_slip[j] * kPi / 180,
-                                               loads, axes, arguments, reference);
+      const PolarCoefficients coefficients =
+          polarCoefficients(loads, flight, attack[i] * kPi / 180, side_slip[j] * kPi / 180);
       for (const double value : coefficients) {
         if (std::isfinite(value) && std::isfinite(dynamic_pressure)) continue;
         raiseInputError(arguments.file, "a coefficient at an angle of attack of ", attack[i],
@@ -165,8 +118,8 @@ void runPolar(const PolarArguments& arguments) {
       text += "\n";
     }
   }
-  std::fprintf(stderr, "reference area %.9g m^2, reference length %.9g m\n", reference.area,
-               reference.length);
+  std::fprintf(stderr, "reference area %.9g m^2, reference length %.9g m\n", flight.reference.area,
+               flight.reference.length);
   std::cout << text;
 }
 

@@ -1,10 +1,10 @@
 #include <iostream>
 #include <sstream>
 
+#include "bullet_ambient/fluid_body/output_file.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
-#include "preprocess/builder/output_file.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/json_numbers.h"

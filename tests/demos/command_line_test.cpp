@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/demos/scene/scene_text.h"
 #include "tests/support/run_program.h"
 #include "tests/support/text_files.h"
@@ -134,6 +136,42 @@ TEST(AmbientDemo, EscapesInNamesDoNotReachTheTerminal) {
   EXPECT_EQ((result.output + result.errors).find_first_of("\033\302"), std::string::npos);
 }
 
+TEST(AmbientDemo, RunsCasesAndCollectsThem) {
+  const TemporaryFolder folder;
+  const std::string good = nlohmann::json{{"scene", smallBall()}}.dump() + "\n";
+  const nlohmann::json torn{{"bodies.0.linear_velocity", {1e200, 0, 0}}};
+  const std::string bad = nlohmann::json{{"scene", smallBall()}, {"set", torn}}.dump() + "\n";
+  const std::string cases = folder / "cases.jsonl", out = folder / "out";
+  writeText(cases, good + bad);
+  const ProgramResult failed = demo({"--cases", cases, "--out", out});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.output.find("2 cases, 0 done before, 2 run in "), std::string::npos);
+  EXPECT_NE(failed.errors.find("1 of 2 cases failed"), std::string::npos) << failed.errors;
+  const ProgramResult shard = demo({"--cases", cases, "--out", out, "--shard", "0/2", "--quiet"});
+  EXPECT_EQ(shard.exit_code, 0);
+  EXPECT_EQ(shard.output + shard.errors, "");
+  const std::string table = folder / "table.csv";
+  EXPECT_EQ(demo({"--cases", cases, "--out", out, "--collect", table, "--quiet"}).exit_code, 0);
+  const std::string text = readText(table);
+  EXPECT_EQ(text.rfind("case,key,body,mass,end_time,", 0), 0u);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+}
+
+TEST(AmbientDemo, ARunOfCasesThatIsInterruptedSaysSo) {
+  nlohmann::json scene = smallBall();
+  scene["model"] = "vacuum";
+  scene["duration"] = scene["output_step"] = 1e7;
+  const TemporaryFolder folder;
+  const std::string cases = folder / "cases.jsonl", out = folder / "out";
+  writeText(cases, nlohmann::json{{"scene", scene}}.dump());
+  const ProgramResult result =
+      interruptProgram(AMBIENT_DEMO_PROGRAM, {"--cases", cases, "--out", out}, 500);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.errors.find("interrupted"), std::string::npos) << result.errors;
+  for (const auto& entry : std::filesystem::directory_iterator(out))
+    EXPECT_EQ(entry.path().filename(), "fluid_bodies");  // what was solved is kept
+}
+
 TEST(AmbientDemo, RefusesALinearDragThatIsNotPositive) {
   expectRefusal(smallBall(), {"--set", "model=uwrbd", "--set", "linear_drag_speed=0"},
                 "linear_drag_speed is 0; must be > 0");
@@ -150,6 +188,10 @@ TEST(AmbientDemo, BadUsageExitsWithTwo) {
   EXPECT_EQ(demo({"plate_8cm", "--no-such-option"}).exit_code, 2);
   EXPECT_EQ(demo({"plate_8cm", "--set", "duration"}).exit_code, 2);
   EXPECT_EQ(demo({"plate_8cm", "plate_9cm"}).exit_code, 2);
+  EXPECT_EQ(demo({"--cases", "cases.jsonl"}).exit_code, 2);
+  EXPECT_EQ(demo({"--cases", "cases.jsonl", "--out", "out", "--shard", "2/2"}).exit_code, 2);
+  EXPECT_EQ(demo({"--cases", "cases.jsonl", "--out", "out", "plate_8cm"}).exit_code, 2);
+  EXPECT_EQ(demo({"plate_8cm", "--shard", "0/2"}).exit_code, 2);
   EXPECT_EQ(demo({"--help"}).exit_code, 0);
 }
 

@@ -71,7 +71,7 @@ class FloatingRun {
     const SurfacePlane plane{{0, 0, 1}, 0, model_.excess_density, -gravity_.z()};
     return immersionOf(model_, seenFrom(plane, R, state.position));
   }
-  Matrix6 inertia() const { return inertiaAt(model_, immersion()); }
+  Matrix6 inertia() const { return inertiaAt(model_, immersion()).inertia; }
   Vector3 velocity_W() const { return state.orientation * state.twist.linear; }
   Vector3 momentum_W() const {
     const Vector6 p = inertia() * state.twist.vector();
@@ -81,7 +81,7 @@ class FloatingRun {
   double energy() const {
     const Immersion at = immersion();
     const Vector6 x = state.twist.vector();
-    return 0.5 * x.dot(inertiaAt(model_, at) * x) - mass_ * gravity_.dot(state.position) +
+    return 0.5 * x.dot(inertiaAt(model_, at).inertia * x) - mass_ * gravity_.dot(state.position) +
            hydrostaticEnergy(at.wet, at.plane) + waves.energy();
   }
 

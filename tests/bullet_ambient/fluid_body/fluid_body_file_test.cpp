@@ -143,6 +143,19 @@ TEST(FluidBodyFile, ReplacesAnOldFileAndLeavesNothingElseBehind) {
   EXPECT_EQ(entriesOf(folder), 1);
 }
 
+TEST(FluidBodyFile, IsWrittenThroughSymbolicLinksAndUnderTheLongestNames) {
+  const TemporaryFolder folder;
+  const auto file = folder / "body.ambient", link = folder / "link.ambient";
+  std::filesystem::create_symlink("body.ambient", link);
+  writeFluidBody(test::exampleBody(), link);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(readText(file), encodeFluidBody(test::exampleBody(), "x"));
+  constexpr std::size_t kLongest = 255;  // bytes of a name on common file systems
+  for (std::size_t length = kLongest - 2; length <= kLongest; ++length)
+    writeFluidBody(test::exampleBody(), folder / std::string(length, 'a'));
+  EXPECT_EQ(entriesOf(folder), 5);
+}
+
 TEST(FluidBodyFile, KeepsTheOldFileIfTheBodyIsNotValid) {
   const TemporaryFolder folder;
   const auto file = folder / "body.ambient";

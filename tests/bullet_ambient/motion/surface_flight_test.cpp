@@ -139,6 +139,27 @@ TEST(SurfaceFlight, EnergyNeverGrows) {
   }
 }
 
+TEST(SurfaceFlight, LightBodyDoesNotFallDeeperThanItsEnergyReaches) {
+  // 1.3 cm long, 0.035 times as heavy as water: in one step it comes to where its buoyancy would
+  // need more than all its energy.
+  FloatingDef def;
+  def.shape = test::floatingEllipsoid({0.0065, 0.0013, 0.00065}, 1);
+  def.gyration = Vector3::Constant(0.005);
+  def.specific_gravity = 0.035;
+  for (const double height : {0.02, 0.03, 0.04}) {
+    FloatingRun body(def);
+    body.state.position = {0, 0, height};
+    body.state.twist = {{2, 5, -6}, {0, 0, -0.5}};
+    const double scale = test::kWaterDensity * def.shape.volume * 9.81 * 0.013;
+    double energy = body.energy();
+    for (int n = 0; n < 30; ++n) {
+      body.step(0.022);
+      EXPECT_LE(body.energy() - energy, 1e-11 * scale) << "step " << n;
+      energy = body.energy();
+    }
+  }
+}
+
 TEST(SurfaceFlight, DropConvergesInTheStep) {
   FloatingDef def;
   def.shape = test::floatingEllipsoid({1, 0.5, 0.25}, 2);

@@ -23,11 +23,9 @@ inline Scene readNamedScene(const std::string& name,
   return readScene(sceneFile(name), overrides);
 }
 
-/// Runs a scene with bodies prepared before; the trajectory file is thrown away.
+/// Runs a scene with bodies prepared before.
 inline RunRecord runPrepared(const Scene& scene, const std::vector<PreparedBody>& bodies) {
-  const TemporaryFolder folder;
-  OutputFile file(folder / "trajectory.csv");
-  return runScene(scene, bodies, file, true);
+  return runScene(scene, bodies);
 }
 
 inline std::vector<PreparedBody> prepare(const Scene& scene) {

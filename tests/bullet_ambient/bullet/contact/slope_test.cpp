@@ -6,17 +6,17 @@
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 
 // Bodies at rest on a slope, kept awake, in Bullet's default mode of one friction row per contact.
-// A push along the normal makes an uneven body slip across that row.
+// What pushes an uneven body along a face does not make it slip the same way.
 namespace ambient::test {
 namespace {
 
-constexpr double kSlope = 0.25, kStep = 1.0 / 60;
+constexpr double kSlope = 0.25, kFriction = 0.8, kStep = 1.0 / 60;
 constexpr int kSettling = 60, kSteps = 540;
 
 // The slope is level and gravity oblique.
 struct Slope : FluidWorld {
-  Slope() {
-    world.setGravity({bt(9.81 * std::sin(kSlope)), 0, bt(-9.81 * std::cos(kSlope))});
+  explicit Slope(double angle = kSlope) {
+    world.setGravity({bt(9.81 * std::sin(angle)), 0, bt(-9.81 * std::cos(angle))});
     floor.setFriction(1);
     world.addRigidBody(&floor);
   }
@@ -24,7 +24,7 @@ struct Slope : FluidWorld {
 
   void place(btRigidBody& body) {
     body.setGravity(world.getGravity());
-    body.setFriction(bt(0.8));
+    body.setFriction(bt(kFriction));
   }
   /// How far a body moves once it has settled [m].
   double creep(const btRigidBody& body) {
@@ -121,6 +121,34 @@ TEST(Slope, HoldsRandomHullsAsWellAsDryOnes) {
         return body;
       });
   EXPECT_LT(worst.ambient, worst.stock);
+}
+
+// Rows of one step of a box that stands on its four corners, one normal row each.
+long long rowsOfStep(double angle, const FluidBody& shape) {
+  Slope slope(angle);
+  btBoxShape box({bt(0.5), bt(0.4), bt(0.3)});
+  BodyDef def{1, Vector3(0.25, 0.34, 0.41) / 3, {}, &box};
+  def.start.position = {0, 0, 0.3};
+  btRigidBody& body = slope.add(def, shape, idealFluid(1));
+  slope.place(body);
+  slope.step(kStep, 2);
+  const long long before = slope.registry.counters(body).rows;
+  slope.step(kStep);
+  slope.world.removeRigidBody(&body);
+  return slope.registry.counters(body).rows - before;
+}
+
+TEST(Slope, CostsASecondRowOnlyWhereFrictionHoldsItAndThePushTurnsAside) {
+  Arbitrary arbitrary(1);
+  const FluidBody coupled = unevenFluid(arbitrary, 2);
+  EXPECT_EQ(rowsOfStep(0, coupled), 4 * 2);
+  EXPECT_EQ(rowsOfStep(0.005, coupled), 4 * 2);
+  EXPECT_EQ(rowsOfStep(0.05, coupled), 4 * 3);
+  EXPECT_EQ(rowsOfStep(0.95 * std::atan(kFriction), coupled), 4 * 3);
+  EXPECT_EQ(rowsOfStep(1.05 * std::atan(kFriction), coupled), 4 * 2);
+  Vector6 even;
+  even << 0.1, 0.2, 0.1, 0.2, 0.5, 2;
+  EXPECT_EQ(rowsOfStep(0.05, inertiaAlone(even.asDiagonal())), 4 * 2);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -132,13 +133,51 @@ TEST_F(StateBytes, WithARightChecksumButWrongContentAreRefused) {
   expectSays(encodeState(wrong), "pose or velocity is not finite");
   wrong = state;
   wrong.contacts[0].points.resize(5);
-  expectSays(encodeState(wrong), "more than 4 points");
+  expectSays(encodeState(wrong), "a contact of 5 points; at most 4");
   wrong = state;
   wrong.contacts[0].pair.object_a = -3;
   expectSays(encodeState(wrong), "without an object");
   wrong = state;
   wrong.bodies[1].ambient->memory.substep = std::numeric_limits<double>::infinity();
   expectSays(encodeState(wrong), "not finite");
+}
+
+// Each of them would spread through the world in the next step.
+TEST_F(StateBytes, WithNumbersThatNoWorldCanHaveAreRefusedHoweverTheyCome) {
+  constexpr auto kNaN = std::numeric_limits<btScalar>::quiet_NaN();
+  constexpr auto kInfinity = std::numeric_limits<btScalar>::infinity();
+  struct Forgery {
+    std::function<void(WorldState&)> forge;
+    const char* words;
+  };
+  const Forgery forgeries[] = {
+      {[](WorldState& s) { s.bodies[1].total_force.setX(kNaN); }, "number 1, whose force, torque"},
+      {[](WorldState& s) { s.bodies[1].total_torque.setY(kInfinity); }, "force, torque"},
+      {[](WorldState& s) { s.bodies[1].gravity.setZ(-kInfinity); }, "force, torque or gravity"},
+      {[](WorldState& s) { s.bodies[1].inverse_inertia.setX(-1); }, "inverse inertia"},
+      {[](WorldState& s) { s.bodies[1].inverse_inertia.setY(kNaN); }, "inverse inertia"},
+      {[](WorldState& s) { s.bodies[1].linear_factor.setZ(kNaN); }, "factor"},
+      {[](WorldState& s) { s.bodies[1].linear_damping = kNaN; }, "damping"},
+      {[](WorldState& s) { s.bodies[1].angular_damping = -1; }, "damping"},
+      {[](WorldState& s) { s.bodies[1].friction = kInfinity; }, "friction"},
+      {[](WorldState& s) { s.bodies[1].ccd_threshold = kNaN; }, "threshold"},
+      {[](WorldState& s) { s.bodies[1].ambient->medium.density = -1; }, "medium"},
+      {[](WorldState& s) { s.contacts[0].points[0].m_localPointA.setX(kNaN); }, "contact point"},
+      {[](WorldState& s) { s.contacts[0].points[0].m_appliedImpulse = kNaN; }, "contact point"},
+      {[](WorldState& s) { s.contacts[0].points[0].m_normalWorldOnB *= 2; }, "contact point"}};
+  for (const Forgery& forgery : forgeries) {
+    WorldState wrong = state;
+    forgery.forge(wrong);
+    expectSays(encodeState(wrong), forgery.words);
+    try {
+      restoreState(wrong, scene.fluid.world, scene.fluid.registry);
+      ADD_FAILURE() << forgery.words;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(forgery.words), std::string::npos) << error.what();
+    }
+  }
+  WorldState now = saveState(scene.fluid.world, scene.fluid.registry);
+  EXPECT_EQ(encodeState(now), bytes);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "preprocess/builder/output_file.h"
+#include "bullet_ambient/fluid_body/output_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "bullet_ambient/force/surface_loads.h"
 
@@ -10,7 +11,10 @@ namespace ambient {
 /// in F.
 class BodyLoads {
  public:
-  BodyLoads(FluidBody body, const Medium& medium, const FlowSettings& flow);
+  BodyLoads(const std::shared_ptr<const FluidBody>& body, const Medium& medium,
+            const FlowSettings& flow);
+  BodyLoads(FluidBody body, const Medium& medium, const FlowSettings& flow)
+      : BodyLoads(std::make_shared<const FluidBody>(std::move(body)), medium, flow) {}
 
   /// About the origin of F, for a twist relative to the fluid.
   FaceLoads at(const Twist& relative_twist) const;

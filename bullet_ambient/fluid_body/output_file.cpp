@@ -1,4 +1,4 @@
-#include "preprocess/builder/output_file.h"
+#include "bullet_ambient/fluid_body/output_file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -7,15 +7,13 @@
 #include <string>
 #include <system_error>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-
 namespace ambient {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+[[noreturn]] void failToWrite(const fs::path& file, const std::string& what) {
   throw std::runtime_error(file.string() + ": " + what);
 }
 
@@ -42,10 +40,11 @@ OutputFile::OutputFile(const fs::path& file)
     : file_(file), target_(linkTarget(file)), partial_(temporaryNameFor(target_)) {
   std::error_code no_status;
   const fs::file_status status = fs::status(target_, no_status);
-  if (fs::is_other(status)) fail(file, "is not a regular file");  // renaming would replace a device
+  if (fs::is_other(status))
+    failToWrite(file, "is not a regular file");  // renaming would replace a device
   errno = 0;
   stream_.open(partial_, std::ios::binary | std::ios::trunc);
-  if (!stream_) fail(file, std::string("cannot be written: ") + std::strerror(errno));
+  if (!stream_) failToWrite(file, std::string("cannot be written: ") + std::strerror(errno));
 }
 
 OutputFile::~OutputFile() {
@@ -63,18 +62,12 @@ void OutputFile::commit() {
   if (error_ == 0) errno = 0;
   stream_.close();
   if (!stream_)
-    fail(file_, std::string("cannot be written: ") + std::strerror(error_ == 0 ? errno : error_));
+    failToWrite(file_,
+                std::string("cannot be written: ") + std::strerror(error_ == 0 ? errno : error_));
   std::error_code error;
   fs::rename(partial_, target_, error);
-  if (error) fail(file_, "cannot be written: " + error.message());
+  if (error) failToWrite(file_, "cannot be written: " + error.message());
   partial_.clear();
-}
-
-void writeThroughLinks(const FluidBody& body, const fs::path& file) {
-  const std::string bytes = encodeFluidBody(body, file.string());
-  OutputFile output(file);
-  output.write(bytes);
-  output.commit();
 }
 
 }  // namespace ambient

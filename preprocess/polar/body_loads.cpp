@@ -1,17 +1,15 @@
-#include "preprocess/command_line/body_loads.h"
-
-#include <utility>
+#include "preprocess/polar/body_loads.h"
 
 #include "bullet_ambient/force/load_tables.h"
 
 namespace ambient {
 
-BodyLoads::BodyLoads(FluidBody body, const Medium& medium, const FlowSettings& flow) {
+BodyLoads::BodyLoads(const std::shared_ptr<const FluidBody>& body, const Medium& medium,
+                     const FlowSettings& flow) {
   FlowSettings in_double = flow;
   in_double.precision = LoadPrecision::kDouble;
   LoadTables tables;
-  loads_ = makeSurfaceLoads(std::make_shared<const FluidBody>(std::move(body)), medium, in_double,
-                            tables);
+  loads_ = makeSurfaceLoads(body, medium, in_double, tables);
   if (loads_) frame_ = loads_->frame({});
 }
 

@@ -4,8 +4,6 @@
 #include <fstream>
 #include <string_view>
 
-#include "bullet_ambient/fluid_body/fluid_body.h"
-
 namespace ambient {
 
 /// A file under a temporary name beside it until commit(): the old file or the new one, never half
@@ -33,10 +31,6 @@ class OutputFile {
   std::ofstream stream_;
   int error_ = 0;  // of the first write that failed
 };
-
-/// Writes a .ambient file so. The same fluid body gives the same bytes.
-/// @throws std::runtime_error as writeFluidBody().
-void writeThroughLinks(const FluidBody& body, const std::filesystem::path& file);
 
 /// What a path leads to if it is a symbolic link, which need not exist; else the path.
 std::filesystem::path linkTarget(const std::filesystem::path& file);

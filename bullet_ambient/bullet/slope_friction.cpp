@@ -1,0 +1,27 @@
+#include "bullet_ambient/bullet/slope_friction.h"
+
+#include "bullet_ambient/bullet/conversions.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+bool isHeldAslant(const btVector3& push_W, const btVector3& normal_W, btScalar friction) noexcept {
+  constexpr btScalar kFlat = btScalar(0.01);
+  const btScalar pressed = -push_W.dot(normal_W);
+  const btScalar along = (push_W + pressed * normal_W).length();
+  return along > kFlat * pressed && along <= friction * pressed;
+}
+
+bool turnsAside(const AmbientBody& ambient, const btVector3& normal_W) noexcept {
+  // Of a push along the normal: a millimetre in ten seconds on a slope.
+  constexpr double kEvenPush = 1e-3;
+  const BodyModel& model = ambient.model;
+  if (!model.has_diagonal_inertia) return true;
+  const btMatrix3x3& rotation = ambient.body->getWorldTransform().getBasis();
+  const Vector3 normal = toVector3(normal_W * rotation);  // in B
+  const Vector3 push = model.inverse_inertia.diagonal().tail<3>().cwiseProduct(normal);
+  return push.cross(normal).squaredNorm() > kEvenPush * kEvenPush * push.squaredNorm();
+}
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

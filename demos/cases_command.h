@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+namespace ambient {
+
+/// What `ambient_demo --cases` is asked for.
+struct CasesArguments {
+  std::string cases, out, shard = "0/1", collect;
+  int threads = 0;
+  bool summaries = false;
+  bool quiet = false;
+};
+
+/// Runs the cases of a file, or, with `collect`, writes the table of their results. False if some
+/// have failed.
+/// @throws std::exception in one line.
+bool runCasesCommand(const CasesArguments& arguments);
+
+}  // namespace ambient

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/spatial/vector_types.h"
+
+namespace ambient {
+
+/// Numbers as C++ reads them: float64, row by row; an array that is so already is not copied.
+using InputArray = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+/// An array that nobody can write to.
+inline pybind11::array readOnly(pybind11::array array) {
+  pybind11::detail::array_proxy(array.ptr())->flags &=
+      ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+/// A matrix or vector of Eigen as a read-only array.
+template <class Matrix>
+pybind11::array arrayOf(const Matrix& matrix) {
+  std::vector<pybind11::ssize_t> shape{matrix.rows()};
+  if (matrix.cols() > 1) shape.push_back(matrix.cols());
+  pybind11::array_t<double> array(shape);
+  double* to = array.mutable_data();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) *to++ = matrix(i, j);
+  return readOnly(std::move(array));
+}
+
+/// Three numbers; @throws ValueError that begins with `name`.
+inline Vector3 vectorFrom(const InputArray& array, const std::string& name) {
+  if (array.ndim() != 1 || array.shape(0) != 3)
+    throw pybind11::value_error(name + " must be three numbers");
+  return {array.data()[0], array.data()[1], array.data()[2]};
+}
+
+/// "(4, 3)".
+inline std::string shapeText(const pybind11::array& array) {
+  return pybind11::str(array.attr("shape")).cast<std::string>();
+}
+
+/// A path with "~" as it stands; any os.PathLike. @throws TypeError
+inline std::filesystem::path pathFrom(const pybind11::object& path) {
+  return pybind11::module_::import("os").attr("fspath")(path).cast<std::string>();
+}
+
+/// @throws OSError of the right kind unless the file can be read.
+inline void requireReadable(const std::filesystem::path& file) {
+  pybind11::module_::import("io").attr("open")(file.string(), "rb").attr("close")();
+}
+
+/// JSON of a value of Python, NumPy's included.
+inline std::string jsonFrom(const pybind11::object& value) {
+  namespace py = pybind11;
+  const auto plain = py::cpp_function([](const py::object& array) {
+    if (!py::hasattr(array, "tolist"))
+      throw py::type_error("not a number, text, list or dict: " +
+                           py::repr(array).cast<std::string>());
+    return array.attr("tolist")();
+  });
+  return py::module_::import("json")
+      .attr("dumps")(value, py::arg("default") = plain, py::arg("allow_nan") = false)
+      .cast<std::string>();
+}
+
+}  // namespace ambient

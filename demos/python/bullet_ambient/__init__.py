@@ -1,0 +1,50 @@
+"""Rigid bodies of Bullet in air or water: added mass, pressure with separation, friction, buoyancy.
+
+SI units throughout; 6-vectors hold rotation first; quaternions are w, x, y, z. Arrays are float64. Bad numbers raise
+ValueError, files that cannot be used OSError, in one line that says what is wrong.
+"""
+
+import os as _os
+from pathlib import Path as _Path
+
+# The program that reads mesh files stands beside the module, or is on the path already.
+_os.environ["PATH"] = _os.pathsep.join([_os.environ.get("PATH", _os.defpath), str(_Path(__file__).parent / "bin")])
+
+from ._core import (
+    Body,
+    FlowSettings,
+    FluidBody,
+    Loads,
+    Medium,
+    Motion,
+    Scene,
+    World,
+    air,
+    library_version,
+    scene_names,
+    water,
+)
+from .sweeps import CaseCounts, Rollout, collect, rollout, run_cases, write_cases
+
+__version__ = library_version.split()[1].rstrip(",")
+
+__all__ = [
+    "Body",
+    "CaseCounts",
+    "FlowSettings",
+    "FluidBody",
+    "Loads",
+    "Medium",
+    "Motion",
+    "Rollout",
+    "Scene",
+    "World",
+    "air",
+    "collect",
+    "library_version",
+    "rollout",
+    "run_cases",
+    "scene_names",
+    "water",
+    "write_cases",
+]

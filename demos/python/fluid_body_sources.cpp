@@ -1,0 +1,94 @@
+#include "demos/python/fluid_body_sources.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "preprocess/builder/reuse.h"
+#include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/shape/json_text.h"
+#include "preprocess/shape/shape_mesh.h"
+#include "preprocess/shape/shape_reader.h"
+
+namespace ambient {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What `build` gives, or what it gave before and the cache has kept.
+template <class Build>
+BuiltBody buildOnce(const SourceSettings& settings, const Provenance& provenance,
+                    const Build& build) {
+  if (settings.cache.empty()) return build();
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(
+                    fnv1a64(settings.name + "\n" + std::to_string(provenance.source_hash) + "\n" +
+                            provenance.settings + "\n" + provenance.generator)));
+  const fs::path file = settings.cache / (std::string(hash) + ".ambient");
+  if (auto kept = readIfSame(file, settings.name, provenance)) return {std::move(*kept), {}};
+  BuiltBody built = build();
+  fs::create_directories(settings.cache);
+  writeFluidBody(built.body, file);
+  return built;
+}
+
+template <class Matrix>
+std::string_view bytesOf(const Matrix& matrix) {
+  return {reinterpret_cast<const char*>(matrix.data()),
+          static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar)};
+}
+
+Provenance provenanceOf(const TriangleMesh& mesh, bool sheet, const SourceSettings& settings) {
+  std::ostringstream text;
+  text.precision(17);
+  text << (sheet ? "sheet" : "body") << ", origin ";
+  if (settings.origin)
+    text << settings.origin->x() << "," << settings.origin->y() << "," << settings.origin->z();
+  else
+    text << "centre-of-volume";
+  text << ", panels " << settings.panels;
+  Provenance provenance;
+  provenance.source = "arrays";
+  provenance.source_hash =
+      fnv1a64(std::string(bytesOf(mesh.vertices)) + std::string(bytesOf(mesh.triangles)));
+  provenance.settings = text.str();
+  provenance.generator = libraryVersion();
+  return provenance;
+}
+
+}  // namespace
+
+BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettings& settings) {
+  BuildSettings build;
+  build.name = settings.name;
+  build.source = settings.name;
+  build.origin = settings.origin;
+  build.flow.sheet = sheet;
+  build.flow.max_panels = settings.panels;
+  build.flow.threads = settings.threads;
+  build.provenance = provenanceOf(mesh, sheet, settings);
+  return buildOnce(settings, build.provenance, [&]() -> BuiltBody {
+    CheckedMesh checked = checkMesh(mesh, settings.name, {sheet});
+    build.cavities = checked.cavities;
+    build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
+    FluidBody body = makeFluidBody(checked.mesh, build);
+    return {std::move(body), std::move(checked.warnings)};
+  });
+}
+
+BuiltBody buildFromShape(const std::string& json, const fs::path& folder,
+                         const SourceSettings& settings) {
+  const ShapeDescription shape = readShape(parseJson(json, settings.name), folder, settings.name);
+  ShapeBuildSettings build;
+  build.name = settings.name;
+  build.origin = settings.origin;
+  build.flow.max_panels = settings.panels;
+  build.flow.threads = settings.threads;
+  if (std::holds_alternative<FluidBodyShape>(shape.geometry)) return buildShape(shape, build);
+  return buildOnce(settings, describeShape(shape, build), [&] { return buildShape(shape, build); });
+}
+
+}  // namespace ambient

@@ -1,0 +1,111 @@
+#include "demos/python/scene.h"
+
+#include <pybind11/stl.h>
+
+#include "demos/python/arrays.h"
+#include "demos/python/bindings.h"
+#include "demos/scene/scene_lookup.h"
+#include "demos/scene/scene_reader.h"
+#include "demos/sweep/case_file.h"
+
+namespace ambient {
+namespace {
+
+namespace py = pybind11;
+
+/// From a dict, a path or the name of a scene.
+Scene makeScene(const py::object& source, const py::object& overrides, const py::object& folder) {
+  std::vector<SceneOverride> changes;
+  if (!overrides.is_none()) changes = overridesFrom(overrides);
+  if (py::isinstance<py::dict>(source))
+    return parseScene(jsonFrom(source), pathFrom(folder) / "scene.json", changes);
+  const std::filesystem::path file = findScene(pathFrom(source).string(), sceneFolders());
+  requireReadable(file);
+  return readScene(file, changes);
+}
+
+std::vector<std::string> bodyNames(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const BodyDef& body : scene.bodies) names.push_back(body.name);
+  return names;
+}
+
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names;
+  for (const auto& file : listScenes(sceneFolders())) names.push_back(file.stem().string());
+  return names;
+}
+
+}  // namespace
+
+std::vector<SceneOverride> overridesFrom(const py::dict& changes) {
+  std::vector<SceneOverride> overrides;
+  for (const auto& [path, value] : changes)
+    overrides.push_back(
+        {path.cast<std::string>(), jsonFrom(py::reinterpret_borrow<py::object>(value))});
+  return overrides;
+}
+
+void bindScene(py::module_& module) {
+  py::class_<Scene>(
+      module, "Scene",
+      R"(Bodies, joints and a fluid, checked against the schema of scenes. Never changes.
+
+Parameters
+----------
+source : the path of a JSON file, the name of one of scene_names(), or a dict of the same content
+overrides : {"bodies.0.mass": 0.1, ...}
+folder : where relative file names in a dict begin; default: the current one
+
+>>> Scene("sphere_fall", {"duration": 1}).duration
+1.0
+>>> Scene("sphere_fall", {"duration": -1})
+Traceback (most recent call last):
+    ...
+ValueError: ...sphere_fall.json: duration is -1; must be > 0
+)")
+      .def(py::init(&makeScene), py::arg("source"), py::arg("overrides") = py::none(),
+           py::kw_only(), py::arg("folder") = ".")
+      .def(
+          "replace",
+          [](const Scene& scene, const py::dict& changes) {
+            return parseScene(scene.text, scene.file, overridesFrom(changes));
+          },
+          py::arg("overrides"), "The same scene with overrides.")
+      .def_property_readonly(
+          "document",
+          [](const Scene& scene) -> py::dict {
+            return py::module_::import("json").attr("loads")(scene.text);
+          },
+          "A dict of what it was made of, overrides included.")
+      .def_readonly("name", &Scene::name, "That of the file, without extension.")
+      .def_property_readonly(
+          "file", [](const Scene& scene) { return scene.file.string(); },
+          "The file; names in it are relative to its folder.")
+      .def_readonly("description", &Scene::description, "One sentence.")
+      .def_readonly("duration", &Scene::duration, "[s]")
+      .def_readonly("time_step", &Scene::time_step, "[s]")
+      .def_readonly("output_step", &Scene::output_step, "[s]")
+      .def_readonly("medium", &Scene::medium, "Of all bodies that name no density of their own.")
+      .def_property_readonly("bodies", &bodyNames, "The names of the bodies.")
+      .def_property_readonly("key", &keyOf,
+                             "16 digits of all that a run of it depends on, see run_cases().")
+      .def(
+          "__eq__",
+          [](const Scene& a, const Scene& b) { return a.text == b.text && a.file == b.file; },
+          py::is_operator())
+      .def("__hash__", [](const Scene& scene) { return py::hash(py::str(scene.text)); })
+      .def("__repr__",
+           [](const Scene& scene) {
+             return "<Scene \"" + scene.name + "\": " + std::to_string(scene.bodies.size()) +
+                    " bodies>";
+           })
+      .def(py::pickle(
+          [](const Scene& scene) { return py::make_tuple(scene.text, scene.file.string()); },
+          [](const py::tuple& state) {
+            return parseScene(state[0].cast<std::string>(), state[1].cast<std::string>());
+          }));
+  module.def("scene_names", &sceneNames, "The scenes that come with the library.");
+}
+
+}  // namespace ambient

@@ -1,0 +1,47 @@
+#include <stdexcept>
+
+#include "bullet_ambient/force/flow_settings.h"
+#include "bullet_ambient/force/medium.h"
+#include "demos/python/bindings.h"
+#include "demos/python/record.h"
+
+namespace ambient {
+
+// Found by their argument, and so not in a nameless namespace.
+
+static pybind11::object toPython(const PressureLaw& law) {
+  for (const auto& [value, name] : kPressureLawNames)
+    if (value == law) return pybind11::str(name);
+  return pybind11::none();
+}
+
+static void fromPython(pybind11::handle from, PressureLaw& to) {
+  const auto word = from.cast<std::string>();
+  for (const auto& [value, name] : kPressureLawNames) {
+    if (word != name) continue;
+    to = value;
+    return;
+  }
+  throw std::invalid_argument("law is \"" + word + "\"; must be published or form");
+}
+
+void bindSettings(pybind11::module_& module) {
+  Record<Medium>(module, "Medium", "The fluid around a body; vectors in world axes.")
+      .field("density", &Medium::density, "[kg/m^3], >= 0; default 0, a vacuum")
+      .field("viscosity", &Medium::viscosity, "dynamic [Pa s], >= 0; 0: no skin friction")
+      .field("velocity", &Medium::velocity, "of the undisturbed flow at the body [m/s]")
+      .field("acceleration", &Medium::acceleration, "its rate of change [m/s^2]");
+  Record<FlowSettings>(module, "FlowSettings", "How the flow follows the surface of a body.")
+      .field("separation_angle", &FlowSettings::separation_angle,
+             "from pi/2 (default) to pi [rad]; larger: more attachment")
+      .field("skin_friction", &FlowSettings::skin_friction, "whether there is any")
+      .field("law", &FlowSettings::law, "of the pressure: 'published' (default) or 'form'")
+      .field("maximum_load_error", &FlowSettings::maximum_load_error,
+             "that reduced loads may make, from 0 (default: all faces) to 1")
+      .field("stall_lag", &FlowSettings::stall_lag,
+             "of the law 'form', in body lengths over speed; 0: none");
+  module.def("air", &air, "Air at 20 C and sea level.");
+  module.def("water", &water, "Fresh water at 20 C.");
+}
+
+}  // namespace ambient

@@ -1,0 +1,66 @@
+#include "preprocess/polar/polar.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "bullet_ambient/spatial/pi.h"
+
+namespace ambient {
+namespace {
+
+/// Half the area projected along an axis, both sides counted.
+double silhouetteAlong(const Vector3& axis, const FluidBody& body) {
+  if (body.sphere_radius > 0) return kPi * body.sphere_radius * body.sphere_radius;
+  const FaceTable& faces = body.faces;
+  double sum = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    sum += faces.area[i] * std::abs(faces.normal(i).dot(axis));
+  return sum / 2;
+}
+
+double extentAlong(const Vector3& axis, const FluidBody& body) {
+  if (body.sphere_radius > 0) return 2 * body.sphere_radius;
+  return axis.cwiseAbs().dot(extentsOf(body));
+}
+
+}  // namespace
+
+Vector3 axisNamed(const std::string& name) {
+  const bool has_sign = name.size() == 2 && (name[0] == '-' || name[0] == '+');
+  const char letter = name.empty() ? ' ' : name.back();
+  if ((name.size() != 1 && !has_sign) || letter < 'x' || letter > 'z')
+    throw std::invalid_argument("\"" + name + "\" is none of x, y, z, -x, -y, -z");
+  Vector3 axis = Vector3::Zero();
+  axis[letter - 'x'] = name[0] == '-' ? -1 : 1;
+  return axis;
+}
+
+Matrix3 flightAxes(const Vector3& forward, const Vector3& up) {
+  Matrix3 axes;
+  axes.col(0) = forward;
+  axes.col(1) = up.cross(forward);
+  axes.col(2) = up;
+  return axes;
+}
+
+PolarReference usualReference(const FluidBody& body, const Matrix3& axes) {
+  return {silhouetteAlong(axes.col(2), body), extentAlong(axes.col(0), body)};
+}
+
+PolarCoefficients polarCoefficients(const BodyLoads& loads, const PolarFlight& flight,
+                                    double attack, double side_slip) {
+  const double ca = std::cos(attack), sa = std::sin(attack);
+  const double cb = std::cos(side_slip), sb = std::sin(side_slip);
+  const Vector3 motion(ca * cb, -sb, -sa * cb), lift(sa, 0, ca);
+  const Vector3 side = motion.cross(lift);  // to the right
+  const Twist twist{Vector3::Zero(), flight.axes * motion * flight.speed};
+  const Wrench load = loads.at(twist).total();
+  const PolarReference& reference = flight.reference;
+  const double scale = 0.5 * flight.density * flight.speed * flight.speed * reference.area;
+  const Vector3 force = flight.axes.transpose() * load.force / scale;
+  const Vector3 moment = flight.axes.transpose() * load.torque / (scale * reference.length);
+  return {force.dot(lift), -force.dot(motion), force.dot(side),
+          moment.x(),      -moment.y(),        -moment.z()};
+}
+
+}  // namespace ambient

@@ -1,0 +1,49 @@
+#!/usr/bin/python3
+"""Runs the examples in the docstrings of the module, and checks that everything public has a docstring."""
+
+import doctest
+import re
+import tomllib
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import bullet_ambient as ba
+
+
+def documented():
+    """Names and docstrings of what the module offers."""
+    for name in ba.__all__:
+        thing = getattr(ba, name)
+        if not callable(thing):
+            continue
+        yield name, thing.__doc__
+        if isinstance(thing, type):
+            for part, value in vars(thing).items():
+                if not part.startswith("_"):
+                    yield f"{name}.{part}", getattr(value, "__func__", value).__doc__
+
+
+class DocstringsTest(unittest.TestCase):
+    def test_everything_has_one(self):
+        for name, text in documented():
+            if name not in ("Rollout.motion", "Rollout.summary", "Rollout.errors") and not name.startswith("CaseCounts."):
+                self.assertTrue(text and len(text.split()) > 0, name)
+
+    def test_a_wheel_has_the_version_of_the_library(self):
+        root = Path(__file__).resolve().parents[3]
+        settings = tomllib.loads((root / "demos/python/pyproject.toml").read_text())["tool"]["scikit-build"]
+        version = re.search(settings["metadata"]["version"]["regex"], (root / "CMakeLists.txt").read_text())["value"]
+        self.assertEqual(version, ba.__version__)
+
+    def test_examples_are_true(self):
+        runner, parser = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS), doctest.DocTestParser()
+        for name, text in documented():
+            runner.run(parser.get_doctest(text or "", {**vars(ba), "np": np}, name, None, 0))
+        self.assertEqual(runner.failures, 0)
+        self.assertGreaterEqual(runner.tries, 8)
+
+
+if __name__ == "__main__":
+    unittest.main()

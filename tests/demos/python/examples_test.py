@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+"""The examples do what docs/python.md says of them."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import bullet_ambient as ba
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "demos/python/examples"
+sys.path.append(str(EXAMPLES))
+
+import pybullet_limits  # noqa: E402
+
+
+class PyBulletTest(unittest.TestCase):
+    def test_a_free_body_is_right_to_first_order_of_the_step(self):
+        errors = [pybullet_limits.distances("plate_8cm", 0.25, step)[0] for step in (1 / 240, 1 / 960)]
+        self.assertLess(errors[0], 0.01)
+        self.assertLess(errors[1], errors[0] / 3)
+
+    def test_an_impact_sees_dry_masses(self):
+        # 2 m1 / (m1 + m2), of dry masses and of those with half of the displaced water.
+        forces, ours = pybullet_limits.collision()
+        carried = 2 / 3 * np.pi * 0.1**3 * 1000
+        self.assertAlmostEqual(forces, 2 * 0.4189 / (0.4189 + 4.189), delta=0.01)
+        self.assertAlmostEqual(ours, 2 * (0.4189 + carried) / (0.4189 + 4.189 + 2 * carried), delta=0.01)
+
+    def test_a_heavy_body_in_a_vacuum_needs_no_force(self):
+        scene = ba.Scene("football_vacuum", {"duration": 0.1, "medium": {"density": 0}})
+        path, fall = pybullet_limits.fall_by_forces(scene), ba.World(scene).run(0.1, scene.time_step).position[1:, 0]
+        np.testing.assert_allclose(path, fall, rtol=1e-9, atol=1e-12)
+
+
+class PicturesTest(unittest.TestCase):
+    def draw(self, script, *arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            picture = Path(folder) / "picture.png"
+            command = [sys.executable, EXAMPLES / script, *[str(a).format(folder=folder, picture=picture) for a in arguments]]
+            run = subprocess.run(command, env={**os.environ, "MPLCONFIGDIR": folder}, capture_output=True, text=True, check=True)
+            self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
+            return run.stdout
+
+    def test_tutorial(self):
+        self.assertIn("carries", self.draw("tutorial.py", "{picture}"))
+
+    def test_map_of_plates(self):
+        report = self.draw("plate_map.py", "--side", 2, "--duration", 1, "--out", "{folder}", "--picture", "{picture}")
+        self.assertIn("4 cases, 0 done before, 0 failed", report)
+
+
+if __name__ == "__main__":
+    unittest.main()

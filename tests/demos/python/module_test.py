@@ -1,0 +1,444 @@
+#!/usr/bin/python3
+"""The Python module: values against formulas and against ambient_demo, errors, interrupts."""
+
+import csv
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+
+import bullet_ambient as ba
+
+DEMO = sys.argv.pop(1)
+
+BALL = {"name": "ball", "mass": 0.5, "shape": {"type": "sphere", "radius": 0.1, "faces": 80}}
+STILL = {"duration": 0.2, "time_step": 0.01, "gravity": [0, 0, 0], "bodies": [BALL]}
+TORN = {"bodies.0.linear_velocity": [1e200, 0, 0]}
+
+
+def box(size):
+    """Vertices and faces of a box about the origin."""
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * np.array(size) / 2
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return corners, np.array([triangle for a, b, c, d in quads for triangle in ((a, b, c), (a, c, d))])
+
+
+class Temporary(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def assertSameBits(self, a, b):
+        self.assertEqual(a.shape, b.shape)
+        self.assertEqual(a.tobytes(), b.tobytes())
+
+
+class SettingsTest(unittest.TestCase):
+    def test_values_are_frozen_and_equal_by_content(self):
+        water = ba.water()
+        self.assertEqual(water.density, 998.0)
+        self.assertEqual(eval(repr(water), vars(ba)), water)
+        self.assertEqual(hash(ba.water()), hash(water))
+        self.assertEqual(pickle.loads(pickle.dumps(water)), water)
+        self.assertNotEqual(ba.Medium(density=998, viscosity=1.002e-3, velocity=(1, 0, 0)), water)
+        with self.assertRaises(AttributeError):
+            water.density = 1
+        self.assertNotEqual(water, 3)
+
+    def test_bad_keywords_and_words_are_refused(self):
+        with self.assertRaisesRegex(TypeError, "known are density, viscosity"):
+            ba.Medium(densty=1)
+        with self.assertRaisesRegex(TypeError, r"Medium.velocity cannot be \(1, 2\)"):
+            ba.Medium(velocity=(1, 2))
+        with self.assertRaisesRegex(ValueError, 'law is "mine"; must be published or form'):
+            ba.FlowSettings(law="mine")
+        self.assertEqual(ba.FlowSettings(law="form").law, "form")
+
+
+class FluidBodyTest(Temporary):
+    def test_a_sphere_carries_half_of_what_it_displaces(self):
+        ball = ba.FluidBody.from_shape({"type": "sphere", "radius": 2})
+        self.assertAlmostEqual(ball.volume, 4 / 3 * np.pi * 8, delta=0.01)
+        np.testing.assert_allclose(ball.added_mass[3:, 3:], 2 / 3 * np.pi * 8 * np.eye(3), rtol=1e-12, atol=1e-12)
+        self.assertEqual(ball.sphere_radius, 2)
+
+    def test_meshes_are_whatever_looks_like_one(self):
+        vertices, faces = box([1, 2, 3])
+        settings = {"panels": 200, "name": "box"}
+        body = ba.FluidBody.from_mesh(vertices, faces, **settings)
+        self.assertAlmostEqual(body.volume, 6)
+        self.assertAlmostEqual(body.areas.sum(), 22)
+        np.testing.assert_allclose(body.uniform_mass[1], np.diag([13, 10, 5]) / 12)
+        for mesh in (
+            SimpleNamespace(vertices=vertices.tolist(), faces=faces.astype(np.int32)),
+            SimpleNamespace(points=vertices, cells_dict={"triangle": faces}),
+            SimpleNamespace(points=vertices, cells_dict={5: faces}),
+        ):
+            self.assertEqual(ba.FluidBody.from_mesh(mesh, **settings).content_hash, body.content_hash)
+        with self.assertRaises(TypeError):
+            ba.FluidBody.from_mesh(vertices)
+
+    def test_arrays_are_float64_and_nobody_writes_to_them(self):
+        body = ba.FluidBody.from_shape({"type": "ellipsoid", "semi_axes": [1, 2, 3], "faces": 80})
+        count = body.areas.size
+        for array, shape in (
+            (body.added_mass, (6, 6)),
+            (body.centre_of_volume, (3,)),
+            (body.normals, (count, 3)),
+            (body.centroids, (count, 3)),
+            (body.surface_mass[1], (3, 3)),
+        ):
+            self.assertEqual((array.shape, array.dtype), (shape, np.float64))
+            self.assertTrue(array.flags.c_contiguous)
+            self.assertFalse(array.flags.writeable)
+        np.testing.assert_allclose(np.linalg.norm(body.normals, axis=1), 1)
+
+    def test_loads_of_many_twists_are_those_of_each(self):
+        body = ba.FluidBody.from_shape({"type": "ellipsoid", "semi_axes": [1, 2, 3], "faces": 80})
+        twists = np.random.default_rng(1).normal(size=(20, 6))
+        wrenches = body.loads(twists, ba.water())
+        self.assertEqual(wrenches.shape, (20, 6))
+        for twist, wrench in zip(twists, wrenches):
+            self.assertSameBits(body.loads(twist, ba.water()), wrench)
+        self.assertSameBits(body.loads_in(ba.water())(twists), wrenches)
+        self.assertLess((wrenches * twists).sum(axis=1).max(), 0)  # the fluid only takes energy
+        double = body.loads(2 * twists, ba.Medium(density=1))
+        np.testing.assert_allclose(double, 4 * body.loads(twists, ba.Medium(density=1)), rtol=1e-12)
+        form = body.loads(twists, ba.water(), ba.FlowSettings(law="form"))
+        self.assertGreater(abs(form - wrenches).max(), 0)
+        with self.assertRaisesRegex(ValueError, r"must be of shape \(N, 6\) or \(6,\), not \(2, 3\)"):
+            body.loads(np.zeros((2, 3)), ba.water())
+
+    def test_polar_is_that_of_the_loads(self):
+        body = ba.FluidBody.from_shape({"type": "box", "size": [1, 2, 0.1], "faces": 200}, panels=0)
+        attack = np.radians([0, 20, 90])
+        polar = body.polar(attack, flow=ba.FlowSettings(law="form"))
+        self.assertEqual(polar.dtype.names, ("attack", "side_slip", "C_L", "C_D", "C_Y", "C_l", "C_m", "C_n"))
+        np.testing.assert_array_equal(polar["attack"], attack)
+        # Forward is x: at an angle of attack the body moves along x and down.
+        force = body.loads([0, 0, 0, np.cos(attack[1]), 0, -np.sin(attack[1])], ba.Medium(density=1), ba.FlowSettings(law="form"))[3:]
+        self.assertAlmostEqual(polar["C_L"][1], (force[0] * np.sin(attack[1]) + force[2] * np.cos(attack[1])) / (0.5 * 2))
+        self.assertGreater(polar["C_D"][2], 1)  # a plate across the stream
+        with self.assertRaisesRegex(ValueError, '"w" is none of x, y, z'):
+            body.polar(0, forward="w")
+        with self.assertRaisesRegex(TypeError, "unknown keyword velocity"):
+            body.polar(0, velocity=3)
+
+    def test_files_and_pickles_are_the_same_body(self):
+        body = ba.FluidBody.from_shape({"type": "sphere", "radius": 1, "faces": 80}, name="ball")
+        file = self.folder / "ball.ambient"
+        body.write(file)
+        for other in (ba.FluidBody.read(file), pickle.loads(pickle.dumps(body))):
+            self.assertEqual((other.name, other.content_hash), ("ball", body.content_hash))
+        self.assertAlmostEqual(body.scaled(2).volume, 8 * body.volume)
+
+    def test_a_cache_solves_once(self):
+        vertices, faces = box([1, 2, 3])
+        solve = lambda panels: ba.FluidBody.from_mesh(vertices, faces, panels=panels, cache=self.folder)  # noqa: E731
+        first = solve(200)
+        (file,) = self.folder.iterdir()
+        stamp = file.stat().st_mtime_ns
+        self.assertEqual(solve(200).content_hash, first.content_hash)
+        self.assertEqual(file.stat().st_mtime_ns, stamp)
+        solve(300)
+        self.assertEqual(len(list(self.folder.iterdir())), 2)
+
+    def test_errors_are_of_the_right_kind_and_one_line(self):
+        vertices, faces = box([1, 1, 1])
+        with self.assertRaisesRegex(ValueError, "^brick: not watertight: 3 boundary edges"):
+            ba.FluidBody.from_mesh(vertices, faces[1:], name="brick")
+        with self.assertRaisesRegex(ValueError, r"faces must be of shape \(F, 3\), not \(36,\)"):
+            ba.FluidBody.from_mesh(vertices, faces.ravel())
+        with self.assertRaisesRegex(ValueError, "radius is -1"):
+            ba.FluidBody.from_shape({"type": "sphere", "radius": -1})
+        with self.assertRaises(FileNotFoundError):
+            ba.FluidBody.read(self.folder / "gone.ambient")
+        (self.folder / "bad.ambient").write_text("no body")
+        with self.assertRaisesRegex(ValueError, "bad.ambient: not a .ambient file"):
+            ba.FluidBody.read(self.folder / "bad.ambient")
+        with self.assertRaises(OSError):
+            ba.FluidBody.from_shape({"type": "sphere", "radius": 1}).write(self.folder / "no" / "ball.ambient")
+
+    def test_doubts_are_warnings(self):
+        vertices, faces = box([1, 1, 1])
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            ba.FluidBody.from_mesh(vertices, faces[:, ::-1], panels=200, name="brick")
+        self.assertTrue(any("brick" in str(w.message) for w in caught))
+
+
+class SceneTest(Temporary):
+    def test_is_the_same_from_text_dict_and_pickle(self):
+        scene = ba.Scene("plate_8cm")
+        self.assertEqual(scene.bodies, ["plate"])
+        self.assertEqual(pickle.loads(pickle.dumps(scene)), scene)
+        same = ba.Scene(scene.document, folder=Path(scene.file).parent)
+        self.assertEqual(same.key, scene.key)
+        self.assertEqual(scene.replace({"duration": 8}), scene)
+        self.assertEqual(scene.replace({"duration": 8.0}).key, scene.key)
+        self.assertNotEqual(scene.replace({"duration": 3}), scene)
+        self.assertIn("plate_8cm", ba.scene_names())
+
+    def test_overrides_are_numbers_words_and_arrays_of_numpy(self):
+        scene = ba.Scene(STILL, {"bodies.0.position": np.arange(3.0), "model": "vacuum", "bodies.0.mass": np.float64(2)})
+        self.assertEqual(scene.document["bodies"][0]["position"], [0, 1, 2])
+        self.assertEqual(scene.document["model"], "vacuum")
+        self.assertEqual(scene.document["bodies"][0]["mass"], 2)
+
+    def test_errors_are_of_the_right_kind(self):
+        for error, make in (
+            (ValueError, lambda: ba.Scene(STILL, {"duration": -1})),
+            (ValueError, lambda: ba.Scene(STILL, {"weight": 1})),
+            (ValueError, lambda: ba.Scene(STILL, {"duration": float("nan")})),
+            (ValueError, lambda: ba.Scene("no_such_scene")),
+            (TypeError, lambda: ba.Scene(STILL, {"duration": object()})),
+            (TypeError, lambda: ba.Scene(3)),
+            (FileNotFoundError, lambda: ba.Scene(self.folder / "gone.json")),
+        ):
+            with self.assertRaises(error):
+                make()
+
+
+class WorldTest(Temporary):
+    def test_forces_and_torques_act_for_one_step(self):
+        vacuum = ba.Scene(STILL, {"model": "vacuum", "bodies.0.inertia": [0.2, 0.3, 0.4, 0, 0, 0]})
+        world = ba.World(vacuum)
+        ball = world.bodies["ball"]
+        ball.apply_force([1, 0, 0], at=[0, 0.3, 0])
+        ball.apply_torque([0.2, 0, 0])
+        world.step(5)
+        # One step of 0.01 s: the velocity F h / m, the spins tau h / I.
+        np.testing.assert_allclose(ball.twist, [0.01, 0, -0.0075, 0.02, 0, 0], rtol=1e-3, atol=1e-5)
+        np.testing.assert_allclose(world.position[0, 0], 5 * 0.01 * 0.02)
+        self.assertAlmostEqual(world.time, 0.05)
+        with self.assertRaisesRegex(ValueError, "force must be three numbers"):
+            ball.apply_force([1, 2])
+
+    def test_a_force_moves_the_fluid_too(self):
+        world = ba.World(ba.Scene(STILL, {"medium": {"density": 1000}}))
+        world.bodies["ball"].apply_force([1, 0, 0])
+        world.step()
+        carried = 2 / 3 * np.pi * 0.1**3 * 1000
+        self.assertAlmostEqual(world.twist[0, 3], 0.01 / (0.5 + carried), delta=1e-6)
+
+    def test_another_medium_may_be_set(self):
+        world = ba.World(ba.Scene(STILL, {"bodies.0.linear_velocity": [1, 0, 0]}))
+        world.bodies["ball"].set_medium(ba.water())
+        world.step(10)
+        self.assertLess(world.twist[0, 3], 0.95)
+        with self.assertRaisesRegex(ValueError, 'body "ball": .*density'):
+            world.bodies["ball"].set_medium(ba.Medium(density=-1))
+
+    def test_a_raft_floats_and_goes_on_from_a_state(self):
+        raft = {"name": "raft", "mass": 998 * 0.4 * 0.3 * 0.1 / 2, "shape": {"type": "box", "size": [0.4, 0.3, 0.1]}}
+        scene = ba.Scene({"duration": 1, "time_step": 1 / 120, "water": {"level": 0}, "bodies": [raft]})
+        world = ba.World(scene)
+        world.step(60)
+        state = world.state()
+        world.step(60)
+        end = world.position
+        self.assertLess(abs(end[0, 2]), 1e-3)  # half of it displaces its mass
+        world.restore(state)
+        world.step(60)
+        self.assertSameBits(world.position, end)
+
+    def test_run_is_what_ambient_demo_writes(self):
+        subprocess.run([DEMO, "plate_9cm", "--out", self.folder, "--quiet", "--set", "duration=1"], check=True)
+        with open(self.folder / "trajectory.csv") as file:
+            rows = list(csv.reader(file))[1:]
+        numbers = np.array([[float(cell) for cell in [row[0], *row[2:]]] for row in rows])
+        with ba.World(ba.Scene("plate_9cm")) as world:
+            motion = world.run(1)
+        self.assertSameBits(motion.t, np.ascontiguousarray(numbers[:, 0]))
+        self.assertSameBits(motion.position[:, 0], np.ascontiguousarray(numbers[:, 1:4]))
+        self.assertSameBits(motion.orientation[:, 0], np.ascontiguousarray(numbers[:, 4:8]))
+        self.assertSameBits(motion.twist[:, 0], np.ascontiguousarray(numbers[:, 8:]))
+        np.testing.assert_array_equal(motion.orientation_xyzw[..., 3], motion.orientation[..., 0])
+        np.testing.assert_array_equal(motion.linear_velocity, motion.twist[..., 3:])
+
+    def test_a_second_run_goes_on(self):
+        scene = ba.Scene("plate_9cm")
+        once, twice = ba.World(scene), ba.World(scene)
+        twice.run(0.5, 0.1)
+        motion = twice.run(0.5)
+        np.testing.assert_allclose(motion.position, once.run(1).position[50:], rtol=1e-9)
+        self.assertSameBits(twice.position, once.position)  # times differ by rounding, steps do not
+        self.assertEqual((motion.t[0], motion.t[-1]), (0.5, 1))
+        for duration, step in ((0, None), (1, 1e-9), (float("nan"), None)):
+            with self.assertRaises(ValueError):
+                once.run(duration, step)
+
+    def test_goes_on_from_a_state_bit_for_bit(self):
+        scene = ba.Scene("chain_in_water")
+        world, other = ba.World(scene), ba.World(scene)
+        world.step(30)
+        state = world.state()
+        world.step(30)
+        end = world.position
+        world.restore(state)
+        self.assertAlmostEqual(world.time, 30 * scene.time_step)
+        other.restore(state)
+        for again in (world, other):
+            again.step(30)
+            self.assertSameBits(again.position, end)
+        with self.assertRaises(ValueError):
+            world.restore(state[:-1])
+        with self.assertRaises(ValueError):
+            ba.World(ba.Scene(STILL)).restore(state)
+        self.assertSameBits(world.position, end)
+
+    def test_a_state_that_is_not_finite_is_an_arithmetic_error(self):
+        world = ba.World(ba.Scene(STILL, TORN))
+        with self.assertRaisesRegex(FloatingPointError, 'body "ball": its state is not finite at t = 0.01 s'):
+            world.step()
+
+    def test_a_closed_world_answers_nothing(self):
+        with ba.World(ba.Scene(STILL)) as world:
+            ball = world.bodies["ball"]
+        for ask in (world.step, world.state, lambda: world.position, lambda: ball.twist):
+            with self.assertRaisesRegex(ValueError, "the world is closed"):
+                ask()
+
+    def test_the_interpreter_is_free_and_interrupts_are_heard(self):
+        world = ba.World(ba.Scene(STILL))
+        ticks, kinds = [], []
+
+        def tick():
+            time.sleep(0.05)
+            ticks.append(time.monotonic())
+            try:
+                world.step()
+            except RuntimeError as error:
+                kinds.append(str(error))
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=tick)
+        thread.start()
+        with self.assertRaises(KeyboardInterrupt):
+            world.step(10**9)
+        thread.join()
+        self.assertEqual(len(ticks), 1)
+        self.assertEqual(kinds, ["the world is in use by another thread"])
+        world.step()  # and is free again
+
+
+class RolloutTest(Temporary):
+    MASSES = np.linspace(1e-4, 4e-4, 6)
+
+    def plates(self, **more):
+        return ba.rollout(ba.Scene("plate_8cm"), {"bodies.0.mass": self.MASSES}, duration=0.5, **more)
+
+    def test_the_same_bits_on_any_number_of_threads(self):
+        one = self.plates(threads=1)
+        self.assertEqual(one.motion.position.shape, (6, 51, 1, 3))
+        self.assertEqual(one.errors, {})
+        for threads in (2, 5):
+            other = self.plates(threads=threads)
+            self.assertSameBits(other.motion.twist, one.motion.twist)
+            self.assertSameBits(other.summary["end_position_z"], one.summary["end_position_z"])
+        world = ba.World(ba.Scene("plate_8cm", {"bodies.0.mass": self.MASSES[3]}))
+        self.assertSameBits(world.run(0.5).position, one.motion.position[3])
+        np.testing.assert_array_equal(one.summary["mass"][:, 0], self.MASSES)
+        np.testing.assert_array_equal(one.summary["end_position_z"], one.motion.position[:, -1, :, 2])
+
+    def test_worlds_side_by_side_do_not_disturb_each_other(self):
+        scenes = [ba.Scene("box_pile"), ba.Scene("box_pile"), ba.Scene("box_pile")]
+        side_by_side = ba.rollout(scenes, threads=3, duration=0.3)
+        alone = ba.World(scenes[0]).run(0.3)
+        for run in side_by_side.motion.twist:
+            self.assertSameBits(run, alone.twist)
+
+    def test_failed_runs_are_apart(self):
+        speeds = [[1, 0, 0], [1e200, 0, 0], [2, 0, 0]]
+        out = ba.rollout(ba.Scene(STILL), {"bodies.0.linear_velocity": speeds})
+        self.assertEqual(out.failed.tolist(), [1])
+        self.assertIn("not finite", out.errors[1])
+        self.assertTrue(np.isnan(out.motion.position[1]).all())
+        self.assertTrue(np.isfinite(out.motion.position[[0, 2]]).all())
+        self.assertEqual(out.summary["body"].ravel().tolist(), ["ball", "", "ball"])
+
+    def test_progress_is_told_and_may_stop_it(self):
+        told = []
+        self.plates(progress=lambda *counts: told.append(counts))
+        self.assertEqual(told[-1], (6, 6))
+        self.assertEqual(told, sorted(set(told)))
+
+        def refuse(ended, runs):
+            raise ZeroDivisionError
+
+        with self.assertRaises(ZeroDivisionError):
+            self.plates(progress=refuse)
+
+    def test_interrupts_stop_it(self):
+        endless = ba.Scene(STILL, {"duration": 1e6, "output_step": 1e6})
+        timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            ba.rollout([endless, endless, endless])
+        timer.join()
+
+    def test_summary_alone_and_files(self):
+        out = self.plates(motion=False)
+        self.assertIsNone(out.motion)
+        self.plates().save(self.folder / "sweep.npz")
+        with np.load(self.folder / "sweep.npz") as saved:
+            self.assertEqual(sorted(saved), ["failed", "orientation", "position", "summary", "t", "twist"])
+            self.assertSameBits(saved["summary"]["swings"], out.summary["swings"])
+
+    def test_runs_that_do_not_fit_are_refused(self):
+        scene = ba.Scene(STILL)
+        two = dict(STILL, bodies=[BALL, dict(BALL, name="other", position=[1, 0, 0])])
+        for arguments in (
+            ([],),
+            ([scene, ba.Scene(two)],),
+            ([scene, scene.replace({"duration": 1})],),
+            (scene, {"bodies.0.mass": [1, 2], "duration": [1]}),
+            (scene, {"bodies.0.mass": [1, -2]}),
+            ([scene], {"duration": [1]}),
+        ):
+            with self.assertRaises(ValueError):
+                ba.rollout(*arguments)
+        durations = ba.rollout([scene, scene.replace({"duration": 1})], motion=False)
+        self.assertEqual(durations.summary["end_time"].ravel().tolist(), [0.2, 1])
+
+
+class CasesTest(Temporary):
+    def test_results_are_those_of_ambient_demo_and_of_a_rollout(self):
+        cases = self.folder / "cases.jsonl"
+        masses = np.linspace(0.1, 0.5, 5)
+        self.assertEqual(ba.write_cases(cases, STILL, {"bodies.0.mass": masses, "model": ["ambient"] * 5}), 5)
+        for i in (1, 0):
+            counts = ba.run_cases(cases, self.folder / "python", shard=(i, 2))
+        self.assertEqual(counts, (3, 0, {}))
+        subprocess.run([DEMO, "--cases", cases, "--out", self.folder / "demo", "--quiet"], check=True)
+        for file in (self.folder / "demo").glob("*/trajectory.csv"):
+            self.assertEqual((self.folder / "python" / file.relative_to(self.folder / "demo")).read_bytes(), file.read_bytes())
+        table = ba.collect(cases, self.folder / "python")
+        np.testing.assert_array_equal(table["case"], range(5))
+        np.testing.assert_array_equal(table["bodies.0.mass"], masses)
+        self.assertEqual(set(table["model"]), {"ambient"})
+        out = ba.rollout(ba.Scene(STILL), {"bodies.0.mass": masses}, motion=False)
+        self.assertSameBits(np.ascontiguousarray(table["end_position_x"]), np.ascontiguousarray(out.summary["end_position_x"][:, 0]))
+
+    def test_errors(self):
+        with self.assertRaises(FileNotFoundError):
+            ba.run_cases(self.folder / "gone.jsonl", self.folder)
+        (self.folder / "cases.jsonl").write_text("[]\n")
+        with self.assertRaises(ValueError):
+            ba.run_cases(self.folder / "cases.jsonl", self.folder, shard=(2, 2))
+        self.assertEqual(list(ba.run_cases(self.folder / "cases.jsonl", self.folder).failures), [0])
+
+
+if __name__ == "__main__":
+    unittest.main()
