@@ -24,7 +24,7 @@ TEST_F(FloatingCommand, InspectTellsHowABargeFloats) {
   const Arguments floating{"inspect",          file, "--mass", "500",   "--density", "1000",
                            "--centre-of-mass", "0",  "0",      "-0.24", "--json"};
   json report = resultOf(floating);
-  ASSERT_EQ(report["floating"].size(), 1u);
+  ASSERT_GE(report["floating"].size(), 1u);  // upright, and maybe on its side
   const json& upright = report["floating"][0];
   EXPECT_NEAR(upright["draught"].get<double>(), 0.25, 1e-9);
   EXPECT_NEAR(upright["up"][2].get<double>(), 1, 1e-9);
