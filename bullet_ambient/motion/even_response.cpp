@@ -7,20 +7,18 @@
 namespace ambient {
 namespace {
 
-using DenseMatrix3 = Eigen::Matrix<double, 3, 3>;
-
-double largestEigenvalue(const DenseMatrix3& symmetric) {
+double largestEigenvalue(const Eigen::Matrix3d& symmetric) {
   return symmetricEigen(symmetric).values[2];
 }
 
 }  // namespace
 
 EvenResponse makeEvenResponse(const Matrix6& inverse_inertia, const Matrix3& dry_inertia) {
-  const Eigen::LLT<DenseMatrix3> root(dry_inertia);
-  const DenseMatrix3 L = root.matrixL();
-  const DenseMatrix3 angular = L.transpose() * inverse_inertia.topLeftCorner<3, 3>() * L;
-  const DenseMatrix3 linear = inverse_inertia.bottomRightCorner<3, 3>();
-  return {largestEigenvalue(angular) * root.solve(DenseMatrix3::Identity()),
+  const Eigen::LLT<Eigen::Matrix3d> root(dry_inertia);
+  const Eigen::Matrix3d L = root.matrixL();
+  const Eigen::Matrix3d angular = L.transpose() * inverse_inertia.topLeftCorner<3, 3>() * L;
+  const Eigen::Matrix3d linear = inverse_inertia.bottomRightCorner<3, 3>();
+  return {largestEigenvalue(angular) * root.solve(Eigen::Matrix3d::Identity()),
           largestEigenvalue(linear)};
 }
 
