@@ -41,8 +41,9 @@ void runInspect(const InspectArguments& arguments) {
     std::cout << inspectionJson(body, arguments);
     return;
   }
-  std::cout << reportTable(body, arguments.file);
-  if (arguments.mass) std::cout << floatingTable(onWater(body, arguments));
+  std::string table = reportTable(body, arguments.file);
+  if (arguments.mass) table += floatingTable(onWater(body, arguments));
+  std::cout << table;
 }
 
 }  // namespace ambient

@@ -82,19 +82,15 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
 CLI::App* addInspect(CLI::App& app, InspectArguments& arguments) {
   CLI::App* inspect = app.add_subcommand("inspect", "Shows what an .ambient file holds");
   inspect->add_option("FILE", arguments.file, "An .ambient file")->required();
-  CLI::Option* mass =
-      inspect->add_option("--mass", arguments.mass, "Shows how a body of this mass floats [kg]");
+  inspect->add_option("--mass", arguments.mass, "Shows how a body of this mass floats [kg]");
   inspect
       ->add_option("--centre-of-mass", arguments.centre_of_mass,
-                   "In the body's frame [m]; default: that of a mass spread evenly")
-      ->needs(mass)
+                   "With --mass: in the body's frame [m]; default: that of a mass spread evenly")
       ->expected(3)
       ->type_name("X Y Z");
-  inspect->add_option("--density", arguments.density, "Of the water [kg/m^3]")
-      ->needs(mass)
+  inspect->add_option("--density", arguments.density, "With --mass: of the water [kg/m^3]")
       ->capture_default_str();
-  inspect->add_option("--gravity", arguments.gravity, "[m/s^2]")
-      ->needs(mass)
+  inspect->add_option("--gravity", arguments.gravity, "With --mass: [m/s^2]")
       ->capture_default_str();
   inspect->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
   return inspect;

@@ -49,7 +49,7 @@ TEST(Step, AllocatesNothing) {
     btSphereShape ball_shape(static_cast<btScalar>(0.3));
     FluidWorld fluid;
     fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
-    const FluidBody shape = meshedEllipsoid(Vector3(0.3, 0.25, 0.1), 2);
+    const FluidBody shape = floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2);
     BodyDef def{1, Vector3(0.02, 0.03, 0.04), {}, &floor_shape};
     BodyDef floor_def = def;
     floor_def.mass = 0;

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "demos/scene/scene_water.h"
 #include "tests/demos/scene/scene_text.h"
 
 namespace ambient {
@@ -334,74 +333,6 @@ TEST(SceneReader, TakesTheLawOfTheSceneUnlessABodyNamesItsOwn) {
   scene["bodies"][0]["law"] = "newton";
   EXPECT_NE(complaintAbout(scene).find("bodies[0].law"), std::string::npos)
       << complaintAbout(scene);
-}
-
-json seaScene() {
-  json scene = ballScene();
-  scene["gravity"] = {0, -4, 0};
-  scene["water"] = json::parse(R"({"level": 0.5, "current": [1, 0, 0], "density": 1025,
-    "waves": [{"amplitude": 0.1, "period": 2}, {"amplitude": 0, "period": 3, "direction": [0, 0, 1], "phase": 1}],
-    "bounds": {"lowest": [null, -2, -3], "highest": [4, null, 5]}})");
-  scene["regions"] =
-      json::parse(R"([{"medium": {"density": 2, "velocity": [3, 0, 0]}, "priority": 4,
-    "bounds": {"lowest": [0, 0, 0], "highest": [1, 1, 1]}}, {"medium": {"density": 7}}])");
-  return scene;
-}
-
-TEST(SceneReader, TakesWaterOver) {
-  const Scene scene = readText(seaScene());
-  ASSERT_TRUE(scene.water);
-  EXPECT_EQ(scene.water->sea.level, 0.5);
-  EXPECT_EQ(scene.water->sea.up, Vector3(0, 4, 0));
-  EXPECT_EQ(scene.water->sea.gravity, 4);
-  EXPECT_EQ(scene.water->sea.current, Vector3(1, 0, 0));
-  EXPECT_EQ(scene.water->medium.density, 1025);
-  EXPECT_EQ(scene.water->medium.viscosity, water().viscosity);
-  ASSERT_EQ(scene.water->waves.size(), 2u);
-  EXPECT_EQ(scene.water->waves[0].amplitude, 0.1);
-  EXPECT_EQ(scene.water->waves[0].direction, Vector3(1, 0, 0));
-  EXPECT_EQ(scene.water->waves[1].direction, Vector3(0, 0, 1));
-  EXPECT_EQ(scene.water->waves[1].phase, 1);
-  ASSERT_TRUE(scene.water->bounds);
-  EXPECT_EQ(scene.water->bounds->lowest, Vector3(-HUGE_VAL, -2, -3));
-  EXPECT_EQ(scene.water->bounds->highest, Vector3(4, HUGE_VAL, 5));
-}
-
-TEST(SceneReader, MakesRegionsOfWaterFirst) {
-  json text = seaScene();
-  const std::vector<FluidRegion> regions = makeRegions(readText(text));
-  ASSERT_EQ(regions.size(), 3u);
-  EXPECT_EQ(regions[0].below.density, 1025);
-  EXPECT_EQ(regions[0].above.density, 1.204);
-  EXPECT_FALSE(regions[0].surface->isStill());
-  // Under water: that the waves run on it, once.
-  EXPECT_NEAR(sampleRegion(regions[0], {0, -40, 0}, 0).here().velocity.x(), 1, 1e-12);
-  EXPECT_EQ(regions[1].below.velocity.x(), 3);
-  EXPECT_EQ(regions[1].priority, 4);
-  EXPECT_TRUE(regions[1].bounds->hold({0.5, 0.5, 0.5}));
-  EXPECT_FALSE(regions[2].bounds);
-  text["water"].erase("waves");
-  const FluidRegion still = makeRegions(readText(text))[0];
-  EXPECT_TRUE(still.surface->isStill());
-  EXPECT_EQ(sampleRegion(still, {0, 0, 0}, 0).here().velocity, Vector3(1, 0, 0));
-  EXPECT_TRUE(sampleRegion(still, {0, 0.6, 0}, 0).isAbove());
-}
-
-TEST(SceneReader, SaysWhatIsWrongWithWaterAndRegions) {
-  const auto complaint = [](const char* pointer, const json& value) {
-    json scene = seaScene();
-    scene[json::json_pointer(pointer)] = value;
-    return complaintAbout(scene);
-  };
-  EXPECT_EQ(complaint("/gravity", {0, 0, 0}),
-            "water is given, but gravity is 0, 0, 0; must have a length > 0");
-  EXPECT_EQ(complaint("/water/waves/0/direction", {0, 1, 0}),
-            "horizontal part of the direction of wave 0 is 0; must be positive and finite");
-  EXPECT_EQ(complaint("/water/waves/0/period", 0), "water.waves[0].period is 0; must be > 0");
-  EXPECT_EQ(complaint("/water/bounds/lowest/0", "left"),
-            "water.bounds.lowest[0] is \"left\"; must be of type [\"number\",\"null\"]");
-  EXPECT_EQ(complaint("/regions/0/bounds/lowest/1", 3),
-            "region of fluid: size along y [m] is -2; must be positive");
 }
 
 }  // namespace
