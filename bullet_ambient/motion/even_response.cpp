@@ -7,18 +7,19 @@
 namespace ambient {
 namespace {
 
-using Matrix = Eigen::Matrix<double, 3, 3>;
-
-double largestEigenvalue(const Matrix& symmetric) { return symmetricEigen(symmetric).values[2]; }
+double largestEigenvalue(const Eigen::Matrix3d& symmetric) {
+  return symmetricEigen(symmetric).values[2];
+}
 
 }  // namespace
 
 EvenResponse makeEvenResponse(const Matrix6& inverse_inertia, const Matrix3& dry_inertia) {
-  const Eigen::LLT<Matrix> root(dry_inertia);
-  const Matrix L = root.matrixL();
-  const Matrix angular = L.transpose() * inverse_inertia.topLeftCorner<3, 3>() * L;
-  const Matrix linear = inverse_inertia.bottomRightCorner<3, 3>();
-  return {largestEigenvalue(angular) * root.solve(Matrix::Identity()), largestEigenvalue(linear)};
+  const Eigen::LLT<Eigen::Matrix3d> root(dry_inertia);
+  const Eigen::Matrix3d L = root.matrixL();
+  const Eigen::Matrix3d angular = L.transpose() * inverse_inertia.topLeftCorner<3, 3>() * L;
+  const Eigen::Matrix3d linear = inverse_inertia.bottomRightCorner<3, 3>();
+  return {largestEigenvalue(angular) * root.solve(Eigen::Matrix3d::Identity()),
+          largestEigenvalue(linear)};
 }
 
 }  // namespace ambient

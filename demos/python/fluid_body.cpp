@@ -7,7 +7,6 @@
 
 #include "bullet_ambient/fluid_body/content_hash.h"
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/output_file.h"
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "demos/python/fluid_body_sources.h"
@@ -117,7 +116,7 @@ FluidBodyPtr read(const py::object& path) {
 
 void write(const FluidBody& body, const py::object& path) {
   try {
-    writeThroughLinks(body, pathFrom(path));
+    writeFluidBody(body, pathFrom(path));
   } catch (const std::runtime_error& error) {
     PyErr_SetString(PyExc_OSError, error.what());
     throw py::error_already_set();

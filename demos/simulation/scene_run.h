@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/output_file.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
