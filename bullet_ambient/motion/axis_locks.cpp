@@ -116,7 +116,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   result.change_W = inWorld(turning + kick);
   const Vector6 push = inWorld(model.inertia * kick).vector();  // what the locks let through
   const Vector6 push_B = stack(R.transpose() * push.head<3>(), R.transpose() * push.tail<3>());
-  result.aside_W = inWorld(model.even_response * push_B - kick);
+  result.aside_W = inWorld(model.even_response.beyond(push_B, kick));
   result.change_W.linear += dt * free.tail<3>().cwiseProduct(s.ambient_acceleration);
   return result;
 }

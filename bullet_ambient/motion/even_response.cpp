@@ -13,6 +13,15 @@ double largestEigenvalue(const Eigen::Matrix3d& symmetric) {
 
 }  // namespace
 
+Vector6 EvenResponse::beyond(const Vector6& momentum, const Vector6& change) const {
+  constexpr double kRounding = 1e-12;
+  const Vector6 even = *this * momentum;
+  Vector6 aside = even - change;
+  if (aside.head<3>().norm() <= kRounding * even.head<3>().norm()) aside.head<3>().setZero();
+  if (aside.tail<3>().norm() <= kRounding * even.tail<3>().norm()) aside.tail<3>().setZero();
+  return aside;
+}
+
 EvenResponse makeEvenResponse(const Matrix6& inverse_inertia, const Matrix3& dry_inertia) {
   const Eigen::LLT<Eigen::Matrix3d> root(dry_inertia);
   const Eigen::Matrix3d L = root.matrixL();

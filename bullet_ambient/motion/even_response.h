@@ -13,6 +13,8 @@ struct EvenResponse {
   Vector6 operator*(const Vector6& momentum) const {
     return stack(inverse_inertia * momentum.head<3>(), inverse_mass * momentum.tail<3>());
   }
+  /// Its answer to a momentum, less `change`, that of K^-1; zero where this is rounding.
+  Vector6 beyond(const Vector6& momentum, const Vector6& change) const;
 };
 
 /// The factors are the largest with which either block answers at least as far as that of K^-1

@@ -47,7 +47,7 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   result.extent = turning.extent;
   const Quaternion& q = start.orientation;
   result.turning_W = {q * share.head<3>(), q * share.tail<3>()};
-  const Vector6 aside = model.even_response * pairOfTwist(model, impulse).momentum - impulse;
+  const Vector6 aside = model.even_response.beyond(pairOfTwist(model, impulse).momentum, impulse);
   result.aside_W = {q * aside.head<3>(), q * aside.tail<3>()};
   result.change_W.angular = result.turning_W.angular + q * impulse.head<3>();
   result.change_W.linear =
