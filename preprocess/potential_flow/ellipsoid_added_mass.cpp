@@ -52,7 +52,7 @@ Vector6 ellipsoidAddedMass(const Vector3& semi_axes) {
 
 namespace {
 
-PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector6& translation,
+PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector3& translation,
                             const Vector3& rotation) {
   const Vector3 twice_area = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
   PanelInertia panel;
@@ -63,13 +63,22 @@ PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector6&
     const Vector3 z = (corner[k] + corner[(k + 1) % 3]) / 2, r = z - panel.centroid;
     const Vector3 bilinear(z.y() * z.z(), z.z() * z.x(), z.x() * z.y());
     Vector6 phi;
-    phi << rotation.cwiseProduct(bilinear), translation.tail<3>().cwiseProduct(z);
+    phi << rotation.cwiseProduct(bilinear), translation.cwiseProduct(z);
     panel.inertia -= panel.area / 3 * stack(z.cross(panel.normal), panel.normal) * phi.transpose();
     Vector6 products;
     products << r.cwiseAbs2(), r.x() * r.y(), r.x() * r.z(), r.y() * r.z();
     panel.spread += products / 3;
   }
   return panel;
+}
+
+std::vector<PanelInertia> panelsOf(const TriangleMesh& mesh, const Vector3& translation,
+                                   const Vector3& rotation) {
+  std::vector<PanelInertia> panels;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
+    panels.push_back(ellipsoidPanel({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
+                                    translation, rotation));
+  return panels;
 }
 
 }  // namespace
@@ -83,11 +92,11 @@ std::vector<PanelInertia> ellipsoidPanels(const TriangleMesh& mesh, const Vector
     const double difference = squares[(i + 1) % 3] - squares[(i + 2) % 3];
     if (difference != 0) rotation[i] = -5 * K[i] / (volume * difference);
   }
-  std::vector<PanelInertia> panels;
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
-    panels.push_back(ellipsoidPanel({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
-                                    -K / volume, rotation));
-  return panels;
+  return panelsOf(mesh, -K.tail<3>() / volume, rotation);
+}
+
+std::vector<PanelInertia> linearPanels(const TriangleMesh& mesh, const Vector3& per_volume) {
+  return panelsOf(mesh, -per_volume, Vector3::Zero());
 }
 
 }  // namespace ambient
