@@ -1,5 +1,6 @@
 #include "preprocess/builder/known_shape.h"
 
+#include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/potential_flow/ellipsoid_added_mass.h"
@@ -56,8 +57,9 @@ std::optional<KnownShape> findKnownShape(const ShapeDescription& shape, double s
 std::vector<AddedMassPart> estimateParts(TriangleMesh mesh, const Matrix6& added_mass) {
   const MeshProperties properties = computeMassProperties(mesh);
   mesh.vertices.colwise() -= properties.uniform.centre;
-  const Vector3 per_volume = added_mass.diagonal().tail<3>() / properties.volume;
-  return placed(joinPanels(linearPanels(mesh, per_volume)), 1, properties.uniform.centre);
+  const Matrix6 about_centre = shiftOrigin(added_mass, properties.uniform.centre);
+  return placed(joinPanels(simplePanels(mesh, about_centre.diagonal())), 1,
+                properties.uniform.centre);
 }
 
 }  // namespace ambient

@@ -23,7 +23,7 @@ struct KnownShape {
 std::optional<KnownShape> findKnownShape(const ShapeDescription& shape, double scale);
 
 /// What the parts of a closed mesh have of its added mass, both about the mesh's origin, where no
-/// flow was solved: in translation, by potentials that are linear in place; nothing in rotation.
+/// flow was solved, by simplePanels().
 std::vector<AddedMassPart> estimateParts(TriangleMesh mesh, const Matrix6& added_mass);
 
 }  // namespace ambient

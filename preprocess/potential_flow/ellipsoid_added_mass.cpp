@@ -72,13 +72,8 @@ PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector3&
   return panel;
 }
 
-std::vector<PanelInertia> panelsOf(const TriangleMesh& mesh, const Vector3& translation,
-                                   const Vector3& rotation) {
-  std::vector<PanelInertia> panels;
-  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
-    panels.push_back(ellipsoidPanel({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
-                                    translation, rotation));
-  return panels;
+std::array<Vector3, 3> cornersOf(const TriangleMesh& mesh, Eigen::Index t) {
+  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
 }
 
 }  // namespace
@@ -92,11 +87,28 @@ std::vector<PanelInertia> ellipsoidPanels(const TriangleMesh& mesh, const Vector
     const double difference = squares[(i + 1) % 3] - squares[(i + 2) % 3];
     if (difference != 0) rotation[i] = -5 * K[i] / (volume * difference);
   }
-  return panelsOf(mesh, -K.tail<3>() / volume, rotation);
+  std::vector<PanelInertia> panels;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
+    panels.push_back(ellipsoidPanel(cornersOf(mesh, t), -K.tail<3>() / volume, rotation));
+  return panels;
 }
 
-std::vector<PanelInertia> linearPanels(const TriangleMesh& mesh, const Vector3& per_volume) {
-  return panelsOf(mesh, -per_volume, Vector3::Zero());
+std::vector<PanelInertia> simplePanels(const TriangleMesh& mesh, const Vector6& K) {
+  std::vector<PanelInertia> panels;
+  Vector6 sum = Vector6::Zero();
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    const std::array<Vector3, 3> corners = cornersOf(mesh, t);
+    const Vector3 n = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    const Vector3 n2 = n.cwiseAbs2();
+    const Vector3 rotation(n2.y() - n2.z(), n2.z() - n2.x(), n2.x() - n2.y());
+    panels.push_back(ellipsoidPanel(corners, -Vector3::Ones(), rotation));
+    sum += panels.back().inertia.diagonal();
+  }
+  Vector6 factor = Vector6::Zero();
+  for (int i = 0; i < 6; ++i)
+    if (K[i] > 0 && sum[i] > 0) factor[i] = K[i] / sum[i];
+  for (PanelInertia& panel : panels) panel.inertia *= factor.asDiagonal();
+  return panels;
 }
 
 }  // namespace ambient
