@@ -59,6 +59,7 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescript
   ShapeBuildSettings settings;
   settings.name = name;
   settings.flow.threads = threads_;
+  settings.tables = false;  // scenes are published: new tables should not change their bits
   BuiltBody built = buildShape(shape, settings);
   warnings_.insert(warnings_.end(), built.warnings.begin(), built.warnings.end());
   auto body = std::make_shared<const FluidBody>(std::move(built.body));

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
+#include "preprocess/builder/known_shape.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/triangle_quality.h"
@@ -43,9 +44,13 @@ std::optional<Eigen::Vector3d> semiAxesOf(const ShapeDescription& shape) {
   return std::nullopt;
 }
 
-/// A solver that is asked for by name is used, closed form or not.
-bool hasClosedForm(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
-  return semiAxesOf(shape).has_value() && settings.flow.solver == FlowSolverKind::Automatic;
+/// A solver that is asked for by name is used, known or not.
+std::optional<KnownShape> knownShapeFor(const ShapeDescription& shape,
+                                        const ShapeBuildSettings& settings) {
+  if (settings.flow.solver != FlowSolverKind::Automatic) return std::nullopt;
+  auto known = findKnownShape(shape, settings.scale);
+  if (known && known->is_tabulated && !settings.tables) return std::nullopt;
+  return known;
 }
 
 /// The triangle of largest aspect of those that panels are cut from.
@@ -55,32 +60,36 @@ TriangleQuality worstForPanels(const TriangleMesh& mesh, bool sheet, int max_pan
   return findWorstTriangles(mergeFlatTriangles(mesh, sheet, max_panels), 1).front();
 }
 
-void warnOfMesh(CheckedMesh& checked, const ShapeDescription& shape,
-                const ShapeBuildSettings& settings) {
-  const auto warn = [&](const std::ostringstream& text) {
-    checked.warnings.push_back(shape.source + ": " + text.str());
-  };
+/// Begins like the messages about the shape's mesh.
+std::ostringstream warningOf(const ShapeDescription& shape) {
   std::ostringstream text;
   text.precision(3);
-  if (std::max<Eigen::Index>(checked.mesh.triangleCount(), settings.least_faces) < kCoarse) {
-    text << checked.mesh.triangleCount()
-         << " triangles are few: each has one sample of the slip velocity, so that loads in "
-            "rotation may be off by half; divide them (least faces 400)";
-    warn(text);
-  }
-  const TriangleQuality worst =
-      worstForPanels(checked.mesh, isSheet(shape), settings.flow.max_panels);
+  text << shape.source << ": ";
+  return text;
+}
+
+void warnOfFaces(CheckedMesh& checked, const ShapeDescription& shape, int least_faces) {
+  const Eigen::Index faces = checked.mesh.triangleCount();
+  if (std::max<Eigen::Index>(faces, least_faces) >= kCoarse) return;
+  std::ostringstream text = warningOf(shape);
+  text << faces
+       << " triangles are few: each has one sample of the slip velocity, so that loads in "
+          "rotation may be off by half; divide them (least faces 400)";
+  checked.warnings.push_back(text.str());
+}
+
+void warnOfPanels(CheckedMesh& checked, const ShapeDescription& shape, int max_panels) {
+  std::ostringstream text = warningOf(shape);
+  const TriangleQuality worst = worstForPanels(checked.mesh, isSheet(shape), max_panels);
   if (worst.aspect > kSkinny && !fileOf(shape).empty()) {
-    text.str({});
     text << "triangle " << worst.triangle << " at " << pointText(worst.barycentre) << " is "
          << worst.aspect << " times as long as high: if the body is not that thin there, the added "
          << "mass may be some per cent off (the report estimates its error)";
-    warn(text);
+    checked.warnings.push_back(text.str());
   } else if (const double slenderness = slendernessOf(checked.mesh); slenderness > kSkinny) {
-    text.str({});
     text << "it is " << std::lround(slenderness)
          << " times as long as wide: the added mass may be some per cent off";
-    warn(text);
+    checked.warnings.push_back(text.str());
   }
 }
 
@@ -94,8 +103,8 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
     text << "centre-of-volume";
   }
   text << ", faces " << settings.least_faces;
-  if (hasClosedForm(shape, settings)) {
-    text << ", closed form";
+  if (const auto known = knownShapeFor(shape, settings)) {
+    text << ", " << known->source;
     return text.str();
   }
   text << ", panels " << settings.flow.max_panels;
@@ -154,19 +163,22 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
     return readBody(*fluid_body, settings);
   }
   CheckedMesh checked = makeShapeMesh(shape, settings.scale);
-  warnOfMesh(checked, shape, settings);
+  warnOfFaces(checked, shape, settings.least_faces);
   BuildSettings build;
   build.name = settings.name;
   build.source = shape.source;
   build.origin = settings.origin;
   build.cavities = checked.cavities;
-  if (hasClosedForm(shape, settings)) {
-    // Spin about an axis of revolution moves nothing, but for rounding of either sign.
-    const Vector6 diagonal = ellipsoidAddedMass(settings.scale * *semiAxesOf(shape)).cwiseMax(0);
-    build.added_mass = diagonal.asDiagonal().toDenseMatrix();
-    if (!std::holds_alternative<SphereShape>(shape.geometry))
+  if (const auto known = knownShapeFor(shape, settings)) {
+    build.added_mass = known->added_mass;
+    if (known->is_tabulated) {
+      build.added_mass_parts = estimateParts(checked.mesh, known->added_mass);
+    } else if (!std::holds_alternative<SphereShape>(shape.geometry)) {
       build.added_mass_parts =
           joinPanels(ellipsoidPanels(checked.mesh, settings.scale * *semiAxesOf(shape)));
+    }
+  } else {
+    warnOfPanels(checked, shape, settings.flow.max_panels);
   }
   build.least_faces = settings.least_faces;
   build.flow = settings.flow;

@@ -16,6 +16,7 @@ struct ShapeBuildSettings {
   std::optional<Eigen::Vector3d> origin;  ///< as in BuildSettings, in the shape's frame
   double scale = 1;                       ///< multiplies all lengths of the shape
   int least_faces = 0;                    ///< as in BuildSettings
+  bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
   /// As in BuildSettings; whether it is a sheet, the shape says.
   PotentialFlowSettings flow{false, kDefaultPanels};
 };
@@ -27,7 +28,8 @@ struct BuiltBody {
 };
 
 /// Makes the mesh of a shape and its fluid body; a FluidBodyShape is read from its file as it is.
-/// Spheres and ellipsoids get the closed form of their added mass, unless a solver is named.
+/// Spheres and ellipsoids get the closed form of their added mass; boxes, cylinders, capsules and
+/// cones that of the tables as far as these reach; unless a solver is named.
 /// The provenance is the file and its hash, or the text of the shape.
 /// @throws std::runtime_error in one line that names the file or the shape's source. A fluid body
 /// can be neither moved nor scaled here.

@@ -13,6 +13,7 @@ namespace ambient {
 struct WorldBuildSettings {
   bool margins = true;                                ///< as in CollisionShapeSettings
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
+  bool tables = true;                                 ///< as in CollisionShapeSettings
   bool reuse = true;  ///< keep a file that was made from the same geometry and settings
 };
 

@@ -29,6 +29,7 @@ struct CollisionShapeSettings {
                         ///< margin included; false: as they were given
   int faces = 1300;     ///< triangles aimed at, where the shape has no mesh of its own
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
+  bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
   CompoundFallback fallback = CompoundFallback::kHull;
   /// Receives one line for everything a user should know about a body that was made: margins that
   /// add more than a tenth to its volume, triangles that were turned round, children that could not
@@ -37,7 +38,8 @@ struct CollisionShapeSettings {
 };
 
 /// The fluid body of a collision shape, whose frame F is that of the shape: a btRigidBody with the
-/// shape needs no offset. Spheres and ellipsoids have closed forms; all else is solved.
+/// shape needs no offset. Spheres and ellipsoids have closed forms; boxes, cylinders, capsules and
+/// cones tables, as far as these reach; all else is solved.
 ///
 /// Takes spheres, boxes, cylinders, capsules, cones, convex hulls, tetrahedra, multi-spheres,
 /// btGImpactMeshShape (a closed mesh), btUniformScalingShape, and btCompoundShape of these, nested;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/added_mass_tables/known_added_mass.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/weld_vertices.h"
@@ -52,7 +53,7 @@ Solid makeBallHull(const ShapePart& part, const SolidResolution& resolution) {
   return makeBallHullSolid(balls, resolution, part.name);
 }
 
-Solid makeSolid(const ShapePart& part, const SolidResolution& resolution) {
+Solid makeMeshes(const ShapePart& part, const SolidResolution& resolution) {
   const std::vector<double>& sizes = part.sizes;
   switch (part.kind) {
     case PartKind::kBall:
@@ -75,13 +76,38 @@ Solid makeSolid(const ShapePart& part, const SolidResolution& resolution) {
   return {};
 }
 
+Solid makeSolid(const ShapePart& part, SolidResolution resolution) {
+  const auto tabulated = resolution.tables ? tabulatedAddedMass(part) : std::nullopt;
+  if (tabulated) resolution.flow_faces = resolution.faces;  // no flow is solved
+  Solid solid = makeMeshes(part, resolution);
+  if (tabulated) solid.added_mass = tabulated;
+  return solid;
+}
+
 }  // namespace
+
+std::optional<Matrix6> tabulatedAddedMass(const ShapePart& part) {
+  const std::vector<double>& sizes = part.sizes;
+  switch (part.kind) {
+    case PartKind::kBox:
+      return boxAddedMass({sizes[0], sizes[1], sizes[2]});
+    case PartKind::kCylinder:
+      return cylinderAddedMass(sizes[0], sizes[1]);
+    case PartKind::kCapsule:
+      if (sizes[1] == 0) return std::nullopt;  // a ball, which has a closed form
+      return capsuleAddedMass(sizes[0], sizes[1]);
+    case PartKind::kCone:
+      return coneAddedMass(sizes[0], sizes[1], std::max(part.margin, 0.0));
+    default:
+      return std::nullopt;
+  }
+}
 
 std::vector<Solid> makeSolids(const std::vector<ShapePart>& parts,
                               const SolidResolution& resolution) {
   constexpr int kLeastFaces = 350;
   const int count = std::max(1, static_cast<int>(parts.size()));
-  SolidResolution each;
+  SolidResolution each = resolution;
   each.faces = std::max(kLeastFaces, resolution.faces / count);
   each.flow_faces = std::max(each.faces, resolution.flow_faces / count);
   std::vector<Solid> solids;

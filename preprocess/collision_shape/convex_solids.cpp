@@ -169,8 +169,9 @@ Solid makeCapsuleSolid(double radius, double height, const SolidResolution& reso
   requireSize(name, "the radius", radius);
   requireSize(name, "the height", height);
   const CapsuleShape capsule{radius, height};
-  return smoothSolid(meshOf(capsule, resolution.faces, name),
-                     meshOf(capsule, resolution.flow_faces, name));
+  const TriangleMesh mesh = meshOf(capsule, resolution.faces, name);
+  if (resolution.flow_faces <= resolution.faces) return solidOf(mesh);
+  return smoothSolid(mesh, meshOf(capsule, resolution.flow_faces, name));
 }
 
 Solid makeConeSolid(double radius, double height, double margin, const SolidResolution& resolution,
@@ -185,7 +186,10 @@ Solid makeConeSolid(double radius, double height, double margin, const SolidReso
     return withVolume(makeRoundedConeMesh(radius, height, margin, std::max(faces, kLeastFaces)),
                       volume);
   };
-  Solid solid = smoothSolid(make(resolution.faces), make(resolution.flow_faces));
+  const TriangleMesh mesh = make(resolution.faces);
+  Solid solid = resolution.flow_faces <= resolution.faces
+                    ? solidOf(mesh)
+                    : smoothSolid(mesh, make(resolution.flow_faces));
   solid.margin_volume = volume - kPi * radius * radius * height / 3;
   return solid;
 }

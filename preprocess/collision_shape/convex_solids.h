@@ -13,6 +13,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 struct SolidResolution {
   int faces = 0;       ///< triangles aimed at for the loads
   int flow_faces = 0;  ///< and for the flow
+  bool tables = true;  ///< of the added mass, as far as they reach
 };
 
 /// An ellipsoid of Bullet's btMultiSphereShape.

@@ -7,6 +7,8 @@
 
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/added_mass_tables/known_added_mass.h"
+#include "preprocess/builder/known_shape.h"
 #include "preprocess/collision_shape/collision_solids.h"
 #include "preprocess/collision_shape/shape_parts.h"
 #include "preprocess/collision_shape/solid_union.h"
@@ -45,11 +47,25 @@ void requireUsable(const CollisionShapeSettings& settings, const std::string& na
   require("threads", settings.flow.threads, 0);
 }
 
+bool usesTables(const CollisionShapeSettings& settings) {
+  return settings.tables && settings.flow.solver == FlowSolverKind::Automatic;
+}
+
+/// Where the added mass comes from, as far as the settings and a single part decide.
+std::string sourceOf(const std::vector<ShapePart>& parts, const CollisionShapeSettings& settings) {
+  const bool tables = usesTables(settings);
+  if (tables && parts.size() == 1 && tabulatedAddedMass(parts.front()))
+    return addedMassTablesName();
+  return "panels " + std::to_string(settings.flow.max_panels) + ", " + nameOf(settings.fallback) +
+         (tables ? "" : ", no tables");
+}
+
 std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
                             const CollisionShapeSettings& settings) {
   SolidResolution resolution;
   resolution.faces = settings.faces;
   resolution.flow_faces = std::max(settings.faces, settings.flow.max_panels);
+  resolution.tables = usesTables(settings);
   return makeSolids(parts, resolution);
 }
 
@@ -106,7 +122,8 @@ struct AddedMass {
 /// About the shape's origin.
 AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings,
                       const std::string& name) {
-  if (solid.added_mass) return {*solid.added_mass, {}};
+  if (solid.sphere_radius > 0) return {*solid.added_mass, {}};
+  if (solid.added_mass) return {*solid.added_mass, estimateParts(solid.mesh, *solid.added_mass)};
   const bool has_flow = solid.flow.triangleCount() > 0;
   const PotentialFlow fine = solveFlow(has_flow ? solid.flow : solid.mesh, settings, name);
   if (!has_flow) return {fine.added_mass, fine.parts};
@@ -166,8 +183,7 @@ Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& set
   provenance.source = "collision shape " + form.kind;
   provenance.source_hash = fnv1a64(contentOf(form.parts));
   provenance.settings = std::string(settings.margins ? "with" : "without") + " margins, faces " +
-                        std::to_string(settings.faces) + ", panels " +
-                        std::to_string(settings.flow.max_panels) + ", " + nameOf(settings.fallback);
+                        std::to_string(settings.faces) + ", " + sourceOf(form.parts, settings);
   provenance.generator = libraryVersion();
   return provenance;
 }

@@ -16,7 +16,7 @@ struct Solid {
   TriangleMesh coarse_flow;  ///< and coarser: the error shrinks as 1 / `flow_ratio` from here on
   double flow_ratio = 0;     ///< to `flow`, so that the result can be extrapolated; 0: it is not
   TriangleMesh cavities;     ///< closed, inside; they only matter to the uniform mass
-  /// The closed form about the shape's origin, if there is one, per unit density.
+  /// From a closed form or a table, about the shape's origin, if there is one, per unit density.
   std::optional<Matrix6> added_mass;
   double sphere_radius = 0;  ///< of a sphere [m]; 0: any other shape
   double margin_volume = 0;  ///< what Bullet's margin adds to it [m^3]

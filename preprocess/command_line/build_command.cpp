@@ -47,6 +47,7 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;
   settings.flow.solver = parseSolver(arguments.solver);
+  settings.tables = !arguments.no_tables;
   settings.flow.memory_limit = 1e9 * arguments.memory.value_or(0);
   return settings;
 }

@@ -25,6 +25,7 @@ struct BuildArguments {
   int threads = 0;                          ///< 0: all cores
   std::string solver;                       ///< dense or hierarchical; empty: by the panels
   std::optional<double> memory;             ///< for the flow [GB]; none: what is available
+  bool no_tables = false;                   ///< of the added mass of boxes, cylinders and so on
   bool no_margins = false;                  ///< of a world: hulls and cones without their margins
   bool rebuild = false;                     ///< also where nothing has changed
   bool json = false;

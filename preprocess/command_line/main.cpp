@@ -72,6 +72,8 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
       ->add_option("--memory", arguments.memory,
                    "For the flow, at most (default: what the machine has available)")
       ->type_name("GB");
+  build->add_flag("--no-tables", arguments.no_tables,
+                  "Solve the flow around boxes, cylinders, capsules and cones too");
   build->add_flag("--no-margins", arguments.no_margins,
                   "Worlds: convex hulls and cones without their margins");
   build->add_flag("--rebuild", arguments.rebuild, "Build also where nothing has changed");

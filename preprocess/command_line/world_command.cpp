@@ -123,6 +123,7 @@ int runWorldBuild(const BuildArguments& arguments) {
   settings.margins = !arguments.no_margins;
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;
+  settings.tables = !arguments.no_tables;
   settings.reuse = !arguments.rebuild;
   requireRegularFile(arguments.input, ".bullet");
   requireFolder(arguments.output);

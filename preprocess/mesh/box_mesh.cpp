@@ -57,7 +57,10 @@ class BoxLattice {
 TriangleMesh makeBoxMesh(const Eigen::Vector3d& half_sizes, int faces) {
   for (int k = 0; k < 3; ++k) requirePositiveSize("box", "half size", half_sizes[k]);
   requireFaces("box", faces, 12);
-  const std::array<int, 3> n = boxDivisions(half_sizes, faces);
+  return makeBoxMesh(half_sizes, boxDivisions(half_sizes, faces));
+}
+
+TriangleMesh makeBoxMesh(const Eigen::Vector3d& half_sizes, const std::array<int, 3>& n) {
   BoxLattice lattice(half_sizes, n);
   std::vector<Eigen::Vector3i> triangles;
   for (int axis = 0; axis < 3; ++axis) {

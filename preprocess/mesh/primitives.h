@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
@@ -19,6 +21,9 @@ TriangleMesh makeEllipsoidMesh(const Eigen::Vector3d& semi_axes, int faces);
 /// numbers proportional to the root of its length so that cells match across edges. At least 12
 /// faces.
 TriangleMesh makeBoxMesh(const Eigen::Vector3d& half_sizes, int faces);
+/// The same with so many divisions of the edges along x, y, z.
+/// @pre they are even, or all 1
+TriangleMesh makeBoxMesh(const Eigen::Vector3d& half_sizes, const std::array<int, 3>& divisions);
 
 /// Circular cylinder about z, radius and full height [m], graded towards the rims. At least 48
 /// faces, slender ones up to 304.

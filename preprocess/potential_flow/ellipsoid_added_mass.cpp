@@ -52,7 +52,7 @@ Vector6 ellipsoidAddedMass(const Vector3& semi_axes) {
 
 namespace {
 
-PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector6& translation,
+PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector3& translation,
                             const Vector3& rotation) {
   const Vector3 twice_area = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
   PanelInertia panel;
@@ -63,13 +63,17 @@ PanelInertia ellipsoidPanel(const std::array<Vector3, 3>& corner, const Vector6&
     const Vector3 z = (corner[k] + corner[(k + 1) % 3]) / 2, r = z - panel.centroid;
     const Vector3 bilinear(z.y() * z.z(), z.z() * z.x(), z.x() * z.y());
     Vector6 phi;
-    phi << rotation.cwiseProduct(bilinear), translation.tail<3>().cwiseProduct(z);
+    phi << rotation.cwiseProduct(bilinear), translation.cwiseProduct(z);
     panel.inertia -= panel.area / 3 * stack(z.cross(panel.normal), panel.normal) * phi.transpose();
     Vector6 products;
     products << r.cwiseAbs2(), r.x() * r.y(), r.x() * r.z(), r.y() * r.z();
     panel.spread += products / 3;
   }
   return panel;
+}
+
+std::array<Vector3, 3> cornersOf(const TriangleMesh& mesh, Eigen::Index t) {
+  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
 }
 
 }  // namespace
@@ -85,8 +89,25 @@ std::vector<PanelInertia> ellipsoidPanels(const TriangleMesh& mesh, const Vector
   }
   std::vector<PanelInertia> panels;
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
-    panels.push_back(ellipsoidPanel({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
-                                    -K / volume, rotation));
+    panels.push_back(ellipsoidPanel(cornersOf(mesh, t), -K.tail<3>() / volume, rotation));
+  return panels;
+}
+
+std::vector<PanelInertia> simplePanels(const TriangleMesh& mesh, const Vector6& K) {
+  std::vector<PanelInertia> panels;
+  Vector6 sum = Vector6::Zero();
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
+    const std::array<Vector3, 3> corners = cornersOf(mesh, t);
+    const Vector3 n = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    const Vector3 n2 = n.cwiseAbs2();
+    const Vector3 rotation(n2.y() - n2.z(), n2.z() - n2.x(), n2.x() - n2.y());
+    panels.push_back(ellipsoidPanel(corners, -Vector3::Ones(), rotation));
+    sum += panels.back().inertia.diagonal();
+  }
+  Vector6 factor = Vector6::Zero();
+  for (int i = 0; i < 6; ++i)
+    if (K[i] > 0 && sum[i] > 0) factor[i] = K[i] / sum[i];
+  for (PanelInertia& panel : panels) panel.inertia *= factor.asDiagonal();
   return panels;
 }
 

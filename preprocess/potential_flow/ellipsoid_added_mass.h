@@ -17,4 +17,9 @@ Vector6 ellipsoidAddedMass(const Vector3& semi_axes);
 /// translation and bilinear in rotation (art. 114, 115).
 std::vector<PanelInertia> ellipsoidPanels(const TriangleMesh& mesh, const Vector3& semi_axes);
 
+/// An estimate of the same for any body about its centre, whose added mass has the diagonal K: in
+/// translation potentials as linear as an ellipsoid's, in rotation bilinear ones with the sign that
+/// a turning side gives them. The diagonal of their sum is K.
+std::vector<PanelInertia> simplePanels(const TriangleMesh& mesh, const Vector6& K);
+
 }  // namespace ambient

@@ -62,6 +62,7 @@ void expectSurface(const FluidBody& body, double volume, double area) {
 TEST(CompoundUnion, BoxesThatMakeABoxAreThatBox) {
   CollisionShapeSettings settings = coarse();
   settings.flow.max_panels = 1200;
+  settings.tables = false;
   const FluidBody box = makeFluidBody(*block(1, 0.5, 0.5), settings);
   const FluidBody touching = Pieces(block(0.5, 0.5, 0.5))
                                  .with(block(0.5, 0.5, 0.5), {1, 0, 0})

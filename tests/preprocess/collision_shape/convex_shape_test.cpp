@@ -50,27 +50,62 @@ TEST(ConvexShape, CubeIsWithinItsTolerance) {
   Vector6 exact;
   exact << Vector3::Constant(reference::cubeRotationalAddedMass()),
       Vector3::Constant(8 * reference::cubeAddedMassCoefficient());
-  // Measured 4.7e-3 and 6e-4.
-  EXPECT_LT(rotationError(cube.added_mass, exact.asDiagonal()), 5.2e-3);
-  EXPECT_LT(translationError(cube.added_mass, exact.asDiagonal()), 1e-3);
+  // The reference is uncertain by 4e-4.
+  EXPECT_LT(rotationError(cube.added_mass, exact.asDiagonal()), 1e-3);
+  EXPECT_LT(translationError(cube.added_mass, exact.asDiagonal()), 2e-4);
 }
 
 TEST(ConvexShape, CylinderIsWithinItsTolerance) {
   const FluidBody cylinder = makeFluidBody(btCylinderShapeZ(btVector3(1, 1, 1)));
   const Matrix6 exact = alongAxis(reference::cylinderAddedMass(), 2);
   EXPECT_NEAR(cylinder.volume / (2 * kPi), 1, 4 * kScalarRounding);
-  // Measured 3.7e-3 and 4e-4.
-  EXPECT_LT(rotationError(cylinder.added_mass, exact), 5e-3);
-  EXPECT_LT(translationError(cylinder.added_mass, exact), 1e-3);
+  EXPECT_LT(rotationError(cylinder.added_mass, exact), 4e-4);
+  EXPECT_LT(translationError(cylinder.added_mass, exact), 1e-4);
 }
 
 TEST(ConvexShape, CapsuleIsWithinItsTolerance) {
   const FluidBody capsule = makeFluidBody(btCapsuleShapeX(1, 2));
   const Matrix6 exact = alongAxis(reference::capsuleAddedMass(), 0);
   EXPECT_NEAR(capsule.volume / (10 * kPi / 3), 1, 1e-12);
+  EXPECT_LT(rotationError(capsule.added_mass, exact), 4e-4);
+  EXPECT_LT(translationError(capsule.added_mass, exact), 1e-4);
+}
+
+TEST(ConvexShape, WithoutTablesTheSolverIsWithinItsTolerance) {
+  CollisionShapeSettings settings;
+  settings.tables = false;
+  const FluidBody cylinder = makeFluidBody(btCylinderShapeZ(btVector3(1, 1, 1)), settings);
+  const Matrix6 round = alongAxis(reference::cylinderAddedMass(), 2);
+  // Measured 3.7e-3 and 4e-4.
+  EXPECT_LT(rotationError(cylinder.added_mass, round), 5e-3);
+  EXPECT_LT(translationError(cylinder.added_mass, round), 1e-3);
+  const FluidBody capsule = makeFluidBody(btCapsuleShapeX(1, 2), settings);
+  const Matrix6 smooth = alongAxis(reference::capsuleAddedMass(), 0);
   // Measured 1.0e-4 and 4e-6.
-  EXPECT_LT(rotationError(capsule.added_mass, exact), 5e-4);
-  EXPECT_LT(translationError(capsule.added_mass, exact), 5e-5);
+  EXPECT_LT(rotationError(capsule.added_mass, smooth), 5e-4);
+  EXPECT_LT(translationError(capsule.added_mass, smooth), 5e-5);
+}
+
+// A solver would need more memory than that; the tables need none.
+TEST(ConvexShape, SimpleShapesNeedNoSolver) {
+  CollisionShapeSettings settings = coarse();
+  settings.flow.max_panels = 100000;
+  settings.flow.memory_limit = 1;
+  const btBoxShape box(btVector3(1, 2, 3));
+  const btCylinderShape cylinder(btVector3(1, 2, 1));
+  const btCapsuleShapeX capsule(1, 2);
+  btConeShape rounded(1, 2), sharp(1, 2);
+  sharp.setMargin(0);
+  for (const btCollisionShape* shape : std::initializer_list<const btCollisionShape*>{
+           &box, &cylinder, &capsule, &rounded, &sharp}) {
+    const Provenance made = makeFluidBody(*shape, settings).provenance;
+    EXPECT_EQ(made.settings, "with margins, faces 350, added mass tables 1") << shape->getName();
+    EXPECT_EQ(made.settings, describeCollisionShape(*shape, settings).settings);
+  }
+  settings.tables = false;
+  EXPECT_THROW(makeFluidBody(box, settings), std::runtime_error);
+  EXPECT_EQ(describeCollisionShape(box, settings).settings,
+            "with margins, faces 350, panels 100000, hull, no tables");
 }
 
 // What mirrors forbid is zero to the last bit: the step has a shorter way for diagonal inertia.
@@ -173,13 +208,18 @@ TEST(ConvexShape, ConeHasItsApexUpAndItsMarginOnTop) {
 TEST(ConvexShape, RoundedConeIsWithinHalfAPercentOfFinerOnes) {
   btConeShapeZ cone(1, 2);
   cone.setMargin(btScalar(0.1));
-  CollisionShapeSettings finer;
+  CollisionShapeSettings settings, finer;
+  settings.tables = finer.tables = false;
   finer.faces = 1800;
   finer.flow.max_panels = 5000;
   const Matrix6 exact = makeFluidBody(cone, finer).added_mass;
-  const Matrix6 K = makeFluidBody(cone).added_mass;
+  const Matrix6 K = makeFluidBody(cone, settings).added_mass;
   EXPECT_LT(rotationError(K, exact), 3e-3);
   EXPECT_LT(translationError(K, exact), 2e-3);
+  // The meshes have three rows around the rim, however fine they are: measured 1.4e-2 and 8e-3.
+  const Matrix6 tabulated = makeFluidBody(cone).added_mass;
+  EXPECT_LT(rotationError(K, tabulated), 2e-2);
+  EXPECT_LT(translationError(K, tabulated), 1e-2);
 }
 
 TEST(ConvexShape, LocalScalingCounts) {

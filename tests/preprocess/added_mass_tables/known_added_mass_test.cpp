@@ -1,0 +1,213 @@
+#include "preprocess/added_mass_tables/known_added_mass.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/pi.h"
+#include "preprocess/added_mass_tables/table_places.h"
+#include "tests/reference/body_added_mass.h"
+#include "tests/reference/sheet_added_mass.h"
+
+namespace ambient {
+namespace {
+
+Matrix6 boxOf(double a, double b, double c) { return boxAddedMass({a, b, c}).value(); }
+
+double relative(double value, double exact) { return std::abs(value / exact - 1); }
+
+Matrix6 matrixOf(const reference::RevolutionAddedMass& K) {
+  return RevolutionInertia{K.v_z, K.v_x, K.w_y, K.coupling}.matrix();
+}
+
+/// Relative to the largest entry of each block; docs/accuracy.md says what to expect.
+void expectClose(const Matrix6& K, const Matrix6& exact, double tolerance = 3e-3) {
+  for (const int block : {0, 3}) {
+    const Matrix3 expected = exact.block<3, 3>(block, block);
+    const Matrix3 change = K.block<3, 3>(block, block) - expected;
+    EXPECT_LT(change.cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff(), tolerance);
+  }
+}
+
+// Helsing and Perfekt 2013; the rotation has an uncertainty of 4e-4.
+TEST(KnownAddedMass, Cube) {
+  const Vector6 K = boxOf(1, 1, 1).diagonal();
+  EXPECT_LT(relative(K[3], 8 * reference::cubeAddedMassCoefficient()), 2e-4);
+  EXPECT_LT(relative(K[0], reference::cubeRotationalAddedMass()), 1e-3);
+}
+
+TEST(KnownAddedMass, RoundBodies) {
+  expectClose(*cylinderAddedMass(1, 2), matrixOf(reference::cylinderAddedMass()), 2e-4);
+  expectClose(*cylinderAddedMass(1, 0.2), matrixOf(reference::coinAddedMass()), 2e-4);
+  expectClose(*capsuleAddedMass(1, 2), matrixOf(reference::capsuleAddedMass()), 2e-4);
+}
+
+// What a thickness t adds is about linear, with a logarithm: 2 K(t) - K(2t) leaves up to 1.6 t over
+// the width.
+TEST(KnownAddedMass, ThinPlatesAreSheets) {
+  const auto plate = [](double length) {
+    return [length](double t) { return boxOf(length / 2, 0.5, t / 2).diagonal().eval(); };
+  };
+  for (const int length : {1, 2, 4}) {
+    const auto box = plate(length);
+    const double t = length / 99.0;
+    const Vector6 K = 2 * box(t) - box(2 * t);
+    const reference::SheetAddedMass sheet = reference::rectangleAddedMass(length);
+    EXPECT_LT(relative(K[5], sheet.v_z), 2 * t) << length;
+    EXPECT_LT(relative(K[0], sheet.w_x), 2 * t) << length;
+    EXPECT_LT(relative(K[1], sheet.w_y), 2 * t) << length;
+  }
+}
+
+// In plane flow, a square of side 1 has 2 pi c^2 - 1, with its conformal radius c by Schwarz and
+// Christoffel's map; a circle its area. In the difference of two rods the ends do not count.
+TEST(KnownAddedMass, LongRodsHaveTheAddedMassOfTheirSection) {
+  const double c = std::pow(std::tgamma(0.25), 2) / (4 * std::pow(kPi, 1.5));
+  const double square = (boxOf(100, 1, 1)(4, 4) - boxOf(60, 1, 1)(4, 4)) / 80;
+  EXPECT_LT(relative(square, 4 * (2 * kPi * c * c - 1)), 2e-3);
+  const double circle =
+      ((*cylinderAddedMass(1, 200))(3, 3) - (*cylinderAddedMass(1, 120))(3, 3)) / 80;
+  EXPECT_LT(relative(circle, kPi), 1e-3);
+  const double capsule =
+      ((*capsuleAddedMass(1, 200))(3, 3) - (*capsuleAddedMass(1, 120))(3, 3)) / 80;
+  EXPECT_LT(relative(capsule, kPi), 1e-3);
+}
+
+TEST(KnownAddedMass, OrderOfTheSidesIsOfNoImportance) {
+  for (int i = 0; i < 50; ++i) {
+    const double a = 1.3 + 0.1 * i, b = 0.4, c = 2.7 - 0.03 * i;
+    const Matrix6 K = boxOf(a, b, c), turned = boxOf(b, c, a), mirrored = boxOf(b, a, c);
+    for (int k = 0; k < 3; ++k) {
+      const int next = (k + 1) % 3, swapped = k == 2 ? 2 : 1 - k;
+      EXPECT_EQ(turned(k, k), K(next, next));
+      EXPECT_EQ(turned(3 + k, 3 + k), K(3 + next, 3 + next));
+      EXPECT_EQ(mirrored(k, k), K(swapped, swapped));
+      EXPECT_EQ(mirrored(3 + k, 3 + k), K(3 + swapped, 3 + swapped));
+    }
+  }
+}
+
+TEST(KnownAddedMass, WhatSymmetryForbidsIsZero) {
+  const Matrix6 box = boxOf(1.3, 0.4, 2.7);
+  const Matrix6 diagonal = box.diagonal().asDiagonal();
+  EXPECT_EQ(box, diagonal);
+  Matrix6 cone = *coneAddedMass(0.7, 1.1);
+  EXPECT_EQ(cone, cone.transpose());
+  EXPECT_EQ(cone(1, 3), -cone(0, 4));
+  EXPECT_EQ(cone(0, 0), cone(1, 1));
+  EXPECT_EQ(cone(3, 3), cone(4, 4));
+  // Its wide end, below, carries more: pushed in x at the centre, it lags behind there.
+  EXPECT_LT(cone(1, 3), 0);
+  EXPECT_EQ(cone.row(2), cone.row(2) * 0);
+  cone(1, 3) = cone(3, 1) = cone(0, 4) = cone(4, 0) = 0;
+  const Matrix6 rest = cone.diagonal().asDiagonal();
+  EXPECT_EQ(cone, rest);
+}
+
+TEST(KnownAddedMass, GrowsWithTheSizeToTheLastBit) {
+  EXPECT_EQ(boxOf(2.6, 0.8, 5.4), scaleShape(boxOf(1.3, 0.4, 2.7), 2));
+  EXPECT_EQ(*cylinderAddedMass(0.5, 1.5), scaleShape(*cylinderAddedMass(1, 3), 0.5));
+  EXPECT_EQ(*coneAddedMass(0.5, 1.5, 0.1), scaleShape(*coneAddedMass(1, 3, 0.2), 0.5));
+  expectClose(*capsuleAddedMass(0.5, 1.5), scaleShape(*capsuleAddedMass(1, 3), 0.5), 1e-14);
+}
+
+TEST(KnownAddedMass, EndsWhereTheTablesEnd) {
+  EXPECT_TRUE(boxAddedMass({100, 1, 1}) && boxAddedMass({0.01, 1, 1}));
+  EXPECT_FALSE(boxAddedMass({100.001, 1, 1}) || boxAddedMass({1, 20, 0.19}));
+  EXPECT_TRUE(cylinderAddedMass(1, 200) && cylinderAddedMass(1, 0.02));
+  EXPECT_FALSE(cylinderAddedMass(1, 200.01) || cylinderAddedMass(1, 0.0199));
+  EXPECT_TRUE(capsuleAddedMass(1, 200) && capsuleAddedMass(1, 1e-3));
+  EXPECT_FALSE(capsuleAddedMass(1, 200.01));
+  EXPECT_TRUE(coneAddedMass(1, 200) && coneAddedMass(1, 0.02) && coneAddedMass(1, 2, 5.9));
+  EXPECT_FALSE(coneAddedMass(1, 200.01) || coneAddedMass(1, 0.0199) || coneAddedMass(1, 2, 6.1));
+}
+
+// A ball has V/2 in translation and nothing in rotation: Lamb, art. 92.
+TEST(KnownAddedMass, ShortCapsulesAreBalls) {
+  const Vector6 K = capsuleAddedMass(1, 1e-3)->diagonal();
+  for (int k = 3; k < 6; ++k) EXPECT_NEAR(K[k] / (2 * kPi / 3), 1, 2e-3);
+  EXPECT_LT(K[0], 1e-5);
+  EXPECT_GT(K[0], 0);
+}
+
+TEST(KnownAddedMass, IsPositiveAllOverTheTables) {
+  for (double x = -1; x <= 1; x += 0.05) {
+    const double height = 2 * std::pow(kLargestRatio, x);
+    for (double share = 0; share < kLargestRounding; share += 0.05) {
+      const double rounding = height / (1 + height) * share / (1 - share);
+      const Matrix6 K = coneAddedMass(1, height, rounding).value();
+      EXPECT_GT(K(1, 1) * K(3, 3), K(1, 3) * K(1, 3)) << height << " " << rounding;
+      EXPECT_GT(K(5, 5), 0);
+    }
+    for (double y = 0; y <= 1; y += 0.05) {
+      const double longest = std::pow(kLargestRatio, (x + 1) / 2);
+      EXPECT_GT(boxOf(longest, std::pow(longest, y), 1).diagonal().minCoeff(), 0);
+    }
+    EXPECT_GT((*cylinderAddedMass(1, height))(0, 0), 0);
+  }
+}
+
+/// Half sizes of a box, or radius, height and rounding; the diagonal of a box, of others v_z, v_x,
+/// w_y and the coupling. By preprocess/table_generator's solvers, which other tests check.
+struct SolvedShape {
+  Vector3 sizes;
+  std::array<double, 6> entries;
+};
+
+Matrix6 revolutionOf(const std::array<double, 6>& k) {
+  return RevolutionInertia{k[0], k[1], k[2], k[3]}.matrix();
+}
+
+TEST(KnownAddedMass, OfBoxesIsThatOfFineMeshes) {
+  const SolvedShape shapes[] = {
+      {{1, 2, 3}, {48.78569, 113.3663, 39.26611, 68.14498, 23.84663, 14.52922}},
+      {{5, 1, 0.3}, {4.504939, 237.2251, 35.16471, 0.8257037, 4.86366, 35.44395}},
+      {{1, 0.9, 0.04}, {0.4773614, 0.6240953, 0.008961752, 0.01976262, 0.02207941, 3.380307}},
+      {{7, 8, 9}, {45544.8, 45962.19, 37939.15, 3067.712, 2538.641, 2166.562}},
+      {{1, 60, 70}, {2287845, 9.435287e+08, 6.368172e+08, 1031372, 1147.233, 978.1773}},
+  };
+  for (const SolvedShape& box : shapes) {
+    const Vector6 exact = Eigen::Map<const Vector6>(box.entries.data());
+    const Vector6 K = boxAddedMass(box.sizes)->diagonal();
+    for (int k = 0; k < 6; ++k) EXPECT_LT(relative(K[k], exact[k]), 1e-3) << box.sizes.transpose();
+  }
+}
+
+TEST(KnownAddedMass, OfRoundBodiesIsThatOfTheirMeridian) {
+  const SolvedShape cylinders[] = {
+      {{1, 0.07, 0}, {2.873623, 0.01381118, 0.3885129, 0}},
+      {{1, 1.3, 0}, {3.558635, 1.940504, 0.4478577, 0}},
+      {{1, 9, 0}, {3.978149, 24.46011, 126.7541, 0}},
+      {{1, 150, 0}, {4.117516, 467.0697, 860406, 0}},
+  };
+  for (const auto& [s, k] : cylinders) expectClose(*cylinderAddedMass(s[0], s[1]), revolutionOf(k));
+  const SolvedShape capsules[] = {
+      {{1, 0.1, 0}, {2.130886, 2.314064, 0.003125992, 0}},
+      {{1, 3.3, 0}, {2.524652, 11.09305, 11.29893, 0}},
+      {{1, 70, 0}, {2.778951, 219.9267, 89832.23, 0}},
+  };
+  for (const auto& [s, k] : capsules) expectClose(*capsuleAddedMass(s[0], s[1]), revolutionOf(k));
+}
+
+TEST(KnownAddedMass, OfConesIsThatOfTheirMeridian) {
+  const SolvedShape cones[] = {
+      {{1, 0.05, 0}, {2.63284, 0.001201871, 0.3542016, -0.01300129}},
+      {{1, 0.7, 0}, {2.313066, 0.2040682, 0.3724113, -0.1768396}},
+      {{1, 3, 0}, {2.034092, 2.007288, 1.91303, -1.509608}},
+      {{1, 110, 0}, {2.038614, 113.1892, 133615, -3061.968}},
+      {{1, 2, 0.04}, {2.388891, 1.349988, 0.9577851, -0.8359612}},
+      {{1, 0.2, 0.3}, {5.834332, 0.7017707, 1.097492, -0.1563671}},
+      {{1, 20, 0.5}, {6.090897, 64.72487, 2143.273, -186.0436}},
+      {{1, 1.5, 2.5}, {88.56118, 78.22566, 33.4365, -34.0024}},
+  };
+  for (const auto& [s, k] : cones) {
+    const Matrix6 K = coneAddedMass(s[0], s[1], s[2]).value(), exact = revolutionOf(k);
+    expectClose(K, exact);
+    EXPECT_LT(relative(K(1, 3), exact(1, 3)), 3e-3);
+  }
+}
+
+}  // namespace
+}  // namespace ambient
