@@ -12,6 +12,13 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+/// How much a fluid body may cost.
+enum class Quality {
+  kInstant,   ///< milliseconds, of compounds tens: few faces, added mass of the ellipsoid with the
+              ///< second moments
+  kStandard,  ///< seconds: the flow is solved
+};
+
 /// What stands for children of a compound that touch or overlap and cannot be united.
 enum class CompoundFallback {
   kHull,    ///< their convex hull: the flow around it, more volume
@@ -19,6 +26,8 @@ enum class CompoundFallback {
             ///< between them
   kRefuse,  ///< nothing: an exception
 };
+
+constexpr int kInstantFaces = 400;
 
 /// How a fluid body is made from a collision shape.
 struct CollisionShapeSettings {
@@ -31,6 +40,9 @@ struct CollisionShapeSettings {
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
   bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
   CompoundFallback fallback = CompoundFallback::kHull;
+  /// kInstant: at most kInstantFaces faces; closed forms stay. A FluidBodyCache then goes on to
+  /// kStandard in the background.
+  Quality quality = Quality::kStandard;
   /// Receives one line for everything a user should know about a body that was made: margins that
   /// add more than a tenth to its volume, triangles that were turned round, children that could not
   /// be united. Default: standard error; null: nobody.

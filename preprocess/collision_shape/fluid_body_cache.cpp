@@ -2,12 +2,15 @@
 
 #include <atomic>
 #include <cstdio>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
+#include "preprocess/builder/background_work.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shared_bodies.h"
 #include "preprocess/collision_shape/form_body.h"
@@ -37,10 +40,19 @@ std::string withSize(std::string content, double size) {
 
 struct FluidBodyCache::Store {
   CollisionShapeSettings settings;
+  CollisionShapeSettings instant_settings;
   fs::path folder;
-  SharedBodies forms;   // at size 1
-  SharedBodies shapes;  // at their own sizes
-  std::atomic<int> made{0}, read{0};
+  bool has_instants = false;
+  Replacement replacement = Replacement::kWhenReady;
+  SharedBodies forms;          // at size 1
+  SharedBodies shapes;         // at their own sizes
+  SharedBodies instant_forms;  // the same, guessed
+  SharedBodies instant_shapes;
+  std::atomic<int> made{0}, read{0}, guessed{0};
+  std::atomic<unsigned> revision{0};
+  std::mutex mutex;  // of these:
+  std::unordered_set<std::string> ready, published;
+  BackgroundWork work;  // last: it ends before what it works on
 
   FluidBody make(const ShapeForm& form) {
     ++made;
@@ -71,27 +83,83 @@ struct FluidBodyCache::Store {
         settings.report(std::string("the fluid body is not kept: ") + error.what());
     }
   }
+
+  bool isPublished(const std::string& content) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return published.count(content) > 0;
+  }
+
+  void publishReady() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (ready.empty()) return;
+      published.merge(ready);
+      ready.clear();
+    }
+    ++revision;
+  }
+
+  SharedBody guess(const ShapeForm& form, const std::string& content) {
+    ++guessed;
+    auto body = std::make_shared<const FluidBody>(makeFormBody(form, instant_settings));
+    work.add([this, form, content] { solveInBackground(form, content); });
+    return body;
+  }
+
+  // What cannot be solved stays as it was guessed.
+  void solveInBackground(const ShapeForm& form, const std::string& content) noexcept {
+    try {
+      forms.get(content, [&] { return readOrMake(form); });
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        ready.insert(content);
+      }
+      if (replacement == Replacement::kWhenReady) publishReady();
+    } catch (const std::exception& error) {
+      if (settings.report) settings.report(error.what());
+    }
+  }
 };
 
-FluidBodyCache::FluidBodyCache(CollisionShapeSettings settings, fs::path folder)
+FluidBodyCache::FluidBodyCache(CollisionShapeSettings settings, fs::path folder,
+                               Replacement replacement)
     : store_(std::make_unique<Store>()) {
+  store_->has_instants = settings.quality == Quality::kInstant;
+  store_->instant_settings = settings;
+  store_->instant_settings.report = nullptr;  // it is said of the solution
   store_->settings = std::move(settings);
+  store_->settings.quality = Quality::kStandard;
   store_->folder = std::move(folder);
+  store_->replacement = replacement;
 }
 
 FluidBodyCache::~FluidBodyCache() = default;
 
 SharedBody FluidBodyCache::fluidBody(const btCollisionShape& shape) {
-  const ShapeForm form = normalised(readForm(shape, store_->settings));
+  Store& store = *store_;
+  const ShapeForm form = normalised(readForm(shape, store.settings));
   const std::string content = form.kind + contentOf(form.parts);
-  return store_->shapes.get(withSize(content, form.size), [&] {
-    const SharedBody unit = store_->forms.get(content, [&] { return store_->readOrMake(form); });
+  const bool is_guess = store.has_instants && !store.isPublished(content);
+  SharedBodies& forms = is_guess ? store.instant_forms : store.forms;
+  SharedBodies& shapes = is_guess ? store.instant_shapes : store.shapes;
+  return shapes.get(withSize(content, form.size), [&] {
+    const SharedBody unit = forms.get(
+        content, [&] { return is_guess ? store.guess(form, content) : store.readOrMake(form); });
     if (form.size == 1) return unit;
     return std::make_shared<const FluidBody>(scaled(*unit, form.size));
   });
 }
 
-FluidBodyCache::Counts FluidBodyCache::counts() const { return {store_->made, store_->read}; }
+unsigned FluidBodyCache::revision() const noexcept { return store_->revision; }
+
+void FluidBodyCache::finish() {
+  store_->work.finish();
+  store_->publishReady();
+}
+
+FluidBodyCache::Counts FluidBodyCache::counts() const {
+  return {store_->made, store_->read, store_->guessed};
+}
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

@@ -19,22 +19,40 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 class FluidBodyCache : public FluidBodySource {
  public:
   struct Counts {
-    int made = 0;  ///< forms that were solved
-    int read = 0;  ///< forms that were read from the folder
+    int made = 0;     ///< forms that were solved
+    int read = 0;     ///< forms that were read from the folder
+    int instant = 0;  ///< forms that were guessed first, Quality::kInstant
+  };
+
+  /// When what was computed in the background takes the place of what was guessed.
+  enum class Replacement {
+    kWhenReady,  ///< in whichever step that is
+    kWhenAsked,  ///< after finish() alone: the same step in every run
   };
 
   /// `folder`: where .ambient files of the forms are kept, for other runs and other programs; made
   /// when it is first needed; empty: none. A file that is damaged, foreign or of another version is
   /// made anew; that it cannot be written is told to settings.report. settings.report is called by
-  /// the threads that ask.
-  explicit FluidBodyCache(CollisionShapeSettings settings = {}, std::filesystem::path folder = {});
+  /// the threads that ask and, of Quality::kInstant, by the one in the background.
+  explicit FluidBodyCache(CollisionShapeSettings settings = {}, std::filesystem::path folder = {},
+                          Replacement replacement = Replacement::kWhenReady);
+  /// Waits for the solution that the background is at; others are dropped.
   ~FluidBodyCache() override;
 
   /// In the shape's frame, named after its kind or as the settings say. Equal shapes get the same
   /// object. A thread that asks for a shape in the making waits for it. Cost if it is known: that
   /// of reading the shape's numbers.
   /// @throws std::runtime_error as makeFluidBody(), each time.
+  ///
+  /// Of Quality::kInstant the first answer is the guess, within milliseconds, and a thread goes on
+  /// to kStandard; later answers are that, and revision() tells. Bodies of Fluid::attachAll() then
+  /// get it at the end of a substep. settings.flow.threads says how many cores that may take.
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override;
+  unsigned revision() const noexcept override;
+
+  /// Waits for all that is computed in the background. From then on, it is what fluidBody() answers
+  /// with.
+  void finish();
 
   Counts counts() const;
 

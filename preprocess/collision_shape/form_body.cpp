@@ -1,6 +1,7 @@
 #include "preprocess/collision_shape/form_body.h"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "preprocess/added_mass_tables/known_added_mass.h"
 #include "preprocess/builder/known_shape.h"
 #include "preprocess/collision_shape/collision_solids.h"
+#include "preprocess/collision_shape/quick_added_mass.h"
 #include "preprocess/collision_shape/shape_parts.h"
 #include "preprocess/collision_shape/solid_union.h"
 #include "preprocess/mesh/input_error.h"
@@ -58,6 +60,13 @@ std::string sourceOf(const std::vector<ShapePart>& parts, const CollisionShapeSe
     return addedMassTablesName();
   return "panels " + std::to_string(settings.flow.max_panels) + ", " + nameOf(settings.fallback) +
          (tables ? "" : ", no tables");
+}
+
+CollisionShapeSettings usedSettings(CollisionShapeSettings settings) {
+  if (settings.quality == Quality::kStandard) return settings;
+  settings.faces = std::min(settings.faces, kInstantFaces);
+  settings.flow.max_panels = 0;
+  return settings;
 }
 
 std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
@@ -140,10 +149,22 @@ bool hasOwnAddedMass(const Solid& solid) {
   return solid.added_mass || solid.flow.triangleCount() > 0;
 }
 
-Matrix6 sumOfAddedMasses(const std::vector<Solid>& solids, const CollisionShapeSettings& settings,
-                         const std::string& name) {
-  Matrix6 sum = Matrix6::Zero();
-  for (const Solid& solid : solids) sum += addedMassOf(solid, settings, name).total;
+/// Of all solids together; none: the builder solves it on their meshes.
+std::optional<AddedMass> addedMassOf(const SeparateSolids& separate,
+                                     const CollisionShapeSettings& settings,
+                                     const std::string& name) {
+  const std::vector<Solid>& solids = separate.solids;
+  AddedMass sum;
+  if (settings.quality == Quality::kInstant) {
+    for (const Solid& solid : solids) sum.total += quickAddedMass(solid);
+    return sum;
+  }
+  if (solids.size() == 1) {
+    if (!hasOwnAddedMass(solids.front())) return std::nullopt;
+    return addedMassOf(solids.front(), settings, name);
+  }
+  if (!separate.is_sum) return std::nullopt;
+  for (const Solid& solid : solids) sum.total += addedMassOf(solid, settings, name).total;
   return sum;
 }
 
@@ -155,23 +176,20 @@ ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& 
   return {shape.getName(), readShapeParts(shape, settings.margins, name), 1};
 }
 
-FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& settings) {
+FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& wanted) {
+  const CollisionShapeSettings settings = usedSettings(wanted);
   BuildSettings build;
   build.name = nameOf(form, settings);
   build.origin = Eigen::Vector3d::Zero();
   build.flow = settings.flow;
   build.provenance = describeForm(form, settings);
-  const auto [solids, is_sum] = uniteSolids(solidsOf(form.parts, settings), settings, build.name);
-  if (solids.size() == 1) {
-    if (hasOwnAddedMass(solids.front())) {
-      AddedMass own = addedMassOf(solids.front(), settings, build.name);
-      build.added_mass = own.total;
-      build.added_mass_parts = std::move(own.parts);
-    }
-    build.sphere_radius = solids.front().sphere_radius;
-  } else if (is_sum) {
-    build.added_mass = sumOfAddedMasses(solids, settings, build.name);
+  const SeparateSolids separate = uniteSolids(solidsOf(form.parts, settings), settings, build.name);
+  const std::vector<Solid>& solids = separate.solids;
+  if (std::optional<AddedMass> known = addedMassOf(separate, settings, build.name)) {
+    build.added_mass = known->total;
+    build.added_mass_parts = std::move(known->parts);
   }
+  if (solids.size() == 1) build.sphere_radius = solids.front().sphere_radius;
   build.cavities = joined(solids, &Solid::cavities);
   const FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
   if (settings.report) reportSolids(solids, body, form.size, settings);

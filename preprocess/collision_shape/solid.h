@@ -18,6 +18,8 @@ struct Solid {
   TriangleMesh cavities;     ///< closed, inside; they only matter to the uniform mass
   /// From a closed form or a table, about the shape's origin, if there is one, per unit density.
   std::optional<Matrix6> added_mass;
+  /// The sum of what the parts have that it was united of, as far as it is known without solving.
+  std::optional<Matrix6> parts_added_mass;
   double sphere_radius = 0;  ///< of a sphere [m]; 0: any other shape
   double margin_volume = 0;  ///< what Bullet's margin adds to it [m^3]
   std::string part;  ///< in its compound: "child 1: child 0 (Box)"; empty: a shape of its own

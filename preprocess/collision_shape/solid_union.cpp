@@ -10,6 +10,7 @@
 
 #include "preprocess/collision_shape/convex_solids.h"
 #include "preprocess/collision_shape/hull_mesh.h"
+#include "preprocess/collision_shape/quick_added_mass.h"
 #include "preprocess/collision_shape/solid_contact.h"
 #include "preprocess/mesh/crack_mending.h"
 #include "preprocess/mesh/graded_grid.h"
@@ -138,6 +139,12 @@ Meshes componentsOf(const TriangleMesh& mesh) {
   return parts;
 }
 
+double volumeOf(const Meshes& parts) {
+  double sum = 0;
+  for (const TriangleMesh& part : parts) sum += computeMassProperties(part).volume;
+  return sum;
+}
+
 void requireGaps(const TriangleMesh& mesh) {
   const Meshes parts = componentsOf(mesh);
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -152,13 +159,10 @@ void requireGaps(const TriangleMesh& mesh) {
 void requireVolume(const TriangleMesh& mesh, const Meshes& parts) {
   constexpr double kTolerance = 5e-3;
   const double volume = computeMassProperties(mesh).volume;
-  double largest = 0, sum = 0;
-  for (const TriangleMesh& part : parts) {
-    const double own = computeMassProperties(part).volume;
-    largest = std::max(largest, own);
-    sum += own;
-  }
-  if (volume >= (1 - kTolerance) * largest && volume <= (1 + kTolerance) * sum) return;
+  double largest = 0;
+  for (const TriangleMesh& part : parts)
+    largest = std::max(largest, computeMassProperties(part).volume);
+  if (volume >= (1 - kTolerance) * largest && volume <= (1 + kTolerance) * volumeOf(parts)) return;
   throw std::runtime_error("the surface of their union has a volume of its own");
 }
 
@@ -206,10 +210,12 @@ std::string namesOf(const std::vector<Solid>& solids) {
 Solid uniteGroup(const std::vector<Solid>& group, const CollisionShapeSettings& settings,
                  const std::string& name) {
   Meshes parts, cavities;
+  Matrix6 parts_added_mass = Matrix6::Zero();
   Solid solid;
   for (const Solid& own : group) {
     parts.push_back(mergeFlatTriangles(own.mesh, false, kDefaultPanels));
     cavities.push_back(own.cavities);
+    parts_added_mass += quickAddedMass(own);
     solid.margin_volume += own.margin_volume;
     solid.warnings.insert(solid.warnings.end(), own.warnings.begin(), own.warnings.end());
   }
@@ -217,6 +223,9 @@ Solid uniteGroup(const std::vector<Solid>& group, const CollisionShapeSettings& 
   cavities.push_back(united.cavities);
   solid.mesh = evenlyDivided(united.mesh, settings.faces);
   solid.cavities = joinMeshes(cavities);
+  // What lies in two of them counts once.
+  solid.parts_added_mass =
+      parts_added_mass * (computeMassProperties(united.mesh).volume / volumeOf(parts));
   return solid;
 }
 

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <queue>
+#include <thread>
+
+namespace ambient {
+
+/// One thread that does tasks in the order in which they come. It starts with the first task; when
+/// this is destroyed, it finishes the one that it is at and drops the others.
+class BackgroundWork {
+ public:
+  BackgroundWork() = default;
+  ~BackgroundWork();
+  BackgroundWork(const BackgroundWork&) = delete;
+  BackgroundWork& operator=(const BackgroundWork&) = delete;
+
+  /// @pre the task does not throw.
+  void add(std::function<void()> task);
+  /// Waits until all tasks are done.
+  void finish();
+
+ private:
+  void run();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::queue<std::function<void()>> tasks_;  // the one in work is first
+  bool is_ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace ambient

@@ -1,0 +1,133 @@
+#include <btBulletDynamicsCommon.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "bullet_ambient/ambient.h"
+#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "preprocess/collision_shape/fluid_body_cache.h"
+#include "tests/preprocess/collision_shape/shape_fixtures.h"
+
+namespace ambient {
+namespace {
+
+using test::rotationError;
+using test::translationError;
+
+CollisionShapeSettings instant() {
+  CollisionShapeSettings settings = test::coarse();
+  settings.quality = Quality::kInstant;
+  settings.report = nullptr;
+  return settings;
+}
+
+std::unique_ptr<btConvexHullShape> pebble() {
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (int i = 0; i < 24; ++i) {
+    const auto a = static_cast<btScalar>(2.4 * i), z = static_cast<btScalar>(i / 12.0 - 1);
+    hull->addPoint(btVector3(std::cos(a), btScalar(0.7) * std::sin(a), btScalar(0.5) * z));
+  }
+  hull->setMargin(0);
+  return hull;
+}
+
+TEST(InstantBody, IsABodyWithTheShapesVolumeAndAGuess) {
+  const auto hull = pebble();
+  const FluidBody guess = makeFluidBody(*hull, instant());
+  const FluidBody solved = makeFluidBody(*hull, test::coarse());
+  checkFluidBody(guess, "pebble");
+  EXPECT_NEAR(guess.volume / solved.volume, 1, 1e-6);
+  EXPECT_LE(guess.faces.size(), 2u * kInstantFaces);
+  EXPECT_LT(translationError(guess.added_mass, solved.added_mass), 0.25);
+  EXPECT_LT(rotationError(guess.added_mass, solved.added_mass), 0.5);
+}
+
+TEST(InstantBody, OfASphereIsExact) {
+  btSphereShape ball(1);
+  const FluidBody guess = makeFluidBody(ball, instant());
+  EXPECT_EQ(guess.added_mass, makeFluidBody(ball, test::coarse()).added_mass);
+  EXPECT_EQ(guess.sphere_radius, 1);
+}
+
+TEST(InstantBody, OfADumbbellIsNearItsParts) {
+  btSphereShape ball(btScalar(0.5));
+  btCylinderShapeX rod(btVector3(1, btScalar(0.1), btScalar(0.1)));
+  btCompoundShape dumbbell;
+  for (const btScalar x : {btScalar(-1), btScalar(1)}) {
+    dumbbell.addChildShape(btTransform(btQuaternion::getIdentity(), btVector3(x, 0, 0)), &ball);
+  }
+  dumbbell.addChildShape(btTransform::getIdentity(), &rod);
+  const FluidBody guess = makeFluidBody(dumbbell, instant());
+  const FluidBody solved = makeFluidBody(dumbbell, test::coarse());
+  EXPECT_LT(translationError(guess.added_mass, solved.added_mass), 0.25);
+  EXPECT_LT(rotationError(guess.added_mass, solved.added_mass), 0.25);
+}
+
+TEST(InstantCache, GoesOnToTheSolutionAndTells) {
+  FluidBodyCache cache(instant(), {}, FluidBodyCache::Replacement::kWhenAsked);
+  FluidBodyCache standard(test::coarse());
+  const auto hull = pebble();
+  const unsigned before = cache.revision();
+  const auto guess = cache.fluidBody(*hull);
+  EXPECT_EQ(cache.fluidBody(*hull), guess);
+  cache.finish();
+  EXPECT_NE(cache.revision(), before);
+  const auto solved = cache.fluidBody(*hull);
+  EXPECT_EQ(encodeFluidBody(*solved, ""), encodeFluidBody(*standard.fluidBody(*hull), ""));
+  EXPECT_EQ(cache.counts().instant, 1);
+  EXPECT_EQ(cache.counts().made, 1);
+  const unsigned after = cache.revision();
+  cache.finish();
+  EXPECT_EQ(cache.revision(), after) << "nothing new";
+}
+
+TEST(InstantCache, TellsByItselfWhenItIsReady) {
+  FluidBodyCache cache(instant());
+  const auto hull = pebble();
+  const unsigned before = cache.revision();
+  cache.fluidBody(*hull);
+  const auto start = std::chrono::steady_clock::now();
+  while (cache.revision() == before &&
+         std::chrono::steady_clock::now() - start < std::chrono::seconds(60)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(cache.fluidBody(*hull)->provenance.settings.find("instant"), std::string::npos);
+}
+
+TEST(InstantCache, MayBeDestroyedWhileItWorks) {
+  FluidBodyCache cache(instant());
+  for (const double x : {0.5, 0.6, 0.7, 0.8}) {
+    cache.fluidBody(btBoxShape(toBullet(Vector3(x, 1, 1))));
+  }
+}
+
+// A body in a world has the guess until it is asked, and the solution one substep later.
+TEST(InstantCache, WorldsGetTheSolutionBetweenTwoSteps) {
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btDbvtBroadphase broadphase;
+  const auto hull = pebble();
+  btRigidBody body(3000, nullptr, hull.get(), btVector3(1000, 1000, 1000));
+  FluidBodyCache cache(instant(), {}, FluidBodyCache::Replacement::kWhenAsked);
+  Fluid<> fluid;
+  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, nullptr, &configuration);
+  world.addRigidBody(&body);
+  EXPECT_EQ(fluid.attachAll(world, cache, water()).attached, 1);
+  const auto step = [&] { world.stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60); };
+  const Matrix6 guessed = fluid.registry().inertia(body);
+  for (int i = 0; i < 5; ++i) step();
+  EXPECT_EQ(fluid.registry().inertia(body), guessed);
+  cache.finish();
+  step();
+  const Matrix6 wet = 998 * cache.fluidBody(*hull)->added_mass;
+  EXPECT_NE(fluid.registry().inertia(body), guessed);
+  EXPECT_NEAR(fluid.registry().inertia(body)(3, 3), 3000 + wet(3, 3), 1e-3);
+  world.removeRigidBody(&body);
+}
+
+}  // namespace
+}  // namespace ambient
