@@ -19,9 +19,9 @@ namespace ambient {
 namespace {
 
 struct Options {
-  std::string filter;      // examples whose name contains it
-  int steps = 600;         // of 1/60 s
-  double density = 2500;   // of all bodies [kg/m^3]; 0: masses as they are
+  std::string filter;     // examples whose name contains it
+  int steps = 600;        // of 1/60 s
+  double density = 2500;  // of all bodies [kg/m^3]; 0: masses as they are
   std::string law = "form";
 };
 
@@ -79,11 +79,12 @@ Row measure(const BulletExample& example, const Options& options) {
   AttachSettings settings;
   settings.flow.law = options.law == "form" ? PressureLaw::kForm : PressureLaw::kPublished;
   Row row;
-  row.attach_time = secondsOf(
-      [&] { row.attached = fluid.attachAll(wet.world(), shapes, water(), settings); });
+  row.attach_time =
+      secondsOf([&] { row.attached = fluid.attachAll(wet.world(), shapes, water(), settings); });
   no_fluid.attachTo(unused.world());
   if (options.density > 0)
-    for (ExampleRun* run : {&stock, &unused, &wet}) setDensity(run->world(), shapes, options.density);
+    for (ExampleRun* run : {&stock, &unused, &wet})
+      setDensity(run->world(), shapes, options.density);
   double stock_total = 0, unused_total = 0, water_total = 0;
   row.is_unused_equal = true;
   for (int done = 0; done < options.steps; done += kStepsPerTurn) {

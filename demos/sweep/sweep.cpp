@@ -14,7 +14,9 @@ namespace {
 class RunningSweep {
  public:
   RunningSweep(const std::vector<Scene>& scenes, const SweepSettings& settings)
-      : scenes_(scenes), settings_(settings), fluid_bodies_(settings.fluid_bodies, settings.threads) {}
+      : scenes_(scenes),
+        settings_(settings),
+        fluid_bodies_(settings.fluid_bodies, settings.threads) {}
 
   /// Starts the threads, watches them, and stops them whatever happens.
   SweepFailures run() {
