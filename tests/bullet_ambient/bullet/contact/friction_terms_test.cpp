@@ -104,7 +104,7 @@ TYPED_TEST(TorsionalFriction, RollingAndSpinningEqualTheDenseSolution) {
   Arbitrary arbitrary(46);
   double worst = 0;
   int sticking = 0, sliding = 0, capped = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 440; ++i) {
     ContactPair pair = arbitraryPair(arbitrary, kOthers[i % 3]);
     const btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.05));
     pushAtRandom(arbitrary, pair, info.m_timeStep);
