@@ -125,8 +125,9 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
   }
   EXPECT_GT(sticking, 200);
   EXPECT_GT(sliding, 200);
-  // In float two roundings: rows are set up with the push of an even body, and corrected.
-  EXPECT_LT(worst, sizeof(btScalar) == 8 ? kTolerance : 2 * kTolerance);
+  // Rows are set up with the push of an even body, which is taken off again: in float three times
+  // the rounding.
+  EXPECT_LT(worst, sizeof(btScalar) == 8 ? kTolerance : 3 * kTolerance);
   EXPECT_LT(worst_point_force, kTolerance);
   report("friction", worst);
   report("point_force", worst_point_force);

@@ -10,7 +10,7 @@ namespace ambient::test {
 namespace {
 
 // The broadphase of the loaded world has the same pairs for as long as the motions are compared.
-constexpr int kBefore = 75, kAfter = 120;
+constexpr int kBefore = 60, kAfter = 120;
 
 std::string save(StateScene& scene) {
   AmbientSerializer serializer(scene.fluid.world, scene.fluid.registry);
