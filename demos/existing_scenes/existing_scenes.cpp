@@ -35,7 +35,7 @@ void setDensity(btDiscreteDynamicsWorld& world, FluidBodyCache& shapes, double d
     if (!body || body->isStaticOrKinematicObject()) continue;
     try {
       const double volume = shapes.fluidBody(*body->getCollisionShape())->volume;
-      const btScalar mass(density * volume);
+      const auto mass = static_cast<btScalar>(density * volume);
       btVector3 inertia;
       body->getCollisionShape()->calculateLocalInertia(mass, inertia);
       body->setMassProps(mass, inertia);
