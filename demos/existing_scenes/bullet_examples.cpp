@@ -11,10 +11,8 @@
 #include "Benchmarks/BenchmarkDemo.h"
 #include "CommonInterfaces/CommonExampleInterface.h"
 #include "CommonInterfaces/CommonGUIHelperInterface.h"
+#include "CommonInterfaces/CommonParameterInterface.h"
 #include "Constraints/ConstraintDemo.h"
-#include "Constraints/ConstraintPhysicsSetup.h"
-#include "Constraints/Dof6Spring2Setup.h"
-#include "Constraints/TestHingeTorque.h"
 #include "DynamicControlDemo/MotorDemo.h"
 #include "ExtendedTutorials/Bridge.h"
 #include "ExtendedTutorials/Chain.h"
@@ -25,9 +23,7 @@
 #include "ExtendedTutorials/NewtonsCradle.h"
 #include "ExtendedTutorials/SimpleBox.h"
 #include "ExtendedTutorials/SimpleJoint.h"
-#include "ForkLift/ForkLiftDemo.h"
 #include "GyroscopicDemo/GyroscopicSetup.h"
-#include "RigidBody/KinematicRigidBodyExample.h"
 #include "RigidBody/RigidBodySoftContact.h"
 #include "RollingFrictionDemo/RollingFrictionDemo.h"
 #include "Vehicles/Hinge2Vehicle.h"
@@ -46,15 +42,10 @@ const std::vector<BulletExample>& bulletExamples() {
       {"Benchmark 6: hulls on a mesh", BenchmarkCreateFunc, 6},
       {"Rolling friction", RollingFrictionCreateFunc, 0},
       {"All constraints", AllConstraintCreateFunc, 0},
-      {"Motorised hinge", ConstraintCreateFunc, 0},
-      {"Hinge torque", TestHingeTorqueCreateFunc, 0},
-      {"Spring constraints", Dof6Spring2CreateFunc, 0},
       {"Motor control", MotorControlCreateFunc, 0},
       {"Gyroscopic", GyroscopicCreateFunc, 0},
       {"Soft contact", RigidBodySoftContactCreateFunc, 0},
-      {"Kinematic body", KinematicRigidBodyExampleCreateFunc, 0},
       {"Hinge2 vehicle", Hinge2VehicleCreateFunc, 0},
-      {"Fork lift", ForkLiftCreateFunc, 0},
       {"Tutorial: box", ET_SimpleBoxCreateFunc, 0},
       {"Tutorial: boxes", ET_MultipleBoxesCreateFunc, 0},
       {"Tutorial: compound boxes", ET_CompoundBoxesCreateFunc, 0},
@@ -72,8 +63,23 @@ const std::vector<BulletExample>& bulletExamples() {
 class ExampleRun::Window : public DummyGUIHelper {
  public:
   void autogenerateGraphicsObjects(btDiscreteDynamicsWorld* world) override { shown = world; }
+  CommonParameterInterface* getParameterInterface() override { return &parameters_; }
 
   btDiscreteDynamicsWorld* shown = nullptr;
+
+ private:
+  // Sliders and buttons that nobody moves.
+  class NoParameters : public CommonParameterInterface {
+   public:
+    void registerSliderFloatParameter(SliderParams&) override {}
+    void registerButtonParameter(ButtonParams&) override {}
+    void registerComboBox(ComboBoxParams&) override {}
+    void syncParameters() override {}
+    void removeAllParameters() override {}
+    void setSliderValue(int, double) override {}
+  };
+
+  NoParameters parameters_;
 };
 
 ExampleRun::ExampleRun(const BulletExample& example) : window_(std::make_unique<Window>()) {

@@ -19,7 +19,8 @@ struct BulletExample {
   int option;  ///< which scene of the program
 };
 
-/// Those of Bullet 3.24 that consist of rigid bodies and need no file.
+/// Those of Bullet 3.24 that consist of rigid bodies, need neither a file nor a window, and leave
+/// the solver as it is.
 const std::vector<BulletExample>& bulletExamples();
 
 /// An example that is run without a window. Two of them start alike, whatever they draw by chance.

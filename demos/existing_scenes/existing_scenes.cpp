@@ -79,12 +79,14 @@ Row measure(const BulletExample& example, const Options& options) {
   AttachSettings settings;
   settings.flow.law = options.law == "form" ? PressureLaw::kForm : PressureLaw::kPublished;
   Row row;
-  row.attach_time =
-      secondsOf([&] { row.attached = fluid.attachAll(wet.world(), shapes, water(), settings); });
-  no_fluid.attachTo(unused.world());
   if (options.density > 0)
-    for (ExampleRun* run : {&stock, &unused, &wet})
-      setDensity(run->world(), shapes, options.density);
+    for (ExampleRun* run : {&stock, &unused}) setDensity(run->world(), shapes, options.density);
+  FluidBodyCache own_shapes;
+  row.attach_time = secondsOf([&] {
+    if (options.density > 0) setDensity(wet.world(), own_shapes, options.density);
+    row.attached = fluid.attachAll(wet.world(), own_shapes, water(), settings);
+  });
+  no_fluid.attachTo(unused.world());
   double stock_total = 0, unused_total = 0, water_total = 0;
   row.is_unused_equal = true;
   for (int done = 0; done < options.steps; done += kStepsPerTurn) {
