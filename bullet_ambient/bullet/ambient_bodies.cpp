@@ -5,14 +5,21 @@
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+namespace {
+
+int readNumber(const btRigidBody& body) noexcept;
 
 // Bullet has no accessor for the number. The arguments of an explicit instantiation are not subject
 // to access control ([temp.spec.general]), which lends one without a change of Bullet.
 template <int btRigidBody::*kNumber>
 struct NumberReader {
-  friend int instanceNumber(const btRigidBody& body) noexcept { return body.*kNumber; }
+  friend int readNumber(const btRigidBody& body) noexcept { return body.*kNumber; }
 };
 template struct NumberReader<&btRigidBody::m_debugBodyId>;
+
+}  // namespace
+
+int instanceNumber(const btRigidBody& body) noexcept { return readNumber(body); }
 
 AmbientBody* AmbientBodies::find(const btCollisionObject* body) const {
   const auto found = by_object_.find(body);
