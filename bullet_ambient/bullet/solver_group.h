@@ -99,12 +99,14 @@ class SolverGroup {
   void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
 
  private:
+  static constexpr int kAlone = -1;  // in place of a number in the solver's pool
+
   struct Member {
     AmbientBody* ambient;
     bool is_locked;
     bool is_near = false;  // to another body: Bullet converts it with the pair
     bool has_rows = false;
-    int solver_body = -1;  // kAlone: the solver does not know it
+    int solver_body = kAlone;  // the solver does not know it
   };
   // The Jacobian of a joint row with feedback, as the joint made it.
   struct SavedJacobian {
