@@ -23,6 +23,11 @@ function(ambient_add_box name)
   # The library files carry the project's name, whatever the box is called.
   string(REGEX REPLACE "^(bullet_)?ambient" "bullet_ambient" output_name ${name})
   set_target_properties(${name} PROPERTIES OUTPUT_NAME ${output_name})
+  if(BOX_SOURCES)
+    # Before 1.0 every minor version may need programs to be built anew.
+    set_target_properties(${name} PROPERTIES VERSION ${BulletAmbient_VERSION}
+      SOVERSION ${BulletAmbient_VERSION_MAJOR}.${BulletAmbient_VERSION_MINOR})
+  endif()
   target_compile_features(${name} ${scope} cxx_std_17)
   target_include_directories(${name} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_link_libraries(${name} ${scope} ${BOX_DEPENDS})
