@@ -205,6 +205,7 @@ function start() {
   const renderer = makeRenderer(canvas);
   if (renderer) {
     window.player = new Player(data, new RunView(renderer, canvas));
+    window.player.play(!matchMedia('(prefers-reduced-motion: reduce)').matches);
   } else {
     element('viewer').classList.add('without-picture');
     const scenes = new SceneList(data.runs, (i) => scenes.show(i));

@@ -78,6 +78,7 @@ class PageTest(unittest.TestCase):
         cls.addClassCleanup(cls.browser.quit)
         cls.browser.set_script_timeout(20)
         cls.browser.get(cls.page.as_uri())
+        cls.moved_by_itself = cls.browser.execute_script("return player.playing || player.time > 0")
 
     def setUp(self):
         self.choose("golf dimpled spin")
@@ -106,6 +107,9 @@ class PageTest(unittest.TestCase):
 
     def pose(self, body):
         return self.browser.execute_script("return player.pose(arguments[0])", body)
+
+    def test_begins_with_what_moves(self):
+        self.assertTrue(self.moved_by_itself)
 
     def test_needs_nothing_but_itself(self):
         self.assertEqual(self.browser.execute_script("return performance.getEntriesByType('resource').length"), 0)
