@@ -73,9 +73,8 @@ bool AmbientAction::isSolverMissing(const btCollisionWorld& world) {
 void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   world_ = world;
   AmbientBodies& bodies = bodiesOf(registry_);
-  for (const auto& ambient : bodies.all()) {
+  for (AmbientBody* ambient = bodies.takeMet(); ambient; ambient = ambient->next_met) {
     const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotMet);
-    if (kind == Outcome::kNotMet) continue;
     if (kind == Outcome::kStock || !isStillIn(*world, bodies, *ambient)) continue;
     complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }

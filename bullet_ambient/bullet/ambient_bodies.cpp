@@ -48,14 +48,32 @@ void AmbientBodies::insert(std::unique_ptr<AmbientBody> ambient) {
 bool AmbientBodies::erase(const btRigidBody& body) {
   const auto found = by_object_.find(&body);
   if (found == by_object_.end()) return false;
+  forgetMeeting(**found->second);
   bodies_.erase(found->second);
   by_object_.erase(found);
   return true;
 }
 
 void AmbientBodies::clear() {
+  met_ = nullptr;
   by_object_.clear();
   bodies_.clear();
+}
+
+void AmbientBodies::meet(AmbientBody& ambient) noexcept {
+  if (std::exchange(ambient.outcome.kind, Outcome::kStock) != Outcome::kNotMet) return;
+  ambient.next_met = met_.load(std::memory_order_relaxed);
+  while (!met_.compare_exchange_weak(ambient.next_met, &ambient)) {
+  }
+}
+
+// Between steps the list is empty, unless there is no action to take it.
+void AmbientBodies::forgetMeeting(const AmbientBody& ambient) noexcept {
+  AmbientBody* met = met_.load();
+  if (met == &ambient) met_ = ambient.next_met;
+  for (; met; met = met->next_met) {
+    if (met->next_met == &ambient) met->next_met = ambient.next_met;
+  }
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

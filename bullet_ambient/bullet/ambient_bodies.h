@@ -41,6 +41,11 @@ class AmbientBodies {
   bool erase(const btRigidBody& body);
   void clear();
 
+  /// The solver meets the body, on any thread.
+  void meet(AmbientBody& ambient) noexcept;
+  /// Those that were met since the last call, linked by next_met; null: none.
+  AmbientBody* takeMet() noexcept { return met_.exchange(nullptr); }
+
   Complaints complaints;
   FluidRegions regions;
   LoadTables load_tables;  ///< what the loads of bodies share
@@ -49,8 +54,11 @@ class AmbientBodies {
 
  private:
   using List = std::list<std::unique_ptr<AmbientBody>>;
+  void forgetMeeting(const AmbientBody& ambient) noexcept;
+
   List bodies_;
   std::unordered_map<const btCollisionObject*, List::iterator> by_object_;
+  std::atomic<AmbientBody*> met_{nullptr};
 };
 
 AmbientBodies& bodiesOf(const AmbientRegistry& registry);

@@ -50,6 +50,7 @@ struct AmbientBody {
   AmbientCounters counters;
   StepErrors step_errors;
   SubstepOutcome outcome;
+  AmbientBody* next_met = nullptr;  ///< in the list of AmbientBodies::takeMet()
 
   bool isInFluid() const { return medium.density > 0; }
   /// The fluids whose surface is near; null: none.

@@ -13,22 +13,21 @@ constexpr double kRestingTime = 2;       // [s], Bullet's gDeactivationTime by d
 
 }  // namespace
 
-bool prepareStep(AmbientBody& ambient, const FluidRegions& regions, double time_step,
-                 Complaints& complaints) noexcept {
+bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept {
   SubstepOutcome& outcome = ambient.outcome;
-  if (outcome.kind == Outcome::kFlown) complaints.say(Complaint::kNoAction);
-  outcome.kind = Outcome::kStock;
+  if (outcome.kind == Outcome::kFlown) bodies.complaints.say(Complaint::kNoAction);
+  bodies.meet(ambient);
   outcome.world_index = ambient.body->getWorldArrayIndex();
   outcome.rows = {};
   if (ambient.body->isStaticOrKinematicObject()) return false;  // for now
-  const bool is_other_fluid = followRegions(ambient, regions, time_step, complaints);
+  const bool is_other_fluid = followRegions(ambient, bodies.regions, time_step, bodies.complaints);
   if (!ambient.isInFluid() && !is_other_fluid) return false;
   if (!isModelStale(ambient)) return true;
   try {
     rebuildModel(ambient);
     return ambient.isInFluid();
   } catch (const std::exception&) {
-    complaints.say(Complaint::kNotPhysical);
+    bodies.complaints.say(Complaint::kNotPhysical);
     return false;
   }
 }

@@ -1,17 +1,16 @@
 #pragma once
 
+#include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/complaints.h"
-#include "bullet_ambient/bullet/fluid_regions.h"
 #include "bullet_ambient/bullet/precision_check.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// The solver meets the body: begins its outcome, and says whether the fluid acts on it. Finds its
-/// region, rebuilds a stale model, and reports an action that is missing.
-bool prepareStep(AmbientBody& ambient, const FluidRegions& regions, double time_step,
-                 Complaints& complaints) noexcept;
+/// region among those of `bodies`, rebuilds a stale model, and reports an action that is missing.
+bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
 
 /// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports
 /// it.

@@ -34,8 +34,7 @@ void SolverGroup::findMembers(const GroupBodies& bodies) noexcept {
   for (int i = 0; i < bodies.count; ++i) {
     btCollisionObject& object = *bodies.first[i];
     AmbientBody* ambient = bodies_.find(&object);
-    if (!ambient || !prepareStep(*ambient, bodies_.regions, time_step_, bodies_.complaints))
-      continue;
+    if (!ambient || !prepareStep(*ambient, bodies_, time_step_)) continue;
     stopIfNotFinite(*ambient, bodies_.complaints);
     object.setCompanionId(static_cast<int>(members_.size()));
     members_.push_back({ambient, !axisFactors(*ambient->body).areFree()});

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <functional>
+#include <list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -122,16 +123,28 @@ class Flock {
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
+struct FlockPlan {
+  FlowSettings flow;
+  int elsewhere = 0;  ///< bodies that are attached and not in the world
+};
+
 void compareFlocks(const std::string& name, const FluidBody& shape, const Plan& plan,
-                   const FlowSettings& flow = {}) {
+                   const FlockPlan& flock = {}) {
   const std::string scene = "100 bodies in flight, " + name;
   if (!plan.has(scene)) return;
   constexpr int kCount = 100;
   btSequentialImpulseConstraintSolver stock_solver;
-  Flock stock(stock_solver, nullptr, shape, flow, kCount);
+  Flock stock(stock_solver, nullptr, shape, flock.flow, kCount);
   AmbientRegistry registry;
   AmbientSolver<> ambient_solver(registry);
-  Flock ambient(ambient_solver, &registry, shape, flow, kCount);
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(shape);
+  def.medium = air();
+  btSphereShape sphere(btScalar(0.3));
+  std::list<btRigidBody> elsewhere;
+  for (int i = 0; i < flock.elsewhere; ++i)
+    registry.attach(elsewhere.emplace_back(1, nullptr, &sphere, btVector3(1, 1, 1)), def);
+  Flock ambient(ambient_solver, &registry, shape, flock.flow, kCount);
   print(scene, compare([&] { stock.step(); }, [&] { ambient.step(); }, plan.turns, 20));
 }
 
@@ -167,9 +180,9 @@ FluidBody latticeEllipsoid(const Vector3& semi_axes, int meridians, int bands) {
 void compareReduced(FluidBody shape, const Plan& plan) {
   const std::string faces = std::to_string(shape.faces.size()) + " faces";
   FlowSettings flow;
-  compareFlocks(faces + ", default", shape, plan, flow);
+  compareFlocks(faces + ", default", shape, plan, {flow});
   flow.precision = LoadPrecision::kDouble;
-  compareFlocks(faces + ", double precision", shape, plan, flow);
+  compareFlocks(faces + ", double precision", shape, plan, {flow});
   flow.precision = LoadPrecision::kSingle;
   shape.levels = buildLoadLevels(shape, {48, 96, 144, 200, 400});
   for (const double error : {0.01, 0.02, 0.03}) {
@@ -181,7 +194,7 @@ void compareReduced(FluidBody shape, const Plan& plan) {
         clusters = level.clusters;
     const std::string used = clusters ? std::to_string(clusters) + " clusters" : "all faces";
     compareFlocks(faces + ", " + std::to_string(static_cast<int>(100 * error)) + " %: " + used,
-                  shape, plan, flow);
+                  shape, plan, {flow});
   }
 }
 
@@ -191,6 +204,8 @@ void run(const Plan& plan) {
   for (const double part : {0.0, 0.1, 1.0}) comparePiles(part, plan);
   const Vector3 semi_axes(0.3, 0.2, 0.1);
   compareFlocks("no faces", facelessEllipsoid(semi_axes), plan);
+  compareFlocks("no faces, 10000 attached elsewhere", facelessEllipsoid(semi_axes), plan,
+                {{}, 10000});
   for (const int level : {2, 3})
     compareFlocks(std::to_string(20 << (2 * level)) + " faces", meshedEllipsoid(semi_axes, level),
                   plan);

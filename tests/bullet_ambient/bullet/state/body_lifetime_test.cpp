@@ -114,6 +114,37 @@ TEST_F(Lifetime, NothingTouchesABodyThatAnotherActionHasDestroyed) {
   fluid.world.removeAction(&destroyer);
 }
 
+// Of three that the solver has met, whichever it is.
+TEST_F(Lifetime, ABodyThatAnotherActionDetachesLeavesTheOthersTheirFlights) {
+  struct Detacher : btActionInterface {
+    void updateAction(btCollisionWorld*, btScalar) override { registry->detach(*body); }
+    void debugDraw(btIDebugDraw*) override {}
+    AmbientRegistry* registry = nullptr;
+    const btRigidBody* body = nullptr;
+  } detacher;
+  for (int detached = 0; detached < 3; ++detached) {
+    FluidWorld three;
+    three.world.setGravity({0, 0, -1});
+    const btRigidBody* bodies[3];
+    for (const btRigidBody*& body : bodies) body = &three.add({}, ball(), water());
+    detacher.registry = &three.registry;
+    detacher.body = bodies[detached];
+    three.world.removeAction(&three.action);
+    three.world.addAction(&detacher);
+    three.world.addAction(&three.action);
+    three.step(kTimeStep);
+    for (int i = 0; i < 3; ++i) {
+      const AmbientBody* ambient = bodiesOf(three.registry).find(bodies[i]);
+      ASSERT_EQ(ambient == nullptr, i == detached);
+      if (ambient) {
+        EXPECT_EQ(ambient->outcome.kind, Outcome::kNotMet);
+        EXPECT_NE(bodies[i]->getLinearVelocity().z(), 0);
+      }
+    }
+    three.world.removeAction(&detacher);
+  }
+}
+
 TEST_F(Lifetime, ANewBodyAtTheAddressOfADestroyedOneIsNotAttached) {
   removeAndDestroy(addAttached());
   btRigidBody& body = storage.construct(shape);
