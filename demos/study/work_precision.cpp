@@ -22,6 +22,14 @@ struct PrecisionCase {
   std::vector<SceneOverride> changes;
 };
 
+// 20 cm, 600 kg/m3, not quite upright.
+std::vector<SceneOverride> woodenCube(const std::string& law) {
+  return {{"law", law},
+          {"bodies.0.shape", "{\"type\": \"box\", \"size\": [0.2, 0.2, 0.2]}"},
+          {"bodies.0.mass", "4.8"},
+          {"bodies.0.orientation", "[0.98873657, 0.12, 0.08, 0.04]"}};
+}
+
 const std::vector<PrecisionCase>& allCases() {
   static const std::vector<PrecisionCase> cases = {
       {"plate_8cm", "plate_8cm", 1, {}},
@@ -38,6 +46,12 @@ const std::vector<PrecisionCase>& allCases() {
       {"flap", "flap_in_current", 1, {}},
       {"chain", "chain_in_water", 1, {}},
       {"pile", "box_pile", 0.5, {}},
+      // The same bodies by both laws; the cube is of wood and rises in water.
+      {"plate_8cm_form", "plate_8cm", 1, {{"law", "\"form\""}}},
+      {"card", "tumbling_card", 1, {{"law", "\"published\""}}},
+      {"card_form", "tumbling_card", 1, {}},
+      {"cube", "sphere_rise", 1, woodenCube("\"published\"")},
+      {"cube_form", "sphere_rise", 1, woodenCube("\"form\"")},
   };
   return cases;
 }
