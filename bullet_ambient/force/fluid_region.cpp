@@ -37,6 +37,10 @@ bool isFinite(const Medium& medium) {
 
 }  // namespace
 
+bool RegionBounds::hold(const Vector3& point_W) const noexcept {
+  return (point_W.array() >= lowest.array()).all() && (point_W.array() < highest.array()).all();
+}
+
 RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, double time) noexcept {
   RegionSample sample{region.below, region.above, std::numeric_limits<double>::infinity()};
   bool is_finite = true;

@@ -15,9 +15,7 @@ struct RegionBounds {
   Vector3 lowest{0, 0, 0};
   Vector3 highest{0, 0, 0};
 
-  bool hold(const Vector3& point_W) const {
-    return (point_W.array() >= lowest.array()).all() && (point_W.array() < highest.array()).all();
-  }
+  bool hold(const Vector3& point_W) const noexcept;
 };
 
 /// Velocity of a fluid [m/s] and acceleration of the fluid that is there [m/s^2], world axes.

@@ -11,4 +11,8 @@ StillWater::StillWater(double level, const Vector3& up) : level_(level), up_(up.
     throw std::invalid_argument("the direction up of the water has no length, or is not finite");
 }
 
+WaterSample StillWater::sample(const Vector3& point_W, double) const noexcept {
+  return {level_ - up_.dot(point_W), {0, 0, 0}, {0, 0, 0}};
+}
+
 }  // namespace ambient

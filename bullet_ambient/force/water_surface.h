@@ -34,9 +34,7 @@ class StillWater final : public WaterSurface {
   /// @throws std::invalid_argument if a number is not finite, or `up` has no direction.
   StillWater(double level, const Vector3& up);
 
-  WaterSample sample(const Vector3& point_W, double) const noexcept override {
-    return {level_ - up_.dot(point_W), {0, 0, 0}, {0, 0, 0}};
-  }
+  WaterSample sample(const Vector3& point_W, double) const noexcept override;
   bool isStill() const noexcept override { return true; }
   const Vector3& up() const noexcept { return up_; }
 
