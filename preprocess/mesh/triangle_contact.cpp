@@ -13,9 +13,13 @@ double sixfoldVolume(const Vector3d& a, const Vector3d& b, const Vector3d& c, co
   return (b - a).cross(c - a).dot(d - a);
 }
 
-double distanceToSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
+Vector3d nearestOnSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
   const double along = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (x - a - along * (b - a)).norm();
+  return a + along * (b - a);
+}
+
+double distanceToSegment(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
+  return (x - nearestOnSegment(x, a, b)).norm();
 }
 
 }  // namespace
@@ -37,6 +41,19 @@ double distanceToTriangle(const Vector3d& x, const TriangleMesh& mesh, Index t) 
   if (isInside(a, b) && isInside(b, c) && isInside(c, a)) return std::abs((x - a).dot(normal));
   return std::min(
       {distanceToSegment(x, a, b), distanceToSegment(x, b, c), distanceToSegment(x, c, a)});
+}
+
+Vector3d nearestPoint(const Eigen::Matrix3d& triangle, const Vector3d& x) {
+  const Vector3d a = triangle.col(0), b = triangle.col(1), c = triangle.col(2);
+  const Vector3d normal = (b - a).cross(c - a).normalized();
+  const auto isInside = [&](const Vector3d& from, const Vector3d& to) {
+    return (to - from).cross(x - from).dot(normal) >= 0;
+  };
+  if (isInside(a, b) && isInside(b, c) && isInside(c, a)) return x - (x - a).dot(normal) * normal;
+  Vector3d nearest = nearestOnSegment(x, a, b);
+  for (const Vector3d& other : {nearestOnSegment(x, b, c), nearestOnSegment(x, c, a)})
+    if ((other - x).squaredNorm() < (nearest - x).squaredNorm()) nearest = other;
+  return nearest;
 }
 
 }  // namespace ambient

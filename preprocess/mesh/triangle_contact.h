@@ -12,4 +12,8 @@ bool crossesTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const T
 double distanceToTriangle(const Eigen::Vector3d& point, const TriangleMesh& mesh,
                           Eigen::Index triangle);
 
+/// The point of a triangle, one corner per column, that is nearest to another one.
+/// @pre the triangle has an area.
+Eigen::Vector3d nearestPoint(const Eigen::Matrix3d& triangle, const Eigen::Vector3d& point);
+
 }  // namespace ambient

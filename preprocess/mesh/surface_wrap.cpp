@@ -1,0 +1,132 @@
+#include "preprocess/mesh/surface_wrap.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "preprocess/mesh/dual_surface.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_coarsening.h"
+#include "preprocess/mesh/mesh_mending.h"
+#include "preprocess/mesh/mesh_topology.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+/// Without triangles that have no normal; what they leave open is a gap of no width.
+TriangleMesh withoutNeedles(const TriangleMesh& mesh) {
+  std::vector<Index> kept;
+  for (Index t = 0; t < mesh.triangleCount(); ++t)
+    if (heightRatio(mesh, t) >= kLeastHeight) kept.push_back(t);
+  return {mesh.vertices, mesh.triangles(Eigen::all, kept)};
+}
+
+double areaOf(const TriangleMesh& mesh) {
+  double area = 0;
+  for (Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Vector3d a = mesh.corner(t, 0);
+    area += (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm() / 2;
+  }
+  return area;
+}
+
+/// By signed tetrahedra, whether or not the triangles are closed.
+double volumeOf(const TriangleMesh& mesh) {
+  const Vector3d middle = mesh.vertices.rowwise().mean();
+  double volume = 0;
+  for (Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Vector3d a = mesh.corner(t, 0) - middle, b = mesh.corner(t, 1) - middle,
+                   c = mesh.corner(t, 2) - middle;
+    volume += a.dot(b.cross(c)) / 6;
+  }
+  return volume;
+}
+
+/// Off the nodes that a box along the axes would have its sides on.
+CubicGrid gridAround(const TriangleMesh& mesh, double step, const std::string& name) {
+  constexpr double kMargin = 3.377, kMostNodes = 2e7;
+  CubicGrid grid;
+  grid.step = step;
+  grid.origin = mesh.vertices.rowwise().minCoeff().array() - kMargin * step;
+  const Vector3d counts = (mesh.extents() / step).array() + 2 * kMargin + 1;
+  if (!(counts.prod() <= kMostNodes)) {
+    raiseInputError(name, "cannot be wrapped with a size of ", step, " m: a grid of ",
+                    counts.prod(), " nodes would be needed, at most ", kMostNodes,
+                    " are possible; give a larger size");
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    grid.counts[k] = static_cast<std::int64_t>(std::ceil(counts[static_cast<Index>(k)]));
+  return grid;
+}
+
+/// The triangles that are left to wrap, and the size to do it with.
+struct WrapInput {
+  TriangleMesh mesh;
+  double size = 0;
+};
+
+WrapInput usableInput(const TriangleMesh& mesh, double size, const std::string& name) {
+  if (mesh.triangleCount() > 0 && !mesh.vertices.allFinite())
+    raiseInputError(name, "a vertex has a coordinate that is not finite");
+  WrapInput input{withoutNeedles(mesh), size};
+  if (input.mesh.triangleCount() == 0) raiseInputError(name, "there are no triangles with an area");
+  const double diagonal = input.mesh.extents().norm();
+  if (size == 0) input.size = kDefaultWrapSize * diagonal;
+  if (!(input.size > 0 && input.size <= diagonal)) {
+    raiseInputError(name, "cannot be wrapped with a size of ", size,
+                    " m: it must be positive and at most its diagonal of ", diagonal, " m");
+  }
+  return input;
+}
+
+std::string comparison(const TriangleMesh& before, const TriangleMesh& after, double size) {
+  const double volume = volumeOf(after), area = areaOf(after);
+  const double own_volume = std::abs(volumeOf(before)), own_area = areaOf(before);
+  std::ostringstream text;
+  text.precision(4);
+  text << "wrapped with a size of " << size << " m: " << after.triangleCount() << " for "
+       << before.triangleCount() << " triangles, volume " << volume << " m^3";
+  const auto change = [&](double now, double then) {
+    std::ostringstream percent;
+    percent.precision(3);
+    percent << std::showpos << 100 * (now / then - 1) << " %";
+    return percent.str();
+  };
+  if (isClosed(computeMeshEdges(before))) {
+    text << " (" << change(volume, own_volume) << ")";
+  } else {
+    text << " (the triangles enclose none, they are open)";
+  }
+  text << ", area " << area << " m^2 (" << change(area, own_area) << ")";
+  return text.str();
+}
+
+}  // namespace
+
+CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name) {
+  constexpr int kLeastFaces = 800, kMostFaces = 4000;
+  constexpr double kTolerance = 0.1;
+  const WrapInput input = usableInput(mesh, size, name);
+  const CubicGrid grid = gridAround(input.mesh, input.size, name);
+  const GridCrossings crossings(input.mesh, grid);
+  const TriangleMesh fine =
+      makeDualSurface(input.mesh, grid, crossings, findSolidNodes(input.mesh, grid, crossings));
+  if (fine.triangleCount() == 0)
+    raiseInputError(name, "cannot be wrapped with a size of ", input.size, " m: nothing is left");
+  const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
+  CheckedMesh wrapped;
+  try {
+    wrapped = checkMesh(coarse, name);
+  } catch (const std::runtime_error&) {
+    wrapped = checkMesh(fine, name);  // parts of the coarser one have come to touch
+  }
+  wrapped.warnings.insert(wrapped.warnings.begin(),
+                          name + ": " + comparison(input.mesh, wrapped.mesh, input.size));
+  return wrapped;
+}
+
+}  // namespace ambient
