@@ -93,10 +93,22 @@ void warnOfPanels(CheckedMesh& checked, const ShapeDescription& shape, int max_p
   }
 }
 
+/// In place of the triangles of the shape's file.
+std::string standInText(const ShapeDescription& shape) {
+  const auto* mesh = std::get_if<MeshShape>(&shape.geometry);
+  if (mesh == nullptr || mesh->stand_in == MeshStandIn::kNone) return {};
+  if (mesh->stand_in == MeshStandIn::kHull) return ", hull";
+  std::ostringstream text;
+  text.precision(17);
+  text << ", wrap " << mesh->wrap_size;
+  return text.str();
+}
+
 std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
   std::ostringstream text;
   text.precision(17);
-  text << (isSheet(shape) ? "sheet" : "body") << ", scale " << settings.scale << ", origin ";
+  text << (isSheet(shape) ? "sheet" : "body") << standInText(shape) << ", scale " << settings.scale
+       << ", origin ";
   if (settings.origin) {
     text << settings.origin->x() << "," << settings.origin->y() << "," << settings.origin->z();
   } else {

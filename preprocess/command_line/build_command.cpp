@@ -121,7 +121,8 @@ int runBuild(const BuildArguments& arguments) {
   if (hasExtension(arguments.input, ".bullet")) return runWorldBuild(arguments);
   if (arguments.no_margins) raiseUsageError("--no-margins", "only worlds have margins");
   const ShapeBuildSettings settings = settingsOf(arguments);
-  const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
+  const ShapeDescription shape = describeInput(
+      arguments.input, {arguments.sheet, arguments.hull, arguments.wrap, arguments.scale});
   requireWritablePlace(arguments.output, arguments.input);
   requireReplaceable(arguments.output);
   std::optional<FluidBody> body;

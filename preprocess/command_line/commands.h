@@ -17,6 +17,8 @@ struct BuildArguments {
   double scale = 1;                         ///< multiplies all lengths
   std::string origin = "centre-of-volume";  ///< or x,y,z in the mesh's frame [m]
   bool sheet = false;                       ///< the mesh is an open surface of zero thickness
+  bool hull = false;                        ///< the convex hull stands for the mesh
+  std::optional<std::string> wrap;          ///< a closed surface does, of that size [m]
   int least_faces = 0;                      ///< the mesh is divided into at least so many
   int panels = kDefaultPanels;              ///< at most so many for the flow; 0: the triangles
   std::vector<int> levels;                  ///< of reduced loads: their numbers of clusters
@@ -87,6 +89,16 @@ struct ReportArguments {
   bool json = false;
 };
 
+/// ambient_preprocess check
+struct CheckArguments {
+  std::string input;  ///< a mesh, or a JSON file with one
+  double scale = 1;
+  bool sheet = false, hull = false;  ///< as of build
+  std::optional<std::string> wrap;
+  std::string obj;  ///< a file for the triangles of the defects; empty: none
+  bool json = false;
+};
+
 /// Each of these does one command, with its result on standard output, messages and progress on
 /// standard error.
 /// @throws UsageError in one line that names the option, the value and the limit.
@@ -98,6 +110,8 @@ int runWorldBuild(const BuildArguments& arguments);
 void runInspect(const InspectArguments& arguments);
 void runLoads(const LoadsArguments& arguments);
 void runReport(const ReportArguments& arguments);
+/// 1 if the input cannot be built.
+int runCheck(const CheckArguments& arguments);
 void runPolar(const PolarArguments& arguments);
 /// 1 if the files differ beyond the tolerance.
 int runCompare(const CompareArguments& arguments);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "preprocess/shape/shape_description.h"
@@ -10,9 +11,18 @@ namespace ambient {
 /// Whether a file name ends with an extension, ".json", in letters of either case.
 bool hasExtension(const std::filesystem::path& file, const std::string& extension);
 
+/// What the options say about an INPUT.
+struct InputOptions {
+  bool sheet = false;               ///< an open surface of zero thickness
+  bool hull = false;                ///< the convex hull stands for it
+  std::optional<std::string> wrap;  ///< a closed surface around it does, of that size [m]
+  double scale = 1;                 ///< that multiplies all lengths of the result
+};
+
 /// The shape that an INPUT of the command line stands for: a mesh file, or a JSON file with a
 /// shape.
+/// @throws UsageError for options that exclude each other.
 /// @throws std::runtime_error in one line that names the file.
-ShapeDescription describeInput(const std::filesystem::path& input, bool sheet);
+ShapeDescription describeInput(const std::filesystem::path& input, const InputOptions& options);
 
 }  // namespace ambient

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -19,6 +20,20 @@ namespace {
 
 constexpr int kBadInput = 1;
 constexpr int kBadUsage = 2;
+
+/// --sheet, --hull and --wrap [SIZE], which say what a mesh stands for.
+template <class Arguments>
+void addMeshOptions(CLI::App& command, Arguments& arguments) {
+  command.add_flag("--sheet", arguments.sheet, "The mesh is an open surface of zero thickness");
+  command.add_flag("--hull", arguments.hull, "Take the convex hull of the mesh");
+  command
+      .add_option_function<std::string>(
+          "--wrap", [&arguments](const std::string& size) { arguments.wrap = size; },
+          "Take a closed surface around the mesh, which may be open, overlapping, or in parts; "
+          "gaps "
+          "and details below SIZE vanish (default 1/100 of its diagonal)")
+      ->type_name("[SIZE]");
+}
 
 CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
   CLI::App* build = app.add_subcommand("build", "Makes an .ambient file from a mesh or a shape");
@@ -38,7 +53,7 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
       ->add_option("--origin", arguments.origin,
                    "Origin of the body frame in the mesh's frame (default centre-of-volume)")
       ->type_name("centre-of-volume|X,Y,Z");
-  build->add_flag("--sheet", arguments.sheet, "The mesh is an open surface of zero thickness");
+  addMeshOptions(*build, arguments);
   build
       ->add_option("--least-faces", arguments.least_faces,
                    "Divide the mesh into at least so many faces (default 0: faces as they are)")
@@ -79,6 +94,19 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
   build->add_flag("--rebuild", arguments.rebuild, "Build also where nothing has changed");
   build->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
   return build;
+}
+
+CLI::App* addCheck(CLI::App& app, CheckArguments& arguments) {
+  CLI::App* check = app.add_subcommand(
+      "check", "Finds all defects of a mesh, and what would mend them, without solving");
+  check->add_option("INPUT", arguments.input, "A mesh, or a JSON file with one")->required();
+  check->add_option("--scale", arguments.scale, "Multiplies all lengths (default 1)")
+      ->type_name("S");
+  addMeshOptions(*check, arguments);
+  check->add_option("--obj", arguments.obj, "Write the triangles of the defects into this file")
+      ->type_name("OUT.obj");
+  check->add_flag("--json", arguments.json, "Print one JSON object instead of a table");
+  return check;
 }
 
 CLI::App* addInspect(CLI::App& app, InspectArguments& arguments) {
@@ -209,6 +237,21 @@ std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
          (closest.empty() ? "; --help lists them" : "; did you mean '" + closest + "'?");
 }
 
+/// The arguments, last one first as CLI11 wants them; --wrap takes a number that follows, and
+/// nothing else.
+std::vector<std::string> argumentsOf(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) {
+    arguments.emplace_back(argv[i]);
+    if (arguments.back() != "--wrap") continue;
+    char* end = nullptr;
+    const bool has_size = i + 1 < argc && (std::strtod(argv[i + 1], &end), *end == '\0');
+    arguments.back() += std::string("=") + (has_size ? argv[++i] : kDefaultWrap);
+  }
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Makes, shows and evaluates .ambient files: what a fluid needs to know of a shape.",
                "ambient_preprocess");
@@ -218,6 +261,8 @@ int run(int argc, char** argv) {
   InspectArguments inspect_arguments;
   LoadsArguments loads_arguments;
   const CLI::App* build = addBuild(app, build_arguments);
+  CheckArguments check_arguments;
+  const CLI::App* check = addCheck(app, check_arguments);
   const CLI::App* inspect = addInspect(app, inspect_arguments);
   const CLI::App* loads = addLoads(app, loads_arguments);
   PolarArguments polar_arguments;
@@ -232,12 +277,13 @@ int run(int argc, char** argv) {
     return kBadUsage;
   }
   try {
-    app.parse(argc, argv);
+    app.parse(argumentsOf(argc, argv));
   } catch (const CLI::ParseError& error) {
     return exitAt(app, error);
   }
   try {
     if (build->parsed()) return runBuild(build_arguments);
+    if (check->parsed()) return runCheck(check_arguments);
     if (inspect->parsed()) runInspect(inspect_arguments);
     if (loads->parsed()) runLoads(loads_arguments);
     if (report->parsed()) runReport(report_arguments);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
@@ -27,6 +28,16 @@ void requireThreads(int threads) {
 void requireDivisions(const char* option, int count) {
   if (count < 0) raiseUsageError(option, count, " is below 0 (0: no division)");
   if (count > kMostDivisions) raiseUsageError(option, count, " is above ", kMostDivisions);
+}
+
+double wrapSizeOf(const std::string& text) {
+  if (text == kDefaultWrap) return 0;
+  char* end = nullptr;
+  const double size = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0')
+    raiseUsageError("--wrap", "\"", text, "\" is not a size in metres");
+  requirePositive("--wrap", size, " m");
+  return size;
 }
 
 double separationAngleOf(double angle) {

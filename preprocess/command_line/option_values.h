@@ -31,6 +31,12 @@ void requireThreads(int threads);
 /// 0 (no division) to kMostDivisions.
 void requireDivisions(const char* option, int count);
 
+/// What --wrap without a size stands for.
+constexpr const char* kDefaultWrap = "default";
+
+/// The size of --wrap [SIZE] [m]: a number, or "default", which is 0.
+double wrapSizeOf(const std::string& text);
+
 /// The angle of --separation-angle, pi/2 to pi where its few digits miss them [rad].
 double separationAngleOf(double angle);
 

@@ -142,7 +142,8 @@ void runReport(const ReportArguments& arguments) {
     }
     requireWritablePlace(arguments.picture, arguments.input);
   }
-  const ShapeDescription shape = describeInput(arguments.input, arguments.sheet);
+  const ShapeDescription shape =
+      describeInput(arguments.input, {arguments.sheet, false, std::nullopt, arguments.scale});
   const CheckedMesh checked = makeShapeMesh(shape, arguments.scale);
   requireUsualSize(checked.mesh, isSheet(shape), shape.source);
   for (const std::string& warning : checked.warnings)

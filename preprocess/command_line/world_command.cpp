@@ -29,6 +29,8 @@ void requireWorldOptions(const BuildArguments& arguments) {
   if (arguments.scale != 1) refuse("--scale");
   if (arguments.origin != "centre-of-volume") refuse("--origin");
   if (arguments.sheet) refuse("--sheet");
+  if (arguments.hull) refuseForMany("--hull");
+  if (arguments.wrap) refuseForMany("--wrap");
   if (arguments.least_faces != 0) refuse("--least-faces");
   if (!arguments.levels.empty()) refuseForMany("--levels");
   if (!arguments.solver.empty()) refuseForMany("--solver");

@@ -21,7 +21,7 @@ Lattice minus(const Lattice& a, const Lattice& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-std::array<Wide, 3> cross(const Lattice& a, const Lattice& b) {
+std::array<Wide, 3> crossOf(const Lattice& a, const Lattice& b) {
   const auto product = [](std::int64_t x, std::int64_t y) { return static_cast<Wide>(x) * y; };
   return {product(a[1], b[2]) - product(a[2], b[1]), product(a[2], b[0]) - product(a[0], b[2]),
           product(a[0], b[1]) - product(a[1], b[0])};
@@ -64,7 +64,7 @@ class HullBuilder {
 
   /// Sixfold volume of a tetrahedron: positive if d lies where the normal of a, b, c points to.
   Wide volume(int a, int b, int c, int d) const {
-    const auto normal = cross(minus(point(b), point(a)), minus(point(c), point(a)));
+    const auto normal = crossOf(minus(point(b), point(a)), minus(point(c), point(a)));
     const Lattice to_d = minus(point(d), point(a));
     return normal[0] * to_d[0] + normal[1] * to_d[1] + normal[2] * to_d[2];
   }
@@ -97,7 +97,7 @@ class HullBuilder {
     const int b = best([&](int p) { return squared(minus(point(p), point(a))); });
     if (b < 0) return false;
     const Lattice ab = minus(point(b), point(a));
-    const int c = best([&](int p) { return squared(cross(ab, minus(point(p), point(a)))); });
+    const int c = best([&](int p) { return squared(crossOf(ab, minus(point(p), point(a)))); });
     if (c < 0) return false;
     const int d = best([&](int p) { return std::abs(static_cast<double>(volume(a, b, c, p))); });
     if (d < 0) return false;

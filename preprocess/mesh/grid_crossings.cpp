@@ -11,10 +11,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kReach = 0.5;        // of the step, beyond an edge without a partner
-constexpr double kLongestPiece = 4;   // steps
-constexpr double kRounding = 1e-7;    // steps; no line slips between two triangles
-constexpr double kLeastSlope = 1e-7;  // of a triangle that a line meets
+constexpr double kReach = 0.5;          // of the step, beyond an edge without a partner
+constexpr double kLongestPiece = 4;     // steps
+constexpr double kLineRounding = 1e-7;  // steps; no line slips between two triangles
+constexpr double kLeastSlope = 1e-7;    // of a triangle that a line meets
 
 /// Calls `meet` with every line of the grid along `axis` that passes a box: the node that it passes
 /// last before the plane through `on_plane` with that normal, and where it meets it. All in steps.
@@ -53,7 +53,7 @@ Eigen::AlignedBox3d boxAround(const TrianglePiece& points, double reach) {
 bool isIn(const TrianglePiece& triangle, const Vector3d& normal, const Vector3d& x) {
   for (int k = 0; k < 3; ++k) {
     const Vector3d a = triangle.col(k), along = triangle.col((k + 1) % 3) - a;
-    if (along.cross(x - a).dot(normal) < -kRounding * along.norm()) return false;
+    if (along.cross(x - a).dot(normal) < -kLineRounding * along.norm()) return false;
   }
   return true;
 }
@@ -94,7 +94,7 @@ void GridCrossings::addTriangle(const TriangleMesh& mesh, int triangle) {
   const Vector3d normal = normalOfPiece(corners);
   forEachPiece(corners, kLongestPiece, [&](const TrianglePiece& piece) {
     for (int axis = 0; axis < 3; ++axis) {
-      forEachLine(grid_, axis, boxAround(piece, kRounding), piece.col(0), normal,
+      forEachLine(grid_, axis, boxAround(piece, kLineRounding), piece.col(0), normal,
                   [&](std::int64_t node, const Vector3d& x) {
                     if (!isIn(piece, normal, x)) return;
                     add(3 * node + axis, {fractionOf(x[axis]), triangle}, false);

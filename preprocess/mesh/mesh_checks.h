@@ -21,6 +21,11 @@ struct CheckedMesh {
   TriangleMesh cavities = {};
 };
 
+/// The first part of checkMesh(): flat triangles and second copies mended, unused vertices left
+/// out, with warnings.
+/// @throws std::runtime_error in one line, for what it says of values, flat and doubled triangles.
+CheckedMesh mendTriangles(const TriangleMesh& mesh, const std::string& name);
+
 /// Checks that a mesh can stand for a body (closed, manifold, outward oriented, enclosing a volume
 /// once) or for a sheet (every part open, manifold, one side throughout). Orientation and flat
 /// triangles are mended, vertices that no triangle uses and second copies of all triangles left

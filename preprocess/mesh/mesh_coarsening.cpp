@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Corners = Eigen::Vector3i;
+using CornerNumbers = Eigen::Vector3i;
 
 /// Sum over planes of area times squared distance: x^T A x - 2 b x + c, about a point near by.
 struct Quadric {
@@ -79,7 +79,7 @@ class MeshCoarsener {
 
  private:
   std::vector<int>& around(int v) { return around_[static_cast<std::size_t>(v)]; }
-  Corners& corners(int t) { return triangles_[static_cast<std::size_t>(t)]; }
+  CornerNumbers& corners(int t) { return triangles_[static_cast<std::size_t>(t)]; }
   Quadric& quadric(int v) { return quadrics_[static_cast<std::size_t>(v)]; }
   int ageOf(int v, int w) const {
     return ages_[static_cast<std::size_t>(v)] + ages_[static_cast<std::size_t>(w)];
@@ -88,11 +88,11 @@ class MeshCoarsener {
   Vector3d crossOf(const std::array<Vector3d, 3>& p) const {
     return (p[1] - p[0]).cross(p[2] - p[0]);
   }
-  std::array<Vector3d, 3> pointsOf(const Corners& t) const {
+  std::array<Vector3d, 3> pointsOf(const CornerNumbers& t) const {
     return {vertices_.col(t[0]), vertices_.col(t[1]), vertices_.col(t[2])};
   }
 
-  void addPlane(const Corners& t) {
+  void addPlane(const CornerNumbers& t) {
     const Vector3d cross = crossOf(pointsOf(t));
     const double area = cross.norm() / 2;
     const Vector3d normal = cross.stableNormalized();
@@ -147,7 +147,7 @@ class MeshCoarsener {
   bool staysInShape(const Contraction& c, int v, int other) {
     constexpr double kLeastCosine = 0.3, kLeastHeightOfTriangle = 0.05;
     for (const int t : around(v)) {
-      const Corners& own = corners(t);
+      const CornerNumbers& own = corners(t);
       if ((own.array() == other).any()) continue;
       std::array<Vector3d, 3> points = pointsOf(own);
       const Vector3d before = crossOf(points);
@@ -203,8 +203,8 @@ class MeshCoarsener {
   }
 
   TriangleMesh mesh() const {
-    std::vector<Corners> left;
-    for (const Corners& t : triangles_)
+    std::vector<CornerNumbers> left;
+    for (const CornerNumbers& t : triangles_)
       if (t[0] >= 0) left.push_back(t);
     TriangleMesh result;
     std::vector<int> number(around_.size(), -1);
@@ -228,7 +228,7 @@ class MeshCoarsener {
 
   Vector3d middle_;
   Eigen::Matrix3Xd vertices_;
-  std::vector<Corners> triangles_;        // -1: removed
+  std::vector<CornerNumbers> triangles_;  // -1: removed
   std::vector<std::vector<int>> around_;  // per vertex: its triangles
   std::vector<Quadric> quadrics_;
   std::vector<int> ages_;

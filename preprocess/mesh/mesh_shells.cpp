@@ -14,6 +14,8 @@
 namespace ambient {
 namespace {
 
+using Defects = std::vector<MeshDefect>;
+
 constexpr double kFullSphere = 4 * kPi;
 
 // Volume over area^1.5 below which a surface encloses nothing; a square plate reaches it at a
@@ -46,7 +48,7 @@ Eigen::Vector3d barycentre(const TriangleMesh& mesh, int t) {
   return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3;
 }
 
-// Parts that only cross each other are left to requireSimpleSurface().
+// Parts that only cross each other are left to findContradictions().
 bool surrounds(const TriangleMesh& mesh, const Shell& outer, const Shell& inner) {
   if (!outer.bounds.contains(inner.bounds)) return false;
   const Eigen::Vector3d point = barycentre(mesh, inner.triangles.front());
@@ -69,32 +71,55 @@ std::vector<Shell> findShells(const TriangleMesh& mesh, const MeshComponents& co
   return shells;
 }
 
-void requireVolume(const TriangleMesh& mesh, const Shell& shell, const std::string& name) {
-  const double ratio = std::abs(shell.volume) / std::pow(shell.area, 1.5);
-  if (ratio >= kLeastVolume) return;
-  raiseInputError(name, "the surface around triangle ", shell.triangles.front(), " at ",
-                  pointText(mesh.corner(shell.triangles.front(), 0)),
-                  " encloses no volume: volume / area^1.5 = ", ratio, ", at least ", kLeastVolume,
-                  " needed (an open surface of zero thickness is a sheet)");
+Defects findFlatShells(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
+  MeshDefect defect{"encloses no volume", {}, {}};
+  for (const Shell& shell : shells) {
+    const double ratio = std::abs(shell.volume) / std::pow(shell.area, 1.5);
+    if (ratio >= kLeastVolume) continue;
+    const int first = shell.triangles.front();
+    if (defect.text.empty()) {
+      defect.text = defectText(
+          "the surface around triangle ", first, " at ", pointText(mesh.corner(first, 0)),
+          " encloses no volume: volume / area^1.5 = ", ratio, ", at least ", kLeastVolume,
+          " needed (an open surface of zero thickness is a sheet)");
+    }
+    defect.triangles.insert(defect.triangles.end(), shell.triangles.begin(), shell.triangles.end());
+  }
+  if (defect.text.empty()) return {};
+  return {defect};
 }
 
-// Turns shells that point the wrong way; returns how many triangles that were. A nested shell that
-// points outwards is refused: whether it is superfluous or a cavity only the user can know.
-std::size_t turnShells(TriangleMesh& mesh, const std::vector<Shell>& shells,
-                       const std::string& name) {
-  const auto is_wrong = [](const Shell& s) { return (s.volume > 0) != (s.depth % 2 == 0); };
-  const bool all_wrong = std::all_of(shells.begin(), shells.end(), is_wrong);
+bool isWrong(const Shell& shell) { return (shell.volume > 0) != (shell.depth % 2 == 0); }
+
+bool areAllWrong(const std::vector<Shell>& shells) {
+  return std::all_of(shells.begin(), shells.end(), isWrong);
+}
+
+// Whether a nested shell that points outwards is superfluous or a cavity only the user can know.
+Defects findNestedShells(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
+  MeshDefect defect{"a part counts twice", {}, {}};
+  if (areAllWrong(shells)) return {};
+  for (const Shell& shell : shells) {
+    if (!isWrong(shell) || shell.depth == 0) continue;
+    const int first = shell.triangles.front();
+    if (defect.text.empty()) {
+      defect.text = defectText(
+          "the part around triangle ", first, " at ", pointText(mesh.corner(first, 0)), " (",
+          shell.triangles.size(), " triangles) lies inside another part and points ",
+          shell.volume > 0 ? "outwards" : "inwards",
+          ": its volume would count twice; leave it out, or turn it round if it is a cavity");
+    }
+    defect.triangles.insert(defect.triangles.end(), shell.triangles.begin(), shell.triangles.end());
+  }
+  if (defect.text.empty()) return {};
+  return {defect};
+}
+
+/// Turns shells that point the wrong way; returns how many triangles that were.
+std::size_t turnShells(TriangleMesh& mesh, const std::vector<Shell>& shells) {
   std::size_t turned = 0;
   for (const Shell& shell : shells) {
-    if (!is_wrong(shell)) continue;
-    if (shell.depth > 0 && !all_wrong) {
-      raiseInputError(name, "the part around triangle ", shell.triangles.front(), " at ",
-                      pointText(mesh.corner(shell.triangles.front(), 0)), " (",
-                      shell.triangles.size(), " triangles) lies inside another part and points ",
-                      shell.volume > 0 ? "outwards" : "inwards",
-                      ": its volume would count twice; leave it out, or turn it round if it is a ",
-                      "cavity");
-    }
+    if (!isWrong(shell)) continue;
     for (const int t : shell.triangles) turnRound(mesh, t);
     turned += shell.triangles.size();
   }
@@ -132,27 +157,31 @@ double timesEnclosed(const TriangleMesh& mesh, int triangle) {
 
 // The same number of places whatever the number of triangles, so that the verdict is about the
 // shape.
-void requireSimpleSurface(const TriangleMesh& mesh, const std::string& name) {
+Defects findContradictions(const TriangleMesh& mesh) {
   constexpr int kSamples = 256;
   constexpr double kMostOfArea = 0.01;
-  int last = -1, bad = 0, example = -1;
+  MeshDefect defect{"the volume contradicts itself", {}, {}};
+  int last = -1, bad = 0;
   double times = 0, times_at_example = 0;
   for (const int triangle : evenSample(mesh, kSamples)) {
-    if (triangle != last) times = timesEnclosed(mesh, triangle);
+    const bool is_new = triangle != last;
+    if (is_new) times = timesEnclosed(mesh, triangle);
     last = triangle;
     if (std::abs(times - 1) < 0.25) continue;
-    if (bad++ > 0) continue;
-    example = triangle;
-    times_at_example = times;
+    if (bad++ == 0) times_at_example = times;
+    if (is_new) defect.triangles.push_back(triangle);
   }
   const double share = static_cast<double>(bad) / kSamples;
-  if (share <= kMostOfArea) return;
-  raiseInputError(name, "the volume contradicts itself on ", std::round(1000 * share) / 10,
-                  " % of the area: at triangle ", example, " near ",
-                  pointText(barycentre(mesh, example)), " the surface encloses the body side ",
-                  std::round(2 * times_at_example) / 2 + 0.0,  // not -0
-                  " times, must be 1 on all but ", 100 * kMostOfArea,
-                  " % (parts overlap or touch, or the surface crosses itself)");
+  if (share <= kMostOfArea) return {};
+  const int example = defect.triangles.front();
+  defect.text =
+      defectText("the volume contradicts itself on ", std::round(1000 * share) / 10,
+                 " % of the area: at triangle ", example, " near ",
+                 pointText(barycentre(mesh, example)), " the surface encloses the body side ",
+                 std::round(2 * times_at_example) / 2 + 0.0,  // not -0
+                 " times, must be 1 on all but ", 100 * kMostOfArea,
+                 " % (parts overlap or touch, or the surface crosses itself)");
+  return {defect};
 }
 
 /// The triangles of all shells inside the body, or of all others.
@@ -197,44 +226,60 @@ void takeOutCavities(CheckedMesh& checked, const std::vector<Shell>& shells,
   checked.warnings.push_back(warning.str());
 }
 
-void checkCrossings(CheckedMesh& checked, const MeshComponents& components,
-                    const std::string& name) {
-  const SurfaceCrossings found = findSurfaceCrossings(checked.mesh, components.component_of);
-  const auto placeOf = [&](int t) {
-    return "triangle " + std::to_string(t) + " at " + pointText(barycentre(checked.mesh, t));
-  };
-  if (found.between_parts) {
-    raiseInputError(name, "separate parts of the surface overlap or touch at ",
-                    placeOf(found.between_parts->first), " and ",
-                    placeOf(found.between_parts->second), ": unite them or leave a gap");
-  }
-  if (found.within_part) {
-    checked.warnings.push_back(
-        name + ": the surface crosses itself at " + placeOf(found.within_part->first) + " and " +
-        placeOf(found.within_part->second) + ": the volume and the flow are wrong there");
-  }
+std::string placeOf(const TriangleMesh& mesh, int t) {
+  return "triangle " + std::to_string(t) + " at " + pointText(barycentre(mesh, t));
+}
+
+Defects findOverlaps(const TriangleMesh& mesh, const SurfaceCrossings& crossings) {
+  if (!crossings.between_parts) return {};
+  const auto [first, second] = *crossings.between_parts;
+  return {{"parts overlap",
+           "separate parts of the surface overlap or touch at " + placeOf(mesh, first) + " and " +
+               placeOf(mesh, second) + ": unite them or leave a gap",
+           {first, second}}};
+}
+
+void append(Defects& defects, const Defects& more) {
+  defects.insert(defects.end(), more.begin(), more.end());
 }
 
 }  // namespace
 
-CheckedMesh orientOutward(const TriangleMesh& mesh, const MeshEdges& edges,
-                          const std::string& name) {
+OrientedShells orientShells(const TriangleMesh& mesh, const MeshEdges& edges,
+                            const std::string& name) {
   AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
-  CheckedMesh result{mesh, {}};
+  OrientedShells result{{mesh, {}}, {}};
+  std::vector<std::string>& warnings = result.checked.warnings;
   const MeshComponents components = computeMeshComponents(mesh, edges);
   const std::vector<Shell> shells = findShells(mesh, components);
-  for (const Shell& shell : shells) requireVolume(mesh, shell, name);
-  checkCrossings(result, components, name);
-  const std::size_t turned = turnShells(result.mesh, shells, name);
+  append(result.defects, findFlatShells(mesh, shells));
+  const SurfaceCrossings crossings = findSurfaceCrossings(mesh, components.component_of);
+  append(result.defects, findOverlaps(mesh, crossings));
+  append(result.defects, findNestedShells(mesh, shells));
+  if (crossings.within_part) {
+    warnings.push_back(name + ": the surface crosses itself at " +
+                       placeOf(mesh, crossings.within_part->first) + " and " +
+                       placeOf(mesh, crossings.within_part->second) +
+                       ": the volume and the flow are wrong there");
+  }
+  if (!result.defects.empty()) return result;
+  const std::size_t turned = turnShells(result.checked.mesh, shells);
   if (turned > 0) {
     std::ostringstream warning;
     warning << name << ": inside out, " << turned << " of " << mesh.triangleCount()
             << " triangles were turned round to point into the fluid";
-    result.warnings.push_back(warning.str());
+    warnings.push_back(warning.str());
   }
-  requireSimpleSurface(result.mesh, name);
-  takeOutCavities(result, shells, name);
+  result.defects = findContradictions(result.checked.mesh);
+  takeOutCavities(result.checked, shells, name);
   return result;
+}
+
+CheckedMesh orientOutward(const TriangleMesh& mesh, const MeshEdges& edges,
+                          const std::string& name) {
+  OrientedShells result = orientShells(mesh, edges, name);
+  requireNone(result.defects, name);
+  return std::move(result.checked);
 }
 
 }  // namespace ambient

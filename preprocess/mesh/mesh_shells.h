@@ -1,11 +1,24 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "preprocess/mesh/mesh_defect.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
+
+/// A mesh whose normals point out of the body, as far as it has no defects.
+struct OrientedShells {
+  CheckedMesh checked;
+  std::vector<MeshDefect> defects;
+};
+
+/// orientOutward() that finds all defects in place of refusing the first one.
+/// @pre closed, manifold, consistently oriented.
+OrientedShells orientShells(const TriangleMesh& mesh, const MeshEdges& edges,
+                            const std::string& name);
 
 /// Turns whole components round so that normals point out of the body, and takes those inside
 /// another one out of the mesh, as cavities: they must point inwards, as they do in a consistent

@@ -25,7 +25,7 @@ TriangleMesh withoutNeedles(const TriangleMesh& mesh) {
   return {mesh.vertices, mesh.triangles(Eigen::all, kept)};
 }
 
-double areaOf(const TriangleMesh& mesh) {
+double meshAreaOf(const TriangleMesh& mesh) {
   double area = 0;
   for (Index t = 0; t < mesh.triangleCount(); ++t) {
     const Vector3d a = mesh.corner(t, 0);
@@ -35,7 +35,7 @@ double areaOf(const TriangleMesh& mesh) {
 }
 
 /// By signed tetrahedra, whether or not the triangles are closed.
-double volumeOf(const TriangleMesh& mesh) {
+double tetrahedraVolumeOf(const TriangleMesh& mesh) {
   const Vector3d middle = mesh.vertices.rowwise().mean();
   double volume = 0;
   for (Index t = 0; t < mesh.triangleCount(); ++t) {
@@ -84,8 +84,8 @@ WrapInput usableInput(const TriangleMesh& mesh, double size, const std::string& 
 }
 
 std::string comparison(const TriangleMesh& before, const TriangleMesh& after, double size) {
-  const double volume = volumeOf(after), area = areaOf(after);
-  const double own_volume = std::abs(volumeOf(before)), own_area = areaOf(before);
+  const double volume = tetrahedraVolumeOf(after), area = meshAreaOf(after);
+  const double own_volume = std::abs(tetrahedraVolumeOf(before)), own_area = meshAreaOf(before);
   std::ostringstream text;
   text.precision(4);
   text << "wrapped with a size of " << size << " m: " << after.triangleCount() << " for "
@@ -106,6 +106,11 @@ std::string comparison(const TriangleMesh& before, const TriangleMesh& after, do
 }
 
 }  // namespace
+
+bool canBeWrapped(const TriangleMesh& mesh) {
+  return mesh.triangleCount() > 0 && mesh.vertices.allFinite() &&
+         withoutNeedles(mesh).triangleCount() > 0;
+}
 
 CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name) {
   constexpr int kLeastFaces = 800, kMostFaces = 4000;

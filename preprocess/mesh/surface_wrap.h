@@ -21,4 +21,7 @@ constexpr double kDefaultWrapSize = 0.01;
 /// that the grid would have more than 2e7 nodes.
 CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name);
 
+/// Whether wrapSurface() may make a body of a mesh: coordinates are finite, triangles have areas.
+bool canBeWrapped(const TriangleMesh& mesh);
+
 }  // namespace ambient

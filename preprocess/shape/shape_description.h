@@ -31,9 +31,13 @@ struct ConeShape {
   double radius = 0;
   double height = 0;  ///< apex at +height/2
 };
+/// What stands for the triangles of a file.
+enum class MeshStandIn { kNone, kHull, kWrap };
 struct MeshShape {
   std::filesystem::path file;
   double scale = 1;
+  MeshStandIn stand_in = MeshStandIn::kNone;
+  double wrap_size = 0;  ///< with kWrap, before any scaling [m]; 0: kDefaultWrapSize
 };
 struct FluidBodyShape {
   std::filesystem::path file;

@@ -4,11 +4,13 @@
 
 #include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "preprocess/mesh/convex_hull.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/mesh_import.h"
 #include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/surface_wrap.h"
 #include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
@@ -26,9 +28,34 @@ TriangleMesh withVolume(TriangleMesh mesh, double volume) {
   return mesh;
 }
 
-CheckedMesh importChecked(const std::filesystem::path& file, double scale, bool sheet) {
+/// checkMesh() that mentions a remedy.
+CheckedMesh checkBody(const TriangleMesh& mesh, const std::string& name) {
+  try {
+    return checkMesh(mesh, name);
+  } catch (const std::runtime_error& error) {
+    if (!canBeWrapped(mesh)) throw;
+    throw std::runtime_error(std::string(error.what()) +
+                             " (build --wrap makes a closed surface around it)");
+  }
+}
+
+CheckedMesh makeBody(const TriangleMesh& mesh, const MeshShape& shape) {
+  const std::string name = shape.file.string();
+  switch (shape.stand_in) {
+    case MeshStandIn::kHull:
+      return checkMesh(makeConvexHull(mesh.vertices, name), name);
+    case MeshStandIn::kWrap:
+      return wrapSurface(mesh, shape.wrap_size, name);
+    case MeshStandIn::kNone:
+      break;
+  }
+  return checkBody(mesh, name);
+}
+
+template <class Check>
+CheckedMesh importChecked(const std::filesystem::path& file, double scale, const Check& check) {
   const ImportedMesh imported = importMesh(file, scale);
-  CheckedMesh checked = checkMesh(imported.mesh, file.string(), {sheet});
+  CheckedMesh checked = check(imported.mesh);
   checked.warnings.insert(checked.warnings.begin(), imported.warnings.begin(),
                           imported.warnings.end());
   return checked;
@@ -66,9 +93,14 @@ struct MeshMaker {
     mesh.vertices *= std::sqrt(kPi * s.semi_axes.prod() / computeSheetMassProperties(mesh).area);
     return {mesh, {}};
   }
-  CheckedMesh operator()(const MeshShape& s) const { return importChecked(s.file, s.scale, false); }
+  CheckedMesh operator()(const MeshShape& s) const {
+    return importChecked(s.file, s.scale,
+                         [&](const TriangleMesh& mesh) { return makeBody(mesh, s); });
+  }
   CheckedMesh operator()(const MeshSheetShape& s) const {
-    return importChecked(s.file, s.scale, true);
+    return importChecked(s.file, s.scale, [&](const TriangleMesh& mesh) {
+      return checkMesh(mesh, s.file.string(), {true});
+    });
   }
   CheckedMesh operator()(const FluidBodyShape& s) const {
     throw std::logic_error(s.file.string() + ": a fluid body is read, not meshed");

@@ -15,6 +15,7 @@ std::filesystem::path fileOf(const ShapeDescription& shape);
 /// ones with the volume of the smooth body (elliptic sheets: the area) instead of vertices on its
 /// surface: a ball of 1280 triangles would displace 1 % too little, and carry so much less added
 /// mass.
+/// Where a mesh is refused as a body that wrapSurface() would make one of, the message says so.
 /// All lengths are multiplied by `scale`; a file whose mesh is then of a size that another unit
 /// than the metre would explain is warned of.
 /// @pre the shape is not a FluidBodyShape; the scale is positive and finite
