@@ -22,6 +22,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// The input, read once.
+struct ReadInput {
+  const CheckArguments& arguments;
+  ImportedMesh imported;
+};
+
 /// What one way to take the input comes to.
 struct Outcome {
   std::string option;                 ///< empty: as it is
@@ -30,37 +36,44 @@ struct Outcome {
 };
 
 /// As build would, up to the flow.
-Outcome tryOption(const CheckArguments& arguments, const std::string& option,
-                  const InputOptions& options) {
+Outcome tryOption(const ReadInput& input, const std::string& option, const InputOptions& options) {
   Outcome outcome{option, std::nullopt, {}};
   try {
-    const ShapeDescription shape = describeInput(arguments.input, options);
-    CheckedMesh checked = makeShapeMesh(shape, arguments.scale);
+    const ShapeDescription shape = describeInput(input.arguments.input, options);
+    CheckedMesh checked = makeShapeMesh(shape, input.imported, input.arguments.scale);
     requireUsualSize(checked.mesh, isSheet(shape), shape.source);
     outcome.usable = std::move(checked);
-  } catch (const UsageError&) {
-    throw;
   } catch (const std::runtime_error& error) {
     outcome.refusal = error.what();
   }
   return outcome;
 }
 
-Outcome tryAsAsked(const CheckArguments& arguments) {
+InputOptions optionsOf(const CheckArguments& arguments) {
+  return {arguments.sheet, arguments.hull, arguments.wrap, arguments.scale};
+}
+
+Outcome tryAsAsked(const ReadInput& input) {
+  const CheckArguments& arguments = input.arguments;
   std::string option = arguments.sheet ? "--sheet" : arguments.hull ? "--hull" : "";
   if (arguments.wrap)
     option = *arguments.wrap == kDefaultWrap ? "--wrap" : "--wrap " + *arguments.wrap;
-  return tryOption(arguments, option,
-                   {arguments.sheet, arguments.hull, arguments.wrap, arguments.scale});
+  return tryOption(input, option, optionsOf(arguments));
 }
 
 /// What would mend an input that cannot be built as it is.
-std::vector<Outcome> tryRemedies(const CheckArguments& arguments) {
+std::vector<Outcome> tryRemedies(const ReadInput& input) {
+  const CheckArguments& arguments = input.arguments;
   if (arguments.sheet || arguments.hull || arguments.wrap) return {};
-  const double scale = arguments.scale;
-  return {tryOption(arguments, "--sheet", {true, false, std::nullopt, scale}),
-          tryOption(arguments, "--hull", {false, true, std::nullopt, scale}),
-          tryOption(arguments, "--wrap", {false, false, kDefaultWrap, scale})};
+  std::vector<Outcome> remedies;
+  const auto add = [&](const char* option, InputOptions options) {
+    options.scale = arguments.scale;
+    remedies.push_back(tryOption(input, option, options));
+  };
+  if (!hasExtension(arguments.input, ".json")) add("--sheet", {true, false, std::nullopt, 1});
+  add("--hull", {false, true, std::nullopt, 1});
+  add("--wrap", {false, false, kDefaultWrap, 1});
+  return remedies;
 }
 
 double volumeOf(const Outcome& outcome) {
@@ -118,11 +131,20 @@ std::string asTable(const Outcome& asked, const std::vector<MeshDefect>& defects
   return text;
 }
 
-/// Of the triangles in the file, in metres as built.
-MeshDiagnosis diagnoseFile(const CheckArguments& arguments, const std::filesystem::path& file,
-                           double own_scale) {
-  const ImportedMesh imported = importMesh(file, own_scale * arguments.scale);
-  return diagnoseMesh(imported.mesh, file.string(), {arguments.sheet});
+/// The mesh file behind the input.
+ImportedMesh importInput(const ShapeDescription& shape) {
+  if (const auto* mesh = std::get_if<MeshShape>(&shape.geometry))
+    return importMesh(mesh->file, mesh->scale);
+  if (const auto* sheet = std::get_if<MeshSheetShape>(&shape.geometry))
+    return importMesh(sheet->file, sheet->scale);
+  raiseInputError(shape.source, "only meshes are checked: a shape without one is right");
+}
+
+/// In metres as built.
+MeshDiagnosis diagnoseInput(const ReadInput& input, const ShapeDescription& shape) {
+  TriangleMesh mesh = input.imported.mesh;
+  mesh.vertices *= input.arguments.scale;
+  return diagnoseMesh(mesh, shape.source, {isSheet(shape)});
 }
 
 void writeObj(const MeshDiagnosis& diagnosis, const std::string& file) {
@@ -141,16 +163,11 @@ int runCheck(const CheckArguments& arguments) {
       raiseUsageError("--obj", "\"", arguments.obj, "\" does not end in .obj");
     requireWritablePlace(arguments.obj, arguments.input);
   }
-  const ShapeDescription shape = describeInput(
-      arguments.input, {arguments.sheet, arguments.hull, arguments.wrap, arguments.scale});
-  const Outcome asked = tryAsAsked(arguments);
-  MeshDiagnosis diagnosis;
-  if (const auto* mesh = std::get_if<MeshShape>(&shape.geometry))
-    diagnosis = diagnoseFile(arguments, mesh->file, mesh->scale);
-  if (const auto* sheet = std::get_if<MeshSheetShape>(&shape.geometry))
-    diagnosis = diagnoseFile(arguments, sheet->file, sheet->scale);
-  const std::vector<Outcome> remedies =
-      asked.usable ? std::vector<Outcome>() : tryRemedies(arguments);
+  const ShapeDescription shape = describeInput(arguments.input, optionsOf(arguments));
+  const ReadInput input{arguments, importInput(shape)};
+  const Outcome asked = tryAsAsked(input);
+  const MeshDiagnosis diagnosis = diagnoseInput(input, shape);
+  const std::vector<Outcome> remedies = asked.usable ? std::vector<Outcome>() : tryRemedies(input);
   if (!arguments.obj.empty()) writeObj(diagnosis, arguments.obj);
   if (asked.usable && !arguments.json) {
     for (const std::string& warning : asked.usable->warnings)

@@ -8,7 +8,6 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
-#include "preprocess/mesh/mesh_import.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/mesh/surface_wrap.h"
 #include "preprocess/mesh/usual_size.h"
@@ -52,10 +51,18 @@ CheckedMesh makeBody(const TriangleMesh& mesh, const MeshShape& shape) {
   return checkBody(mesh, name);
 }
 
-template <class Check>
-CheckedMesh importChecked(const std::filesystem::path& file, double scale, const Check& check) {
-  const ImportedMesh imported = importMesh(file, scale);
-  CheckedMesh checked = check(imported.mesh);
+CheckedMesh checkAs(const MeshShape& shape, const TriangleMesh& mesh) {
+  return makeBody(mesh, shape);
+}
+
+CheckedMesh checkAs(const MeshSheetShape& shape, const TriangleMesh& mesh) {
+  return checkMesh(mesh, shape.file.string(), {true});
+}
+
+/// Of a MeshShape or a MeshSheetShape.
+template <class Shape>
+CheckedMesh checkImported(const Shape& shape, const ImportedMesh& imported) {
+  CheckedMesh checked = checkAs(shape, imported.mesh);
   checked.warnings.insert(checked.warnings.begin(), imported.warnings.begin(),
                           imported.warnings.end());
   return checked;
@@ -94,13 +101,10 @@ struct MeshMaker {
     return {mesh, {}};
   }
   CheckedMesh operator()(const MeshShape& s) const {
-    return importChecked(s.file, s.scale,
-                         [&](const TriangleMesh& mesh) { return makeBody(mesh, s); });
+    return checkImported(s, importMesh(s.file, s.scale));
   }
   CheckedMesh operator()(const MeshSheetShape& s) const {
-    return importChecked(s.file, s.scale, [&](const TriangleMesh& mesh) {
-      return checkMesh(mesh, s.file.string(), {true});
-    });
+    return checkImported(s, importMesh(s.file, s.scale));
   }
   CheckedMesh operator()(const FluidBodyShape& s) const {
     throw std::logic_error(s.file.string() + ": a fluid body is read, not meshed");
@@ -128,6 +132,18 @@ CheckedMesh makeUnscaledMesh(const ShapeDescription& shape) {
   }
 }
 
+CheckedMesh scaled(CheckedMesh checked, const ShapeDescription& shape, double scale) {
+  AMBIENT_ASSERT(scale > 0 && std::isfinite(scale));
+  checked.mesh.vertices *= scale;
+  checked.cavities.vertices *= scale;
+  // Shapes are described in metres; what the unit of a file is, is not known.
+  const std::filesystem::path file = fileOf(shape);
+  if (file.empty()) return checked;
+  const std::string warning = unlikelySizeWarning(checked.mesh, file.string());
+  if (!warning.empty()) checked.warnings.push_back(warning);
+  return checked;
+}
+
 }  // namespace
 
 bool isSheet(const ShapeDescription& shape) {
@@ -141,15 +157,14 @@ std::filesystem::path fileOf(const ShapeDescription& shape) {
 }
 
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale) {
-  AMBIENT_ASSERT(scale > 0 && std::isfinite(scale));
-  CheckedMesh checked = makeUnscaledMesh(shape);
-  checked.mesh.vertices *= scale;
-  checked.cavities.vertices *= scale;
-  // Shapes are described in metres; what the unit of a file is, is not known.
-  if (fileOf(shape).empty()) return checked;
-  const std::string warning = unlikelySizeWarning(checked.mesh, fileOf(shape).string());
-  if (!warning.empty()) checked.warnings.push_back(warning);
-  return checked;
+  return scaled(makeUnscaledMesh(shape), shape, scale);
+}
+
+CheckedMesh makeShapeMesh(const ShapeDescription& shape, const ImportedMesh& imported,
+                          double scale) {
+  if (const auto* mesh = std::get_if<MeshShape>(&shape.geometry))
+    return scaled(checkImported(*mesh, imported), shape, scale);
+  return scaled(checkImported(std::get<MeshSheetShape>(shape.geometry), imported), shape, scale);
 }
 
 }  // namespace ambient

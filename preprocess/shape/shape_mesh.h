@@ -1,6 +1,7 @@
 #pragma once
 
 #include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/mesh/mesh_import.h"
 #include "preprocess/shape/shape_description.h"
 
 namespace ambient {
@@ -21,5 +22,10 @@ std::filesystem::path fileOf(const ShapeDescription& shape);
 /// @pre the shape is not a FluidBodyShape; the scale is positive and finite
 /// @throws std::runtime_error in one line that begins with the shape's source.
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale = 1);
+
+/// The same of a mesh or sheet whose file has been read, with the scale of the shape itself.
+/// @pre the shape is a MeshShape or a MeshSheetShape.
+CheckedMesh makeShapeMesh(const ShapeDescription& shape, const ImportedMesh& imported,
+                          double scale);
 
 }  // namespace ambient
