@@ -43,9 +43,10 @@ struct FlowSettings {
   bool skin_friction = true;  ///< turbulent 1/5-power law, docs/theory.md eq. (16)
   LoadLaw own_law = nullptr;  ///< empty: this library's pressure and friction
   LoadPrecision precision = LoadPrecision::kSingle;
-  /// Allowed p99 error of reduced loads, LoadLevelError: the cheapest level of the fluid body for
-  /// the separation angle that keeps it stands in for the faces. 0, or no such level: all faces.
-  double maximum_load_error = 0;
+  /// Allowed p99 error of reduced loads, LoadLevelError and FormLevel: the cheapest level of the
+  /// fluid body for law and separation angle that keeps it stands in for the faces. 0, or no such
+  /// level: all faces.
+  double maximum_load_error = 0.01;
   PressureLaw law = PressureLaw::kPublished;  ///< a sphere is the same in both
   /// Delay of separation behind the incidence, kForm: lengths of the body over its speed. 0: none.
   double stall_lag = 4.5;

@@ -241,7 +241,9 @@ std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<con
   LoadSettings settings = loadSettings(medium, flow);
   if (!(settings.density > 0)) return nullptr;
   if (body->sphere_radius > 0) settings.law = PressureLaw::kPublished;  // the one of SphereLoads
-  return loadsOnFaces(body, settings, flow, tables);
+  FlowSettings on_all = flow;
+  on_all.maximum_load_error = 0;
+  return loadsOnFaces(body, settings, on_all, tables);
 }
 
 }  // namespace ambient

@@ -37,7 +37,7 @@ void bindSettings(pybind11::module_& module) {
       .field("skin_friction", &FlowSettings::skin_friction, "whether there is any")
       .field("law", &FlowSettings::law, "of the pressure: 'published' (default) or 'form'")
       .field("maximum_load_error", &FlowSettings::maximum_load_error,
-             "that reduced loads may make, from 0 (default: all faces) to 1")
+             "that reduced loads may make, from 0 (all faces) to 1; default 0.01")
       .field("stall_lag", &FlowSettings::stall_lag,
              "of the law 'form', in body lengths over speed; 0: none");
   module.def("air", &air, "Air at 20 C and sea level.");

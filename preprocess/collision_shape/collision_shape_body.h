@@ -38,6 +38,9 @@ struct CollisionShapeSettings {
                         ///< margin included; false: as they were given
   int faces = 1300;     ///< triangles aimed at, where the shape has no mesh of its own
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
+  /// Of the few faces that carry the loads by the form law in place of all, FormLevel::p99_error;
+  /// 0: there are none. Bodies take them as far as FlowSettings::maximum_load_error allows.
+  double load_error = 0.01;
   bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
   CompoundFallback fallback = CompoundFallback::kHull;
   /// kInstant: at most kInstantFaces faces; closed forms stay. A FluidBodyCache then goes on to

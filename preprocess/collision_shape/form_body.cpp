@@ -18,6 +18,7 @@
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/potential_flow/potential_flow.h"
 #include "preprocess/potential_flow/shape_symmetry.h"
+#include "preprocess/reduced_loads/form_levels.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -47,6 +48,8 @@ void requireUsable(const CollisionShapeSettings& settings, const std::string& na
   require("faces", settings.faces, 1);
   require("max_panels", settings.flow.max_panels, 0);
   require("threads", settings.flow.threads, 0);
+  if (!(settings.load_error >= 0))
+    raiseInputError(name, "load_error = ", settings.load_error, " is negative");
 }
 
 bool usesTables(const CollisionShapeSettings& settings) {
@@ -66,6 +69,7 @@ CollisionShapeSettings usedSettings(CollisionShapeSettings settings) {
   if (settings.quality == Quality::kStandard) return settings;
   settings.faces = std::min(settings.faces, kInstantFaces);
   settings.flow.max_panels = 0;
+  settings.load_error = 0;
   return settings;
 }
 
@@ -191,7 +195,10 @@ FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& want
   }
   if (solids.size() == 1) build.sphere_radius = solids.front().sphere_radius;
   build.cavities = joined(solids, &Solid::cavities);
-  const FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
+  FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
+  if (settings.load_error > 0 && body.sphere_radius == 0)
+    if (std::optional<FormLevel> level = smallestFormLevel(body, settings.load_error))
+      body.form_levels.push_back(*std::move(level));
   if (settings.report) reportSolids(solids, body, form.size, settings);
   return body;
 }
@@ -200,8 +207,10 @@ Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& set
   Provenance provenance;
   provenance.source = "collision shape " + form.kind;
   provenance.source_hash = fnv1a64(contentOf(form.parts));
-  provenance.settings = std::string(settings.margins ? "with" : "without") + " margins, faces " +
-                        std::to_string(settings.faces) + ", " + sourceOf(form.parts, settings);
+  std::ostringstream text;
+  text << (settings.margins ? "with" : "without") << " margins, faces " << settings.faces
+       << ", load error " << settings.load_error << ", " << sourceOf(form.parts, settings);
+  provenance.settings = text.str();
   provenance.generator = libraryVersion();
   return provenance;
 }

@@ -1,19 +1,68 @@
 #include "preprocess/reduced_loads/form_levels.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/face_loads.h"
 #include "preprocess/reduced_loads/centred_faces.h"
 #include "preprocess/reduced_loads/face_clusters.h"
+#include "preprocess/reduced_loads/face_mirrors.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 
 namespace ambient {
 namespace {
 
-constexpr std::uint64_t kFormMotionSeed = 3;
-constexpr int kFormSamples = 1000;
+constexpr std::uint64_t kErrorSeed = 3, kFitSeed = 4;
+constexpr int kErrorMotions = 1000, kFitMotions = 200;
+
+/// Pressure and friction at a Reynolds number of 1000, where the law of friction has most of it.
+Vector6 loadOn(const FaceTable& faces, const Vector6& motion) {
+  const LoadSettings settings{1, 1e-3, 0, true, PressureLaw::kForm};
+  return computeFaceLoads(faces, 1, Twist::fromVector(motion), settings).total().vector();
+}
+
+/// 1/2 sum A_i |u_i|^2 as a form of the motion: what errors are compared with.
+Matrix6 scaleOf(const FaceTable& faces) {
+  Matrix6 form = Matrix6::Zero();
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Vector3 c = faces.centroid(i);
+    Matrix3 moment;  // w x c = moment w
+    moment << 0, c.z(), -c.y(), -c.z(), 0, c.x(), c.y(), -c.x(), 0;
+    Eigen::Matrix<double, 3, 6> velocity;
+    velocity << moment, Matrix3::Identity();
+    form += 0.5 * faces.area[i] * velocity.transpose() * velocity;
+  }
+  return form;
+}
+
+/// Motions, and the loads on the faces in them over their scales.
+struct LoadSamples {
+  LoadSamples(const FaceTable& faces, std::uint64_t seed, int count) {
+    const Matrix6 form = scaleOf(faces);
+    ArbitraryNumbers numbers(seed);
+    for (int i = 0; i < count; ++i) {
+      motions.push_back(sampleMotion(numbers));
+      scales.push_back(motions.back().dot(form * motions.back()));
+      loads.push_back(loadOn(faces, motions.back()) / scales.back());
+    }
+  }
+
+  /// The error of other faces that one motion in a hundred exceeds.
+  double p99Error(const FaceTable& others) const {
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      errors.push_back((loadOn(others, motions[i]) / scales[i] - loads[i]).norm());
+    const auto at = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() * 99 / 100);
+    std::nth_element(errors.begin(), at, errors.end());
+    return *at;
+  }
+
+  std::vector<Vector6> motions, loads;
+  std::vector<double> scales;
+};
 
 /// The mean normal, place and sharpness of each cluster, and the area of all its faces.
 FaceTable joined(const FaceTable& faces, const FaceClusters& clusters) {
@@ -34,42 +83,112 @@ FaceTable joined(const FaceTable& faces, const FaceClusters& clusters) {
   return result;
 }
 
-/// Of the pressure in one motion, relative to 1/2 rho sum A_i |u_i|^2.
-double errorIn(const Vector6& x, const FaceTable& level, const FaceTable& faces) {
-  const LoadSettings settings{1, 0, 0, false, PressureLaw::kForm};
-  const Twist twist = Twist::fromVector(x);
-  double scale = 0;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    scale += 0.5 * faces.area[i] * twist.at(faces.centroid(i)).squaredNorm();
-  const Wrench difference = computeFaceLoads(level, 1, twist, settings).pressure +
-                            -1.0 * computeFaceLoads(faces, 1, twist, settings).pressure;
-  return difference.vector().norm() / scale;
+/// Least squares for x >= 0, drawn a little towards where it begins; by coordinates in turn.
+void fitPositive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, std::vector<double>& x) {
+  constexpr int kRounds = 300;
+  constexpr double kPull = 1e-4;
+  const Eigen::MatrixXd G = A.transpose() * A;
+  const Eigen::VectorXd g = A.transpose() * b;
+  const Eigen::Index n = G.rows();
+  const double pull = kPull * G.trace() / static_cast<double>(n);
+  Eigen::Map<Eigen::VectorXd> now(x.data(), n);
+  const Eigen::VectorXd begin = now;
+  for (int round = 0; round < kRounds; ++round)
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double rest = g[k] - G.col(k).dot(now) + G(k, k) * now[k];
+      now[k] = std::max(0.0, (rest + pull * begin[k]) / (G(k, k) + pull));
+    }
 }
 
-double p99Error(const FaceTable& level, const FaceTable& faces) {
-  ArbitraryNumbers numbers(kFormMotionSeed);
-  std::vector<double> errors(kFormSamples);
-  for (double& error : errors) error = errorIn(sampleMotion(numbers), level, faces);
-  const auto at = errors.begin() + kFormSamples * 99 / 100;
-  std::nth_element(errors.begin(), at, errors.end());
-  return *at;
-}
+class LevelMaker {
+ public:
+  LevelMaker(const FluidBody& body, const FaceTable& faces)
+      : centred_(body, faces),
+        for_error_(centred_.faces, kErrorSeed, kErrorMotions),
+        for_fit_(centred_.faces, kFitSeed, kFitMotions),
+        mirrors_(findMirrors()),
+        folded_(mirrors_.folded(centred_.faces)) {}
+
+  /// Of a number of faces, about.
+  FormLevel level(int count) const {
+    const int clusters = std::max(1, count / mirrors_.images());
+    FaceTable folded = joined(folded_, clusterFaces(folded_, clusters));
+    fitAreas(folded);
+    FormLevel level;
+    level.faces = mirrors_.unfolded(withArea(folded));
+    level.p99_error = for_error_.p99Error(level.faces);
+    centred_.moveBack(level.faces);
+    return level;
+  }
+
+ private:
+  /// Those in which the loads look the same, up to what the mesh has left.
+  FaceMirrors findMirrors() const {
+    constexpr double kSame = 2e-3;
+    unsigned axes = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const FaceMirrors mirror(1u << axis);
+      if (for_fit_.p99Error(mirror.mirrored(centred_.faces)) <= kSame) axes |= 1u << axis;
+    }
+    return FaceMirrors(axes);
+  }
+
+  void fitAreas(FaceTable& folded) const {
+    const std::size_t motions = for_fit_.motions.size();
+    Eigen::MatrixXd A(6 * motions, folded.size());
+    Eigen::VectorXd b(6 * motions);
+    for (std::size_t i = 0; i < motions; ++i)
+      b.segment<6>(static_cast<Eigen::Index>(6 * i)) = for_fit_.loads[i];
+    for (std::size_t k = 0; k < folded.size(); ++k) {
+      FaceTable unit;
+      unit.add(folded.normal(k), folded.centroid(k), 1);
+      unit.sharpness = {folded.sharpness[k]};
+      const FaceTable images = mirrors_.unfolded(unit);
+      for (std::size_t i = 0; i < motions; ++i)
+        A.block<6, 1>(static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(k)) =
+            loadOn(images, for_fit_.motions[i]) / for_fit_.scales[i];
+    }
+    fitPositive(A, b, folded.area);
+  }
+
+  static FaceTable withArea(const FaceTable& faces) {
+    FaceTable result;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (!(faces.area[i] > 0)) continue;
+      result.add(faces.normal(i), faces.centroid(i), faces.area[i]);
+      result.sharpness.push_back(faces.sharpness[i]);
+    }
+    return result;
+  }
+
+  CentredFaces centred_;
+  LoadSamples for_error_, for_fit_;
+  FaceMirrors mirrors_;
+  FaceTable folded_;
+};
 
 }  // namespace
 
-std::vector<FormLevel> buildFormLevels(const FluidBody& body, const std::vector<int>& clusters) {
+std::vector<FormLevel> buildFormLevels(const FluidBody& body, const std::vector<int>& faces) {
   std::vector<FormLevel> levels;
-  if (clusters.empty()) return levels;
-  const CentredFaces centred(body, formLawFaces(body));
-  for (const int count : clusters) {
-    if (static_cast<std::size_t>(count) >= centred.faces.size()) continue;
-    FormLevel level;
-    level.faces = joined(centred.faces, clusterFaces(centred.faces, count));
-    level.p99_error = p99Error(level.faces, centred.faces);
-    centred.moveBack(level.faces);
-    levels.push_back(std::move(level));
-  }
+  if (faces.empty()) return levels;
+  const FaceTable all = formLawFaces(body);
+  const LevelMaker maker(body, all);
+  for (const int count : faces)
+    if (static_cast<std::size_t>(count) < all.size()) levels.push_back(maker.level(count));
   return levels;
+}
+
+std::optional<FormLevel> smallestFormLevel(const FluidBody& body, double p99_error) {
+  const FaceTable all = formLawFaces(body);
+  const LevelMaker maker(body, all);
+  // Whole blocks of those that the loads are summed in.
+  for (const std::size_t count : {16, 32, 48, 64, 96, 128, 192, 256}) {
+    if (count >= all.size()) break;
+    FormLevel level = maker.level(static_cast<int>(count));
+    if (level.p99_error <= p99_error) return level;
+  }
+  return std::nullopt;
 }
 
 }  // namespace ambient

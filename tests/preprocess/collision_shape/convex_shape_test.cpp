@@ -105,7 +105,7 @@ TEST(ConvexShape, SimpleShapesNeedNoSolver) {
   settings.tables = false;
   EXPECT_THROW(makeFluidBody(box, settings), std::runtime_error);
   EXPECT_EQ(describeCollisionShape(box, settings).settings,
-            "with margins, faces 350, panels 100000, hull, no tables");
+            "with margins, faces 350, load error 0.01, panels 100000, hull, no tables");
 }
 
 // What mirrors forbid is zero to the last bit: the step has a shorter way for diagonal inertia.

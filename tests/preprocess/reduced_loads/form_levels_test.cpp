@@ -33,16 +33,17 @@ Twist someTwist(test::Arbitrary& arbitrary, double length) {
   return {w, v - w.cross(Vector3(2, 0, 0))};  // of the middle of the body
 }
 
-Vector6 pressureOn(const FaceTable& faces, const Twist& x) {
-  const LoadSettings settings{1.2, 0, 0, false, PressureLaw::kForm};
-  return computeFaceLoads(faces, 1, x, settings).pressure.vector();
+/// With friction at a Reynolds number of 1000 at 1 m/s.
+Vector6 loadOn(const FaceTable& faces, const Twist& x) {
+  const LoadSettings settings{1.2, 1.2e-3, 0, true, PressureLaw::kForm};
+  return computeFaceLoads(faces, 1, x, settings).total().vector();
 }
 
 TEST(FormLevels, HaveTheErrorThatTheyState) {
   const FluidBody body = ellipsoid();
   double before = 1;
   for (const FormLevel& level : buildFormLevels(body, {48, 96, 200})) {
-    EXPECT_LT(level.p99_error, 0.6 * before) << level.faces.size();
+    EXPECT_LT(level.p99_error, 0.7 * before) << level.faces.size();
     before = level.p99_error;
     test::Arbitrary arbitrary(5);
     constexpr double kLength = 0.35;  // root mean square distance from the middle
@@ -52,7 +53,7 @@ TEST(FormLevels, HaveTheErrorThatTheyState) {
       double scale = 0;
       for (std::size_t face = 0; face < body.faces.size(); ++face)
         scale += 0.6 * body.faces.area[face] * x.at(body.faces.centroid(face)).squaredNorm();
-      Vector6 error = pressureOn(level.faces, x) - pressureOn(body.faces, x);
+      Vector6 error = loadOn(level.faces, x) - loadOn(body.faces, x);
       const Vector3 torque = error.head<3>() - Vector3(2, 0, 0).cross(error.tail<3>());
       error.head<3>() = torque / kLength;
       errors.push_back(error.norm() / scale);
@@ -60,7 +61,56 @@ TEST(FormLevels, HaveTheErrorThatTheyState) {
     std::sort(errors.begin(), errors.end());
     EXPECT_NEAR(errors[990], level.p99_error, 0.3 * level.p99_error);
   }
-  EXPECT_LT(before, 0.01);
+  EXPECT_LT(before, 0.003);
+}
+
+/// The ellipsoid has three mirrors: no motion along an axis pushes or turns it aside.
+TEST(FormLevels, KeepTheMirrorsOfTheBody) {
+  const FaceTable faces = buildFormLevels(ellipsoid(), {48}).front().faces;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Twist x{Vector3::Zero(), Vector3::Unit(axis)};
+    Vector6 load = loadOn(faces, x);
+    load.head<3>() -= Vector3(2, 0, 0).cross(load.tail<3>());
+    const double drag = load[3 + axis];
+    load[3 + axis] = 0;
+    EXPECT_LT(load.cwiseAbs().maxCoeff(), 1e-6 * std::abs(drag)) << axis;
+  }
+}
+
+/// A wedge has but the mirror across its length, and no load that it has not.
+TEST(FormLevels, AddNoMirrors) {
+  FluidBody body;
+  body.name = "wedge";
+  for (const Vector3& n : {Vector3(0, 0, -1), Vector3(0.6, 0, 0.8), Vector3(-1, 0, 0)})
+    for (int i = 0; i < 400; ++i) {
+      const Vector3 across = n.cross(Vector3::UnitY());
+      body.faces.add(
+          n, 0.5 * n + (i % 20 - 9.5) / 20 * across + (i / 20 - 9.5) / 10 * Vector3::UnitY(),
+          0.005);
+      body.faces.sharpness.push_back(1);
+    }
+  const FormLevel level = *smallestFormLevel(body, 0.01);
+  EXPECT_LT(level.faces.size(), 100u);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Twist x{Vector3::Zero(), Vector3::Unit(axis)};
+    const Vector6 all = loadOn(body.faces, x);
+    EXPECT_LE((loadOn(level.faces, x) - all).norm(), 0.02 * all.norm()) << axis;
+    EXPECT_NEAR(loadOn(level.faces, x)[4], all[4], 1e-6) << axis;
+  }
+}
+
+TEST(FormLevels, AreAsSmallAsAnErrorAllows) {
+  const FluidBody body = ellipsoid();
+  std::size_t before = 0;
+  for (const double error : {0.05, 0.01, 0.003}) {
+    const auto level = smallestFormLevel(body, error);
+    ASSERT_TRUE(level);
+    EXPECT_LE(level->p99_error, error);
+    EXPECT_GT(level->faces.size(), before);
+    before = level->faces.size();
+  }
+  EXPECT_LT(before, 200u);
+  EXPECT_FALSE(smallestFormLevel(body, 1e-9));
 }
 
 TEST(FormLevels, TakeEnergyInEveryMotion) {
@@ -69,7 +119,7 @@ TEST(FormLevels, TakeEnergyInEveryMotion) {
   test::Arbitrary arbitrary(6);
   for (int i = 0; i < 10000; ++i) {
     const Twist x = someTwist(arbitrary, 0.35);
-    EXPECT_LT(pressureOn(level.faces, x).dot(x.vector()), 0);
+    EXPECT_LT(loadOn(level.faces, x).dot(x.vector()), 0);
   }
 }
 
