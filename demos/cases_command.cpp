@@ -19,8 +19,9 @@ void writeTable(const CasesArguments& arguments) {
   file.write(makeTableText(table));
   file.commit();
   if (!arguments.quiet)
-    std::printf("%s: %zu rows of %zu columns\n", plainLine(arguments.collect).c_str(),
-                table.rows.size(), table.columns.size());
+    std::printf("%s: %zu rows of %zu columns, %d cases are not done\n",
+                plainLine(arguments.collect).c_str(), table.rows.size(), table.columns.size(),
+                table.missing);
 }
 
 CaseSettings settingsOf(const CasesArguments& arguments) {

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/fluid_body/surface_triangles.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/single_precision.h"
 
 namespace ambient {
 namespace {
@@ -90,7 +91,7 @@ Curvatures curvaturesOf(const SurfaceTriangles& mesh, const VertexNormals& norma
 double sharpnessOf(double curvature, double radius) {
   const double x = std::max(curvature, 0.0) * radius;
   const double root = 1 - 2 / (1 + 1 / (x * x));  // (1 - x^2) / (1 + x^2), of any x
-  return static_cast<double>(static_cast<float>(root * root));
+  return roundedToSingle(root * root);
 }
 
 }  // namespace

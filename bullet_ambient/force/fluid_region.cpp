@@ -31,6 +31,15 @@ void add(const FlowSample& flow, Medium& medium) {
   medium.acceleration += flow.acceleration;
 }
 
+// What it throws is taken for a sample that is not finite.
+FlowSample sampleFlow(const FlowField& flow, const Vector3& point_W, double time) noexcept {
+  try {
+    return flow(point_W, time);
+  } catch (...) {
+    return {Vector3::Constant(std::numeric_limits<double>::quiet_NaN()), {0, 0, 0}};
+  }
+}
+
 bool isFinite(const Medium& medium) {
   return medium.velocity.allFinite() && medium.acceleration.allFinite();
 }
@@ -51,7 +60,7 @@ RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, dou
     add({water.velocity, water.acceleration}, sample.below);
   }
   if (region.flow) {
-    const FlowSample flow = region.flow(point_W, time);
+    const FlowSample flow = sampleFlow(region.flow, point_W, time);
     add(flow, sample.below);
     add(flow, sample.above);
   }

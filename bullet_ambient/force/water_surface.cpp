@@ -1,7 +1,9 @@
 #include "bullet_ambient/force/water_surface.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace ambient {
 
@@ -13,6 +15,18 @@ StillWater::StillWater(double level, const Vector3& up) : level_(level), up_(up.
 
 WaterSample StillWater::sample(const Vector3& point_W, double) const noexcept {
   return {level_ - up_.dot(point_W), {0, 0, 0}, {0, 0, 0}};
+}
+
+WaterSurfaceFunction::WaterSurfaceFunction(Function function) : function_(std::move(function)) {
+  if (!function_) throw std::invalid_argument("the function of the water's surface is empty");
+}
+
+WaterSample WaterSurfaceFunction::sample(const Vector3& point_W, double time) const noexcept {
+  try {
+    return function_(point_W, time);
+  } catch (...) {
+    return {std::numeric_limits<double>::quiet_NaN(), {0, 0, 0}, {0, 0, 0}};
+  }
 }
 
 }  // namespace ambient

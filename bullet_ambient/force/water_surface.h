@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <utility>
 
 #include "bullet_ambient/spatial/vector_types.h"
 
@@ -43,15 +42,15 @@ class StillWater final : public WaterSurface {
   Vector3 up_;    ///< unit
 };
 
-/// Any function of place and time; WaterSurface::sample() says what it may do.
+/// Any function of place and time; WaterSurface::sample() says what it may do. What it throws is
+/// taken for a sample that is not finite.
 class WaterSurfaceFunction final : public WaterSurface {
  public:
   using Function = std::function<WaterSample(const Vector3& point_W, double time)>;
 
-  explicit WaterSurfaceFunction(Function function) : function_(std::move(function)) {}
-  WaterSample sample(const Vector3& point_W, double time) const noexcept override {
-    return function_(point_W, time);
-  }
+  /// @throws std::invalid_argument if the function is empty.
+  explicit WaterSurfaceFunction(Function function);
+  WaterSample sample(const Vector3& point_W, double time) const noexcept override;
 
  private:
   Function function_;

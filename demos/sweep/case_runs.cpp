@@ -13,6 +13,7 @@
 #include "demos/simulation/trajectory_text.h"
 #include "demos/sweep/case_file.h"
 #include "demos/sweep/sweep.h"
+#include "preprocess/shape/json_text.h"
 
 namespace ambient {
 namespace {
@@ -20,9 +21,11 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-bool isDone(const fs::path& out, const std::string& key) {
-  return fs::exists(summaryFile(out, key));
+fs::path summaryFile(const fs::path& out, const std::string& key) {
+  return out / key / "summary.json";
 }
+
+bool isDone(const fs::path& out, const std::string& key) { return resultOf(out, key).has_value(); }
 
 /// The cases that are to be run, and what is known of the others.
 struct Pending {
@@ -105,8 +108,12 @@ Shard Shard::parse(const std::string& text) {
   return shard;
 }
 
-fs::path summaryFile(const fs::path& out, const std::string& key) {
-  return out / key / "summary.json";
+std::optional<std::vector<TableRow>> resultOf(const fs::path& out, const std::string& key) {
+  try {
+    return resultRows(readBytes(summaryFile(out, key)));
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
 }
 
 fs::path failedFile(const CaseSettings& settings) {

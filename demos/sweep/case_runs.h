@@ -3,7 +3,11 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "demos/sweep/result_table.h"
 
 namespace ambient {
 
@@ -33,16 +37,17 @@ struct CaseCounts {
 
 /// Runs the cases of a shard that have no result yet. The result of a case is the folder
 /// `out`/KEY, see keyOf(): trajectory.csv and geometry.json as of a single run, and summary.json,
-/// which gets its name last; a case that has one is done. Killed at any moment and started again,
-/// or run beside other shards, it ends with the same results. Cases that failed are listed in
-/// failedFile(), which is removed if none has.
+/// which gets its name last; a case that has one, whole, is done. Killed at any moment and started
+/// again, or run beside other shards, it ends with the same results. Cases that failed are listed
+/// in failedFile(), which is removed if none has.
 /// @throws std::runtime_error if file or folder cannot be used; RunStopped.
 CaseCounts runCases(const CaseSettings& settings);
 
 /// `out`/failed.jsonl, of a shard failed-I-of-N.jsonl.
 std::filesystem::path failedFile(const CaseSettings& settings);
 
-/// What makes a case done, if it is there.
-std::filesystem::path summaryFile(const std::filesystem::path& out, const std::string& key);
+/// resultRows() of a case that is done: one with a summary.json that can be read.
+std::optional<std::vector<TableRow>> resultOf(const std::filesystem::path& out,
+                                              const std::string& key);
 
 }  // namespace ambient

@@ -3,11 +3,13 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "demos/sweep/case_file.h"
 #include "demos/sweep/case_runs.h"
-#include "preprocess/shape/json_text.h"
 
 namespace ambient {
 namespace {
@@ -19,6 +21,7 @@ struct CaseResult {
   int index = 0;
   std::string key;
   Overrides overrides;  ///< by their paths
+  std::vector<TableRow> rows;
 };
 
 /// A number, or a word; whatever else as JSON.
@@ -34,30 +37,36 @@ Overrides overrideCells(const Case& line) {
   return cells;
 }
 
-std::vector<CaseResult> findResults(const std::filesystem::path& cases,
-                                    const std::filesystem::path& out) {
-  std::vector<CaseResult> results;
-  for (const Case& line : readCases(cases)) {
-    try {
-      const std::string key = keyOf(sceneOf(line));
-      if (std::filesystem::exists(summaryFile(out, key)))
-        results.push_back({line.index, key, overrideCells(line)});
-    } catch (const std::runtime_error&) {
-      // A case that cannot be read has failed, and runCases() says why.
-    }
+// None: it is not done. A case that cannot be read has failed, and runCases() says why.
+std::optional<CaseResult> findResult(const Case& line, const std::filesystem::path& out) {
+  try {
+    const std::string key = keyOf(sceneOf(line));
+    std::optional<std::vector<TableRow>> rows = resultOf(out, key);
+    if (!rows) return std::nullopt;
+    return CaseResult{line.index, key, overrideCells(line), *std::move(rows)};
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
   }
-  return results;
 }
 
 }  // namespace
 
 ResultTable collectCases(const std::filesystem::path& cases, const std::filesystem::path& out) {
-  const std::vector<CaseResult> results = findResults(cases, out);
+  if (!std::filesystem::is_directory(out))
+    throw std::runtime_error(out.string() + ": is not a folder, and holds no results");
+  std::vector<CaseResult> results;
+  ResultTable table{{"case", "key"}, {}};
+  for (const Case& line : readCases(cases)) {
+    if (std::optional<CaseResult> result = findResult(line, out)) {
+      results.push_back(*std::move(result));
+    } else {
+      ++table.missing;
+    }
+  }
   Overrides absent;
   for (const CaseResult& result : results)
     for (const auto& entry : result.overrides)
       absent[entry.first] = std::numeric_limits<double>::quiet_NaN();
-  ResultTable table{{"case", "key"}, {}};
   for (const auto& entry : absent) table.columns.push_back(entry.first);
   for (const std::string& name : resultColumns()) table.columns.push_back(name);
   for (const CaseResult& result : results) {
@@ -65,7 +74,7 @@ ResultTable collectCases(const std::filesystem::path& cases, const std::filesyst
     overrides.insert(absent.begin(), absent.end());  // where there is none
     TableRow begin{static_cast<double>(result.index), result.key};
     for (const auto& entry : overrides) begin.push_back(entry.second);
-    for (const TableRow& row : resultRows(readBytes(summaryFile(out, result.key)))) {
+    for (const TableRow& row : result.rows) {
       table.rows.push_back(begin);
       table.rows.back().insert(table.rows.back().end(), row.begin(), row.end());
     }

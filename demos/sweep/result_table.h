@@ -13,6 +13,7 @@ using TableRow = std::vector<TableCell>;
 struct ResultTable {
   std::vector<std::string> columns;
   std::vector<TableRow> rows;
+  int missing = 0;  ///< cases that are not done
 };
 
 /// What a row of resultRows() holds.

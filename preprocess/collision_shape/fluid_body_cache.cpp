@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -32,6 +33,14 @@ std::string fileNameFor(const Provenance& provenance, const std::string& name) {
   return file_name;
 }
 
+// Tells the fluid bodies of one kind of shape apart, the same in all programs.
+std::string nameFor(const std::string& kind, const std::string& content) {
+  char number[18];
+  std::snprintf(number, sizeof number, " %016llx",
+                static_cast<unsigned long long>(fnv1a64(content)));
+  return kind + number;
+}
+
 std::string withSize(std::string content, double size) {
   return content.append(reinterpret_cast<const char*>(&size), sizeof size);
 }
@@ -52,6 +61,7 @@ struct FluidBodyCache::Store {
   std::atomic<unsigned> revision{0};
   std::mutex mutex;  // of these:
   std::unordered_set<std::string> ready, published;
+  std::unordered_map<std::string, SharedBody> by_name;
   BackgroundWork work;  // last: it ends before what it works on
 
   FluidBody make(const ShapeForm& form) {
@@ -82,6 +92,12 @@ struct FluidBodyCache::Store {
       if (settings.report)
         settings.report(std::string("the fluid body is not kept: ") + error.what());
     }
+  }
+
+  SharedBody remember(SharedBody body) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    by_name[body->name] = body;
+    return body;
   }
 
   bool isPublished(const std::string& content) {
@@ -142,12 +158,20 @@ SharedBody FluidBodyCache::fluidBody(const btCollisionShape& shape) {
   const bool is_guess = store.has_instants && !store.isPublished(content);
   SharedBodies& forms = is_guess ? store.instant_forms : store.forms;
   SharedBodies& shapes = is_guess ? store.instant_shapes : store.shapes;
-  return shapes.get(withSize(content, form.size), [&] {
+  const std::string sized = withSize(content, form.size);
+  return shapes.get(sized, [&] {
     const SharedBody unit = forms.get(
         content, [&] { return is_guess ? store.guess(form, content) : store.readOrMake(form); });
-    if (form.size == 1) return unit;
-    return std::make_shared<const FluidBody>(scaled(*unit, form.size));
+    FluidBody body = form.size == 1 ? *unit : scaled(*unit, form.size);
+    body.name = nameFor(unit->name, sized);
+    return store.remember(std::make_shared<const FluidBody>(std::move(body)));
   });
+}
+
+SharedBody FluidBodyCache::find(const std::string& name) const {
+  const std::lock_guard<std::mutex> lock(store_->mutex);
+  const auto found = store_->by_name.find(name);
+  return found == store_->by_name.end() ? nullptr : found->second;
 }
 
 unsigned FluidBodyCache::revision() const noexcept { return store_->revision; }

@@ -39,9 +39,10 @@ class FluidBodyCache : public FluidBodySource {
   /// Waits for the solution that the background is at; others are dropped.
   ~FluidBodyCache() override;
 
-  /// In the shape's frame, named after its kind or as the settings say. Equal shapes get the same
-  /// object. A thread that asks for a shape in the making waits for it. Cost if it is known: that
-  /// of reading the shape's numbers.
+  /// In the shape's frame, named after its kind, or as the settings say, and a number that belongs
+  /// to this shape alone and is the same in all programs. Equal shapes get the same object. A
+  /// thread that asks for a shape in the making waits for it. Cost if it is known: that of reading
+  /// the shape's numbers.
   /// @throws std::runtime_error as makeFluidBody(), each time.
   ///
   /// Of Quality::kInstant the first answer is the guess, within milliseconds, and a thread goes on
@@ -49,6 +50,9 @@ class FluidBodyCache : public FluidBodySource {
   /// get it at the end of a substep. settings.flow.threads says how many cores that may take.
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override;
   unsigned revision() const noexcept override;
+
+  /// The last answer of fluidBody() with this name; null: none. What decodeState() asks for.
+  std::shared_ptr<const FluidBody> find(const std::string& name) const;
 
   /// Waits for all that is computed in the background. From then on, it is what fluidBody() answers
   /// with.

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bullet_ambient/spatial/single_precision.h"
+
 namespace ambient {
 namespace {
 
@@ -93,7 +95,7 @@ Eigen::Vector3d readVertex(Rows& rows, int index, bool is_homogeneous) {
   Eigen::Vector3d vertex;
   for (double& coordinate : vertex) coordinate = rows.number(name);
   if (is_homogeneous) vertex /= rows.number(name);
-  return vertex.cast<float>().cast<double>();
+  return vertex.unaryExpr(&roundedToSingle);
 }
 
 std::vector<int> readFace(Rows& rows, int index, int vertices) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/single_precision.h"
 
 namespace ambient {
 namespace {
@@ -88,7 +89,7 @@ AddedMassPart join(const Panels& panels, const std::vector<std::size_t>& chosen)
 
 template <class Values>
 void roundToSingle(Values& values) {
-  values = values.template cast<float>().template cast<double>().eval();
+  for (double& value : values.reshaped()) value = roundedToSingle(value);
 }
 
 }  // namespace

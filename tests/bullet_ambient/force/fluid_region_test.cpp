@@ -60,6 +60,19 @@ TEST(FluidRegion, KeepsItsMediumWhereFunctionsAreNotFinite) {
   EXPECT_FALSE(sampleRegion(region, {0, 0, 0}, 0).is_finite);
 }
 
+TEST(FluidRegion, TakesWhatFunctionsThrowForNotFinite) {
+  FluidRegion region;
+  region.below.velocity = {3, 0, 0};
+  region.flow = [](const Vector3&, double) -> FlowSample { throw std::runtime_error("no data"); };
+  EXPECT_FALSE(sampleRegion(region, {0, 0, 0}, 0).is_finite);
+  EXPECT_EQ(sampleRegion(region, {0, 0, 0}, 0).here().velocity, Vector3(3, 0, 0));
+  region.flow = nullptr;
+  region.surface = std::make_shared<WaterSurfaceFunction>(
+      [](const Vector3&, double) -> WaterSample { throw 42; });
+  EXPECT_FALSE(sampleRegion(region, {0, 0, 0}, 0).is_finite);
+  EXPECT_THROW(WaterSurfaceFunction(nullptr), std::invalid_argument);
+}
+
 TEST(FluidRegion, IsSteadyWithoutFunctionsAndMovingSurfaces) {
   FluidRegion region;
   EXPECT_TRUE(isSteady(region));

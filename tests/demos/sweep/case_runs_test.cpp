@@ -100,11 +100,27 @@ TEST(CaseRuns, ListsThoseThatFailedUntilTheyAreMended) {
   const std::string list = readText(folder / "out/failed.jsonl");
   EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 2);
   EXPECT_EQ(nlohmann::json::parse(list.substr(0, list.find('\n')))["case"], 1);
-  EXPECT_EQ(collectCases(cases, folder / "out").rows.size(), 1u);
+  const ResultTable table = collectCases(cases, folder / "out");
+  EXPECT_EQ(table.rows.size(), 1u);
+  EXPECT_EQ(table.missing, 2);
+  EXPECT_THROW(collectCases(cases, folder / "elsewhere"), std::runtime_error);
 
   writeText(cases, good);
   EXPECT_EQ(runCases(settings).done_before, 1);
   EXPECT_FALSE(fs::exists(folder / "out/failed.jsonl"));
+}
+
+TEST(CaseRuns, RunAgainWhatHasNoWholeSummary) {
+  const TemporaryFolder folder;
+  const fs::path cases = writeMasses(folder, {0.1});
+  const CaseSettings settings = settingsOf(cases, folder / "out");
+  runCases(settings);
+  const auto results = resultsIn(folder / "out");
+  for (const auto& [file, text] : results)
+    if (fs::path(file).filename() == "summary.json") writeText(folder / "out" / file, "garbage");
+  EXPECT_EQ(collectCases(cases, folder / "out").missing, 1);
+  EXPECT_EQ(runCases(settings).done_before, 0);
+  EXPECT_EQ(resultsIn(folder / "out"), results);
 }
 
 TEST(CaseRuns, MayKeepTheSummaryAlone) {

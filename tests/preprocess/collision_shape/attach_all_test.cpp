@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
+#include "bullet_ambient/bullet/world_state.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 
@@ -45,6 +46,21 @@ class CrateScene {
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
   std::vector<std::unique_ptr<btRigidBody>> bodies;
 };
+
+// Two sizes of one kind of shape are two fluid bodies; another program finds both by their names.
+TEST(AttachAll, LeavesWorldsWhoseStateCanBeSaved) {
+  CrateScene scene, other;
+  FluidBodyCache shapes(test::coarse()), others(test::coarse());
+  scene.fluid.attachAll(scene.world, shapes, water());
+  other.fluid.attachAll(other.world, others, air());
+  scene.world.stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60);
+  const std::string bytes = encodeState(saveState(scene.world, scene.fluid.registry()));
+  const auto lookup = [&](const std::string& name) { return others.find(name); };
+  restoreState(decodeState(bytes, "state", lookup), other.world, other.fluid.registry());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    EXPECT_EQ(other.bodies[i]->getWorldTransform(), scene.bodies[i]->getWorldTransform());
+  EXPECT_EQ(other.fluid.registry().medium(*other.bodies[1]).density, water().density);
+}
 
 TEST(AttachAll, PutsAWorldIntoWaterInOneCall) {
   CrateScene scene;

@@ -58,7 +58,9 @@ TEST(FluidBodyCache, GivesWhatTheShapeIs) {
   btBoxShape box(sizes(0.15, 0.21, 0.33));
   const auto body = cache.fluidBody(box);
   const FluidBody direct = makeFluidBody(box, coarse());
-  EXPECT_EQ(body->name, "Box");
+  EXPECT_EQ(body->name.substr(0, 4), "Box ");
+  EXPECT_EQ(cache.find(body->name), body);
+  EXPECT_EQ(cache.find("Box"), nullptr);
   EXPECT_EQ(body->origin, Vector3::Zero());
   EXPECT_NEAR(body->volume / direct.volume, 1, 3e-6);
   const double size = 1 / 0.33;
@@ -150,6 +152,12 @@ TEST(FluidBodyCache, AnotherRunReadsWhatThisOneMade) {
   EXPECT_EQ(second.counts().made, 0);
   EXPECT_EQ(second.counts().read, 1);
   EXPECT_EQ(encodeFluidBody(*read, ""), encodeFluidBody(*made, ""));
+  ASSERT_EQ(read->added_mass_parts.size(), made->added_mass_parts.size());
+  for (std::size_t i = 0; i < made->added_mass_parts.size(); ++i) {
+    EXPECT_EQ(read->added_mass_parts[i].centre, made->added_mass_parts[i].centre);
+    EXPECT_EQ(read->added_mass_parts[i].spread, made->added_mass_parts[i].spread);
+    EXPECT_EQ(read->added_mass_parts[i].inertia, made->added_mass_parts[i].inertia);
+  }
   second.fluidBody(twice);
   EXPECT_EQ(second.counts().made, 0);
   EXPECT_EQ(filesIn(folder / "kept").size(), 1u);

@@ -65,6 +65,20 @@ TEST(AddedMassParts, KnowWhereTheyAre) {
   EXPECT_EQ(there[0].spread[0], 8);
 }
 
+TEST(AddedMassParts, AreRoundedToTheSinglePrecisionOfFiles) {
+  const auto isSingle = [](double value) {
+    volatile float single = static_cast<float>(value);
+    return static_cast<double>(single) == value;
+  };
+  const auto parts =
+      joinPanels(ellipsoidPanels(makeEllipsoidMesh({1, 0.7, 0.4}, 320), {1, 0.7, 0.4}));
+  for (const AddedMassPart& part : placed(parts, 0.3, {0.1, 0.2, 0.3})) {
+    for (const double value : part.centre) EXPECT_TRUE(isSingle(value)) << value;
+    for (const double value : part.spread) EXPECT_TRUE(isSingle(value)) << value;
+    for (const double value : part.inertia.reshaped()) EXPECT_TRUE(isSingle(value)) << value;
+  }
+}
+
 TEST(AddedMassParts, OfABoxDoNotReachAroundItsEdges) {
   const Vector3 half(0.5, 0.4, 0.3);
   for (const AddedMassPart& part : solvePotentialFlow(makeBoxMesh(half, 600)).parts) {
