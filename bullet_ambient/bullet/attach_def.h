@@ -34,11 +34,11 @@ struct AttachDef {
 struct AmbientCounters {
   long long substeps = 0;  ///< of free flight
   long long load_evaluations = 0;
-  long long faces = 0;           ///< faces or clusters summed in them; a sphere has none
-  long long guarded = 0;         ///< load evaluations in which the passivity guard acted
-  long long coarse = 0;          ///< steps whose error stayed too large at the most substeps
-  long long rows = 0;            ///< constraint rows rewritten
-  long long rejected = 0;        ///< steps whose result was not finite and was not taken over
+  long long faces = 0;     ///< faces or clusters summed in them; a sphere has none
+  long long guarded = 0;   ///< load evaluations in which the passivity guard acted
+  long long coarse = 0;    ///< steps whose error stayed too large at the most substeps
+  long long rows = 0;      ///< constraint rows rewritten
+  long long rejected = 0;  ///< results of steps, and samples of regions, not finite and left out
   long long regions_asked = 0;   ///< whether they hold the body
   long long medium_changes = 0;  ///< to another density or viscosity, by regions
 

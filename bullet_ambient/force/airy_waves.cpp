@@ -45,8 +45,12 @@ AiryWaves::AiryWaves(const CalmSea& sea, const std::vector<WaveComponent>& compo
       rejectSea("horizontal part of the direction of wave " + std::to_string(i), length,
                 "positive and finite");
     const double frequency = 2 * kPi / wave.period;
-    waves_.push_back({wave.amplitude, frequency, wave.phase, frequency * frequency / sea.gravity,
-                      direction / length});
+    const double wave_number = frequency * frequency / sea.gravity;
+    // Real ones break at 0.44.
+    if (!(wave.amplitude * wave_number <= 1))
+      rejectSea("slope (amplitude times wave number) of wave " + std::to_string(i),
+                wave.amplitude * wave_number, "at most 1");
+    waves_.push_back({wave.amplitude, frequency, wave.phase, wave_number, direction / length});
   }
 }
 

@@ -89,8 +89,15 @@ struct FluidBodyCache::Store {
       fs::create_directories(folder);
       writeFluidBody(body, file);
     } catch (const std::exception& error) {
-      if (settings.report)
-        settings.report(std::string("the fluid body is not kept: ") + error.what());
+      say(std::string("the fluid body is not kept: ") + error.what());
+    }
+  }
+
+  // What the program's function throws is dropped: nobody could catch it in the background.
+  void say(const std::string& text) const noexcept {
+    try {
+      if (settings.report) settings.report(text);
+    } catch (...) {
     }
   }
 
@@ -132,7 +139,7 @@ struct FluidBodyCache::Store {
       }
       if (replacement == Replacement::kWhenReady) publishReady();
     } catch (const std::exception& error) {
-      if (settings.report) settings.report(error.what());
+      say(error.what());
     }
   }
 };

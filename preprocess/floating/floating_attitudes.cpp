@@ -13,11 +13,17 @@ namespace ambient {
 namespace {
 
 [[noreturn]] void rejectFloating(const FloatingBody& body, const char* what, double value,
-                                 const char* limit) {
+                                 const std::string& limit) {
   std::ostringstream sentence;
   sentence << "fluid body '" << body.shape->name << "': " << what << " is " << value << "; must be "
            << limit;
   throw std::invalid_argument(sentence.str());
+}
+
+std::string textOf(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 void checkFloating(const FloatingBody& body) {
@@ -33,6 +39,16 @@ void checkFloating(const FloatingBody& body) {
   if (!body.inertia.allFinite() || !body.centre_of_mass.allFinite())
     rejectFloating(body, "an entry of centre of mass or inertia", NAN, "finite");
   require(symmetricEigen<3>(body.inertia).values[0], "smallest principal moment [kg m^2]");
+  // Below that the draught is lost in the rounding of the body's extents.
+  constexpr double kLightest = 1e-6, kFarthest = 1e6;
+  const double displaced = body.density * body.shape->volume;
+  if (body.mass < kLightest * displaced)
+    rejectFloating(body, "mass [kg]", body.mass,
+                   "at least a millionth of that of its volume of water, " + textOf(displaced));
+  const double size = extentsOf(*body.shape).maxCoeff();
+  if (body.centre_of_mass.norm() > kFarthest * size)
+    rejectFloating(body, "distance of the centre of mass from the origin [m]",
+                   body.centre_of_mass.norm(), "at most a million times its size, " + textOf(size));
 }
 
 // Even over the sphere, none of them along an axis or a diagonal, where the energy may be largest.

@@ -163,6 +163,8 @@ TEST(AiryWaves, SayWhatIsWrong) {
             "period [s] of wave 0 is 0; must be positive and finite");
   EXPECT_EQ(seaError(sea, {{1, 1, {0, 0, 2}, 0}}),
             "horizontal part of the direction of wave 0 is 0; must be positive and finite");
+  EXPECT_NE(seaError(sea, {{0.1, 0.5, {1, 0, 0}, 0}}).find("; must be at most 1"),
+            std::string::npos);  // 0.1 (2 pi / 0.5)^2 / 9.81 = 1.61
   CalmSea odd;
   odd.gravity = 0;
   EXPECT_EQ(seaError(odd, {}), "gravity of the sea [m/s^2] is 0; must be positive and finite");

@@ -185,6 +185,12 @@ TEST(FloatingAttitudes, SayWhatIsWrong) {
   FloatingBody body = floatingBox({1, 1, 1}, 0.5);
   body.mass = 0;
   EXPECT_EQ(complaint(body), "fluid body 'hull': mass [kg] is 0; must be positive and finite");
+  body.mass = 1e-7 * body.density;
+  EXPECT_NE(complaint(body).find("must be at least a millionth of that of its volume of water"),
+            std::string::npos);
+  body = floatingBox({1, 1, 1}, 0.5);
+  body.centre_of_mass = {0, 0, -1e7};
+  EXPECT_NE(complaint(body).find("must be at most a million times its size"), std::string::npos);
   body = floatingBox({1, 1, 1}, 0.5);
   auto sheet = std::make_shared<FluidBody>(*body.shape);
   sheet->volume = 0;
