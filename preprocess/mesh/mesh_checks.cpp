@@ -1,13 +1,15 @@
 #include "preprocess/mesh/mesh_checks.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include "preprocess/mesh/mesh_defect.h"
 #include "preprocess/mesh/mesh_mending.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/mesh_shells.h"
 #include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/mesh_union.h"
 #include "preprocess/mesh/topology_defects.h"
 
 namespace ambient {
@@ -40,6 +42,14 @@ void takeStep(CheckedMesh& so_far, CheckedMesh step) {
   so_far.warnings.insert(so_far.warnings.end(), step.warnings.begin(), step.warnings.end());
 }
 
+CheckedMesh checkSheet(CheckedMesh mended, const std::string& name) {
+  requireNone(findDoubleTriangles(mended.mesh), name);
+  const MeshEdges edges = computeMeshEdges(mended.mesh);
+  requireNone(findTopologyDefects(mended.mesh, edges, {true}), name);
+  takeStep(mended, orientConsistently(mended.mesh, edges, name));
+  return mended;
+}
+
 }  // namespace
 
 CheckedMesh mendTriangles(const TriangleMesh& mesh, const std::string& name) {
@@ -47,7 +57,6 @@ CheckedMesh mendTriangles(const TriangleMesh& mesh, const std::string& name) {
   CheckedMesh result = withoutCopies(mesh, name);
   takeStep(result, withoutFlatTriangles(result.mesh, name));
   requireNone(findFlatTriangles(result.mesh), name);
-  requireNone(findDoubleTriangles(result.mesh), name);
   takeStep(result, withoutUnusedVertices(result.mesh, name));
   return result;
 }
@@ -68,14 +77,35 @@ bool hasVerticesInside(const TriangleMesh& sheet) {
   return std::find(has_inside.begin(), has_inside.end(), false) == has_inside.end();
 }
 
+BodyVerdict judgeBody(const CheckedMesh& mended, const std::string& name) {
+  BodyVerdict verdict{mended, findDoubleTriangles(mended.mesh)};
+  const MeshEdges edges = computeMeshEdges(mended.mesh);
+  for (const MeshDefect& defect : findTopologyDefects(mended.mesh, edges, {}))
+    verdict.defects.push_back(defect);
+  if (!verdict.defects.empty()) return verdict;
+  takeStep(verdict.checked, orientConsistently(mended.mesh, edges, name));
+  OrientedShells shells = orientShells(verdict.checked.mesh, edges, name);
+  takeStep(verdict.checked, std::move(shells.checked));
+  verdict.defects = std::move(shells.defects);
+  return verdict;
+}
+
+CheckedMesh checkClosedMesh(const TriangleMesh& mesh, const std::string& name) {
+  BodyVerdict verdict = judgeBody(mendTriangles(mesh, name), name);
+  requireNone(verdict.defects, name);
+  return std::move(verdict.checked);
+}
+
 CheckedMesh checkMesh(const TriangleMesh& mesh, const std::string& name,
                       const MeshCheckSettings& settings) {
-  CheckedMesh result = mendTriangles(mesh, name);
-  const MeshEdges edges = computeMeshEdges(result.mesh);
-  requireNone(findTopologyDefects(result.mesh, edges, settings), name);
-  takeStep(result, orientConsistently(result.mesh, edges, name));
-  if (!settings.sheet) takeStep(result, orientOutward(result.mesh, edges, name));
-  return result;
+  CheckedMesh mended = mendTriangles(mesh, name);
+  if (settings.sheet) return checkSheet(std::move(mended), name);
+  BodyVerdict verdict = judgeBody(mended, name);
+  if (verdict.defects.empty()) return std::move(verdict.checked);
+  std::optional<CheckedMesh> united = uniteClosedParts(mended.mesh, name);
+  if (!united) requireNone(verdict.defects, name);
+  takeStep(mended, std::move(*united));
+  return mended;
 }
 
 }  // namespace ambient

@@ -7,7 +7,6 @@
 
 #include "preprocess/mesh/mesh_mending.h"
 #include "preprocess/mesh/mesh_orientation.h"
-#include "preprocess/mesh/mesh_shells.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/surface_crossing.h"
 #include "preprocess/mesh/topology_defects.h"
@@ -78,22 +77,24 @@ MeshDiagnosis diagnoseMesh(const TriangleMesh& mesh, const std::string& name,
   takeMendingStep(checked, withoutFlatTriangles(checked.mesh, name));
   appendDefects(defects, findFlatTriangles(checked.mesh));
   const bool has_normals = defects.empty();
-  appendDefects(defects, findDoubleTriangles(checked.mesh));
   const MeshEdges edges = computeMeshEdges(checked.mesh);
-  appendDefects(defects, findTopologyDefects(checked.mesh, edges, settings));
-  if (isManifold(edges)) {
+  if (has_normals && !settings.sheet) {
+    appendDefects(defects, refusalAsDefect("one-sided", name, [&] {
+                    BodyVerdict verdict = judgeBody(checked, name);
+                    checked = std::move(verdict.checked);
+                    defects = std::move(verdict.defects);
+                  }));
+  } else {
+    appendDefects(defects, findDoubleTriangles(checked.mesh));
+    appendDefects(defects, findTopologyDefects(checked.mesh, edges, settings));
+  }
+  if (settings.sheet && isManifold(edges)) {
     appendDefects(defects, refusalAsDefect("one-sided", name, [&] {
                     takeMendingStep(checked, orientConsistently(checked.mesh, edges, name));
                   }));
   }
-  if (defects.empty()) {
-    appendDefects(defects,
-                  refusalAsDefect("", name, [&] { checked = checkMesh(mesh, name, settings); }));
-    if (!defects.empty() && !settings.sheet)
-      defects = orientShells(checked.mesh, edges, name).defects;
-  } else if (has_normals) {
-    appendDefects(defects, findCrossings(checked.mesh, edges));
-  }
+  if (has_normals && !isClosed(computeMeshEdges(checked.mesh)) && !settings.sheet)
+    appendDefects(defects, findCrossings(checked.mesh, computeMeshEdges(checked.mesh)));
   if (defects.empty()) {
     appendDefects(defects, refusalAsDefect("size", name, [&] {
                     requireUsualSize(checked.mesh, settings.sheet, name);

@@ -1,4 +1,4 @@
-#include "preprocess/collision_shape/solid_contact.h"
+#include "preprocess/mesh/solid_contact.h"
 
 #include <algorithm>
 
