@@ -46,21 +46,35 @@ double tetrahedraVolumeOf(const TriangleMesh& mesh) {
   return volume;
 }
 
-/// Off the nodes that a box along the axes would have its sides on.
-CubicGrid gridAround(const TriangleMesh& mesh, double step, const std::string& name) {
-  constexpr double kMargin = 3.377, kMostNodes = 2e7;
+constexpr double kMargin = 3.377;  // steps; a box along the axes has no side on nodes
+
+Vector3d nodeCountsAround(const TriangleMesh& mesh, double step) {
+  return (mesh.extents() / step).array() + 2 * kMargin + 1;
+}
+
+CubicGrid gridAround(const TriangleMesh& mesh, double step) {
   CubicGrid grid;
   grid.step = step;
   grid.origin = mesh.vertices.rowwise().minCoeff().array() - kMargin * step;
-  const Vector3d counts = (mesh.extents() / step).array() + 2 * kMargin + 1;
-  if (!(counts.prod() <= kMostNodes)) {
-    raiseInputError(name, "cannot be wrapped with a size of ", step, " m: a grid of ",
-                    counts.prod(), " nodes would be needed, at most ", kMostNodes,
-                    " are possible; give a larger size");
-  }
+  const Vector3d counts = nodeCountsAround(mesh, step);
   for (std::size_t k = 0; k < 3; ++k)
     grid.counts[k] = static_cast<std::int64_t>(std::ceil(counts[static_cast<Index>(k)]));
   return grid;
+}
+
+void requireNodes(const TriangleMesh& mesh, double step, const std::string& name) {
+  constexpr double kMostNodes = 2e7;
+  const double nodes = gridNodesAround(mesh, step);
+  if (nodes <= kMostNodes) return;
+  raiseInputError(name, "cannot be wrapped with a size of ", step, " m: a grid of ", nodes,
+                  " nodes would be needed, at most ", kMostNodes,
+                  " are possible; give a larger size");
+}
+
+TriangleMesh fullWrap(const TriangleMesh& mesh, double step) {
+  const CubicGrid grid = gridAround(mesh, step);
+  const GridCrossings crossings(mesh, grid);
+  return makeDualSurface(mesh, grid, crossings, findSolidNodes(mesh, grid, crossings));
 }
 
 /// The triangles that are left to wrap, and the size to do it with.
@@ -107,6 +121,15 @@ std::string comparison(const TriangleMesh& before, const TriangleMesh& after, do
 
 }  // namespace
 
+double gridNodesAround(const TriangleMesh& mesh, double size) {
+  return nodeCountsAround(mesh, size).prod();
+}
+
+TriangleMesh wrapped(const TriangleMesh& mesh, double size, const CoarseningSettings& settings) {
+  const TriangleMesh fine = fullWrap(mesh, size);
+  return fine.triangleCount() > 0 ? coarsened(fine, settings) : fine;
+}
+
 bool canBeWrapped(const TriangleMesh& mesh) {
   return mesh.triangleCount() > 0 && mesh.vertices.allFinite() &&
          withoutNeedles(mesh).triangleCount() > 0;
@@ -116,22 +139,20 @@ CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string
   constexpr int kLeastFaces = 800, kMostFaces = 4000;
   constexpr double kTolerance = 0.1;
   const WrapInput input = usableInput(mesh, size, name);
-  const CubicGrid grid = gridAround(input.mesh, input.size, name);
-  const GridCrossings crossings(input.mesh, grid);
-  const TriangleMesh fine =
-      makeDualSurface(input.mesh, grid, crossings, findSolidNodes(input.mesh, grid, crossings));
+  requireNodes(input.mesh, input.size, name);
+  const TriangleMesh fine = fullWrap(input.mesh, input.size);
   if (fine.triangleCount() == 0)
     raiseInputError(name, "cannot be wrapped with a size of ", input.size, " m: nothing is left");
   const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
-  CheckedMesh wrapped;
+  CheckedMesh result;
   try {
-    wrapped = checkMesh(coarse, name);
+    result = checkMesh(coarse, name);
   } catch (const std::runtime_error&) {
-    wrapped = checkMesh(fine, name);  // parts of the coarser one have come to touch
+    result = checkMesh(fine, name);  // parts of the coarser one have come to touch
   }
-  wrapped.warnings.insert(wrapped.warnings.begin(),
-                          name + ": " + comparison(input.mesh, wrapped.mesh, input.size));
-  return wrapped;
+  result.warnings.insert(result.warnings.begin(),
+                         name + ": " + comparison(input.mesh, result.mesh, input.size));
+  return result;
 }
 
 }  // namespace ambient

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/mesh/mesh_coarsening.h"
 
 namespace ambient {
 
@@ -20,6 +21,13 @@ constexpr double kDefaultWrapSize = 0.01;
 /// coordinate that is not finite, a size that is not positive, too large for the mesh, or so small
 /// that the grid would have more than 2e7 nodes.
 CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name);
+
+/// Nodes of the grid that wraps a mesh with cubes of that size.
+double gridNodesAround(const TriangleMesh& mesh, double size);
+
+/// The surface that wrapSurface() finds, coarsened as told and not checked.
+/// @pre triangles have an area, and the grid some 1e8 nodes at most.
+TriangleMesh wrapped(const TriangleMesh& mesh, double size, const CoarseningSettings& settings);
 
 /// Whether wrapSurface() may make a body of a mesh: coordinates are finite, triangles have areas.
 bool canBeWrapped(const TriangleMesh& mesh);

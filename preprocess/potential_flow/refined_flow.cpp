@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/mesh/compact_surface.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/triangle_quality.h"
@@ -53,6 +55,19 @@ bool isSmooth(const std::vector<FaceBulge>& bulges) {
   return 20 * static_cast<std::size_t>(flat) < bulges.size();
 }
 
+/// Without what the mirrors and half turns of a body forbid, and stretched about its centre.
+Matrix6 withSymmetriesOf(const TriangleMesh& mesh, bool sheet, double stretch,
+                         const Matrix6& added_mass) {
+  const MeshProperties properties =
+      sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
+  const Eigen::Vector3d& centre = properties.uniform.centre;
+  const double size = std::sqrt(properties.area);
+  Matrix6 unit = scaleShape(shiftOrigin(added_mass, centre), stretch / size);
+  unit = positivePart(symmetrised(unit, findSymmetries(mesh, centre)));
+  const Matrix6 shifted = shiftOrigin(scaleShape(unit, size), -centre);
+  return (shifted + shifted.transpose()) / 2;  // the shift rounds both halves apart
+}
+
 // On up to settings.max_panels.
 RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   const std::vector<FaceBulge> bulges =
@@ -86,21 +101,28 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
       refined.is_coarse = bulges.empty();  // it has sharp edges, and no panels are left for them
     }
   }
-  const MeshProperties properties =
-      settings.sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
-  const Eigen::Vector3d& centre = properties.uniform.centre;
   double stretch = 1;
   if (!settings.sheet) {
     const CurvatureCorrection correction =
         computeCurvatureCorrection(mesh, bulges, levels.fine, flow.potential);
     refined.added_mass += correction.added_mass;
-    stretch = std::cbrt(properties.volume / (properties.volume + correction.volume));
+    const double volume = computeMassProperties(mesh).volume;
+    stretch = std::cbrt(volume / (volume + correction.volume));
   }
-  const double size = std::sqrt(properties.area);
-  Matrix6 unit = scaleShape(shiftOrigin(refined.added_mass, centre), stretch / size);
-  unit = positivePart(symmetrised(unit, findSymmetries(mesh, centre)));
-  const Matrix6 shifted = shiftOrigin(scaleShape(unit, size), -centre);
-  refined.added_mass = (shifted + shifted.transpose()) / 2;  // the shift rounds both halves apart
+  refined.added_mass = withSymmetriesOf(mesh, settings.sheet, stretch, refined.added_mass);
+  return refined;
+}
+
+/// On panels that are cut from triangles about as long as wide; none if they would not be enough.
+std::optional<RefinedFlow> solveOnCompactPanels(const TriangleMesh& mesh,
+                                                const PotentialFlowSettings& settings) {
+  constexpr int kPanelsPerTriangle = 5, kLeastPanels = 2000;
+  if (settings.sheet || settings.max_panels < kLeastPanels) return std::nullopt;
+  const auto compact = compactSurface(mesh, settings.max_panels / kPanelsPerTriangle);
+  if (!compact) return std::nullopt;
+  RefinedFlow refined = solveOnPanels(*compact, settings);
+  if (refined.is_coarse) return std::nullopt;
+  refined.added_mass = withSymmetriesOf(mesh, false, 1, refined.added_mass);
   return refined;
 }
 
@@ -109,6 +131,7 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   const RefinedFlow refined = solveOnPanels(mesh, settings);
   if (!refined.is_coarse || settings.solver == FlowSolverKind::Dense) return refined;
+  if (const auto compact = solveOnCompactPanels(mesh, settings)) return *compact;
   PotentialFlowSettings finer = settings;
   finer.max_panels = 4 * settings.max_panels;
   return solveOnPanels(mesh, finer);

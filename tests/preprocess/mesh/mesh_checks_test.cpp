@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -15,6 +17,13 @@ namespace {
 
 std::string refusal(const TriangleMesh& mesh, const MeshCheckSettings& settings = {}) {
   return messageOf([&] { checkMesh(mesh, "thing.obj", settings); });
+}
+
+std::vector<std::string> kindsOf(const TriangleMesh& mesh) {
+  std::vector<std::string> kinds;
+  for (const MeshDefect& defect : judgeBody({mesh, {}}, "thing.obj").defects)
+    kinds.push_back(defect.kind);
+  return kinds;
 }
 
 TriangleMesh cube(double half_size) {
@@ -95,25 +104,29 @@ TEST(MeshChecks, OpenMeshesAreRefusedWithTheNumberOfBoundaryEdgesAndAnExample) {
 }
 
 TEST(MeshChecks, EdgesOfMoreThanTwoTrianglesAreRefused) {
-  // Two tetrahedra that share the edge from vertex 0 to vertex 1.
-  TriangleMesh mesh = joined(
-      unitTetrahedron(),
-      rotated(
-          unitTetrahedron(),
-          Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitX()).toRotationMatrix()));
-  EXPECT_EQ(refusal(mesh).find("not manifold"), std::string::npos);
-  mesh = weldVertices(mesh, 1e-12);
-  EXPECT_EQ(refusal(mesh),
-            "thing.obj: not manifold: 1 edges with more than 2 triangles, for example vertex 0 (0, "
-            "0, 0) to vertex 1 (1, 0, 0) with 4");
+  // A fin that stands on the edge from vertex 0 to vertex 1.
+  TriangleMesh mesh = unitTetrahedron();
+  mesh.vertices.conservativeResize(3, 5);
+  mesh.vertices.col(4) << 0.5, -1, -1;
+  mesh.triangles.conservativeResize(3, 5);
+  mesh.triangles.col(4) << 0, 1, 4;
+  EXPECT_EQ(kindsOf(mesh),
+            (std::vector<std::string>{"not watertight", "more than two triangles at an edge"}));
+  const std::string message = judgeBody({mesh, {}}, "thing.obj").defects.at(1).text;
+  EXPECT_EQ(message,
+            "not manifold: 1 edges with more than 2 triangles, for example vertex 0 (0, 0, 0) to "
+            "vertex 1 (1, 0, 0) with 3");
 }
 
-TEST(MeshChecks, VerticesWherePartsTouchAreRefused) {
+TEST(MeshChecks, VerticesWherePartsTouchAreFound) {
   const TriangleMesh mesh =
       weldVertices(joined(unitTetrahedron(), scaled(insideOut(unitTetrahedron()), -1)), 0);
-  EXPECT_EQ(refusal(mesh),
-            "thing.obj: not manifold: separate parts of the surface touch at vertex 0 (0, 0, 0), "
-            "triangles 0 and 4");
+  const std::vector<MeshDefect> defects = judgeBody({mesh, {}}, "thing.obj").defects;
+  ASSERT_EQ(defects.size(), 1u);
+  EXPECT_EQ(defects[0].text,
+            "not manifold: separate parts of the surface touch at vertex 0 (0, 0, 0), triangles 0 "
+            "and 4");
+  EXPECT_EQ(defects[0].triangles.front(), 0);
 }
 
 TEST(MeshChecks, InsideOutMeshesAreTurnedWithAWarning) {
@@ -162,25 +175,45 @@ TEST(MeshChecks, CavitiesAreTakenOutWithAWarning) {
   EXPECT_NEAR(computeMassProperties(joined(nested.mesh, nested.cavities)).volume, 57, 1e-12);
 }
 
-TEST(MeshChecks, NestedPartsThatCountTwiceAreRefused) {
-  EXPECT_EQ(refusal(joined(cube(2), cube(1))),
-            "thing.obj: the part around triangle 12 at (-1, -1, -1) (12 triangles) lies inside "
-            "another part and points outwards: its volume would count twice; leave it out, or turn "
-            "it round if it is a cavity");
+/// The volume of what checkMesh() makes of a mesh of parts, which it must say.
+double unitedVolume(const TriangleMesh& mesh) {
+  const CheckedMesh united = checkMesh(mesh, "thing.obj");
+  EXPECT_FALSE(united.warnings.empty());
+  if (united.warnings.empty()) return 0;
+  EXPECT_NE(united.warnings.back().find("closed parts were united"), std::string::npos);
+  return computeMassProperties(united.mesh).volume;
 }
 
-TEST(MeshChecks, PartsThatOverlapOrTouchAreRefused) {
-  const std::string message = "thing.obj: separate parts of the surface overlap or touch at triang";
+TEST(MeshChecks, NestedPartsCountOnce) {
+  EXPECT_EQ(judgeBody({joined(cube(2), cube(1)), {}}, "thing.obj").defects.at(0).text,
+            "the part around triangle 12 at (-1, -1, -1) (12 triangles) lies inside another part "
+            "and points outwards: its volume would count twice; leave it out, or turn it round if "
+            "it is a cavity");
+  EXPECT_NEAR(unitedVolume(joined(cube(2), cube(1))), 64, 1e-9);
+}
+
+TEST(MeshChecks, PartsThatOverlapOrTouchAreUnited) {
+  const std::string message = "separate parts of the surface overlap or touch at triang";
   const TriangleMesh box = makeBoxMesh({1, 1, 1}, 300);
-  const Eigen::Vector3d oblique(1.3, 0.4, 0.3), beside(2, 0, 0), shifted(2, 0.3, 0.2);
-  for (const Eigen::Vector3d& by : {oblique, beside, shifted}) {
-    EXPECT_EQ(refusal(joined(box, moved(box, by))).find(message), 0u) << by.transpose();
-    EXPECT_EQ(refusal(scaled(joined(box, moved(box, by)), 1e-60)).find(message), 0u);
-  }
+  const auto check = [&](const TriangleMesh& mesh, double volume) {
+    EXPECT_EQ(judgeBody({mesh, {}}, "thing.obj").defects.at(0).text.find(message), 0u);
+    EXPECT_NEAR(unitedVolume(mesh) / volume, 1, 1e-4) << volume;
+    EXPECT_NEAR(unitedVolume(scaled(mesh, 1e-3)) / (1e-9 * volume), 1, 1e-4) << volume;
+  };
+  check(joined(box, moved(box, {1.3, 0.4, 0.3})), 16 - 0.7 * 1.6 * 1.7);
+  check(joined(box, moved(box, {2, 0, 0})), 16);      // side by side
+  check(joined(box, moved(box, {2, 0.3, 0.2})), 16);  // shifted along the side
+  check(joined(box, makeBoxMesh({3, 0.5, 0.5}, 300)), 8 + 4);
+  check(joined(box, moved(insideOut(box), {1.3, 0.4, 0.3})), 16 - 0.7 * 1.6 * 1.7);
   EXPECT_EQ(refusal(joined(box, moved(box, {2.001, 0.3, 0.2}))), "no error");
-  EXPECT_EQ(refusal(joined(box, makeBoxMesh({3, 0.5, 0.5}, 300))).find(message), 0u) << "a cross";
-  const TriangleMesh same = joined(box, box);
-  EXPECT_EQ(refusal(same).find(message), 0u) << "one upon the other";
+}
+
+// As files have it whose vertices were welded across parts: the side between them twice.
+TEST(MeshChecks, PartsWithASideInCommonAreUnited) {
+  const TriangleMesh row = weldVertices(
+      joined(joined(cube(1), moved(cube(1), {2, 0, 0})), moved(cube(1), {4, 0, 0})), 0);
+  EXPECT_NE(judgeBody({row, {}}, "thing.obj").defects.size(), 0u);
+  EXPECT_NEAR(unitedVolume(row), 24, 1e-6);
 }
 
 // A sample of points would miss so little.
@@ -188,7 +221,7 @@ TEST(MeshChecks, SmallOverlapsOfLargePartsAreFound) {
   const TriangleMesh ball = makeEllipsoidMesh({1, 1, 1}, 20000);
   EXPECT_EQ(refusal(joined(ball, moved(ball, {2.001, 0, 0}))), "no error");
   EXPECT_NE(refusal(joined(ball, moved(ball, {1.99, 0, 0}))).find("overlap or touch"),
-            std::string::npos);
+            std::string::npos);  // too many triangles to unite
 }
 
 TEST(MeshChecks, SurfacesThatCrossThemselvesAreWarnedOf) {

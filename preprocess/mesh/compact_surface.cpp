@@ -1,0 +1,33 @@
+#include "preprocess/mesh/compact_surface.h"
+
+#include <cmath>
+
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/surface_wrap.h"
+
+namespace ambient {
+namespace {
+
+bool isWithin(double share, double now, double then) { return std::abs(now / then - 1) <= share; }
+
+}  // namespace
+
+std::optional<TriangleMesh> compactSurface(const TriangleMesh& mesh, int triangles) {
+  constexpr double kSquares = 8000, kMostNodes = 5e6;
+  constexpr double kVolumeChange = 0.0025, kAreaChange = 0.005;
+  const MeshProperties body = computeMassProperties(mesh);
+  const double step = std::sqrt(body.area / kSquares);
+  if (!(gridNodesAround(mesh, step) <= kMostNodes)) return std::nullopt;
+  TriangleMesh compact = wrapped(mesh, step, {triangles, triangles, 0});
+  if (compact.triangleCount() == 0) return std::nullopt;
+  const MeshProperties found = computeMassProperties(compact);
+  if (!isWithin(kVolumeChange, found.volume, body.volume)) return std::nullopt;
+  if (!isWithin(kAreaChange, found.area, body.area)) return std::nullopt;
+  const Eigen::Vector3d& centre = found.uniform.centre;
+  const double stretch = std::cbrt(body.volume / found.volume);
+  compact.vertices =
+      (stretch * (compact.vertices.colwise() - centre)).colwise() + body.uniform.centre;
+  return compact;
+}
+
+}  // namespace ambient

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// The body of a closed mesh in about so many triangles nearly as long as wide, however the mesh
+/// was cut, with its sharp edges and its volume: polygons of many short sides, between long strips,
+/// become such of fewer sides. None if that would change the area by more than half a per cent, the
+/// volume, before it is mended, by more than a quarter, or take a grid of more than 5e6 nodes: thin
+/// parts would be lost. Cost some 0.2 s.
+/// @pre closed, manifold and outward.
+std::optional<TriangleMesh> compactSurface(const TriangleMesh& mesh, int triangles);
+
+}  // namespace ambient

@@ -1,0 +1,82 @@
+#include "preprocess/mesh/primitives.h"
+#include "tests/preprocess/command_line/command_line.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+TriangleMesh box() { return makeBoxMesh({1, 1, 1}, 12); }
+
+/// A box whose lid is missing, and a sheet that stands in it.
+TriangleMesh openBox() { return withoutTriangle(withoutTriangle(box(), 11), 10); }
+
+TEST_F(CommandLine, CheckSaysThatAMeshIsRight) {
+  const ProgramResult result = run({"check", write("box.obj", objText(box()))});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(result.output, "as it is         usable: 12 faces, 2 x 2 x 2 m, volume 8 m^3\n");
+}
+
+TEST_F(CommandLine, CheckFindsAllDefectsAndWhatMendsThem) {
+  TriangleMesh mesh = joined(openBox(), openBox());
+  mesh = joined(mesh, moved(box(), {0.5, 0.5, 0.5}));
+  const std::string input = write("open.obj", objText(mesh));
+  const ProgramResult result = run({"check", input, "--json", "--obj", path("bad.obj")});
+  EXPECT_EQ(result.exit_code, 1);
+  const json found = json::parse(result.output);
+  EXPECT_EQ(found["usable"], false);
+  std::vector<std::string> kinds;
+  for (const json& defect : found["defects"]) kinds.push_back(defect["kind"]);
+  EXPECT_NE(std::find(kinds.begin(), kinds.end(), "doubled triangles"), kinds.end());
+  EXPECT_NE(std::find(kinds.begin(), kinds.end(), "parts overlap"), kinds.end());
+  EXPECT_GE(kinds.size(), 3u);
+  for (const json& remedy : found["remedies"]) {
+    EXPECT_EQ(remedy["usable"], remedy["option"] != "--sheet") << remedy;
+  }
+  const std::string obj = readText(path("bad.obj"));
+  EXPECT_NE(obj.find("o doubled_triangles\nv "), std::string::npos);
+  EXPECT_NE(obj.find("\nf 1 2 3\n"), std::string::npos);
+}
+
+TEST_F(CommandLine, RefusalsMentionWrapWhichMendsThem) {
+  const std::string input = write("open.obj", objText(openBox()));
+  EXPECT_NE(buildRefusal(input).find("(build --wrap makes a closed surface around it)"),
+            std::string::npos);
+  const ProgramResult wrapped =
+      run({"build", input, "-o", path("w.ambient"), "--wrap", "0.1", "--panels", "0", "--json"});
+  EXPECT_EQ(wrapped.exit_code, 0) << wrapped.errors;
+  EXPECT_NE(wrapped.errors.find("wrapped with a size of 0.1 m"), std::string::npos);
+  EXPECT_GE(json::parse(wrapped.output)["faces"], 800);
+}
+
+TEST_F(CommandLine, HullAndWrapAreBuiltAnewWhenTheyChange) {
+  const std::string input = write("l.obj", objText(joined(box(), moved(box(), {3, 0, 0}))));
+  const auto volumeOf = [&](const Arguments& more) {
+    Arguments arguments{"build", input, "-o", path("o.ambient"), "--panels", "0", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return json::parse(run(arguments).output)["volume"].get<double>();
+  };
+  EXPECT_NEAR(volumeOf({}), 16, 1e-9);
+  EXPECT_NEAR(volumeOf({"--hull"}), 20, 1e-6);
+  EXPECT_NEAR(volumeOf({"--wrap=0.1"}), 16, 0.05);
+  EXPECT_NEAR(volumeOf({"--scale", "2", "--wrap", "0.2"}), 128, 0.4);
+}
+
+TEST_F(CommandLine, BadSizesAndCombinationsLeaveNothing) {
+  const std::string input = write("box.obj", objText(box()));
+  EXPECT_EQ(buildUsageRefusal(input, {"--wrap", "-1"}), "--wrap: -1 m must be finite and positive");
+  EXPECT_EQ(buildUsageRefusal(input, {"--wrap=x"}), "--wrap: \"x\" is not a size in metres");
+  EXPECT_EQ(buildUsageRefusal(input, {"--wrap", "--hull"}), "--wrap: excludes --hull");
+  EXPECT_EQ(buildUsageRefusal(input, {"--sheet", "--wrap"}),
+            "--sheet: excludes --hull and --wrap, which make bodies");
+  EXPECT_NE(buildRefusal(input, {"--wrap", "1e-6"}).find("give a larger size"), std::string::npos);
+  EXPECT_EQ(usageRefusal({"check", input, "--obj", path("bad.txt")}),
+            "--obj: \"" + path("bad.txt") + "\" does not end in .obj");
+  EXPECT_NE(refusal({"check", path("none.obj")}).find("no such file"), std::string::npos);
+  const std::string ball = write("ball.json", sphereText());
+  EXPECT_NE(buildRefusal(ball, {"--hull"}).find("--hull needs a mesh"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ambient

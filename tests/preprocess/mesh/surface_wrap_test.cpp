@@ -1,0 +1,122 @@
+#include "preprocess/mesh/surface_wrap.h"
+
+#include <gtest/gtest.h>
+
+#include "bullet_ambient/spatial/pi.h"
+#include "preprocess/mesh/compact_surface.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/primitives.h"
+#include "tests/preprocess/mesh/mesh_fixtures.h"
+
+namespace ambient {
+namespace {
+
+TriangleMesh boxOf12(const Eigen::Vector3d& half_sizes) { return makeBoxMesh(half_sizes, 12); }
+
+/// Of the closed surface around a mesh.
+MeshProperties wrappedProperties(const TriangleMesh& mesh, double size) {
+  const TriangleMesh surface = wrapSurface(mesh, size, "thing.obj").mesh;
+  EXPECT_TRUE(isClosed(computeMeshEdges(surface)));
+  EXPECT_LE(surface.triangleCount(), 4000);
+  return computeMassProperties(surface);
+}
+
+std::string wrapRefusal(const TriangleMesh& mesh, double size) {
+  return messageOf([&] { wrapSurface(mesh, size, "thing.obj"); });
+}
+
+TEST(SurfaceWrap, KeepsSharpBoxesInAnyAttitude) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  for (const Eigen::Matrix3d& rotation : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turn}) {
+    const Eigen::Vector3d place(5, -3, 2);
+    const auto found =
+        wrappedProperties(moved(rotated(boxOf12({1, 0.5, 0.25}), rotation), place), 0.04);
+    EXPECT_NEAR(found.volume, 1, 2e-3);
+    EXPECT_NEAR(found.area, 7, 2e-3 * 7);
+    EXPECT_LT((found.uniform.centre - place).norm(), 2e-3);
+  }
+}
+
+// Without a size it is a hundredth of the diagonal; whichever way round the triangles are.
+TEST(SurfaceWrap, KeepsBalls) {
+  TriangleMesh ball = makeEllipsoidMesh({1, 1, 1}, 5000);
+  for (Eigen::Index t = 0; t < ball.triangleCount(); t += 2)
+    std::swap(ball.triangles(0, t), ball.triangles(1, t));
+  EXPECT_NEAR(wrappedProperties(ball, 0).volume, 4 * kPi / 3, 2e-3 * 4 * kPi / 3);
+}
+
+TEST(SurfaceWrap, UnitesPartsAndFillsWhatIsInside) {
+  const TriangleMesh box = boxOf12({1, 1, 1});
+  EXPECT_NEAR(wrappedProperties(joined(box, moved(box, {1.3, 0.4, 0.3})), 0.05).volume,
+              16 - 0.7 * 1.6 * 1.7, 0.02);
+  EXPECT_NEAR(wrappedProperties(joined(box, insideOut(boxOf12({0.5, 0.5, 0.5}))), 0.05).volume, 8,
+              0.01);
+  EXPECT_NEAR(wrappedProperties(joined(box, moved(box, {3, 0, 0})), 0.05).volume, 16, 0.02);
+}
+
+// Along the diagonal of the top runs a gap of 0.03; a missing side is no gap: what is left are five
+// plates, 1.5 sizes thick.
+TEST(SurfaceWrap, ClosesGapsButNotHoles) {
+  TriangleMesh cut = boxOf12({1, 1, 1});
+  Eigen::Index top = -1;
+  for (Eigen::Index t = 0; t < 12; ++t) {
+    if ((cut.corner(t, 0) + cut.corner(t, 1) + cut.corner(t, 2)).z() == 3) top = t;
+  }
+  ASSERT_GE(top, 0);
+  TriangleMesh apart = withoutTriangle(cut, top);
+  TriangleMesh lid =
+      meshOf({cut.corner(top, 0), cut.corner(top, 1), cut.corner(top, 2)}, {{0, 1, 2}});
+  const Eigen::Vector3d centre = lid.vertices.rowwise().mean();
+  lid.vertices = (0.97 * (lid.vertices.colwise() - centre)).colwise() + centre;
+  EXPECT_NEAR(wrappedProperties(joined(apart, lid), 0.06).volume, 8, 0.02);
+
+  const double size = 0.05, thickness = 1.5 * size;
+  const auto open = wrappedProperties(withoutTriangle(cut, top), size);
+  EXPECT_LT(open.volume, 24 * thickness);
+  EXPECT_GT(open.volume, 20 * thickness);
+}
+
+// A rounded slab, thickness 1.5 sizes, over a square of side 2.
+TEST(SurfaceWrap, GivesSheetsAThickness) {
+  const double size = 0.05, reach = 0.75 * size;
+  const auto found = wrappedProperties(makeRectangularSheetMesh(2, 2, 8), size);
+  const double slab = 4 * 2 * reach + 4 * kPi * reach * reach + 4 * kPi / 3 * reach * reach * reach;
+  EXPECT_NEAR(found.volume / slab, 1, 0.02);
+}
+
+TEST(SurfaceWrap, ReportsTheChangeOfVolumeAndArea) {
+  const CheckedMesh checked = wrapSurface(boxOf12({1, 1, 1}), 0.05, "thing.obj");
+  ASSERT_FALSE(checked.warnings.empty());
+  EXPECT_EQ(checked.warnings[0].find(
+                "thing.obj: wrapped with a size of 0.05 m: 800 for 12 triangles, volume "),
+            0u)
+      << checked.warnings[0];
+  EXPECT_NE(checked.warnings[0].find("area"), std::string::npos);
+}
+
+TEST(SurfaceWrap, BadInputIsRefusedInOneLine) {
+  const TriangleMesh box = boxOf12({1, 1, 1});
+  EXPECT_EQ(wrapRefusal({}, 0), "thing.obj: there are no triangles with an area");
+  EXPECT_EQ(wrapRefusal(box, -1).find("thing.obj: cannot be wrapped with a size of -1 m: "), 0u);
+  EXPECT_EQ(wrapRefusal(box, 10).find("thing.obj: cannot be wrapped with a size of 10 m: "), 0u);
+  EXPECT_NE(wrapRefusal(box, 1e-4).find("at most 20000000 are possible"), std::string::npos);
+  TriangleMesh broken = box;
+  broken.vertices(0, 0) = std::nan("");
+  EXPECT_EQ(wrapRefusal(broken, 0), "thing.obj: a vertex has a coordinate that is not finite");
+}
+
+TEST(CompactSurface, KeepsVolumeAndEdgesOfAPrismOfManySides) {
+  const TriangleMesh prism = makeCylinderMesh(0.5, 1, 640);
+  const double volume = computeMassProperties(prism).volume;
+  const auto compact = compactSurface(prism, 800);
+  ASSERT_TRUE(compact);
+  EXPECT_NEAR(static_cast<double>(compact->triangleCount()), 800, 80);
+  EXPECT_NEAR(computeMassProperties(*compact).volume / volume, 1, 1e-9);
+  EXPECT_NEAR(compact->extents().z(), 1, 5e-3);
+  EXPECT_FALSE(compactSurface(boxOf12({1, 1, 1e-3}), 800)) << "too thin for its grid";
+}
+
+}  // namespace
+}  // namespace ambient
