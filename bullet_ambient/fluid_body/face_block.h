@@ -23,21 +23,22 @@ struct alignas(64) FaceBounds {
   float reach[6][kBlocks];  ///< to either side
 };
 
-/// Sharpness of the faces of a block, for the form law.
-struct alignas(64) SharpnessBlock {
-  float values[FaceBlock::kFaces];  ///< in [0, 1]
+/// The FormFactors of the faces of a block, for the form law.
+struct alignas(64) FormBlock {
+  float by_normal[FaceBlock::kFaces];
+  float by_speed[FaceBlock::kFaces];
 };
 
 /// The blocks of a shape with their bounds.
 struct FaceBlocks {
   const FaceBlock* blocks;
   const FaceBounds* bounds;
-  std::size_t count;                          ///< of blocks
-  const SharpnessBlock* sharpness = nullptr;  ///< null: the published law
+  std::size_t count;                ///< of blocks
+  const FormBlock* form = nullptr;  ///< null: the published law
 
   /// Those from a block on, without bounds.
   FaceBlocks from(std::size_t block) const {
-    return {blocks + block, nullptr, count - block, sharpness ? sharpness + block : nullptr};
+    return {blocks + block, nullptr, count - block, form ? form + block : nullptr};
   }
 };
 

@@ -19,7 +19,8 @@ struct FaceTable {
   std::vector<double> normal_x, normal_y, normal_z;        ///< unit normals into the fluid
   std::vector<double> centroid_x, centroid_y, centroid_z;  ///< barycentres [m]
   std::vector<double> area;                                ///< [m^2]
-  /// In [0, 1], from round to flat or edged, docs/theory.md eq. (45); empty: not known.
+  /// From round (0) to flat or edged (1), more on long flat sides; docs/theory.md eq. (45). In
+  /// [0, 2]; empty: not known.
   std::vector<double> sharpness;
 
   std::size_t size() const { return area.size(); }

@@ -131,9 +131,9 @@ void checkFaces(const FaceTable& faces, const Checker& check) {
     check.fail("face sharpness has ", faces.sharpness.size(), " entries, but there are ", count,
                " face areas");
   for (std::size_t i = 0; i < faces.sharpness.size(); ++i)
-    if (!(faces.sharpness[i] >= 0) || !(faces.sharpness[i] <= 1))
+    if (!(faces.sharpness[i] >= 0) || !(faces.sharpness[i] <= 2))
       check.fail("sharpness of face ", i, " is ", faces.sharpness[i],
-                 ", but must be between 0 and 1");
+                 ", but must be between 0 and 2");
   for (std::size_t i = 0; i < count; ++i) {
     if (faces.area[i] < 0)
       check.fail("area of face ", i, " is ", faces.area[i], " m^2, but must not be negative");

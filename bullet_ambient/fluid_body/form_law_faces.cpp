@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 
 #include "bullet_ambient/fluid_body/flat_sides.h"
@@ -62,6 +63,21 @@ bool deservesPoints(const FlatSide& side, const FaceTable& faces, double surface
   return points < side.triangles.size() || area >= kLarge * surface_area;
 }
 
+/// Eq. (45) of a flat side: more than 1 where it is long.
+double sharpnessOf(const FlatSide& side) {
+  constexpr double kEndless = 1.98 / 1.17 - 1;  // measured drag coefficients, less one
+  constexpr double kHalf = 40;                  // aspect ratio of half of that
+  const std::vector<Vector3>& corners = side.corners;
+  double outline = 0, twice_area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector3& next = corners[(i + 1) % corners.size()];
+    outline += (next - corners[i]).norm();
+    twice_area += (corners[i] - corners[0]).cross(next - corners[0]).norm();
+  }
+  const double length = std::max(outline * outline / (2 * twice_area) - 4, 0.0);
+  return static_cast<double>(static_cast<float>(1 + kEndless * length / (length + kHalf)));
+}
+
 /// Faces of one side of the surface, then those of its back where it has one.
 class FaceCollector {
  public:
@@ -92,9 +108,10 @@ FaceTable formLawFaces(const FluidBody& body) {
   std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
   for (const FlatSide& side : findFlatSides(mesh)) {
     if (!deservesPoints(side, faces, body.area)) continue;
+    const double sharpness = sharpnessOf(side);
     for (const Point& point : pointsOf(side)) {
-      collector.add(side.normal, point.place, point.area, 1);
-      if (mesh.isSheet()) collector.add(-side.normal, point.place, point.area, 1);
+      collector.add(side.normal, point.place, point.area, sharpness);
+      if (mesh.isSheet()) collector.add(-side.normal, point.place, point.area, sharpness);
     }
     for (const int t : side.triangles) is_replaced[static_cast<std::size_t>(t)] = true;
   }

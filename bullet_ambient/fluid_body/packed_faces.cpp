@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/fluid_body/block_order.h"
+#include "bullet_ambient/fluid_body/form_factors.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
@@ -48,7 +49,7 @@ PackedFaces::PackedFaces(const FaceTable& faces, bool with_sharpness)
   for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
   bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero
   for (std::size_t block = 0; block < count; ++block) setBounds(block);
-  if (with_sharpness) packSharpness(faces);
+  if (with_sharpness) packForm(faces);
 }
 
 FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) const {
@@ -66,12 +67,16 @@ FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) cons
   return packed;
 }
 
-void PackedFaces::packSharpness(const FaceTable& faces) {
+void PackedFaces::packForm(const FaceTable& faces) {
   AMBIENT_ASSERT(faces.sharpness.size() == size());
-  sharpness_.resize(blocks_.size());  // all zero
-  for (std::size_t i = 0; i < size(); ++i)
-    sharpness_[i / FaceBlock::kFaces].values[i % FaceBlock::kFaces] =
-        static_cast<float>(faces.sharpness[order_[i]]);
+  form_.resize(blocks_.size());  // all zero
+  for (std::size_t i = 0; i < size(); ++i) {
+    const auto sharpness = static_cast<float>(faces.sharpness[order_[i]]);
+    const FormFactors<float> factors = formFactors<float>(sharpness);
+    FormBlock& block = form_[i / FaceBlock::kFaces];
+    block.by_normal[i % FaceBlock::kFaces] = factors.by_normal;
+    block.by_speed[i % FaceBlock::kFaces] = factors.by_speed;
+  }
 }
 
 void PackedFaces::setBounds(std::size_t block) {

@@ -11,7 +11,7 @@ namespace ambient {
 /// The faces of a shape for loads in single precision: 47 bytes per face, in frame F. The units are
 /// powers of two, so that a shape of any size that is a power of two times another has the same
 /// bits. Faces that are alike in normal and place share a block: where the flow is detached from
-/// all of it, it is left out. The form law needs the sharpness as well: 4 bytes more.
+/// all of it, it is left out. The form law needs its factors as well: 8 bytes more.
 class PackedFaces {
  public:
   /// Cost: O(F log F), 0.1 us per face.
@@ -19,8 +19,7 @@ class PackedFaces {
   explicit PackedFaces(const FaceTable& faces, bool with_sharpness = false);
 
   FaceBlocks blocks() const {
-    return {blocks_.data(), bounds_.data(), blocks_.size(),
-            sharpness_.empty() ? nullptr : sharpness_.data()};
+    return {blocks_.data(), bounds_.data(), blocks_.size(), form_.empty() ? nullptr : form_.data()};
   }
   std::size_t size() const { return order_.size(); }
   double lengthUnit() const { return length_unit_; }  ///< [m]
@@ -29,12 +28,12 @@ class PackedFaces {
  private:
   FaceBlock packBlock(const FaceTable& faces, std::size_t block) const;
   void setBounds(std::size_t block);
-  void packSharpness(const FaceTable& faces);
+  void packForm(const FaceTable& faces);
 
   std::vector<std::uint32_t> order_;  ///< of the faces in the blocks
   std::vector<FaceBlock> blocks_;
   std::vector<FaceBounds> bounds_;
-  std::vector<SharpnessBlock> sharpness_;
+  std::vector<FormBlock> form_;
   double length_unit_ = 1, area_unit_ = 1;
 };
 

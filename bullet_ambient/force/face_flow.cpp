@@ -17,7 +17,10 @@ FaceFlow computeFaceFlow(const FaceTable& faces, std::size_t face, double refere
   AMBIENT_ASSERT(!is_form || face < faces.sharpness.size());
   const double force = -0.5 * settings.density * faces.area[face];
   if (is_form)
-    flow.pressure = force * formPressure<double>(normal_speed, u.norm(), faces.sharpness[face]) * n;
+    flow.pressure =
+        force *
+        formPressure<double>(normal_speed, u.norm(), formFactors<double>(faces.sharpness[face])) *
+        n;
   flow.is_attached = normal_speed > settings.separation_cosine * u.norm();
   if (!flow.is_attached) return flow;
   flow.slip = normal_speed * n - u;

@@ -105,8 +105,9 @@ void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t
     const Doubles strength =
         strengthWhereAttached<kRightAngle>(normal_speed, area * speed_sq, speed_sq, motion);
     if (kForm) {
-      const Doubles form = formPressure<double>(
-          normal_speed, root(normal_speed * normal_speed + speed_sq), load(faces.sharpness + i));
+      const Doubles speed = root(normal_speed * normal_speed + speed_sq);
+      const Doubles form =
+          formPressure<double>(normal_speed, speed, formFactors<double>(load(faces.sharpness + i)));
       const Doubles zero = {};
       const Doubles lee = kRightAngle ? zero : (normal_speed > zero ? zero : strength);
       sum.add((area * form + lee) * n, c);

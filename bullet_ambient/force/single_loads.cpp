@@ -26,7 +26,7 @@ Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
                        const Twist& relative_twist, const LoadSettings& settings,
                        const SurfacePlane* plane) noexcept {
   AMBIENT_ASSERT(faces.size() == 0 ||
-                 (settings.law == PressureLaw::kForm) == (faces.blocks().sharpness != nullptr));
+                 (settings.law == PressureLaw::kForm) == (faces.blocks().form != nullptr));
   static const SumBlocks sum_blocks = kSumBlocks.fastest();
   const double length = faces.lengthUnit();
   const ScaledMotion motion = scaledMotion(relative_twist.angular, relative_twist.linear, length);

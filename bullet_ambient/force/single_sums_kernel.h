@@ -70,8 +70,9 @@ void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleM
     Floats pressure = strength;
     if (kForm) {
       const Floats speed = root(plusProduct(speed_sq, normal_speed, normal_speed));
-      const Floats sharpness = load(faces.sharpness[chosen[k]].values + lane);
-      pressure = area * formPressure<float>(normal_speed, speed, sharpness);
+      const FormBlock& form = faces.form[chosen[k]];
+      const FormFactors<Floats> factors{load(form.by_normal + lane), load(form.by_speed + lane)};
+      pressure = area * formPressure<float>(normal_speed, speed, factors);
       if (!kRightAngle) pressure = pressure + (normal_speed > Floats{} ? Floats{} : strength);
     }
     if (kFriction) {
@@ -185,7 +186,7 @@ LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
 template <bool kCut>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
   const bool friction = motion.friction > 0;
-  if (faces.sharpness)
+  if (faces.form)
     return friction ? sumBlocks<true, true, kCut>(faces, motion)
                     : sumBlocks<true, false, kCut>(faces, motion);
   return friction ? sumBlocks<false, true, kCut>(faces, motion)

@@ -98,9 +98,9 @@ TEST(FluidBodyCheck, RefusesASharpnessThatIsNone) {
             "b: face sharpness has 2 entries, but there are 80 face areas");
   EXPECT_EQ(refusalAfter([](FluidBody& b) {
               b.faces.sharpness.assign(80, 0.5);
-              b.faces.sharpness[7] = 1.5;
+              b.faces.sharpness[7] = 2.5;
             }),
-            "b: sharpness of face 7 is 1.5, but must be between 0 and 1");
+            "b: sharpness of face 7 is 2.5, but must be between 0 and 2");
 }
 
 TEST(FluidBodyCheck, RefusesTrianglesWithoutTheirVertices) {

@@ -15,11 +15,11 @@
 namespace ambient {
 namespace {
 
-/// Arbitrary faces; every third is flat, every third round.
+/// Arbitrary faces; every third is flat and part of a long side, every third round.
 FaceTable facesOf(test::Arbitrary& arbitrary, int level) {
   FaceTable faces = arbitrary.body(level);
   for (std::size_t i = 0; i < faces.size(); ++i)
-    faces.sharpness.push_back(i % 3 == 0 ? 1 : i % 3 == 1 ? 0 : arbitrary.between(0, 1));
+    faces.sharpness.push_back(i % 3 == 0 ? 1.25 : i % 3 == 1 ? 0 : arbitrary.between(0, 1));
   return faces;
 }
 

@@ -52,8 +52,8 @@ TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
   FluidBody body = *sphere();
   body.faces.sharpness.assign(body.faces.size(), 0.5);
   const auto sharp = std::make_shared<const FaceTable>(body.faces);
-  EXPECT_EQ(tables.packedFaces(sharp, PressureLaw::kPublished)->blocks().sharpness, nullptr);
-  EXPECT_NE(tables.packedFaces(sharp, PressureLaw::kForm)->blocks().sharpness, nullptr);
+  EXPECT_EQ(tables.packedFaces(sharp, PressureLaw::kPublished)->blocks().form, nullptr);
+  EXPECT_NE(tables.packedFaces(sharp, PressureLaw::kForm)->blocks().form, nullptr);
 }
 
 TEST(LoadTables, KeepAnUnusedSphereTableUntilTheNext) {

@@ -1,0 +1,31 @@
+#pragma once
+
+namespace ambient {
+
+// What the form law makes of the sharpness of a face, docs/theory.md eq. (43) to (45). Alike on
+// numbers and vectors of them, in one sequence of roundings: the same bits everywhere.
+
+constexpr double kWindwardDrag = 1.05;                  ///< b, of a flat face
+constexpr double kLeeDrag = 0.12;                       ///< e
+constexpr double kFlatDrag = kWindwardDrag + kLeeDrag;  ///< c: C_D of a plate broadside
+constexpr double kRoundRelief = 1 / kFlatDrag;          ///< gamma: C_D = 1/2 of a sphere
+
+/// What q is made of on one face: h = |u_n| (by_normal |u_n| + by_speed |u|). `Real`: a number or a
+/// vector of them.
+template <class Real>
+struct FormFactors {
+  Real by_normal, by_speed;
+};
+
+/// From the sharpness; above 1, h is that of a flat face times the sharpness.
+template <class Number, class Real>
+inline FormFactors<Real> formFactors(const Real& sharpness) {
+  constexpr auto kGamma = static_cast<Number>(kRoundRelief);
+  constexpr auto kFall = static_cast<Number>(1 + kRoundRelief);
+  const Real one = Real{} + static_cast<Number>(1);
+  const Real flat = sharpness < one ? sharpness : one;
+  const Real gain = sharpness > one ? sharpness : one;
+  return {gain * (kGamma - kFall * flat), gain * (flat + flat)};
+}
+
+}  // namespace ambient
