@@ -27,6 +27,7 @@ struct alignas(64) FaceBounds {
 struct alignas(64) FormBlock {
   float by_normal[FaceBlock::kFaces];
   float by_speed[FaceBlock::kFaces];
+  float by_lee[FaceBlock::kFaces];
 };
 
 /// The blocks of a shape with their bounds.
@@ -35,10 +36,11 @@ struct FaceBlocks {
   const FaceBounds* bounds;
   std::size_t count;                ///< of blocks
   const FormBlock* form = nullptr;  ///< null: the published law
+  const double* lee = nullptr;      ///< of the form law, without a surface: see addEvenPart()
 
   /// Those from a block on, without bounds.
   FaceBlocks from(std::size_t block) const {
-    return {blocks + block, nullptr, count - block, form ? form + block : nullptr};
+    return {blocks + block, nullptr, count - block, form ? form + block : nullptr, lee};
   }
 };
 

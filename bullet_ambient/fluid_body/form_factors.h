@@ -10,22 +10,24 @@ constexpr double kLeeDrag = 0.12;                       ///< e
 constexpr double kFlatDrag = kWindwardDrag + kLeeDrag;  ///< c: C_D of a plate broadside
 constexpr double kRoundRelief = 1 / kFlatDrag;          ///< gamma: C_D = 1/2 of a sphere
 
-/// What q is made of on one face: h = |u_n| (by_normal |u_n| + by_speed |u|). `Real`: a number or a
-/// vector of them.
+/// Of q = max(u_n, 0) (by_normal u_n + by_speed |u|) - by_lee u_n^2, eq. (44) of one face. `Real`:
+/// a number or a vector of them.
 template <class Real>
 struct FormFactors {
-  Real by_normal, by_speed;
+  Real by_normal, by_speed, by_lee;
 };
 
-/// From the sharpness; above 1, h is that of a flat face times the sharpness.
+/// From the sharpness; above 1, q is that of a flat face times the sharpness.
 template <class Number, class Real>
 inline FormFactors<Real> formFactors(const Real& sharpness) {
+  constexpr auto kC = static_cast<Number>(kFlatDrag);
+  constexpr auto kLee = static_cast<Number>(kLeeDrag);
   constexpr auto kGamma = static_cast<Number>(kRoundRelief);
-  constexpr auto kFall = static_cast<Number>(1 + kRoundRelief);
   const Real one = Real{} + static_cast<Number>(1);
   const Real flat = sharpness < one ? sharpness : one;
   const Real gain = sharpness > one ? sharpness : one;
-  return {gain * (kGamma - kFall * flat), gain * (flat + flat)};
+  return {gain * (one - (1 + kC) * flat), gain * ((kC + kC) * flat),
+          gain * (kLee * (kGamma + (1 - kGamma) * flat))};
 }
 
 }  // namespace ambient

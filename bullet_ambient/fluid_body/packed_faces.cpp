@@ -70,13 +70,27 @@ FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) cons
 void PackedFaces::packForm(const FaceTable& faces) {
   AMBIENT_ASSERT(faces.sharpness.size() == size());
   form_.resize(blocks_.size());  // all zero
+  lee_.resize(6 * 21);
   for (std::size_t i = 0; i < size(); ++i) {
     const auto sharpness = static_cast<float>(faces.sharpness[order_[i]]);
     const FormFactors<float> factors = formFactors<float>(sharpness);
     FormBlock& block = form_[i / FaceBlock::kFaces];
     block.by_normal[i % FaceBlock::kFaces] = factors.by_normal;
     block.by_speed[i % FaceBlock::kFaces] = factors.by_speed;
+    block.by_lee[i % FaceBlock::kFaces] = factors.by_lee;
+    addLee(faces, order_[i], static_cast<double>(factors.by_lee));
   }
+}
+
+void PackedFaces::addLee(const FaceTable& faces, std::size_t face, double by_lee) {
+  const Vector3 normal = faces.normal(face);
+  const Vector6 m = stack(faces.centroid(face).cross(normal) / length_unit_, normal);
+  const double strength = -by_lee * faces.area[face] / area_unit_;
+  std::size_t next = 0;
+  for (int i = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j)
+      for (int row = 0; row < 6; ++row)
+        lee_[next++] += strength * (i == j ? 1 : 2) * m[i] * m[j] * m[row];
 }
 
 void PackedFaces::setBounds(std::size_t block) {

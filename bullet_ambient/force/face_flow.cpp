@@ -18,8 +18,7 @@ FaceFlow computeFaceFlow(const FaceTable& faces, std::size_t face, double refere
   const double force = -0.5 * settings.density * faces.area[face];
   if (is_form)
     flow.pressure =
-        force *
-        formPressure<double>(normal_speed, u.norm(), formFactors<double>(faces.sharpness[face])) *
+        force * formPressure(normal_speed, u.norm(), formFactors<double>(faces.sharpness[face])) *
         n;
   flow.is_attached = normal_speed > settings.separation_cosine * u.norm();
   if (!flow.is_attached) return flow;

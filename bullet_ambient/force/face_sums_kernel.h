@@ -107,7 +107,7 @@ void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t
     if (kForm) {
       const Doubles speed = root(normal_speed * normal_speed + speed_sq);
       const Doubles form =
-          formPressure<double>(normal_speed, speed, formFactors<double>(load(faces.sharpness + i)));
+          formPressure(normal_speed, speed, formFactors<double>(load(faces.sharpness + i)));
       const Doubles zero = {};
       const Doubles lee = kRightAngle ? zero : (normal_speed > zero ? zero : strength);
       sum.add((area * form + lee) * n, c);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bullet_ambient/force/even_part.h"
 #include "bullet_ambient/force/form_pressure.h"
 #include "bullet_ambient/force/single_lanes.h"
 #include "bullet_ambient/force/single_sums.h"
@@ -47,8 +48,12 @@ struct Cuts {
   }
 };
 
+/// What the pressure is made of. By the form law the lee is a quadratic form of the motion, which
+/// is summed over all faces beforehand: kWindward leaves it out.
+enum class Pressure { kPublished, kForm, kWindward };
+
 /// kWidth lanes of a run of chosen blocks; docs/theory.md eq. (12) to (17), (43), (44), (59).
-template <bool kForm, bool kRightAngle, bool kFriction, bool kCut>
+template <Pressure kPressure, bool kRightAngle, bool kFriction, bool kCut>
 void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
             int lane, WrenchLanes& sums) {
   const Vectors w = broadcast(motion.angular);
@@ -68,11 +73,14 @@ void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleM
     const Floats strength =
         strengthWhereAttached<kRightAngle>(normal_speed, area * speed_sq, speed_sq, motion);
     Floats pressure = strength;
-    if (kForm) {
+    if (kPressure != Pressure::kPublished) {
       const Floats speed = root(plusProduct(speed_sq, normal_speed, normal_speed));
       const FormBlock& form = faces.form[chosen[k]];
-      const FormFactors<Floats> factors{load(form.by_normal + lane), load(form.by_speed + lane)};
-      pressure = area * formPressure<float>(normal_speed, speed, factors);
+      const FormFactors<Floats> factors{load(form.by_normal + lane), load(form.by_speed + lane),
+                                        load(form.by_lee + lane)};
+      pressure =
+          area * (kPressure == Pressure::kForm ? formPressure(normal_speed, speed, factors)
+                                               : windwardPressure(normal_speed, speed, factors));
       if (!kRightAngle) pressure = pressure + (normal_speed > Floats{} ? Floats{} : strength);
     }
     if (kFriction) {
@@ -104,13 +112,13 @@ inline void markAttached(const FaceBounds& bounds, const SingleMotion& motion,
   }
 }
 
-/// Some blocks: first those that the flow may be attached to, by the form law also the others.
+/// Some blocks: first those that the flow may be attached to, and the others if they are asked for.
 struct Choice {
   int attached[kChoice], rest[kChoice];
   int count = 0;
 };
 
-template <bool kForm>
+template <bool kRest>
 inline void chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion& motion,
                          Choice& choice) {
   int count = 0;
@@ -120,27 +128,27 @@ inline void chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion&
     const int end = size - first < kLanes ? size - first : kLanes;
     for (int i = 0; i < end; ++i) {
       choice.attached[count] = first + i;
-      if (kForm) choice.rest[first + i - count] = first + i;
+      if (kRest) choice.rest[first + i - count] = first + i;
       count -= marks[i];
     }
   }
   choice.count = count;
 }
 
-template <bool kForm, bool kRightAngle, bool kFriction, bool kCut>
+template <Pressure kPressure, bool kRightAngle, bool kFriction, bool kCut>
 void sumChosen(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
                WrenchTotal& total) {
   WrenchLanes run;
   for (int lane = 0; lane < kLanes; lane += kWidth)
-    sumRun<kForm, kRightAngle, kFriction, kCut>(faces, chosen, count, motion, lane, run);
+    sumRun<kPressure, kRightAngle, kFriction, kCut>(faces, chosen, count, motion, lane, run);
   total.add(run);
 }
 
-template <bool kForm, bool kFriction, bool kCut>
+template <Pressure kPressure, bool kFriction, bool kCut>
 void sumRuns(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
              WrenchTotal& total) {
   for (int first = 0; first < count; first += kRun)
-    sumChosen<kForm, true, kFriction, kCut>(
+    sumChosen<kPressure, true, kFriction, kCut>(
         faces, chosen + first, count - first < kRun ? count - first : kRun, motion, total);
 }
 
@@ -148,28 +156,39 @@ inline int atMost(std::size_t count, int limit) {
   return count < static_cast<std::size_t>(limit) ? static_cast<int>(count) : limit;
 }
 
-/// Beyond a right angle the flow is attached to nearly all. Without friction the form law has all
-/// to do in the lee, too.
+/// Beyond a right angle the flow is attached to nearly all. Where a surface cuts the body, the lee
+/// is that of its wet faces, and is summed after all.
 template <bool kForm, bool kFriction, bool kCut>
 LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
+  constexpr Pressure kPressure = !kForm ? Pressure::kPublished
+                                 : kCut ? Pressure::kForm
+                                        : Pressure::kWindward;
   WrenchTotal total;
   Choice choice;
   for (std::size_t begin = 0; begin < faces.count; begin += kChoice) {
     const int size = atMost(faces.count - begin, kChoice);
     const FaceBlocks blocks = faces.from(begin);
-    chooseBlocks<kForm>(faces.bounds + begin / kLanes, size, motion, choice);
-    sumRuns<kForm, kFriction, kCut>(blocks, choice.attached, choice.count, motion, total);
-    if (kForm) sumRuns<kForm, false, kCut>(blocks, choice.rest, size - choice.count, motion, total);
+    chooseBlocks<kForm && kCut>(faces.bounds + begin / kLanes, size, motion, choice);
+    sumRuns<kPressure, kFriction, kCut>(blocks, choice.attached, choice.count, motion, total);
+    if (kForm && kCut)
+      sumRuns<kPressure, false, kCut>(blocks, choice.rest, size - choice.count, motion, total);
   }
-  return total.sum();
+  LoadSums sums = total.sum();
+  if (kPressure == Pressure::kWindward) {
+    const float(&w)[3] = motion.angular, (&v)[3] = motion.linear;
+    const double x[6] = {w[0], w[1], w[2], v[0], v[1], v[2]};
+    addEvenPart(faces.lee, x, sums);
+  }
+  return sums;
 }
 
 template <bool kForm, bool kRightAngle, bool kFriction, bool kCut>
 LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   static constexpr int kAll[kRun] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  constexpr Pressure kPressure = kForm ? Pressure::kForm : Pressure::kPublished;
   WrenchTotal total;
   for (std::size_t begin = 0; begin < faces.count; begin += kRun)
-    sumChosen<kForm, kRightAngle, kFriction, kCut>(
+    sumChosen<kPressure, kRightAngle, kFriction, kCut>(
         faces.from(begin), kAll, atMost(faces.count - begin, kRun), motion, total);
   return total.sum();
 }
@@ -178,9 +197,8 @@ template <bool kForm, bool kFriction, bool kCut>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
   constexpr std::size_t kFewest = 12;  // to choose from: below, that costs more than it saves
   if (motion.signed_cosine_sq != 0) return sumAll<kForm, false, kFriction, kCut>(faces, motion);
-  return faces.count < kFewest || (kForm && !kFriction)
-             ? sumAll<kForm, true, kFriction, kCut>(faces, motion)
-             : sumWhereAttached<kForm, kFriction, kCut>(faces, motion);
+  return faces.count < kFewest ? sumAll<kForm, true, kFriction, kCut>(faces, motion)
+                               : sumWhereAttached<kForm, kFriction, kCut>(faces, motion);
 }
 
 template <bool kCut>

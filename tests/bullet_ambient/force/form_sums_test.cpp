@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -90,10 +91,12 @@ Wrench pressureOf(const FaceTable& faces, const Twist& x, double density) {
   Wrench sum;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Vector3 u = x.at(faces.centroid(i)), n = faces.normal(i);
-    const double un = n.dot(u), s = faces.sharpness[i], flat = 1.05 + 0.12;
-    const double h =
-        ((1 - s) / flat + s) * un * un + 2 * s * std::abs(un) * (u.norm() - std::abs(un));
-    const double pressure = 0.5 * density * (un > 0 ? 1.05 * h : -0.12 * h);
+    const double un = n.dot(u), flat = 1.05 + 0.12;
+    const double s = std::min(faces.sharpness[i], 1.0), gain = std::max(faces.sharpness[i], 1.0);
+    const double g = (1 - s) / flat + s;
+    const double q = un > 0 ? 1.05 * g * un * un + 2 * flat * s * un * (u.norm() - un)
+                            : -0.12 * g * un * un;
+    const double pressure = 0.5 * density * gain * q;
     sum += Wrench::ofForceAt(-pressure * faces.area[i] * n, faces.centroid(i));
   }
   return sum;
