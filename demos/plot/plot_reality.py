@@ -95,6 +95,7 @@ def add_tables(page, reality, numbers):
     page.add(table(tables.CASE_HEAD, tables.case_rows(reality.from_memory)))
     page.add(texts.STALL)
     page.add(table(("span/chord", "measured", "source", "published", "form"), tables.stall_rows(reality)))
+    page.add(texts.TRIED)
     page.add(texts.NOT)
     page.add(table(("", "work", "seen", "pages"), tables.source_rows(reality)))
 

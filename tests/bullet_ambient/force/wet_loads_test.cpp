@@ -51,8 +51,12 @@ TEST(WetLoads, AreAllOrNothingFarFromTheSurface) {
     const auto loads = makeWaterlineLoads(roundBody(2), kLiquid, flow, tables);
     const Wrench all = loads->load(x);
     const Wrench deep = loads->wetLoad(x, wetBelow({1, 2, 3}, 1.2, 1));
-    EXPECT_EQ(deep.force, all.force);
-    EXPECT_EQ(deep.torque, all.torque);
+    // By the form law the lee of a body without surface is summed beforehand.
+    const bool is_rounded =
+        flow.law == PressureLaw::kForm && flow.precision == LoadPrecision::kSingle;
+    const double rounding = is_rounded ? 3e-6 * sizeOf(all) : 0;
+    EXPECT_LE((deep.force - all.force).norm(), rounding);
+    EXPECT_LE((deep.torque - all.torque).norm(), rounding);
     EXPECT_EQ(sizeOf(loads->wetLoad(x, wetBelow({1, 2, 3}, -1.2, 0))), 0);
   }
 }
