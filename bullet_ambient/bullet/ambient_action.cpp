@@ -30,14 +30,13 @@ bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) 
 // Whether the body that the solver met is still there: it may have been removed and destroyed
 // since, by another action, or long ago if that substep had no action. Removals swap the world's
 // array.
-bool isStillIn(const btCollisionWorld& world, const AmbientBodies& bodies,
-               const AmbientBody& ambient) {
+bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   int index = ambient.outcome.world_index;
   if (index < 0 || index >= objects.size() || objects[index] != ambient.body) {
     index = objects.findLinearSearch(ambient.body);
   }
-  return index < objects.size() && bodies.find(objects[index]) == &ambient;
+  return index < objects.size() && AmbientBodies::isSame(ambient);
 }
 
 void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& complaints) {
@@ -75,7 +74,7 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   AmbientBodies& bodies = bodiesOf(registry_);
   for (AmbientBody* ambient = bodies.takeMet(); ambient; ambient = ambient->next_met) {
     const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotMet);
-    if (kind == Outcome::kStock || !isStillIn(*world, bodies, *ambient)) continue;
+    if (kind == Outcome::kStock || !isStillIn(*world, *ambient)) continue;
     complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }
   bodies.regions.time += static_cast<double>(time_step);

@@ -24,9 +24,14 @@ int instanceNumber(const btRigidBody& body) noexcept { return readNumber(body); 
 AmbientBody* AmbientBodies::find(const btCollisionObject* body) const {
   const auto found = by_object_.find(body);
   if (found == by_object_.end()) return nullptr;
-  const btRigidBody* rigid = btRigidBody::upcast(body);
   AmbientBody* ambient = found->second->get();
-  return rigid && instanceNumber(*rigid) == ambient->instance ? ambient : nullptr;
+  return isSame(*ambient) ? ambient : nullptr;
+}
+
+bool AmbientBodies::isSame(const AmbientBody& ambient) {
+  const btCollisionObject* object = ambient.body;
+  const btRigidBody* rigid = btRigidBody::upcast(object);
+  return rigid && instanceNumber(*rigid) == ambient.instance;
 }
 
 AmbientBody& AmbientBodies::require(const btRigidBody& body) const {

@@ -32,6 +32,8 @@ class AmbientBodies {
   /// The body that was attached, never another one at its address; null if there is none.
   /// @pre the body is alive, or nothing was attached at its address.
   AmbientBody* find(const btCollisionObject* body) const;
+  /// Whether what is at the address of an attached body is still that one. @pre it is an object.
+  static bool isSame(const AmbientBody& ambient);
   /// @throws std::invalid_argument if it is not attached.
   AmbientBody& require(const btRigidBody& body) const;
 

@@ -63,7 +63,7 @@ void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody&
   const BodyModel& model = ambient.model;
   const Medium& medium = ambient.medium;
   RowMotion& rows = ambient.outcome.rows;
-  rows.start = readState(*ambient.body);
+  rows.start = row_body.start;
   rows.flow_W = medium.velocity + time_step * medium.acceleration;
   const Quaternion to_body = rows.start.orientation.conjugate();
   rows.start.twist =
@@ -75,7 +75,8 @@ void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody&
   double extent = row_body.extent;
   if (!row_body.is_locked) {
     rows.momentum = worldMomentum(model, kept);
-    extent = std::max(extent, computeTurning(model, rows.start.twist, time_step).extent);
+    const DualPair moved = pairOfTwist(model, rows.start.twist.vector());
+    extent = std::max(extent, computeTurning(model, moved, time_step).extent);
   }
   if (extent > kSlowTurn) {
     const Vector6 by_rows = turnedBy(to_body, changeByRows(solver_body)).vector();

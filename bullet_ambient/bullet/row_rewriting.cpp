@@ -50,7 +50,7 @@ btScalar pointAlongLockedAxes(const Party& party) {
   const RowSide& side = party.side;
   side.angular = body.root_inertia * (side.angular * body.locked_angular);
   side.linear = side.linear * body.locked_linear / btSqrt(body.inverse_mass);
-  side.angular_component = body.inverse_inertia * side.angular;
+  side.angular_component = times(side.angular, body.inverse_inertia_T);
   return diagonal(body, side);
 }
 
@@ -118,10 +118,10 @@ RowBody& RowBodies::add(int solver_body) {
 
 btScalar changeBasis(const RowBody& body, RowSide side) noexcept {
   const WorldBasis& T = body.basis;
-  const btVector3 angular = side.angular;
-  side.angular = angular * T.angular;  // v * M is M^T v
-  side.linear = side.linear * T.linear + angular * T.coupling;
-  side.angular_component = body.inverse_inertia * side.angular;
+  const btVector3 angular = times(side.angular, T.angular);
+  side.linear = times(side.linear, T.linear) + times(side.angular, T.coupling);
+  side.angular = angular;
+  side.angular_component = times(angular, body.inverse_inertia_T);
   return diagonal(body, side);
 }
 
@@ -130,9 +130,10 @@ btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noe
          side.angular.dot(side.angular_component);
 }
 
-void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
+void rewriteRows(btConstraintArray& rows, int first, RowPoolKind pool, RowBodies& bodies,
                  const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
-  for (int i = 0; i < rows.size(); ++i) {
+  const RowKind kind = pool.kind;
+  for (int i = first; i < rows.size(); ++i) {
     btSolverConstraint& row = rows[i];
     // The multithreaded solver leaves rows of torsional friction that it does not need unset.
     if (kind == RowKind::kTorsionalFriction && row.m_frictionIndex < 0) continue;
@@ -142,7 +143,7 @@ void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, Row
     const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
     const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
     rewriteRow(row, kind, {a, solver_bodies[row.m_solverBodyIdA], side_a},
-               {b, solver_bodies[row.m_solverBodyIdB], side_b}, relaxation);
+               {b, solver_bodies[row.m_solverBodyIdB], side_b}, pool.relaxation);
     ++(a ? a : b)->rows;
   }
 }

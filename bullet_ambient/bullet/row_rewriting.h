@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/velocity_basis.h"
+#include "bullet_ambient/motion/rigid_state.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -33,12 +34,13 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 /// One ambient body as its rows see it during one step. World axes.
 struct RowBody {
   WorldBasis basis;
-  btMatrix3x3 inverse_inertia;     ///< Bullet's, without fluid
+  btMatrix3x3 inverse_inertia_T;   ///< Bullet's, without fluid, transposed as to rounding
   btScalar inverse_mass = 0;       ///< Bullet's, without fluid
   btVector3 spin_change{0, 0, 0};  ///< of the step, outside the rows
   btVector3 velocity_change{0, 0, 0};
   btVector3 spin_aside{0, 0, 0};  ///< more than that is shown to contacts as they are set up
   btVector3 velocity_aside{0, 0, 0};
+  RigidState start;   ///< in which the solver meets it
   Twist turning_W;    ///< share of the turning part in the velocity that rows are solved against
   double extent = 0;  ///< of the turn in this step
   int rows = 0;       ///< how many were rewritten
@@ -87,15 +89,31 @@ struct RowSide {
 /// Part of the response without fluid below which a row of a locked body has none: rounding of T.
 constexpr btScalar kNoResponse = 64 * SIMD_EPSILON;
 
+/// v M = M^T v, a combination of the rows of M: four numbers at a time.
+inline btVector3 times(const btVector3& v, const btMatrix3x3& M) noexcept {
+  const btScalar *x = M[0].m_floats, *y = M[1].m_floats, *z = M[2].m_floats;
+  const btScalar vx = v.m_floats[0], vy = v.m_floats[1], vz = v.m_floats[2];
+  btVector3 sum;
+  for (int i = 0; i < 4; ++i) sum.m_floats[i] = (x[i] * vx + y[i] * vy) + z[i] * vz;
+  return sum;
+}
+
 /// J' = J T for an ambient body, docs/theory.md eq. (27). Returns J' D J'^T [1/kg].
 btScalar changeBasis(const RowBody& body, RowSide side) noexcept;
 
 /// J D J^T of a body that is not ambient [1/kg].
 btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noexcept;
 
-/// Brings all rows of a pool that touch ambient bodies into their velocity bases. `relaxation`: the
-/// solver's m_sor for contact and friction rows, 1 for the others.
-void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
+/// Rows of one pool, and the solver's relaxation of them: m_sor for contact and friction rows, 1
+/// for the others.
+struct RowPoolKind {
+  RowKind kind;
+  btScalar relaxation;
+};
+
+/// Brings all rows of a pool from the one at `first` on that touch ambient bodies into their
+/// velocity bases.
+void rewriteRows(btConstraintArray& rows, int first, RowPoolKind pool, RowBodies& bodies,
                  const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
 
 /// Applies the impulses that contact rows begin with to ambient bodies, in their bases.

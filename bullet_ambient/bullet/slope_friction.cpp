@@ -5,6 +5,13 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+namespace {
+
+// Of a push along the normal: a millimetre in ten seconds on a slope.
+constexpr double kEvenPush = 1e-3;
+
+}  // namespace
+
 bool isHeldAslant(const btVector3& push_W, const btVector3& normal_W, btScalar friction) noexcept {
   constexpr btScalar kFlat = btScalar(0.01);
   const btScalar pressed = -push_W.dot(normal_W);
@@ -12,9 +19,14 @@ bool isHeldAslant(const btVector3& push_W, const btVector3& normal_W, btScalar f
   return along > kFlat * pressed && along <= friction * pressed;
 }
 
+bool mayTurnAside(const AmbientBody& ambient) noexcept {
+  const BodyModel& model = ambient.model;
+  const Vector3 response = model.inverse_inertia.diagonal().tail<3>();
+  return !model.has_diagonal_inertia ||
+         response.maxCoeff() - response.minCoeff() > kEvenPush * response.minCoeff();
+}
+
 bool turnsAside(const AmbientBody& ambient, const btVector3& normal_W) noexcept {
-  // Of a push along the normal: a millimetre in ten seconds on a slope.
-  constexpr double kEvenPush = 1e-3;
   const BodyModel& model = ambient.model;
   if (!model.has_diagonal_inertia) return true;
   const btMatrix3x3& rotation = ambient.body->getWorldTransform().getBasis();

@@ -12,6 +12,9 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 /// than a hundredth, and no more than friction can hold. `normal_W`: from the second to the first.
 bool isHeldAslant(const btVector3& push_W, const btVector3& normal_W, btScalar friction) noexcept;
 
+/// False: no push does what turnsAside() asks.
+bool mayTurnAside(const AmbientBody& ambient) noexcept;
+
 /// Whether a push along the normal makes a body slip across it by its fluid.
 bool turnsAside(const AmbientBody& ambient, const btVector3& normal_W) noexcept;
 

@@ -1,5 +1,6 @@
 #include "bullet_ambient/bullet/solver_group.h"
 
+#include <BulletCollision/NarrowPhaseCollision/btManifoldPoint.h>
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
@@ -132,6 +133,9 @@ SolverGroup::SolverGroup(AmbientRegistry& registry)
 SolverGroup::~SolverGroup() = default;
 
 void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
+  rewritten_ = {};
+  may_hold_slopes_ = false;
+  row_bodies_->reset(0);
   if (members_.empty()) return;
   member_of_solver_body_.assign(solver_bodies.size(), -1);
   row_bodies_->reset(solver_bodies.size());
@@ -142,6 +146,7 @@ void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
     member_of_solver_body_[member.solver_body] = static_cast<int>(i);
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     if (member.has_rows || member.is_locked) {
+      may_hold_slopes_ = may_hold_slopes_ || mayTurnAside(*member.ambient);
       prepareForRows(member, solver_body);
     } else {
       setExternalImpulse(solver_body, Twist{});
@@ -162,8 +167,10 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   const AxisFactors factors = axisFactors(body);
   RowVelocity row = member.is_locked ? computeLockedVelocity(task, start, factors)
                                      : computeRowVelocity(task, start);
-  row.change_W.angular += start.orientation * by_waves.head<3>();
-  row.change_W.linear += start.orientation * by_waves.tail<3>();
+  if (ambient.surface()) {
+    row.change_W.angular += start.orientation * by_waves.head<3>();
+    row.change_W.linear += start.orientation * by_waves.tail<3>();
+  }
   countLoads(ambient, row.count.load_evaluations);
   ambient.counters.guarded += row.count.guarded;
   if (!row.change_W.vector().allFinite()) {
@@ -174,9 +181,10 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
 
   RowBody& row_body = row_bodies_->add(member.solver_body);
+  row_body.start = start;
   row_body.turning_W = row.turning_W;
   row_body.extent = row.extent;
-  row_body.inverse_inertia = body.getInvInertiaTensorWorld();
+  row_body.inverse_inertia_T = body.getInvInertiaTensorWorld().transpose();
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
   row_body.velocity_change = solver_body.m_externalForceImpulse;
@@ -185,7 +193,10 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   if (member.is_locked) {
     lock(row_body, ambient, factors, solver_body);
   } else {
-    row_body.basis = toWorld(basisOf(ambient), start.orientation.toRotationMatrix());
+    const Matrix3 R = start.orientation.toRotationMatrix();
+    const bool is_diagonal = ambient.model.has_diagonal_inertia && !ambient.surface();
+    row_body.basis = is_diagonal ? toWorld(Vector6(ambient.basis_B.diagonal()), R)
+                                 : toWorld(basisOf(ambient), R);
   }
 }
 
@@ -204,9 +215,8 @@ void SolverGroup::showPush(SolverBodies& solver_bodies, Push push) noexcept {
 
 bool SolverGroup::holdsSlope(const SolverBodies& solver_bodies,
                              const btSolverConstraint& contact) const noexcept {
-  // One of the two is zero where Bullet knows no body.
-  const btVector3 normal =
-      isZero(contact.m_contactNormal1) ? -contact.m_contactNormal2 : contact.m_contactNormal1;
+  const btVector3& normal =
+      static_cast<const btManifoldPoint*>(contact.m_originalContactPoint)->m_normalWorldOnB;
   const btVector3 push = solver_bodies[contact.m_solverBodyIdA].m_externalForceImpulse -
                          solver_bodies[contact.m_solverBodyIdB].m_externalForceImpulse;
   if (!isHeldAslant(push, normal, contact.m_friction)) return false;
@@ -217,6 +227,18 @@ bool SolverGroup::holdsSlope(const SolverBodies& solver_bodies,
   return false;
 }
 
+void SolverGroup::rewriteContacts(SolverBodies& solver_bodies, const RowPools& rows,
+                                  const btContactSolverInfo& info) noexcept {
+  if (row_bodies_->empty()) return;
+  const auto rewrite = [&](btConstraintArray& pool, int& first, RowKind kind, btScalar relaxation) {
+    ambient::rewriteRows(pool, first, {kind, relaxation}, *row_bodies_, solver_bodies);
+    first = pool.size();
+  };
+  rewrite(rows.contacts, rewritten_.contacts, RowKind::kContact, info.m_sor);
+  rewrite(rows.frictions, rewritten_.frictions, RowKind::kFriction, info.m_sor);
+  rewrite(rows.torsional_frictions, rewritten_.torsional_frictions, RowKind::kTorsionalFriction, 1);
+}
+
 void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                               const MultiBodyRows* multibodies,
                               const btContactSolverInfo& info) noexcept {
@@ -224,13 +246,8 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
   if (multibodies) prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
   if (row_bodies_->empty()) return;
   saveFeedbackJacobians(rows.joints);
-  const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
-    ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);
-  };
-  rewrite(rows.contacts, RowKind::kContact, info.m_sor);
-  rewrite(rows.frictions, RowKind::kFriction, info.m_sor);
-  rewrite(rows.torsional_frictions, RowKind::kTorsionalFriction, 1);
-  rewrite(rows.joints, RowKind::kJoint, 1);
+  rewriteContacts(solver_bodies, rows, info);
+  ambient::rewriteRows(rows.joints, 0, {RowKind::kJoint, 1}, *row_bodies_, solver_bodies);
   if (multibodies) rewriteMultiBodyRows(*multibodies, info, *row_bodies_, solver_bodies);
   reapplyWarmStart(solver_bodies, rows, multibodies, info.m_solverMode);
 }

@@ -31,6 +31,11 @@ struct RowPools {
   btConstraintArray& joints;
 };
 
+/// How many of them there are.
+struct RowCounts {
+  int contacts = 0, frictions = 0, torsional_frictions = 0;
+};
+
 /// The rows between multibodies and what they touch or are joined to.
 struct MultiBodyRows {
   btAlignedObjectArray<btMultiBodySolverConstraint>& contacts;
@@ -83,14 +88,22 @@ class SolverGroup {
   enum class Push { kEven, kTrue };
   void showPush(SolverBodies& solver_bodies, Push push) noexcept;
 
+  /// False: no contact does what holdsSlope() asks.
+  bool mayHoldSlopes() const { return may_hold_slopes_; }
+
   /// While it is shown: whether a contact is pushed along its face, by no more than friction can
   /// hold, and a push along its normal makes a body slip across it by its fluid.
   bool holdsSlope(const SolverBodies& solver_bodies,
                   const btSolverConstraint& contact) const noexcept;
 
-  /// After the stock conversion of joints and contacts: rewrites every row that touches an ambient
-  /// body, and applies the impulses of warm starting in the new bases. `multibodies`: null for
-  /// solvers without.
+  /// After the stock conversion of some contacts: rewrites those of their rows that touch an
+  /// ambient body and are new since the last call.
+  void rewriteContacts(SolverBodies& solver_bodies, const RowPools& rows,
+                       const btContactSolverInfo& info) noexcept;
+  static constexpr int kManifoldsTogether = 16;  ///< whose rows a processor's cache holds
+
+  /// After the stock conversion of joints and contacts: rewrites what is left, and applies the
+  /// impulses of warm starting in the new bases. `multibodies`: null for solvers without.
   void rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                    const MultiBodyRows* multibodies, const btContactSolverInfo& info) noexcept;
 
@@ -133,6 +146,8 @@ class SolverGroup {
 
   AmbientBodies& bodies_;
   double time_step_ = 0;
+  bool may_hold_slopes_ = false;
+  RowCounts rewritten_;
   std::vector<Member> members_;
   std::vector<btCollisionObject*> converted_;  // those that the solver has to know
   std::vector<int> member_of_solver_body_;     // -1: not ambient

@@ -38,6 +38,15 @@ WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& R) {
   return {toBulletMatrix(angular), toBulletMatrix(coupling), toBulletMatrix(linear)};
 }
 
+WorldBasis toWorld(const Vector6& basis_B, const Matrix3& R) {
+  const Matrix3 angular = R * basis_B.head<3>().asDiagonal() * R.transpose();
+  const Matrix3 linear = R * basis_B.tail<3>().asDiagonal() * R.transpose();
+  WorldBasis T;
+  T.angular = toBulletMatrix(angular);
+  T.linear = toBulletMatrix(linear);
+  return T;
+}
+
 Matrix3 rootInertia(const Vector3& inertia_diagonal, const Matrix3& R) {
   return R * inertia_diagonal.cwiseSqrt().asDiagonal() * R.transpose();
 }

@@ -21,6 +21,8 @@ struct WorldBasis {
   btMatrix3x3 linear = btMatrix3x3::getIdentity();     ///< v from v'
 };
 WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& rotation_WB);
+/// The same of a diagonal basis.
+WorldBasis toWorld(const Vector6& basis_B, const Matrix3& rotation_WB);
 
 /// T in world axes for a body with locked axes: T D T^T = K_eff^-1 of docs/theory.md eq. (30). It
 /// is not constant in body axes, and singular: locked axes of u' do not move the body.

@@ -25,7 +25,7 @@ class LockedRates {
 
   // Acceleration of the velocity in world axes, written in body axes.
   Vector6 acceleration(const Vector6& x) const {
-    const Vector6 gyroscopic = gyroscopicWrench(inertia_, Twist::fromVector(x)).vector();
+    const Vector6 gyroscopic = gyroscopicWrench({x, inertia_ * x}).vector();
     return response_ * (gyroscopic + inertia_ * turning(x)) + forced_;
   }
   // What it is more than the rate of the body's coordinates, because these turn: (0, w x v).
@@ -103,7 +103,8 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
     forced += (passiveKick(motion, {motion, sample}, dt).twist - x) / dt;
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
-  result.extent = extentOf(model, dt * (rates.acceleration(x) - forced), x, {1 / dt, 0.3});
+  result.extent =
+      extentOf(model, dt * (rates.acceleration(x) - forced), pairOfTwist(model, x), {1 / dt, 0.3});
   Vector6 turning = Vector6::Zero();
   if (result.extent <= 1) turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
   const Vector6 free = projectionOf(factors);

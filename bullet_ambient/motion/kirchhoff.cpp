@@ -2,13 +2,14 @@
 
 namespace ambient {
 
-Wrench gyroscopicWrench(const Matrix6& inertia, const Twist& x) {
-  const Momentum m = Momentum::fromVector(inertia * x.vector());
+Wrench gyroscopicWrench(const DualPair& motion) {
+  const Twist x = Twist::fromVector(motion.twist);
+  const Momentum m = Momentum::fromVector(motion.momentum);
   return {m.angular.cross(x.angular) + m.linear.cross(x.linear), m.linear.cross(x.angular)};
 }
 
 WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state) {
-  const Momentum m = Momentum::fromVector(model.inertia * state.twist.vector());
+  const Momentum m = Momentum::fromVector(pairOfTwist(model, state.twist.vector()).momentum);
   return {state.orientation * m.linear, state.orientation * m.angular, state.position};
 }
 
@@ -18,7 +19,7 @@ Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quate
       momentum.angular - (position - momentum.pivot).cross(momentum.linear);
   const Matrix3 to_body = orientation.toRotationMatrix().transpose();
   const Momentum m{to_body * about_centre, to_body * momentum.linear};
-  return Twist::fromVector(model.inverse_inertia * m.vector());
+  return Twist::fromVector(pairOfMomentum(model, m.vector()).twist);
 }
 
 }  // namespace ambient

@@ -6,8 +6,8 @@
 namespace ambient {
 
 /// Gyroscopic terms of Kirchhoff's equations in B, docs/theory.md eq. (2): K dx/dt = (l x w + p x
-/// v, p x w) + wrench.
-Wrench gyroscopicWrench(const Matrix6& inertia, const Twist& x);
+/// v, p x w) + wrench, for a twist x with the momentum (l, p) = K x.
+Wrench gyroscopicWrench(const DualPair& x);
 
 /// Linear and angular momentum of body and fluid in world axes; the angular one about `pivot`.
 /// Without loads both stay constant.

@@ -7,19 +7,29 @@
 #include "bullet_ambient/motion/passive_kick.h"
 
 namespace ambient {
+namespace {
 
-double extentOf(const BodyModel& model, const Vector6& change, const Vector6& x,
-                const TurnLimits& limits) noexcept {
-  const double energy = inertiaNormSquared(model, x);
-  const double part = energy > 0 ? std::sqrt(inertiaNormSquared(model, change) / energy) : 0;
-  return std::max(x.head<3>().norm() / limits.spin, part / limits.change);
+// dt K^-1 F
+Vector6 changeOfVelocity(const BodyModel& model, const Vector6& wrench, double dt) {
+  if (model.has_diagonal_inertia)
+    return (dt * model.inverse_inertia.diagonal()).cwiseProduct(wrench);
+  return dt * (model.inverse_inertia * wrench);
 }
 
-Turning computeTurning(const BodyModel& model, const Twist& x, double duration) noexcept {
-  Vector6 change =
-      duration * pairOfMomentum(model, gyroscopicWrench(model.inertia, x).vector()).twist;
+}  // namespace
+
+double extentOf(const BodyModel& model, const Vector6& change, const DualPair& motion,
+                const TurnLimits& limits) noexcept {
+  const double energy = inner(motion, motion);
+  const double part = energy > 0 ? std::sqrt(inertiaNormSquared(model, change) / energy) : 0;
+  return std::max(motion.twist.head<3>().norm() / limits.spin, part / limits.change);
+}
+
+Turning computeTurning(const BodyModel& model, const DualPair& motion, double duration) noexcept {
+  const Twist x = Twist::fromVector(motion.twist);
+  Vector6 change = duration * pairOfMomentum(model, gyroscopicWrench(motion).vector()).twist;
   change.tail<3>() += duration * x.angular.cross(x.linear);
-  return {change, extentOf(model, change, x.vector(), {0.5 / duration, 0.45})};
+  return {change, extentOf(model, change, motion, {0.5 / duration, 0.45})};
 }
 
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept {
@@ -28,27 +38,27 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   const double dt = task.duration;
   RowVelocity result;
   Twist relative = start.twist;
-  relative.linear -= start.orientation.conjugate() * s.ambient_velocity;
-  const Vector6 x = relative.vector();
+  if (!s.ambient_velocity.isZero(0))
+    relative.linear -= start.orientation.conjugate() * s.ambient_velocity;
+  const DualPair motion = pairOfTwist(model, relative.vector());
 
-  Vector6 impulse = dt * (model.inverse_inertia *
-                          externalWrench(model, s, start.orientation.toRotationMatrix()).vector());
+  const Wrench external = externalWrench(model, s, start.orientation.toRotationMatrix());
+  Vector6 impulse = changeOfVelocity(model, external.vector(), dt);
   if (model.loads) {
     const SurfaceLoad load = computeSurfaceLoad(model, relative);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;
     // dt K^-1 F to first order, but it cannot reverse the motion however long the step.
-    const DualPair motion = pairOfTwist(model, x);
     const DualPair sample = pairOfMomentum(model, load.wrench.vector());
-    impulse += passiveKick(motion, {motion, sample}, dt).twist - x;
+    impulse += passiveKick(motion, {motion, sample}, dt).twist - motion.twist;
   }
-  const Turning turning = computeTurning(model, relative, dt);
+  const Turning turning = computeTurning(model, motion, dt);
   const Vector6 share = std::clamp(1 - turning.extent, 0.0, 0.5) * turning.change;
   result.extent = turning.extent;
   const Quaternion& q = start.orientation;
   result.turning_W = {q * share.head<3>(), q * share.tail<3>()};
   const Vector6 aside = model.even_response.beyond(pairOfTwist(model, impulse).momentum, impulse);
-  result.aside_W = {q * aside.head<3>(), q * aside.tail<3>()};
+  if (!aside.isZero(0)) result.aside_W = {q * aside.head<3>(), q * aside.tail<3>()};
   result.change_W.angular = result.turning_W.angular + q * impulse.head<3>();
   result.change_W.linear =
       result.turning_W.linear + q * impulse.tail<3>() + dt * s.ambient_acceleration;

@@ -16,12 +16,12 @@ struct TurnLimits {
   double spin;    ///< [rad/s]
   double change;  ///< over the twist, in the norm of K
 };
-/// The larger of both over their limits, for the twist x.
-double extentOf(const BodyModel& model, const Vector6& change, const Vector6& x,
+/// The larger of both over their limits, for a motion.
+double extentOf(const BodyModel& model, const Vector6& change, const DualPair& motion,
                 const TurnLimits& limits) noexcept;
 
-/// Of a free body with the twist x (in B, relative to the flow), explicit.
-Turning computeTurning(const BodyModel& model, const Twist& x, double duration) noexcept;
+/// Of a free body with a motion relative to the flow, explicit.
+Turning computeTurning(const BodyModel& model, const DualPair& motion, double duration) noexcept;
 
 /// Up to this extent a step follows the turn, and needs no bound of energy.
 constexpr double kSlowTurn = 0.5;

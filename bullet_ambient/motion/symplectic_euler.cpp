@@ -14,7 +14,7 @@ FlightResult flySymplecticEuler(const FlightTask& task, const RigidState& start)
   RigidState& s = flight.state;
   for (int i = 0; i < flight.count.substeps; ++i) {
     Wrench wrench = externalWrench(model, task.surroundings, s.orientation.toRotationMatrix()) +
-                    gyroscopicWrench(model.inertia, s.twist);
+                    gyroscopicWrench(pairOfTwist(model, s.twist.vector()));
     if (model.loads) {
       const SurfaceLoad load = computeSurfaceLoad(model, s.twist);
       ++flight.count.load_evaluations;
