@@ -2,7 +2,6 @@
 
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 
-#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -36,9 +35,6 @@ class AmbientSolver : public Base {
   static constexpr bool kHasEvenFrictions =
       std::is_base_of_v<btMLCPSolver, Base> ||
       std::is_base_of_v<btSequentialImpulseConstraintSolverMt, Base>;
-  // Others convert more than manifolds, or many at once.
-  static constexpr bool kConvertsOneByOne =
-      !kHasMultiBodies && !std::is_base_of_v<btSequentialImpulseConstraintSolverMt, Base>;
 
  public:
   /// Further arguments go to Base. The registry must outlive the solver.
@@ -68,20 +64,11 @@ class AmbientSolver : public Base {
     group_.begin(this->m_tmpSolverBodyPool);
   }
 
-  // The last stock conversion: joints are rows by now. Contacts are rewritten while they are in the
-  // processor's cache, where Base converts manifold by manifold.
+  // The last stock conversion: joints and contacts are rows by now.
   void convertContacts(btPersistentManifold** manifolds, int manifold_count,
                        const btContactSolverInfo& info) override {
     group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kEven);
-    const int together =
-        kConvertsOneByOne && !group_.empty() ? SolverGroup::kManifoldsTogether : manifold_count;
-    int first = 0;
-    do {
-      const int count = std::min(together, manifold_count - first);
-      Base::convertContacts(manifolds + first, count, info);
-      group_.rewriteContacts(this->m_tmpSolverBodyPool, pools(), info);
-      first += together;
-    } while (first < manifold_count);
+    Base::convertContacts(manifolds, manifold_count, info);
     if constexpr (!kHasEvenFrictions) addSecondFrictions(info);
     group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kTrue);
     if constexpr (kHasMultiBodies) {

@@ -82,7 +82,8 @@ void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a, const Par
     return;
   }
   // Contact rows hold their softness inside the effective mass, all others apart from it.
-  const btScalar cfm = kind == RowKind::kContact ? row.m_cfm / old_inverse : btScalar(0);
+  const bool is_soft = kind == RowKind::kContact && row.m_cfm != 0;
+  const btScalar cfm = is_soft ? row.m_cfm / old_inverse : btScalar(0);
   if (isLocked(a) || isLocked(b)) {
     const btScalar old_denominator = relaxation / old_inverse - cfm;
     if (!(responseOf(a) + responseOf(b) > kNoResponse * old_denominator)) {
@@ -119,7 +120,8 @@ RowBody& RowBodies::add(int solver_body) {
 btScalar changeBasis(const RowBody& body, RowSide side) noexcept {
   const WorldBasis& T = body.basis;
   const btVector3 angular = times(side.angular, T.angular);
-  side.linear = times(side.linear, T.linear) + times(side.angular, T.coupling);
+  side.linear = times(side.linear, T.linear);
+  if (body.has_coupling) side.linear += times(side.angular, T.coupling);
   side.angular = angular;
   side.angular_component = times(angular, body.inverse_inertia_T);
   return diagonal(body, side);
@@ -130,10 +132,9 @@ btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noe
          side.angular.dot(side.angular_component);
 }
 
-void rewriteRows(btConstraintArray& rows, int first, RowPoolKind pool, RowBodies& bodies,
+void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
                  const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
-  const RowKind kind = pool.kind;
-  for (int i = first; i < rows.size(); ++i) {
+  for (int i = 0; i < rows.size(); ++i) {
     btSolverConstraint& row = rows[i];
     // The multithreaded solver leaves rows of torsional friction that it does not need unset.
     if (kind == RowKind::kTorsionalFriction && row.m_frictionIndex < 0) continue;
@@ -143,7 +144,7 @@ void rewriteRows(btConstraintArray& rows, int first, RowPoolKind pool, RowBodies
     const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
     const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
     rewriteRow(row, kind, {a, solver_bodies[row.m_solverBodyIdA], side_a},
-               {b, solver_bodies[row.m_solverBodyIdB], side_b}, pool.relaxation);
+               {b, solver_bodies[row.m_solverBodyIdB], side_b}, relaxation);
     ++(a ? a : b)->rows;
   }
 }

@@ -34,6 +34,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 /// One ambient body as its rows see it during one step. World axes.
 struct RowBody {
   WorldBasis basis;
+  bool has_coupling = true;        ///< of the spin to velocities, in the basis
   btMatrix3x3 inverse_inertia_T;   ///< Bullet's, without fluid, transposed as to rounding
   btScalar inverse_mass = 0;       ///< Bullet's, without fluid
   btVector3 spin_change{0, 0, 0};  ///< of the step, outside the rows
@@ -104,16 +105,9 @@ btScalar changeBasis(const RowBody& body, RowSide side) noexcept;
 /// J D J^T of a body that is not ambient [1/kg].
 btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noexcept;
 
-/// Rows of one pool, and the solver's relaxation of them: m_sor for contact and friction rows, 1
-/// for the others.
-struct RowPoolKind {
-  RowKind kind;
-  btScalar relaxation;
-};
-
-/// Brings all rows of a pool from the one at `first` on that touch ambient bodies into their
-/// velocity bases.
-void rewriteRows(btConstraintArray& rows, int first, RowPoolKind pool, RowBodies& bodies,
+/// Brings all rows of a pool that touch ambient bodies into their velocity bases. `relaxation`: the
+/// solver's m_sor for contact and friction rows, 1 for the others.
+void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
                  const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
 
 /// Applies the impulses that contact rows begin with to ambient bodies, in their bases.

@@ -133,9 +133,7 @@ SolverGroup::SolverGroup(AmbientRegistry& registry)
 SolverGroup::~SolverGroup() = default;
 
 void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
-  rewritten_ = {};
   may_hold_slopes_ = false;
-  row_bodies_->reset(0);
   if (members_.empty()) return;
   member_of_solver_body_.assign(solver_bodies.size(), -1);
   row_bodies_->reset(solver_bodies.size());
@@ -195,6 +193,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   } else {
     const Matrix3 R = start.orientation.toRotationMatrix();
     const bool is_diagonal = ambient.model.has_diagonal_inertia && !ambient.surface();
+    row_body.has_coupling = !is_diagonal;
     row_body.basis = is_diagonal ? toWorld(Vector6(ambient.basis_B.diagonal()), R)
                                  : toWorld(basisOf(ambient), R);
   }
@@ -227,18 +226,6 @@ bool SolverGroup::holdsSlope(const SolverBodies& solver_bodies,
   return false;
 }
 
-void SolverGroup::rewriteContacts(SolverBodies& solver_bodies, const RowPools& rows,
-                                  const btContactSolverInfo& info) noexcept {
-  if (row_bodies_->empty()) return;
-  const auto rewrite = [&](btConstraintArray& pool, int& first, RowKind kind, btScalar relaxation) {
-    ambient::rewriteRows(pool, first, {kind, relaxation}, *row_bodies_, solver_bodies);
-    first = pool.size();
-  };
-  rewrite(rows.contacts, rewritten_.contacts, RowKind::kContact, info.m_sor);
-  rewrite(rows.frictions, rewritten_.frictions, RowKind::kFriction, info.m_sor);
-  rewrite(rows.torsional_frictions, rewritten_.torsional_frictions, RowKind::kTorsionalFriction, 1);
-}
-
 void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                               const MultiBodyRows* multibodies,
                               const btContactSolverInfo& info) noexcept {
@@ -246,8 +233,13 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
   if (multibodies) prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
   if (row_bodies_->empty()) return;
   saveFeedbackJacobians(rows.joints);
-  rewriteContacts(solver_bodies, rows, info);
-  ambient::rewriteRows(rows.joints, 0, {RowKind::kJoint, 1}, *row_bodies_, solver_bodies);
+  const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
+    ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);
+  };
+  rewrite(rows.contacts, RowKind::kContact, info.m_sor);
+  rewrite(rows.frictions, RowKind::kFriction, info.m_sor);
+  rewrite(rows.torsional_frictions, RowKind::kTorsionalFriction, 1);
+  rewrite(rows.joints, RowKind::kJoint, 1);
   if (multibodies) rewriteMultiBodyRows(*multibodies, info, *row_bodies_, solver_bodies);
   reapplyWarmStart(solver_bodies, rows, multibodies, info.m_solverMode);
 }

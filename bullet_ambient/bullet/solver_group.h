@@ -31,11 +31,6 @@ struct RowPools {
   btConstraintArray& joints;
 };
 
-/// How many of them there are.
-struct RowCounts {
-  int contacts = 0, frictions = 0, torsional_frictions = 0;
-};
-
 /// The rows between multibodies and what they touch or are joined to.
 struct MultiBodyRows {
   btAlignedObjectArray<btMultiBodySolverConstraint>& contacts;
@@ -96,14 +91,9 @@ class SolverGroup {
   bool holdsSlope(const SolverBodies& solver_bodies,
                   const btSolverConstraint& contact) const noexcept;
 
-  /// After the stock conversion of some contacts: rewrites those of their rows that touch an
-  /// ambient body and are new since the last call.
-  void rewriteContacts(SolverBodies& solver_bodies, const RowPools& rows,
-                       const btContactSolverInfo& info) noexcept;
-  static constexpr int kManifoldsTogether = 16;  ///< whose rows a processor's cache holds
-
-  /// After the stock conversion of joints and contacts: rewrites what is left, and applies the
-  /// impulses of warm starting in the new bases. `multibodies`: null for solvers without.
+  /// After the stock conversion of joints and contacts: rewrites every row that touches an ambient
+  /// body, and applies the impulses of warm starting in the new bases. `multibodies`: null for
+  /// solvers without.
   void rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                    const MultiBodyRows* multibodies, const btContactSolverInfo& info) noexcept;
 
@@ -147,7 +137,6 @@ class SolverGroup {
   AmbientBodies& bodies_;
   double time_step_ = 0;
   bool may_hold_slopes_ = false;
-  RowCounts rewritten_;
   std::vector<Member> members_;
   std::vector<btCollisionObject*> converted_;  // those that the solver has to know
   std::vector<int> member_of_solver_body_;     // -1: not ambient
