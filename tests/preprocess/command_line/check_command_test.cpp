@@ -20,7 +20,7 @@ TEST_F(CommandLine, CheckSaysThatAMeshIsRight) {
 
 TEST_F(CommandLine, CheckFindsAllDefectsAndWhatMendsThem) {
   TriangleMesh mesh = joined(openBox(), openBox());
-  mesh = joined(mesh, moved(box(), {0.5, 0.5, 0.5}));
+  mesh = joined(mesh, moved(box(), {0.4, 0.55, 0.7}));
   const std::string input = write("open.obj", objText(mesh));
   const ProgramResult result = run({"check", input, "--json", "--obj", path("bad.obj")});
   EXPECT_EQ(result.exit_code, 1);

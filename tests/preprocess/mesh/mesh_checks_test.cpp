@@ -111,7 +111,8 @@ TEST(MeshChecks, EdgesOfMoreThanTwoTrianglesAreRefused) {
   mesh.triangles.conservativeResize(3, 5);
   mesh.triangles.col(4) << 0, 1, 4;
   EXPECT_EQ(kindsOf(mesh),
-            (std::vector<std::string>{"not watertight", "more than two triangles at an edge"}));
+            (std::vector<std::string>{"not watertight", "more than two triangles at an edge",
+                                      "parts touch at a vertex"}));
   const std::string message = judgeBody({mesh, {}}, "thing.obj").defects.at(1).text;
   EXPECT_EQ(message,
             "not manifold: 1 edges with more than 2 triangles, for example vertex 0 (0, 0, 0) to "
