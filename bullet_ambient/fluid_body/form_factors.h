@@ -10,7 +10,7 @@ constexpr double kLeeDrag = 0.12;                       ///< e
 constexpr double kFlatDrag = kWindwardDrag + kLeeDrag;  ///< c: C_D of a plate broadside
 constexpr double kRoundRelief = 1 / kFlatDrag;          ///< gamma: C_D = 1/2 of a sphere
 
-/// Of q = max(u_n, 0) (by_normal u_n + by_speed |u|) - by_lee u_n^2, eq. (44) of one face. `Real`:
+/// Of q = max(u_n, 0) (by_normal u_n + by_speed |u|) - by_lee u_n^2, eq. (43) of one face. `Real`:
 /// a number or a vector of them.
 template <class Real>
 struct FormFactors {
