@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "bullet_ambient/fluid_body/block_order.h"
+#include "bullet_ambient/fluid_body/flat_sides.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
@@ -13,60 +13,63 @@ namespace {
 
 using Triangle = std::array<Vector3, 3>;
 
-constexpr double kRoundedUp = 1 + 1e-12;  // of radii
-
-std::vector<Vector3> verticesOf(const Surface& surface) {
-  std::vector<Vector3> vertices;
-  for (std::size_t i = 0; i + 2 < surface.vertices.size(); i += 3)
-    vertices.emplace_back(surface.vertices[i], surface.vertices[i + 1], surface.vertices[i + 2]);
-  return vertices;
-}
-
+// Those of the surface; of a flat side with a convex outline the fan of its corners.
 std::vector<Triangle> trianglesOf(const Surface& surface) {
-  const std::vector<Vector3> vertices = verticesOf(surface);
-  const auto corner = [&](std::size_t i) {
-    return vertices[static_cast<std::size_t>(surface.triangles[i])];
-  };
+  const SurfaceTriangles mesh(surface);
   std::vector<Triangle> triangles;
-  for (std::size_t t = 0; t + 2 < surface.triangles.size(); t += 3)
-    triangles.push_back({corner(t), corner(t + 1), corner(t + 2)});
+  std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
+  for (const FlatSide& side : findFlatSides(mesh)) {
+    const std::vector<Vector3>& c = side.corners;
+    if (c.size() >= side.triangles.size() + 2) continue;
+    for (std::size_t i = 2; i < c.size(); ++i) triangles.push_back({c[0], c[i - 1], c[i]});
+    for (const int t : side.triangles) is_replaced[static_cast<std::size_t>(t)] = true;
+  }
+  for (int t = 0; t < mesh.size(); ++t) {
+    if (is_replaced[static_cast<std::size_t>(t)]) continue;
+    const auto corner = [&](int i) { return mesh.place(mesh.vertex(t, i)); };
+    triangles.push_back({corner(0), corner(1), corner(2)});
+  }
   return triangles;
 }
 
-std::vector<std::uint32_t> orderOf(const std::vector<Vector3>& places, std::size_t block_size) {
-  std::vector<Vector6> coordinates;
-  coordinates.reserve(places.size());
-  for (const Vector3& place : places) coordinates.push_back(stack({0, 0, 0}, place));
-  return orderInBlocks(coordinates, block_size);
+// Each once.
+std::vector<Vector3> cornersOf(const std::vector<Triangle>& triangles) {
+  std::vector<std::array<double, 3>> places;
+  for (const Triangle& t : triangles)
+    for (const Vector3& p : t) places.push_back({p.x(), p.y(), p.z()});
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<Vector3> corners;
+  for (const auto& p : places) corners.emplace_back(p[0], p[1], p[2]);
+  return corners;
 }
 
-std::vector<Triangle> inBlocks(const std::vector<Triangle>& triangles) {
-  std::vector<Vector3> places;
-  places.reserve(triangles.size());
-  for (const Triangle& t : triangles) places.emplace_back(t[0] + t[1] + t[2]);
-  std::vector<Triangle> sorted;
-  sorted.reserve(triangles.size());
-  for (const std::uint32_t i : orderOf(places, HullBlock::kTriangles))
-    sorted.push_back(triangles[i]);
+template <class Thing, class Place>
+std::vector<Thing> inBlocks(const std::vector<Thing>& things, std::size_t size,
+                            const Place& placeOf) {
+  std::vector<Vector6> coordinates;
+  coordinates.reserve(things.size());
+  for (const Thing& thing : things) coordinates.push_back(stack({0, 0, 0}, placeOf(thing)));
+  std::vector<Thing> sorted;
+  sorted.reserve(things.size());
+  for (const std::uint32_t i : orderInBlocks(coordinates, size)) sorted.push_back(things[i]);
   return sorted;
 }
 
-struct Sphere {
-  Vector3 centre{0, 0, 0};
-  double radius = 0;
+struct Box {
+  Vector3 centre, half;
 };
 
-/// About the middle of their bounding box.
-Sphere sphereAround(const Vector3* points, std::size_t count) {
+/// Rounding does not put a point outside.
+Box boxAround(const Vector3* points, std::size_t count) {
+  constexpr double kRounding = 1e-12;
   Vector3 low = points[0], high = points[0];
   for (std::size_t i = 1; i < count; ++i) {
     low = low.cwiseMin(points[i]);
     high = high.cwiseMax(points[i]);
   }
-  Sphere sphere{(low + high) / 2, 0};
-  for (std::size_t i = 0; i < count; ++i)
-    sphere.radius = std::max(sphere.radius, kRoundedUp * (points[i] - sphere.centre).norm());
-  return sphere;
+  const double size = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  return {(low + high) / 2, ((high - low) / 2).array() + kRounding * size};
 }
 
 Vector3 areaNormal(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
@@ -99,6 +102,10 @@ HullBlock blockOf(const Triangle* triangles, std::size_t count) {
       block.area_normal[axis][i] = normal[axis];
     }
   }
+  // Where there is none, a point of the last one: neither cut nor alone in the water.
+  for (std::size_t i = count; i < HullBlock::kTriangles; ++i)
+    for (auto& corner : block.corner)
+      for (int axis = 0; axis < 3; ++axis) corner[axis][i] = triangles[count - 1][0][axis];
   return block;
 }
 
@@ -111,27 +118,33 @@ double volumeOf(const std::vector<Triangle>& triangles) {
 }  // namespace
 
 PackedHull::PackedHull(const FluidBody& body) {
-  packPoints(verticesOf(body.surface));
-  if (body.volume > 0) packTriangles(body);
-}
-
-void PackedHull::packTriangles(const FluidBody& body) {
-  const std::vector<Triangle> triangles = inBlocks(trianglesOf(body.surface));
+  if (body.surface.triangles.empty()) return;
+  const std::vector<Triangle> triangles = trianglesOf(body.surface);
+  packPoints(cornersOf(triangles));
+  if (!(body.volume > 0)) return;
   const double volume = volumeOf(triangles);
   if (volume > 0) volume_factor_ = body.volume / volume;
+  packTriangles(inBlocks(triangles, HullBlock::kTriangles,
+                         [](const Triangle& t) { return Vector3(t[0] + t[1] + t[2]); }));
+}
+
+void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
   constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullMoments::kBlocks;
   for (std::size_t begin = 0; begin < triangles.size(); begin += kTriangles) {
     const std::size_t count = std::min(kTriangles, triangles.size() - begin);
     const std::size_t lane = blocks_.size() % kBlocks;
     if (lane == 0) {
       moments_.push_back({});
-      for (double& radius : moments_.back().radius) radius = HullMoments::kNoBlock;
+      for (auto& half : moments_.back().half)
+        for (double& entry : half) entry = HullMoments::kNoBlock;
     }
     blocks_.push_back(blockOf(&triangles[begin], count));
     HullMoments& group = moments_.back();
-    const Sphere sphere = sphereAround(triangles[begin].data(), 3 * count);
-    for (int axis = 0; axis < 3; ++axis) group.centre[axis][lane] = sphere.centre[axis];
-    group.radius[lane] = sphere.radius;
+    const Box box = boxAround(triangles[begin].data(), 3 * count);
+    for (int axis = 0; axis < 3; ++axis) {
+      group.centre[axis][lane] = box.centre[axis];
+      group.half[axis][lane] = box.half[axis];
+    }
     Moments moments = {};
     for (std::size_t i = begin; i < begin + count; ++i) add(triangles[i], moments);
     for (std::size_t number = 0; number < moments.size(); ++number)
@@ -140,29 +153,20 @@ void PackedHull::packTriangles(const FluidBody& body) {
 }
 
 void PackedHull::packPoints(const std::vector<Vector3>& points) {
-  constexpr std::size_t kPoints = 16;
-  points_.reserve(points.size());
-  for (const std::uint32_t i : orderOf(points, kPoints)) points_.push_back(points[i]);
-  for (std::size_t begin = 0; begin < points_.size(); begin += kPoints) {
-    const std::size_t end = std::min(begin + kPoints, points_.size());
-    const Sphere sphere = sphereAround(&points_[begin], end - begin);
-    point_blocks_.push_back({sphere.centre, sphere.radius, begin, end});
+  constexpr std::size_t kPoints = HullPoints::kPoints;
+  const std::vector<Vector3> sorted =
+      inBlocks(points, kPoints, [](const Vector3& place) { return place; });
+  for (std::size_t begin = 0; begin < sorted.size(); begin += kPoints) {
+    const std::size_t count = std::min(kPoints, sorted.size() - begin);
+    const Box box = boxAround(&sorted[begin], count);
+    HullPoints& block = points_.emplace_back();
+    for (int axis = 0; axis < 3; ++axis) {
+      block.centre[axis] = box.centre[axis];
+      block.half[axis] = box.half[axis];
+      for (std::size_t i = 0; i < kPoints; ++i)
+        block.place[axis][i] = sorted[begin + std::min(i, count - 1)][axis];
+    }
   }
-}
-
-double PackedHull::farthest(const Vector3& direction) const noexcept {
-  double most = -std::numeric_limits<double>::max();
-  for (const PointBlock& block : point_blocks_) {
-    if (!(direction.dot(block.centre) + block.radius > most)) continue;
-    for (std::size_t i = block.begin; i < block.end; ++i)
-      most = std::max(most, direction.dot(points_[i]));
-  }
-  return most;
-}
-
-std::pair<double, double> PackedHull::extent(const Vector3& direction) const noexcept {
-  if (points_.empty()) return {0, 0};
-  return {-farthest(-direction), farthest(direction)};
 }
 
 }  // namespace ambient

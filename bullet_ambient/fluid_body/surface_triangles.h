@@ -13,6 +13,8 @@ class SurfaceTriangles {
   /// @throws std::invalid_argument in one sentence, if the faces of the body are not these
   /// triangles, or once more their backs.
   explicit SurfaceTriangles(const FluidBody& body);
+  /// Without its faces: normals are those of the triangles, 0 of one without an area.
+  explicit SurfaceTriangles(const Surface& surface);
 
   int size() const { return static_cast<int>(corners_.size()); }
   bool isSheet() const { return is_sheet_; }
@@ -23,6 +25,7 @@ class SurfaceTriangles {
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  void weld(const Surface& surface);
 
   bool is_sheet_ = false;
   std::vector<Vector3> places_;

@@ -46,6 +46,15 @@ inline Doubles load(const double* from) {
 
 inline void store(double* to, const Doubles& d) { __builtin_memcpy(to, &d, sizeof d); }
 
+/// Of eight lanes, pairwise: ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)).
+inline double sumLanes(const double (&lanes)[8]) {
+  using Pair = double __attribute__((vector_size(16)));
+  Pair pairs[4];
+  __builtin_memcpy(pairs, lanes, sizeof pairs);
+  const Pair sum = (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]);
+  return sum[0] + sum[1];
+}
+
 /// Rounded correctly, as everywhere.
 #if defined(__AVX512F__)
 inline Doubles root(const Doubles& x) { return _mm512_maskz_sqrt_pd(0xff, x); }

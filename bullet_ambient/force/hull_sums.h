@@ -14,24 +14,32 @@ struct HullPlane {
   double height;      ///< h [m]
 };
 
-/// Over the wet part of a hull, docs/theory.md eq. (54); moments of the waterplane about the foot
-/// h s of the origin, along the axes.
+/// Over the wet part of a hull, docs/theory.md eq. (54); moments about the foot h s of the origin,
+/// along the axes.
 struct HullSums {
   double volume;     ///< V
   double depth;      ///< W
-  double moment[3];  ///< S - s W
+  double moment[2];  ///< of V; along s it has h V - W of S
   double area;       ///< of the waterplane, A_w
   double first[2];   ///< P_1
   double second[3];  ///< P_2: xx, xy, yy
 };
 
-/// Triangle i of a cut block is summed into lane i mod 8, block i of the wet ones likewise, lanes
-/// pairwise in the end, and no operation is fused: all instruction sets give the same bits.
-using SumHull = HullSums (*)(const HullBlocks&, const HullPlane&) noexcept;
+/// Least and largest s.z over the corners of a hull [m].
+struct HullExtent {
+  double low, high;
+};
 
-HullSums sumHullBaseline(const HullBlocks&, const HullPlane&) noexcept;
-HullSums sumHullAvx2(const HullBlocks&, const HullPlane&) noexcept;
-HullSums sumHullAvx512(const HullBlocks&, const HullPlane&) noexcept;
-constexpr Kernels<SumHull> kSumHull{sumHullBaseline, sumHullAvx2, sumHullAvx512};
+/// Triangle i of a block that is cut is summed into lane i, block i of the wet ones into lane i mod
+/// 8, lanes pairwise in the end, and no operation is fused: all instruction sets give the same
+/// bits.
+struct HullKernel {
+  HullSums (*sums)(const HullBlocks&, const HullPlane&) noexcept;
+  HullExtent (*extent)(const HullCorners&, const double (&direction)[3]) noexcept;
+};
+
+extern const HullKernel kHullKernelBaseline, kHullKernelAvx2, kHullKernelAvx512;
+constexpr Kernels<const HullKernel*> kHullKernels{&kHullKernelBaseline, &kHullKernelAvx2,
+                                                  &kHullKernelAvx512};
 
 }  // namespace ambient

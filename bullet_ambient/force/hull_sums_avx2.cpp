@@ -1,2 +1,2 @@
-#define AMBIENT_KERNEL sumHullAvx2
+#define AMBIENT_KERNEL kHullKernelAvx2
 #include "bullet_ambient/force/hull_sums_kernel.h"

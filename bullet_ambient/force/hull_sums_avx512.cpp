@@ -1,2 +1,2 @@
-#define AMBIENT_KERNEL sumHullAvx512
+#define AMBIENT_KERNEL kHullKernelAvx512
 #include "bullet_ambient/force/hull_sums_kernel.h"

@@ -1,2 +1,2 @@
-#define AMBIENT_KERNEL sumHullBaseline
+#define AMBIENT_KERNEL kHullKernelBaseline
 #include "bullet_ambient/force/hull_sums_kernel.h"

@@ -12,10 +12,11 @@ namespace {
 constexpr int kLanes = 8;
 constexpr int kGroups = 32;  ///< groups of eight blocks that are looked at together
 static_assert(HullMoments::kBlocks == kLanes, "a block of a group is a lane");
-static_assert(HullBlock::kTriangles % kLanes == 0, "a block is whole rows of lanes");
+static_assert(HullBlock::kTriangles == kLanes, "a triangle of a block is a lane");
 
+inline Doubles broadcast(double value) { return Doubles{} + value; }
 inline Vectors broadcast(const double (&v)[3]) {
-  return {Doubles{} + v[0], Doubles{} + v[1], Doubles{} + v[2]};
+  return {broadcast(v[0]), broadcast(v[1]), broadcast(v[2])};
 }
 template <int kColumns>
 inline Vectors load(const double (&columns)[3][kColumns], int at) {
@@ -26,90 +27,109 @@ inline Vectors select(const Mask& mask, const Vectors& a, const Vectors& b) {
   return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
-/// A corner of each triangle.
-struct Corners {
-  Vectors place;
-  Doubles depth;
-};
-inline Corners select(const Mask& mask, const Corners& a, const Corners& b) {
-  return {select(mask, a.place, b.place), select(mask, a.depth, b.depth)};
-}
-
 /// The plane in all lanes.
 struct Planes {
-  Vectors normal, axis1, axis2;
+  Vectors normal, axis1, axis2, size;
   Doubles height;
 
   explicit Planes(const HullPlane& plane)
       : normal(broadcast(plane.normal)),
         axis1(broadcast(plane.axes[0])),
         axis2(broadcast(plane.axes[1])),
-        height(Doubles{} + plane.height) {}
-  Corners corners(const Vectors& place) const { return {place, height - dot(normal, place)}; }
+        size({larger(normal.x), larger(normal.y), larger(normal.z)}),
+        height(broadcast(plane.height)) {}
+  Doubles depth(const Vectors& place) const { return height - dot(normal, place); }
+  /// Along the axes, and the depth.
+  Vectors seen(const Vectors& place) const {
+    return {dot(axis1, place), dot(axis2, place), depth(place)};
+  }
+
+ private:
+  static Doubles larger(const Doubles& a) { return a > -a ? a : -a; }
 };
 
-/// 3 V, 12 W, 12 (S - s W) of the integrals, and 2, 6, 24 times those of the waterplane, per lane.
+/// 3 V, 12 of V's moments along the axes, 24 W, and 2, 6, 24 times those of the waterplane, per
+/// lane.
 enum Row {
   kVolume,
-  kDepth,
   kMoment,
-  kArea = kMoment + 3,
+  kDepth = kMoment + 2,
+  kArea,
   kFirst,
   kSecond = kFirst + 2,
-  kRows = 11
+  kRows = 10
 };
 struct HullLanes {
   double rows[kRows][kLanes] = {};
 };
 
-struct HullRows {
-  Doubles rows[kRows];
+/// Which corners of triangles are wet.
+struct WetCorners {
+  Mask a, b, c;
 
-  HullRows(const HullLanes& lanes, int lane) {
-    for (int row = 0; row < kRows; ++row) rows[row] = load(lanes.rows[row] + lane);
-  }
+  WetCorners(const Doubles& za, const Doubles& zb, const Doubles& zc)
+      : a(za > Doubles{}), b(zb > Doubles{}), c(zc > Doubles{}) {}
+  Mask any() const { return a | b | c; }
+  Mask all() const { return a & b & c; }
+  Mask most() const { return (a & b) | (b & c) | (c & a); }
+};
+
+struct HullRows {
+  Doubles rows[kRows] = {};
+
   void storeTo(HullLanes& lanes, int lane) const {
     for (int row = 0; row < kRows; ++row) store(lanes.rows[row] + lane, rows[row]);
   }
-  void addMoment(const Doubles& factor, const Vectors& moment) {
-    rows[kMoment] = rows[kMoment] + factor * moment.x;
-    rows[kMoment + 1] = rows[kMoment + 1] + factor * moment.y;
-    rows[kMoment + 2] = rows[kMoment + 2] + factor * moment.z;
+
+  /// Corners as the plane sees them; `flux`: -s.n A, or 0 where a triangle is not wet.
+  void addTriangles(const Vectors& a, const Vectors& b, const Vectors& c, const Doubles& flux) {
+    const Doubles zero = {};
+    const WetCorners wet(a.z, b.z, c.z);
+    const Mask most = wet.most();
+    if (anyOf(most)) addWhole(a, b, c, select(most, flux, zero));
+    const Mask is_cut = wet.any() & ~wet.all();
+    if (!anyOf(is_cut)) return;
+    const Mask alone_a = (wet.a ^ wet.b) & (wet.a ^ wet.c),
+               alone_b = (wet.b ^ wet.a) & (wet.b ^ wet.c);
+    const Vectors u = select(alone_a, a, select(alone_b, b, c));
+    const Vectors p = select(alone_a, b, select(alone_b, c, a));
+    const Vectors q = select(alone_a, c, select(alone_b, a, b));
+    addCorner(u, p, q, select(most, -flux, flux), is_cut);
   }
 
-  /// Whole triangles, docs/theory.md eq. (55); `flux`: -s.n A, or 0 where it is not wet.
-  void addWhole(const Corners& a, const Corners& b, const Corners& c, const Doubles& flux) {
-    const Doubles sum = a.depth + b.depth + c.depth;
-    const Doubles squares = a.depth * a.depth + b.depth * b.depth + c.depth * c.depth +
-                            (a.depth * b.depth + b.depth * c.depth + c.depth * a.depth);
-    rows[kVolume] = rows[kVolume] + flux * sum;
-    rows[kDepth] = rows[kDepth] + flux * squares;
-    addMoment(flux, sum * (a.place + b.place + c.place) +
-                        (a.depth * a.place + b.depth * b.place + c.depth * c.place));
+ private:
+  /// Docs/theory.md eq. (55).
+  void addWhole(const Vectors& a, const Vectors& b, const Vectors& c, const Doubles& flux) {
+    const Vectors sum = a + b + c;
+    addMoments(flux, a.z * a + b.z * b + c.z * c + sum.z * sum);
+    rows[kVolume] = rows[kVolume] + flux * sum.z;
+  }
+  void addMoments(const Doubles& flux, const Vectors& of_depth) {
+    rows[kMoment] = rows[kMoment] + flux * of_depth.x;
+    rows[kMoment + 1] = rows[kMoment + 1] + flux * of_depth.y;
+    rows[kDepth] = rows[kDepth] + flux * of_depth.z;
   }
 
   /// The corner u of triangles that the plane cuts, eq. (56), and the line of the cut.
-  void addCorner(const Corners& u, const Corners& p, const Corners& q, const Doubles& flux,
-                 const Mask& is_cut, const Planes& planes) {
+  void addCorner(const Vectors& u, const Vectors& p, const Vectors& q, const Doubles& flux,
+                 const Mask& is_cut) {
     const Doubles zero = {}, one = zero + 1.0;
-    const Doubles lp = select(is_cut, u.depth / select(is_cut, u.depth - p.depth, one), zero);
-    const Doubles lq = select(is_cut, u.depth / select(is_cut, u.depth - q.depth, one), zero);
-    const Vectors to_p = lp * (p.place - u.place), to_q = lq * (q.place - u.place);
-    const Doubles weight = (lp * lq) * flux;
-    const Doubles by_depth = weight * u.depth;
+    // Shares of the edges, u.z / (u.z - p.z) and the like, by one division.
+    const Doubles to_p = u.z - p.z, to_q = u.z - q.z, product = to_p * to_q;
+    const Doubles per = select(is_cut, u.z / select(product > zero, product, one), zero);
+    const Doubles lp = per * to_q, lq = per * to_p;
+    const Doubles px = u.x + lp * (p.x - u.x), py = u.y + lp * (p.y - u.y);
+    const Doubles qx = u.x + lq * (q.x - u.x), qy = u.y + lq * (q.y - u.y);
+    const Doubles by_depth = (lp * lq) * flux * u.z;
     rows[kVolume] = rows[kVolume] + by_depth;
-    rows[kDepth] = rows[kDepth] + by_depth * u.depth;
-    addMoment(by_depth, (Doubles{} + 4.0) * u.place + to_p + to_q);
-    addLine(u.place + to_p, u.place + to_q, u.depth > zero, is_cut, planes);
+    addMoments(by_depth, {2 * u.x + px + qx, 2 * u.y + py + qy, 2 * u.z});
+    const Doubles cross = px * qy - py * qx;
+    addLine(px, py, qx, qy, select(is_cut, select(u.z > zero, -cross, cross), zero));
   }
 
-  /// Moments of the waterplane; the water is to the left of the line seen from outside.
-  void addLine(const Vectors& on_p, const Vectors& on_q, const Mask& is_tip_wet, const Mask& is_cut,
-               const Planes& planes) {
-    const Doubles ax = dot(planes.axis1, on_p), ay = dot(planes.axis2, on_p);
-    const Doubles bx = dot(planes.axis1, on_q), by = dot(planes.axis2, on_q);
-    const Doubles cross = ax * by - ay * bx;
-    const Doubles k = select(is_cut, select(is_tip_wet, -cross, cross), Doubles{});
+  /// Moments of the waterplane, eq. (58); the water is to the left of the line seen from outside.
+  void addLine(const Doubles& ax, const Doubles& ay, const Doubles& bx, const Doubles& by,
+               const Doubles& k) {
     const Doubles x = ax + bx, y = ay + by;
     rows[kArea] = rows[kArea] + k;
     rows[kFirst] = rows[kFirst] + k * x;
@@ -120,142 +140,191 @@ struct HullRows {
   }
 };
 
-/// kWidth triangles of a cut block.
-inline void addTriangles(const HullBlock& block, int at, const Planes& planes, HullRows& sums) {
-  const Doubles zero = {};
-  const Corners a = planes.corners(load(block.corner[0], at));
-  const Corners b = planes.corners(load(block.corner[1], at));
-  const Corners c = planes.corners(load(block.corner[2], at));
-  const Mask wet_a = a.depth > zero, wet_b = b.depth > zero, wet_c = c.depth > zero;
-  if (!anyOf(wet_a | wet_b | wet_c)) return;
-  const Mask most = (wet_a & wet_b) | (wet_b & wet_c) | (wet_c & wet_a);
-  const Doubles flux = zero - dot(planes.normal, load(block.area_normal, at));
-  sums.addWhole(a, b, c, select(most, flux, zero));
-  const Mask is_cut = (wet_a | wet_b | wet_c) & ~(wet_a & wet_b & wet_c);
-  if (!anyOf(is_cut)) return;
-  const Mask alone_a = (wet_a ^ wet_b) & (wet_a ^ wet_c),
-             alone_b = (wet_b ^ wet_a) & (wet_b ^ wet_c);
-  const Corners u = select(alone_a, a, select(alone_b, b, c));
-  const Corners p = select(alone_a, b, select(alone_b, c, a));
-  const Corners q = select(alone_a, c, select(alone_b, a, b));
-  sums.addCorner(u, p, q, select(most, -flux, flux), is_cut, planes);
-}
-
 /// What blocks there are in some groups.
 struct Choice {
   double wet[kGroups][kLanes];  ///< 1: wholly
-  int wet_groups[kGroups];      ///< with a wet block
-  int wet_count = 0;
   int cut[kGroups * kLanes];
   int cut_count = 0;
 };
 
-inline void choose(const HullMoments* groups, int count, const Planes& planes, Choice& choice) {
-  choice.wet_count = choice.cut_count = 0;
+enum class Side { kDry, kCut, kWet };
+
+/// By its corners.
+inline Side sideOf(const HullBlock& block, const Planes& planes) {
+  bool any_wet = false, any_dry = false;
+  for (int lane = 0; lane < kLanes; lane += kWidth) {
+    const WetCorners wet(planes.depth(load(block.corner[0], lane)),
+                         planes.depth(load(block.corner[1], lane)),
+                         planes.depth(load(block.corner[2], lane)));
+    any_wet = any_wet || anyOf(wet.any());
+    any_dry = any_dry || anyOf(~wet.all());
+  }
+  if (!any_wet) return Side::kDry;
+  return any_dry ? Side::kCut : Side::kWet;
+}
+
+/// By their boxes, and those that these leave open by their corners.
+inline void choose(const HullMoments* groups, int count, const HullBlock* blocks,
+                   const Planes& planes, Choice& choice) {
+  choice.cut_count = 0;
   const Doubles zero = {}, one = zero + 1.0;
   for (int group = 0; group < count; ++group) {
-    double cuts[kLanes];
-    bool has_wet = false;
+    double open[kLanes];
     for (int lane = 0; lane < kLanes; lane += kWidth) {
-      const Doubles depth = planes.corners(load(groups[group].centre, lane)).depth;
-      const Doubles radius = load(groups[group].radius + lane);
-      const Mask is_wet = depth > radius;
+      const Doubles depth = planes.depth(load(groups[group].centre, lane));
+      const Doubles reach = dot(planes.size, load(groups[group].half, lane));
+      const Mask is_wet = depth > reach;
       store(choice.wet[group] + lane, select(is_wet, one, zero));
-      store(cuts + lane, select(is_wet, zero, select(depth >= -radius, one, zero)));
-      has_wet = has_wet || anyOf(is_wet);
+      store(open + lane, select(is_wet, zero, select(depth >= -reach, one, zero)));
     }
-    if (has_wet) choice.wet_groups[choice.wet_count++] = group;
     for (int lane = 0; lane < kLanes; ++lane) {
-      choice.cut[choice.cut_count] = group * kLanes + lane;
-      choice.cut_count += cuts[lane] > 0;
+      if (!(open[lane] > 0)) continue;
+      const int block = group * kLanes + lane;
+      const Side side = sideOf(blocks[block], planes);
+      choice.wet[group][lane] = side == Side::kWet ? 1 : 0;
+      if (side == Side::kCut) choice.cut[choice.cut_count++] = block;
     }
   }
 }
 
 inline void addCut(const HullBlock* blocks, const Choice& choice, const Planes& planes,
-                   HullLanes& sums) {
-  if (choice.cut_count == 0) return;
-  for (int lane = 0; lane < kLanes; lane += kWidth) {
-    HullRows rows(sums, lane);
-    for (int i = 0; i < choice.cut_count; ++i)
-      for (int at = lane; at < HullBlock::kTriangles; at += kLanes)
-        addTriangles(blocks[choice.cut[i]], at, planes, rows);
-    rows.storeTo(sums, lane);
+                   HullRows (&sums)[kLanes / kWidth]) {
+  for (int part = 0; part < kLanes / kWidth; ++part) {
+    HullRows rows = sums[part];
+    for (int i = 0; i < choice.cut_count; ++i) {
+      const HullBlock& block = blocks[choice.cut[i]];
+      const int lane = part * kWidth;
+      const Doubles flux = -dot(planes.normal, load(block.area_normal, lane));
+      rows.addTriangles(planes.seen(load(block.corner[0], lane)),
+                        planes.seen(load(block.corner[1], lane)),
+                        planes.seen(load(block.corner[2], lane)), flux);
+    }
+    sums[part] = rows;
   }
 }
 
-struct MomentLanes {
-  double numbers[HullMoments::kNumbers][kLanes] = {};
+/// s.N, s.M, s.Q of blocks that are wholly wet, per lane.
+enum WetRow { kFlux, kFluxMoment, kFluxSecond = kFluxMoment + 3, kWetRows = 10 };
+struct WetRows {
+  Doubles rows[kWetRows] = {};
 };
 
-inline void addWet(const HullMoments* groups, const Choice& choice, MomentLanes& sums) {
-  if (choice.wet_count == 0) return;
-  for (int number = 0; number < HullMoments::kNumbers; ++number)
-    for (int lane = 0; lane < kLanes; lane += kWidth) {
-      Doubles sum = load(sums.numbers[number] + lane);
-      for (int i = 0; i < choice.wet_count; ++i) {
-        const int group = choice.wet_groups[i];
-        sum = sum + load(choice.wet[group] + lane) * load(groups[group].moments[number] + lane);
-      }
-      store(sums.numbers[number] + lane, sum);
+inline void addWet(const HullMoments* groups, int count, const Choice& choice, const Planes& planes,
+                   WetRows (&sums)[kLanes / kWidth]) {
+  for (int part = 0; part < kLanes / kWidth; ++part) {
+    const int lane = part * kWidth;
+    WetRows rows = sums[part];
+    for (int group = 0; group < count; ++group) {
+      const Doubles wet = load(choice.wet[group] + lane);
+      if (!anyOf(wet > Doubles{})) continue;
+      const auto& moments = groups[group].moments;
+      const Vectors s = wet * planes.normal;
+      const auto along = [&](int number, int stride) {
+        return s.x * load(moments[number] + lane) + s.y * load(moments[number + stride] + lane) +
+               s.z * load(moments[number + 2 * stride] + lane);
+      };
+      rows.rows[kFlux] = rows.rows[kFlux] + along(0, 1);
+      for (int k = 0; k < 3; ++k)
+        rows.rows[kFluxMoment + k] = rows.rows[kFluxMoment + k] + along(3 + k, 3);
+      for (int k = 0; k < 6; ++k)
+        rows.rows[kFluxSecond + k] = rows.rows[kFluxSecond + k] + along(12 + k, 6);
     }
+    sums[part] = rows;
+  }
 }
 
-inline double sumLanes(const double (&l)[kLanes]) {
-  return ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
+template <class Rows, int kCount>
+inline void sumRows(const Rows (&parts)[kLanes / kWidth], double (&sums)[kCount]) {
+  for (int row = 0; row < kCount; ++row) {
+    double lanes[kLanes];
+    for (int part = 0; part < kLanes / kWidth; ++part)
+      store(lanes + part * kWidth, parts[part].rows[row]);
+    sums[row] = sumLanes(lanes);
+  }
 }
 
-inline HullSums sumsOf(const HullLanes& lanes) {
-  double r[kRows];
-  for (int row = 0; row < kRows; ++row) r[row] = sumLanes(lanes.rows[row]);
+inline double dot(const double* a, const double* b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Of the cut blocks.
+inline HullSums sumsOf(const double (&r)[kRows]) {
   return {r[kVolume] / 3,
-          r[kDepth] / 12,
-          {r[kMoment] / 12, r[kMoment + 1] / 12, r[kMoment + 2] / 12},
+          r[kDepth] / 24,
+          {r[kMoment] / 12, r[kMoment + 1] / 12},
           r[kArea] / 2,
           {r[kFirst] / 6, r[kFirst + 1] / 6},
           {r[kSecond] / 24, r[kSecond + 1] / 24, r[kSecond + 2] / 24}};
 }
 
 /// The wholly wet blocks, docs/theory.md eq. (57).
-inline void addMoments(const MomentLanes& lanes, const HullPlane& plane, HullSums& sums) {
-  double m[HullMoments::kNumbers];
-  for (int number = 0; number < HullMoments::kNumbers; ++number)
-    m[number] = sumLanes(lanes.numbers[number]);
-  const double(&s)[3] = plane.normal;
-  const double* const first = m + 3;    // M_jk
-  const double* const second = m + 12;  // Q_jkl
-  double sm[3], sq[6], sqs[3];          // s.M, s.Q, s.Q.s
-  for (int k = 0; k < 3; ++k) sm[k] = s[0] * first[k] + s[1] * first[3 + k] + s[2] * first[6 + k];
-  for (int k = 0; k < 6; ++k)
-    sq[k] = s[0] * second[k] + s[1] * second[6 + k] + s[2] * second[12 + k];
-  sqs[0] = s[0] * sq[0] + s[1] * sq[1] + s[2] * sq[2];
-  sqs[1] = s[0] * sq[1] + s[1] * sq[3] + s[2] * sq[4];
-  sqs[2] = s[0] * sq[2] + s[1] * sq[4] + s[2] * sq[5];
-  const double h = plane.height;
-  const double flux = s[0] * m[0] + s[1] * m[1] + s[2] * m[2];
-  const double sms = s[0] * sm[0] + s[1] * sm[1] + s[2] * sm[2];
+inline void addWetTo(HullSums& sums, const double (&wet)[kWetRows], const HullPlane& plane) {
+  const double h = plane.height, flux = wet[kFlux];
+  const double* const sm = wet + kFluxMoment;
+  const double* const q = wet + kFluxSecond;
+  const double* const s = plane.normal;
+  const double rows[3][3] = {{q[0], q[1], q[2]}, {q[1], q[3], q[4]}, {q[2], q[4], q[5]}};
+  const double sqs[3] = {dot(rows[0], s), dot(rows[1], s), dot(rows[2], s)};
+  const double sms = dot(s, sm);
+  const double moment[3] = {sqs[0] - h * sm[0], sqs[1] - h * sm[1], sqs[2] - h * sm[2]};
   sums.volume += sms - h * flux;
-  for (int k = 0; k < 3; ++k) sums.moment[k] += sqs[k] - h * sm[k];
-  sums.depth += h * sms - 0.5 * (h * h * flux + (s[0] * sqs[0] + s[1] * sqs[1] + s[2] * sqs[2]));
+  for (int axis = 0; axis < 2; ++axis) sums.moment[axis] += dot(plane.axes[axis], moment);
+  sums.depth += h * sms - 0.5 * (h * h * flux + dot(s, sqs));
 }
 
-}  // namespace
-
-HullSums AMBIENT_KERNEL(const HullBlocks& hull, const HullPlane& plane) noexcept {
+HullSums sumHull(const HullBlocks& hull, const HullPlane& plane) noexcept {
   const Planes planes(plane);
-  HullLanes cut;
-  MomentLanes wet;
+  HullRows cut[kLanes / kWidth];
+  WetRows wet[kLanes / kWidth];
   Choice choice;
   const std::size_t groups = (hull.count + kLanes - 1) / kLanes;
   for (std::size_t begin = 0; begin < groups; begin += kGroups) {
     const std::size_t left = groups - begin;
-    choose(hull.moments + begin, left < kGroups ? static_cast<int>(left) : kGroups, planes, choice);
-    addCut(hull.blocks + begin * kLanes, choice, planes, cut);
-    addWet(hull.moments + begin, choice, wet);
+    const int count = left < kGroups ? static_cast<int>(left) : kGroups;
+    const HullBlock* const blocks = hull.blocks + begin * kLanes;
+    choose(hull.moments + begin, count, blocks, planes, choice);
+    addCut(blocks, choice, planes, cut);
+    addWet(hull.moments + begin, count, choice, planes, wet);
   }
-  HullSums sums = sumsOf(cut);
-  addMoments(wet, plane, sums);
+  double of_cut[kRows], of_wet[kWetRows];
+  sumRows(cut, of_cut);
+  sumRows(wet, of_wet);
+  HullSums sums = sumsOf(of_cut);
+  addWetTo(sums, of_wet, plane);
   return sums;
 }
+
+inline double absolute(double a) { return a < 0 ? -a : a; }
+
+/// A block whose box is within what was found already is left out.
+HullExtent extentOf(const HullCorners& corners, const double (&s)[3]) noexcept {
+  const Vectors normal = broadcast(s);
+  const double size[3] = {absolute(s[0]), absolute(s[1]), absolute(s[2])};
+  HullExtent extent{};
+  for (std::size_t i = 0; i < corners.count; ++i) {
+    const HullPoints& block = corners.blocks[i];
+    const double middle = dot(s, block.centre), reach = dot(size, block.half);
+    if (i > 0 && middle - reach >= extent.low && middle + reach <= extent.high) continue;
+    Doubles low = dot(normal, load(block.place, 0)), high = low;
+    for (int at = kWidth; at < HullPoints::kPoints; at += kWidth) {
+      const Doubles along = dot(normal, load(block.place, at));
+      low = along < low ? along : low;
+      high = along > high ? along : high;
+    }
+    double lows[kWidth], highs[kWidth];
+    store(lows, low);
+    store(highs, high);
+    if (i == 0) extent = {lows[0], highs[0]};
+    for (int lane = 0; lane < kWidth; ++lane) {
+      if (lows[lane] < extent.low) extent.low = lows[lane];
+      if (highs[lane] > extent.high) extent.high = highs[lane];
+    }
+  }
+  return extent;
+}
+
+}  // namespace
+
+const HullKernel AMBIENT_KERNEL{sumHull, extentOf};
 
 }  // namespace ambient

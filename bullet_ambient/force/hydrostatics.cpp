@@ -9,6 +9,11 @@
 namespace ambient {
 namespace {
 
+const HullKernel& fastestHullKernel() noexcept {
+  static const HullKernel& fastest = *kHullKernels.fastest();
+  return fastest;
+}
+
 HullPlane planeOf(const SurfacePlane& plane, const PlaneAxes& axes) {
   const Vector3 &s = plane.normal, &e = axes.first, &f = axes.second;
   return {{s.x(), s.y(), s.z()}, {{e.x(), e.y(), e.z()}, {f.x(), f.y(), f.z()}}, plane.height};
@@ -39,16 +44,21 @@ WetVolume WetVolume::inB(const FrameOffset& frame) const {
 }
 
 WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) noexcept {
-  static const SumHull sum_hull = kSumHull.fastest();
   const PlaneAxes axes(plane.normal);
-  const HullSums sums = sum_hull(hull.blocks(), planeOf(plane, axes));
-  const Vector3 moment(sums.moment[0], sums.moment[1], sums.moment[2]);
+  const HullSums sums = fastestHullKernel().sums(hull.blocks(), planeOf(plane, axes));
+  const Vector3 moment = sums.moment[0] * axes.first + sums.moment[1] * axes.second +
+                         (plane.height * sums.volume - sums.depth) * plane.normal;
   const double factor = hull.volumeFactor();
-  WetVolume wet{factor * sums.volume, factor * (moment + sums.depth * plane.normal),
-                factor * sums.depth, waterplaneOf(sums, plane, axes)};
+  WetVolume wet{factor * sums.volume, factor * moment, factor * sums.depth,
+                waterplaneOf(sums, plane, axes)};
   wet.waterplane.area *= factor;
   wet.waterplane.spread *= factor;
   return wet;
+}
+
+std::pair<double, double> computeExtent(const PackedHull& hull, const Vector3& s) noexcept {
+  const HullExtent extent = fastestHullKernel().extent(hull.corners(), {s.x(), s.y(), s.z()});
+  return {extent.low, extent.high};
 }
 
 WetVolume computeWetSphere(double radius, const Vector3& centre,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "bullet_ambient/fluid_body/packed_hull.h"
 #include "bullet_ambient/force/surface_plane.h"
 
@@ -24,9 +26,12 @@ struct WetVolume {
   WetVolume inB(const FrameOffset& frame) const;
 };
 
-/// By the divergence theorem over the wet parts of the triangles, exact. Cost: 1 us for 320
-/// triangles, 2 us for 1280; allocates nothing. The same bits on every machine.
+/// By the divergence theorem over the wet parts of the triangles, exact. Cost: that of the
+/// triangles near the plane; allocates nothing. The same bits on every machine.
 WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) noexcept;
+
+/// Least and largest s.z over the body [m], for a unit vector s; 0 without corners.
+std::pair<double, double> computeExtent(const PackedHull& hull, const Vector3& s) noexcept;
 
 /// Of a sphere, in closed form.
 WetVolume computeWetSphere(double radius, const Vector3& centre,

@@ -52,10 +52,6 @@ struct Weight {
   }
 };
 
-inline double sumLanes(const double (&l)[kLanes]) {
-  return ((l[0] + l[4]) + (l[2] + l[6])) + ((l[1] + l[5]) + (l[3] + l[7]));
-}
-
 PartInertia sumInertia(const PartBlocks& parts, const PartPlane& plane) noexcept {
   double lanes[PartBlock::kEntries][kLanes] = {};
   const Weight weight{plane.reach};

@@ -106,8 +106,7 @@ RestoringModes restoringModesOf(const WetVolume& wet, const SurfacePlane& surfac
   return modes;
 }
 
-WaveModes waveModesOf(const WaveSource& source) noexcept {
-  const RestoringModes restoring = restoringModesOf(source.wet, source.plane);
+WaveModes waveModesOf(const WaveSource& source, const RestoringModes& restoring) noexcept {
   if (!(restoring[0].stiffness > 0)) return {};
   const Scales k = scalesOf(source, restoring);
   const double area = source.wet.waterplane.area, gravity = source.plane.gravity;

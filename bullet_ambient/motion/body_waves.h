@@ -38,8 +38,8 @@ struct WaveModes {
   WaveMode heave, tilt[2];
 };
 
-/// Eq. (69), (70). All zero without a waterplane.
-WaveModes waveModesOf(const WaveSource& source) noexcept;
+/// Eq. (69), (70), with the modes of that waterplane. All zero without one.
+WaveModes waveModesOf(const WaveSource& source, const RestoringModes& restoring) noexcept;
 
 /// Brings the waves to the present modes: they lose energy, or keep it; eq. (72). `to_world`: B to
 /// W.

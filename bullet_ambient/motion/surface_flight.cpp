@@ -7,7 +7,6 @@
 #include "bullet_ambient/force/surface_loads.h"
 #include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/motion/passive_kick.h"
-#include "bullet_ambient/motion/surface_stand.h"
 
 namespace ambient {
 namespace {
@@ -57,12 +56,12 @@ class SurfaceFlight {
   }
 
   SurfaceFlightResult fly() {
-    const Stand begin = standAt({start_.orientation, Vector3::Zero()});
+    const Stand begin{task_.stand, start_.orientation.toRotationMatrix()};
     const int most =
         task_.settings.max_substeps > 0 ? task_.settings.max_substeps : kSurfaceSubsteps;
     const double duration = task_.duration;
     const double remembered = memory_.substep > 0 ? memory_.substep : duration;
-    swing_ = swingOf(begin);
+    swing_ = begin.swing;
     int count = substepsOf(std::min(remembered, kLongestSwing / swing_), most);
     for (int attempt = 1;; ++attempt) {
       run(begin, count);
@@ -91,16 +90,6 @@ class SurfaceFlight {
     return {standAtSurface(model_, seenFrom(plane_W_, R, pose.way_W)), R};
   }
 
-  /// The largest natural frequency [1/s].
-  double swingOf(const Stand& stand) const {
-    double square = 1e-12;
-    for (const RestoringMode& mode : restoringModesOf(stand.wet, stand.plane)) {
-      const double inertia = mode.motion.dot(stand.inertia * mode.motion);
-      if (inertia > 0) square = std::max(square, mode.stiffness / inertia);
-    }
-    return std::sqrt(square);
-  }
-
   void run(const Stand& begin, int count) {
     is_stiff_ = task_.duration / count * swing_ > kLongestSwing * (1 + 1e-9);
     has_gained_ = false;
@@ -112,10 +101,10 @@ class SurfaceFlight {
     error_ = 0;
     stand_ = begin;
     const double before = energy(), h = task_.duration / count;
-    move(h / 2);
-    for (int substep = 1; substep <= count; ++substep) {
-      kick(h);
-      move(substep < count ? h : h / 2);
+    for (int substep = 0; substep < count; ++substep) {
+      beginWith(h);
+      move(h);
+      endWith(h);
     }
     boundEnergy(before);
     flight_count_.substeps += count;
@@ -140,16 +129,26 @@ class SurfaceFlight {
     x_ = passSurface({model_, before, stand_, duration, gradient}, x_);
   }
 
-  void kick(double h) {
-    swing_ = std::max(swing_, swingOf(stand_));
-    const WaveModes modes = waveModesAt(model_, stand_);
-    meetModes(modes, stand_.to_world, waves_);
-    const Vector6 fall = h / 2 * fallOver(h);
-    x_ += fall;
+  /// The second half of a kick of h, in reversed order: loads are still those of the first half.
+  void beginWith(double h) {
+    if (model_.loads_below.loads) keepLoads(h);
+    if (model_.loads_above.loads) takeWind(h / 2);
+    makeWaves(h / 2);
+    x_ += h / 2 * fallOver(h);
+  }
+
+  /// The first half, at the pose where the flow has come to.
+  void endWith(double h) {
+    swing_ = std::max(swing_, stand_.swing);
+    x_ += h / 2 * fallOver(h);
+    makeWaves(h / 2);
+    if (model_.loads_above.loads) takeWind(h / 2);
     if (model_.loads_below.loads) takeLoads(h);
-    if (model_.loads_above.loads) takeWind(h);
-    x_ = exchangeWaves(modes, stand_.to_world, stand_.inverse, h, x_, waves_);
-    x_ += fall;
+  }
+
+  void makeWaves(double h) {
+    meetModes(stand_.waves, stand_.to_world, waves_);
+    x_ = exchangeWaves(stand_.waves, stand_.to_world, stand_.inverse, h, x_, waves_);
   }
 
   /// Acceleration by weight, applied forces and buoyancy; where the substep is too long for the
@@ -160,7 +159,7 @@ class SurfaceFlight {
                                .vector();
     if (!is_stiff_) return stand_.inverse * wrench;
     Matrix K = stand_.inertia;
-    for (const RestoringMode& mode : restoringModesOf(stand_.wet, stand_.plane))
+    for (const RestoringMode& mode : stand_.restoring)
       K += h * h / 4 * std::max(0.0, mode.stiffness) * mode.motion * mode.motion.transpose();
     return Eigen::LLT<Matrix>(K).solve(wrench);
   }
@@ -177,22 +176,35 @@ class SurfaceFlight {
     return guarded.wrench;
   }
 
-  /// Eq. (23) to (25).
-  void takeLoads(double h) {
+  Wrench lastLoad() const {
     const Matrix3& R = stand_.to_world;
-    const Wrench guess = has_load_
-                             ? Wrench{R.transpose() * load_W_.torque, R.transpose() * load_W_.force}
-                             : loadAt(x_);
+    return {R.transpose() * load_W_.torque, R.transpose() * load_W_.force};
+  }
+  void setLoad(const Wrench& load) {
+    const Matrix3& R = stand_.to_world;
+    load_W_ = {R * load.torque, R * load.force};
+    has_load_ = true;
+  }
+
+  /// Half of a kick of h, with the load that the other half has found.
+  void keepLoads(double h) {
+    if (!has_load_) setLoad(loadAt(x_));
+    const DualPair now = stand_.motion(x_);
+    x_ = passiveKick(now, {now, stand_.load(lastLoad())}, h / 2).twist;
+  }
+
+  /// Half of a kick of h, with the load in the middle of the whole, eq. (23) to (25).
+  void takeLoads(double h) {
+    const Wrench guess = lastLoad();
     const DualPair now = stand_.motion(x_);
     const DualPair sample = passiveKick(now, {now, stand_.load(guess)}, h / 2);
     const Wrench load = loadAt(sample.twist);
-    x_ = passiveKick(now, {sample, stand_.load(load)}, h).twist;
+    x_ = passiveKick(now, {sample, stand_.load(load)}, h / 2).twist;
     const Vector6 surprise = load.vector() - guess.vector();
     const double change = h * std::sqrt(std::max(0.0, surprise.dot(stand_.inverse * surprise)));
     const double scale = std::sqrt(std::max(0.0, inner(now, now))) + fall_scale_;
     if (scale > 0) error_ = std::max(error_, change / scale);
-    load_W_ = {R * load.torque, R * load.force};
-    has_load_ = true;
+    setLoad(load);
   }
 
   /// In the frame of the fluid above.
@@ -244,7 +256,7 @@ class SurfaceFlight {
     flight_count_.coarse = is_coarse || lanes_.is_coarse[0] > 0;
     if (flight_count_.coarse) flight_count_.error = lanes_.is_coarse[0] > 0 ? 1 : error_;
     const RigidState state{pose_.orientation, start_.position + pose_.way_W, Twist::fromVector(x_)};
-    return {{state, {load_W_, has_load_, next_substep}, flight_count_}, waves_};
+    return {{state, {load_W_, has_load_, next_substep}, flight_count_}, waves_, stand_};
   }
 
   const SurfaceTask& task_;

@@ -2,7 +2,7 @@
 
 #include "bullet_ambient/motion/body_waves.h"
 #include "bullet_ambient/motion/flight.h"
-#include "bullet_ambient/motion/surface_model.h"
+#include "bullet_ambient/motion/surface_stand.h"
 
 namespace ambient {
 
@@ -17,11 +17,14 @@ struct SurfaceTask {
   Vector3 velocity_above;  ///< of the fluid above [m/s]
   const FlightSettings& settings;
   double duration;  ///< [s], > 0
+  /// At the start of the step: that of the plane there, or of the last flight if it ended there.
+  const SurfaceStand& stand;
 };
 
 struct SurfaceFlightResult {
   FlightResult flight;
   WaveMemory waves;
+  SurfaceStand stand;  ///< at the end
 };
 
 /// Integrates the motion of a body that the surface of the water cuts, or is near of: Kirchhoff's

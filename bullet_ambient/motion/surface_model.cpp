@@ -1,12 +1,12 @@
 #include "bullet_ambient/motion/surface_model.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/spatial/positive_inverse.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
@@ -76,7 +76,7 @@ namespace {
 Immersion withExtent(const SurfaceModel& model, const SurfacePlane& plane_F) noexcept {
   Immersion immersion{plane_F, 0, 0, {}};
   if (model.hull) {
-    std::tie(immersion.low, immersion.high) = model.hull->extent(plane_F.normal);
+    std::tie(immersion.low, immersion.high) = computeExtent(*model.hull, plane_F.normal);
   } else {
     const double middle = plane_F.normal.dot(model.shape->centre_of_volume);
     immersion.low = middle - model.shape->sphere_radius;
@@ -110,28 +110,27 @@ Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) no
 
 namespace {
 
-using Factorisation = Eigen::LLT<Eigen::Matrix<double, 6, 6>>;
-
 Matrix6 withoutNegativePart(const Matrix6& K) {
   const auto eigen = symmetricEigen<6>(K);
   return eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
 }
 
+// In B.
+Matrix6 wettedInertiaAt(const SurfaceModel& model, const Immersion& immersion) {
+  const Matrix6 in_F = model.wetted->inertia(immersion);
+  if (model.fluid_frame.isIdentity()) return in_F;
+  const Matrix6 in_B = model.fluid_frame.inertiaToB(in_F);
+  return 0.5 * (in_B + in_B.transpose());
+}
+
 }  // namespace
 
 TotalInertia inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept {
-  const Matrix6 in_B = model.fluid_frame.inertiaToB(model.wetted->inertia(immersion));
-  const Matrix6 wet = 0.5 * (in_B + in_B.transpose());
-  TotalInertia total;
-  total.inertia = model.above.inertia + model.excess_density * wet;
-  Factorisation factors(total.inertia);
-  if (factors.info() != Eigen::Success) {
-    total.inertia = model.above.inertia + model.excess_density * withoutNegativePart(wet);
-    factors.compute(total.inertia);
-  }
-  const Matrix6 inverse = factors.solve(Eigen::Matrix<double, 6, 6>::Identity());
-  total.inverse = 0.5 * (inverse + inverse.transpose());
-  return total;
+  const Matrix6 wet = wettedInertiaAt(model, immersion);
+  const Matrix6 K = model.above.inertia + model.excess_density * wet;
+  if (const auto inverse = positiveInverse(K)) return {K, *inverse};
+  const Matrix6 positive = model.above.inertia + model.excess_density * withoutNegativePart(wet);
+  return {positive, positiveInverse(positive).value_or(model.above.inverse_inertia)};
 }
 
 }  // namespace ambient

@@ -1,8 +1,34 @@
 #include "bullet_ambient/motion/surface_stand.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "bullet_ambient/motion/surface_passage.h"
 
 namespace ambient {
+namespace {
+
+double swingOf(const RestoringModes& modes, const Matrix6& inertia) {
+  double square = 1e-12;
+  for (const RestoringMode& mode : modes) {
+    const double along = mode.motion.dot(inertia * mode.motion);
+    if (along > 0) square = std::max(square, mode.stiffness / along);
+  }
+  return std::sqrt(square);
+}
+
+WaveModes wavesAt(const SurfaceModel& model, const SurfaceStand& stand) {
+  if (!(model.excess_density > 0)) return {};
+  const Vector3& s = stand.plane.normal;
+  const Matrix3 fluid =
+      (stand.inertia - model.above.inertia).bottomRightCorner<3, 3>() / model.excess_density;
+  return waveModesOf(
+      {stand.wet, stand.plane, model.heave_factor * s.dot(fluid * s), model.wave_damping},
+      stand.restoring);
+}
+
+}  // namespace
+
 SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
   SurfaceStand stand;
   stand.plane = plane_B;
@@ -11,16 +37,10 @@ SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane
   const TotalInertia total = inertiaAt(model, stand.immersion_F);
   stand.inertia = total.inertia;
   stand.inverse = total.inverse;
+  stand.restoring = restoringModesOf(stand.wet, plane_B);
+  stand.waves = wavesAt(model, stand);
+  stand.swing = swingOf(stand.restoring, stand.inertia);
   return stand;
-}
-
-WaveModes waveModesAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
-  if (!(model.excess_density > 0)) return {};
-  const Vector3& s = stand.plane.normal;
-  const Matrix3 fluid =
-      (stand.inertia - model.above.inertia).bottomRightCorner<3, 3>() / model.excess_density;
-  return waveModesOf(
-      {stand.wet, stand.plane, model.heave_factor * s.dot(fluid * s), model.wave_damping});
 }
 
 bool isStable(const RestoringModes& modes) noexcept {

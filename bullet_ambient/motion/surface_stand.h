@@ -12,14 +12,14 @@ struct SurfaceStand {
   WetVolume wet;
   Matrix6 inertia;  ///< K of body and fluids, docs/theory.md eq. (63)
   Matrix6 inverse;  ///< K^-1
+  RestoringModes restoring;
+  WaveModes waves;   ///< that it makes
+  double swing = 0;  ///< the largest natural frequency [1/s]
 };
 
 /// `plane_B` with the density and gravity that count. Cost: 1 us for a hull of some hundred
 /// triangles.
 SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
-
-/// The waves that it makes there.
-WaveModes waveModesAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
 
 /// Whether small displacements are turned back: up and down, and about both axes of the waterplane.
 bool isStable(const RestoringModes& modes) noexcept;

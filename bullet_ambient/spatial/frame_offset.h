@@ -12,6 +12,7 @@ struct FrameOffset {
   Matrix3 rotation{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Vector3 translation{0, 0, 0};
 
+  bool isIdentity() const { return rotation.isIdentity(0) && translation.isZero(0); }
   /// The twist of the same rigid body at F's origin in F's axes, given at B's origin in B's axes.
   Twist toF(const Twist& x_B) const;
   /// The wrench about B's origin in B's axes, given about F's origin in F's axes.

@@ -12,7 +12,7 @@ constexpr double kRounding = 1e-12;
 // The height of the plane at which the water carries the body: Newton's method within an interval
 // that halving keeps.
 void balance(const FloatingBody& body, const PackedHull& hull, FloatingPose& pose) {
-  const auto [low, high] = hull.extent(pose.plane.normal);
+  const auto [low, high] = computeExtent(hull, pose.plane.normal);
   const double wanted = body.mass / body.density;
   double below = low, above = high;
   pose.plane.height = (low + high) / 2;
@@ -68,7 +68,7 @@ FloatingPose settle(const FloatingBody& body, const PackedHull& hull, const Vect
   constexpr int kMostSteps = 200;
   constexpr double kLongest = 0.3;  // [rad]
   FloatingPose pose = floatAt(body, hull, up);
-  const auto [low, high] = hull.extent(up);
+  const auto [low, high] = computeExtent(hull, up);
   const double scale = body.mass * body.gravity * (high - low);
   for (int i = 0; i < kMostSteps; ++i) {
     if (pose.gradient.norm() <= 1e-10 * scale) break;

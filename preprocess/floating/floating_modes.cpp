@@ -44,7 +44,7 @@ Eigen::Matrix3d stiffnessOf(const FloatingBody& body, const FloatingPose& pose,
 Eigen::Matrix3d inertiaOf(const FloatingBody& body, const PackedHull& hull,
                           const FloatingPose& pose, const Floaters& of) {
   LoadTables tables;
-  const auto [low, high] = hull.extent(of.up);
+  const auto [low, high] = computeExtent(hull, of.up);
   const Matrix6 added =
       makeWettedInertia(body.shape, tables)->inertia({pose.plane, low, high, pose.wet});
   const FrameOffset about_mass{Matrix3::Identity(), -body.centre_of_mass};
@@ -94,7 +94,7 @@ FloatingAttitude describe(const FloatingBody& body, const PackedHull& hull,
   attitude.plane = pose.plane;
   attitude.wet = pose.wet;
   attitude.energy = pose.energy;
-  attitude.draught = pose.plane.height - hull.extent(pose.plane.normal).first;
+  attitude.draught = pose.plane.height - computeExtent(hull, pose.plane.normal).first;
   attitude.height_of_mass = -pose.plane.depth(body.centre_of_mass);
   // Turned about an axis a, the normal moves along a x s, in which the stiffness is given.
   const PlaneEigen eigen = planeEigen(pose.stiffness, planeAxes(pose.plane.normal));

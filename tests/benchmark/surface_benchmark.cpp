@@ -39,7 +39,7 @@ void extent(benchmark::State& state) {
   Vector3 s = Vector3(0.3, 0.5, 0.8).normalized();
   for (auto _ : state) {
     benchmark::DoNotOptimize(s);
-    benchmark::DoNotOptimize(hull.extent(s));
+    benchmark::DoNotOptimize(computeExtent(hull, s));
   }
 }
 
@@ -58,6 +58,15 @@ void inertiaGradient(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(at);
     benchmark::DoNotOptimize(run.model().wetted->gradient(at, run.state.twist));
+  }
+}
+
+void stand(benchmark::State& state) {
+  const FloatingRun run = runOf(state);
+  SurfacePlane plane = run.plane_B();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(plane);
+    benchmark::DoNotOptimize(standAtSurface(run.model(), plane));
   }
 }
 
@@ -80,17 +89,16 @@ void allLoads(benchmark::State& state) {
   }
 }
 
-// From the same state each time, with a load to guess from.
+// From the same state each time, with what a step before has left.
 void stepAtTheSurface(benchmark::State& state) {
   FloatingRun run = runOf(state);
   run.step(1 / 240.0);
-  const FloatingRun start = run;
-  for (auto _ : state) {
-    run.state = start.state;
-    run.memory = start.memory;
-    run.step(1 / 240.0);
-    benchmark::DoNotOptimize(run.state);
-  }
+  const SurfaceStand stand = standAtSurface(run.model(), run.plane_B());
+  const FlightSettings settings;
+  const SurfaceTask task{run.model(), test::kStill, run.surroundings(), Vector3::Zero(), settings,
+                         1 / 240.0,   stand};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(flyAtSurface(task, run.state, run.memory, run.waves));
   state.counters["substeps"] = run.count.substeps;
 }
 
@@ -111,6 +119,7 @@ BENCHMARK(hydrostatics)->DenseRange(2, 5);
 BENCHMARK(extent)->DenseRange(2, 5);
 BENCHMARK(wettedInertia)->DenseRange(2, 4);
 BENCHMARK(inertiaGradient)->DenseRange(2, 4);
+BENCHMARK(stand)->DenseRange(2, 4);
 BENCHMARK(wetLoads)->DenseRange(2, 4);
 BENCHMARK(allLoads)->DenseRange(2, 4);
 BENCHMARK(stepAtTheSurface)->DenseRange(2, 4);

@@ -13,6 +13,7 @@
 namespace ambient::test {
 
 constexpr double kWaterDensity = 1000;
+const SurfacePlane kStill{{0, 0, 1}, 0, 0, 0};
 
 struct FloatingDef {
   FluidBody shape;
@@ -53,9 +54,10 @@ class FloatingRun {
   double mass() const { return mass_; }
 
   void step(double duration) {
-    const SurfacePlane plane{{0, 0, 1}, 0, 0, 0};
-    const SurfaceFlightResult result = flyAtSurface(
-        {model_, plane, surroundings_, Vector3::Zero(), settings_, duration}, state, memory, waves);
+    const SurfaceStand stand = standAtSurface(model_, plane_B());
+    const SurfaceFlightResult result =
+        flyAtSurface({model_, kStill, surroundings_, Vector3::Zero(), settings_, duration, stand},
+                     state, memory, waves);
     state = result.flight.state;
     memory = result.flight.memory;
     count = result.flight.count;
@@ -66,10 +68,11 @@ class FloatingRun {
     for (int i = 0; i < steps; ++i) step(duration);
   }
 
-  Immersion immersion() const {
+  Immersion immersion() const { return immersionOf(model_, plane_B()); }
+  SurfacePlane plane_B() const {
     const Matrix3 R = state.orientation.toRotationMatrix();
     const SurfacePlane plane{{0, 0, 1}, 0, model_.excess_density, -gravity_.z()};
-    return immersionOf(model_, seenFrom(plane, R, state.position));
+    return seenFrom(plane, R, state.position);
   }
   Matrix6 inertia() const { return inertiaAt(model_, immersion()).inertia; }
   Vector3 velocity_W() const { return state.orientation * state.twist.linear; }

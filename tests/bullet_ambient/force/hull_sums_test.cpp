@@ -12,25 +12,30 @@
 namespace ambient {
 namespace {
 
-std::string bitsOf(const HullSums& sums) {
+template <class Sums>
+std::string bitsOf(const Sums& sums) {
   std::string bytes(sizeof sums, '\0');
   std::memcpy(bytes.data(), &sums, sizeof sums);
   return bytes;
 }
 
 TEST(HullSums, HaveTheSameBitsWithEveryInstructionSet) {
-  std::vector<SumHull> kernels;
+  std::vector<const HullKernel*> kernels;
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512})
-    if (const SumHull kernel = kSumHull.of(set)) kernels.push_back(kernel);
+    if (const HullKernel* kernel = kHullKernels.of(set)) kernels.push_back(kernel);
   if (kernels.empty()) GTEST_SKIP() << "this processor has the baseline only";
-  for (const int divisions : {1, 2, 3, 7, 30}) {
-    const PackedHull hull(test::boxBody({2, 1.3, 0.7}, divisions));
+  const HullKernel& baseline = kHullKernelBaseline;
+  for (const int level : {0, 1, 2, 4}) {
+    const PackedHull hull(test::hullBody(test::geodesicEllipsoid({2, 1.3, 0.7}, level)));
     for (int i = -12; i <= 12; ++i) {
       const HullPlane plane{{0.48, 0.6, 0.64}, {{0.8, -0.6, 0}, {0.384, 0.512, -0.768}}, 0.1 * i};
-      for (const SumHull kernel : kernels)
-        EXPECT_EQ(bitsOf(kernel(hull.blocks(), plane)),
-                  bitsOf(sumHullBaseline(hull.blocks(), plane)))
-            << divisions << " divisions, height " << plane.height;
+      for (const HullKernel* kernel : kernels) {
+        EXPECT_EQ(bitsOf(kernel->sums(hull.blocks(), plane)),
+                  bitsOf(baseline.sums(hull.blocks(), plane)))
+            << "level " << level << ", height " << plane.height;
+        EXPECT_EQ(bitsOf(kernel->extent(hull.corners(), plane.normal)),
+                  bitsOf(baseline.extent(hull.corners(), plane.normal)));
+      }
     }
   }
 }

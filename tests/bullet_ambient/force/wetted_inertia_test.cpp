@@ -49,7 +49,7 @@ class Wetted {
 
  private:
   std::pair<double, double> extent(const Vector3& s) const {
-    if (!(body_->sphere_radius > 0)) return hull_.extent(s);
+    if (!(body_->sphere_radius > 0)) return computeExtent(hull_, s);
     const double middle = s.dot(body_->centre_of_volume);
     return {middle - body_->sphere_radius, middle + body_->sphere_radius};
   }

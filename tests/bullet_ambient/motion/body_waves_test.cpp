@@ -17,7 +17,7 @@ const SurfacePlane kPlane{{0, 0, 1}, 0, 1, 1};
 /// A hemisphere of radius 1 in water of density 1 and gravity 1.
 WaveModes hemisphere() {
   const WetVolume wet = computeWetSphere(1, {0, 0, 0}, kPlane);
-  return waveModesOf({wet, kPlane, kPi / 3, 1});
+  return waveModesOf({wet, kPlane, kPi / 3, 1}, restoringModesOf(wet, kPlane));
 }
 
 /// Force over velocity of a mode, B + i omega (A - A(inf)).
@@ -47,7 +47,7 @@ WaveModes boxModes(double length, double breadth, double draught, double added_m
   const double area = length * breadth, volume = area * draught;
   WetVolume wet{volume, {0, 0, -volume * draught / 2}, 0, {area, {0, 0, 0}, Matrix3::Zero()}};
   wet.waterplane.spread.diagonal() << area * length * length / 12, area * breadth * breadth / 12, 0;
-  return waveModesOf({wet, kPlane, added_mass, 1});
+  return waveModesOf({wet, kPlane, added_mass, 1}, restoringModesOf(wet, kPlane));
 }
 
 TEST(BodyWaves, OfTheHeaveOfBoxesHaveTheImpedanceOfTheFit) {
@@ -108,7 +108,7 @@ TEST(BodyWaves, BallThatTurnsMakesNone) {
 TEST(BodyWaves, AreNoneWithoutAWaterplane) {
   const SurfacePlane above{{0, 0, 1}, -2, 1, 1};
   const WetVolume dry = computeWetSphere(1, {0, 0, 0}, above);
-  const WaveModes modes = waveModesOf({dry, above, 0, 1});
+  const WaveModes modes = waveModesOf({dry, above, 0, 1}, restoringModesOf(dry, above));
   WaveMemory waves;
   waves.heave[0] = 1;
   waves.heave_energy = 1;

@@ -249,9 +249,10 @@ TEST(SurfaceFlight, WindPushesWhatIsOutOfTheWater) {
   def.above = air();
   def.above.velocity = {10, 0, 0};
   FloatingRun box(def);
-  const SurfacePlane plane{{0, 0, 1}, 0, 0, 0};
+  const SurfaceStand stand = standAtSurface(box.model(), box.plane_B());
   const SurfaceFlightResult result = flyAtSurface(
-      {box.model(), plane, box.surroundings(), def.above.velocity, {}, 0.01}, box.state, {}, {});
+      {box.model(), test::kStill, box.surroundings(), def.above.velocity, {}, 0.01, stand},
+      box.state, {}, {});
   const double push = result.flight.state.twist.linear.x();
   // Half of the side, of which the front has the stagnation of the slip: something, not more than
   // rho v^2 A.
