@@ -18,13 +18,14 @@ double sprayShare(const SurfacePassage& p, const Vector6& x) noexcept {
   return theta * std::clamp(2 * sinking / speed, -1.0, 1.0);
 }
 
-/// F_K dt, so that its power is that of the change of the inertia, where the two are near.
+/// F_K dt, the force so that the power is that of the change of the inertia, where the two are
+/// near. The torque belongs to the gyroscopic terms of the flow, as it is.
 Wrench impulseOf(const SurfacePassage& p, const Vector6& x) noexcept {
   constexpr double kMostCorrection = 3;
   const double work = p.duration * power(p.gradient, Twist::fromVector(x));
   const double ratio = 0.5 * x.dot((p.after - p.before) * x) / work;
   const bool is_near = ratio > 0 && ratio < kMostCorrection;
-  return (is_near ? ratio * p.duration : p.duration) * p.gradient;
+  return p.duration * Wrench{p.gradient.torque, (is_near ? ratio : 1) * p.gradient.force};
 }
 
 }  // namespace
