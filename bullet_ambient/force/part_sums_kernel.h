@@ -35,36 +35,55 @@ struct Depths {
   }
 };
 
-/// zeta / (zeta + reach), and its derivative; 0 above the surface.
-struct Weight {
-  double reach;
-  double least = 1e-300;  // keeps 0 / 0 away
+/// Of the three points of each part: 0 above the surface, and what is added to the reach; one
+/// division serves all three.
+struct Weights {
+  Doubles depth[3], sum[3], per;
 
-  Doubles at(const Doubles& depth) const {
+  Weights(const Depths& depths, double reach) {
+    constexpr double kLeast = 1e-100;  // keeps 0 / 0 away
     const Doubles zero = {};
-    const Doubles wet = depth > zero ? depth : zero;
-    return wet / (wet + (reach + least));
+    const Doubles* const points[3] = {&depths.above, &depths.middle, &depths.below};
+    for (int i = 0; i < 3; ++i) {
+      depth[i] = *points[i] > zero ? *points[i] : zero;
+      sum[i] = depth[i] + (reach + kLeast);
+    }
+    per = 1.0 / (sum[0] * sum[1] * sum[2]);
   }
-  Doubles slopeAt(const Doubles& depth) const {
-    const Doubles zero = {};
-    const Doubles sum = (depth > zero ? depth : zero) + (reach + least);
-    return depth > zero ? reach / (sum * sum) : zero;
+  /// One over a sum.
+  Doubles perSum(int i) const { return per * (sum[(i + 1) % 3] * sum[(i + 2) % 3]); }
+  /// Mean of zeta / (zeta + reach).
+  Doubles share() const {
+    const Doubles outer = 5 * (depth[0] * perSum(0)) + 5 * (depth[2] * perSum(2));
+    return (1.0 / 18) * (outer + 8 * (depth[1] * perSum(1)));
+  }
+  /// Derivative of one of them.
+  Doubles slope(int i, double reach) const {
+    const Doubles zero = {}, p = perSum(i);
+    return depth[i] > zero ? reach * (p * p) : zero;
   }
 };
 
+constexpr int kChunk = 16;  ///< blocks that are weighted at a time
+
 PartInertia sumInertia(const PartBlocks& parts, const PartPlane& plane) noexcept {
   double lanes[PartBlock::kEntries][kLanes] = {};
-  const Weight weight{plane.reach};
-  for (std::size_t i = 0; i < parts.count; ++i)
+  for (std::size_t begin = 0; begin < parts.count; begin += kChunk) {
+    const PartBlock* const blocks = parts.blocks + begin;
+    const std::size_t left = parts.count - begin;
+    const int count = left < kChunk ? static_cast<int>(left) : kChunk;
     for (int lane = 0; lane < kLanes; lane += kWidth) {
-      const Depths depths(parts.blocks[i], lane, plane);
-      const Doubles share = (5 * weight.at(depths.above) + 8 * weight.at(depths.middle) +
-                             5 * weight.at(depths.below)) /
-                            18;
-      for (int entry = 0; entry < PartBlock::kEntries; ++entry)
-        store(lanes[entry] + lane,
-              load(lanes[entry] + lane) + share * load(parts.blocks[i].inertia[entry] + lane));
+      Doubles shares[kChunk];
+      for (int i = 0; i < count; ++i)
+        shares[i] = Weights(Depths(blocks[i], lane, plane), plane.reach).share();
+      for (int entry = 0; entry < PartBlock::kEntries; ++entry) {
+        Doubles sum = load(lanes[entry] + lane);
+        for (int i = 0; i < count; ++i)
+          sum = sum + shares[i] * load(blocks[i].inertia[entry] + lane);
+        store(lanes[entry] + lane, sum);
+      }
     }
+  }
   PartInertia sum;
   for (int entry = 0; entry < PartBlock::kEntries; ++entry)
     sum.entries[entry] = sumLanes(lanes[entry]);
@@ -74,19 +93,19 @@ PartInertia sumInertia(const PartBlocks& parts, const PartPlane& plane) noexcept
 PartGradient sumGradient(const PartBlocks& parts, const PartPlane& plane,
                          const double (&products)[PartBlock::kEntries]) noexcept {
   double lanes[4][kLanes] = {};
-  const Weight weight{plane.reach};
+  const Doubles zero = {};
   for (std::size_t i = 0; i < parts.count; ++i)
     for (int lane = 0; lane < kLanes; lane += kWidth) {
       const PartBlock& block = parts.blocks[i];
       const Depths depths(block, lane, plane);
-      const Doubles above = 5 * weight.slopeAt(depths.above);
-      const Doubles below = 5 * weight.slopeAt(depths.below);
+      const Weights weights(depths, plane.reach);
+      const Doubles above = 5 * weights.slope(0, plane.reach);
+      const Doubles below = 5 * weights.slope(2, plane.reach);
       Doubles energy = {};
       for (int entry = 0; entry < PartBlock::kEntries; ++entry)
         energy = energy + products[entry] * load(block.inertia[entry] + lane);
-      energy = energy / 18;
-      const Doubles t = (above + 8 * weight.slopeAt(depths.middle) + below) * energy;
-      const Doubles zero = {};
+      energy = (1.0 / 18) * energy;
+      const Doubles t = (above + 8 * weights.slope(1, plane.reach) + below) * energy;
       const Doubles apart = depths.way > zero ? (below - above) * energy / depths.way : zero;
       store(lanes[0] + lane, load(lanes[0] + lane) + t);
       for (int axis = 0; axis < 3; ++axis)
