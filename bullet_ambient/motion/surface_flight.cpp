@@ -19,20 +19,6 @@ constexpr double kMostSurfaceError = 2;  // of an accepted step, in tolerances
 
 using Matrix = Eigen::Matrix<double, 6, 6>;
 
-/// With its axes in the world.
-struct Stand : SurfaceStand {
-  Matrix3 to_world;
-
-  DualPair motion(const Vector6& x) const { return {x, inertia * x}; }
-  DualPair load(const Wrench& wrench) const {
-    const Vector6 f = wrench.vector();
-    return {inverse * f, f};
-  }
-  WetPart partBelow(const FrameOffset& frame, double volume) const {
-    return {seenFrom(plane, frame), wetShare(immersion_F, volume)};
-  }
-};
-
 struct Pose {
   Quaternion orientation;
   Vector3 way_W;  // from where the step began
@@ -56,7 +42,7 @@ class SurfaceFlight {
   }
 
   SurfaceFlightResult fly() {
-    const Stand begin{task_.stand, start_.orientation.toRotationMatrix()};
+    const SurfaceStand& begin = task_.stand;
     const int most =
         task_.settings.max_substeps > 0 ? task_.settings.max_substeps : kSurfaceSubsteps;
     const double duration = task_.duration;
@@ -64,14 +50,14 @@ class SurfaceFlight {
     swing_ = begin.swing;
     int count = substepsOf(std::min(remembered, kLongestSwing / swing_), most);
     for (int attempt = 1;; ++attempt) {
-      run(begin, count);
+      run(count);
       const double ratio = error_ / task_.settings.tolerance, h = duration / count;
       const double next = ratio > 0 ? std::min(4 * h, 0.9 * h / std::sqrt(ratio)) : 4 * h;
       const int needed = substepsOf(kLongestSwing / swing_, most);
       const bool is_coarse = ratio > kMostSurfaceError || has_gained_;
       const bool is_done = !is_coarse && needed <= count;
       if (is_done || attempt == kSurfaceAttempts || count == most) {
-        if (has_gained_) stayAt(begin);
+        if (has_gained_) stay();
         return resultOf(next, is_coarse && count == most);
       }
       count = std::min(
@@ -85,21 +71,33 @@ class SurfaceFlight {
     return wanted < most ? std::max(1, static_cast<int>(wanted)) : most;
   }
 
-  Stand standAt(const Pose& pose) const {
-    const Matrix3 R = pose.orientation.toRotationMatrix();
-    return {standAtSurface(model_, seenFrom(plane_W_, R, pose.way_W)), R};
+  SurfaceStand standHere() const {
+    return standAtSurface(model_, seenFrom(plane_W_, to_world_, pose_.way_W));
+  }
+  void turnTo(const Quaternion& orientation) {
+    pose_.orientation = orientation;
+    to_world_ = orientation.toRotationMatrix();
+  }
+  Matrix3 toBody() const { return to_world_.transpose(); }
+
+  DualPair motionOf(const Vector6& x) const { return {x, stand_->inertia * x}; }
+  DualPair responseTo(const Wrench& load) const {
+    const Vector6 f = load.vector();
+    return {stand_->inverse * f, f};
+  }
+  WetPart partBelow(const FrameOffset& frame) const {
+    return {seenFrom(stand_->plane, frame), wetShare(stand_->immersion_F, model_.shape->volume)};
   }
 
-  void run(const Stand& begin, int count) {
+  void run(int count) {
     is_stiff_ = task_.duration / count * swing_ > kLongestSwing * (1 + 1e-9);
     has_gained_ = false;
-    pose_ = {start_.orientation, Vector3::Zero()};
+    returnToStart();
     x_ = start_.twist.vector();
     waves_ = start_waves_;
     load_W_ = memory_.load_W;
     has_load_ = memory_.has_load;
     error_ = 0;
-    stand_ = begin;
     const double before = energy(), h = task_.duration / count;
     for (int substep = 0; substep < count; ++substep) {
       beginWith(h);
@@ -113,20 +111,22 @@ class SurfaceFlight {
   /// The flow with the inertia frozen in body axes, eq. (22), and then its change.
   void move(double duration) {
     static const FlightKernel& kernel = fastestFlightKernel();
-    const DualPair motion = stand_.motion(x_);
-    const Wrench gradient = gradientAt(model_, stand_, x_);
-    setInertia(lanes_, 0, stand_.inertia, stand_.inverse, false);
+    const DualPair motion = motionOf(x_);
+    const Wrench gradient = gradientAt(model_, *stand_, x_);
+    setInertia(lanes_, 0, stand_->inertia, stand_->inverse, false);
     setLane(lanes_.orientation, 0, pose_.orientation);
     setLane(lanes_.way_W, 0, pose_.way_W);
     setLane(lanes_.twist_B, 0, Twist::fromVector(motion.twist));
     setLane(lanes_.momentum_B, 0, Twist::fromVector(motion.momentum));
     lanes_.flow_time[0] = duration;
     kernel.flow(lanes_);
-    pose_ = {orientationOf(lanes_.orientation, 0), vectorOf(lanes_.way_W, 0)};
+    turnTo(orientationOf(lanes_.orientation, 0));
+    pose_.way_W = vectorOf(lanes_.way_W, 0);
     x_ = twistOf(lanes_.twist_B, 0).vector();
-    const Matrix6 before = stand_.inertia;
-    stand_ = standAt(pose_);
-    x_ = passSurface({model_, before, stand_, duration, gradient}, x_);
+    const Matrix6 before = stand_->inertia;
+    later_stand_ = standHere();
+    stand_ = &later_stand_;
+    x_ = passSurface({model_, before, *stand_, duration, gradient}, x_);
   }
 
   /// The second half of a kick of h, in reversed order: loads are still those of the first half.
@@ -139,7 +139,7 @@ class SurfaceFlight {
 
   /// The first half, at the pose where the flow has come to.
   void endWith(double h) {
-    swing_ = std::max(swing_, stand_.swing);
+    swing_ = std::max(swing_, stand_->swing);
     x_ += h / 2 * fallOver(h);
     makeWaves(h / 2);
     if (model_.loads_above.loads) takeWind(h / 2);
@@ -147,19 +147,19 @@ class SurfaceFlight {
   }
 
   void makeWaves(double h) {
-    meetModes(stand_.waves, stand_.to_world, waves_);
-    x_ = exchangeWaves(stand_.waves, stand_.to_world, stand_.inverse, h, x_, waves_);
+    meetModes(stand_->waves, to_world_, waves_);
+    x_ = exchangeWaves(stand_->waves, to_world_, stand_->inverse, h, x_, waves_);
   }
 
   /// Acceleration by weight, applied forces and buoyancy; where the substep is too long for the
   /// stiffness of the buoyancy, as of a mean that knows it.
   Vector6 fallOver(double h) const {
-    const Vector6 wrench = (externalWrench(model_.above, task_.surroundings, stand_.to_world) +
-                            hydrostaticWrench(stand_.wet, stand_.plane))
+    const Vector6 wrench = (externalWrench(model_.above, task_.surroundings, to_world_) +
+                            hydrostaticWrench(stand_->wet, stand_->plane))
                                .vector();
-    if (!is_stiff_) return stand_.inverse * wrench;
-    Matrix K = stand_.inertia;
-    for (const RestoringMode& mode : stand_.restoring)
+    if (!is_stiff_) return stand_->inverse * wrench;
+    Matrix K = stand_->inertia;
+    for (const RestoringMode& mode : stand_->restoring)
       K += h * h / 4 * std::max(0.0, mode.stiffness) * mode.motion * mode.motion.transpose();
     return Eigen::LLT<Matrix>(K).solve(wrench);
   }
@@ -167,41 +167,37 @@ class SurfaceFlight {
   Wrench loadAt(const Vector6& x) {
     const PartLoads& part = model_.loads_below;
     const Twist twist = Twist::fromVector(x);
-    const Wrench wrench = part.frame.toB(part.loads->wetLoad(
-        part.frame.toF(twist), stand_.partBelow(part.frame, model_.shape->volume)));
+    const Wrench wrench =
+        part.frame.toB(part.loads->wetLoad(part.frame.toF(twist), partBelow(part.frame)));
     ++flight_count_.load_evaluations;
     if (!part.loads->needsGuard()) return wrench;
-    const SurfaceLoad guarded = removePositivePower(wrench, twist, stand_.inertia);
+    const SurfaceLoad guarded = removePositivePower(wrench, twist, stand_->inertia);
     flight_count_.guarded += guarded.guarded;
     return guarded.wrench;
   }
 
-  Wrench lastLoad() const {
-    const Matrix3& R = stand_.to_world;
-    return {R.transpose() * load_W_.torque, R.transpose() * load_W_.force};
-  }
+  Wrench lastLoad() const { return {toBody() * load_W_.torque, toBody() * load_W_.force}; }
   void setLoad(const Wrench& load) {
-    const Matrix3& R = stand_.to_world;
-    load_W_ = {R * load.torque, R * load.force};
+    load_W_ = {to_world_ * load.torque, to_world_ * load.force};
     has_load_ = true;
   }
 
   /// Half of a kick of h, with the load that the other half has found.
   void keepLoads(double h) {
     if (!has_load_) setLoad(loadAt(x_));
-    const DualPair now = stand_.motion(x_);
-    x_ = passiveKick(now, {now, stand_.load(lastLoad())}, h / 2).twist;
+    const DualPair now = motionOf(x_);
+    x_ = passiveKick(now, {now, responseTo(lastLoad())}, h / 2).twist;
   }
 
   /// Half of a kick of h, with the load in the middle of the whole, eq. (23) to (25).
   void takeLoads(double h) {
     const Wrench guess = lastLoad();
-    const DualPair now = stand_.motion(x_);
-    const DualPair sample = passiveKick(now, {now, stand_.load(guess)}, h / 2);
+    const DualPair now = motionOf(x_);
+    const DualPair sample = passiveKick(now, {now, responseTo(guess)}, h / 2);
     const Wrench load = loadAt(sample.twist);
-    x_ = passiveKick(now, {sample, stand_.load(load)}, h / 2).twist;
+    x_ = passiveKick(now, {sample, responseTo(load)}, h / 2).twist;
     const Vector6 surprise = load.vector() - guess.vector();
-    const double change = h * std::sqrt(std::max(0.0, surprise.dot(stand_.inverse * surprise)));
+    const double change = h * std::sqrt(std::max(0.0, surprise.dot(stand_->inverse * surprise)));
     const double scale = std::sqrt(std::max(0.0, inner(now, now))) + fall_scale_;
     if (scale > 0) error_ = std::max(error_, change / scale);
     setLoad(load);
@@ -210,17 +206,17 @@ class SurfaceFlight {
   /// In the frame of the fluid above.
   void takeWind(double h) {
     const PartLoads& part = model_.loads_above;
-    const Vector6 shift = stack(Vector3::Zero(), stand_.to_world.transpose() * wind_W_);
-    const DualPair motion = stand_.motion(x_ + shift);
-    WetPart in_air = stand_.partBelow(part.frame, model_.shape->volume);
+    const Vector6 shift = stack(Vector3::Zero(), toBody() * wind_W_);
+    const DualPair motion = motionOf(x_ + shift);
+    WetPart in_air = partBelow(part.frame);
     in_air = {in_air.plane.flipped(), 1 - in_air.share};
     const Twist twist = Twist::fromVector(motion.twist);
     const Wrench wrench = part.frame.toB(part.loads->wetLoad(part.frame.toF(twist), in_air));
     ++flight_count_.load_evaluations;
-    x_ = passiveKick(motion, {motion, stand_.load(wrench)}, h).twist - shift;
+    x_ = passiveKick(motion, {motion, responseTo(wrench)}, h).twist - shift;
   }
 
-  double kinetic2() const { return x_.dot(stand_.inertia * x_); }
+  double kinetic2() const { return x_.dot(stand_->inertia * x_); }
 
   /// Docs/theory.md eq. (64), without the kinetic energy.
   double potential() const {
@@ -228,9 +224,9 @@ class SurfaceFlight {
     const Surroundings& s = task_.surroundings;
     const Vector3 force = s.applied.force - above.mass * s.ambient_acceleration;
     const Vector3 buoyancy = -above.displaced_mass * gravity_W_;
-    const Vector3 arm = pose_.way_W + stand_.to_world * above.centre_of_volume;
-    return hydrostaticEnergy(stand_.wet, stand_.plane) + waves_.energy() - force.dot(pose_.way_W) -
-           buoyancy.dot(arm);
+    const Vector3 arm = pose_.way_W + to_world_ * above.centre_of_volume;
+    return hydrostaticEnergy(stand_->wet, stand_->plane) + waves_.energy() -
+           force.dot(pose_.way_W) - buoyancy.dot(arm);
   }
   double energy() const { return 0.5 * kinetic2() + potential(); }
 
@@ -245,18 +241,22 @@ class SurfaceFlight {
   }
 
   /// Of a body that would come to a place with more energy than it has: its steps are too long.
-  void stayAt(const Stand& begin) {
-    stand_ = begin;
-    pose_ = {start_.orientation, Vector3::Zero()};
+  void stay() {
+    returnToStart();
     x_.setZero();
     waves_ = start_waves_;
+  }
+  void returnToStart() {
+    turnTo(start_.orientation);
+    pose_.way_W.setZero();
+    stand_ = &task_.stand;
   }
 
   SurfaceFlightResult resultOf(double next_substep, bool is_coarse) {
     flight_count_.coarse = is_coarse || lanes_.is_coarse[0] > 0;
     if (flight_count_.coarse) flight_count_.error = lanes_.is_coarse[0] > 0 ? 1 : error_;
     const RigidState state{pose_.orientation, start_.position + pose_.way_W, Twist::fromVector(x_)};
-    return {{state, {load_W_, has_load_, next_substep}, flight_count_}, waves_, stand_};
+    return {{state, {load_W_, has_load_, next_substep}, flight_count_}, waves_, *stand_};
   }
 
   const SurfaceTask& task_;
@@ -273,8 +273,10 @@ class SurfaceFlight {
   FlightLanes lanes_{};
 
   Pose pose_;
-  Vector6 x_;  // in B
-  Stand stand_;
+  Vector6 x_;         // in B
+  Matrix3 to_world_;  // its rotation
+  SurfaceStand later_stand_;
+  const SurfaceStand* stand_ = nullptr;  // at the pose: that of the task, or the later one
   WaveMemory waves_;
   Wrench load_W_;
   bool has_load_ = false;
