@@ -19,6 +19,7 @@ void rebuildSurfaces(AmbientBody& ambient, const MassProperties& mass) {
   const AttachDef& def = ambient.def;
   for (SurfaceMedia& surface : ambient.surfaces) {
     SurfaceModel& model = surface.model;
+    surface.has_stand = false;
     model.below =
         makeBodyModel(*def.fluid_body, def.fluid_frame, mass, surface.below, model.below.loads);
     model.above =

@@ -57,6 +57,9 @@ struct AmbientBody {
   const SurfaceMedia* surface() const {
     return encounter.media >= 0 ? &surfaces[static_cast<std::size_t>(encounter.media)] : nullptr;
   }
+  SurfaceMedia* surface() {
+    return encounter.media >= 0 ? &surfaces[static_cast<std::size_t>(encounter.media)] : nullptr;
+  }
   /// In which sizes of its motion are compared.
   const BodyModel& metric() const { return surface() ? surface()->model.below : model; }
 };

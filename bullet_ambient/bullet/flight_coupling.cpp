@@ -44,7 +44,7 @@ void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   complaints.say(Complaint::kNotFinite);
 }
 
-void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept {
+void keepAwakeWhileMoving(AmbientBody& ambient) noexcept {
   btRigidBody& body = *ambient.body;
   const double size = ambient.model.reference_length;
   const double travel =

@@ -18,7 +18,7 @@ void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
 
 /// Keeps Bullet from putting a body to sleep that drifts freely: it may rest only when it moves by
 /// less than a hundredth of its size within Bullet's two seconds.
-void keepAwakeWhileMoving(const AmbientBody& ambient) noexcept;
+void keepAwakeWhileMoving(AmbientBody& ambient) noexcept;
 
 /// Keeps a body awake around which the fluid changes with time.
 void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept;

@@ -61,13 +61,19 @@ bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start, const
 
 void flyNearSurface(AmbientBody& ambient, Flight& flight) {
   SurfaceEncounter& encounter = ambient.encounter;
+  SurfaceMedia& surface = *ambient.surface();
   const FlightTask& task = flight.task;
+  const RigidState& start = flight.body.state;
+  const SurfaceStand& stand = standAt(
+      ambient, seenFrom(encounter.plane_W, start.orientation.toRotationMatrix(), start.position));
   const SurfaceFlightResult result =
-      flyAtSurface({ambient.surface()->model, encounter.plane_W, task.surroundings,
-                    encounter.velocity_above, task.settings, task.duration},
-                   flight.body.state, flight.body.memory, encounter.waves);
+      flyAtSurface({surface.model, encounter.plane_W, task.surroundings, encounter.velocity_above,
+                    task.settings, task.duration, stand},
+                   start, flight.body.memory, encounter.waves);
   flight.body = result.flight;
   encounter.waves = result.waves;
+  encounter.met_B = result.stand.plane;
+  surface.stand = result.stand;
 }
 
 // Those at a surface one by one, all others together.
@@ -136,6 +142,7 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, d
     ++ambient.counters.rejected;
     ambient.memory = {};
     ambient.encounter.waves = {};
+    ambient.encounter.met_B.reset();
     return;
   }
   ambient.outcome.kind = Outcome::kFlown;

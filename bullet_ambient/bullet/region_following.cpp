@@ -32,7 +32,7 @@ SurfaceMedia makeSurfaceMediaOf(const AttachDef& def, const FluidRegion& region,
   if (region.flow && model.above.velocity.isZero(0)) model.above.velocity = Vector3::Ones();
   model.flow = def.flow;
   model.wave_damping = def.wave_damping;
-  SurfaceMedia made{region.below, region.above, makeSurfaceModel(model, tables), nullptr};
+  SurfaceMedia made{region.below, region.above, makeSurfaceModel(model, tables), nullptr, {}, false};
   const auto& loads = made.model.loads_below.loads;
   if (loads) made.loads = std::make_shared<LoadsAtSurface>(loads);
   return made;
@@ -100,6 +100,7 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
     if (ambient.is_frozen) markStale(ambient);
     ambient.encounter.media = -1;
     ambient.encounter.waves = {};
+    ambient.encounter.met_B.reset();
   }
   ambient.place = place;
   ambient.medium = medium;

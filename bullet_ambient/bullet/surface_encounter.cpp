@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "bullet_ambient/bullet/ambient_body.h"
 
@@ -32,8 +33,21 @@ SurfacePlane planeAfter(const AmbientBody& ambient, double time) {
   return seenFrom(plane, state.orientation.toRotationMatrix(), state.position);
 }
 
-SurfaceStand standAfter(const AmbientBody& ambient, double time) {
-  return standAtSurface(ambient.surface()->model, planeAfter(ambient, time));
+// The same but for the rounding of Bullet's poses, whose size is that of their place in the world.
+bool isNear(const SurfacePlane& a, const SurfacePlane& b, double size) {
+  constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  return a.density == b.density && a.gravity == b.gravity &&
+         (a.normal - b.normal).cwiseAbs().maxCoeff() <= kRounding &&
+         std::abs(a.height - b.height) <= kRounding * size;
+}
+
+bool isSame(const SurfacePlane& a, const SurfacePlane& b) {
+  return a.normal == b.normal && a.height == b.height && a.density == b.density &&
+         a.gravity == b.gravity;
+}
+
+const SurfaceStand& standAfter(AmbientBody& ambient, double time) {
+  return standAt(ambient, planeAfter(ambient, time));
 }
 
 BodyModel freeze(const SurfaceMedia& surface, const SurfaceStand& stand,
@@ -83,22 +97,35 @@ SurfaceSide meetSurface(AmbientBody& ambient, const RegionSample& sample,
   return side;
 }
 
+const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept {
+  SurfaceMedia& surface = *ambient.surface();
+  std::optional<SurfacePlane>& met = ambient.encounter.met_B;
+  const double size =
+      surface.model.radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
+  if (!met || !isNear(*met, plane_B, size)) met = plane_B;
+  if (!surface.has_stand || !isSame(surface.stand.plane, *met)) {
+    surface.stand = standAtSurface(surface.model, *met);
+    surface.has_stand = true;
+  }
+  return surface.stand;
+}
+
 BodyModel modelNow(const AmbientBody& ambient) {
   const SurfaceMedia* surface = ambient.surface();
   if (!surface) return ambient.model;
   const auto& loads = surface->model.loads_below.loads;
-  return freeze(*surface, standAfter(ambient, 0),
+  return freeze(*surface, standAtSurface(surface->model, planeAfter(ambient, 0)),
                 loads ? std::make_shared<LoadsAtSurface>(loads) : nullptr);
 }
 
 Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
   const SurfaceMedia& surface = *ambient.surface();
-  const SurfaceStand stand = standAfter(ambient, 0);
+  const SurfaceStand& stand = standAfter(ambient, 0);
   ambient.model = freeze(surface, stand, surface.loads);
   ambient.is_frozen = true;
   const RigidState state = readState(*ambient.body);
   const Matrix3 R = state.orientation.toRotationMatrix();
-  const WaveModes modes = waveModesAt(surface.model, stand);
+  const WaveModes& modes = stand.waves;
   Twist relative = state.twist;
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
@@ -108,9 +135,8 @@ Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
   return exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x, waves) - x;
 }
 
-Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, Axes axes,
-                     double duration) noexcept {
-  const SurfaceStand after = standAfter(ambient, duration);
+Vector6 passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes, double duration) noexcept {
+  const SurfaceStand& after = standAfter(ambient, duration);
   if (axes == Axes::kLocked) {
     const double had = x.dot(ambient.model.inertia * x), has = x.dot(after.inertia * x);
     return has > had ? Vector6(std::sqrt(had / has) * x) : x;
@@ -120,9 +146,8 @@ Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, Axes axes,
                      x);
 }
 
-bool mayRestAtSurface(const AmbientBody& ambient) noexcept {
-  const SurfaceStand stand = standAfter(ambient, 0);
-  return isStable(restoringModesOf(stand.wet, stand.plane));
+bool mayRestAtSurface(AmbientBody& ambient) noexcept {
+  return isStable(standAfter(ambient, 0).restoring);
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

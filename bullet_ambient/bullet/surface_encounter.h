@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct SurfaceMedia {
   Medium below, above;
   SurfaceModel model;
   std::shared_ptr<LoadsAtSurface> loads;  ///< this body's own; null: there are none
+  SurfaceStand stand;                     ///< the last one; see standAt()
+  bool has_stand = false;                 ///< of the model as it is
 };
 
 /// How a body meets a surface, of which it moves in one step.
@@ -45,6 +48,9 @@ struct SurfaceEncounter {
   Vector3 velocity_above = Vector3::Zero();
   WaveMemory waves;            ///< that the body has made
   WaveMemory waves_with_rows;  ///< after the step, if rows move the body
+  /// In B, at the pose where the last flight or step with rows ended: not where Bullet has rounded
+  /// it to.
+  std::optional<SurfacePlane> met_B;
 };
 
 /// The index of a pair of fluids of the same densities and viscosities; -1: none.
@@ -55,6 +61,11 @@ int findSurface(const std::vector<SurfaceMedia>& surfaces, const Medium& below,
 /// `duration` [s]; if it does, keeps what the step needs to know. Without gravity there is no
 /// surface, and the centre of mass decides. Allocates nothing.
 SurfaceSide meetSurface(AmbientBody& ambient, const RegionSample& sample, double duration) noexcept;
+
+/// The body against a plane in B; where that is the plane that it met last, but for the rounding of
+/// its pose in Bullet, what is known of it already. A function of the encounter's plane alone, so
+/// that a saved state goes on with the same bits. Allocates nothing. @pre it is at a surface
+const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept;
 
 /// Total inertia and the fluids around the body as they are now: its model, or what it is at the
 /// surface.
@@ -69,11 +80,10 @@ Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept;
 /// of its inertia on the way. With locked axes, it loses what energy the change would give it, and
 /// nothing else.
 enum class Axes { kFree, kLocked };
-Vector6 passWithRows(const AmbientBody& ambient, const Vector6& x, Axes axes,
-                     double duration) noexcept;
+Vector6 passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes, double duration) noexcept;
 
 /// Of a body that hardly moves: whether it may fall asleep where it floats. False on a saddle.
-bool mayRestAtSurface(const AmbientBody& ambient) noexcept;
+bool mayRestAtSurface(AmbientBody& ambient) noexcept;
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

@@ -22,9 +22,9 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
 AmbientState saveAmbient(const AmbientBody& ambient) {
-  AmbientState state{ambient.def,     ambient.medium,          ambient.place,
-                     ambient.memory,  ambient.encounter.waves, ambient.left_W,
-                     ambient.counters};
+  AmbientState state{ambient.def,    ambient.medium,          ambient.place,
+                     ambient.memory, ambient.encounter.waves, ambient.encounter.met_B,
+                     ambient.left_W, ambient.counters};
   if (isModelStale(ambient)) state.memory = {};  // as the next step will do
   return state;
 }
@@ -69,6 +69,7 @@ std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(const WorldState& st
     ambient.body = bodies[i];
     ambient.memory = saved.memory;
     ambient.encounter.waves = saved.waves;
+    ambient.encounter.met_B = saved.met_B;
     ambient.left_W = saved.left_W;
     ambient.counters = saved.counters;
   }

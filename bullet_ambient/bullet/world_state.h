@@ -13,6 +13,7 @@
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/region_id.h"
+#include "bullet_ambient/force/surface_plane.h"
 #include "bullet_ambient/motion/flight_memory.h"
 #include "bullet_ambient/motion/wave_memory.h"
 
@@ -30,6 +31,7 @@ struct AmbientState {
   RegionPlace place;
   FlightMemory memory;
   WaveMemory waves;
+  std::optional<SurfacePlane> met_B;  ///< see SurfaceEncounter
   Twist left_W;
   AmbientCounters counters;
 };

@@ -12,7 +12,7 @@ namespace {
 
 // Header: magic, version, bytes per number of Bullet, FNV-1a of the payload, payload.
 constexpr std::string_view kMagic = "AMBSTATE";
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 constexpr std::size_t kBodySize = 200;  // at least [bytes]
 
 using Hashes = std::map<const FluidBody*, std::uint64_t>;

@@ -70,6 +70,10 @@ std::string faultOfFlight(const AmbientState& ambient) {
       !std::isfinite(waves.heave[0]) || !std::isfinite(waves.heave[1]) ||
       !std::isfinite(waves.energy()))
     return "waves have numbers that are not finite";
+  if (const auto& met = ambient.met_B;
+      met && !(met->normal.allFinite() && std::isfinite(met->height) &&
+               std::isfinite(met->density) && std::isfinite(met->gravity)))
+    return "surface of the water is not finite";
   const Medium& medium = ambient.medium;
   if (!(medium.density >= 0) || !(medium.viscosity >= 0) || !std::isfinite(medium.density) ||
       !std::isfinite(medium.viscosity) || !medium.velocity.allFinite() ||

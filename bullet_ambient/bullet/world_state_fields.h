@@ -37,6 +37,18 @@ void transferSettings(Stream& s, State& def) {
   transferMatrix(s, def.fluid_frame.translation);
 }
 
+template <class Stream, class Plane>
+void transferPlane(Stream& s, Plane& plane) {
+  bool is_there = plane.has_value();
+  transferFlag(s, is_there);
+  if (!is_there) return;
+  if constexpr (Stream::kReads) plane.emplace();
+  transferMatrix(s, plane->normal);
+  s.number(plane->height);
+  s.number(plane->density);
+  s.number(plane->gravity);
+}
+
 template <class Stream, class State>
 void transferFlight(Stream& s, State& state) {
   transferMedium(s, state.medium);
@@ -51,6 +63,7 @@ void transferFlight(Stream& s, State& state) {
   }
   s.number(state.waves.heave_energy);
   s.number(state.waves.tilt_energy);
+  transferPlane(s, state.met_B);
   transferMatrix(s, state.memory.load_W.torque);
   transferMatrix(s, state.memory.load_W.force);
   transferFlag(s, state.memory.has_load);
