@@ -128,6 +128,25 @@ class SphereLoads final : public SurfaceLoads {
   std::shared_ptr<const SphereTable> table_;  ///< null where it needs none
 };
 
+/// Friction alone, by which two loads differ: the pressure of a flow that is attached everywhere is
+/// in the inertia of the water, of a cut body in the change of that.
+class FrictionOf final : public SurfaceLoads {
+ public:
+  FrictionOf(std::shared_ptr<const SurfaceLoads> all, std::shared_ptr<const SurfaceLoads> pressure)
+      : all_(std::move(all)), pressure_(std::move(pressure)) {}
+
+  Wrench load(const Twist& x) const noexcept override {
+    return all_->load(x) + -1.0 * pressure_->load(x);
+  }
+  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
+    return all_->wetLoad(x, wet) + -1.0 * pressure_->wetLoad(x, wet);
+  }
+  int faces() const noexcept override { return all_->faces() + pressure_->faces(); }
+
+ private:
+  std::shared_ptr<const SurfaceLoads> all_, pressure_;
+};
+
 // Of a fluid body that was filled by hand: readers and builders have checked theirs.
 void checkFaces(const FluidBody& body) {
   const FaceTable& faces = body.faces;
@@ -207,6 +226,19 @@ std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, const LoadSet
                                      FormLift(*body, flow.stall_lag), settings.density);
 }
 
+/// On faces, by the law of SphereLoads; where the flow is attached everywhere there is no pressure,
+/// as on a whole sphere.
+std::shared_ptr<const SurfaceLoads> waterlineLoadsOfSphere(const Body& body, LoadSettings settings,
+                                                           const FlowSettings& flow,
+                                                           LoadTables& tables) {
+  settings.law = PressureLaw::kPublished;
+  auto all = loadsOnFaces(body, settings, flow, tables);
+  if (settings.separation_cosine != -1) return all;
+  if (!(settings.reynoldsPerSpeed(1) > 0)) return nullptr;
+  settings.skin_friction = false;
+  return std::make_shared<FrictionOf>(std::move(all), loadsOnFaces(body, settings, flow, tables));
+}
+
 }  // namespace
 
 LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
@@ -238,11 +270,11 @@ std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<con
   if (!has_places) return makeSurfaceLoads(body, medium, flow, tables);
   checkFaces(*body);
   checkFlow(*body, flow);
-  LoadSettings settings = loadSettings(medium, flow);
+  const LoadSettings settings = loadSettings(medium, flow);
   if (!(settings.density > 0)) return nullptr;
-  if (body->sphere_radius > 0) settings.law = PressureLaw::kPublished;  // the one of SphereLoads
   FlowSettings on_all = flow;
   on_all.maximum_load_error = 0;
+  if (body->sphere_radius > 0) return waterlineLoadsOfSphere(body, settings, on_all, tables);
   return loadsOnFaces(body, settings, on_all, tables);
 }
 

@@ -200,5 +200,27 @@ TEST(WetLoads, HaveTheSameBitsWithEveryInstructionSet) {
       }
 }
 
+TEST(WetLoads, OfASphereInAttachedFlowAreFrictionAlone) {
+  // Pressure on half of it would be even in the velocity, about rho v^2 R^2 pi / 4; the change of
+  // its added mass has that already.
+  FluidBody sphere = test::hullBody(test::geodesicSphere(3));
+  sphere.sphere_radius = 1;
+  const auto body = std::make_shared<const FluidBody>(sphere);
+  LoadTables tables;
+  FlowSettings flow;
+  flow.separation_angle = std::acos(-1.0);
+  const auto loads = makeWaterlineLoads(body, kLiquid, flow, tables);
+  for (const Vector3& v : {Vector3(0, 0, 2), Vector3(1, 0, -1)}) {
+    const Wrench there = loads->wetLoad({{0, 0, 0}, v}, wetBelow({0, 0, 1}, 0));
+    const Wrench back = loads->wetLoad({{0, 0, 0}, -v}, wetBelow({0, 0, 1}, 0));
+    const double pressure = 1000 * v.squaredNorm();
+    EXPECT_LT(power(there, {{0, 0, 0}, v}), 0);
+    EXPECT_LT(sizeOf(there), 0.02 * pressure);
+    EXPECT_LT(sizeOf(there + back), 1e-5 * pressure);
+  }
+  flow.skin_friction = false;
+  EXPECT_EQ(makeWaterlineLoads(body, kLiquid, flow, tables), nullptr);
+}
+
 }  // namespace
 }  // namespace ambient

@@ -70,6 +70,35 @@ TEST(BodyWaves, OfTheHeaveOfBoxesHaveTheImpedanceOfTheFit) {
   }
 }
 
+TEST(BodyWaves, HaveTheCoefficientsOfBoxes) {
+  // A33, B33, A44, B44 by linear boundary elements (Capytaine 3.0, direct method, deep water; rho =
+  // g = 1, about the centre of the waterplane) at the frequency w, and A(inf). Two states are good
+  // to 0.07 of the total inertia for frequencies up to twice the natural one; in roll their
+  // dipole is that of the body that sways freely, so that only its smallness is checked.
+  const struct {
+    double length, breadth, draught, heave_inf, roll_inf, w, a33, b33, b44;
+  } cases[] = {{2, 1, 0.25, 0.7837, 0.0268, 0.5946, 1.0946, 0.2195, 5.12e-5},
+               {2, 1, 0.25, 0.7837, 0.0268, 0.8409, 0.8965, 0.3472, 3.79e-4},
+               {2, 1, 0.25, 0.7837, 0.0268, 1.1892, 0.6969, 0.3782, 1.18e-3},
+               {2, 1, 0.25, 0.7837, 0.0268, 1.5732, 0.6272, 0.2505, 4.02e-4},
+               {1, 1, 0.5, 0.3213, 0.0201, 0.7071, 0.3556, 0.0683, 2.26e-4},
+               {1, 1, 0.5, 0.3213, 0.0201, 1.0000, 0.3017, 0.0786, 2.35e-3},
+               {1, 1, 0.5, 0.3213, 0.0201, 1.4142, 0.2836, 0.0417, 0.0099}};
+  for (const auto& c : cases) {
+    const double mass = c.length * c.breadth * c.draught, total = mass + c.heave_inf;
+    // The fit has the added mass of (60), a factor 1.13 below the exact one.
+    const WaveModes modes = boxModes(c.length, c.breadth, c.draught, c.heave_inf);
+    const std::complex<double> heave = impedance(modes.heave, c.w);
+    EXPECT_NEAR(heave.real(), c.b33, 0.07 * total * c.w) << c.length << " " << c.w;
+    EXPECT_NEAR(heave.imag() / c.w, c.a33 - c.heave_inf, 0.07 * total) << c.length << " " << c.w;
+    const double gyration = 0.4 * c.breadth;
+    const double roll = mass * gyration * gyration + c.roll_inf;
+    for (const WaveMode& tilt : modes.tilt)
+      if (std::abs(tilt.motion[0]) > 0.5)
+        EXPECT_NEAR(impedance(tilt, c.w).real(), c.b44, 0.1 * roll * c.w) << c.length << " " << c.w;
+  }
+}
+
 TEST(RestoringModes, OfABoxAreThoseOfItsWaterplane) {
   // 2 x 1, draught 0.25, about a centre of mass in the waterline: V GM = I - V T/2.
   const SurfacePlane plane{{0, 0, 1}, 0, 2, 3};
