@@ -93,9 +93,9 @@ TEST(BodyWaves, HaveTheCoefficientsOfBoxes) {
     EXPECT_NEAR(heave.imag() / c.w, c.a33 - c.heave_inf, 0.07 * total) << c.length << " " << c.w;
     const double gyration = 0.4 * c.breadth;
     const double roll = mass * gyration * gyration + c.roll_inf;
-    for (const WaveMode& tilt : modes.tilt)
-      if (std::abs(tilt.motion[0]) > 0.5)
-        EXPECT_NEAR(impedance(tilt, c.w).real(), c.b44, 0.1 * roll * c.w) << c.length << " " << c.w;
+    const bool is_first = std::abs(modes.tilt[0].motion[0]) > 0.5;
+    EXPECT_NEAR(impedance(modes.tilt[is_first ? 0 : 1], c.w).real(), c.b44, 0.1 * roll * c.w)
+        << c.length << " " << c.w;
   }
 }
 
