@@ -3,9 +3,7 @@
 namespace ambient {
 
 Wrench gyroscopicWrench(const DualPair& motion) {
-  const Twist x = Twist::fromVector(motion.twist);
-  const Momentum m = Momentum::fromVector(motion.momentum);
-  return {m.angular.cross(x.angular) + m.linear.cross(x.linear), m.linear.cross(x.angular)};
+  return gyroscopicWrench(Momentum::fromVector(motion.momentum), Twist::fromVector(motion.twist));
 }
 
 WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state) {

@@ -7,6 +7,9 @@ namespace ambient {
 
 /// Gyroscopic terms of Kirchhoff's equations in B, docs/theory.md eq. (2): K dx/dt = (l x w + p x
 /// v, p x w) + wrench, for a twist x with the momentum (l, p) = K x.
+inline Wrench gyroscopicWrench(const Momentum& m, const Twist& x) {
+  return {m.angular.cross(x.angular) + m.linear.cross(x.linear), m.linear.cross(x.angular)};
+}
 Wrench gyroscopicWrench(const DualPair& x);
 
 /// Linear and angular momentum of body and fluid in world axes; the angular one about `pivot`.

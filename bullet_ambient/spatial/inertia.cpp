@@ -36,15 +36,6 @@ Matrix6 rigidBodyInertia(double mass, const Matrix3& rotational_inertia) {
   return K;
 }
 
-Twist FrameOffset::toF(const Twist& x_B) const {
-  return {rotation.transpose() * x_B.angular, rotation.transpose() * x_B.at(translation)};
-}
-
-Wrench FrameOffset::toB(const Wrench& f_F) const {
-  const Vector3 force = rotation * f_F.force;
-  return {rotation * f_F.torque + translation.cross(force), force};
-}
-
 Matrix6 FrameOffset::inertiaToB(const Matrix6& inertia_F) const {
   // B's origin seen from F's, in B's axes, is -translation.
   return shiftOrigin(rotateAxes(inertia_F, rotation), -translation);

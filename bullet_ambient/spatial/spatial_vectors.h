@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "bullet_ambient/spatial/frame_offset.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
@@ -43,6 +44,11 @@ struct Wrench {
     force += other.force;
     return *this;
   }
+  Wrench& operator-=(const Wrench& other) {
+    torque -= other.torque;
+    force -= other.force;
+    return *this;
+  }
   friend Wrench operator+(Wrench a, const Wrench& b) { return a += b; }
   friend Wrench operator*(double s, const Wrench& f) { return {s * f.torque, s * f.force}; }
 };
@@ -60,6 +66,15 @@ struct Momentum {
 /// Power of a wrench on a moving body [W]; both in one frame.
 inline double power(const Wrench& f, const Twist& x) {
   return f.torque.dot(x.angular) + f.force.dot(x.linear);
+}
+
+inline Twist FrameOffset::toF(const Twist& x_B) const {
+  return {rotation.transpose() * x_B.angular, rotation.transpose() * x_B.at(translation)};
+}
+
+inline Wrench FrameOffset::toB(const Wrench& f_F) const {
+  const Vector3 force_B = rotation * f_F.force;
+  return {rotation * f_F.torque + translation.cross(force_B), force_B};
 }
 
 }  // namespace ambient

@@ -1,0 +1,200 @@
+#include "bullet_ambient/motion/link_flight.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ambient {
+namespace {
+
+constexpr double kLargestTurn = 0.5;  // of a link or a joint in one substep [rad]
+constexpr double kMiddlePrecision =
+    0.01;                             // of the middle velocity, over the tolerance of the flight
+constexpr double kAcceptedError = 2;  // a substep is repeated when its error exceeds this tolerance
+constexpr double kSubstepSafety = 0.9;
+
+// Largest angular velocity of a joint [rad/s].
+double jointSpin(const Joint& joint, const double* velocity) {
+  switch (joint.kind) {
+    case JointKind::kRevolute:
+    case JointKind::kPlanar:
+      return std::abs(velocity[0]);
+    case JointKind::kSpherical:
+      return std::hypot(velocity[0], velocity[1], velocity[2]);
+    default:
+      return 0;
+  }
+}
+
+void countUp(const FlightCount& some, FlightCount& count) {
+  count.load_evaluations += some.load_evaluations;
+  count.guarded += some.guarded;
+}
+
+TreePose poseOfSize(const LinkTree& tree) {
+  TreePose pose;
+  pose.joints.resize(tree.size());
+  return pose;
+}
+
+}  // namespace
+
+LinkFlight::LinkFlight(const LinkTree& tree)
+    : tree_(tree),
+      dynamics_(tree),
+      kick_(tree),
+      mean_(dynamics_.coordinates()),
+      end_(dynamics_.coordinates()),
+      start_(dynamics_.coordinates()),
+      rate_(dynamics_.coordinates()),
+      end_pose_(poseOfSize(tree)),
+      middle_(poseOfSize(tree)) {}
+
+LinkFlightResult LinkFlight::fly(const TreePose& start, const CoordinatesIn& u, double duration,
+                                 const LinkFlightSettings& settings) noexcept {
+  LinkFlightResult result;
+  for (int substeps = 1, wanted = 1;; substeps = wanted) {
+    end_pose_ = start;
+    end_ = u;
+    wanted =
+        std::min(flyInSubsteps(substeps, duration, settings, result.count), settings.max_substeps);
+    if (wanted <= substeps) break;
+  }
+  if (result.count.coarse) boundEnergy(start, u, duration);
+  mean_ = u;
+  velocityBetween(tree_, start, end_pose_, duration, mean_);
+  result.is_finite = mean_.allFinite() && end_.allFinite();
+  return result;
+}
+
+// As many substeps as it takes to follow the motion: no more than given if all could.
+int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSettings& settings,
+                              FlightCount& count) noexcept {
+  const double h = duration / substeps;
+  const bool has_loads = kick_.hasLoads();
+  const bool is_last = substeps >= settings.max_substeps;
+  if (has_loads) {
+    dynamics_.setPose(end_pose_);
+    countUp(kick_.sample(dynamics_, end_), count);
+  }
+  count.coarse = false;
+  count.substeps = 0;
+  for (int i = 0; i < substeps; ++i) {
+    if (has_loads) {
+      if (i > 0) dynamics_.setPose(end_pose_);
+      kick_.kick(dynamics_, h / 2, end_);
+    }
+    const bool converges = findMiddle(h, settings);
+    movePose(tree_, end_pose_, mean_, h, end_pose_);
+    double excess = std::max(converges ? 1.0 : 2.0, std::ceil(h * largestSpin() / kLargestTurn));
+    is_in_middle_ = !has_loads;
+    if (has_loads) {
+      const double error = kickAtEnd(h, count) / settings.tolerance;
+      if (error > kAcceptedError) excess = std::max(excess, std::sqrt(error) / kSubstepSafety);
+    }
+    ++count.substeps;
+    if (!(excess > 1)) continue;
+    if (!is_last)
+      return static_cast<int>(
+          std::min<double>(std::ceil(substeps * excess), settings.max_substeps));
+    count.coarse = true;
+  }
+  return substeps;
+}
+
+// Of links and joints in the middle of a substep [rad/s].
+double LinkFlight::largestSpin() const noexcept {
+  double spin = 0;
+  for (int l = 0; l < tree_.size(); ++l) {
+    spin = std::max(spin, dynamics_.twist(l).angular.norm());
+    if (l > 0)
+      spin = std::max(spin,
+                      jointSpin(tree_.links[l].joint, mean_.data() + dynamics_.firstCoordinate(l)));
+  }
+  return spin;
+}
+
+// The middle of a substep from end_pose_ and end_, by iterations on its velocity; end_ becomes that
+// of the end. False if they do not converge. H is factored once, at a middle without acceleration:
+// what it differs by from that of a later middle is of second order, and so is its part in an error
+// that shrinks with each iteration.
+bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexcept {
+  start_ = end_;
+  movePose(tree_, end_pose_, start_, h / 2, middle_);
+  dynamics_.setPose(middle_);
+  dynamics_.factor();
+  dynamics_.accelerations(start_, rate_);
+  mean_ = start_ + h / 2 * rate_;
+  const double tolerance = settings.tolerance * settings.tolerance;
+  double rest = 0, last = 0, motion = 0;  // squares; rest: of what further iterations would change
+  for (int i = 0; i < settings.max_iterations; ++i) {
+    movePose(tree_, end_pose_, mean_, h / 2, middle_);
+    dynamics_.setPose(middle_);
+    dynamics_.correctAccelerations(mean_, rate_);
+    end_ = start_ + h / 2 * rate_ - mean_;
+    mean_ += end_;
+    const double change = dynamics_.roughNormSquared(end_);
+    motion = dynamics_.roughNormSquared(mean_) + dynamics_.roughNormSquared(start_);
+    rest = last > 0 ? change / last * change : change;
+    if (rest <= kMiddlePrecision * kMiddlePrecision * tolerance * motion) break;
+    last = change;
+  }
+  end_ = 2 * mean_ - start_;
+  return rest <= tolerance * motion;
+}
+
+// The loads there act on both sides of the end: they are sampled at what follows from the last
+// ones. Returns the error of those.
+double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
+  dynamics_.setPose(end_pose_);
+  rate_ = end_;
+  kick_.kick(dynamics_, h / 2, rate_);
+  countUp(kick_.sample(dynamics_, rate_), count);
+  const double error = kick_.error(dynamics_, h);
+  kick_.kick(dynamics_, h / 2, end_);
+  return error;
+}
+
+// A motion that could not be followed gains no energy but by the work of forces.
+void LinkFlight::boundEnergy(const TreePose& start, const CoordinatesIn& u,
+                             double duration) noexcept {
+  is_in_middle_ = false;
+  restInFlow(tree_, start_);
+  dynamics_.setPose(start);
+  mean_ = u - start_;
+  double bound = dynamics_.normSquared(mean_);
+  dynamics_.setPose(end_pose_);
+  velocityBetween(tree_, start, end_pose_, duration, mean_);
+  bound += 2 * duration * dynamics_.powerOfForces(mean_);
+  end_ -= start_;
+  const double norm = dynamics_.normSquared(end_);
+  if (norm > bound) end_ *= std::sqrt(std::max(0.0, bound) / norm);
+  end_ += start_;
+}
+
+void LinkFlight::prepareJointRows() noexcept {
+  if (!is_in_middle_) dynamics_.setPose(middle_);
+  dynamics_.factor();
+  is_in_middle_ = true;
+}
+
+LinkFlightResult LinkFlight::computeRowVelocity(const TreePose& start, const CoordinatesIn& u,
+                                                double duration) noexcept {
+  LinkFlightResult result;
+  is_in_middle_ = false;
+  dynamics_.setPose(start);
+  dynamics_.factor();
+  dynamics_.accelerations(u, rate_);
+  restInFlow(tree_, end_);
+  dynamics_.accelerations(end_, mean_);
+  mean_ = duration * (rate_ - mean_);
+  end_ = u + duration * rate_ - mean_;
+  if (kick_.hasLoads()) {
+    countUp(kick_.sample(dynamics_, u), result.count);
+    kick_.kick(dynamics_, duration, end_);
+    dynamics_.factor();
+  }
+  result.is_finite = mean_.allFinite() && end_.allFinite();
+  return result;
+}
+
+}  // namespace ambient
