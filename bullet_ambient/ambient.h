@@ -11,5 +11,6 @@
 // bullet/ambient_impulse.h (impulses that feel the fluid), tasks/thread_pool.h and
 // bullet/bullet_task_runner.h (threads), force/surface_loads.h (loads by a law of your own).
 #include "bullet_ambient/bullet/fluid.h"
+#include "bullet_ambient/bullet/multibody_dynamics.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/fluid_body/load_fluid_body.h"

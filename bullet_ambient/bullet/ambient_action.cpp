@@ -8,6 +8,7 @@
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/bullet/row_motion.h"
+#include "bullet_ambient/bullet/tree_group.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -24,7 +25,7 @@ bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) 
       return true;
     }
   }
-  return false;
+  return hasAwakeTree(world, bodies);
 }
 
 // Whether the body that the solver met is still there: it may have been removed and destroyed
@@ -56,6 +57,7 @@ void wakeFollowers(const btCollisionWorld& world, const AmbientBodies& bodies) {
     const AmbientBody* ambient = bodies.find(objects[i]);
     if (ambient && ambient->def.follow_regions) objects[i]->activate();
   }
+  wakeFollowingTrees(world, bodies);
 }
 
 }  // namespace
@@ -64,7 +66,8 @@ void wakeFollowers(const btCollisionWorld& world, const AmbientBodies& bodies) {
 bool AmbientAction::isSolverMissing(const btCollisionWorld& world) {
   const AmbientBodies& bodies = bodiesOf(registry_);
   const unsigned solved = bodies.solved;
-  const bool is_missing = std::exchange(solved_, solved) == solved && bodies.size() > 0 &&
+  const bool is_missing = std::exchange(solved_, solved) == solved &&
+                          (bodies.size() > 0 || !bodies.trees.empty()) &&
                           hasAwakeMember(world, bodies);
   return std::exchange(was_missing_, is_missing) && is_missing;
 }
@@ -77,6 +80,7 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     if (kind == Outcome::kStock || !isStillIn(*world, *ambient)) continue;
     complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }
+  completeTrees(*world, bodies, static_cast<double>(time_step));
   bodies.regions.time += static_cast<double>(time_step);
   if (std::exchange(bodies.regions.has_changed, false)) wakeFollowers(*world, bodies);
   if (isSolverMissing(*world)) {
@@ -106,6 +110,7 @@ void AmbientAction::debugDraw(btIDebugDraw* drawer) {
       drawFluid(*ambient, drawing, *drawer);
     }
   }
+  drawTrees(*world_, bodiesOf(registry_), drawing, *drawer);
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

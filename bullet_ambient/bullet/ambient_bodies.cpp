@@ -63,6 +63,7 @@ void AmbientBodies::clear() {
   met_ = nullptr;
   by_object_.clear();
   bodies_.clear();
+  trees.clear();
 }
 
 void AmbientBodies::meet(AmbientBody& ambient) noexcept {

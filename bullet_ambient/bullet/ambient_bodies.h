@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/bullet/ambient_trees.h"
 #include "bullet_ambient/bullet/complaints.h"
 #include "bullet_ambient/bullet/fluid_regions.h"
 #include "bullet_ambient/bullet/precision_check.h"
@@ -42,12 +43,20 @@ class AmbientBodies {
   /// By its address alone. False if nothing was attached there.
   bool erase(const btRigidBody& body);
   void clear();
+  /// Calls visit(AmbientBody&) for bodies and links; they may have been destroyed.
+  template <class Visit>
+  void forEach(const Visit& visit) const {
+    for (const auto& ambient : bodies_) visit(*ambient);
+    for (const auto& tree : trees.all())
+      for (const auto& link : tree->links) visit(link->ambient);
+  }
 
   /// The solver meets the body, on any thread.
   void meet(AmbientBody& ambient) noexcept;
   /// Those that were met since the last call, linked by next_met; null: none.
   AmbientBody* takeMet() noexcept { return met_.exchange(nullptr); }
 
+  AmbientTrees trees;
   Complaints complaints;
   FluidRegions regions;
   LoadTables load_tables;  ///< what the loads of bodies share

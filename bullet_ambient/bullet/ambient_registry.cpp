@@ -1,5 +1,7 @@
 #include "bullet_ambient/bullet/ambient_registry.h"
 
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -7,6 +9,7 @@
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/attach_body.h"
+#include "bullet_ambient/bullet/attach_link.h"
 #include "bullet_ambient/bullet/region_following.h"
 #include "bullet_ambient/bullet/world_tie.h"
 
@@ -22,7 +25,32 @@ void replaceDef(AmbientBody& ambient, AttachDef def, AmbientBodies& bodies) {
     std::swap(ambient.def, def);
     throw;
   }
-  ambient.body->activate();
+}
+
+// Whether the fluid is another one than before.
+bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bodies) {
+  checkMedium(*ambient.def.fluid_body, medium);
+  const Medium before = ambient.def.medium;
+  if (medium.density != before.density || medium.viscosity != before.viscosity) {
+    AttachDef def = ambient.def;
+    def.medium = medium;
+    replaceDef(ambient, std::move(def), bodies);
+    return true;
+  }
+  if (medium.velocity == before.velocity && medium.acceleration == before.acceleration)
+    return false;
+  ambient.def.medium = medium;
+  if (ambient.place.region == RegionId::kNone) ambient.medium = medium;
+  return true;
+}
+
+void changeFluidBody(AmbientBody& ambient, std::shared_ptr<const FluidBody> fluid_body,
+                     const FrameOffset& fluid_frame, AmbientBodies& bodies) {
+  if (!fluid_body) throw std::invalid_argument("setFluidBody: the fluid body is null");
+  AttachDef def = ambient.def;
+  def.fluid_body = std::move(fluid_body);
+  def.fluid_frame = fluid_frame;
+  replaceDef(ambient, std::move(def), bodies);
 }
 
 }  // namespace
@@ -55,17 +83,7 @@ bool AmbientRegistry::isAttached(const btRigidBody& body) const { return bodies_
 
 void AmbientRegistry::setMedium(const btRigidBody& body, const Medium& medium) {
   AmbientBody& ambient = bodies_->require(body);
-  checkMedium(*ambient.def.fluid_body, medium);
-  const Medium before = ambient.def.medium;
-  if (medium.density != before.density || medium.viscosity != before.viscosity) {
-    AttachDef def = ambient.def;
-    def.medium = medium;
-    replaceDef(ambient, std::move(def), *bodies_);
-  } else if (medium.velocity != before.velocity || medium.acceleration != before.acceleration) {
-    ambient.def.medium = medium;
-    if (ambient.place.region == RegionId::kNone) ambient.medium = medium;
-    ambient.body->activate();
-  }
+  if (changeMedium(ambient, medium, *bodies_)) ambient.body->activate();
 }
 
 void AmbientRegistry::setFluidBody(const btRigidBody& body,
@@ -77,11 +95,8 @@ void AmbientRegistry::setFluidBody(const btRigidBody& body,
                                    std::shared_ptr<const FluidBody> fluid_body,
                                    const FrameOffset& fluid_frame) {
   AmbientBody& ambient = bodies_->require(body);
-  if (!fluid_body) throw std::invalid_argument("setFluidBody: the fluid body is null");
-  AttachDef def = ambient.def;
-  def.fluid_body = std::move(fluid_body);
-  def.fluid_frame = fluid_frame;
-  replaceDef(ambient, std::move(def), *bodies_);
+  changeFluidBody(ambient, std::move(fluid_body), fluid_frame, *bodies_);
+  ambient.body->activate();
 }
 
 const Medium& AmbientRegistry::medium(const btRigidBody& body) const {
@@ -96,16 +111,16 @@ auto AmbientRegistry::changeRegions(const Change& change) {
   std::vector<std::vector<MediumLoads>> media;
   std::vector<std::vector<SurfaceMedia>> surfaces;
   LoadTables& tables = bodies_->load_tables;
-  for (const auto& ambient : bodies_->all()) {
-    media.push_back(makeMediumLoads(ambient->def, regions, tables, ambient->media));
-    surfaces.push_back(makeSurfaceMedia(ambient->def, regions, tables, ambient->surfaces));
-  }
+  bodies_->forEach([&](const AmbientBody& ambient) {
+    media.push_back(makeMediumLoads(ambient.def, regions, tables, ambient.media));
+    surfaces.push_back(makeSurfaceMedia(ambient.def, regions, tables, ambient.surfaces));
+  });
   bodies_->regions = std::move(regions);
   std::size_t next = 0;
-  for (const auto& ambient : bodies_->all()) {
-    ambient->media = std::move(media[next]);
-    replaceSurfaces(*ambient, std::move(surfaces[next++]));
-  }
+  bodies_->forEach([&](AmbientBody& ambient) {
+    ambient.media = std::move(media[next]);
+    replaceSurfaces(ambient, std::move(surfaces[next++]));
+  });
   return result;
 }
 
@@ -134,6 +149,54 @@ Matrix6 AmbientRegistry::inertia(const btRigidBody& body) const {
   return modelNow(bodies_->require(body)).inertia;
 }
 
+void AmbientRegistry::attach(btMultiBodyDynamicsWorld& world, btMultiBody& multi_body, int link,
+                             AttachDef def) {
+  checkWorldKind("attach", world);
+  attachLink(*bodies_, world, {multi_body, link}, std::move(def));
+}
+
+bool AmbientRegistry::detach(const btMultiBody& multi_body, int link) {
+  return bodies_->trees.erase(multi_body, link);
+}
+
+bool AmbientRegistry::detach(const btMultiBody& multi_body) {
+  return bodies_->trees.erase(multi_body);
+}
+
+bool AmbientRegistry::isAttached(const btMultiBody& multi_body, int link) const {
+  const AmbientTree* tree = bodies_->trees.find(&multi_body);
+  return tree && tree->find(link);
+}
+
+void AmbientRegistry::setMedium(const btMultiBody& multi_body, int link, const Medium& medium) {
+  AmbientBody& ambient = bodies_->trees.require(multi_body, link).ambient;
+  if (changeMedium(ambient, medium, *bodies_)) wake(*bodies_->trees.find(&multi_body)->multi_body);
+}
+
+void AmbientRegistry::setFluidBody(const btMultiBody& multi_body, int link,
+                                   std::shared_ptr<const FluidBody> fluid_body,
+                                   const FrameOffset& fluid_frame) {
+  AmbientBody& ambient = bodies_->trees.require(multi_body, link).ambient;
+  changeFluidBody(ambient, std::move(fluid_body), fluid_frame, *bodies_);
+  wake(*bodies_->trees.find(&multi_body)->multi_body);
+}
+
+const Medium& AmbientRegistry::medium(const btMultiBody& multi_body, int link) const {
+  return bodies_->trees.require(multi_body, link).ambient.medium;
+}
+
+RegionId AmbientRegistry::region(const btMultiBody& multi_body, int link) const {
+  return bodies_->trees.require(multi_body, link).ambient.place.region;
+}
+
+Matrix6 AmbientRegistry::inertia(const btMultiBody& multi_body, int link) const {
+  return modelNow(bodies_->trees.require(multi_body, link).ambient).inertia;
+}
+
+AmbientCounters AmbientRegistry::counters(const btMultiBody& multi_body, int link) const {
+  return bodies_->trees.require(multi_body, link).ambient.counters;
+}
+
 std::size_t AmbientRegistry::size() const { return bodies_->size(); }
 
 AmbientCounters AmbientRegistry::counters(const btRigidBody& body) const {
@@ -142,7 +205,7 @@ AmbientCounters AmbientRegistry::counters(const btRigidBody& body) const {
 
 AmbientCounters AmbientRegistry::counters() const {
   AmbientCounters sum;
-  for (const auto& ambient : bodies_->all()) sum += ambient->counters;
+  bodies_->forEach([&](const AmbientBody& ambient) { sum += ambient.counters; });
   return sum;
 }
 

@@ -11,6 +11,8 @@
 #include "bullet_ambient/force/fluid_region.h"
 
 class btDynamicsWorld;
+class btMultiBody;
+class btMultiBodyDynamicsWorld;
 class btRigidBody;
 
 namespace ambient {
@@ -81,8 +83,29 @@ class AmbientRegistry {
   /// Total inertia K in the body frame; docs/theory.md eq. (3). @throws as medium().
   Matrix6 inertia(const btRigidBody& body) const;
 
+  /// Puts a link of a btMultiBody into a fluid, as attach() a body; -1 is the base. `fluid_frame`
+  /// is in the link's frame: that of its centre of mass. The btMultiBody is finalized, and is or
+  /// will be in this world, the only one with such links; docs/robots.md.
+  /// @throws std::invalid_argument, saying what and the limit: no such link, attached twice, of
+  /// another world, a fixed base, mass or settings as of a body, a btMultiBody that uses RK4.
+  void attach(btMultiBodyDynamicsWorld& world, btMultiBody& multi_body, int link, AttachDef def);
+  /// As of a body; all links without a number. Looks at the address alone.
+  bool detach(const btMultiBody& multi_body, int link);
+  bool detach(const btMultiBody& multi_body);
+  bool isAttached(const btMultiBody& multi_body, int link) const;
+  void setMedium(const btMultiBody& multi_body, int link, const Medium& medium);
+  void setFluidBody(const btMultiBody& multi_body, int link,
+                    std::shared_ptr<const FluidBody> fluid_body, const FrameOffset& fluid_frame);
+  const Medium& medium(const btMultiBody& multi_body, int link) const;
+  RegionId region(const btMultiBody& multi_body, int link) const;
+  /// In the link's frame.
+  Matrix6 inertia(const btMultiBody& multi_body, int link) const;
+  AmbientCounters counters(const btMultiBody& multi_body, int link) const;
+
+  /// Bodies; links are not among them.
   std::size_t size() const;
   AmbientCounters counters(const btRigidBody& body) const;
+  /// Of all bodies and links.
   AmbientCounters counters() const;
 
   /// Receives one sentence the first time something cannot be right: the action or the solver is

@@ -8,6 +8,7 @@
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/solver_group.h"
+#include "bullet_ambient/bullet/tree_group.h"
 
 class btMLCPSolver;
 class btMultiBodyConstraintSolver;
@@ -40,7 +41,17 @@ class AmbientSolver : public Base {
   /// Further arguments go to Base. The registry must outlive the solver.
   template <class... Args>
   explicit AmbientSolver(AmbientRegistry& registry, Args&&... args)
-      : Base(std::forward<Args>(args)...), group_(registry) {}
+      : Base(std::forward<Args>(args)...), group_(registry), trees_(registry) {}
+
+  void prepareSolve(int body_count, int manifold_count) override {
+    Base::prepareSolve(body_count, manifold_count);
+    if constexpr (kHasMultiBodies) trees_.begin();
+  }
+
+  void allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) override {
+    Base::allSolved(info, debug_drawer);
+    if constexpr (kHasMultiBodies) trees_.finish(info);
+  }
 
  protected:
   btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count,
@@ -48,6 +59,7 @@ class AmbientSolver : public Base {
                                         btTypedConstraint** constraints, int constraint_count,
                                         const btContactSolverInfo& info,
                                         btIDebugDraw* debug_drawer) override {
+    if constexpr (kHasMultiBodies) trees_.meet(info);
     input_ = {manifolds, manifold_count, constraints, constraint_count};
     return Base::solveGroupCacheFriendlySetup(bodies, body_count, manifolds, manifold_count,
                                               constraints, constraint_count, info, debug_drawer);
@@ -77,7 +89,8 @@ class AmbientSolver : public Base {
                                       this->m_multiBodyTorsionalFrictionContactConstraints,
                                       this->m_multiBodySpinningFrictionContactConstraints,
                                       this->m_multiBodyNonContactConstraints,
-                                      this->m_data};
+                                      this->m_data,
+                                      trees_.met()};
       group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), &multibodies, info);
     } else {
       group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), nullptr, info);
@@ -146,6 +159,7 @@ class AmbientSolver : public Base {
   }
 
   SolverGroup group_;
+  TreeGroup trees_;
   int first_frictions_ = 0;  // those that Bullet has made
   GroupInput input_;
 };

@@ -13,19 +13,6 @@ namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
-void checkFlight(const std::string& who, const FlightSettings& flight) {
-  if (!(flight.tolerance > 0) || !std::isfinite(flight.tolerance)) {
-    throw std::invalid_argument(who + " has a flight tolerance of " +
-                                std::to_string(flight.tolerance) +
-                                ", which must be positive and finite");
-  }
-  if (flight.max_substeps < 0) {
-    throw std::invalid_argument(who + " has max_substeps of " +
-                                std::to_string(flight.max_substeps) +
-                                ", which must be zero or positive");
-  }
-}
-
 // Of what can be computed, but hardly was meant.
 void sayOddities(const AmbientBody& ambient, Complaints& complaints) {
   constexpr double kRounding = 1e-3;
@@ -48,6 +35,19 @@ void sayOddities(const AmbientBody& ambient, Complaints& complaints) {
 }
 
 }  // namespace
+
+void checkFlight(const std::string& who, const FlightSettings& flight) {
+  if (!(flight.tolerance > 0) || !std::isfinite(flight.tolerance)) {
+    throw std::invalid_argument(who + " has a flight tolerance of " +
+                                std::to_string(flight.tolerance) +
+                                ", which must be positive and finite");
+  }
+  if (flight.max_substeps < 0) {
+    throw std::invalid_argument(who + " has max_substeps of " +
+                                std::to_string(flight.max_substeps) +
+                                ", which must be zero or positive");
+  }
+}
 
 void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
   refreshModel(ambient, bodies.regions, bodies.load_tables);

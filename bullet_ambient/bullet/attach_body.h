@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/bullet/precision_check.h"
 
@@ -28,6 +30,9 @@ DisplacedMass displacedMass(const AmbientBody& ambient);
 /// Loads and model, in the medium where the body is now. What throws changes neither.
 /// @throws std::invalid_argument as refreshModel().
 void refresh(AmbientBody& ambient, AmbientBodies& bodies);
+
+/// @throws std::invalid_argument that begins with `who` if the settings cannot be.
+void checkFlight(const std::string& who, const FlightSettings& flight);
 
 /// AmbientRegistry::attach() but for what is said of light bodies.
 /// @throws std::invalid_argument as AmbientRegistry::attach().

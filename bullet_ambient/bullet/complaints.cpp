@@ -33,6 +33,13 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kRegion:
       return "bullet_ambient: the flow or the surface of a region is not finite where a body is; "
              "the region's fluid is taken without both there";
+    case Complaint::kOtherLinks:
+      return "bullet_ambient: a btMultiBody in fluid has other links or joints than when it was "
+             "attached, or stands where another one was destroyed; its links have no fluid until "
+             "they are attached again";
+    case Complaint::kRungeKutta:
+      return "bullet_ambient: a btMultiBody in fluid has useRK4Integration, which moves it by its "
+             "dry mass; it moves as if that was switched off";
     case Complaint::kInertia:  // these name the body
     case Complaint::kEmpty:
     case Complaint::kLight:

@@ -18,6 +18,8 @@ enum class Complaint {
   kNotFinite,
   kNotPhysical,
   kRegion,
+  kOtherLinks,
+  kRungeKutta,
   kInertia,
   kEmpty,
   kLight,

@@ -19,6 +19,10 @@ bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) 
   bodies.meet(ambient);
   outcome.world_index = ambient.body->getWorldArrayIndex();
   outcome.rows = {};
+  return prepareFluid(ambient, bodies, time_step);
+}
+
+bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept {
   if (ambient.body->isStaticOrKinematicObject()) return false;  // for now
   const bool is_other_fluid = followRegions(ambient, bodies.regions, time_step, bodies.complaints);
   if (!ambient.isInFluid() && !is_other_fluid) return false;

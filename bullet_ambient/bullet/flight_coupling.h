@@ -8,9 +8,12 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
-/// The solver meets the body: begins its outcome, and says whether the fluid acts on it. Finds its
-/// region among those of `bodies`, rebuilds a stale model, and reports an action that is missing.
+/// The solver meets the body: begins its outcome, reports an action that is missing, and says
+/// whether the fluid acts on it, by prepareFluid().
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
+
+/// Finds its region among those of `bodies`, and rebuilds a stale model. Whether the fluid acts.
+bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
 
 /// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports
 /// it.

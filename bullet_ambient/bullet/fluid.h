@@ -67,6 +67,12 @@ class Fluid {
   /// Puts a dynamic body into a fluid, before or after it is added to the world.
   /// @throws std::invalid_argument as AmbientRegistry::attach().
   void add(btRigidBody& body, AttachDef def) { registry_.attach(body, std::move(def)); }
+  /// Puts a link of a btMultiBody into a fluid; -1 is its base. Base has to be a solver of
+  /// multibodies; docs/robots.md. @pre attachTo()
+  /// @throws std::invalid_argument as AmbientRegistry::attach(), or without a world.
+  void add(btMultiBody& multi_body, int link, AttachDef def) {
+    registry_.attach(tie_.multiBodyWorld(), multi_body, link, std::move(def));
+  }
   /// Fills a part of the world, or all of it, with a fluid, or with water below a surface and air
   /// above. @throws std::invalid_argument as AmbientRegistry::addRegion().
   RegionId addRegion(FluidRegion region) { return registry_.addRegion(std::move(region)); }
@@ -75,6 +81,10 @@ class Fluid {
   bool removeRegion(RegionId id) { return registry_.removeRegion(id); }
   /// As AmbientRegistry::detach().
   bool remove(const btRigidBody& body) { return registry_.detach(body); }
+  bool remove(const btMultiBody& multi_body, int link) {
+    return registry_.detach(multi_body, link);
+  }
+  bool remove(const btMultiBody& multi_body) { return registry_.detach(multi_body); }
   /// Removes all bodies, and lets go of the world: all of them may have been destroyed. Where the
   /// world lives on, it goes on with this solver, without fluid until a body is added.
   void clear() {

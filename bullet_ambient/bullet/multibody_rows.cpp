@@ -3,49 +3,94 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
+#include "bullet_ambient/bullet/ambient_trees.h"
+#include "bullet_ambient/bullet/tree_state.h"
+
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
-// One side of a row: a multibody, an ambient body, or another rigid body. Without either: nothing.
+// One side of a row: a multibody, which is a tree in fluid or dry, an ambient body, or another
+// rigid body. Without either: nothing.
 struct MultiBodyParty {
-  const btMultiBody* multibody;
-  int jacobian;  // where the multibody's Jacobian begins
-  RowBody* ambient;
-  const btSolverBody* solver_body;
+  btMultiBody* multibody = nullptr;
+  int jacobian = 0;  // where the multibody's Jacobian begins
+  int change = 0;    // and its change of velocity
+  AmbientTree* tree = nullptr;
+  RowBody* ambient = nullptr;
+  const btSolverBody* solver_body = nullptr;
   RowSide side;
+
+  bool isInFluid() const { return tree || ambient; }
 };
 
 class RowSet {
  public:
   RowSet(const MultiBodyRows& rows, RowBodies& bodies,
          const btAlignedObjectArray<btSolverBody>& solver_bodies)
-      : data_(rows.data), bodies_(bodies), solver_bodies_(solver_bodies) {}
+      : data_(rows.data), trees_(rows.trees), bodies_(bodies), solver_bodies_(solver_bodies) {}
 
   // `time_step`: of the applied forces that the rows have seen; 0 if none.
   void rewrite(btMultiBodyConstraintArray& rows, btScalar relaxation, btScalar time_step) {
     for (int i = 0; i < rows.size(); ++i) {
       btMultiBodySolverConstraint& row = rows[i];
-      const MultiBodyParty a =
-          party(row.m_multiBodyA, row.m_jacAindex, row.m_solverBodyIdA,
-                {row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA});
-      const MultiBodyParty b =
-          party(row.m_multiBodyB, row.m_jacBindex, row.m_solverBodyIdB,
-                {row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB});
-      if (!a.ambient && !b.ambient) continue;
+      const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
+      const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
+      const MultiBodyParty a = row.m_multiBodyA ? multibody(row.m_multiBodyA, row.m_jacAindex,
+                                                            row.m_deltaVelAindex, side_a)
+                                                : rigidBody(row.m_solverBodyIdA, side_a);
+      const MultiBodyParty b = row.m_multiBodyB ? multibody(row.m_multiBodyB, row.m_jacBindex,
+                                                            row.m_deltaVelBindex, side_b)
+                                                : rigidBody(row.m_solverBodyIdB, side_b);
+      if (!a.isInFluid() && !b.isInFluid()) continue;
       rewriteRow(row, a, b, relaxation, time_step);
-      ++(a.ambient ? a.ambient : b.ambient)->rows;
+      count(a.isInFluid() ? a : b);
     }
   }
 
  private:
-  MultiBodyParty party(const btMultiBody* multibody, int jacobian, int solver_body, RowSide side) {
-    if (multibody) return {multibody, jacobian, nullptr, nullptr, side};
-    if (solver_body < 0) return {nullptr, 0, nullptr, nullptr, side};
-    return {nullptr, 0, bodies_.find(solver_body), &solver_bodies_[solver_body], side};
+  MultiBodyParty multibody(btMultiBody* body, int jacobian, int change, const RowSide& side) const {
+    AmbientTree* tree = trees_ ? trees_->find(body) : nullptr;
+    if (tree && !hasMet(*tree)) tree = nullptr;
+    return {body, jacobian, change, tree, nullptr, nullptr, side};
   }
 
-  btScalar responseOf(const MultiBodyParty& party) const {
+  MultiBodyParty rigidBody(int id, const RowSide& side) {
+    if (id < 0) return {nullptr, 0, 0, nullptr, nullptr, nullptr, side};
+    return {nullptr, 0, 0, nullptr, bodies_.find(id), &solver_bodies_[id], side};
+  }
+
+  static void count(const MultiBodyParty& party) {
+    if (party.tree) {
+      ++party.tree->links.front()->ambient.counters.rows;
+    } else {
+      ++party.ambient->rows;
+    }
+  }
+
+  // H^-1 J^T in place of the response without fluid, of which warm starting has used `impulse`.
+  void respond(const MultiBodyParty& party, btScalar impulse) {
+    TreeStep& step = party.tree->step;
+    Coordinates &force = step.change, &response = step.spare;
+    const int size = static_cast<int>(force.size());
+    btScalar* stored = &data_.m_deltaVelocitiesUnitImpulse[party.jacobian];
+    for (int i = 0; i < size; ++i)
+      force[i] = static_cast<double>(data_.m_jacobians[party.jacobian + i]);
+    if (step.outcome == TreeOutcome::kFlown) party.tree->flight.prepareJointRows();
+    party.tree->flight.dynamics().respond(force, response);
+    for (int i = 0; i < size; ++i) {
+      const btScalar change = static_cast<btScalar>(response[i]) - stored[i];
+      stored[i] += change;
+      if (impulse != 0) data_.m_deltaVelocities[party.change + i] += change * impulse;
+      force[i] = static_cast<double>(change);
+    }
+    if (impulse == 0) return;
+    force *= static_cast<double>(impulse);
+    addChange(*party.multibody, force);
+  }
+
+  btScalar responseOf(const MultiBodyParty& party, btScalar impulse) {
+    if (party.tree) respond(party, impulse);
     if (party.multibody) {
       btScalar sum = 0;
       for (int i = 0; i < party.multibody->getNumDofs() + 6; ++i)
@@ -89,10 +134,11 @@ class RowSet {
   }
 
   void rewriteRow(btMultiBodySolverConstraint& row, const MultiBodyParty& a,
-                  const MultiBodyParty& b, btScalar relaxation, btScalar time_step) const {
+                  const MultiBodyParty& b, btScalar relaxation, btScalar time_step) {
     const btScalar old_inverse = row.m_jacDiagABInv;
     const btScalar unseen = unseenChange(a, time_step) + unseenChange(b, time_step);
-    const btScalar response = responseOf(a) + responseOf(b);
+    const btScalar response =
+        responseOf(a, row.m_appliedImpulse) + responseOf(b, row.m_appliedImpulse);
     if (!(old_inverse > 0)) return;  // switched off by Bullet
     const btScalar cfm = row.m_cfm / old_inverse;
     const btScalar old_response = relaxation / old_inverse - cfm;
@@ -106,7 +152,8 @@ class RowSet {
     row.m_jacDiagABInv = new_inverse;
   }
 
-  const btMultiBodyJacobianData& data_;
+  btMultiBodyJacobianData& data_;
+  const AmbientTrees* trees_;
   RowBodies& bodies_;
   const btAlignedObjectArray<btSolverBody>& solver_bodies_;
 };

@@ -13,7 +13,8 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 /// Brings the rigid side of all rows that touch an ambient body into its velocity basis, as
 /// rewriteRows() does: J' = J T; effective mass, right-hand side and softness rescaled. Bullet lets
 /// these rows see applied forces without fluid, or none: they are made to see the change of
-/// velocity that the fluid body really has.
+/// velocity that the fluid body really has. Trees in fluid keep J, and get the response H^-1 J^T;
+/// their velocity is that in the fluid when Bullet makes the rows.
 void rewriteMultiBodyRows(const MultiBodyRows& rows, const btContactSolverInfo& info,
                           RowBodies& bodies,
                           const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;

@@ -134,7 +134,10 @@ SolverGroup::~SolverGroup() = default;
 
 void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
   may_hold_slopes_ = false;
-  if (members_.empty()) return;
+  if (members_.empty()) {
+    row_bodies_->reset(0);
+    return;
+  }
   member_of_solver_body_.assign(solver_bodies.size(), -1);
   row_bodies_->reset(solver_bodies.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -229,9 +232,11 @@ bool SolverGroup::holdsSlope(const SolverBodies& solver_bodies,
 void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                               const MultiBodyRows* multibodies,
                               const btContactSolverInfo& info) noexcept {
-  if (members_.empty()) return;
-  if (multibodies) prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
-  if (row_bodies_->empty()) return;
+  const bool has_trees = multibodies && multibodies->trees;
+  if (members_.empty() && !has_trees) return;
+  if (multibodies && !members_.empty())
+    prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
+  if (row_bodies_->empty() && !has_trees) return;
   saveFeedbackJacobians(rows.joints);
   const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
     ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);

@@ -21,6 +21,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 struct AmbientBody;
 class AmbientBodies;
 class AmbientRegistry;
+class AmbientTrees;
 class RowBodies;
 
 /// The rows that Bullet has set up for one group of bodies.
@@ -38,7 +39,8 @@ struct MultiBodyRows {
   btAlignedObjectArray<btMultiBodySolverConstraint>& rolling_frictions;
   btAlignedObjectArray<btMultiBodySolverConstraint>& spinning_frictions;
   btAlignedObjectArray<btMultiBodySolverConstraint>& joints;
-  const btMultiBodyJacobianData& data;  ///< Jacobians of the multibodies and their responses
+  btMultiBodyJacobianData& data;  ///< Jacobians of the multibodies and their responses
+  const AmbientTrees* trees;      ///< whose links may be in a fluid; null: none are
 };
 
 /// The bodies of a group.

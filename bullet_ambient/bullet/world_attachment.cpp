@@ -3,6 +3,9 @@
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <exception>
 #include <set>
@@ -13,6 +16,7 @@
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/ambient_registry.h"
 #include "bullet_ambient/bullet/attach_body.h"
+#include "bullet_ambient/bullet/attach_link.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -25,6 +29,30 @@ int instanceOf(const btCollisionObject& object) noexcept {
 
 bool isDynamic(const btRigidBody& body) {
   return !body.isStaticOrKinematicObject() && body.getInvMass() != 0;
+}
+
+bool canMove(const btMultiBody& multi_body, int link) {
+  if (link < 0) return !multi_body.isBaseStaticOrKinematic() && multi_body.getBaseMass() > 0;
+  return multi_body.getLinkMass(link) > 0;
+}
+
+// A body, or the stand-in of a link.
+const AmbientBody* ambientOf(const btCollisionObject& object, const AmbientBodies& bodies) {
+  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
+  if (!collider) return bodies.find(&object);
+  const AmbientTree* tree = bodies.trees.find(collider->m_multiBody);
+  const AmbientLink* link = tree ? tree->find(collider->m_link) : nullptr;
+  return link ? &link->ambient : nullptr;
+}
+
+void replace(const btCollisionObject& object, const std::shared_ptr<const FluidBody>& better,
+             AmbientRegistry& registry) {
+  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
+  if (!collider) return registry.setFluidBody(*btRigidBody::upcast(&object), better);
+  const AmbientLink& link =
+      bodiesOf(registry).trees.require(*collider->m_multiBody, collider->m_link);
+  registry.setFluidBody(*collider->m_multiBody, collider->m_link, better,
+                        link.ambient.def.fluid_frame);
 }
 
 std::string nameOf(int index, const btCollisionShape& shape) {
@@ -68,36 +96,66 @@ WorldAttachment::WorldAttachment(AmbientRegistry& registry, FluidBodySource& sou
       settings_(std::move(settings)),
       revision_(source.revision()) {}
 
-const AmbientBody* WorldAttachment::attach(btRigidBody& body, Met& met, AttachReport& report) {
+AttachDef WorldAttachment::makeDef(const btCollisionShape& shape, Met& met) const {
+  AttachDef def;
+  def.medium = medium_;
+  def.flow = settings_.flow;
+  def.flight = settings_.flight;
+  def.fluid_body = source_.fluidBody(shape);
+  met.given = def.fluid_body.get();
+  return def;
+}
+
+const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, Met& met, AttachReport& report) {
   if (!isDynamic(body) || (settings_.filter && !settings_.filter(body))) return nullptr;
   if (registry_.isAttached(body)) {
     ++report.attached_before;
     return nullptr;
   }
-  AttachDef def;
-  def.medium = medium_;
-  def.flow = settings_.flow;
-  def.flight = settings_.flight;
-  def.fluid_body = source_.fluidBody(*body.getCollisionShape());
-  met.given = def.fluid_body.get();
+  AttachDef def = makeDef(*body.getCollisionShape(), met);
   if (settings_.adjust) settings_.adjust(body, def);
   if (!def.fluid_body) return nullptr;
-  attachBody(bodiesOf(registry_), body, std::move(def));
+  ambient::attachBody(bodiesOf(registry_), body, std::move(def));
   return bodiesOf(registry_).find(&body);
 }
 
-std::vector<btRigidBody*> WorldAttachment::meetAll(const btCollisionWorld& world) {
+const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link, Met& met,
+                                               AttachReport& report) {
+  if (!canMove(multi_body, link)) return nullptr;
+  if (settings_.filter_link && !settings_.filter_link(multi_body, link)) return nullptr;
+  if (registry_.isAttached(multi_body, link)) {
+    ++report.attached_before;
+    return nullptr;
+  }
+  const btMultiBodyLinkCollider* collider =
+      link < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(link);
+  AttachDef def = makeDef(*collider->getCollisionShape(), met);
+  if (settings_.adjust_link) settings_.adjust_link(multi_body, link, def);
+  if (!def.fluid_body) return nullptr;
+  registry_.attach(*multibody_world_, multi_body, link, std::move(def));
+  return &bodiesOf(registry_).trees.require(multi_body, link).ambient;
+}
+
+const AmbientBody* WorldAttachment::attach(btCollisionObject& object, Met& met,
+                                           AttachReport& report) {
+  if (btRigidBody* body = btRigidBody::upcast(&object)) return attachBody(*body, met, report);
+  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
+  if (!collider || !collider->m_multiBody || !multibody_world_) return nullptr;
+  return attachLink(*collider->m_multiBody, collider->m_link, met, report);
+}
+
+std::vector<btCollisionObject*> WorldAttachment::meetAll(const btCollisionWorld& world) {
   std::unordered_map<const btCollisionObject*, Met> before;
   for (const Met& met : met_) before.emplace(met.object, met);
   met_.clear();
-  std::vector<btRigidBody*> strangers;
+  std::vector<btCollisionObject*> strangers;
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     const Met met{objects[i], instanceOf(*objects[i])};
     const auto known = before.find(met.object);
     const bool is_known = known != before.end() && known->second.instance == met.instance;
     met_.push_back(is_known ? known->second : met);
-    strangers.push_back(is_known ? nullptr : btRigidBody::upcast(objects[i]));
+    strangers.push_back(is_known ? nullptr : objects[i]);
   }
   return strangers;
 }
@@ -105,19 +163,21 @@ std::vector<btRigidBody*> WorldAttachment::meetAll(const btCollisionWorld& world
 AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
   AttachReport report;
   Tally tally;
-  const std::vector<btRigidBody*> strangers = meetAll(world);
+  multibody_world_ = dynamic_cast<btMultiBodyDynamicsWorld*>(&world);
+  const std::vector<btCollisionObject*> strangers = meetAll(world);
   for (std::size_t i = 0; i < strangers.size(); ++i) {
-    btRigidBody* body = strangers[i];
-    if (!body) continue;
+    btCollisionObject* object = strangers[i];
+    if (!object) continue;
     const int index = static_cast<int>(i);
     try {
-      if (const AmbientBody* ambient = attach(*body, met_[i], report)) {
+      if (const AmbientBody* ambient = attach(*object, met_[i], report)) {
         tally.add(index, *ambient, report);
       }
     } catch (const std::exception& error) {
-      report.refused.push_back({index, nameOf(index, *body->getCollisionShape()) + error.what()});
+      report.refused.push_back({index, nameOf(index, *object->getCollisionShape()) + error.what()});
     }
   }
+  multibody_world_ = nullptr;
   report.fluid_bodies = static_cast<int>(tally.shapes.size());
   if (tally.lightest) {
     sayLight(bodiesOf(registry_).complaints, *tally.lightest, tally.mass, tally.light_count);
@@ -146,12 +206,12 @@ void WorldAttachment::replaceFluidBodies(btCollisionWorld& world) {
   for (int i = 0; i < objects.size(); ++i) {
     const auto met = met_bodies.find(objects[i]);
     if (met == met_bodies.end()) continue;
-    const AmbientBody* ambient = bodiesOf(registry_).find(objects[i]);
+    const AmbientBody* ambient = ambientOf(*objects[i], bodiesOf(registry_));
     if (!ambient || ambient->def.fluid_body.get() != met->second->given) continue;
     try {
       std::shared_ptr<const FluidBody> better = source_.fluidBody(*objects[i]->getCollisionShape());
       if (better.get() == met->second->given) continue;
-      registry_.setFluidBody(*ambient->body, better);
+      replace(*objects[i], better, registry_);
       met->second->given = better.get();
     } catch (const std::exception& error) {
       tell(nameOf(i, *objects[i]->getCollisionShape()) + error.what());

@@ -9,7 +9,10 @@
 #include "bullet_ambient/bullet/precision_check.h"
 
 class btCollisionObject;
+class btCollisionShape;
 class btCollisionWorld;
+class btMultiBody;
+class btMultiBodyDynamicsWorld;
 class btRigidBody;
 
 namespace ambient {
@@ -27,6 +30,9 @@ struct AttachSettings {
   /// Changes what a body is attached with: another medium, law or fluid body, or none, and then it
   /// is left out.
   std::function<void(const btRigidBody&, AttachDef&)> adjust = nullptr;
+  /// The same for links of multibodies that have a collider, by their number; -1: the base.
+  std::function<bool(const btMultiBody&, int)> filter_link = nullptr;
+  std::function<void(const btMultiBody&, int, AttachDef&)> adjust_link = nullptr;
   /// Attaches bodies that are added to the world later, at the end of the first substep that they
   /// are in; in that one they move as in stock Bullet.
   bool later_bodies = false;
@@ -54,8 +60,9 @@ struct AttachReport {
   std::string text() const;
 };
 
-/// Attaches the dynamic rigid bodies of a world, whatever their mass, each with the fluid body that
-/// a source has for its collision shape, in its frame.
+/// Attaches the dynamic rigid bodies of a world, and the links of its multibodies that have a
+/// collider and a mass, whatever it is, each with the fluid body that a source has for its
+/// collision shape, in its frame.
 class WorldAttachment {
  public:
   /// Registry and source must outlive it.
@@ -80,9 +87,12 @@ class WorldAttachment {
   };
 
   bool hasMetAll(const btCollisionWorld& world) const noexcept;
-  // The bodies that it has not met before, null in place of all other objects.
-  std::vector<btRigidBody*> meetAll(const btCollisionWorld& world);
-  const AmbientBody* attach(btRigidBody& body, Met& met, AttachReport& report);
+  // The objects that it has not met before, null in place of all others.
+  std::vector<btCollisionObject*> meetAll(const btCollisionWorld& world);
+  const AmbientBody* attach(btCollisionObject& object, Met& met, AttachReport& report);
+  const AmbientBody* attachBody(btRigidBody& body, Met& met, AttachReport& report);
+  const AmbientBody* attachLink(btMultiBody& multi_body, int link, Met& met, AttachReport& report);
+  AttachDef makeDef(const btCollisionShape& shape, Met& met) const;
   void replaceFluidBodies(btCollisionWorld& world);
   void tell(const std::string& sentence) const;
 
@@ -90,7 +100,8 @@ class WorldAttachment {
   FluidBodySource& source_;
   Medium medium_;
   AttachSettings settings_;
-  std::vector<Met> met_;  // in the order of the world
+  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  // of attachNew(), while it runs
+  std::vector<Met> met_;                                 // in the order of the world
   unsigned revision_;
 };
 

@@ -54,6 +54,14 @@ void WorldTie::tie(btDynamicsWorld& world, btConstraintSolver& solver, btActionI
   world.removeAction(&action);  // if the world has it already
   world.addAction(&action);
   world_ = &world;
+  multibody_world_ = multibody_world;
+}
+
+btMultiBodyDynamicsWorld& WorldTie::multiBodyWorld() const {
+  if (multibody_world_) return *multibody_world_;
+  throw std::invalid_argument(
+      world_ ? "add: links of a btMultiBody move in a btMultiBodyDynamicsWorld only"
+             : "add: links of a btMultiBody need to know their world; call attachTo(world) first");
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

@@ -7,6 +7,7 @@
 class btActionInterface;
 class btConstraintSolver;
 class btDynamicsWorld;
+class btMultiBodyDynamicsWorld;
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -21,10 +22,13 @@ class WorldTie {
   /// @throws std::invalid_argument with one sentence; the world is then as it was.
   void tie(btDynamicsWorld& world, btConstraintSolver& solver, btActionInterface& action);
   /// Forgets the world, and does not look at it: it may have been destroyed.
-  void forget() { world_ = nullptr; }
+  void forget() { *this = {}; }
+  /// @throws std::invalid_argument, in one sentence, if it is tied to none that has multibodies.
+  btMultiBodyDynamicsWorld& multiBodyWorld() const;
 
  private:
   const btDynamicsWorld* world_ = nullptr;
+  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;
 };
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

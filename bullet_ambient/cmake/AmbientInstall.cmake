@@ -47,9 +47,11 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   bullet/fluid.h
   bullet/fluid_body_source.h
   bullet/fluid_drawing.h
+  bullet/multibody_dynamics.h
   bullet/precision_check.h
   bullet/region_id.h
   bullet/solver_group.h
+  bullet/tree_group.h
   bullet/world_attachment.h
   bullet/world_state.h
   bullet/world_tie.h
@@ -84,7 +86,14 @@ set(BULLET_AMBIENT_PUBLIC_PREPROCESS_HEADERS
   mesh/mesh_import.h
   mesh/primitives.h
   mesh/triangle_mesh.h
-  potential_flow/potential_flow.h)
+  potential_flow/potential_flow.h
+  robot/file_reference.h
+  robot/link_shape.h
+  robot/robot.h
+  robot/robot_fluid.h
+  robot/robot_model.h
+  robot/urdf_reader.h
+  shape/shape_description.h)
 
 # The headers keep the paths they have in the source tree; those of the preprocessor move below bullet_ambient/, so
 # that the include directory gets one new name.

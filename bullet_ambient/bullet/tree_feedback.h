@@ -1,0 +1,19 @@
+#pragma once
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/tree_motion.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// Whether Bullet is asked for the forces in joints of a multibody.
+bool wantsJointForces(const btMultiBody& multi_body) noexcept;
+
+/// Replaces the joint forces that Bullet has computed without fluid, btMultiBodyJointFeedback, by
+/// those that have made the change of velocity of the substep, at the middle of its way. As with
+/// Bullet, rows act as forces from outside; what is due to velocities counts once, and with Bullet
+/// twice. @pre `step` has the velocities of this substep
+void writeJointForces(AmbientTree& tree, const TreeTask& task) noexcept;
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

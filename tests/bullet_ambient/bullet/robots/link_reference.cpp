@@ -1,0 +1,155 @@
+#include "tests/bullet_ambient/bullet/robots/link_reference.h"
+
+#include <algorithm>
+
+#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/tree_state.h"
+
+namespace ambient::test {
+namespace {
+
+using DenseVector3 = Eigen::Matrix<Real, 3, 1>;
+using DenseMatrix3 = Eigen::Matrix<Real, 3, 3>;
+
+DenseVector3 real(const btVector3& v) { return {Real(v.x()), Real(v.y()), Real(v.z())}; }
+
+btTransform poseOf(const btMultiBody& body, int link) {
+  return link < 0 ? body.getBaseWorldTransform() : body.getLink(link).m_cachedWorldTransform;
+}
+DenseMatrix3 axesOf(const btMultiBody& body, int link) {
+  return toQuaternion(poseOf(body, link).getRotation()).toRotationMatrix().cast<Real>();
+}
+DenseVector3 placeOf(const btMultiBody& body, int link) {
+  return real(poseOf(body, link).getOrigin());
+}
+
+reference::DenseBody bodyOf(const btMultiBody& body, int link, const AmbientRegistry& registry) {
+  reference::DenseMatrix6 K = reference::DenseMatrix6::Zero();
+  K.topLeftCorner<3, 3>() =
+      real(link < 0 ? body.getBaseInertia() : body.getLinkInertia(link)).asDiagonal();
+  K.bottomRightCorner<3, 3>() =
+      DenseMatrix3::Identity() * Real(link < 0 ? body.getBaseMass() : body.getLinkMass(link));
+  if (registry.isAttached(body, link)) K = registry.inertia(body, link).cast<Real>();
+  return {link < 0 && body.hasFixedBase(), reference::turned(K, axesOf(body, link)),
+          DenseVector6::Zero()};
+}
+
+// Two directions across an axis.
+std::vector<DenseVector3> across(const DenseVector3& axis) {
+  const DenseVector3 one = axis.unitOrthogonal();
+  return {one, axis.cross(one)};
+}
+
+struct JointFrame {
+  DenseVector3 axis, pivot_from_link, pivot_from_parent, link_from_parent;
+};
+
+JointFrame frameOf(const btMultiBody& body, int link) {
+  const btMultibodyLink& joint = body.getLink(link);
+  const DenseMatrix3 R = axesOf(body, link);
+  const bool slides = joint.m_jointType == btMultibodyLink::ePrismatic;
+  const DenseVector3 axis = real(slides ? joint.m_axes[0].m_bottomVec : joint.m_axes[0].m_topVec);
+  JointFrame frame;
+  frame.axis = (R * axis).normalized();
+  frame.link_from_parent = placeOf(body, link) - placeOf(body, joint.m_parent);
+  frame.pivot_from_link = -(R * real(joint.m_dVector));
+  frame.pivot_from_parent = frame.link_from_parent + frame.pivot_from_link;
+  return frame;
+}
+
+std::vector<reference::DenseRow> rowsOfJoint(const btMultiBody& body, int link) {
+  const JointFrame frame = frameOf(body, link);
+  const std::vector<DenseVector3> all{DenseVector3::UnitX(), DenseVector3::UnitY(),
+                                      DenseVector3::UnitZ()};
+  std::vector<DenseVector3> held_at_pivot, held_at_link, held_turns;
+  switch (body.getLink(link).m_jointType) {
+    case btMultibodyLink::eRevolute:
+      held_at_pivot = all;
+      held_turns = across(frame.axis);
+      break;
+    case btMultibodyLink::ePrismatic:
+      held_at_link = across(frame.axis);
+      held_turns = all;
+      break;
+    case btMultibodyLink::eSpherical:
+      held_at_pivot = all;
+      break;
+    case btMultibodyLink::ePlanar:
+      held_at_link = {frame.axis};
+      held_turns = across(frame.axis);
+      break;
+    default:
+      held_at_pivot = held_turns = all;
+  }
+  std::vector<reference::DenseRow> rows;
+  for (const DenseVector3& d : held_at_pivot)
+    rows.push_back(reference::pointRow(d, frame.pivot_from_link, frame.pivot_from_parent));
+  for (const DenseVector3& d : held_at_link)
+    rows.push_back(reference::pointRow(d, DenseVector3::Zero(), frame.link_from_parent));
+  for (const DenseVector3& d : held_turns) rows.push_back(reference::spinRow(d));
+  for (reference::DenseRow& row : rows) {
+    row.body_a = link + 1;
+    row.body_b = body.getLink(link).m_parent + 1;
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<DenseVector6> twistsOf(const btMultiBody& body) {
+  const int count = body.getNumLinks() + 1;
+  std::vector<btVector3> spins(count), velocities(count);
+  body.compTreeLinkVelocities(spins.data(), velocities.data());
+  std::vector<DenseVector6> twists(count);
+  for (int i = 0; i < count; ++i) {
+    const DenseMatrix3 R = axesOf(body, i - 1);
+    twists[i] << R * real(spins[i]), R * real(velocities[i]);
+  }
+  return twists;
+}
+
+DenseRobot denseRobot(const btMultiBody& body, const AmbientRegistry& registry) {
+  DenseRobot robot;
+  const std::vector<DenseVector6> twists = twistsOf(body);
+  for (int link = -1; link < body.getNumLinks(); ++link) {
+    robot.bodies.push_back(bodyOf(body, link, registry));
+    robot.bodies.back().free_velocity = twists[link + 1];
+    if (link < 0) continue;
+    for (const reference::DenseRow& row : rowsOfJoint(body, link)) robot.rows.push_back(row);
+  }
+  robot.bodies.emplace_back();
+  robot.bodies.back().fixed = true;
+  return robot;
+}
+
+reference::DenseRow groundRow(const btMultiBody& body, int link, const btVector3& point,
+                              const btVector3& direction) {
+  reference::DenseRow row =
+      reference::pointRow(real(direction), real(point) - placeOf(body, link), DenseVector3::Zero());
+  row.body_a = link + 1;
+  row.body_b = body.getNumLinks() + 1;
+  return row;
+}
+
+reference::DenseRow rateRow(const btMultiBody& body, int link) {
+  reference::DenseRow row = reference::spinRow(frameOf(body, link).axis);
+  row.body_a = link + 1;
+  row.body_b = body.getLink(link).m_parent + 1;
+  return row;
+}
+
+double twistError(const btMultiBody& now, const std::vector<DenseVector6>& expected,
+                  const std::vector<DenseVector6>& before) {
+  DenseVector6 units = DenseVector6::Ones();
+  units.head<3>().setConstant(0.15L);
+  const std::vector<DenseVector6> twists = twistsOf(now);
+  Real difference = 0, scale = 0;
+  for (std::size_t i = 0; i < twists.size(); ++i) {
+    const auto size = [&units](const DenseVector6& u) { return u.cwiseProduct(units).norm(); };
+    difference = std::max(difference, size(twists[i] - expected[i]));
+    scale = std::max({scale, size(expected[i]), size(before[i])});
+  }
+  return static_cast<double>(difference / scale);
+}
+
+}  // namespace ambient::test

@@ -1,0 +1,199 @@
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "bullet_ambient/bullet/multibody_dynamics.h"
+#include "tests/bullet_ambient/bullet/robots/robot_world.h"
+#include "tests/support/ellipsoid_body.h"
+
+// Energy of robots in an ideal fluid at rest, which no step should make and few should lose.
+namespace ambient::test {
+namespace {
+
+void record(const char* what, double hertz, double value) {
+  testing::Test::RecordProperty(what + ("_" + std::to_string(std::lround(hertz))),
+                                std::to_string(value));
+}
+
+struct EnergyRange {
+  double lowest = 1, highest = 1, last = 1;  // over the start
+
+  double deviation() const { return std::max(highest - 1, 1 - lowest); }
+};
+
+EnergyRange watch(RobotWorld& world, const btMultiBody& body, double hertz, double seconds) {
+  const AmbientRegistry& registry = world.fluid.registry();
+  const double start = kineticEnergy(registry, body);
+  EnergyRange range;
+  for (int i = 0; i < std::lround(seconds * hertz); ++i) {
+    world.step(1 / hertz);
+    range.last = kineticEnergy(registry, body) / start;
+    if (!std::isfinite(range.last)) return {-1e300, 1e300, range.last};
+    range.lowest = std::min(range.lowest, range.last);
+    range.highest = std::max(range.highest, range.last);
+  }
+  return range;
+}
+
+double deviationInFlight(Joints joints, double hertz) {
+  Arbitrary arbitrary(11);
+  RobotWorld world;
+  RobotDef def;
+  def.speed = 0.7;
+  def.links = joints == Joints::kRevolute ? 3 : 5;
+  def.joints = joints;
+  btMultiBody& body = world.add(arbitrary, def);
+  putIntoFluid(arbitrary, world, body, 5);
+  return watch(world, body, hertz, 10).deviation();
+}
+
+TEST(RobotFlight, KeepsItsEnergyToSecondOrder) {
+  const double at_60 = deviationInFlight(Joints::kRevolute, 60);
+  EXPECT_LT(at_60, 1e-2);
+  if (!kDouble) return;
+  const double at_120 = deviationInFlight(Joints::kRevolute, 120);
+  const double at_240 = deviationInFlight(Joints::kRevolute, 240);
+  EXPECT_GT(at_120 / at_240, 3);
+  record("flight", 60, at_60);
+  record("flight", 240, at_240);
+}
+
+TEST(RobotFlight, KeepsItsEnergyWithAllSmoothJoints) {
+  EXPECT_LT(deviationInFlight(Joints::kSmooth, 240), 1e-2);
+}
+
+// As PyBullet gives them to every joint: rows in every step.
+void addIdleMotors(RobotWorld& world, btMultiBody& body) {
+  for (int i = 0; i < body.getNumLinks(); ++i)
+    world.take(std::make_unique<btMultiBodyJointMotor>(&body, i, bt(0.1), bt(1e-12)));
+}
+
+double deviationWithMotors(double hertz) {
+  Arbitrary arbitrary(11);
+  RobotWorld world;
+  RobotDef def;
+  def.speed = 0.7;
+  def.collider_radius = 0.01;
+  btMultiBody& body = world.add(arbitrary, def);
+  putIntoFluid(arbitrary, world, body, 5);
+  addIdleMotors(world, body);
+  return watch(world, body, hertz, 2).deviation();
+}
+
+TEST(RobotFlight, KeepsItsEnergyUnderIdleMotors) {
+  const double at_60 = deviationWithMotors(60);
+  EXPECT_LT(at_60, 5e-3);
+  if (!kDouble) return;
+  EXPECT_GT(at_60 / deviationWithMotors(240), 8);
+}
+
+// Tip on a ball joint to the world.
+EnergyRange tether(unsigned seed, double hertz) {
+  Arbitrary arbitrary(seed);
+  RobotWorld world;
+  world.world.getSolverInfo().m_erp = bt(0.2);
+  world.world.getSolverInfo().m_numIterations = 50;
+  RobotDef def;
+  def.collider_radius = 0.01;
+  btMultiBody& body = world.add(arbitrary, def);
+  putIntoFluid(arbitrary, world, body, 5);
+  const btVector3 tip(bt(0.15), 0, 0);
+  auto joint =
+      std::make_unique<btMultiBodyPoint2Point>(&body, 2, static_cast<btRigidBody*>(nullptr), tip,
+                                               body.getLink(2).m_cachedWorldTransform * tip);
+  joint->setMaxAppliedImpulse(bt(1e9));
+  world.take(std::move(joint));
+  world.step(1 / hertz);
+  return watch(world, body, hertz, 5);
+}
+
+TEST(RobotFlight, OnATetherNeverGainsEnergy) {
+  for (const double hertz : {60.0, 240.0}) {
+    double highest = 0, mean = 0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      const EnergyRange range = tether(seed, hertz);
+      highest = std::max(highest, range.highest);
+      mean += range.last / 20;
+    }
+    record("tether_highest", hertz, highest);
+    record("tether_mean", hertz, mean);
+    EXPECT_LT(highest, 1.01);  // the correction of gaps does work
+    EXPECT_GT(mean, hertz < 100 ? 0.65 : 0.9);
+  }
+}
+
+EnergyRange inBox(unsigned seed, double hertz) {
+  Arbitrary arbitrary(seed);
+  RobotWorld world;
+  world.world.getSolverInfo().m_numIterations = 50;
+  RobotDef def;
+  def.links = 4;
+  def.speed = 2;
+  def.collider_radius = 0.06;
+  btMultiBody& body = world.add(arbitrary, def);
+  body.setBasePos({0, 0, 0});
+  RobotWorld::moveColliders(body);
+  putIntoFluid(arbitrary, world, body, 5);
+  for (int i = 0; i < 6; ++i) {
+    btVector3 normal(0, 0, 0);
+    normal[i / 2] = bt(i % 2 == 0 ? 1 : -1);
+    world.addFixed(std::make_unique<btStaticPlaneShape>(normal, bt(-1.3)),
+                   btTransform::getIdentity());
+  }
+  return watch(world, body, hertz, 3);
+}
+
+TEST(RobotFlight, ThrownIntoABoxNeverGainsEnergy) {
+  for (const double hertz : {60.0, 240.0}) {
+    double highest = 0;
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const EnergyRange range = inBox(seed, hertz);
+      highest = std::max(highest, range.highest);
+      EXPECT_LT(range.last, 1) << "no wall was met";
+    }
+    record("box_highest", hertz, highest);
+    EXPECT_LT(highest, 1.01);
+  }
+}
+
+// Loads of water on fast robots at steps that are too long for them.
+void holdTip(RobotWorld& world, btMultiBody& body) {
+  const int tip = body.getNumLinks() - 1;
+  const btVector3 point(bt(0.1), 0, 0);
+  auto joint = std::make_unique<btMultiBodyPoint2Point>(
+      &body, tip, static_cast<btRigidBody*>(nullptr), point,
+      body.getLink(tip).m_cachedWorldTransform * point);
+  joint->setMaxAppliedImpulse(bt(1e9));
+  world.take(std::move(joint));
+}
+
+TEST(RobotFlight, InWaterSlowsDownAtLongSteps) {
+  const auto shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1));
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    Arbitrary arbitrary(100 + seed);
+    RobotWorld world;
+    RobotDef def;
+    def.links = 2 + static_cast<int>(seed % 5);
+    def.joints = seed % 2 == 0 ? Joints::kRevolute : Joints::kSmooth;
+    def.speed = 1 + seed % 4;
+    def.collider_radius = 0.05;
+    btMultiBody& body = world.add(arbitrary, def);
+    for (int link = -1; link < def.links; ++link) {
+      AttachDef attach;
+      attach.fluid_body = shape;
+      attach.medium = water();
+      world.fluid.add(body, link, attach);
+    }
+    if (seed % 3 > 0) holdTip(world, body);
+    const EnergyRange range = watch(world, body, 30, 1);
+    EXPECT_LT(range.highest, 1.01) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace ambient::test

@@ -1,0 +1,198 @@
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <BulletDynamics/Featherstone/btMultiBodyMLCPConstraintSolver.h>
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "tests/bullet_ambient/bullet/robots/link_reference.h"
+#include "tests/bullet_ambient/bullet/robots/robot_world.h"
+
+// Rows of links in fluid against one dense system of all links, joints and rows.
+namespace ambient::test {
+namespace {
+
+// So short that forces do nothing, but more than Bullet's zero.
+constexpr double kMoment = byPrecision(1e-13, 2e-7);
+constexpr double kRowTolerance = byPrecision(1e-10, 1e-5);
+constexpr double kRadius = 0.05;
+
+// A box whose face a link's sphere touches, with its normal along `normal`.
+void addFloor(RobotWorld& world, const btMultiBody& body, int link, const btVector3& normal,
+              double restitution) {
+  const btVector3 centre =
+      link < 0 ? body.getBasePos() : body.getLink(link).m_cachedWorldTransform.getOrigin();
+  const btScalar half = bt(0.04), overlap = bt(1e-6);
+  btTransform place(shortestArcQuat(btVector3(0, 0, 1), normal),
+                    centre - normal * (bt(kRadius) + half - overlap));
+  auto box = std::make_unique<btBoxShape>(btVector3(half, half, half));
+  box->setMargin(bt(1e-4));
+  world.addFixed(std::move(box), place).setRestitution(bt(restitution));
+}
+
+// One row for each contact point of the step that was just made.
+void addContacts(RobotWorld& world, const btMultiBody& body,
+                 const std::vector<DenseVector6>& before, double restitution, DenseRobot& robot) {
+  for (int i = 0; i < world.dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *world.dispatcher.getManifoldByIndexInternal(i);
+    const auto* a = btMultiBodyLinkCollider::upcast(manifold.getBody0());
+    const auto* b = btMultiBodyLinkCollider::upcast(manifold.getBody1());
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      const btVector3 normal = a ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
+      const int link = (a ? a : b)->m_link;
+      reference::DenseRow row = groundRow(
+          body, link, a ? point.getPositionWorldOnA() : point.getPositionWorldOnB(), normal);
+      row.lower = 0;
+      const Real approach = row.jacobian_a.dot(before[link + 1]);
+      row.target = std::max<Real>(0, -restitution * approach);
+      robot.rows.push_back(row);
+    }
+  }
+}
+
+struct Impact {
+  double error = 0;
+  int contacts = 0;
+};
+
+Impact hit(unsigned seed, const RobotDef& def, double restitution, int floors) {
+  Arbitrary arbitrary(seed);
+  RobotWorld world;
+  btMultiBody& body = world.add(arbitrary, def);
+  putIntoFluid(arbitrary, world, body, 5);
+  const int tip = body.getNumLinks() - 1;
+  const btVector3 down = -body.getBaseVel().normalized();
+  if (!def.has_fixed_base) addFloor(world, body, -1, down, restitution);
+  if (def.has_fixed_base || floors > 1)
+    addFloor(world, body, tip, btVector3(0, bt(0.6), bt(0.8)), restitution);
+  DenseRobot robot = denseRobot(body, world.fluid.registry());
+  const std::vector<DenseVector6> before = twistsOf(body);
+  world.step(kMoment);
+  const auto rows_of_joints = robot.rows.size();
+  addContacts(world, body, before, restitution, robot);
+  const auto expected = reference::solveDense(robot.bodies, robot.rows);
+  return {twistError(body, expected.velocities, before),
+          static_cast<int>(robot.rows.size() - rows_of_joints)};
+}
+
+void expectImpacts(RobotDef def, double restitution, int floors) {
+  double worst = 0;
+  int hits = 0;
+  def.collider_radius = kRadius;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Impact impact = hit(seed, def, restitution, floors);
+    if (impact.contacts == 0) continue;
+    ++hits;
+    worst = std::max(worst, impact.error);
+  }
+  EXPECT_GE(hits, 15);
+  EXPECT_LT(worst, kRowTolerance);
+}
+
+TEST(RobotRows, OneContactEqualsTheDenseSolution) { expectImpacts({}, 0.5, 1); }
+
+TEST(RobotRows, TwoContactsEqualTheDenseSolution) { expectImpacts({}, 0, 2); }
+
+TEST(RobotRows, ContactsOfTreesWithAllJointsEqualTheDenseSolution) {
+  RobotDef def;
+  def.links = 7;
+  def.joints = Joints::kAll;
+  expectImpacts(def, 0.3, 2);
+}
+
+TEST(RobotRows, AFixedBaseEqualsTheDenseSolution) {
+  RobotDef def;
+  def.has_fixed_base = true;
+  expectImpacts(def, 0.5, 1);
+}
+
+// Bullet has no articulated inertia for it.
+TEST(RobotRows, ABaseAloneEqualsTheDenseSolution) {
+  RobotDef def;
+  def.links = 0;
+  expectImpacts(def, 0.5, 1);
+}
+
+Eigen::VectorXd velocityAfterHit(unsigned seed, RobotWorld& world, AmbientRegistry& registry) {
+  Arbitrary arbitrary(seed);
+  RobotDef def;
+  def.collider_radius = kRadius;
+  btMultiBody& body = world.add(arbitrary, def);
+  for (int link = -1; link < 3; ++link)
+    registry.attach(world.world, body, link, coupledFluid(arbitrary, body, link, 5));
+  addFloor(world, body, -1, -body.getBaseVel().normalized(), 0.5);
+  world.step(kMoment);
+  return velocityOf(body);
+}
+
+TEST(RobotRows, AComplementaritySolverFindsTheSame) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    RobotWorld by_iterations;
+    const Eigen::VectorXd expected =
+        velocityAfterHit(seed, by_iterations, by_iterations.fluid.registry());
+    AmbientRegistry registry;
+    AmbientAction action(registry);
+    btDantzigSolver inner;
+    RobotWorld world(
+        std::make_unique<AmbientSolver<btMultiBodyMLCPConstraintSolver>>(registry, &inner));
+    world.world.addAction(&action);
+    const Eigen::VectorXd u = velocityAfterHit(seed, world, registry);
+    EXPECT_LT(relativeError(u, expected), byPrecision(1e-8, 1e-4));
+    EXPECT_GT(registry.counters().rows, 0);
+  }
+}
+
+// Impulses of the last step, which Bullet applies with the dry response, are applied again.
+TEST(RobotRows, WarmStartsChangeNothingButTheWay) {
+  Eigen::VectorXd ends[2];
+  for (const int mode : {0, int(SOLVER_USE_ARTICULATED_WARMSTARTING)}) {
+    Arbitrary arbitrary(3);
+    RobotWorld world;
+    world.world.setGravity({0, 0, bt(-9.8)});
+    world.world.getSolverInfo().m_solverMode |= mode;
+    RobotDef def;
+    def.collider_radius = 0.06;
+    btMultiBody& body = world.add(arbitrary, def);
+    putIntoFluid(arbitrary, world, body, 2);
+    world.addFixed(std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), bt(-1.2)),
+                   btTransform::getIdentity());
+    world.take(std::make_unique<btMultiBodyJointMotor>(&body, 1, bt(1), bt(0.02)));
+    world.step(1 / 240.0, 120);
+    ends[mode != 0] = velocityOf(body);
+  }
+  EXPECT_LT(relativeError(ends[1], ends[0]), byPrecision(1e-7, 1e-2));
+}
+
+TEST(RobotRows, AMotorAndALimitEqualTheDenseSolution) {
+  double worst = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    Arbitrary arbitrary(seed);
+    RobotWorld world;
+    RobotDef def;
+    def.collider_radius = 0.01;
+    btMultiBody& body = world.add(arbitrary, def);
+    putIntoFluid(arbitrary, world, body, 5);
+    body.setJointVel(0, bt(-1.5));
+    world.take(std::make_unique<btMultiBodyJointMotor>(&body, 1, bt(3), bt(1e9)));
+    auto limit = std::make_unique<btMultiBodyJointLimitConstraint>(&body, 0, body.getJointPos(0),
+                                                                   body.getJointPos(0) + 3);
+    limit->setMaxAppliedImpulse(bt(1e9));
+    world.take(std::move(limit));
+    DenseRobot robot = denseRobot(body, world.fluid.registry());
+    const std::vector<DenseVector6> before = twistsOf(body);
+    robot.rows.push_back(rateRow(body, 1));
+    robot.rows.back().target = 3;
+    robot.rows.push_back(rateRow(body, 0));
+    robot.rows.back().lower = 0;
+    const auto expected = reference::solveDense(robot.bodies, robot.rows);
+    world.step(kMoment);
+    worst = std::max(worst, twistError(body, expected.velocities, before));
+  }
+  EXPECT_LT(worst, kRowTolerance);
+}
+
+}  // namespace
+}  // namespace ambient::test
