@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +14,7 @@
 #include "bullet_ambient/force/medium.h"
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/spatial/vector_types.h"
+#include "preprocess/robot/robot_model.h"
 #include "preprocess/shape/shape_description.h"
 
 namespace ambient {
@@ -18,6 +22,7 @@ namespace ambient {
 /// How the fluid acts on the bodies of a scene.
 enum class FluidModel {
   kAmbient,  ///< this library
+  kIdeal,    ///< this library without surface loads: added mass and buoyancy alone
   kVacuum,   ///< stock Bullet
   kUwrbd,    ///< LinearDrag, Weissmann and Pinkall 2012
   kGwtf,     ///< WindwardFlux, a stand-in for Soliman et al. 2024
@@ -29,7 +34,14 @@ std::string integratorName(Integrator integrator);
 
 enum class MassKind { kUniform, kSurface };
 
-/// One rigid body of a scene. The shape's frame is that of the scene's "shape" entry.
+/// A link of a robot of a scene, by their indices.
+struct SceneLink {
+  std::size_t robot = 0;
+  std::size_t link = 0;
+};
+
+/// One rigid body of a scene. The shape's frame is that of the scene's "shape" entry, or the
+/// link's.
 struct BodyDef {
   std::string name;
   ShapeDescription shape;
@@ -46,6 +58,39 @@ struct BodyDef {
   double wave_damping = 1;                          ///< of a floating body
   double restitution = 0;
   double friction = 0.5;
+  std::optional<SceneLink> link;  ///< of a robot, which then has all that is not said here
+  std::optional<Medium> medium;   ///< in place of the scene's
+};
+
+/// What a motor of a joint wants; position + amplitude sin(2 pi t / period + phase), or a velocity.
+struct JointDrive {
+  double position = 0;             ///< [rad] or [m]
+  double amplitude = 0;            ///< [rad] or [m]
+  double period = 1;               ///< [s]
+  double phase = 0;                ///< [rad]
+  std::optional<double> velocity;  ///< in place of a position [rad/s] or [m/s]
+  double effort = std::numeric_limits<double>::infinity();  ///< [N m] or [N]
+  double position_gain = 0.1;
+  double velocity_gain = 1;
+
+  double positionAt(double time) const;
+  double velocityAt(double time) const;
+};
+
+/// A robot of a URDF file. Its links that collide are bodies of the scene, after the others.
+struct RobotDef {
+  std::string name;
+  std::shared_ptr<const RobotModel> model;
+  Vector3 position = Vector3::Zero();               ///< of the root link's frame in W [m]
+  Quaternion orientation = Quaternion::Identity();  ///< root link's axes to W
+  bool fixed_base = false;
+  bool self_collision = false;
+  std::map<std::string, double> joint_positions;  ///< at t = 0, by joint
+  std::map<std::string, JointDrive> motors;       ///< by joint
+  std::optional<Medium> medium;                   ///< of links that name none
+  FlowSettings flow;
+
+  RigidPose pose() const;
 };
 
 /// A joint without friction between two bodies, or of one with the world. Bodies that it joins do
@@ -83,6 +128,7 @@ struct Scene {
   FlightSettings flight;
   int threads = 0;  ///< of the preprocessing; 0: all cores
   std::vector<BodyDef> bodies;
+  std::vector<RobotDef> robots;
   std::vector<JointDef> joints;
 };
 

@@ -104,7 +104,7 @@ bool isDynamicBody(const Scene& scene, const std::string& name) {
 
 bool isBody(const Scene& scene, const std::string& name) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [&](const BodyDef& body) { return body.name == name; });
+                     [&](const BodyDef& body) { return body.name == name && !body.link; });
 }
 
 void checkJoint(const Scene& scene, const JointDef& joint, const Checker& check) {
@@ -134,6 +134,9 @@ void checkFluids(const Scene& scene) {
 
 void checkScene(const Scene& scene) {
   checkTimes(scene);
+  Checker(scene, "").require(
+      !scene.bodies.empty(),
+      "bodies is empty, and no robot has a link that collides; must be at least one");
   checkFluids(scene);
   checkNames(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

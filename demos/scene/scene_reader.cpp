@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/spatial/pi.h"
 #include "demos/scene/scene_checks.h"
+#include "demos/scene/scene_robots.h"
 #include "demos/scene/scene_schema.h"
 #include "demos/scene/scene_water.h"
 #include "preprocess/shape/json_text.h"
@@ -35,8 +36,9 @@ Matrix3 toInertia(const json& v) {
 }
 
 // The words of the schema.
-constexpr std::array<std::pair<FluidModel, const char*>, 4> kModels{
+constexpr std::array<std::pair<FluidModel, const char*>, 5> kModels{
     {{FluidModel::kAmbient, "ambient"},
+     {FluidModel::kIdeal, "ideal"},
      {FluidModel::kVacuum, "vacuum"},
      {FluidModel::kUwrbd, "uwrbd"},
      {FluidModel::kGwtf, "gwtf"}}};
@@ -131,7 +133,10 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   scene.flight = toFlightSettings(from);
   scene.threads = from.value("threads", 0);
   if (from.contains("law")) scene.law = valueOf(from.at("law"), kPressureLawNames);
-  for (const json& body : from.at("bodies")) scene.bodies.push_back(toBody(body, scene, file));
+  if (from.contains("bodies"))
+    for (const json& body : from.at("bodies")) scene.bodies.push_back(toBody(body, scene, file));
+  if (from.contains("robots"))
+    for (const json& robot : from.at("robots")) addRobot(robot, scene);
   if (from.contains("joints"))
     for (const json& joint : from.at("joints")) scene.joints.push_back(toJoint(joint));
   return scene;

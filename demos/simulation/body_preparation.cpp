@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/load_fluid_body.h"
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/robot/link_shape.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
@@ -38,13 +40,39 @@ PreparedBody prepareDynamic(const BodyDef& def, std::shared_ptr<const FluidBody>
   return body;
 }
 
+/// That which its <ambient> element names, else that of what it collides with.
+std::shared_ptr<const FluidBody> fluidBodyOf(const LinkModel& link, const std::string& name,
+                                             SceneBodyCache& fluid_bodies) {
+  if (link.fluid && !link.fluid->fluid_body.empty())
+    return loadFluidBody(link.fluid->fluid_body.string());
+  const LinkShape shape = makeLinkShape(link, RigidPose::Identity());
+  return fluid_bodies.get(*shape.in_link, name);
+}
+
+PreparedBody prepareLink(const Scene& scene, const BodyDef& def, SceneBodyCache& fluid_bodies) {
+  const LinkModel& link = scene.robots[def.link->robot].model->links[def.link->link];
+  PreparedBody body;
+  body.fluid_body = fluidBodyOf(link, def.name, fluid_bodies);
+  body.surface = body.fluid_body->surface;
+  body.mass = def.mass;
+  body.centre_of_mass = link.centre_of_mass;
+  body.inertia = link.inertia;
+  const bool has_fluid = !link.fluid || link.fluid->medium != "none";
+  if (!has_fluid || def.mass == 0) body.fluid_body = nullptr;
+  return body;
+}
+
+PreparedBody prepare(const Scene& scene, const BodyDef& def, SceneBodyCache& fluid_bodies) {
+  if (def.link) return prepareLink(scene, def, fluid_bodies);
+  return def.mass > 0 ? prepareDynamic(def, fluid_bodies.get(def.shape, def.name))
+                      : prepareStatic(def);
+}
+
 }  // namespace
 
 std::vector<PreparedBody> prepareBodies(const Scene& scene, SceneBodyCache& fluid_bodies) {
   std::vector<PreparedBody> bodies;
-  for (const BodyDef& def : scene.bodies)
-    bodies.push_back(def.mass > 0 ? prepareDynamic(def, fluid_bodies.get(def.shape, def.name))
-                                  : prepareStatic(def));
+  for (const BodyDef& def : scene.bodies) bodies.push_back(prepare(scene, def, fluid_bodies));
   return bodies;
 }
 

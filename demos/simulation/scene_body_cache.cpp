@@ -35,36 +35,68 @@ std::shared_ptr<const FluidBody> SceneBodyCache::get(const ShapeDescription& sha
   return known;
 }
 
-fs::path SceneBodyCache::fileFor(const ShapeDescription& shape) const {
-  const fs::path mesh = fileOf(shape);
-  const std::string bytes = mesh.empty() ? "" : readBytes(mesh);
-  char hash[17];
-  std::snprintf(
-      hash, sizeof hash, "%016llx",
-      static_cast<unsigned long long>(fnv1a64(programStamp() + "\n" + shape.text + "\n" + bytes)));
-  return folder_ / (std::string(hash) + ".ambient");
+std::shared_ptr<const FluidBody> SceneBodyCache::get(const btCollisionShape& shape,
+                                                     const std::string& name) {
+  CollisionShapeSettings settings;
+  settings.name = name;
+  settings.flow.threads = threads_;
+  settings.tables = false;
+  settings.report = [this](const std::string& line) { warnings_.push_back(line); };
+  const Provenance from = describeCollisionShape(shape, settings);
+  const std::string key =
+      from.source + " " + std::to_string(from.source_hash) + " " + from.settings;
+  std::shared_ptr<const FluidBody>& known = by_text_[key];
+  if (!known) known = readOr(key, [&] { return solveOrGuess(shape, settings); });
+  return known;
 }
 
-std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescription& shape,
-                                                             const std::string& name) {
-  const bool cached = !folder_.empty() && !std::holds_alternative<FluidBodyShape>(shape.geometry);
-  const fs::path file = cached ? fileFor(shape) : fs::path();
-  if (cached && fs::exists(file)) {
+FluidBody SceneBodyCache::solveOrGuess(const btCollisionShape& shape,
+                                       CollisionShapeSettings settings) {
+  try {
+    return makeFluidBody(shape, settings);
+  } catch (const std::runtime_error& error) {
+    settings.quality = Quality::kInstant;
+    FluidBody guess = makeFluidBody(shape, settings);
+    warnings_.push_back(std::string(error.what()) +
+                        "; its added mass is that of an ellipsoid of its size");
+    return guess;
+  }
+}
+
+std::shared_ptr<const FluidBody> SceneBodyCache::readOr(const std::string& key,
+                                                        const std::function<FluidBody()>& build) {
+  if (folder_.empty()) return std::make_shared<const FluidBody>(build());
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(fnv1a64(programStamp() + "\n" + key)));
+  const fs::path file = folder_ / (std::string(hash) + ".ambient");
+  if (fs::exists(file)) {
     try {
       return std::make_shared<const FluidBody>(readFluidBody(file));
     } catch (const std::runtime_error&) {
       // A damaged file is as good as none: save() replaces it.
     }
   }
-  ShapeBuildSettings settings;
-  settings.name = name;
-  settings.flow.threads = threads_;
-  settings.tables = false;  // scenes are published: new tables should not change their bits
-  BuiltBody built = buildShape(shape, settings);
-  warnings_.insert(warnings_.end(), built.warnings.begin(), built.warnings.end());
-  auto body = std::make_shared<const FluidBody>(std::move(built.body));
-  if (cached) unsaved_.emplace(file, body);
+  auto body = std::make_shared<const FluidBody>(build());
+  unsaved_.emplace(file, body);
   return body;
+}
+
+std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescription& shape,
+                                                             const std::string& name) {
+  const auto build = [&] {
+    ShapeBuildSettings settings;
+    settings.name = name;
+    settings.flow.threads = threads_;
+    settings.tables = false;  // scenes are published: new tables should not change their bits
+    BuiltBody built = buildShape(shape, settings);
+    warnings_.insert(warnings_.end(), built.warnings.begin(), built.warnings.end());
+    return std::move(built.body);
+  };
+  if (std::holds_alternative<FluidBodyShape>(shape.geometry))
+    return std::make_shared<const FluidBody>(build());
+  const fs::path mesh = fileOf(shape);
+  return readOr(shape.text + "\n" + (mesh.empty() ? "" : readBytes(mesh)), build);
 }
 
 void SceneBodyCache::save() {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/shape/shape_description.h"
 
 namespace ambient {
@@ -22,6 +24,9 @@ class SceneBodyCache {
 
   /// @throws std::runtime_error in one line that names the file or the shape's source.
   std::shared_ptr<const FluidBody> get(const ShapeDescription& shape, const std::string& name);
+  /// That of what a link collides with, in the shape's frame; where its flow cannot be solved, as
+  /// of hulls that barely touch, a guess and a warning. @throws as makeFluidBody()
+  std::shared_ptr<const FluidBody> get(const btCollisionShape& shape, const std::string& name);
 
   /// Writes what was solved since it was made. @throws std::runtime_error as writeFluidBody().
   void save();
@@ -31,9 +36,12 @@ class SceneBodyCache {
   int solved() const { return static_cast<int>(unsaved_.size()); }
 
  private:
-  std::filesystem::path fileFor(const ShapeDescription& shape) const;
   std::shared_ptr<const FluidBody> readOrBuild(const ShapeDescription& shape,
                                                const std::string& name);
+  FluidBody solveOrGuess(const btCollisionShape& shape, CollisionShapeSettings settings);
+  /// From the folder, if it is there; else what `build` returns, which save() then writes.
+  std::shared_ptr<const FluidBody> readOr(const std::string& key,
+                                          const std::function<FluidBody()>& build);
 
   std::filesystem::path folder_;
   int threads_;

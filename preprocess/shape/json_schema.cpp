@@ -39,6 +39,8 @@ bool knowsPlace(const Node& unresolved, Path::const_iterator part, Path::const_i
   const Node node = resolved(unresolved);
   const json& child = member(member(node.schema, "properties"), part->c_str());
   if (!child.is_null() && knowsPlace({child, node.document}, part + 1, end)) return true;
+  const json& others = member(node.schema, "additionalProperties");
+  if (others.is_object() && knowsPlace({others, node.document}, part + 1, end)) return true;
   const json& items = member(node.schema, "items");
   if (isIndex(*part) && !items.is_null() && knowsPlace({items, node.document}, part + 1, end))
     return true;
@@ -129,11 +131,12 @@ class Checker {
 
   void checkObject(const json& object, const Node& node) {
     const json& properties = member(node.schema, "properties");
+    const json& others = member(node.schema, "additionalProperties");
     for (const auto& [key, value] : object.items()) {
       const json& wanted = member(properties, key.c_str());
-      if (!wanted.is_null()) {
-        checkPart(key, value, {wanted, node.document});
-      } else if (member(node.schema, "additionalProperties") == false) {
+      if (!wanted.is_null() || others.is_object()) {
+        checkPart(key, value, {wanted.is_null() ? others : wanted, node.document});
+      } else if (others == false) {
         raiseInputError(source_, "unknown key ", json(key).dump(), " in ", schema_.placeName(path_),
                         ", which has ", keysOf(properties));
       }

@@ -11,7 +11,7 @@ const nlohmann::json& shapeSchema();
 
 /// What a JSON value must be, of JSON Schema draft 7 the part that data/schema uses; other keywords
 /// are for people. "$ref" leads into the same document or to the schema of shapes; "if" compares
-/// keys with constants.
+/// keys with constants; "additionalProperties" is false or the schema of keys that are not listed.
 /// @pre the schema refers to nothing that is missing
 class JsonSchema {
  public:

@@ -118,7 +118,8 @@ TEST(SceneReader, RejectsAWrongTypeOrLength) {
             "gravity is [0,0]; must be at least 3 values");
   EXPECT_EQ(complaintAfter("/bodies/0/position/1", true),
             "bodies[0].position[1] is true; must be of type \"number\"");
-  EXPECT_EQ(complaintAfter("/bodies", json::array()), "bodies is []; must be at least 1 values");
+  EXPECT_EQ(complaintAfter("/bodies", json::array()),
+            "bodies is empty, and no robot has a link that collides; must be at least one");
 }
 
 TEST(SceneReader, RejectsIntegersThatNoIntHolds) {
@@ -168,7 +169,7 @@ TEST(SceneReader, RejectsErrorsOfLoadsThatCannotBe) {
 TEST(SceneReader, RejectsAnUnknownModel) {
   EXPECT_EQ(complaintAfter("/model", "navier-stokes"),
             "model is \"navier-stokes\"; must be one of "
-            "[\"ambient\",\"vacuum\",\"uwrbd\",\"gwtf\"]");
+            "[\"ambient\",\"ideal\",\"vacuum\",\"uwrbd\",\"gwtf\"]");
 }
 
 /// A ball that hangs from the world, and a static one.

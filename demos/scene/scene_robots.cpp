@@ -1,0 +1,167 @@
+#include "demos/scene/scene_robots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bullet_ambient/spatial/pi.h"
+#include "demos/scene/scene_checks.h"
+#include "demos/scene/scene_water.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/robot/urdf_reader.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+JointDrive toDrive(const json& from, const std::string& place) {
+  JointDrive drive;
+  drive.position = from.value("position", drive.position);
+  drive.amplitude = from.value("amplitude", drive.amplitude);
+  drive.period = from.value("period", drive.period);
+  drive.phase = from.value("phase", drive.phase);
+  drive.effort = from.value("effort", drive.effort);
+  drive.position_gain = from.value("position_gain", drive.position_gain);
+  drive.velocity_gain = from.value("velocity_gain", drive.velocity_gain);
+  if (from.contains("velocity")) drive.velocity = from.at("velocity").get<double>();
+  if (drive.velocity && (from.contains("position") || from.contains("amplitude")))
+    raiseInputError(place, "has a velocity and a position; must be one of them");
+  return drive;
+}
+
+PackageFolders toPackages(const json& from, const std::filesystem::path& folder) {
+  PackageFolders packages;
+  if (from.contains("packages"))
+    for (const auto& [name, path] : from.at("packages").items())
+      packages[name] = folder / path.get<std::string>();
+  return packages;
+}
+
+RobotModel readModel(const json& from, const std::filesystem::path& scene_file) {
+  const std::filesystem::path folder = scene_file.parent_path();
+  RobotModel model =
+      readUrdf(folder / from.at("urdf").get<std::string>(), toPackages(from, folder));
+  if (from.value("merge_fixed_links", true)) model = withoutFixedJoints(model);
+  checkRobot(model, from.value("fixed_base", false));
+  return model;
+}
+
+void readPlacement(const json& from, RobotDef& robot) {
+  if (from.contains("position")) {
+    const auto p = from.at("position").get<std::vector<double>>();
+    robot.position = Vector3(p[0], p[1], p[2]);
+  }
+  if (from.contains("orientation")) {
+    const auto q = from.at("orientation").get<std::vector<double>>();
+    robot.orientation = Quaternion(q[0], q[1], q[2], q[3]);
+  }
+}
+
+/// What <ambient medium=.../> may say in place of the robot's.
+std::optional<Medium> namedMedium(const std::string& name) {
+  if (name == "water") return water();
+  if (name == "air") return air();
+  return std::nullopt;
+}
+
+void readFlow(const json& from, PressureLaw law, FlowSettings& flow) {
+  flow.law = law;
+  for (const auto& [named, word] : kPressureLawNames)
+    if (from.value("law", "") == word) flow.law = named;
+  flow.separation_angle = from.value("separation_angle", flow.separation_angle);
+  flow.skin_friction = from.value("skin_friction", flow.skin_friction);
+}
+
+/// Joints that the scene names are there and can do what it asks; they begin where their motors
+/// want them.
+void readJoints(const json& from, const std::string& place, RobotDef& robot) {
+  const auto require_axial = [&](const std::string& key, const std::string& joint) {
+    const auto index = static_cast<std::size_t>(robot.model->jointIndex(joint));
+    if (!robot.model->links[index].joint.isAxial())
+      raiseInputError(place + key, "joint \"", joint, "\" must be revolute or prismatic");
+  };
+  if (from.contains("motors"))
+    for (const auto& [joint, motor] : from.at("motors").items()) {
+      require_axial("motors", joint);
+      const JointDrive drive = toDrive(motor, place + "motors." + joint);
+      robot.motors[joint] = drive;
+      if (!drive.velocity) robot.joint_positions[joint] = drive.positionAt(0);
+    }
+  if (from.contains("joint_positions"))
+    for (const auto& [joint, position] : from.at("joint_positions").items()) {
+      require_axial("joint_positions", joint);
+      robot.joint_positions[joint] = position.get<double>();
+    }
+}
+
+BodyDef toBody(const RobotDef& robot, std::size_t index, const RigidPose& pose) {
+  const LinkModel& link = robot.model->links[index];
+  BodyDef body;
+  body.name = robot.name + "/" + link.name;
+  body.mass = robot.fixed_base && link.parent < 0 ? 0 : link.mass;
+  body.inertia = link.inertia;
+  body.centre_of_mass = link.centre_of_mass;
+  body.position = pose * link.centre_of_mass;
+  body.orientation = Quaternion(Matrix3(pose.linear()));
+  body.flow = robot.flow;
+  body.medium = robot.medium;
+  body.shape.source = robot.model->source + ": link \"" + link.name + "\"";
+  if (body.mass == 0) body.inertia.reset();
+  if (!link.fluid) return body;
+  if (link.fluid->law) body.flow.law = *link.fluid->law;
+  if (const auto medium = namedMedium(link.fluid->medium)) body.medium = medium;
+  return body;
+}
+
+void addLinks(std::size_t index, Scene& scene) {
+  const RobotDef& robot = scene.robots[index];
+  const std::vector<RigidPose> poses = linkPoses(*robot.model, robot.pose(), robot.joint_positions);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (robot.model->links[i].collisions.empty()) continue;
+    scene.bodies.push_back(toBody(robot, i, poses[i]));
+    scene.bodies.back().link = SceneLink{index, i};
+  }
+}
+
+}  // namespace
+
+double JointDrive::positionAt(double time) const {
+  return position + amplitude * std::sin(2 * kPi * time / period + phase);
+}
+
+double JointDrive::velocityAt(double time) const {
+  if (velocity) return *velocity;
+  const double rate = 2 * kPi / period;
+  return amplitude * rate * std::cos(rate * time + phase);
+}
+
+RigidPose RobotDef::pose() const {
+  RigidPose pose = RigidPose::Identity();
+  pose.linear() = orientation.normalized().toRotationMatrix();
+  pose.translation() = position;
+  return pose;
+}
+
+void addRobot(const json& from, Scene& scene) {
+  const std::size_t index = scene.robots.size();
+  const std::string place = scene.file.string() + ": robots[" + std::to_string(index) + "].";
+  RobotDef robot;
+  robot.name = from.value("name", "robot_" + std::to_string(index));
+  robot.model = std::make_shared<const RobotModel>(readModel(from, scene.file));
+  readPlacement(from, robot);
+  const double norm = robot.orientation.norm();
+  if (!(std::abs(norm - 1) <= kQuaternionTolerance))
+    raiseInputError(place + "orientation", "has norm ", norm, "; must be 1 within ",
+                    kQuaternionTolerance);
+  robot.orientation.normalize();
+  robot.fixed_base = from.value("fixed_base", false);
+  robot.self_collision = from.value("self_collision", false);
+  if (from.contains("medium")) robot.medium = toMedium(from.at("medium"), Medium{});
+  readFlow(from, scene.law, robot.flow);
+  readJoints(from, place, robot);
+  scene.robots.push_back(std::move(robot));
+  addLinks(index, scene);
+}
+
+}  // namespace ambient

@@ -1,0 +1,255 @@
+#include "demos/simulation/simulation_world.h"
+
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/spatial/principal_frame.h"
+#include "demos/rivals/rival_laws.h"
+#include "demos/scene/scene_water.h"
+#include "demos/simulation/joint.h"
+
+namespace ambient {
+namespace {
+
+MotionSample startOf(const BodyDef& def) {
+  MotionSample start;
+  start.position = def.position;
+  start.orientation = def.orientation;
+  start.twist = {def.angular_velocity, def.linear_velocity};
+  return start;
+}
+
+btTransform toBulletPose(const Matrix3& rotation, const Vector3& translation) {
+  return btTransform(toBulletMatrix(rotation), toBullet(translation));
+}
+
+WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
+  WorldBody made;
+  made.name = def.name;
+  made.fluid_body = prepared.fluid_body;
+  made.start = startOf(def);
+  PrincipalFrame principal;
+  if (prepared.mass > 0) principal = findPrincipalFrame(prepared.inertia);
+  made.R_SB = principal.rotation;
+  const Matrix3 R_BS = made.R_SB.transpose();
+  made.shape = makeCollisionShape(def, prepared,
+                                  toBulletPose(R_BS, Vector3(R_BS * -prepared.centre_of_mass)));
+
+  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(prepared.mass), nullptr,
+                                                made.shape.root(), toBullet(principal.moments));
+  info.m_startWorldTransform =
+      toBulletPose(Matrix3(def.orientation.toRotationMatrix() * made.R_SB), def.position);
+  info.m_restitution = static_cast<btScalar>(def.restitution);
+  info.m_friction = static_cast<btScalar>(def.friction);
+  made.body = std::make_unique<btRigidBody>(info);
+  made.body->setLinearVelocity(toBullet(def.linear_velocity));
+  made.body->setAngularVelocity(toBullet(def.angular_velocity));
+  // A body that hovers or glides slowly must not be put to sleep.
+  made.body->setActivationState(DISABLE_DEACTIVATION);
+  return made;
+}
+
+/// That of another model; empty: this library's own.
+LoadLaw loadLawOf(const Scene& scene) {
+  if (scene.model == FluidModel::kIdeal)
+    return [](const auto&, const auto&) { return std::shared_ptr<const SurfaceLoads>(); };
+  if (scene.model == FluidModel::kUwrbd) return linearDrag(scene.linear_drag_speed);
+  if (scene.model == FluidModel::kGwtf) return windwardFlux();
+  return nullptr;
+}
+
+AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBody& prepared,
+                        const Matrix3& R_SB) {
+  AttachDef attach;
+  attach.fluid_body = prepared.fluid_body;
+  attach.medium = def.medium.value_or(scene.medium);
+  if (def.fluid_density) attach.medium.density = *def.fluid_density;
+  attach.flow = def.flow;
+  attach.flow.own_law = loadLawOf(scene);
+  attach.wave_damping = def.wave_damping;
+  attach.flight = scene.flight;
+  attach.fluid_frame.rotation = R_SB.transpose();
+  attach.fluid_frame.translation =
+      R_SB.transpose() * (prepared.fluid_origin - prepared.centre_of_mass);
+  return attach;
+}
+
+/// Bullet's.
+int linkNumber(const WorldBody& of) { return static_cast<int>(of.link->link) - 1; }
+
+WorldBody makeWorldLink(const BodyDef& def, const PreparedBody& prepared, const Robot& robot) {
+  WorldBody made;
+  made.name = def.name;
+  made.link = def.link;
+  made.fluid_body = prepared.fluid_body;
+  made.start = startOf(def);
+  made.R_SB = robot.linkInBody(linkNumber(made)).linear().transpose();
+  return made;
+}
+
+BulletWorld makeBulletWorld(bool has_robots, AmbientRegistry& registry,
+                            btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase,
+                            btCollisionConfiguration& configuration) {
+  BulletWorld made;
+  if (has_robots) {
+    auto solver = std::make_unique<AmbientSolver<btMultiBodyConstraintSolver>>(registry);
+    auto world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
+                                                            &configuration);
+    made.multi_body_world = world.get();
+    made.solver = std::move(solver);
+    made.world = std::move(world);
+  } else {
+    auto solver = std::make_unique<AmbientSolver<btSequentialImpulseConstraintSolver>>(registry);
+    made.world = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
+                                                           &configuration);
+    made.solver = std::move(solver);
+  }
+  return made;
+}
+
+[[noreturn]] void throwNotFinite(const std::string& body, double time) {
+  std::ostringstream text;
+  text << "body \"" << body << "\": its state is not finite at t = " << time
+       << " s; a smaller time_step may help";
+  throw std::runtime_error(text.str());
+}
+
+}  // namespace
+
+Simulation::World::World(const Scene& scene, const std::vector<PreparedBody>& prepared)
+    : bullet(
+          makeBulletWorld(!scene.robots.empty(), registry, dispatcher, broadphase, configuration)),
+      time_step(scene.time_step) {
+  registry.setReport([this](const std::string& sentence) { report = sentence; });
+  bullet.world->setGravity(toBullet(scene.gravity));
+  bullet.world->addAction(&action);
+  for (FluidRegion& region : makeRegions(scene)) registry.addRegion(std::move(region));
+  for (const RobotDef& robot : scene.robots) add(robot);
+  for (std::size_t i = 0; i < prepared.size(); ++i) add(scene, scene.bodies[i], prepared[i]);
+  for (const JointDef& joint : scene.joints) add(joint);
+}
+
+Simulation::World::~World() {
+  bullet.world->removeAction(&action);
+  for (const auto& joint : joints) bullet.world->removeConstraint(joint.get());
+  registry.clear();
+  for (const WorldBody& body : bodies)
+    if (body.body) bullet.world->removeRigidBody(body.body.get());
+  robots.clear();
+}
+
+void Simulation::World::add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared) {
+  if (def.link) {
+    bodies.push_back(makeWorldLink(def, prepared, robots[def.link->robot]->robot()));
+  } else {
+    bodies.push_back(makeWorldBody(def, prepared));
+    bullet.world->addRigidBody(bodies.back().body.get());
+  }
+  WorldBody& added = bodies.back();
+  if (scene.model == FluidModel::kVacuum || prepared.mass == 0 || !prepared.fluid_body) return;
+  try {
+    attach(added, makeAttachDef(scene, def, prepared, added.R_SB));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("body \"" + def.name + "\": " + error.what());
+  }
+}
+
+void Simulation::World::attach(WorldBody& added, const AttachDef& def) {
+  if (added.link)
+    registry.attach(*bullet.multi_body_world, multiBodyOf(added), linkNumber(added), def);
+  else
+    registry.attach(*bullet.world, *added.body, def);
+  added.is_ambient = true;
+}
+
+void Simulation::World::add(const RobotDef& def) {
+  robots.push_back(std::make_unique<SceneRobot>(def));
+  robots.back()->robot().addTo(*bullet.multi_body_world);
+}
+
+void Simulation::World::add(const JointDef& def) {
+  btRigidBody* second = def.bodies.size() > 1 ? &find(def.bodies[1]) : nullptr;
+  joints.push_back(makeJoint(def, find(def.bodies[0]), second));
+  constexpr bool kWithoutCollisions = true;
+  bullet.world->addConstraint(joints.back().get(), kWithoutCollisions);
+}
+
+void Simulation::World::step() {
+  for (const auto& robot : robots) robot->prepareStep(time(), time_step);
+  // No substeps: exactly one step of this length.
+  bullet.world->stepSimulation(static_cast<btScalar>(time_step), 0);
+  ++steps;
+  for (const WorldBody& body : bodies)
+    if (counters(body).rejected > 0 || !sample(body).isFinite()) throwNotFinite(body.name, time());
+}
+
+btMultiBody& Simulation::World::multiBodyOf(const WorldBody& link) const {
+  return robots[link.link->robot]->robot().multiBody();
+}
+
+btRigidBody& Simulation::World::find(const std::string& name) const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&](const WorldBody& body) { return body.name == name; });
+  return *found->body;
+}
+
+std::shared_ptr<const FluidBody> Simulation::World::findFluidBody(const std::string& name) const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const WorldBody& body) {
+    return body.fluid_body && body.fluid_body->name == name;
+  });
+  return found == bodies.end() ? nullptr : found->fluid_body;
+}
+
+MotionSample Simulation::World::sample(const WorldBody& of) const {
+  if (steps == 0) return of.start;
+  MotionSample now;
+  if (of.link) {
+    now = robots[of.link->robot]->sample(of.link->link);
+  } else {
+    const btTransform& pose = of.body->getWorldTransform();
+    now.position = toVector3(pose.getOrigin());
+    now.orientation = toQuaternion(pose.getRotation()) * Quaternion(Matrix3(of.R_SB.transpose()));
+    now.twist = {toVector3(of.body->getAngularVelocity()), toVector3(of.body->getLinearVelocity())};
+  }
+  now.time = time();
+  return now;
+}
+
+void Simulation::World::apply(const WorldBody& to, const Wrench& wrench) {
+  const btVector3 force = toBullet(wrench.force), torque = toBullet(wrench.torque);
+  if (!to.link) {
+    to.body->applyCentralForce(force);
+    to.body->applyTorque(torque);
+    return;
+  }
+  btMultiBody& body = multiBodyOf(to);
+  const int number = linkNumber(to);
+  if (number < 0) {
+    body.addBaseForce(force);
+    body.addBaseTorque(torque);
+  } else {
+    body.addLinkForce(number, force);
+    body.addLinkTorque(number, torque);
+  }
+}
+
+void Simulation::World::setMedium(const WorldBody& of, const Medium& medium) {
+  if (of.link)
+    registry.setMedium(multiBodyOf(of), linkNumber(of), medium);
+  else
+    registry.setMedium(*of.body, medium);
+}
+
+AmbientCounters Simulation::World::counters(const WorldBody& of) const {
+  if (!of.is_ambient) return {};
+  return of.link ? registry.counters(multiBodyOf(of), linkNumber(of)) : registry.counters(*of.body);
+}
+
+}  // namespace ambient

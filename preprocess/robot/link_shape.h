@@ -1,0 +1,40 @@
+#pragma once
+
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+
+#include <memory>
+#include <vector>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "preprocess/robot/robot_model.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// What a link collides with. Bullet's body frame B has its origin in the centre of mass and the
+/// principal axes.
+struct LinkShape {
+  std::vector<std::unique_ptr<btCollisionShape>> parts;
+  std::unique_ptr<btCompoundShape> in_body;  ///< in B: the shape of the link's collider
+  std::unique_ptr<btCompoundShape> in_link;  ///< in the link's frame, to make fluid bodies of
+
+  bool isEmpty() const { return parts.empty(); }
+};
+
+/// Spheres, boxes, ellipsoids, cylinders and capsules as they are; of a mesh the convex hull. The
+/// margin is one percent of the least size. Cost: that of reading the mesh files.
+/// @throws std::runtime_error in one line that names the file.
+LinkShape makeLinkShape(const LinkModel& link, const RigidPose& link_in_body);
+
+/// The pose of the link's frame in B, and the moments of inertia in B [kg m^2].
+struct LinkMassFrame {
+  RigidPose link_in_body = RigidPose::Identity();
+  Vector3 moments{0, 0, 0};
+};
+LinkMassFrame findMassFrame(const LinkModel& link);
+
+btTransform toBulletTransform(const RigidPose& pose);
+RigidPose toPose(const btTransform& transform);
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,16 @@
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/robot/urdf_reader.h"
+
+namespace ambient {
+
+RobotModel readUrdf(const std::filesystem::path& file, const PackageFolders& packages) {
+  return parseUrdf("", file, packages);
+}
+
+RobotModel parseUrdf(const std::string&, const std::filesystem::path& file, const PackageFolders&) {
+  raiseInputError(file.string(),
+                  "URDF files need liburdfdom (Debian: liburdfdom-dev), without "
+                  "which this was built");
+}
+
+}  // namespace ambient

@@ -1,0 +1,176 @@
+#include "preprocess/robot/robot.h"
+
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include <cmath>
+
+#include "bullet_ambient/bullet/conversions.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/robot/robot_joints.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+Robot::Robot(RobotModel model, const RobotSettings& settings) : model_(std::move(model)) {
+  checkRobot(model_, settings.fixed_base);
+  if (!settings.pose.matrix().allFinite())
+    raiseInputError(model_.source, "the pose of the robot is not finite");
+  for (const LinkModel& link : model_.links) {
+    frames_.push_back(findMassFrame(link));
+    shapes_.push_back(makeLinkShape(link, frames_.back().link_in_body));
+  }
+  makeBody(settings);
+  makeColliders();
+  place(settings);
+  joints_ = std::make_unique<RobotJoints>(model_, *body_);
+}
+
+Robot::~Robot() { leaveWorld(); }
+
+void Robot::makeBody(const RobotSettings& settings) {
+  const LinkModel& base = model_.links.front();
+  body_ = std::make_unique<btMultiBody>(
+      static_cast<int>(model_.links.size()) - 1, static_cast<btScalar>(base.mass),
+      toBullet(frames_.front().moments), settings.fixed_base, settings.can_sleep);
+  for (std::size_t i = 1; i < model_.links.size(); ++i) setUpLink(i);
+  body_->finalizeMultiDof();
+  body_->setHasSelfCollision(settings.self_collision);
+  body_->setLinearDamping(0);
+  body_->setAngularDamping(0);
+}
+
+void Robot::setUpLink(std::size_t index) {
+  const LinkModel& link = model_.links[index];
+  const RigidPose& in_parent = frames_[static_cast<std::size_t>(link.parent)].link_in_body;
+  const RigidPose& in_body = frames_[index].link_in_body;
+  // B of the parent and the joint's frame meet in the pivot; all is given in these axes of B.
+  const RigidPose joint_in_parent = in_parent * link.joint.origin;
+  const int number = static_cast<int>(index) - 1, parent = link.parent - 1;
+  const btScalar mass = static_cast<btScalar>(link.mass);
+  const btVector3 moments = toBullet(frames_[index].moments);
+  const btQuaternion turn = toBullet(
+      Quaternion(Matrix3(in_body.linear() * joint_in_parent.linear().transpose())).normalized());
+  const btVector3 axis = toBullet(Vector3(in_body.linear() * link.joint.axis));
+  const btVector3 pivot = toBullet(Vector3(joint_in_parent.translation()));
+  const btVector3 arm = toBullet(Vector3(-in_body.translation()));
+  constexpr bool kNoParentCollision = true;
+  switch (link.joint.kind) {
+    case JointKind::kRevolute:
+      body_->setupRevolute(number, mass, moments, parent, turn, axis, pivot, arm,
+                           kNoParentCollision);
+      break;
+    case JointKind::kPrismatic:
+      body_->setupPrismatic(number, mass, moments, parent, turn, axis, pivot, arm,
+                            kNoParentCollision);
+      break;
+    case JointKind::kPlanar: {
+      // Bullet turns the link about its centre of mass; motions in the plane are the same.
+      const Vector3 centre = joint_in_parent * link.centre_of_mass;
+      body_->setupPlanar(number, mass, moments, parent, turn, axis, toBullet(centre),
+                         kNoParentCollision);
+      break;
+    }
+    default:
+      body_->setupFixed(number, mass, moments, parent, turn, pivot, arm);
+  }
+}
+
+void Robot::makeColliders() {
+  for (int number = -1; number < body_->getNumLinks(); ++number) {
+    // Bullet knows motors and limits of links with colliders only: all have one.
+    auto collider = std::make_unique<btMultiBodyLinkCollider>(body_.get(), number);
+    collider->setCollisionShape(shapes_[indexOf(number)].in_body.get());
+    if (number < 0) {
+      if (body_->hasFixedBase()) collider->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+      body_->setBaseCollider(collider.get());
+    } else {
+      body_->getLink(number).m_collider = collider.get();
+    }
+    if (!body_->getCanSleep()) collider->setActivationState(DISABLE_DEACTIVATION);
+    colliders_.push_back(std::move(collider));
+  }
+}
+
+void Robot::place(const RobotSettings& settings) {
+  for (const auto& [joint, position] : settings.positions) {
+    checkAxial(joint);
+    if (!std::isfinite(position))
+      raiseInputError(model_.source, "the position of joint \"", joint, "\" is not finite");
+    body_->setJointPos(jointNumber(joint), static_cast<btScalar>(position));
+  }
+  const RigidPose base =
+      settings.pose * model_.links.front().joint.origin * linkInBody(-1).inverse();
+  body_->setBaseWorldTransform(toBulletTransform(base));
+  btAlignedObjectArray<btQuaternion> turns;
+  btAlignedObjectArray<btVector3> places;
+  body_->forwardKinematics(turns, places);
+  body_->updateCollisionObjectWorldTransforms(turns, places);
+}
+
+void Robot::addTo(btMultiBodyDynamicsWorld& world) {
+  world_ = &world;
+  world.addMultiBody(body_.get());
+  using Filter = btBroadphaseProxy;
+  for (const auto& collider : colliders_) {
+    const auto* shape = static_cast<const btCompoundShape*>(collider->getCollisionShape());
+    const bool is_static = collider->isStaticObject();
+    const int group = is_static ? Filter::StaticFilter : Filter::DefaultFilter;
+    const int mask = is_static ? Filter::AllFilter ^ Filter::StaticFilter : Filter::AllFilter;
+    world.addCollisionObject(collider.get(), group, shape->getNumChildShapes() > 0 ? mask : 0);
+  }
+  joints_->addTo(world);
+}
+
+void Robot::leaveWorld() {
+  if (!world_) return;
+  joints_->leaveWorld();
+  for (const auto& collider : colliders_) world_->removeCollisionObject(collider.get());
+  world_->removeMultiBody(body_.get());
+  world_ = nullptr;
+}
+
+const btTransform& Robot::bodyTransform(int number) const {
+  return colliders_.at(indexOf(number))->getWorldTransform();
+}
+
+RigidPose Robot::linkPose(int number) const {
+  return toPose(bodyTransform(number)) * linkInBody(number);
+}
+
+RigidPose Robot::linkPose(const std::string& name) const {
+  const int number = linkNumber(name);
+  const RigidPose pose = linkPose(number);
+  return link(number).name == name ? pose : pose * link(number).merged.at(name);
+}
+
+void Robot::checkAxial(const std::string& joint) const {
+  if (!link(jointNumber(joint)).joint.isAxial())
+    raiseInputError(model_.source, "joint \"", joint, "\": it must be revolute or prismatic");
+}
+
+double Robot::position(const std::string& joint) const {
+  checkAxial(joint);
+  return static_cast<double>(body_->getJointPos(jointNumber(joint)));
+}
+
+double Robot::velocity(const std::string& joint) const {
+  checkAxial(joint);
+  return static_cast<double>(body_->getJointVel(jointNumber(joint)));
+}
+
+void Robot::setMotor(const std::string& joint, const MotorTarget& target) {
+  checkAxial(joint);
+  if (!std::isfinite(target.position) || !std::isfinite(target.velocity) ||
+      !std::isfinite(target.position_gain) || !std::isfinite(target.velocity_gain) ||
+      !(target.effort >= 0))
+    raiseInputError(model_.source, "the motor of joint \"", joint,
+                    "\": its targets and gains must be finite, its effort >= 0");
+  joints_->setMotor(jointNumber(joint), target);
+  body_->wakeUp();
+}
+
+void Robot::prepareStep(double time_step) { joints_->prepareStep(time_step); }
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "preprocess/robot/robot.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// The constraints of a robot's joints: limits, mimics, brakes for friction and damping, motors.
+class RobotJoints {
+ public:
+  RobotJoints(const RobotModel& model, btMultiBody& body);
+
+  void addTo(btMultiBodyDynamicsWorld& world);
+  void leaveWorld();
+  void setMotor(int number, const MotorTarget& target);
+  void prepareStep(double time_step);
+
+ private:
+  struct Motor {
+    std::unique_ptr<btMultiBodyJointMotor> constraint;
+    double effort = 0;
+  };
+
+  void makeLimit(int number, const JointModel& joint);
+  void makeMimic(int number, const JointModel::Mimic& mimic);
+  std::unique_ptr<btMultiBodyJointMotor> makeMotor(int number);
+  const JointModel& joint(int number) const;
+  std::vector<btMultiBodyConstraint*> all() const;
+
+  const RobotModel& model_;
+  btMultiBody& body_;
+  std::vector<std::unique_ptr<btMultiBodyConstraint>> passive_;
+  std::map<int, std::unique_ptr<btMultiBodyJointMotor>> brakes_;  // by link
+  std::map<int, Motor> motors_;
+  btMultiBodyDynamicsWorld* world_ = nullptr;
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,167 @@
+#include "preprocess/robot/robot_model.h"
+
+#include <algorithm>
+
+#include "bullet_ambient/spatial/principal_frame.h"
+#include "preprocess/mesh/input_error.h"
+
+namespace ambient {
+namespace {
+
+/// Index of the first link that fits, or the complaint with all names.
+template <class Fits, class Name>
+int findLink(const RobotModel& model, const std::string& what, const Fits& fits,
+             const Name& name_of) {
+  std::string known;
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    if (fits(model.links[i])) return static_cast<int>(i);
+    const std::string name = name_of(model.links[i]);
+    if (!name.empty()) known += (known.empty() ? "" : ", ") + name;
+  }
+  raiseInputError(model.source, what, " is not known; known are: ", known.empty() ? "none" : known);
+}
+
+void checkMoments(const RobotModel& model, const LinkModel& link) {
+  const Vector3 moments = findPrincipalFrame(link.inertia).moments;
+  if (!(moments.minCoeff() > 0))
+    raiseInputError(model.source, "link \"", link.name, "\": its smallest moment of inertia is ",
+                    moments.minCoeff(), " kg m^2; must be > 0 where a link moves");
+}
+
+void checkMovingLink(const RobotModel& model, const LinkModel& link) {
+  if (!(link.mass > 0))
+    raiseInputError(model.source, "link \"", link.name, "\": its mass is ", link.mass,
+                    " kg; must be > 0 where a link moves");
+  checkMoments(model, link);
+}
+
+void checkMimic(const RobotModel& model, const JointModel& joint) {
+  if (!joint.mimic) return;
+  const int other = model.jointIndex(joint.mimic->joint);
+  if (!joint.isAxial() || !model.links[static_cast<std::size_t>(other)].joint.isAxial() ||
+      joint.mimic->joint == joint.name)
+    raiseInputError(model.source, "joint \"", joint.name, "\": it mimics \"", joint.mimic->joint,
+                    "\"; both must be revolute or prismatic, and not the same");
+}
+
+/// A rigid link takes in another one, which has `pose` in its frame.
+void takeIn(LinkModel& into, const LinkModel& link, const RigidPose& pose) {
+  const double mass = into.mass + link.mass;
+  if (link.mass > 0) {
+    const Vector3 centre = pose * link.centre_of_mass;
+    const Vector3 common = (into.mass * into.centre_of_mass + link.mass * centre) / mass;
+    const auto about_common = [&](double of, const Vector3& at) {
+      const Vector3 r = at - common;
+      return Matrix3(of * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose()));
+    };
+    into.inertia += about_common(into.mass, into.centre_of_mass) + about_common(link.mass, centre) +
+                    pose.linear() * link.inertia * pose.linear().transpose();
+    into.centre_of_mass = common;
+    into.mass = mass;
+  }
+  for (CollisionPart part : link.collisions) {
+    part.pose = pose * part.pose;
+    into.collisions.push_back(std::move(part));
+  }
+  into.merged[link.name] = pose;
+  for (const auto& [name, inner] : link.merged) into.merged[name] = pose * inner;
+}
+
+bool isEmpty(const LinkModel& link) { return link.mass == 0 && link.collisions.empty(); }
+
+/// Whether the root is only a name for the world, in which its child floats.
+bool floatsInRoot(const RobotModel& model) {
+  return model.links.size() > 1 && isEmpty(model.links[0]) &&
+         model.links[1].joint.kind == JointKind::kFloating &&
+         std::count_if(model.links.begin(), model.links.end(),
+                       [](const LinkModel& link) { return link.parent == 0; }) == 1;
+}
+
+RobotModel withoutRoot(RobotModel model) {
+  const LinkModel root = model.links.front();
+  model.links.erase(model.links.begin());
+  for (LinkModel& link : model.links) --link.parent;
+  LinkModel& base = model.links.front();
+  const RigidPose base_in_root = base.joint.origin;
+  base.merged[root.name] = base_in_root.inverse();
+  base.joint = {};
+  base.joint.origin = root.joint.origin * base_in_root;
+  return model;
+}
+
+RigidPose motionOf(const JointModel& joint, double position) {
+  RigidPose motion = RigidPose::Identity();
+  if (joint.kind == JointKind::kRevolute)
+    motion.linear() = Eigen::AngleAxisd(position, Eigen::Vector3d(joint.axis)).toRotationMatrix();
+  if (joint.kind == JointKind::kPrismatic) motion.translation() = position * joint.axis;
+  return motion;
+}
+
+}  // namespace
+
+int RobotModel::linkIndex(const std::string& link) const {
+  return findLink(
+      *this, "link \"" + link + "\"",
+      [&](const LinkModel& l) { return l.name == link || l.merged.count(link) > 0; },
+      [](const LinkModel& l) { return l.name; });
+}
+
+int RobotModel::jointIndex(const std::string& joint) const {
+  return findLink(
+      *this, "joint \"" + joint + "\"",
+      [&](const LinkModel& l) { return l.parent >= 0 && l.joint.name == joint; },
+      [](const LinkModel& l) { return l.parent >= 0 ? l.joint.name : ""; });
+}
+
+void checkRobot(const RobotModel& model, bool fixed_base) {
+  if (!fixed_base) checkMovingLink(model, model.links.front());
+  for (const LinkModel& link : model.links) {
+    if (link.parent < 0) continue;
+    const JointModel& joint = link.joint;
+    if (joint.kind == JointKind::kFloating)
+      raiseInputError(model.source, "joint \"", joint.name,
+                      "\": it is floating; only the one child of a root without mass and collision "
+                      "may float");
+    if (joint.kind != JointKind::kFixed) checkMovingLink(model, link);
+    checkMimic(model, joint);
+  }
+}
+
+RobotModel withoutFixedJoints(const RobotModel& model) {
+  RobotModel merged = model;
+  merged.links.clear();
+  // Of each link the one that holds it now, and its pose in there.
+  std::vector<std::pair<int, RigidPose>> holders;
+  for (const LinkModel& link : model.links) {
+    const bool merges = link.parent >= 0 && link.joint.kind == JointKind::kFixed && !link.fluid;
+    LinkModel kept = link;
+    if (link.parent >= 0) {
+      const auto& [holder, pose] = holders[static_cast<std::size_t>(link.parent)];
+      kept.parent = holder;
+      kept.joint.origin = pose * link.joint.origin;
+    }
+    if (merges) {
+      takeIn(merged.links[static_cast<std::size_t>(kept.parent)], link, kept.joint.origin);
+      holders.emplace_back(kept.parent, kept.joint.origin);
+    } else {
+      holders.emplace_back(static_cast<int>(merged.links.size()), RigidPose::Identity());
+      merged.links.push_back(std::move(kept));
+    }
+  }
+  return floatsInRoot(merged) ? withoutRoot(std::move(merged)) : merged;
+}
+
+std::vector<RigidPose> linkPoses(const RobotModel& model, const RigidPose& robot,
+                                 const std::map<std::string, double>& positions) {
+  std::vector<RigidPose> poses;
+  for (const LinkModel& link : model.links) {
+    const RigidPose& parent =
+        link.parent < 0 ? robot : poses[static_cast<std::size_t>(link.parent)];
+    const auto found = positions.find(link.joint.name);
+    const double position = found == positions.end() ? 0 : found->second;
+    poses.push_back(parent * link.joint.origin * motionOf(link.joint, position));
+  }
+  return poses;
+}
+
+}  // namespace ambient

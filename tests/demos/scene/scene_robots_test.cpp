@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/demos/scene/scene_text.h"
+
+namespace ambient {
+namespace {
+
+using nlohmann::json;
+
+const char* const kTwoLinks = R"(<robot name="r">
+  <link name="hull"><inertial><origin xyz="0 0 0.5"/><mass value="2"/>
+    <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <link name="arm"><inertial><mass value="1"/>
+    <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial>
+    <ambient medium="air" law="form"/>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <link name="lamp"><inertial><mass value="1"/>
+    <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="shoulder" type="continuous"><parent link="hull"/><child link="arm"/>
+    <origin xyz="1 0 0"/><axis xyz="0 0 1"/></joint>
+  <joint name="neck" type="planar"><parent link="hull"/><child link="lamp"/></joint>
+</robot>)";
+
+json robotScene() {
+  return json::parse(R"({"duration": 2, "time_step": 0.01, "robots": [
+      {"urdf": "r.urdf", "name": "rover", "position": [0, 0, 3],
+       "orientation": [0.7071067811865476, 0, 0, 0.7071067811865476],
+       "medium": {"density": 1000}, "separation_angle": 2,
+       "motors": {"shoulder": {"position": 0.1, "amplitude": 0.5, "period": 4, "phase": 1}}}]})");
+}
+
+Scene readRobots(const json& scene) {
+  const TemporaryFolder folder;
+  writeText(folder / "r.urdf", kTwoLinks);
+  return readScene(writeScene(folder, scene.dump()));
+}
+
+std::string complaintOf(const std::string& place, const json& value) {
+  json scene = robotScene();
+  scene[json::json_pointer(place)] = value;
+  try {
+    readRobots(scene);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expectComplaint(const std::string& complaint, const std::string& expected) {
+  EXPECT_NE(complaint.find(expected), std::string::npos) << complaint;
+  EXPECT_EQ(complaint.find('\n'), std::string::npos) << complaint;
+}
+
+TEST(SceneRobots, LinksThatCollideAreBodies) {
+  const Scene scene = readRobots(robotScene());
+  ASSERT_EQ(scene.robots.size(), 1u);
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  const BodyDef &hull = scene.bodies[0], &arm = scene.bodies[1];
+  EXPECT_EQ(hull.name, "rover/hull");
+  EXPECT_EQ(arm.name, "rover/arm");
+  EXPECT_EQ(hull.mass, 2);
+  // A quarter turn about z; its centre of mass is half a metre above its origin.
+  EXPECT_LT((hull.position - Vector3(0, 0, 3.5)).norm(), 1e-15);
+  EXPECT_LT((arm.position - Vector3(0, 1, 3)).norm(), 1e-15);
+  EXPECT_EQ(hull.medium->density, 1000);
+  EXPECT_EQ(arm.medium->density, air().density);
+  EXPECT_EQ(hull.flow.law, PressureLaw::kPublished);
+  EXPECT_EQ(arm.flow.law, PressureLaw::kForm);
+  EXPECT_EQ(hull.flow.separation_angle, 2);
+}
+
+TEST(SceneRobots, MotorsFollowASine) {
+  const Scene scene = readRobots(robotScene());
+  const JointDrive& drive = scene.robots[0].motors.at("shoulder");
+  const double rate = 2 * std::acos(-1.0) / 4;
+  EXPECT_NEAR(drive.positionAt(0.3), 0.1 + 0.5 * std::sin(0.3 * rate + 1), 1e-15);
+  EXPECT_NEAR(drive.velocityAt(0.3), 0.5 * rate * std::cos(0.3 * rate + 1), 1e-15);
+  EXPECT_EQ(scene.robots[0].joint_positions.at("shoulder"), drive.positionAt(0));
+  // The arm begins where its motor wants it.
+  const double turn =
+      2 * std::atan2(scene.bodies[1].orientation.z(), scene.bodies[1].orientation.w());
+  EXPECT_NEAR(turn, std::acos(-1.0) / 2 + drive.positionAt(0), 1e-14);
+}
+
+TEST(SceneRobots, RefusesWhatCannotBe) {
+  expectComplaint(complaintOf("/robots/0/urdf", "none.urdf"), "none.urdf: no such file");
+  expectComplaint(complaintOf("/robots/0/orientation", {1, 0, 0, 1}),
+                  "robots[0].orientation: has norm 1.41421356; must be 1 within");
+  expectComplaint(complaintOf("/robots/0/motors/elbow", json::object()),
+                  "joint \"elbow\" is not known; known are: ");
+  expectComplaint(complaintOf("/robots/0/motors/neck", json::object()),
+                  "robots[0].motors: joint \"neck\" must be revolute or prismatic");
+  expectComplaint(complaintOf("/robots/0/motors/shoulder/period", 0),
+                  "robots[0].motors.shoulder.period is 0; must be > 0");
+  expectComplaint(complaintOf("/robots/0/motors/shoulder/torque", 0), "unknown key \"torque\"");
+  expectComplaint(complaintOf("/robots/0/motors/shoulder/velocity", 1),
+                  "robots[0].motors.shoulder: has a velocity and a position");
+  expectComplaint(complaintOf("/robots/0/joint_positions", {{"elbow", 1}}), "joint \"elbow\"");
+  expectComplaint(complaintOf("/robots", json::array()), "bodies is empty, and no robot");
+  expectComplaint(complaintOf("/robots/0/separation_angle", 1), "separation_angle is 1; must be");
+  expectComplaint(
+      complaintOf("/joints", json::parse(R"([{"bodies": ["rover/hull"], "point": [0, 0, 0]}])")),
+      "names \"rover/hull\", which no body is called");
+  json twice = robotScene();
+  twice["robots"].push_back(twice["robots"][0]);
+  EXPECT_THROW(readRobots(twice), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "demos/simulation/simulation.h"
+#include "demos/simulation/trajectory_text.h"
+#include "tests/demos/simulation/run_scene.h"
+#include "tests/reference/ellipsoid_added_mass.h"
+#include "tests/reference/three_link_swimmer.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kStroke = 2;  // seconds
+
+/// That of data/robots/three_link_swimmer.urdf in water of 1000 kg/m^3, of which it is made.
+reference::ThreeLinkSwimmer swimmerOfScene() {
+  const Eigen::Vector3d axes(0.5, 0.1, 0.2);
+  const double density = 1000, mass = density * kTwoPi * 2 / 3 * axes.prod();
+  const auto added = reference::ellipsoidAddedMass(axes);
+  return {mass + density * added[3], mass + density * added[4],
+          mass / 5 * (axes.x() * axes.x() + axes.y() * axes.y()) + density * added[2], 0.6};
+}
+
+/// The gait of data/scenes/three_link_swimmer.json.
+reference::SwimmerShape gait(double time) {
+  const double rate = kTwoPi / kStroke;
+  const auto sine = [&](double phase) { return std::sin(rate * time + phase); };
+  const auto cosine = [&](double phase) { return rate * std::cos(rate * time + phase); };
+  return {{sine(0), sine(-kTwoPi / 4)}, {cosine(0), cosine(-kTwoPi / 4)}};
+}
+
+/// Of the middle link after one stroke: place and direction.
+Eigen::Vector3d strokeOfScene(const std::string& time_step) {
+  const Scene scene = readNamedScene(
+      "three_link_swimmer", {{"duration", "2"}, {"time_step", time_step}, {"output_step", "2"}});
+  const MotionSample end = runSharing(scene).motion[0].back();
+  return {end.position.x(), end.position.y(),
+          2 * std::atan2(end.orientation.z(), end.orientation.w())};
+}
+
+// Motors prescribe the joints: what they do to the momentum is of first order in the time step, and
+// two steps give the limit. Lengths are some 0.2 m.
+TEST(RobotScenes, SwimmerAdvancesByItsConnection) {
+  const Eigen::Vector3d expected = reference::swim(swimmerOfScene(), gait, kStroke, 400);
+  const Eigen::Vector3d coarse = strokeOfScene("0.004"), fine = strokeOfScene("0.002");
+  EXPECT_LT((2 * fine - coarse - expected).norm(), 5e-4);
+  EXPECT_LT((fine - expected).norm(), 1.5e-2);
+}
+
+TEST(RobotScenes, SwimmerStaysInItsPlaneAndNeutral) {
+  const Scene scene =
+      readNamedScene("three_link_swimmer", {{"duration", "2"}, {"time_step", "0.002"}});
+  for (const auto& link : runSharing(scene).motion)
+    EXPECT_LT(std::abs(link.back().position.z()), 1e-6);
+}
+
+// Waves that run along it from the tail or from the head push it opposite ways.
+TEST(RobotScenes, MirroredGaitSwimsTheOtherWay) {
+  const auto end = [](const std::string& phase) {
+    const Scene scene = readNamedScene(
+        "three_link_swimmer",
+        {{"duration", "2"}, {"time_step", "0.004"}, {"robots.0.motors.hip.phase", phase}});
+    return runSharing(scene).motion[0].back().position;
+  };
+  EXPECT_LT(end("-1.5707963267948966").x(), -0.15);
+  EXPECT_GT(end("1.5707963267948966").x(), 0.15);
+}
+
+TEST(RobotScenes, ArmGoesWhereItsMotorsWant) {
+  const Scene scene = readNamedScene("underwater_arm", {{"duration", "3"}});
+  const std::vector<PreparedBody> bodies = prepare(scene);
+  const RunRecord record = runPrepared(scene, bodies);
+  const RobotDef& robot = scene.robots[0];
+  std::map<std::string, double> positions;
+  for (const auto& [joint, drive] : robot.motors) positions[joint] = drive.positionAt(3);
+  const std::vector<RigidPose> poses = linkPoses(*robot.model, robot.pose(), positions);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const LinkModel& link = robot.model->links[scene.bodies[i].link->link];
+    const Vector3 wanted = poses[scene.bodies[i].link->link] * link.centre_of_mass;
+    EXPECT_LT((record.motion[i].back().position - wanted).norm(), 0.03) << scene.bodies[i].name;
+  }
+}
+
+TEST(RobotScenes, ChainTrailsBehindItsTowPoint) {
+  const RunRecord record = runSharing(readNamedScene("towed_chain"));
+  // It begins straight down, 0.24 m a link, and ends straight, too, on a slope downstream: weight
+  // and drag of each link are the same.
+  const Vector3 begin = record.motion.back().front().position;
+  const Vector3 end = record.motion.back().back().position;
+  EXPECT_NEAR(begin.norm(), 7.5 * 0.24, 1e-12);
+  EXPECT_NEAR(end.norm(), 7.5 * 0.24, 0.05);
+  EXPECT_GT(end.x(), 0.5);
+  EXPECT_LT(end.z(), -0.2);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Vector3 place = record.motion[i].back().position;
+    EXPECT_LT((place - (static_cast<double>(i) + 0.5) / 7.5 * end).norm(), 0.02) << i;
+  }
+}
+
+TEST(RobotScenes, InVacuumARobotFallsAsStockBulletHasIt) {
+  const Scene scene = readNamedScene(
+      "three_link_swimmer", {{"duration", "0.5"}, {"time_step", "0.005"}, {"model", "vacuum"}});
+  const RunRecord record = runSharing(scene);
+  double height = 0;
+  for (const auto& link : record.motion) height += link.back().position.z() / 3;
+  // Euler's steps: g h^2 n (n + 1) / 2.
+  EXPECT_NEAR(height, -9.81 * 0.005 * 0.005 * 100 * 101 / 2, 1e-9);
+}
+
+TEST(RobotScenes, TrajectoryNamesRobotAndLink) {
+  const Scene scene = readNamedScene("three_link_swimmer", {{"duration", "0.01"}});
+  const std::string text = makeTrajectoryText(scene, runSharing(scene).motion);
+  EXPECT_NE(text.find("\n0,swimmer/middle,0,0,0,1,"), std::string::npos);
+  EXPECT_NE(text.find(",swimmer/tail,"), std::string::npos);
+}
+
+TEST(RobotScenes, PaddleBoatDrivesStraightAhead) {
+  const Scene scene = readNamedScene("paddle_boat", {{"duration", "3"}});
+  const RunRecord record = runSharing(scene);
+  const MotionSample& hull = record.motion[0].back();
+  EXPECT_GT(hull.position.x(), 0.4);
+  EXPECT_GT(hull.twist.linear.x(), 0.2);
+  EXPECT_LT(std::abs(hull.position.y()), 0.01);
+  EXPECT_LT(std::abs(hull.position.z()), 0.1);
+}
+
+TEST(RobotScenes, ForcesActOnLinksAndStatesAreRefused) {
+  const Scene scene =
+      readNamedScene("three_link_swimmer", {{"model", "vacuum"}, {"gravity", "[0,0,0]"}});
+  Simulation simulation(scene, prepare(scene));
+  simulation.applyForce(1, {0, 0, 100}, simulation.sample()[1].position);
+  simulation.step();
+  Vector3 momentum = Vector3::Zero();
+  const std::vector<MotionSample> samples = simulation.sample();
+  for (std::size_t i = 0; i < 3; ++i) momentum += scene.bodies[i].mass * samples[i].twist.linear;
+  // Bullet turns the links after it has pushed them: of first order in the step.
+  EXPECT_NEAR(momentum.z(), 100 * scene.time_step, 0.01 * 100 * scene.time_step);
+  EXPECT_THROW(simulation.saveState(), std::runtime_error);
+  EXPECT_THROW(simulation.restoreState("12345678"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace ambient

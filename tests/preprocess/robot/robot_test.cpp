@@ -1,0 +1,181 @@
+#include "preprocess/robot/robot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/preprocess/robot/robot_world.h"
+#include "tests/preprocess/robot/urdf_text_of.h"
+
+namespace ambient {
+namespace {
+
+/// 3 kg with a full tensor about a centre of mass that is not the link's origin.
+std::string skewLink(const std::string& name) {
+  return "<link name=\"" + name + R"("><inertial><origin xyz="0.3 -0.2 0.1" rpy="0.3 0.5 -0.7"/>
+      <mass value="3"/><inertia ixx="0.5" iyy="0.6" izz="0.7" ixy="0.05" ixz="-0.1" iyz="0.07"/>
+      </inertial><collision><geometry><sphere radius="0.1"/></geometry></collision></link>)";
+}
+
+const char* const kSkewOrigin = R"(<origin xyz="0.4 0.1 -0.3" rpy="-0.4 0.2 0.9"/>)";
+const char* const kSkewAxis = R"(<axis xyz="1 -2 3"/>)";
+const char* const kWideLimit = R"(<limit lower="-9" upper="9" effort="1e6" velocity="1e6"/>)";
+
+RobotModel skewRobot() {
+  const std::string how = std::string(kSkewOrigin) + kSkewAxis + kWideLimit;
+  return parseRobot(
+      skewLink("a") + skewLink("b") + skewLink("c") + skewLink("d") + skewLink("e") +
+      joint("ab", "revolute", "a", "b", how) + joint("bc", "prismatic", "b", "c", how) +
+      joint("cd", "fixed", "c", "d", kSkewOrigin) + joint("de", "planar", "d", "e", how));
+}
+
+RigidPose skewPose() {
+  RigidPose pose = RigidPose::Identity();
+  pose.linear() = Quaternion(0.9, 0.1, -0.3, 0.2).normalized().toRotationMatrix();
+  pose.translation() = Vector3(1, 2, 3);
+  return pose;
+}
+
+TEST(Robot, LinksAreWhereTheModelHasThem) {
+  RobotSettings settings;
+  settings.pose = skewPose();
+  settings.positions = {{"ab", 0.7}, {"bc", -0.4}};
+  const RobotModel model = skewRobot();
+  const std::vector<RigidPose> expected = linkPoses(model, settings.pose, settings.positions);
+  for (const bool merged : {false, true}) {
+    const Robot robot(merged ? withoutFixedJoints(model) : model, settings);
+    EXPECT_EQ(robot.multiBody().getNumLinks(), merged ? 3 : 4);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const RigidPose pose = robot.linkPose(model.links[i].name);
+      EXPECT_LT((pose.matrix() - expected[i].matrix()).norm(), 10 * rounding()) << i;
+    }
+  }
+}
+
+TEST(Robot, MassPropertiesAreThoseOfTheModel) {
+  const Robot robot(skewRobot(), {});
+  const LinkModel& link = robot.model().links[1];
+  const btMultibodyLink& made = robot.multiBody().getLink(0);
+  EXPECT_EQ(made.m_mass, 3);
+  const Matrix3 axes = robot.linkInBody(0).linear();
+  const Vector3 moments(made.m_inertiaLocal.x(), made.m_inertiaLocal.y(), made.m_inertiaLocal.z());
+  const Matrix3 inertia = axes.transpose() * moments.asDiagonal() * axes;
+  EXPECT_LT((inertia - link.inertia).norm(), rounding());
+  EXPECT_LT((robot.linkInBody(0) * link.centre_of_mass).norm(), rounding());
+}
+
+// One step of a compound pendulum from rest: h a.(r x m g) / a.(I + m (r^2 - r r^T)) a.
+TEST(Robot, PendulumBeginsToFallAsItsFullInertiaSays) {
+  const RobotModel model =
+      parseRobot("<link name=\"a\"/>" + skewLink("b") +
+                 joint("ab", "continuous", "a", "b", std::string(kSkewOrigin) + kSkewAxis));
+  RobotSettings settings;
+  settings.fixed_base = true;
+  settings.pose = skewPose();
+  settings.positions = {{"ab", 0.3}};
+  RobotWorld in({0, 0, -10});
+  Robot robot(model, settings);
+  robot.addTo(in.world);
+  in.step(robot, 1e-3);
+
+  const LinkModel& link = model.links[1];
+  const RigidPose pose = linkPoses(model, settings.pose, settings.positions)[1];
+  const Vector3 gravity = pose.linear().transpose() * Vector3(0, 0, -10);
+  const Vector3 r = link.centre_of_mass, a = link.joint.axis;
+  const Matrix3 about_pivot =
+      link.inertia + link.mass * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
+  const double expected = 1e-3 * a.dot(r.cross(link.mass * gravity)) / a.dot(about_pivot * a);
+  EXPECT_NEAR(robot.velocity("ab") / expected, 1, 10 * rounding());
+}
+
+TEST(Robot, SliderFallsAlongItsAxis) {
+  const RobotModel model = parseRobot(
+      "<link name=\"a\"/>" + skewLink("b") +
+      joint("ab", "prismatic", "a", "b", std::string(kSkewOrigin) + kSkewAxis + kWideLimit));
+  RobotSettings settings;
+  settings.fixed_base = true;
+  RobotWorld in({0, 0, -10});
+  Robot robot(model, settings);
+  robot.addTo(in.world);
+  in.step(robot, 1e-3);
+  const Vector3 axis = model.links[1].joint.origin.linear() * model.links[1].joint.axis;
+  EXPECT_NEAR(robot.velocity("ab"), 1e-3 * axis.dot(Vector3(0, 0, -10)), rounding());
+}
+
+// Bullet's cached transforms of links are those of the step before.
+TEST(Robot, PosesOfLinksAreThoseOfTheEndOfAStep) {
+  const RobotModel model = skewRobot();
+  RobotWorld in({0, 0, -10});
+  Robot robot(model);
+  robot.addTo(in.world);
+  in.step(robot, 0.01, 10);
+  const std::map<std::string, double> positions{{"ab", robot.position("ab")},
+                                                {"bc", robot.position("bc")}};
+  const std::vector<RigidPose> expected = linkPoses(model, robot.linkPose(-1), positions);
+  for (int number = 0; number < 3; ++number)
+    EXPECT_LT(
+        (robot.linkPose(number).matrix() - expected[static_cast<std::size_t>(number + 1)].matrix())
+            .norm(),
+        100 * rounding())
+        << number;
+}
+
+TEST(Robot, FixedLinksMoveAsMergedOnes) {
+  const RobotModel model = skewRobot();
+  RobotSettings settings;
+  settings.positions = {{"ab", 0.7}, {"bc", -0.4}};
+  std::vector<RigidPose> ends;
+  for (const bool merged : {false, true}) {
+    RobotWorld in({0, 0, -10});
+    Robot robot(merged ? withoutFixedJoints(model) : model, settings);
+    robot.addTo(in.world);
+    MotorTarget spin;
+    spin.velocity = 2;
+    spin.position_gain = 0;
+    robot.setMotor("ab", spin);
+    in.step(robot, 1e-3, 100);
+    EXPECT_NEAR(robot.velocity("ab"), 2, 100 * rounding());
+    ends.push_back(robot.linkPose("e"));
+  }
+  EXPECT_LT((ends[0].matrix() - ends[1].matrix()).norm(), 1000 * rounding());
+}
+
+TEST(Robot, LeavesItsWorld) {
+  RobotWorld in;
+  {
+    Robot robot(skewRobot(), {});
+    robot.addTo(in.world);
+    robot.setMotor("ab", {});
+    EXPECT_EQ(in.world.getNumMultibodies(), 1);
+    EXPECT_EQ(in.world.getNumCollisionObjects(), 5);
+    in.step(robot, 0.01);
+  }
+  EXPECT_EQ(in.world.getNumMultibodies(), 0);
+  EXPECT_EQ(in.world.getNumCollisionObjects(), 0);
+  EXPECT_EQ(in.world.getNumMultiBodyConstraints(), 0);
+  in.world.stepSimulation(btScalar(0.01), 0);
+}
+
+TEST(Robot, RefusesBadSettings) {
+  RobotSettings settings;
+  settings.positions = {{"no", 1}};
+  EXPECT_THROW(Robot(skewRobot(), settings), std::runtime_error);
+  settings.positions = {{"de", 1}};
+  EXPECT_THROW(Robot(skewRobot(), settings), std::runtime_error);
+  settings.positions = {{"ab", std::nan("")}};
+  EXPECT_THROW(Robot(skewRobot(), settings), std::runtime_error);
+  settings.positions.clear();
+  settings.pose.translation().x() = std::nan("");
+  EXPECT_THROW(Robot(skewRobot(), settings), std::runtime_error);
+  Robot robot(skewRobot(), {});
+  MotorTarget target;
+  target.effort = -1;
+  EXPECT_THROW(robot.setMotor("ab", target), std::runtime_error);
+  EXPECT_THROW(robot.setMotor("cd", {}), std::runtime_error);
+  const RobotModel missing = parseRobot(massiveLink(
+      "a", "<collision><geometry><mesh filename=\"missing.obj\"/></geometry></collision>"));
+  EXPECT_THROW(Robot(missing, {}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/preprocess/robot/urdf_text_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ambient {
+namespace {
+
+std::string complaintAbout(const std::string& content) {
+  try {
+    parseRobot(content);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(UrdfReader, ReadsLinksAndJoints) {
+  const RobotModel robot =
+      parseRobot(massiveLink("hull") + massiveLink("arm") +
+                 joint("shoulder", "revolute", "hull", "arm",
+                       R"(<origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/><axis xyz="0 2 0"/>
+               <limit lower="-1" upper="0.5" effort="30" velocity="4"/>
+               <dynamics damping="0.7" friction="0.2"/>)"));
+  ASSERT_EQ(robot.links.size(), 2u);
+  EXPECT_EQ(robot.name, "r");
+  EXPECT_EQ(robot.links[0].name, "hull");
+  EXPECT_EQ(robot.links[0].parent, -1);
+  EXPECT_EQ(robot.links[0].mass, 2);
+  const JointModel& shoulder = robot.links[1].joint;
+  EXPECT_EQ(robot.links[1].parent, 0);
+  EXPECT_EQ(shoulder.kind, JointKind::kRevolute);
+  EXPECT_EQ(shoulder.axis, Vector3(0, 1, 0));
+  EXPECT_EQ(shoulder.lower, -1);
+  EXPECT_EQ(shoulder.upper, 0.5);
+  EXPECT_EQ(shoulder.effort, 30);
+  EXPECT_EQ(shoulder.velocity, 4);
+  EXPECT_EQ(shoulder.damping, 0.7);
+  EXPECT_EQ(shoulder.friction, 0.2);
+  // A quarter turn about z takes x to y.
+  EXPECT_LT((shoulder.origin * Vector3(1, 0, 0) - Vector3(1, 3, 3)).norm(), 1e-15);
+}
+
+TEST(UrdfReader, TurnsTheInertiaIntoTheLinksAxes) {
+  const RobotModel robot = parseRobot(
+      R"(<link name="a"><inertial><origin xyz="0 0 1" rpy="0 0 0.5235987755982988"/><mass value="3"/>
+         <inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0"/></inertial></link>)");
+  const LinkModel& link = robot.links[0];
+  EXPECT_EQ(link.centre_of_mass, Vector3(0, 0, 1));
+  // R diag(1, 2) R^T with 30 degrees: xx = cos^2 + 2 sin^2, xy = (1 - 2) sin cos.
+  EXPECT_NEAR(link.inertia(0, 0), 0.75 + 2 * 0.25, 1e-15);
+  EXPECT_NEAR(link.inertia(1, 1), 0.25 + 2 * 0.75, 1e-15);
+  EXPECT_NEAR(link.inertia(0, 1), -std::sqrt(0.75) / 2, 1e-15);
+  EXPECT_NEAR(link.inertia(2, 2), 2.5, 1e-15);
+}
+
+TEST(UrdfReader, ReadsCollisionsAndOwnElements) {
+  const RobotModel robot = parseRobot(
+      R"(<link name="a"><visual><geometry><nonsense/></geometry></visual>
+         <ambient medium="water" law="form" fluid_body="a.ambient"/>
+         <collision><geometry><box size="1 2 3"/></geometry></collision>
+         <collision><geometry><capsule radius="0.5" length="2"/></geometry></collision>
+         <collision><origin xyz="0 0 7"/><geometry><ellipsoid semi_axes="1 2 3"/></geometry></collision>
+         <collision><geometry><cylinder radius="2" length="4"/></geometry></collision>
+         <collision><geometry><mesh filename="m/b.obj" scale="1 2 -3"/></geometry></collision>
+         </link><gazebo><plugin/></gazebo>)");
+  const std::vector<CollisionPart>& parts = robot.links[0].collisions;
+  ASSERT_EQ(parts.size(), 5u);
+  EXPECT_EQ(std::get<BoxShape>(parts[0].shape).half_sizes, Eigen::Vector3d(0.5, 1, 1.5));
+  EXPECT_EQ(std::get<CapsuleShape>(parts[1].shape).height, 2);
+  EXPECT_EQ(std::get<EllipsoidShape>(parts[2].shape).semi_axes, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(parts[2].pose.translation().z(), 7);
+  EXPECT_EQ(std::get<CylinderShape>(parts[3].shape).height, 4);
+  EXPECT_EQ(std::get<MeshHull>(parts[4].shape).file, "m/b.obj");
+  EXPECT_EQ(std::get<MeshHull>(parts[4].shape).scale, Vector3(1, 2, -3));
+  ASSERT_TRUE(robot.links[0].fluid);
+  EXPECT_EQ(robot.links[0].fluid->medium, "water");
+  EXPECT_EQ(robot.links[0].fluid->law, PressureLaw::kForm);
+  EXPECT_EQ(robot.links[0].fluid->fluid_body, "a.ambient");
+}
+
+TEST(UrdfReader, KindsOfJoints) {
+  const std::string limit = R"(<limit lower="0" upper="1" effort="1" velocity="1"/>)";
+  const RobotModel robot = parseRobot(
+      massiveLink("a") + massiveLink("b") + massiveLink("c") + massiveLink("d") + massiveLink("e") +
+      joint("ab", "continuous", "a", "b", R"(<mimic joint="bc" multiplier="2" offset="1"/>)") +
+      joint("bc", "prismatic", "b", "c", limit) + joint("cd", "planar", "c", "d") +
+      joint("de", "floating", "d", "e"));
+  EXPECT_EQ(robot.links[1].joint.kind, JointKind::kRevolute);
+  EXPECT_EQ(robot.links[1].joint.upper, JointModel::kUnlimited);
+  ASSERT_TRUE(robot.links[1].joint.mimic);
+  EXPECT_EQ(robot.links[1].joint.mimic->multiplier, 2);
+  EXPECT_EQ(robot.links[1].joint.mimic->offset, 1);
+  EXPECT_EQ(robot.links[2].joint.kind, JointKind::kPrismatic);
+  EXPECT_EQ(robot.links[3].joint.kind, JointKind::kPlanar);
+  EXPECT_EQ(robot.links[4].joint.kind, JointKind::kFloating);
+}
+
+TEST(UrdfReader, RefusesBadInputInOneLine) {
+  const std::string two = massiveLink("a") + massiveLink("b");
+  const auto collides = [](const std::string& geometry) {
+    return massiveLink("a", "<collision><geometry>" + geometry + "</geometry></collision>");
+  };
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"<link", "line 1: Error reading Attributes"},
+      {"", "No link elements found"},
+      {massiveLink("a") + massiveLink("a"), "is not unique"},
+      {two, "Two root links found: [a] and [b]"},
+      {two + joint("j", "revolute", "a", "b"), "does not specify limits"},
+      {two + joint("j", "hinge", "a", "b"), "hinge"},
+      {two + joint("j", "continuous", "a", "b", R"(<axis xyz="0 0 0"/>)"),
+       "joint \"j\": the length of its axis is 0; must be > 0"},
+      {two + joint("j", "prismatic", "a", "b",
+                   R"(<limit lower="1" upper="0" effort="1" velocity="1"/>)"),
+       "joint \"j\": <limit>: lower is 1; must be at most upper"},
+      {two + joint("j", "continuous", "a", "b", R"(<dynamics damping="-1"/>)"),
+       "joint \"j\": damping is -1; must be >= 0"},
+      {two + joint("ab", "fixed", "a", "b") + joint("cb", "fixed", "a", "b"),
+       "link \"b\" is the child of two joints"},
+      {two + massiveLink("c") + joint("bc", "fixed", "b", "c") + joint("cb", "fixed", "c", "b"),
+       "the joints close a loop"},
+      {collides(R"(<box size="1 -2 3"/>)"),
+       "link \"a\": <collision> 1: a length is -2; must be > 0"},
+      {collides(R"(<sphere/>)"), "radius"},
+      {collides(R"(<capsule radius="1" length="x"/>)"),
+       "line 1, link \"a\": <capsule> length: is \"x\"; must be 1 number > 0"},
+      {collides(R"(<ellipsoid semi_axes="1 2"/>)"), "must be 3 numbers > 0"},
+      {collides(R"(<mesh filename="http://x/y.obj"/>)"),
+       "link \"a\": <collision> 1: \"http://x/y.obj\" begins with http://"},
+      {collides(R"(<mesh filename="y.obj" scale="1 0 1"/>)"), "scale of its mesh is 0"},
+      {massiveLink("a", R"(<ambient medium="oil"/>)"),
+       "link \"a\": <ambient> medium is \"oil\"; must be water, air or none"},
+      {massiveLink("a", R"(<ambient law="new"/>)"), "must be published or form"},
+      {massiveLink("a", R"(<ambient mdium="air"/>)"), "has the attribute \"mdium\""},
+      {massiveLink("a", "<ambient/><ambient/>"), "is there twice"},
+      {R"(<link name="a"><inertial><mass value="-1"/>
+          <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>)",
+       "link \"a\": <inertial>: mass is -1; must be >= 0"},
+      {R"(<link name="a"><inertial><mass value="1e999"/></inertial></link>)", "mass"},
+  };
+  for (const auto& [content, expected] : cases) {
+    const std::string complaint = complaintAbout(content);
+    EXPECT_EQ(complaint.find("r.urdf: "), 0u) << complaint;
+    EXPECT_NE(complaint.find(expected), std::string::npos) << content << ": " << complaint;
+    EXPECT_EQ(complaint.find('\n'), std::string::npos) << content << ": " << complaint;
+  }
+}
+
+TEST(UrdfReader, RefusesWhatIsNotARobot) {
+  const auto complaint = [](const std::string& text) {
+    try {
+      parseUrdf(text, "r.urdf");
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint("<sdf/>"), "r.urdf: has no element <robot>");
+  EXPECT_NE(complaint("").find("r.urdf: "), std::string::npos);
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  EXPECT_EQ(complaint(deep), "r.urdf: elements are nested more than 200 deep");
+  EXPECT_THROW(readUrdf("no/such.urdf"), std::runtime_error);
+  EXPECT_THROW(readUrdf("/"), std::runtime_error);
+}
+
+TEST(UrdfReader, ResultDoesNotDependOnTheLocale) {
+  const char* before = std::setlocale(LC_ALL, nullptr);
+  const std::string old = before ? before : "C";
+  std::setlocale(LC_ALL, "de_DE.UTF-8");
+  const RobotModel robot = parseRobot(massiveLink("a", R"(<collision><geometry>
+      <capsule radius="0.5" length="2.25"/></geometry></collision>)"));
+  std::setlocale(LC_ALL, old.c_str());
+  EXPECT_EQ(std::get<CapsuleShape>(robot.links[0].collisions[0].shape).height, 2.25);
+  EXPECT_EQ(robot.links[0].inertia(0, 0), 0.1);
+}
+
+}  // namespace
+}  // namespace ambient
