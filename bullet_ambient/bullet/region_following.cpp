@@ -32,7 +32,8 @@ SurfaceMedia makeSurfaceMediaOf(const AttachDef& def, const FluidRegion& region,
   if (region.flow && model.above.velocity.isZero(0)) model.above.velocity = Vector3::Ones();
   model.flow = def.flow;
   model.wave_damping = def.wave_damping;
-  SurfaceMedia made{region.below, region.above, makeSurfaceModel(model, tables), nullptr, {}, false};
+  SurfaceMedia made{region.below, region.above, makeSurfaceModel(model, tables),
+                    nullptr,      {},           false};
   const auto& loads = made.model.loads_below.loads;
   if (loads) made.loads = std::make_shared<LoadsAtSurface>(loads);
   return made;

@@ -49,8 +49,8 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                            const SurfacePlane* plane = nullptr) noexcept;
 
 /// The total of computeFaceLoads() in single precision: on large meshes 0.45 ns per face with AVX2,
-/// 0.7 with friction, 1.2 times that by the form law. At alpha = pi/2 blocks of faces in the lee are
-/// left out.
+/// 0.7 with friction, 1.2 times that by the form law. At alpha = pi/2 blocks of faces in the lee
+/// are left out.
 /// @pre `faces` have their sharpness by the form law, and only then. Arguments as there.
 /// Rounding errors grow with the velocity of the faces, not with their slip: about 1e-6 of 1/2 rho
 /// sum A_i |u_s,i| |u_i|, and a face at the separation angle may fall on the other side of it. No

@@ -94,8 +94,8 @@ Wrench pressureOf(const FaceTable& faces, const Twist& x, double density) {
     const double un = n.dot(u), flat = 1.05 + 0.12;
     const double s = std::min(faces.sharpness[i], 1.0), gain = std::max(faces.sharpness[i], 1.0);
     const double g = (1 - s) / flat + s;
-    const double q = un > 0 ? 1.05 * g * un * un + 2 * flat * s * un * (u.norm() - un)
-                            : -0.12 * g * un * un;
+    const double q =
+        un > 0 ? 1.05 * g * un * un + 2 * flat * s * un * (u.norm() - un) : -0.12 * g * un * un;
     const double pressure = 0.5 * density * gain * q;
     sum += Wrench::ofForceAt(-pressure * faces.area[i] * n, faces.centroid(i));
   }

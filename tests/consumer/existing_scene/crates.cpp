@@ -1,4 +1,5 @@
-// An ordinary Bullet scene, as docs/tutorial.md finds it: 27 wooden crates in a stack, and a heavy ball that falls on it.
+// An ordinary Bullet scene, as docs/tutorial.md finds it: 27 wooden crates in a stack, and a heavy
+// ball that falls on it.
 #include <btBulletDynamicsCommon.h>
 
 #include <cstdio>
@@ -33,8 +34,10 @@ int main() {
   for (int step = 0; step <= 600; ++step) {
     if (step % 60 == 0) {
       btScalar height = 0;
-      for (const btRigidBody* body : crates) height += body->getWorldTransform().getOrigin().z() / 27;
-      std::printf("%8d  %23.2f  %8.2f\n", step / 60, height, falling->getWorldTransform().getOrigin().z());
+      for (const btRigidBody* body : crates)
+        height += body->getWorldTransform().getOrigin().z() / 27;
+      std::printf("%8d  %23.2f  %8.2f\n", step / 60, height,
+                  falling->getWorldTransform().getOrigin().z());
     }
     world.stepSimulation(btScalar(1) / 60, 1, btScalar(1) / 60);
   }
