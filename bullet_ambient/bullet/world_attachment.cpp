@@ -10,6 +10,7 @@
 #include <exception>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -55,8 +56,10 @@ void replace(const btCollisionObject& object, const std::shared_ptr<const FluidB
                         link.ambient.def.fluid_frame);
 }
 
-std::string nameOf(int index, const btCollisionShape& shape) {
-  return "body " + std::to_string(index) + " (" + shape.getName() + "): ";
+std::string nameOf(int index, const btCollisionObject& object) {
+  const std::string name = "body " + std::to_string(index);
+  const btCollisionShape* shape = object.getCollisionShape();
+  return shape ? name + " (" + shape->getName() + "): " : name + ": ";
 }
 
 // What is said of all bodies together that were just attached.
@@ -96,12 +99,13 @@ WorldAttachment::WorldAttachment(AmbientRegistry& registry, FluidBodySource& sou
       settings_(std::move(settings)),
       revision_(source.revision()) {}
 
-AttachDef WorldAttachment::makeDef(const btCollisionShape& shape, Met& met) const {
+AttachDef WorldAttachment::makeDef(const btCollisionShape* shape, Met& met) const {
   AttachDef def;
   def.medium = medium_;
   def.flow = settings_.flow;
   def.flight = settings_.flight;
-  def.fluid_body = source_.fluidBody(shape);
+  if (!shape) throw std::invalid_argument("it has no collision shape");
+  def.fluid_body = source_.fluidBody(*shape);
   met.given = def.fluid_body.get();
   return def;
 }
@@ -112,7 +116,7 @@ const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, Met& met, Atta
     ++report.attached_before;
     return nullptr;
   }
-  AttachDef def = makeDef(*body.getCollisionShape(), met);
+  AttachDef def = makeDef(body.getCollisionShape(), met);
   if (settings_.adjust) settings_.adjust(body, def);
   if (!def.fluid_body) return nullptr;
   ambient::attachBody(bodiesOf(registry_), body, std::move(def));
@@ -129,7 +133,7 @@ const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link
   }
   const btMultiBodyLinkCollider* collider =
       link < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(link);
-  AttachDef def = makeDef(*collider->getCollisionShape(), met);
+  AttachDef def = makeDef(collider->getCollisionShape(), met);
   if (settings_.adjust_link) settings_.adjust_link(multi_body, link, def);
   if (!def.fluid_body) return nullptr;
   registry_.attach(*multibody_world_, multi_body, link, std::move(def));
@@ -174,7 +178,9 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
         tally.add(index, *ambient, report);
       }
     } catch (const std::exception& error) {
-      report.refused.push_back({index, nameOf(index, *object->getCollisionShape()) + error.what()});
+      report.refused.push_back({index, nameOf(index, *object) + error.what()});
+    } catch (...) {  // thrown by a function of the program
+      report.refused.push_back({index, nameOf(index, *object) + "something unknown was thrown"});
     }
   }
   multibody_world_ = nullptr;
@@ -214,7 +220,7 @@ void WorldAttachment::replaceFluidBodies(btCollisionWorld& world) {
       replace(*objects[i], better, registry_);
       met->second->given = better.get();
     } catch (const std::exception& error) {
-      tell(nameOf(i, *objects[i]->getCollisionShape()) + error.what());
+      tell(nameOf(i, *objects[i]) + error.what());
     }
   }
 }

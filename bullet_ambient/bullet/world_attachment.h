@@ -92,7 +92,7 @@ class WorldAttachment {
   const AmbientBody* attach(btCollisionObject& object, Met& met, AttachReport& report);
   const AmbientBody* attachBody(btRigidBody& body, Met& met, AttachReport& report);
   const AmbientBody* attachLink(btMultiBody& multi_body, int link, Met& met, AttachReport& report);
-  AttachDef makeDef(const btCollisionShape& shape, Met& met) const;
+  AttachDef makeDef(const btCollisionShape* shape, Met& met) const;
   void replaceFluidBodies(btCollisionWorld& world);
   void tell(const std::string& sentence) const;
 

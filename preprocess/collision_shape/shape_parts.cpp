@@ -110,6 +110,8 @@ class PartCollector {
     const int count = compound.getNumChildShapes();
     if (count == 0) raiseInputError(place.name, "a compound shape without children is empty");
     for (int i = 0; i < count; ++i) {
+      if (!compound.getChildShape(i))
+        raiseInputError(place.name, "child ", i, " of the compound shape is null");
       add(*compound.getChildShape(i), place.child(i, compound.getChildTransform(i)));
     }
   }

@@ -62,6 +62,23 @@ TEST(AttachAll, LeavesWorldsWhoseStateCanBeSaved) {
   EXPECT_EQ(other.fluid.registry().medium(*other.bodies[1]).density, water().density);
 }
 
+TEST(AttachAll, SaysWhatHasNoShape) {
+  CrateScene scene;
+  FluidBodyCache shapes(test::coarse());
+  scene.bodies[1]->setCollisionShape(nullptr);
+  AttachSettings settings;
+  settings.filter = [&](const btRigidBody& body) -> bool {
+    if (&body == scene.bodies[2].get()) throw 42;
+    return true;
+  };
+  const AttachReport report = scene.fluid.attachAll(scene.world, shapes, water(), settings);
+  EXPECT_EQ(report.attached, 6);
+  ASSERT_EQ(report.refused.size(), 2u);
+  EXPECT_EQ(report.refused[0].reason, "body 1: it has no collision shape");
+  EXPECT_EQ(report.refused[1].reason, "body 2 (CylinderZ): something unknown was thrown");
+  scene.bodies[1]->setCollisionShape(scene.shapes[1].get());
+}
+
 TEST(AttachAll, PutsAWorldIntoWaterInOneCall) {
   CrateScene scene;
   FluidBodyCache shapes(test::coarse());
