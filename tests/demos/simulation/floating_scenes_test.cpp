@@ -27,9 +27,11 @@ double uprightness(const MotionSample& sample) {
   return (sample.orientation.conjugate() * Vector3::UnitZ()).cwiseAbs().maxCoeff();
 }
 
-// Flat below 0.2113 and above 0.7887 times the density of water, on a corner at 0.5.
+// Flat below 0.2113 and above 0.7887 times the density of water, on a corner at 0.5. The heaviest one
+// has hardly a lever to right itself and rocks for half a minute.
 TEST(FloatingCube, SettlesAsItsDensityTells) {
-  const Scene scene = readNamedScene("floating_cube");
+  Scene scene = readNamedScene("floating_cube");
+  scene.duration = 40;
   const RunRecord run = runSharing(scene);
   const auto last = [&](std::size_t i) { return uprightness(run.motion[i].back()); };
   EXPECT_GT(last(0), 0.995);
@@ -38,7 +40,7 @@ TEST(FloatingCube, SettlesAsItsDensityTells) {
   EXPECT_LT(last(3), 0.98);
   for (std::size_t i : {0U, 4U}) {
     const double gravity = scene.bodies[i].mass / (998 * 0.027);
-    EXPECT_NEAR(meanHeight(run.motion[i], 8), 0.3 * (0.5 - gravity), 0.01) << i;
+    EXPECT_NEAR(meanHeight(run.motion[i], 30), 0.3 * (0.5 - gravity), 0.01) << i;
   }
 }
 
