@@ -11,7 +11,7 @@ namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// Puts the links of a robot into a fluid, all that collide and move: with the medium, the law and
-/// the fluid body that their <ambient> elements name, else those of `def` and what the source has
+/// the fluid body that their `ambient` elements name, else those of `def` and what the source has
 /// for their collision shapes.
 ///
 ///     Robot robot(withoutFixedJoints(readUrdf("rover.urdf")));

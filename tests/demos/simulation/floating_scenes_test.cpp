@@ -27,8 +27,8 @@ double uprightness(const MotionSample& sample) {
   return (sample.orientation.conjugate() * Vector3::UnitZ()).cwiseAbs().maxCoeff();
 }
 
-// Flat below 0.2113 and above 0.7887 times the density of water, on a corner at 0.5. The heaviest one
-// has hardly a lever to right itself and rocks for half a minute.
+// Flat below 0.2113 and above 0.7887 times the density of water, on a corner at 0.5. The heaviest
+// one has hardly a lever to right itself and rocks for half a minute.
 TEST(FloatingCube, SettlesAsItsDensityTells) {
   Scene scene = readNamedScene("floating_cube");
   scene.duration = 40;
