@@ -128,8 +128,9 @@ bool followRegions(AmbientBody& ambient, const FluidRegions& regions, double dur
   const SurfaceSide side =
       entry->region.surface ? meetSurface(ambient, sample, duration) : SurfaceSide::kBelow;
   const bool is_above = side == SurfaceSide::kAbove;
-  const bool has_loads = enterMedium(ambient, {entry->id, is_above, side == SurfaceSide::kAt},
-                                     is_above ? sample.above : sample.below);
+  [[maybe_unused]] const bool has_loads =
+      enterMedium(ambient, {entry->id, is_above, side == SurfaceSide::kAt},
+                  is_above ? sample.above : sample.below);
   AMBIENT_ASSERT(has_loads);
   return ambient.counters.medium_changes != changes;
 }

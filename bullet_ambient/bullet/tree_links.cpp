@@ -111,10 +111,10 @@ void addCount(const FlightCount& count, AmbientTree& tree) noexcept {
   const auto loaded = std::count_if(tree.links.begin(), tree.links.end(), [](const auto& link) {
     return link->ambient.model.loads != nullptr;
   });
+  const int evaluations = loaded > 0 ? count.load_evaluations / static_cast<int>(loaded) : 0;
   for (const auto& link : tree.links) {
     link->ambient.counters.substeps += count.substeps;
-    if (link->ambient.model.loads)
-      countLoads(link->ambient, count.load_evaluations / static_cast<int>(loaded));
+    if (link->ambient.model.loads) countLoads(link->ambient, evaluations);
   }
   AmbientCounters& counters = tree.links.front()->ambient.counters;
   counters.guarded += count.guarded;

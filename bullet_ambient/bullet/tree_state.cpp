@@ -65,7 +65,7 @@ btScalar* changes(btMultiBody& body) {
 
 int coordinatesOf(const btMultiBody& body) { return 6 + body.getNumDofs(); }
 
-void readAll(const btScalar* from, CoordinatesOut to) {
+void readAll(const btScalar* from, CoordinatesOut& to) {
   for (Eigen::Index i = 0; i < to.size(); ++i) to[i] = static_cast<double>(from[i]);
 }
 

@@ -68,7 +68,7 @@ struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
 struct LevelLoads final : SummedLoads<LoadLevel, sumClusters> {
   using SummedLoads::SummedLoads;
   Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return SurfaceLoads::wetLoad(x, wet);
+    return wet.share * load(x);
   }
   bool needsGuard() const noexcept override { return true; }  // fitted wrenches may push
 };

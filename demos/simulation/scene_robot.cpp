@@ -36,7 +36,7 @@ std::vector<Twist> linkTwists(const Robot& robot) {
   body.compTreeLinkVelocities(angular.data(), linear.data());
   std::vector<Twist> twists;
   for (int i = -1; i < body.getNumLinks(); ++i) {
-    const std::size_t at = static_cast<std::size_t>(i + 1);
+    const std::size_t at = static_cast<std::size_t>(i) + 1;
     const btMatrix3x3& to_W = robot.bodyTransform(i).getBasis();
     twists.push_back({toVector3(to_W * angular[at]), toVector3(to_W * linear[at])});
   }

@@ -91,7 +91,7 @@ class Robot {
   void prepareStep(double time_step);
 
  private:
-  static std::size_t indexOf(int number) { return static_cast<std::size_t>(number + 1); }
+  static std::size_t indexOf(int number) { return static_cast<std::size_t>(number) + 1; }
   void makeBody(const RobotSettings& settings);
   void setUpLink(std::size_t index);
   void place(const RobotSettings& settings);

@@ -58,7 +58,7 @@ std::unique_ptr<btMultiBodyJointMotor> RobotJoints::makeMotor(int number) {
 }
 
 const JointModel& RobotJoints::joint(int number) const {
-  return model_.links[static_cast<std::size_t>(number + 1)].joint;
+  return model_.links[static_cast<std::size_t>(number) + 1].joint;
 }
 
 std::vector<btMultiBodyConstraint*> RobotJoints::all() const {

@@ -38,12 +38,25 @@ class UrdfdomMessages : public console_bridge::OutputHandler {
 };
 
 /// @throws std::runtime_error
-urdf::ModelInterfaceSharedPtr parseChecked(const std::string& urdf, const std::string& source) {
+/// A model of urdfdom. Its links hold those after them, so that a loop of them would never go.
+struct UrdfModel {
+  urdf::ModelInterfaceSharedPtr model;
+
+  UrdfModel() = default;
+  UrdfModel(const UrdfModel&) = delete;
+  UrdfModel& operator=(const UrdfModel&) = delete;
+  ~UrdfModel() {
+    if (!model) return;
+    for (const auto& [name, link] : model->links_) link->child_links.clear();
+  }
+};
+
+void parseChecked(const std::string& urdf, const std::string& source, UrdfModel& parsed) {
   const UrdfdomMessages messages;
   try {
     // Where it cannot read a part it says so and may leave it out.
-    auto model = urdf::parseURDF(urdf);
-    if (model && messages.text().empty()) return model;
+    parsed.model = urdf::parseURDF(urdf);
+    if (parsed.model && messages.text().empty()) return;
   } catch (const std::exception& error) {
     raiseInputError(source, error.what());
   }
@@ -271,8 +284,9 @@ RobotModel readUrdf(const std::filesystem::path& file, const PackageFolders& pac
 RobotModel parseUrdf(const std::string& text, const std::filesystem::path& file,
                      const PackageFolders& packages) {
   const UrdfText divided = divideUrdf(text, file.string());
-  const urdf::ModelInterfaceSharedPtr urdf = parseChecked(divided.urdf, file.string());
-  return ModelReader(divided, file, packages).read(*urdf);
+  UrdfModel parsed;
+  parseChecked(divided.urdf, file.string(), parsed);
+  return ModelReader(divided, file, packages).read(*parsed.model);
 }
 
 }  // namespace ambient
