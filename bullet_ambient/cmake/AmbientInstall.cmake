@@ -83,6 +83,7 @@ set(BULLET_AMBIENT_PUBLIC_PREPROCESS_HEADERS
   collision_shape/collision_shape_body.h
   collision_shape/fluid_body_cache.h
   mesh/mesh_checks.h
+  mesh/mesh_defect.h
   mesh/mesh_import.h
   mesh/primitives.h
   mesh/triangle_mesh.h
