@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "bullet_ambient/bullet/conversions.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/ellipsoid_body.h"
 

@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/bullet/world_state.h"
 #include "tests/support/random_bodies.h"
 
