@@ -31,12 +31,20 @@ double largestNumber(const ShapePart& part) {
   return largest;
 }
 
-void append(std::string& bytes, const double* values, std::size_t count) {
+void appendCount(std::string& bytes, std::size_t count) {
   bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
+}
+
+void appendNumbers(std::string& bytes, const double* values, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const double value = values[i] + 0.0;  // -0 is 0
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
+}
+
+void append(std::string& bytes, const double* values, std::size_t count) {
+  appendCount(bytes, count);
+  appendNumbers(bytes, values, count);
 }
 
 }  // namespace
@@ -56,8 +64,8 @@ std::string contentOf(const std::vector<ShapePart>& parts) {
   for (const ShapePart& part : parts) {
     bytes += static_cast<char>('a' + static_cast<int>(part.kind));
     append(bytes, part.sizes.data(), part.sizes.size());
-    append(bytes, part.points.empty() ? nullptr : part.points.front().data(),
-           3 * part.points.size());
+    appendCount(bytes, 3 * part.points.size());
+    for (const Eigen::Vector3d& point : part.points) appendNumbers(bytes, point.data(), 3);
     append(bytes, &part.margin, 1);
     append(bytes, part.rotation.data(), 9);
     append(bytes, part.translation.data(), 3);
