@@ -128,23 +128,38 @@ class SphereLoads final : public SurfaceLoads {
   std::shared_ptr<const SphereTable> table_;  ///< null where it needs none
 };
 
-/// Friction alone, by which two loads differ: the pressure of a flow that is attached everywhere is
-/// in the inertia of the water, of a cut body in the change of that.
-class FrictionOf final : public SurfaceLoads {
+/// At alpha = pi the pressure on a part of a body is that of a flow that is attached everywhere,
+/// which the inertia of the water has in it: docs/theory.md eq. (66), and on the whole of a body no
+/// more than its share of the load in unbounded fluid.
+class AttachedLoads final : public SurfaceLoads {
  public:
-  FrictionOf(std::shared_ptr<const SurfaceLoads> all, std::shared_ptr<const SurfaceLoads> pressure)
-      : all_(std::move(all)), pressure_(std::move(pressure)) {}
+  /// on_faces: the law with this pressure; slip: the pressure alone; whole: that of a body in
+  /// unbounded fluid.
+  AttachedLoads(std::shared_ptr<const SurfaceLoads> on_faces,
+                std::shared_ptr<const SurfaceLoads> slip, std::shared_ptr<const SurfaceLoads> whole)
+      : on_faces_(std::move(on_faces)),
+        slip_(std::move(slip)),
+        whole_(std::move(whole)),
+        whole_frame_(whole_->frame({})) {}
 
   Wrench load(const Twist& x) const noexcept override {
-    return all_->load(x) + -1.0 * pressure_->load(x);
+    return on_faces_->load(x) + -1.0 * slip_->load(x) + wholeLoad(x);
   }
   Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return all_->wetLoad(x, wet) + -1.0 * pressure_->wetLoad(x, wet);
+    return on_faces_->wetLoad(x, wet) + -1.0 * slip_->wetLoad(x, wet) + wet.share * wholeLoad(x);
   }
-  int faces() const noexcept override { return all_->faces() + pressure_->faces(); }
+  int faces() const noexcept override {
+    return on_faces_->faces() + slip_->faces() + whole_->faces();
+  }
+  bool needsGuard() const noexcept override { return whole_->needsGuard(); }
 
  private:
-  std::shared_ptr<const SurfaceLoads> all_, pressure_;
+  Wrench wholeLoad(const Twist& x) const noexcept {
+    return whole_frame_.toB(whole_->load(whole_frame_.toF(x)));
+  }
+
+  std::shared_ptr<const SurfaceLoads> on_faces_, slip_, whole_;
+  FrameOffset whole_frame_;
 };
 
 // Of a fluid body that was filled by hand: readers and builders have checked theirs.
@@ -226,17 +241,19 @@ std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, const LoadSet
                                      FormLift(*body, flow.stall_lag), settings.density);
 }
 
-/// On faces, by the law of SphereLoads; where the flow is attached everywhere there is no pressure,
-/// as on a whole sphere.
-std::shared_ptr<const SurfaceLoads> waterlineLoadsOfSphere(const Body& body, LoadSettings settings,
-                                                           const FlowSettings& flow,
-                                                           LoadTables& tables) {
+/// On faces, a sphere by the law of SphereLoads.
+std::shared_ptr<const SurfaceLoads> waterlineLoadsOnFaces(const Body& body, LoadSettings settings,
+                                                          const FlowSettings& flow,
+                                                          LoadTables& tables) {
+  const bool is_sphere = body->sphere_radius > 0;
+  if (is_sphere) settings.law = PressureLaw::kPublished;
+  auto on_faces = loadsOnFaces(body, settings, flow, tables);
+  if (settings.separation_cosine != -1) return on_faces;
   settings.law = PressureLaw::kPublished;
-  auto all = loadsOnFaces(body, settings, flow, tables);
-  if (settings.separation_cosine != -1) return all;
-  if (!(settings.reynoldsPerSpeed(1) > 0)) return nullptr;
   settings.skin_friction = false;
-  return std::make_shared<FrictionOf>(std::move(all), loadsOnFaces(body, settings, flow, tables));
+  auto slip = loadsOnFaces(body, settings, flow, tables);
+  auto whole = is_sphere ? std::make_shared<SphereLoads>(*body, settings, tables) : slip;
+  return std::make_shared<AttachedLoads>(std::move(on_faces), std::move(slip), std::move(whole));
 }
 
 }  // namespace
@@ -274,8 +291,7 @@ std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<con
   if (!(settings.density > 0)) return nullptr;
   FlowSettings on_all = flow;
   on_all.maximum_load_error = 0;
-  if (body->sphere_radius > 0) return waterlineLoadsOfSphere(body, settings, on_all, tables);
-  return loadsOnFaces(body, settings, on_all, tables);
+  return waterlineLoadsOnFaces(body, settings, on_all, tables);
 }
 
 }  // namespace ambient

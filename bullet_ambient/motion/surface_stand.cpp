@@ -9,7 +9,7 @@ namespace ambient {
 namespace {
 
 double swingOf(const RestoringModes& modes, const Matrix6& inertia) {
-  double square = 1e-12;
+  double square = 0;
   for (const RestoringMode& mode : modes) {
     const double along = mode.motion.dot(inertia * mode.motion);
     if (along > 0) square = std::max(square, mode.stiffness / along);

@@ -219,7 +219,32 @@ TEST(WetLoads, OfASphereInAttachedFlowAreFrictionAlone) {
     EXPECT_LT(sizeOf(there + back), 1e-5 * pressure);
   }
   flow.skin_friction = false;
-  EXPECT_EQ(makeWaterlineLoads(body, kLiquid, flow, tables), nullptr);
+  const auto pressure = makeWaterlineLoads(body, kLiquid, flow, tables);
+  EXPECT_EQ(sizeOf(pressure->wetLoad({{0, 0, 0}, {1, 2, 3}}, wetBelow({0, 0, 1}, 0))), 0);
+}
+
+TEST(WetLoads, InAttachedFlowHaveTheShareOfThePressureOnTheWhole) {
+  const Twist x{{0.3, -0.2, 0.5}, {1, 2, -0.7}};
+  FluidBody sphere = test::hullBody(test::geodesicSphere(3));
+  sphere.sphere_radius = 1;
+  LoadTables tables;
+  for (FlowSettings flow : allLaws()) {
+    flow.separation_angle = std::acos(-1.0);
+    for (const auto& body : {roundBody(2), std::make_shared<const FluidBody>(sphere)}) {
+      // Far below the surface nothing is missing.
+      const auto loads = makeWaterlineLoads(body, kLiquid, flow, tables);
+      const Wrench deep = loads->wetLoad(x, wetBelow({1, 2, 3}, 1.2, 1));
+      const Wrench all = makeSurfaceLoads(body, kLiquid, flow, tables)->load(x);
+      EXPECT_LT(sizeOf(deep + -1.0 * all), (body->sphere_radius > 0 ? 0.01 : 1e-5) * sizeOf(all));
+      if (flow.law == PressureLaw::kForm && !(body->sphere_radius > 0)) continue;
+      flow.skin_friction = false;
+      const auto pressure = makeWaterlineLoads(body, kLiquid, flow, tables);
+      const Wrench whole = makeSurfaceLoads(body, kLiquid, flow, tables)->load(x);
+      const Wrench half = pressure->wetLoad(x, wetBelow({1, 2, 3}, 0.1));
+      EXPECT_GT(sizeOf(whole), 1000);
+      EXPECT_LT(sizeOf(half + -0.5 * whole), 1e-5 * sizeOf(whole));
+    }
+  }
 }
 
 }  // namespace
