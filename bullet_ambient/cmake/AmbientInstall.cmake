@@ -69,6 +69,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   force/surface_loads.h
   force/surface_plane.h
   force/water_surface.h
+  force/wave_spectrum.h
   motion/flight_memory.h
   motion/flight_settings.h
   motion/wave_memory.h

@@ -4,6 +4,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bullet_ambient/force/wave_spectrum.h"
+
 namespace ambient {
 namespace {
 
@@ -43,6 +45,25 @@ WaveComponent toWave(const json& from) {
   return wave;
 }
 
+WaveSpectrum toSpectrum(const json& from) {
+  WaveSpectrum spectrum;
+  spectrum.significant_height = from.at("significant_height").get<double>();
+  spectrum.peak_period = from.at("peak_period").get<double>();
+  spectrum.peak_enhancement = from.value("peak_enhancement", spectrum.peak_enhancement);
+  spectrum.direction = vectorAt(from, "direction", spectrum.direction);
+  spectrum.components = from.value("components", spectrum.components);
+  spectrum.seed = from.value("seed", spectrum.seed);
+  return spectrum;
+}
+
+std::vector<WaveComponent> toWaves(const json& water) {
+  std::vector<WaveComponent> waves;
+  if (water.contains("spectrum")) waves = wavesOf(toSpectrum(water.at("spectrum")));
+  if (water.contains("waves"))
+    for (const json& wave : water.at("waves")) waves.push_back(toWave(wave));
+  return waves;
+}
+
 FluidRegion makeWaterRegion(const WaterDef& water, const Medium& above) {
   FluidRegion region;
   region.bounds = water.bounds;
@@ -75,8 +96,7 @@ WaterDef toWater(const json& from, const Vector3& gravity) {
   def.sea.up = -gravity;
   def.sea.gravity = gravity.norm();
   def.sea.current = vectorAt(from, "current", def.sea.current);
-  if (from.contains("waves"))
-    for (const json& wave : from.at("waves")) def.waves.push_back(toWave(wave));
+  def.waves = toWaves(from);
   def.bounds = toBounds(from);
   return def;
 }

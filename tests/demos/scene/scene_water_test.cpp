@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/force/wave_spectrum.h"
 #include "tests/demos/scene/scene_text.h"
 
 namespace ambient {
@@ -62,6 +63,25 @@ TEST(SceneWater, MakesRegionsOfWaterFirst) {
   EXPECT_TRUE(sampleRegion(still, {0, 0.6, 0}, 0).isAbove());
 }
 
+TEST(SceneWater, AddsTheWavesOfASpectrum) {
+  json text = seaScene();
+  text["water"]["spectrum"] = json::parse(R"({"significant_height": 0.2, "peak_period": 3,
+    "peak_enhancement": 1, "direction": [0, 0, 2], "components": 7, "seed": 5})");
+  const std::vector<WaveComponent> waves = sceneFrom(text).water->waves;
+  ASSERT_EQ(waves.size(), 9u);
+  WaveSpectrum spectrum{0.2, 3, 1, {0, 0, 2}, 7, 5};
+  const std::vector<WaveComponent> expected = wavesOf(spectrum);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(waves[i].amplitude, expected[i].amplitude);
+    EXPECT_EQ(waves[i].period, expected[i].period);
+    EXPECT_EQ(waves[i].direction, expected[i].direction);
+    EXPECT_EQ(waves[i].phase, expected[i].phase);
+  }
+  EXPECT_EQ(waves[7].amplitude, 0.1);
+  text["water"]["spectrum"] = {{"significant_height", 1}, {"peak_period", 8}};
+  EXPECT_EQ(sceneFrom(text).water->waves[0].phase, wavesOf({1, 8})[0].phase);
+}
+
 TEST(SceneWater, SaysWhatIsWrongWithWaterAndRegions) {
   const auto complaint = [](const char* pointer, const json& value) {
     json scene = seaScene();
@@ -73,6 +93,8 @@ TEST(SceneWater, SaysWhatIsWrongWithWaterAndRegions) {
   EXPECT_EQ(complaint("/water/waves/0/direction", {0, 1, 0}),
             "horizontal part of the direction of wave 0 is 0; must be positive and finite");
   EXPECT_EQ(complaint("/water/waves/0/period", 0), "water.waves[0].period is 0; must be > 0");
+  EXPECT_EQ(complaint("/water/spectrum", {{"significant_height", 1}, {"peak_period", 0}}),
+            "water.spectrum.peak_period is 0; must be > 0");
   EXPECT_EQ(complaint("/water/bounds/lowest/0", "left"),
             "water.bounds.lowest[0] is \"left\"; must be of type [\"number\",\"null\"]");
   EXPECT_EQ(complaint("/regions/0/bounds/lowest/1", 3),
