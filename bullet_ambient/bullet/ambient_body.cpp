@@ -1,5 +1,8 @@
 #include "bullet_ambient/bullet/ambient_body.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "bullet_ambient/bullet/region_following.h"
@@ -12,6 +15,14 @@ BodyModel makeModel(const AmbientBody& ambient, const MassProperties& mass,
                     const std::shared_ptr<const SurfaceLoads>& loads) {
   const AttachDef& def = ambient.def;
   return makeBodyModel(*def.fluid_body, def.fluid_frame, mass, ambient.medium, loads);
+}
+
+// A double holds no sum of masses of which one is 2^52 times the other.
+void checkFluidMass(const FluidBody& shape, const BodyModel& model, double mass) {
+  const double of_fluid = std::max(model.displaced_mass, model.largest_mass - mass);
+  if (!(of_fluid <= std::ldexp(mass, std::numeric_limits<double>::digits - 1)))
+    reject(shape, "mass of the medium that it displaces or moves [kg]", of_fluid,
+           "at most 2^52 times its own; are its size and the density in SI units?");
 }
 
 // Of the body of another mass; their loads stay.
@@ -32,7 +43,9 @@ void buildModel(AmbientBody& ambient, const std::shared_ptr<const SurfaceLoads>&
   const Vector3 inverse_inertia = toVector3(body.getInvInertiaDiagLocal());
   const Vector3 inertia = inverse_inertia.cwiseInverse();
   const MassProperties mass{1 / static_cast<double>(body.getInvMass()), inertia.asDiagonal()};
-  ambient.model = makeModel(ambient, mass, loads);
+  const BodyModel model = makeModel(ambient, mass, loads);
+  checkFluidMass(*ambient.def.fluid_body, model, mass.mass);
+  ambient.model = model;
   ambient.is_frozen = false;
   rebuildSurfaces(ambient, mass);
   ambient.basis_B = makeVelocityBasis(ambient.model, inertia);

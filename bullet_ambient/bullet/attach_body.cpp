@@ -34,8 +34,6 @@ void sayOddities(const AmbientBody& ambient, Complaints& complaints) {
   }
 }
 
-}  // namespace
-
 void checkFlight(const std::string& who, const FlightSettings& flight) {
   if (!(flight.tolerance > 0) || !std::isfinite(flight.tolerance)) {
     throw std::invalid_argument(who + " has a flight tolerance of " +
@@ -47,6 +45,24 @@ void checkFlight(const std::string& who, const FlightSettings& flight) {
                                 std::to_string(flight.max_substeps) +
                                 ", which must be zero or positive");
   }
+}
+
+template <class Choice, class Names>
+void checkChoice(const std::string& who, const char* what, Choice choice, const Names& names) {
+  for (const auto& [known, name] : names)
+    if (known == choice) return;
+  throw std::invalid_argument(who + " has " + what + " number " +
+                              std::to_string(static_cast<int>(choice)) + "; there are 0 to " +
+                              std::to_string(names.size() - 1));
+}
+
+}  // namespace
+
+void checkDef(const std::string& who, const AttachDef& def) {
+  checkFlight(who, def.flight);
+  checkChoice(who, "the integrator", def.flight.integrator, kIntegratorNames);
+  checkChoice(who, "the pressure law", def.flow.law, kPressureLawNames);
+  checkChoice(who, "the load precision", def.flow.precision, kLoadPrecisionNames);
 }
 
 void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
@@ -80,7 +96,7 @@ void attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def) {
   if (bodies.find(&body)) {
     throw std::invalid_argument(who + " is attached already; use setMedium() or detach it first");
   }
-  checkFlight(who, def.flight);
+  checkDef(who, def);
   auto ambient = std::make_unique<AmbientBody>();
   ambient->body = &body;
   ambient->def = std::move(def);

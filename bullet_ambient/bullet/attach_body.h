@@ -31,8 +31,9 @@ DisplacedMass displacedMass(const AmbientBody& ambient);
 /// @throws std::invalid_argument as refreshModel().
 void refresh(AmbientBody& ambient, AmbientBodies& bodies);
 
-/// @throws std::invalid_argument that begins with `who` if the settings cannot be.
-void checkFlight(const std::string& who, const FlightSettings& flight);
+/// @throws std::invalid_argument that begins with `who` if there is no such way to meet a fluid.
+/// What shape and medium can be, refresh() checks.
+void checkDef(const std::string& who, const AttachDef& def);
 
 /// AmbientRegistry::attach() but for what is said of light bodies.
 /// @throws std::invalid_argument as AmbientRegistry::attach().

@@ -90,7 +90,7 @@ void attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const Li
   if (known && known->find(at.link)) {
     throw std::invalid_argument(who + " is attached already; use setMedium() or detach it first");
   }
-  checkFlight(who, def.flight);
+  checkDef(who, def);
   auto link = std::make_unique<AmbientLink>(at.link);
   standIn(*link, at.multi_body, world.getGravity());
   link->stand_in.setWorldTransform(linkTransform(at.multi_body, at.link));

@@ -39,14 +39,50 @@ void restoreForces(const BodyState& state, btRigidBody& body) {
 
 }  // namespace
 
+ObjectState saveObject(const btCollisionObject& object) {
+  ObjectState s;
+  s.pose = object.getWorldTransform();
+  s.interpolation_pose = object.getInterpolationWorldTransform();
+  s.interpolation_linear_velocity = object.getInterpolationLinearVelocity();
+  s.interpolation_angular_velocity = object.getInterpolationAngularVelocity();
+  s.friction = object.getFriction();
+  s.rolling_friction = object.getRollingFriction();
+  s.spinning_friction = object.getSpinningFriction();
+  s.restitution = object.getRestitution();
+  s.ccd_radius = object.getCcdSweptSphereRadius();
+  s.ccd_threshold = object.getCcdMotionThreshold();
+  s.contact_processing_threshold = object.getContactProcessingThreshold();
+  s.deactivation_time = object.getDeactivationTime();
+  s.activation_state = object.getActivationState();
+  s.collision_flags = object.getCollisionFlags();
+  return s;
+}
+
+void restoreObject(const ObjectState& s, btCollisionObject& object) {
+  object.setCollisionFlags(s.collision_flags);
+  object.setWorldTransform(s.pose);
+  object.setInterpolationWorldTransform(s.interpolation_pose);
+  object.setInterpolationLinearVelocity(s.interpolation_linear_velocity);
+  object.setInterpolationAngularVelocity(s.interpolation_angular_velocity);
+  object.setFriction(s.friction);
+  object.setRollingFriction(s.rolling_friction);
+  object.setSpinningFriction(s.spinning_friction);
+  object.setRestitution(s.restitution);
+  object.setCcdSweptSphereRadius(s.ccd_radius);
+  object.setCcdMotionThreshold(s.ccd_threshold);
+  object.setContactProcessingThreshold(s.contact_processing_threshold);
+}
+
+void restoreSleep(const ObjectState& s, btCollisionObject& object) {
+  object.forceActivationState(s.activation_state);
+  object.setDeactivationTime(s.deactivation_time);
+}
+
 BodyState saveBody(const btRigidBody& body) {
   BodyState s;
-  s.pose = body.getWorldTransform();
-  s.interpolation_pose = body.getInterpolationWorldTransform();
+  static_cast<ObjectState&>(s) = saveObject(body);
   s.linear_velocity = body.getLinearVelocity();
   s.angular_velocity = body.getAngularVelocity();
-  s.interpolation_linear_velocity = body.getInterpolationLinearVelocity();
-  s.interpolation_angular_velocity = body.getInterpolationAngularVelocity();
   s.total_force = body.getTotalForce();
   s.total_torque = body.getTotalTorque();
   s.gravity = body.getGravity();
@@ -58,16 +94,6 @@ BodyState saveBody(const btRigidBody& body) {
   s.angular_damping = body.getAngularDamping();
   s.linear_sleeping_threshold = body.getLinearSleepingThreshold();
   s.angular_sleeping_threshold = body.getAngularSleepingThreshold();
-  s.friction = body.getFriction();
-  s.rolling_friction = body.getRollingFriction();
-  s.spinning_friction = body.getSpinningFriction();
-  s.restitution = body.getRestitution();
-  s.ccd_radius = body.getCcdSweptSphereRadius();
-  s.ccd_threshold = body.getCcdMotionThreshold();
-  s.contact_processing_threshold = body.getContactProcessingThreshold();
-  s.deactivation_time = body.getDeactivationTime();
-  s.activation_state = body.getActivationState();
-  s.collision_flags = body.getCollisionFlags();
   s.flags = body.getFlags();
   return s;
 }
@@ -85,29 +111,14 @@ void restoreMass(const BodyState& s, btRigidBody& body) {
 
 void restoreBody(const BodyState& s, btRigidBody& body) {
   AMBIENT_ASSERT(body.getInvMass() == s.inverse_mass);
-  body.setCollisionFlags(s.collision_flags);
   body.setFlags(s.flags);
-  body.setCenterOfMassTransform(s.pose);
-  body.setInterpolationWorldTransform(s.interpolation_pose);
+  body.setCenterOfMassTransform(s.pose);  // its inertia follows
+  restoreObject(s, body);
   body.setLinearVelocity(s.linear_velocity);
   body.setAngularVelocity(s.angular_velocity);
-  body.setInterpolationLinearVelocity(s.interpolation_linear_velocity);
-  body.setInterpolationAngularVelocity(s.interpolation_angular_velocity);
   restoreForces(s, body);
   body.setDamping(s.linear_damping, s.angular_damping);
   body.setSleepingThresholds(s.linear_sleeping_threshold, s.angular_sleeping_threshold);
-  body.setFriction(s.friction);
-  body.setRollingFriction(s.rolling_friction);
-  body.setSpinningFriction(s.spinning_friction);
-  body.setRestitution(s.restitution);
-  body.setCcdSweptSphereRadius(s.ccd_radius);
-  body.setCcdMotionThreshold(s.ccd_threshold);
-  body.setContactProcessingThreshold(s.contact_processing_threshold);
-}
-
-void restoreSleep(const BodyState& s, btRigidBody& body) {
-  body.forceActivationState(s.activation_state);
-  body.setDeactivationTime(s.deactivation_time);
 }
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

@@ -6,6 +6,15 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+/// What a rigid body and a link's collider share.
+ObjectState saveObject(const btCollisionObject& object);
+
+/// All but sleep.
+void restoreObject(const ObjectState& state, btCollisionObject& object);
+
+/// Last: whatever else is done to an object may wake it.
+void restoreSleep(const ObjectState& state, btCollisionObject& object);
+
 /// All but its fluid.
 BodyState saveBody(const btRigidBody& body);
 
@@ -15,9 +24,6 @@ void restoreMass(const BodyState& state, btRigidBody& body);
 
 /// All but mass, sleep and fluid. @pre restoreMass() was called.
 void restoreBody(const BodyState& state, btRigidBody& body);
-
-/// Last: whatever else is done to a body may wake it.
-void restoreSleep(const BodyState& state, btRigidBody& body);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

@@ -30,9 +30,6 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kNotPhysical:
       return "bullet_ambient: the mass properties of a body in fluid were changed to values that "
              "are not physical; it moves as in a vacuum until they are valid again";
-    case Complaint::kRegion:
-      return "bullet_ambient: the flow or the surface of a region is not finite where a body is; "
-             "the region's fluid is taken without both there";
     case Complaint::kOtherLinks:
       return "bullet_ambient: a btMultiBody in fluid has other links or joints than when it was "
              "attached, or stands where another one was destroyed; its links have no fluid until "
@@ -40,7 +37,8 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kRungeKutta:
       return "bullet_ambient: a btMultiBody in fluid has useRK4Integration, which moves it by its "
              "dry mass; it moves as if that was switched off";
-    case Complaint::kInertia:  // these name the body
+    case Complaint::kRegion:  // these name the region or the body
+    case Complaint::kInertia:
     case Complaint::kEmpty:
     case Complaint::kLight:
     case Complaint::kCount:

@@ -13,6 +13,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bullet_ambient/bullet/multibody_state.h"
 #include "bullet_ambient/bullet/world_objects.h"
 
 namespace ambient {
@@ -178,6 +179,7 @@ void wakeAll(btCollisionWorld& world) {
   for (btRigidBody* body : rigidBodiesOf(world)) {
     if (!body->isStaticObject()) body->forceActivationState(ACTIVE_TAG);
   }
+  for (btMultiBody* body : multiBodiesOf(world)) wakeColliders(*body);
 }
 
 std::pair<int, int> inOrder(const PairState& pair) {

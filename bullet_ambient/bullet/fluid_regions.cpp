@@ -8,6 +8,19 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+namespace {
+
+void check(RegionId id, const FluidRegion& region) {
+  try {
+    checkRegion(region);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("region of fluid " + std::to_string(static_cast<int>(id)) + ": " +
+                                error.what());
+  }
+}
+
+}  // namespace
+
 const FluidRegions::Entry* FluidRegions::find(const Vector3& point_W,
                                               long long& asked) const noexcept {
   for (const Entry& entry : entries_) {
@@ -18,14 +31,15 @@ const FluidRegions::Entry* FluidRegions::find(const Vector3& point_W,
 }
 
 RegionId FluidRegions::add(FluidRegion region) {
-  checkRegion(region);
-  const auto id = static_cast<RegionId>(next_++);
+  const auto id = static_cast<RegionId>(next_);
+  check(id, region);
+  ++next_;
   insert(id, std::move(region));
   return id;
 }
 
 void FluidRegions::set(RegionId id, FluidRegion region) {
-  checkRegion(region);
+  check(id, region);
   if (!remove(id)) {
     throw std::invalid_argument("there is no region of fluid number " +
                                 std::to_string(static_cast<int>(id)));

@@ -1,6 +1,7 @@
 #include "bullet_ambient/bullet/region_following.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
@@ -18,6 +19,16 @@ const MediumLoads* findLoads(const std::vector<MediumLoads>& loads, const Medium
     return isSameFluid(entry, medium);
   });
   return found == loads.end() ? nullptr : &*found;
+}
+
+// Allocates nothing.
+void sayNotFinite(RegionId id, Complaints& complaints) noexcept {
+  char sentence[200];
+  std::snprintf(sentence, sizeof sentence,
+                "bullet_ambient: the flow or the surface of the region of fluid %d is not finite "
+                "where a body is; the region's fluid is taken without both there",
+                static_cast<int>(id));
+  complaints.say(Complaint::kRegion, sentence);
 }
 
 SurfaceMedia makeSurfaceMediaOf(const AttachDef& def, const FluidRegion& region,
@@ -123,7 +134,7 @@ bool followRegions(AmbientBody& ambient, const FluidRegions& regions, double dur
   const RegionSample sample = sampleRegion(entry->region, centre, regions.time);
   if (!sample.is_finite) {
     ++ambient.counters.rejected;
-    complaints.say(Complaint::kRegion);
+    sayNotFinite(entry->id, complaints);
   }
   const SurfaceSide side =
       entry->region.surface ? meetSurface(ambient, sample, duration) : SurfaceSide::kBelow;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -133,6 +134,20 @@ Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
   waves = ambient.encounter.waves;
   meetModes(modes, R, waves);
   return exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x, waves) - x;
+}
+
+void freezeAsMet(AmbientBody& ambient, int media) noexcept {
+  SurfaceEncounter& encounter = ambient.encounter;
+  AMBIENT_ASSERT(encounter.met_B);
+  encounter.media = media;
+  const SurfacePlane& met = *encounter.met_B;
+  const RigidState state = readState(*ambient.body);
+  const Vector3 normal_W = state.orientation * met.normal;
+  encounter.plane_W = {normal_W, met.height + normal_W.dot(state.position), met.density,
+                       met.gravity};
+  const SurfaceMedia& surface = *ambient.surface();
+  ambient.model = freeze(surface, standAt(ambient, met), surface.loads);
+  ambient.is_frozen = true;
 }
 
 Vector6 passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes, double duration) noexcept {

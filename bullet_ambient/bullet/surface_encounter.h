@@ -76,6 +76,10 @@ BodyModel modelNow(const AmbientBody& ambient);
 /// as well
 Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept;
 
+/// Between two steps, of a saved state: the model as freezeAtSurface() left it against `met_B`.
+/// @pre `met_B` is known; `media` is one of the body's surfaces
+void freezeAsMet(AmbientBody& ambient, int media) noexcept;
+
 /// After Bullet has moved a body with rows: its twist in B, relative to the water, after the change
 /// of its inertia on the way. With locked axes, it loses what energy the change would give it, and
 /// nothing else.

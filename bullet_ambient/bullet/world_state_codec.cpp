@@ -12,8 +12,8 @@ namespace {
 
 // Header: magic, version, bytes per number of Bullet, FNV-1a of the payload, payload.
 constexpr std::string_view kMagic = "AMBSTATE";
-constexpr std::uint32_t kVersion = 7;
-constexpr std::size_t kBodySize = 200;  // at least [bytes]
+constexpr std::uint32_t kVersion = 8;
+constexpr std::size_t kBodySize = 200, kMultiBodySize = 100;  // at least [bytes]
 
 using Hashes = std::map<const FluidBody*, std::uint64_t>;
 
@@ -26,15 +26,18 @@ std::uint64_t hashOf(const FluidBody& fluid_body, Hashes& hashes) {
 // What decodeState() finds by one name must be one fluid body.
 void requireOneContentPerName(const WorldState& state, Hashes& hashes) {
   std::map<std::string, std::uint64_t> named;
-  for (const BodyState& body : state.bodies) {
-    if (!body.ambient) continue;
-    const FluidBody& fluid_body = *body.ambient->def.fluid_body;
+  const auto require = [&](const AmbientState& ambient) {
+    const FluidBody& fluid_body = *ambient.def.fluid_body;
     const std::uint64_t hash = hashOf(fluid_body, hashes);
     if (named.try_emplace(fluid_body.name, hash).first->second != hash) {
       throw std::runtime_error("encodeState: two different fluid bodies have the name '" +
                                fluid_body.name + "', by which they are found again; rename one");
     }
-  }
+  };
+  for (const BodyState& body : state.bodies)
+    if (body.ambient) require(*body.ambient);
+  for (const MultiBodyState& body : state.multi_bodies)
+    for (const LinkFluidState& fluid : body.fluids) require(fluid.ambient);
 }
 
 void writeAmbient(ByteWriter& writer, const AmbientState& ambient, Hashes& hashes) {
@@ -59,15 +62,36 @@ std::shared_ptr<const FluidBody> findFluidBody(ByteReader& reader, const FluidBo
   return found;
 }
 
-void readBody(ByteReader& reader, BodyState& body, const FluidBodyLookup& lookup, Hashes& hashes) {
-  transferBody(reader, body);
-  bool has_fluid = false;
-  transferFlag(reader, has_fluid);
-  if (!has_fluid) return;
-  AmbientState& ambient = body.ambient.emplace();
+AmbientState readAmbient(ByteReader& reader, const FluidBodyLookup& lookup, Hashes& hashes) {
+  AmbientState ambient;
   ambient.def.fluid_body = findFluidBody(reader, lookup, hashes);
   transferSettings(reader, ambient.def);
   transferFlight(reader, ambient);
+  return ambient;
+}
+
+void readBody(ByteReader& reader, BodyState& body, const FluidBodyLookup& lookup, Hashes& hashes) {
+  transferBody(reader, body);
+  if (transferPresence(reader, body.ambient)) body.ambient = readAmbient(reader, lookup, hashes);
+}
+
+void readMultiBody(ByteReader& reader, MultiBodyState& body, const FluidBodyLookup& lookup,
+                   Hashes& hashes) {
+  transferMultiBody(reader, body);
+  transferSize(reader, body.fluids, kLinkFluidSize);
+  for (LinkFluidState& fluid : body.fluids) {
+    transferLinkFluid(reader, fluid);
+    fluid.ambient = readAmbient(reader, lookup, hashes);
+  }
+}
+
+void writeMultiBody(ByteWriter& writer, const MultiBodyState& body, Hashes& hashes) {
+  transferMultiBody(writer, body);
+  transferSize(writer, body.fluids, kLinkFluidSize);
+  for (const LinkFluidState& fluid : body.fluids) {
+    transferLinkFluid(writer, fluid);
+    writeAmbient(writer, fluid.ambient, hashes);
+  }
 }
 
 void checkHeader(ByteReader& reader) {
@@ -100,10 +124,10 @@ std::string encodeState(const WorldState& state) {
   payload.number(static_cast<std::uint32_t>(state.bodies.size()));
   for (const BodyState& body : state.bodies) {
     transferBody(payload, body);
-    const bool has_fluid = body.ambient.has_value();
-    transferFlag(payload, has_fluid);
-    if (has_fluid) writeAmbient(payload, *body.ambient, hashes);
+    if (transferPresence(payload, body.ambient)) writeAmbient(payload, *body.ambient, hashes);
   }
+  transferSize(payload, state.multi_bodies, kMultiBodySize);
+  for (const MultiBodyState& body : state.multi_bodies) writeMultiBody(payload, body, hashes);
   transferContactsAndJoints(payload, state);
   ByteWriter header;
   header.number(kVersion);
@@ -120,6 +144,8 @@ WorldState decodeState(std::string_view bytes, const std::string& source,
   Hashes hashes;
   transferSize(reader, state.bodies, kBodySize);
   for (BodyState& body : state.bodies) readBody(reader, body, lookup, hashes);
+  transferSize(reader, state.multi_bodies, kMultiBodySize);
+  for (MultiBodyState& body : state.multi_bodies) readMultiBody(reader, body, lookup, hashes);
   transferContactsAndJoints(reader, state);
   if (reader.left() > 0) reader.fail("has bytes after its end");
   const std::string fault = findFault(state);

@@ -1,5 +1,6 @@
 #include "bullet_ambient/bullet/world_state_faults.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
@@ -26,17 +27,37 @@ bool isFinite(const btTransform& pose) {
   return areFinite({pose.getOrigin(), axes[0], axes[1], axes[2]});
 }
 
+template <class Numbers>
+bool areAllFinite(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [](btScalar number) { return std::isfinite(number); });
+}
+
+bool isTurn(const btQuaternion& q) { return std::abs(q.length2() - 1) < btScalar(0.01); }
+
 bool isPart(btScalar number) { return number >= 0 && number <= 1; }
 
+std::string faultOfObject(const ObjectState& object) {
+  if (!isFinite(object.pose) || !isFinite(object.interpolation_pose) ||
+      !areFinite({object.interpolation_linear_velocity, object.interpolation_angular_velocity}))
+    return "pose or velocity is not finite";
+  if (object.activation_state < ACTIVE_TAG || object.activation_state > FIXED_BASE_MULTI_BODY)
+    return "activation state is unknown: " + std::to_string(object.activation_state);
+  if (!areFinite(
+          {object.friction, object.rolling_friction, object.spinning_friction, object.restitution}))
+    return "friction or restitution is not finite";
+  // Some of these are infinite where a program says "never".
+  for (const btScalar number : {object.ccd_radius, object.ccd_threshold,
+                                object.contact_processing_threshold, object.deactivation_time})
+    if (std::isnan(number)) return "threshold of sleep or collision is not a number";
+  return {};
+}
+
 std::string faultOfMotion(const BodyState& body) {
-  if (!isFinite(body.pose) || !isFinite(body.interpolation_pose) ||
-      !areFinite({body.linear_velocity, body.angular_velocity, body.interpolation_linear_velocity,
-                  body.interpolation_angular_velocity}))
+  if (!areFinite({body.linear_velocity, body.angular_velocity}))
     return "pose or velocity is not finite";
   if (!areFinite({body.total_force, body.total_torque, body.gravity}))
     return "force, torque or gravity is not finite";
-  if (body.activation_state < ACTIVE_TAG || body.activation_state > FIXED_BASE_MULTI_BODY)
-    return "activation state is unknown: " + std::to_string(body.activation_state);
   return {};
 }
 
@@ -50,12 +71,7 @@ std::string faultOfProperties(const BodyState& body) {
     return "linear or angular factor is not finite";
   if (!isPart(body.linear_damping) || !isPart(body.angular_damping))
     return "damping is not between 0 and 1";
-  if (!areFinite({body.friction, body.rolling_friction, body.spinning_friction, body.restitution}))
-    return "friction or restitution is not finite";
-  // Some of these are infinite where a program says "never".
-  for (const btScalar number :
-       {body.linear_sleeping_threshold, body.angular_sleeping_threshold, body.ccd_radius,
-        body.ccd_threshold, body.contact_processing_threshold, body.deactivation_time})
+  for (const btScalar number : {body.linear_sleeping_threshold, body.angular_sleeping_threshold})
     if (std::isnan(number)) return "threshold of sleep or collision is not a number";
   return {};
 }
@@ -83,10 +99,57 @@ std::string faultOfFlight(const AmbientState& ambient) {
 }
 
 std::string faultOf(const BodyState& body) {
-  std::string fault = faultOfMotion(body);
+  std::string fault = faultOfObject(body);
+  if (fault.empty()) fault = faultOfMotion(body);
   if (fault.empty()) fault = faultOfProperties(body);
   if (fault.empty() && body.ambient) fault = faultOfFlight(*body.ambient);
   return fault;
+}
+
+std::string faultOf(const MultiBodyLinkState& link) {
+  if (!(link.mass >= 0) || !std::isfinite(link.mass))
+    return "mass is negative or not finite: " + std::to_string(link.mass);
+  if (!areFinite({link.inertia}) || !(link.inertia[link.inertia.minAxis()] >= 0))
+    return "inertia is negative or not finite";
+  if (!isFinite(link.pose) || !areAllFinite(link.joint_position) ||
+      !areAllFinite(link.interpolation_position))
+    return "pose or position of its joint is not finite";
+  if (!areFinite({link.force, link.torque}) || !areAllFinite(link.joint_force))
+    return "force or torque is not finite";
+  return link.collider ? faultOfObject(*link.collider) : std::string();
+}
+
+std::string faultOfBase(const MultiBodyState& body) {
+  if (body.links.empty()) return "base is missing";
+  if (!areFinite({body.position, body.interpolation_position}) || !areAllFinite(body.velocity))
+    return "pose or velocity is not finite";
+  if (!isTurn(body.orientation) || !isTurn(body.interpolation_orientation))
+    return "orientation is no quaternion of unit length";
+  if (!areFinite({body.linear_damping, body.angular_damping}) || !(body.linear_damping >= 0) ||
+      !(body.angular_damping >= 0))
+    return "damping is negative or not finite";
+  if (!(body.velocity_limit >= 0)) return "limit of velocity is negative or not a number";
+  if (std::isnan(body.sleep_timer) || std::isnan(body.sleep_threshold) ||
+      std::isnan(body.sleep_timeout))
+    return "threshold or time of sleep is not a number";
+  if (!(body.turn_reserve >= 0) || !std::isfinite(body.turn_reserve))
+    return "reserve of energy is negative or not finite";
+  return {};
+}
+
+std::string faultOf(const MultiBodyState& body) {
+  const std::string fault = faultOfBase(body);
+  if (!fault.empty()) return fault;
+  for (std::size_t i = 0; i < body.links.size(); ++i) {
+    const std::string of_link = faultOf(body.links[i]);
+    if (!of_link.empty()) return "link " + std::to_string(static_cast<int>(i) - 1) + ": " + of_link;
+  }
+  for (const LinkFluidState& fluid : body.fluids) {
+    if (fluid.flow && !fluid.flow->allFinite()) return "flow around a link is not finite";
+    const std::string of_fluid = faultOfFlight(fluid.ambient);
+    if (!of_fluid.empty()) return of_fluid;
+  }
+  return {};
 }
 
 // Bullet leaves directions of friction unset until rows are made.
@@ -122,6 +185,12 @@ std::string findFault(const WorldState& state) {
     const std::string fault = faultOf(state.bodies[i]);
     if (!fault.empty()) return "has a body, number " + std::to_string(i) + ", whose " + fault;
   }
+  for (std::size_t i = 0; i < state.multi_bodies.size(); ++i) {
+    const std::string fault = faultOf(state.multi_bodies[i]);
+    if (!fault.empty()) return "has a multibody, number " + std::to_string(i) + ", whose " + fault;
+  }
+  for (const MultiBodyJointState& joint : state.multi_body_joints)
+    if (!areAllFinite(joint.applied_impulses)) return "has a joint whose impulse is not finite";
   for (const PairState& pair : state.pairs)
     if (pair.object_a < 0 || pair.object_b < 0) return "has a contact without an object";
   for (const ContactState& contact : state.contacts) {

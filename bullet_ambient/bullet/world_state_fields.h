@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/bullet/byte_stream.h"
+#include "bullet_ambient/bullet/multibody_fields.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/world_state.h"
 
@@ -9,7 +10,8 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 // The fields of a saved state in the order of their bytes, once for writing and reading. The sizes
 // are the least that entries take in the precision of less bytes; they bound lengths that are read.
-inline constexpr std::size_t kPairSize = 8, kContactSize = 16, kJointSize = 5, kPointSize = 100;
+inline constexpr std::size_t kPairSize = 8, kContactSize = 16, kJointSize = 5, kPointSize = 100,
+                             kMultiBodyJointSize = 4;
 
 template <class Stream, class State>
 void transferMedium(Stream& s, State& medium) {
@@ -39,10 +41,7 @@ void transferSettings(Stream& s, State& def) {
 
 template <class Stream, class Plane>
 void transferPlane(Stream& s, Plane& plane) {
-  bool is_there = plane.has_value();
-  transferFlag(s, is_there);
-  if (!is_there) return;
-  if constexpr (Stream::kReads) plane.emplace();
+  if (!transferPresence(s, plane)) return;
   transferMatrix(s, plane->normal);
   s.number(plane->height);
   s.number(plane->density);
@@ -83,24 +82,17 @@ void transferFlight(Stream& s, State& state) {
 
 template <class Stream, class State>
 void transferBody(Stream& s, State& body) {
-  transferPose(s, body.pose);
-  transferPose(s, body.interpolation_pose);
+  transferObject(s, body);
   for (auto* v :
-       {&body.linear_velocity, &body.angular_velocity, &body.interpolation_linear_velocity,
-        &body.interpolation_angular_velocity, &body.total_force, &body.total_torque, &body.gravity,
-        &body.inverse_inertia, &body.linear_factor, &body.angular_factor}) {
+       {&body.linear_velocity, &body.angular_velocity, &body.total_force, &body.total_torque,
+        &body.gravity, &body.inverse_inertia, &body.linear_factor, &body.angular_factor}) {
     transferVector(s, *v);
   }
-  for (auto* number :
-       {&body.inverse_mass, &body.linear_damping, &body.angular_damping,
-        &body.linear_sleeping_threshold, &body.angular_sleeping_threshold, &body.friction,
-        &body.rolling_friction, &body.spinning_friction, &body.restitution, &body.ccd_radius,
-        &body.ccd_threshold, &body.contact_processing_threshold, &body.deactivation_time}) {
+  for (auto* number : {&body.inverse_mass, &body.linear_damping, &body.angular_damping,
+                       &body.linear_sleeping_threshold, &body.angular_sleeping_threshold}) {
     s.number(*number);
   }
-  for (auto* number : {&body.activation_state, &body.collision_flags, &body.flags}) {
-    s.number(*number);
-  }
+  s.number(body.flags);
 }
 
 template <class Stream, class State>
@@ -149,6 +141,8 @@ void transferContactsAndJoints(Stream& s, State& state) {
     transferFlag(s, joint.is_enabled);
     s.number(joint.applied_impulse);
   }
+  transferSize(s, state.multi_body_joints, kMultiBodyJointSize);
+  for (auto& joint : state.multi_body_joints) transferNumbers(s, joint.applied_impulses);
   auto seed = static_cast<std::uint64_t>(state.random_seed);
   s.number(seed);
   s.number(state.time);

@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void rejectRegion(const std::string& what, double value, const char* limit) {
   std::ostringstream sentence;
-  sentence << "region of fluid: " << what << " is " << value << "; must be " << limit;
+  sentence << what << " is " << value << "; must be " << limit;
   throw std::invalid_argument(sentence.str());
 }
 

@@ -3,6 +3,8 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
 
 #include "bullet_ambient/force/wave_spectrum.h"
 
@@ -78,6 +80,18 @@ FluidRegion makeWaterRegion(const WaterDef& water, const Medium& above) {
   return region;
 }
 
+// As scenes name it; the water, if there is any, comes first.
+void check(const FluidRegion& region, std::size_t index, bool has_water) {
+  const std::string name = has_water && index == 0
+                               ? "water"
+                               : "regions[" + std::to_string(index - (has_water ? 1 : 0)) + "]";
+  try {
+    checkRegion(region);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(name + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 Medium toMedium(const json& from, const Medium& absent) {
@@ -113,7 +127,7 @@ std::vector<FluidRegion> makeRegions(const Scene& scene) {
   std::vector<FluidRegion> regions;
   if (scene.water) regions.push_back(makeWaterRegion(*scene.water, scene.medium));
   regions.insert(regions.end(), scene.regions.begin(), scene.regions.end());
-  for (const FluidRegion& region : regions) checkRegion(region);
+  for (std::size_t i = 0; i < regions.size(); ++i) check(regions[i], i, scene.water.has_value());
   return regions;
 }
 

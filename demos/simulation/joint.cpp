@@ -1,9 +1,29 @@
 #include "demos/simulation/joint.h"
 
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
 #include "bullet_ambient/bullet/conversions.h"
 
 namespace ambient {
 namespace {
+
+/// As far as the buoyancy of a body may act, body_model.h: 2^23 times its size.
+void checkPoint(const JointDef& joint, const std::string& name, const btRigidBody& body) {
+  constexpr double kSizes = 8388608;
+  const double lever =
+      static_cast<double>((toBullet(joint.point) - body.getWorldTransform().getOrigin()).length());
+  const Vector3 moments = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
+  const double size = std::sqrt(moments.maxCoeff() * static_cast<double>(body.getInvMass()));
+  if (body.getInvMass() == 0 || lever <= kSizes * size) return;
+  std::ostringstream text;
+  text << "joint of body \"" << name << "\": its point is " << lever
+       << " m from the centre of mass; must be at most 2^23 times the radius of gyration, " << size
+       << " m";
+  throw std::invalid_argument(text.str());
+}
 
 /// A joint's place and direction in the frame of one body.
 struct JointEnd {
@@ -20,6 +40,8 @@ struct JointEnd {
 
 std::unique_ptr<btTypedConstraint> makeJoint(const JointDef& joint, btRigidBody& first,
                                              btRigidBody* second) {
+  checkPoint(joint, joint.bodies[0], first);
+  if (second) checkPoint(joint, joint.bodies[1], *second);
   const JointEnd a(joint, first);
   if (!second) {
     if (!joint.axis) return std::make_unique<btPoint2PointConstraint>(first, a.point);

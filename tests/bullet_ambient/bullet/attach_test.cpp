@@ -57,6 +57,32 @@ TEST(Attach, RefusesFlightSettingsThatCannotBe) {
   expectSays(refusal({}, def), "max_substeps of -1");
 }
 
+TEST(Attach, RefusesChoicesThatDoNotExist) {
+  AttachDef def = ball();
+  def.flight.integrator = static_cast<Integrator>(9);
+  expectSays(refusal({}, def), "has the integrator number 9; there are 0 to 3");
+  def = ball();
+  def.flow.law = static_cast<PressureLaw>(-1);
+  expectSays(refusal({}, def), "has the pressure law number -1; there are 0 to 1");
+  def = ball();
+  def.flow.precision = static_cast<LoadPrecision>(2);
+  expectSays(refusal({}, def), "has the load precision number 2; there are 0 to 1");
+}
+
+// Of 1 kg: neither sizes nor densities have a limit of their own, which would be one of units.
+TEST(Attach, RefusesFluidsBesideWhichTheBodyIsNothing) {
+  const char* const words = "at most 2^52 times its own";
+  AttachDef def = ball(idealFluid(1e20));
+  expectSays(refusal({}, def), words);
+  def = ball();
+  def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(Vector3::Constant(1e30)));
+  expectSays(refusal({}, def), words);
+  BodyDef heavy;
+  heavy.mass = 1e20;
+  heavy.moments.setConstant(1e20);
+  EXPECT_EQ(refusal(heavy, ball(idealFluid(1e20))), "");
+}
+
 TEST(Attach, RefusesFacesThatDoNotFitTogether) {
   AttachDef def = ball();
   auto shape = std::make_shared<FluidBody>(*def.fluid_body);

@@ -218,7 +218,8 @@ TEST(FluidRegions, AFlowThatIsNotFiniteIsDroppedAndCounted) {
   EXPECT_EQ(fluid.registry.counters().rejected, 6);  // once when it was attached
   EXPECT_EQ(fluid.registry.medium(body).density, water().density);
   EXPECT_TRUE(toVector3(body.getWorldTransform().getOrigin()).allFinite());
-  EXPECT_NE(said.find("flow or the surface of a region is not finite"), std::string::npos);
+  EXPECT_NE(said.find("flow or the surface of the region of fluid 0 is not finite"),
+            std::string::npos);
 }
 
 TEST(FluidRegions, ARegionThatABodyCannotMeetChangesNothing) {
@@ -240,7 +241,20 @@ TEST(FluidRegions, ARegionThatABodyCannotMeetChangesNothing) {
                std::invalid_argument);
   FluidRegion wrong = filledWith(air());
   wrong.below.density = -1;
-  EXPECT_THROW(fluid.registry.addRegion(wrong), std::invalid_argument);
+  const auto expectSays = [](const auto& change, const char* sentence) {
+    try {
+      change();
+      ADD_FAILURE() << "not refused: " << sentence;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_STREQ(error.what(), sentence);
+    }
+  };
+  expectSays([&] { fluid.registry.addRegion(wrong); },
+             "region of fluid 1: density of the medium [kg/m^3] is -1; must be zero or positive "
+             "and finite");
+  expectSays([&] { fluid.registry.setRegion(id, wrong); },
+             "region of fluid 0: density of the medium [kg/m^3] is -1; must be zero or positive "
+             "and finite");
   fluid.step(kWorldStep);
   EXPECT_EQ(fluid.registry.medium(body).density, 8);
 }

@@ -100,18 +100,18 @@ TEST(FluidRegion, SaysWhatIsWrong) {
   region.bounds = RegionBounds{{-kInfinity, 0, 0}, {kInfinity, 1, 2}};
   EXPECT_EQ(regionError(region), "");
   region.bounds->lowest.y() = 1.5;
-  EXPECT_EQ(regionError(region), "region of fluid: size along y [m] is -0.5; must be positive");
+  EXPECT_EQ(regionError(region), "size along y [m] is -0.5; must be positive");
   region.bounds.reset();
   region.below.density = -1;
   EXPECT_EQ(regionError(region),
-            "region of fluid: density of the medium [kg/m^3] is -1; must be zero or positive and "
+            "density of the medium [kg/m^3] is -1; must be zero or positive and "
             "finite");
   region.below.density = 1;
   region.above.viscosity = kInfinity;
   EXPECT_EQ(regionError(region), "");  // there is nothing above
   region.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
   EXPECT_EQ(regionError(region),
-            "region of fluid: viscosity above the surface [Pa s] is inf; must be zero or positive "
+            "viscosity above the surface [Pa s] is inf; must be zero or positive "
             "and finite");
 }
 

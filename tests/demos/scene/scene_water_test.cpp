@@ -98,7 +98,7 @@ TEST(SceneWater, SaysWhatIsWrongWithWaterAndRegions) {
   EXPECT_EQ(complaint("/water/bounds/lowest/0", "left"),
             "water.bounds.lowest[0] is \"left\"; must be of type [\"number\",\"null\"]");
   EXPECT_EQ(complaint("/regions/0/bounds/lowest/1", 3),
-            "region of fluid: size along y [m] is -2; must be positive");
+            "regions[0]: size along y [m] is -2; must be positive");
 }
 
 }  // namespace

@@ -34,6 +34,20 @@ nlohmann::json pendulum() {
   return scene;
 }
 
+TEST(JointScenes, RefuseAPointOutOfAllProportionToTheBody) {
+  nlohmann::json scene = pendulum();
+  scene["joints"][0]["point"] = {0, 1e30, 0};
+  const TemporaryFolder folder;
+  try {
+    run(readScene(writeScene(folder, scene.dump())));
+    ADD_FAILURE() << "not refused";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("joint of body \"bob\": its point is 1e+30 m from"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 /// Twice the time between the first two passages of the vertical [s].
 double periodOf(const nlohmann::json& text) {
   const TemporaryFolder folder;
