@@ -1,49 +1,17 @@
 #include "demos/simulation/collision_shape.h"
 
-#include <algorithm>
-
 #include "bullet_ambient/bullet/conversions.h"
+#include "preprocess/robot/primitive_shape.h"
 
 namespace ambient {
 namespace {
 
-// Bullet's default margin of 4 cm is larger than many of our bodies.
-constexpr double kMarginShare = 0.01;
-
-btScalar scalar(double value) { return static_cast<btScalar>(value); }
-
-/// The convex primitive of Bullet for a shape that is one, else null. A margin shrinks the core of
-/// all but spheres and capsules.
-struct PrimitiveMaker {
-  using Made = std::unique_ptr<btConvexInternalShape>;
-
-  Made operator()(const SphereShape& s) const {
-    return std::make_unique<btSphereShape>(scalar(s.radius));
-  }
-  Made operator()(const BoxShape& s) const {
-    return withMargin(std::make_unique<btBoxShape>(toBullet(s.half_sizes)),
-                      s.half_sizes.minCoeff());
-  }
-  Made operator()(const CylinderShape& s) const {
-    const Vector3 half_sizes(s.radius, s.radius, s.height / 2);
-    return withMargin(std::make_unique<btCylinderShapeZ>(toBullet(half_sizes)),
-                      half_sizes.minCoeff());
-  }
-  Made operator()(const CapsuleShape& s) const {
-    return std::make_unique<btCapsuleShapeZ>(scalar(s.radius), scalar(s.height));
-  }
-  Made operator()(const ConeShape& s) const {
-    return withMargin(std::make_unique<btConeShapeZ>(scalar(s.radius), scalar(s.height)),
-                      std::min(s.radius, s.height / 2));
-  }
+/// Null for a shape that is no primitive.
+struct ShapeMaker : PrimitiveMaker {
+  using PrimitiveMaker::operator();
   template <class Other>
   Made operator()(const Other&) const {
     return nullptr;
-  }
-
-  static Made withMargin(Made shape, double smallest) {
-    shape->setMargin(scalar(kMarginShare * smallest));
-    return shape;
   }
 };
 
@@ -55,7 +23,7 @@ std::unique_ptr<btCollisionShape> makeHull(const Surface& surface) {
   const Vector3 extents = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
   // A flat sheet has no thickness of its own: then the margin is one percent of its length.
   const double smallest = extents.minCoeff() > 0 ? extents.minCoeff() : extents.maxCoeff();
-  hull->setMargin(scalar(kMarginShare * smallest));
+  hull->setMargin(PrimitiveMaker::margin(smallest));
   hull->recalcLocalAabb();
   return hull;
 }
@@ -79,7 +47,7 @@ bool isIdentity(const btTransform& transform) {
 CollisionShape makeCollisionShape(const BodyDef& def, const PreparedBody& prepared,
                                   const btTransform& S_in_B) {
   CollisionShape shape;
-  if (auto primitive = std::visit(PrimitiveMaker{}, def.shape.geometry)) {
+  if (auto primitive = std::visit(ShapeMaker{}, def.shape.geometry)) {
     shape.parts.push_back(std::move(primitive));
   } else if (prepared.mass > 0) {
     shape.parts.push_back(makeHull(prepared.surface));

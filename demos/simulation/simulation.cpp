@@ -8,17 +8,6 @@
 #include "demos/simulation/simulation_world.h"
 
 namespace ambient {
-namespace {
-
-/// Bullet's restored worlds know nothing of multibodies.
-template <class Robots>
-void requireNone(const Robots& robots) {
-  if (!robots.empty())
-    throw std::runtime_error("the state of a scene with robots cannot be saved or restored");
-}
-
-}  // namespace
-
 Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies)
     : world_(std::make_unique<World>(scene, bodies)) {}
 
@@ -54,7 +43,6 @@ void Simulation::setMedium(std::size_t body, const Medium& medium) {
 }
 
 std::string Simulation::saveState() const {
-  requireNone(world_->robots);
   std::string bytes(sizeof world_->steps, '\0');
   std::memcpy(bytes.data(), &world_->steps, sizeof world_->steps);
   return bytes + encodeState(ambient::saveState(*world_->bullet.world, world_->registry));
@@ -62,7 +50,6 @@ std::string Simulation::saveState() const {
 
 void Simulation::restoreState(std::string_view bytes) {
   World& w = *world_;
-  requireNone(w.robots);
   const std::string source = "saved state";
   if (bytes.size() < sizeof w.steps) throw std::runtime_error(source + ": is cut short");
   long long steps = 0;

@@ -172,6 +172,7 @@ void Simulation::World::attach(WorldBody& added, const AttachDef& def) {
 void Simulation::World::add(const RobotDef& def) {
   robots.push_back(std::make_unique<SceneRobot>(def));
   robots.back()->robot().addTo(*bullet.multi_body_world);
+  robots.back()->prepareStep(time(), time_step);  // a saved state finds all motors in the world
 }
 
 void Simulation::World::add(const JointDef& def) {

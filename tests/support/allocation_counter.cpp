@@ -8,6 +8,7 @@ namespace {
 
 std::atomic<std::size_t> g_count{0};
 std::atomic<std::size_t> g_bytes{0};
+std::atomic<std::size_t> g_mallocs{0};
 
 void* counted(std::size_t size, std::size_t alignment) {
   g_count.fetch_add(1, std::memory_order_relaxed);
@@ -25,8 +26,25 @@ namespace ambient::test {
 
 std::size_t allocationCount() { return g_count.load(); }
 std::size_t allocatedBytes() { return g_bytes.load(); }
+std::size_t mallocCount() { return g_mallocs.load(); }
 
 }  // namespace ambient::test
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define AMBIENT_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define AMBIENT_SANITIZED
+#endif
+#ifndef AMBIENT_SANITIZED
+// That of the C library, under its second name.
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) {
+  g_mallocs.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+#endif
 
 void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
 void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }

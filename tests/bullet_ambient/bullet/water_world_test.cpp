@@ -219,6 +219,22 @@ TEST(WaterWorld, GoesOnBitForBitFromASavedState) {
   }
 }
 
+// Where the last step left the surface, to more digits than the pose that Bullet keeps.
+TEST(WaterWorld, ASavedStateHasTheSurfaceThatABodyHasMet) {
+  WaterWorld run(seaAt(0)), other(seaAt(0)), without(seaAt(0));
+  for (WaterWorld* world : {&run, &other, &without}) world->addBox(0.4, tumbling(0.05));
+  run.fluid.step(1.0 / 60, 20);
+  WorldState state = saveState(run.fluid.world, run.fluid.registry);
+  ASSERT_TRUE(state.bodies[0].ambient->met_B);
+  restoreState(state, other.fluid.world, other.fluid.registry);
+  EXPECT_TRUE(run.bits() == other.bits());
+  state.bodies[0].ambient->met_B.reset();
+  restoreState(state, without.fluid.world, without.fluid.registry);
+  for (WaterWorld* world : {&run, &other, &without}) world->fluid.step(1.0 / 60, 20);
+  EXPECT_TRUE(run.bits() == other.bits());
+  EXPECT_FALSE(run.bits() == without.bits());
+}
+
 TEST(WaterWorld, ABodyGoesWithTheCurrentAndAWaveThatIsLong) {
   FluidRegion stream = seaAt(0);
   stream.below.velocity = {0.7, 0, 0};

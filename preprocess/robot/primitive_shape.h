@@ -1,0 +1,57 @@
+#pragma once
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/precision_check.h"
+#include "preprocess/shape/shape_description.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// Bullet's convex primitive of a shape that is one, in the shape's own frame; a visitor. Those who
+/// have other shapes too derive from it.
+struct PrimitiveMaker {
+  using Made = std::unique_ptr<btConvexInternalShape>;
+
+  Made operator()(const SphereShape& s) const {
+    return std::make_unique<btSphereShape>(static_cast<btScalar>(s.radius));
+  }
+  Made operator()(const BoxShape& s) const {
+    return withMargin(std::make_unique<btBoxShape>(toBullet(s.half_sizes)),
+                      s.half_sizes.minCoeff());
+  }
+  Made operator()(const CylinderShape& s) const {
+    const Vector3 half_sizes(s.radius, s.radius, s.height / 2);
+    return withMargin(std::make_unique<btCylinderShapeZ>(toBullet(half_sizes)),
+                      half_sizes.minCoeff());
+  }
+  Made operator()(const CapsuleShape& s) const {
+    return std::make_unique<btCapsuleShapeZ>(static_cast<btScalar>(s.radius),
+                                             static_cast<btScalar>(s.height));
+  }
+  Made operator()(const ConeShape& s) const {
+    return withMargin(std::make_unique<btConeShapeZ>(static_cast<btScalar>(s.radius),
+                                                     static_cast<btScalar>(s.height)),
+                      std::min(s.radius, s.height / 2));
+  }
+
+  /// A margin shrinks the core of all but spheres and capsules. Bullet's default of 4 cm is larger
+  /// than many bodies: here it is a hundredth of a size.
+  static btScalar margin(double size) { return static_cast<btScalar>(0.01 * size); }
+  static Made withMargin(Made shape, double size) {
+    shape->setMargin(margin(size));
+    return shape;
+  }
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient

@@ -1,0 +1,24 @@
+#include <gtest/gtest.h>
+
+#include "tests/bullet_ambient/bullet/robots/robot_state_scene.h"
+#include "tests/support/allocation_counter.h"
+
+namespace ambient::test {
+namespace {
+
+// After the first steps have sized every buffer: flight, motors and limits, contacts, joints to the
+// world, the surface of water in waves.
+TEST(RobotStep, AllocatesNothing) {
+  for (const RobotStateKind kind : kRobotStateKinds) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    RobotStateScene scene(kind);
+    scene.step(120);
+    const std::size_t before = allocationCount(), mallocs_before = mallocCount();
+    scene.step(120);
+    EXPECT_EQ(allocationCount(), before);
+    EXPECT_EQ(mallocCount(), mallocs_before);
+  }
+}
+
+}  // namespace
+}  // namespace ambient::test

@@ -1,0 +1,123 @@
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+
+#include "bullet_ambient/bullet/multibody_dynamics.h"
+#include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
+#include "tests/support/ellipsoid_body.h"
+#include "tests/support/part_bodies.h"
+
+// Which fluid is around the links of a robot, and what it does in it in the long run.
+namespace ambient::test {
+namespace {
+
+TEST_F(Robots, KnowTheirFluids) {
+  btMultiBody& body = add();
+  AmbientRegistry& registry = world.fluid.registry();
+  const AttachDef def = fluidOf(body, 1);
+  world.fluid.add(body, 1, def);
+  EXPECT_TRUE(registry.isAttached(body, 1));
+  EXPECT_FALSE(registry.isAttached(body, 0));
+  Matrix6 expected = def.fluid_body->added_mass;
+  expected.diagonal().head<3>() += toVector3(body.getLinkInertia(1));
+  expected.diagonal().tail<3>().array() += static_cast<double>(body.getLinkMass(1));
+  EXPECT_LT((registry.inertia(body, 1) - expected).norm(), 1e-6 * expected.norm());
+  registry.setMedium(body, 1, idealFluid(3));
+  EXPECT_EQ(registry.medium(body, 1).density, 3);
+  EXPECT_THROW(registry.setMedium(body, 0, idealFluid(3)), std::invalid_argument);
+  EXPECT_TRUE(world.fluid.remove(body, 1));
+  EXPECT_FALSE(world.fluid.remove(body, 1));
+  EXPECT_FALSE(world.fluid.remove(body));
+}
+
+class OneShape : public FluidBodySource {
+ public:
+  std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape&) override { return shape; }
+  std::shared_ptr<const FluidBody> shape =
+      std::make_shared<FluidBody>(facelessEllipsoid(Vector3(0.1, 0.1, 0.1)));
+};
+
+TEST_F(Robots, AreAttachedWithTheWorld) {
+  RobotDef def;
+  def.collider_radius = 0.05;
+  btMultiBody& floating = add(def);
+  def.has_fixed_base = true;
+  btMultiBody& fixed = add(def);
+  OneShape shapes;
+  AttachSettings settings;
+  settings.adjust_link = [&](const btMultiBody& body, int link, AttachDef& attach) {
+    if (&body == &fixed && link == 2) attach.fluid_body = nullptr;
+  };
+  const AttachReport report = world.fluid.attachAll(world.world, shapes, water(), settings);
+  EXPECT_EQ(report.attached, 6);
+  EXPECT_TRUE(report.refused.empty()) << report.text();
+  const AmbientRegistry& registry = world.fluid.registry();
+  EXPECT_TRUE(registry.isAttached(floating, -1));
+  EXPECT_TRUE(registry.isAttached(fixed, 1));
+  EXPECT_FALSE(registry.isAttached(fixed, 2));
+  EXPECT_FALSE(registry.isAttached(fixed, -1));
+  EXPECT_EQ(world.fluid.attachAll(world.world, shapes, water(), settings).attached_before, 6);
+}
+
+TEST_F(Robots, SwimInRegions) {
+  btMultiBody& body = add();
+  putIntoFluid(arbitrary, world, body, 2);
+  FluidRegion region;
+  region.below = idealFluid(7);
+  const RegionId id = world.fluid.addRegion(region);
+  world.step(1e-3);
+  EXPECT_EQ(world.fluid.registry().region(body, 2), id);
+  EXPECT_EQ(world.fluid.registry().medium(body, -1).density, 7);
+}
+
+// The loads of water on links that motors keep at rest, or not, as PyBullet's.
+TEST_F(Robots, StayBoundedUnderMotorsInWater) {
+  RobotDef def;
+  def.links = 4;
+  def.collider_radius = 0.05;
+  def.speed = 3;
+  btMultiBody& body = add(def);
+  AttachDef attach;
+  attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1));
+  attach.medium = water();
+  for (int link = -1; link < 4; ++link) world.fluid.add(body, link, attach);
+  for (int i = 0; i < 4; ++i)
+    world.take(std::make_unique<btMultiBodyJointMotor>(&body, i, bt(0), bt(1e-3)));
+  const AmbientRegistry& registry = world.fluid.registry();
+  double last = kineticEnergy(registry, body);
+  const double start = last;
+  for (int i = 0; i < 3600; ++i) {
+    world.step(1 / 60.0);
+    const double now = kineticEnergy(registry, body);
+    ASSERT_LT(now, 1.001 * last + 1e-9 * start) << "step " << i;
+    last = now;
+  }
+  EXPECT_LT(last, 1e-3 * start);
+}
+
+// Half as dense as water, let go at the surface.
+TEST_F(Robots, FloatAtASurface) {
+  world.world.setGravity({0, 0, bt(-9.81)});
+  FluidRegion sea;
+  sea.below = water();
+  sea.below.viscosity = 0;
+  sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
+  world.fluid.addRegion(sea);
+  const FluidBody box = floatingBox({0.4, 0.4, 0.2});
+  const double mass = 0.5 * water().density * box.volume;
+  btMultiBody body(0, bt(mass), bt(mass / 12) * btVector3(bt(0.2), bt(0.2), bt(0.32)), false,
+                   false);
+  body.setLinearDamping(bt(0.5));
+  body.setAngularDamping(bt(0.5));
+  body.finalizeMultiDof();
+  body.setBasePos({0, 0, bt(0.05)});
+  world.world.addMultiBody(&body);
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(box);
+  def.medium = air();
+  world.fluid.add(body, -1, def);
+  world.step(1 / 240.0, 4800);
+  EXPECT_NEAR(static_cast<double>(body.getBasePos().z()), 0, 5e-3);
+  world.world.removeMultiBody(&body);
+}
+
+}  // namespace
+}  // namespace ambient::test

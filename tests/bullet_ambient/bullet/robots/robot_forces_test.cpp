@@ -1,0 +1,96 @@
+#include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+
+#include "bullet_ambient/bullet/multibody_dynamics.h"
+#include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
+#include "tests/support/ellipsoid_body.h"
+
+// Forces in joints and of accelerations, with the fluid in them.
+namespace ambient::test {
+namespace {
+
+TEST_F(Robots, TellTheMassMatrixAndTheForcesOfAnAcceleration) {
+  btMultiBody& body = add();
+  putIntoFluid(arbitrary, world, body, 2);
+  world.world.setGravity({0, 0, bt(-9.81)});
+  const AmbientRegistry& registry = world.fluid.registry();
+  const Eigen::MatrixXd H = ambientMassMatrix(registry, body);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(9), some = Eigen::VectorXd::Random(9);
+  const Eigen::VectorXd change =
+      ambientInverseDynamics(registry, body, some) - ambientInverseDynamics(registry, body, none);
+  EXPECT_LT(relativeError(change, H * some), 1e-12);
+  const Eigen::VectorXd u = velocityOf(body);
+  EXPECT_NEAR(kineticEnergy(registry, body), u.dot(H * u) / 2, 1e-12 * u.dot(H * u));
+  EXPECT_THROW(ambientInverseDynamics(registry, body, Eigen::VectorXd::Zero(8)),
+               std::invalid_argument);
+  // What it does without any force, for a moment.
+  const Eigen::VectorXd rate = H.ldlt().solve(-ambientInverseDynamics(registry, body, none));
+  const double moment = byPrecision(1e-7, 1e-3);
+  world.step(moment);
+  const Eigen::VectorXd after = (velocityOf(body) - u) / moment;
+  EXPECT_LT(relativeError(after, rate), byPrecision(1e-5, 1e-2));
+}
+
+// A link of volume V that a fixed joint holds: weight and buoyancy.
+TEST_F(Robots, FeelBuoyancyInTheirJoints) {
+  btMultiBody body(1, 1, btVector3(1, 1, 1), true, false);
+  body.setupFixed(0, bt(2), btVector3(bt(0.1), bt(0.1), bt(0.1)), -1, btQuaternion::getIdentity(),
+                  btVector3(bt(0.5), 0, 0), btVector3(bt(0.5), 0, 0));
+  body.finalizeMultiDof();
+  btMultiBodyJointFeedback feedback;
+  body.getLink(0).m_jointFeedback = &feedback;
+  world.world.addMultiBody(&body);
+  world.world.setGravity({0, 0, bt(-10)});
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(Vector3(0.1, 0.1, 0.1)));
+  def.medium = idealFluid(1000);
+  def.fluid_frame.translation = {0, 0.2, 0};
+  world.fluid.add(body, 0, def);
+  world.step(1e-3, 2);
+  const double lift = 1000 * def.fluid_body->volume * 10;
+  const btVector3 force = feedback.m_reactionForces.m_topVec;
+  const btVector3 torque = feedback.m_reactionForces.m_bottomVec;
+  EXPECT_NEAR(static_cast<double>(force.z()), 20 - lift, 1e-4 * lift);
+  EXPECT_NEAR(static_cast<double>(torque.x()), -0.2 * lift, 1e-4 * lift);
+  world.world.removeMultiBody(&body);
+}
+
+// Joint forces of an arm with a motor: without fluid, or in next to none. It begins at rest: Bullet
+// counts what is due to velocities once for forces and once more for rows.
+std::vector<btSpatialForceVector> jointForces(bool is_in_fluid, bool in_world, bool in_joint) {
+  Arbitrary arbitrary(9);
+  RobotWorld world(is_in_fluid ? nullptr : std::make_unique<btMultiBodyConstraintSolver>());
+  world.world.setGravity({0, 0, bt(-9.81)});
+  world.world.getSolverInfo().m_jointFeedbackInWorldSpace = in_world;
+  world.world.getSolverInfo().m_jointFeedbackInJointFrame = in_joint;
+  RobotDef def;
+  def.collider_radius = 0.02;
+  def.speed = 0;
+  def.has_fixed_base = true;
+  btMultiBody& body = world.add(arbitrary, def);
+  if (is_in_fluid) putIntoFluid(arbitrary, world, body, 1e-9);
+  std::vector<btMultiBodyJointFeedback> feedback(3);
+  for (int i = 0; i < 3; ++i) body.getLink(i).m_jointFeedback = &feedback[i];
+  world.take(std::make_unique<btMultiBodyJointMotor>(&body, 1, bt(1), bt(1e-5)));
+  world.step(1e-4, 3);
+  std::vector<btSpatialForceVector> forces;
+  for (const btMultiBodyJointFeedback& joint : feedback) forces.push_back(joint.m_reactionForces);
+  return forces;
+}
+
+TEST_F(Robots, InThinFluidHaveTheJointForcesOfBullet) {
+  for (const bool in_world : {false, true}) {
+    for (const bool in_joint : {false, true}) {
+      const auto expected = jointForces(false, in_world, in_joint);
+      const auto forces = jointForces(true, in_world, in_joint);
+      for (int i = 0; i < 3; ++i) {
+        const btScalar size = expected[i].m_topVec.length();
+        EXPECT_LT((forces[i].m_topVec - expected[i].m_topVec).length(), bt(1e-2) * size);
+        EXPECT_LT((forces[i].m_bottomVec - expected[i].m_bottomVec).length(), bt(2e-3) * size);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ambient::test
