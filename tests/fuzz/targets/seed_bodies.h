@@ -21,7 +21,19 @@ inline FluidBody seedFluidBody() {
   return body;
 }
 
-/// A state of two bodies that touch, one in fluid, with a joint.
+/// A multibody of two links, the second one in fluid at the surface of water.
+inline MultiBodyState seedMultiBody(const AmbientState& ambient) {
+  MultiBodyState body;
+  body.velocity.assign(7, 0);
+  body.links.resize(2);
+  for (MultiBodyLinkState& link : body.links) link.mass = 1;
+  body.links[1].collider.emplace();
+  body.fluids.push_back({0, Vector3::UnitX(), ambient});
+  body.fluids[0].ambient.met_B = SurfacePlane{};
+  return body;
+}
+
+/// A state of two bodies that touch, one in fluid, with a joint, and of a multibody with a motor.
 inline WorldState seedState() {
   WorldState state;
   state.bodies.resize(2);
@@ -29,6 +41,8 @@ inline WorldState seedState() {
   AmbientState& ambient = state.bodies[1].ambient.emplace();
   ambient.def.fluid_body = std::make_shared<const FluidBody>(seedFluidBody());
   ambient.def.medium = air();
+  state.multi_bodies.push_back(seedMultiBody(ambient));
+  state.multi_body_joints.push_back({{1}});
   state.pairs.push_back({0, 1});
   state.contacts.push_back({{0, 1}, 0, std::vector<btManifoldPoint>(2)});
   state.joints.emplace_back();
