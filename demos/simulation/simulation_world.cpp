@@ -132,6 +132,8 @@ Simulation::World::World(const Scene& scene, const std::vector<PreparedBody>& pr
   bullet.world->addAction(&action);
   for (FluidRegion& region : makeRegions(scene)) registry.addRegion(std::move(region));
   for (const RobotDef& robot : scene.robots) add(robot);
+  // A saved state finds all motors in the world.
+  for (const auto& robot : robots) robot->prepareStep(time(), time_step);
   for (std::size_t i = 0; i < prepared.size(); ++i) add(scene, scene.bodies[i], prepared[i]);
   for (const JointDef& joint : scene.joints) add(joint);
 }
@@ -172,7 +174,6 @@ void Simulation::World::attach(WorldBody& added, const AttachDef& def) {
 void Simulation::World::add(const RobotDef& def) {
   robots.push_back(std::make_unique<SceneRobot>(def));
   robots.back()->robot().addTo(*bullet.multi_body_world);
-  robots.back()->prepareStep(time(), time_step);  // a saved state finds all motors in the world
 }
 
 void Simulation::World::add(const JointDef& def) {

@@ -39,8 +39,8 @@ std::size_t mallocCount() { return g_mallocs.load(); }
 #endif
 #ifndef AMBIENT_SANITIZED
 // That of the C library, under its second name.
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) {
+extern "C" void* __libc_malloc(std::size_t size) noexcept;
+extern "C" void* malloc(std::size_t size) noexcept {
   g_mallocs.fetch_add(1, std::memory_order_relaxed);
   return __libc_malloc(size);
 }

@@ -31,5 +31,7 @@ class Robots : public testing::Test {
 
   std::vector<std::string> heard;
   Arbitrary arbitrary{5};
+  RobotWorld world;
+};
 
 }  // namespace ambient::test

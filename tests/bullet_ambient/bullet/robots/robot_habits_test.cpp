@@ -8,9 +8,6 @@
 namespace ambient::test {
 namespace {
 
-RobotWorld world;
-};
-
 TEST_F(Robots, RefuseWhatCannotBeInAFluid) {
   btMultiBody& body = add();
   RobotDef fixed;
