@@ -4,6 +4,14 @@
 #include <cstdlib>
 #include <new>
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define AMBIENT_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define AMBIENT_SANITIZED
+#endif
+
 namespace {
 
 std::atomic<std::size_t> g_count{0};
@@ -27,16 +35,16 @@ namespace ambient::test {
 std::size_t allocationCount() { return g_count.load(); }
 std::size_t allocatedBytes() { return g_bytes.load(); }
 std::size_t mallocCount() { return g_mallocs.load(); }
+bool countsMallocs() {
+#ifdef AMBIENT_SANITIZED
+  return false;
+#else
+  return true;
+#endif
+}
 
 }  // namespace ambient::test
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define AMBIENT_SANITIZED
-#endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define AMBIENT_SANITIZED
-#endif
 #ifndef AMBIENT_SANITIZED
 // That of the C library, under its second name.
 extern "C" void* __libc_malloc(std::size_t size) noexcept;

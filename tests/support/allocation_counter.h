@@ -10,9 +10,10 @@ namespace ambient::test {
 /// Number of calls of operator new so far, by all threads.
 std::size_t allocationCount();
 
-/// Number of calls of malloc() so far, by all threads: by operator new, Eigen and Bullet. Always 0
-/// under sanitizers, which have a malloc() of their own.
+/// Number of calls of malloc() so far, by all threads: by operator new, Eigen and Bullet. 0
+/// where countsMallocs() is false: under sanitizers, which have a malloc() of their own.
 std::size_t mallocCount();
+bool countsMallocs();
 
 /// Bytes asked of operator new so far, by all threads.
 std::size_t allocatedBytes();

@@ -54,40 +54,45 @@ TEST(RobotState, WhatIsRememberedMatters) {
     std::function<void(WorldState&)> omit;
     const char* what;
   };
-  const Omission omissions[] = {
-      {RobotStateKind::kMotors,
-       [](WorldState& s) {
-         for (MultiBodyJointState& joint : s.multi_body_joints) joint.applied_impulses.clear();
-       },
-       "impulses of joints"},
-      {RobotStateKind::kContacts,
-       [](WorldState& s) {
-         for (ContactState& contact : s.contacts) contact.points.clear();
-       },
-       "contacts"},
-      {RobotStateKind::kTethers, [](WorldState& s) { s.multi_bodies[0].turn_reserve = 0; },
-       "reserve"},
-      {RobotStateKind::kWater,
-       [](WorldState& s) {
-         for (MultiBodyState& body : s.multi_bodies)
-           for (LinkFluidState& fluid : body.fluids) fluid.flow.reset();
-       },
-       "fluid of the last substep"},
-      {RobotStateKind::kWater,
-       [](WorldState& s) {
-         for (MultiBodyState& body : s.multi_bodies)
-           for (LinkFluidState& fluid : body.fluids) fluid.ambient.met_B.reset();
-       },
-       "surface that was met"}};
+  const Omission omissions[] = {{RobotStateKind::kMotors,
+                                 [](WorldState& s) {
+                                   for (MultiBodyJointState& joint : s.multi_body_joints)
+                                     joint.applied_impulses.clear();
+                                 },
+                                 "impulses of joints"},
+                                {RobotStateKind::kContacts,
+                                 [](WorldState& s) {
+                                   for (ContactState& contact : s.contacts) contact.points.clear();
+                                 },
+                                 "contacts"},
+                                {RobotStateKind::kContacts,
+                                 [](WorldState& s) {
+                                   for (MultiBodyState& body : s.multi_bodies)
+                                     body.turn_reserve = 0;
+                                 },
+                                 "reserve"},
+                                {RobotStateKind::kWater,
+                                 [](WorldState& s) {
+                                   for (MultiBodyState& body : s.multi_bodies)
+                                     for (LinkFluidState& fluid : body.fluids) fluid.flow.reset();
+                                 },
+                                 "fluid of the last substep"},
+                                {RobotStateKind::kWater,
+                                 [](WorldState& s) {
+                                   for (MultiBodyState& body : s.multi_bodies)
+                                     for (LinkFluidState& fluid : body.fluids)
+                                       fluid.ambient.met_B.reset();
+                                 },
+                                 "surface that was met"}};
   for (const Omission& omission : omissions) {
     SCOPED_TRACE(omission.what);
     RobotStateScene run(omission.kind);
-    run.step(40);
+    run.step(100);
     WorldState state = run.save();
     const auto motions = run.record(kAfter);
     omission.omit(state);
     run.restore(state);
-    EXPECT_FALSE(run.record(kAfter).back() == motions.back());
+    EXPECT_FALSE(run.record(kAfter) == motions);
   }
 }
 
