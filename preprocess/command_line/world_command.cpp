@@ -110,8 +110,9 @@ void printTroubles(const WorldBuild& built, const std::string& input) {
               << " bodies were left out: Bullet's importer does not know their shape\n";
   }
   if (built.multibodies > 0) {
-    std::cerr << input << ": " << built.multibodies
-              << " multibodies were left out: links of multibodies are not supported\n";
+    std::cerr
+        << input << ": " << built.multibodies
+        << " multibodies were left out: makeFluidBody makes the fluid bodies of their links\n";
   } else if (built.shapes.empty()) {
     std::cerr << "warning: " << input << ": no body has mass\n";
   }

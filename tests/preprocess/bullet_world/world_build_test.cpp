@@ -164,8 +164,8 @@ TEST_F(WorldBuild, MultibodiesAreLeftOutWithASentence) {
   const ProgramResult result = build();
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.errors, path("w.bullet") +
-                               ": 1 multibodies were left out: links of multibodies are not "
-                               "supported\n");
+                               ": 1 multibodies were left out: makeFluidBody makes the fluid "
+                               "bodies of their links\n");
   EXPECT_EQ(json::parse(result.output)["lost_multibodies"], 1);
   world.removeMultiBody(&pendulum);
 }
