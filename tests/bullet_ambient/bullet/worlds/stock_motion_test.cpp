@@ -49,6 +49,14 @@ struct ScenePair {
     for (VacuumScene* scene : {&stock, &ambient})
       scene->host().world().getSolverInfo().m_minimumSolverBatchSize = 1;
   }
+  /// Lemke's solver inverts the matrix of all rows. That of a box on a floor is singular unless
+  /// they are soft: four contacts have more rows than the box has ways to move, and rounding throws
+  /// the box about, into the others.
+  void softenIfSingular(const WorldSetup& setup) {
+    if (!usesSolver(setup, "Lemke")) return;
+    for (VacuumScene* scene : {&stock, &ambient})
+      scene->host().world().getSolverInfo().m_globalCfm = static_cast<btScalar>(1e-3);
+  }
   VacuumScene stock, ambient;
 };
 
@@ -94,9 +102,8 @@ TEST_P(StockMotion, ReturnsWhenABodyIsDetached) {
 }
 
 TEST_P(StockMotion, OfBodiesBesideAnAmbientOneThatSlidesIsKeptBitForBit) {
-  if (usesSolver(GetParam(), "Lemke"))
-    GTEST_SKIP() << "at speeds by chance, it throws the sliding body about, into the others";
   ScenePair scenes(GetParam());
+  scenes.softenIfSingular(GetParam());
   AmbientRegistry& registry = scenes.ambient.host().registry;
   for (VacuumScene* scene : {&scenes.stock, &scenes.ambient}) {
     btRigidBody& body = scene->addAside({30, 30, static_cast<btScalar>(0.5)});
