@@ -122,8 +122,27 @@ regimes are within rounding; $y$ is that of (45).
 | that, $2.4$ windward, b = 1, e = 0.17 | 0.423 | 80 | 1.39 | no reason for it |
 
 So wings want a normal force that is steep below 15° and saturates, and falling strips do not want it: their stall and
-lag, (48) to (50), were chosen with the slope as it is. Who takes that up has to do both. Not tried: a pressure that
-peaks before the stall of square plates, end-on cylinders whose sides take part, less side force on hulls.
+lag, (48) to (50), were chosen with the slope as it is. Who takes that up has to do both.
+
+Where the law is known to fail, by sums over plates and bodies of revolution alone, `demos/plot/form_variants.py`:
+
+| variant | where | (43) | variant | measured |
+|---|---|---|---|---|
+| on faces more curved than the sphere, sharpness by the curvature along the slip | side force of a hull of 8.57 : 1, per radian | 9.5 | 0.98 | 0.56 (memory) |
+| | its drag, nose first | 0.27 | 0.07 | |
+| | cones of 15°, 30°, apex first | 0.30, 0.43 | 0.18, 0.35 | 0.34, 0.51 |
+| | normal force of a cylinder of 20 : 1 at 30° | 0.63 | 0.17 | 0.27 if as $\\sin^2$ |
+| a peak before the stall, $4h\\,u_n^2(1 - u_n^2/\\lvert u\\rvert^2)^2$ more with $h$ = 0.85 | square plates at 6° to 37° (Eiffel), factor | 1.35 | 1.16 | |
+| | cube edge-on | 1.07 | 1.49 | 0.8 |
+| no suction on the base from one diameter of length on | cylinders end-on, factor | 1.31 | 1.19 | |
+| and 0.75 in place of $b$ on the front, 0.1 on the base there | | | 1.08 | |
+| a lag of 0, 1, 2, 3 for 4.5 | the 10 cm plate, released at 85° | tumbles, 0.15 m/s | tumbles, 0.30, 0.17, 0.14, 0.16 m/s | flutters |
+
+None is taken. The first is the one to go on with: hulls would have twice the measured side force in place of 17 times, and
+oblique rods would follow the flow across them. It needs two curvatures and a direction per face in files and kernels,
+and cones would need suction at their base for what they lose. A peak cannot be told by a face, because the squares of a cube
+edge-on stand as those of a plate; nor can what is behind a base. The 10 cm plate:
+`ambient_demo plate_10cm --set law=form --set bodies.0.stall_lag=1`.
 """
 
 NOT = """\
