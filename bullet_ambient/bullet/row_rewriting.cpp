@@ -73,6 +73,20 @@ void suspendRow(btSolverConstraint& row, const Party& a, const Party& b, btScala
   row.m_rhs = row.m_rhsPenetration = row.m_cfm = 0;
 }
 
+// |P J|^2 / m of the linear part, with P the locked axes: what Bullet's response has and the body
+// does not do.
+btScalar lockedResponse(const Party& party) {
+  if (!party.ambient) return 0;
+  return (party.side.linear * party.ambient->locked_linear).length2() * party.ambient->inverse_mass;
+}
+
+// Bullet's effective masses do not know locks. A row almost along one so gets but a share of what
+// it asks for in each iteration, and its small lever does not throw the body about.
+btScalar shareOf(const Party& a, const Party& b, btScalar old_denominator) {
+  const btScalar share = 1 - (lockedResponse(a) + lockedResponse(b)) / old_denominator;
+  return btMax(share, kNoResponse);
+}
+
 void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a, const Party& b,
                 btScalar relaxation) {
   const btScalar old_inverse = row.m_jacDiagABInv;
@@ -84,8 +98,10 @@ void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a, const Par
   // Contact rows hold their softness inside the effective mass, all others apart from it.
   const bool is_soft = kind == RowKind::kContact && row.m_cfm != 0;
   const btScalar cfm = is_soft ? row.m_cfm / old_inverse : btScalar(0);
+  btScalar share = 1;
   if (isLocked(a) || isLocked(b)) {
     const btScalar old_denominator = relaxation / old_inverse - cfm;
+    share = shareOf(a, b, old_denominator);
     if (!(responseOf(a) + responseOf(b) > kNoResponse * old_denominator)) {
       suspendRow(row, a, b, old_denominator);
       return;
@@ -93,7 +109,7 @@ void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a, const Par
   }
   const btScalar unseen = unseenChange(kind, a) + unseenChange(kind, b);
   const btScalar new_inverse =
-      relaxation / (inverseEffectiveMass(a) + inverseEffectiveMass(b) + cfm);
+      share * relaxation / (inverseEffectiveMass(a) + inverseEffectiveMass(b) + cfm);
   const btScalar ratio = new_inverse / old_inverse;
   row.m_jacDiagABInv = new_inverse;
   // By the ratio only: spring rows may hold infinite right-hand sides.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/bullet_ambient/bullet/worlds/coupled_scene.h"
 
 // What Bullet offers around contacts, with a body of coupled K: kinematic bodies, locked axes,
@@ -106,6 +108,43 @@ TEST(ContactFeatures, ABodyLockedToAPlaneStaysInIt) {
   const btVector3 z = body.getWorldTransform().getBasis().getColumn(2);
   EXPECT_NEAR(static_cast<double>(z.z()), 1, byPrecision(1e-15, 1e-6));
   fluid.world.removeRigidBody(&floor);
+}
+
+// Of a ball that can move along y only, and overlaps a wall whose normal is off the locked x by an
+// angle: Bullet pushes it out along the normal at a speed of its own.
+double speedOfPush(double angle, bool in_fluid) {
+  constexpr double kDepth = 1e-3;
+  FluidWorld fluid;
+  fluid.world.getSolverInfo().m_splitImpulse = 0;
+  btStaticPlaneShape plane({bt(std::cos(angle)), bt(std::sin(angle)), 0}, 0);
+  btRigidBody wall(0, nullptr, &plane);
+  wall.setFriction(0);
+  fluid.world.addRigidBody(&wall);
+  btSphereShape ball(bt(0.2));
+  BodyDef def{1, Vector3::Constant(0.016), {}, &ball};
+  def.start.position = (0.2 - kDepth) * Vector3(std::cos(angle), std::sin(angle), 0);
+  Vector6 added;
+  added << 0.01, 0.02, 0.03, 1, 2, 3;
+  FluidBody shape;
+  shape.name = "uneven";
+  shape.added_mass = added.asDiagonal();
+  btRigidBody& body = in_fluid ? fluid.add(def, shape, idealFluid(1)) : fluid.add(def);
+  body.setLinearFactor({0, 1, 0});
+  body.setAngularFactor(0);
+  fluid.step(kWorldStep);
+  EXPECT_EQ(fluid.registry.counters().rows > 0, in_fluid);
+  fluid.world.removeRigidBody(&wall);
+  return static_cast<double>(body.getLinearVelocity().y());
+}
+
+// What is left of the normal along the free axis is a tiny lever. In float its square, 1e-4 of the
+// whole, has three digits.
+TEST(ContactFeatures, AContactAlmostAlongALockedAxisPushesAsInStockBullet) {
+  for (const double angle : {1.5, 0.5, 0.1, 0.01}) {
+    const double stock = speedOfPush(angle, false);
+    EXPECT_GT(stock, 0) << angle;
+    EXPECT_NEAR(speedOfPush(angle, true) / stock, 1, byPrecision(1e-9, 1e-3)) << angle;
+  }
 }
 
 // Two balls of a compound shape, the heavier one small: the body's origin is the centre of mass,
