@@ -125,8 +125,9 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
   }
   EXPECT_GT(sticking, 200);
   EXPECT_GT(sliding, 200);
-  // Rows are set up with the push of an even body, which is taken off again: in float three times
-  // the rounding.
+  // Solvers that are not iterative find the solution of these rows to 2e-6 in float, and so do the
+  // others for all pairs but one, where they converge slowly: 2.5e-5 by the rounding of thousands
+  // of iterations (5e-5 if they go on until nothing changes).
   EXPECT_LT(worst, sizeof(btScalar) == 8 ? kTolerance : 3 * kTolerance);
   EXPECT_LT(worst_point_force, kTolerance);
   report("friction", worst);
