@@ -46,8 +46,7 @@ class CrackMender {
   /// False if there was nothing to divide.
   bool divideOnce() {
     const std::set<Edge> open = openEdges(triangles_);
-    std::set<int> ends;
-    for (const Edge& edge : open) ends.insert({edge.first, edge.second});
+    const std::vector<int> ends = endsOf(open);
     std::map<Edge, std::vector<int>> inside;
     for (const Edge& edge : open) {
       std::vector<int> between = verticesOn(edge, ends);
@@ -63,13 +62,29 @@ class CrackMender {
   TriangleMesh mesh() const { return makeTriangleMesh(points_, triangles_); }
 
  private:
-  // In order along the edge.
-  std::vector<int> verticesOn(const Edge& edge, const std::set<int>& candidates) const {
+  double x(int vertex) const { return points_[static_cast<std::size_t>(vertex)].x(); }
+
+  // In order of x.
+  std::vector<int> endsOf(const std::set<Edge>& edges) const {
+    std::set<int> ends;
+    for (const Edge& edge : edges) ends.insert({edge.first, edge.second});
+    std::vector<int> sorted(ends.begin(), ends.end());
+    std::sort(sorted.begin(), sorted.end(),
+              [&](int v, int w) { return x(v) != x(w) ? x(v) < x(w) : v < w; });
+    return sorted;
+  }
+
+  // In order along the edge, of those in order of x.
+  std::vector<int> verticesOn(const Edge& edge, const std::vector<int>& candidates) const {
     const Vector3d a = points_[static_cast<std::size_t>(edge.first)];
     const Vector3d along = points_[static_cast<std::size_t>(edge.second)] - a;
+    const auto [low, high] = std::minmax({x(edge.first), x(edge.second)});
     const double length = along.norm();
     std::vector<std::pair<double, int>> found;
-    for (const int v : candidates) {
+    const auto first = std::partition_point(candidates.begin(), candidates.end(),
+                                            [&](int v) { return x(v) < low - tolerance_; });
+    for (auto next = first; next != candidates.end() && x(*next) <= high + tolerance_; ++next) {
+      const int v = *next;
       if (v == edge.first || v == edge.second) continue;
       const Vector3d to_v = points_[static_cast<std::size_t>(v)] - a;
       const double s = to_v.dot(along) / length;

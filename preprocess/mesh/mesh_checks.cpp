@@ -58,6 +58,7 @@ CheckedMesh mendTriangles(const TriangleMesh& mesh, const std::string& name) {
   takeStep(result, withoutFlatTriangles(result.mesh, name));
   requireNone(findFlatTriangles(result.mesh), name);
   takeStep(result, withoutUnusedVertices(result.mesh, name));
+  takeStep(result, withoutTJunctions(result.mesh, name));
   return result;
 }
 

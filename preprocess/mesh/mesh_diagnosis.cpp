@@ -77,6 +77,7 @@ MeshDiagnosis diagnoseMesh(const TriangleMesh& mesh, const std::string& name,
   takeMendingStep(checked, withoutFlatTriangles(checked.mesh, name));
   appendDefects(defects, findFlatTriangles(checked.mesh));
   const bool has_normals = defects.empty();
+  if (has_normals) takeMendingStep(checked, withoutTJunctions(checked.mesh, name));
   const MeshEdges edges = computeMeshEdges(checked.mesh);
   if (has_normals && !settings.sheet) {
     appendDefects(defects, refusalAsDefect("one-sided", name, [&] {

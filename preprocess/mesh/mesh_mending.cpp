@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "preprocess/mesh/crack_mending.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
@@ -75,6 +76,12 @@ class FlatFlipper {
   std::vector<bool> was_changed_;
 };
 
+bool hasBoundary(const TriangleMesh& mesh) {
+  const std::vector<EdgeGroup> edges = computeMeshEdges(mesh).edges;
+  return std::any_of(edges.begin(), edges.end(),
+                     [](const EdgeGroup& edge) { return edge.size() == 1; });
+}
+
 bool hasFlatTriangle(const TriangleMesh& mesh) {
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
     if (heightRatio(mesh, t) < kLeastHeight) return true;
@@ -123,6 +130,18 @@ CheckedMesh withoutFlatTriangles(const TriangleMesh& mesh, const std::string& na
                               " flat triangles were joined to their neighbours");
   }
   return result;
+}
+
+CheckedMesh withoutTJunctions(const TriangleMesh& mesh, const std::string& name) {
+  constexpr double kOnEdge = 1e-6;  // as vertices are welded
+  if (!hasBoundary(mesh)) return {mesh, {}};
+  TriangleMesh divided = withoutCracks(mesh, kOnEdge * mesh.extents().norm());
+  if (hasBoundary(divided)) return {mesh, {}};
+  return {std::move(divided),
+          {name +
+           ": vertices lie on edges of other triangles (T-junctions), which were divided "
+           "there: " +
+           std::to_string(divided.triangleCount() - mesh.triangleCount()) + " triangles more"}};
 }
 
 }  // namespace ambient

@@ -23,4 +23,10 @@ CheckedMesh withoutCopies(const TriangleMesh& mesh, const std::string& name);
 /// @pre indices are in range, coordinates finite.
 CheckedMesh withoutFlatTriangles(const TriangleMesh& mesh, const std::string& name);
 
+/// A mesh whose boundary edges are all T-junctions, where vertices lie on the edges of others
+/// within 1e-6 of its size, with the triangles of these divided there, with a warning; any other
+/// mesh as it is. Cost that of withoutCracks().
+/// @pre indices are in range, coordinates finite.
+CheckedMesh withoutTJunctions(const TriangleMesh& mesh, const std::string& name);
+
 }  // namespace ambient

@@ -25,36 +25,36 @@ struct CellHash {
   }
 };
 
-/// Cubic cells as wide as the tolerance: what is close lies in the same or in a neighbouring cell.
+/// Cubic cells some times as wide as the tolerance: what is close lies mostly in the same one.
 class CellGrid {
  public:
   CellGrid(const TriangleMesh& mesh, double tolerance)
       : mesh_(mesh), corner_(mesh.vertices.rowwise().minCoeff()), tolerance_(tolerance) {
     const double extent = (mesh.vertices.rowwise().maxCoeff() - corner_).maxCoeff();
     // Cells of zero width, or more than 2^40 along an edge, could not be numbered.
-    width_ = std::max(tolerance, std::ldexp(extent, -40));
+    width_ = std::max(kTolerances * tolerance, std::ldexp(extent, -40));
     if (width_ == 0) width_ = 1;
   }
 
   /// Joins `vertex` to the earlier vertices close to it.
   void insert(int vertex, DisjointSets& sets) {
-    const Cell cell = cellOf(vertex);
-    for (int i = -1; i <= 1; ++i) {
-      for (int j = -1; j <= 1; ++j) {
-        for (int k = -1; k <= 1; ++k)
-          joinCell({cell[0] + i, cell[1] + j, cell[2] + k}, vertex, sets);
+    const Eigen::Vector3d point = mesh_.vertices.col(vertex);
+    const Cell low = cellOf(point.array() - tolerance_), high = cellOf(point.array() + tolerance_);
+    for (std::int64_t i = low[0]; i <= high[0]; ++i) {
+      for (std::int64_t j = low[1]; j <= high[1]; ++j) {
+        for (std::int64_t k = low[2]; k <= high[2]; ++k) joinCell({i, j, k}, vertex, sets);
       }
     }
-    vertices_in_[cell].push_back(vertex);
+    vertices_in_[cellOf(point)].push_back(vertex);
   }
 
  private:
-  Cell cellOf(int vertex) const {
+  static constexpr double kTolerances = 8;
+
+  Cell cellOf(const Eigen::Vector3d& point) const {
     Cell cell{};
-    for (int k = 0; k < 3; ++k) {
-      cell[k] =
-          static_cast<std::int64_t>(std::floor((mesh_.vertices(k, vertex) - corner_[k]) / width_));
-    }
+    for (int k = 0; k < 3; ++k)
+      cell[k] = static_cast<std::int64_t>(std::floor((point[k] - corner_[k]) / width_));
     return cell;
   }
 

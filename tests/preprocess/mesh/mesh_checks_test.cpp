@@ -8,6 +8,8 @@
 
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_diagnosis.h"
+#include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/mesh/weld_vertices.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
@@ -278,12 +280,29 @@ TEST(MeshChecks, SurfacesThatEncloseTheBodyTwiceAreJudgedByTheirShareOfTheArea) 
   }
 }
 
-TEST(MeshChecks, TJunctionsAreRefusedAsOpen) {
-  // The side 0 1 2 of a tetrahedron is divided, its neighbour is not.
-  const TriangleMesh mesh = meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}},
-                                   {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
-  EXPECT_NE(refusal(mesh).find("not watertight: 3 boundary edges"), std::string::npos)
-      << refusal(mesh);
+// The side 0 1 2 of a tetrahedron is divided, its neighbour is not.
+TriangleMesh tetrahedronWithTJunction(double off_edge) {
+  return meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, off_edge, 0}},
+                {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+}
+
+TEST(MeshChecks, TJunctionsAreDividedWithAWarning) {
+  const CheckedMesh checked = checkMesh(tetrahedronWithTJunction(1e-7), "thing.obj");
+  EXPECT_TRUE(isClosed(computeMeshEdges(checked.mesh)));
+  EXPECT_EQ(checked.mesh.triangleCount(), 6);
+  EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 1.0 / 6, 1e-7);
+  EXPECT_EQ(checked.warnings,
+            std::vector<std::string>{"thing.obj: vertices lie on edges of other triangles "
+                                     "(T-junctions), which were divided there: 1 triangles more"});
+  EXPECT_TRUE(diagnoseMesh(tetrahedronWithTJunction(1e-7), "thing.obj", {}).defects.empty());
+}
+
+TEST(MeshChecks, WhatIsOpenOtherwiseIsNotDivided) {
+  EXPECT_NE(refusal(tetrahedronWithTJunction(1e-4)).find("not watertight: 3 boundary edges"),
+            std::string::npos);
+  const TriangleMesh open = withoutTriangle(tetrahedronWithTJunction(0), 4);
+  EXPECT_NE(refusal(open).find("not watertight: 6 boundary edges"), std::string::npos)
+      << refusal(open);
 }
 
 TEST(MeshChecks, SurfacesThatEncloseNothingAreRefused) {
