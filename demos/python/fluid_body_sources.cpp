@@ -1,6 +1,5 @@
 #include "demos/python/fluid_body_sources.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -22,12 +21,7 @@ template <class Build>
 BuiltBody buildOnce(const SourceSettings& settings, const Provenance& provenance,
                     const Build& build) {
   if (settings.cache.empty()) return build();
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx",
-                static_cast<unsigned long long>(
-                    fnv1a64(settings.name + "\n" + std::to_string(provenance.source_hash) + "\n" +
-                            provenance.settings + "\n" + provenance.generator)));
-  const fs::path file = settings.cache / (std::string(hash) + ".ambient");
+  const fs::path file = settings.cache / keptFileName(settings.name, provenance);
   if (auto kept = readIfSame(file, settings.name, provenance)) return {std::move(*kept), {}};
   BuiltBody built = build();
   fs::create_directories(settings.cache);

@@ -14,9 +14,11 @@
 namespace ambient {
 
 /// The fluid bodies of a program's runs, each solved once: within a scene by memory, between runs
-/// by .ambient files in a folder. A file is named by a hash of the shape, the bytes of its mesh
-/// file and the program itself, so that neither an edited mesh nor a rebuilt program meets an old
-/// file.
+/// by .ambient files in a folder, kept as FluidBodyCache keeps them: a file is read again where
+/// readIfSame(), so that an edited mesh or another revision of the solver does not meet an old one.
+///
+/// Unlike a FluidBodyCache, it solves shapes at their own size, without tables, so that the bits of
+/// published scenes stay, takes shapes in JSON, and writes only when it is told to.
 class SceneBodyCache {
  public:
   /// `folder` need not exist; empty: no files. `threads` solve; 0: all cores.
@@ -24,8 +26,7 @@ class SceneBodyCache {
 
   /// @throws std::runtime_error in one line that names the file or the shape's source.
   std::shared_ptr<const FluidBody> get(const ShapeDescription& shape, const std::string& name);
-  /// That of what a link collides with, in the shape's frame; where its flow cannot be solved, as
-  /// of hulls that barely touch, a guess and a warning. @throws as makeFluidBody()
+  /// That of what a link collides with, in the shape's frame. @throws as makeFluidBody()
   std::shared_ptr<const FluidBody> get(const btCollisionShape& shape, const std::string& name);
 
   /// Writes what was solved since it was made. @throws std::runtime_error as writeFluidBody().
@@ -38,9 +39,8 @@ class SceneBodyCache {
  private:
   std::shared_ptr<const FluidBody> readOrBuild(const ShapeDescription& shape,
                                                const std::string& name);
-  FluidBody solveOrGuess(const btCollisionShape& shape, CollisionShapeSettings settings);
   /// From the folder, if it is there; else what `build` returns, which save() then writes.
-  std::shared_ptr<const FluidBody> readOr(const std::string& key,
+  std::shared_ptr<const FluidBody> readOr(const std::string& name, const Provenance& provenance,
                                           const std::function<FluidBody()>& build);
 
   std::filesystem::path folder_;

@@ -1,8 +1,10 @@
 #include "preprocess/builder/reuse.h"
 
+#include <cstdio>
 #include <stdexcept>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/fnv1a.h"
 
 namespace ambient {
 
@@ -22,6 +24,16 @@ std::optional<FluidBody> readIfSame(const std::filesystem::path& file, const std
     // A damaged or foreign file is as good as none.
   }
   return std::nullopt;
+}
+
+std::string keptFileName(const std::string& name, const Provenance& provenance) {
+  const std::string text = name + '\n' + provenance.source + '\n' +
+                           std::to_string(provenance.source_hash) + '\n' + provenance.settings +
+                           '\n' + provenance.generator;
+  char file_name[32];
+  std::snprintf(file_name, sizeof file_name, "%016llx.ambient",
+                static_cast<unsigned long long>(fnv1a64(text)));
+  return file_name;
 }
 
 }  // namespace ambient

@@ -14,4 +14,7 @@ namespace ambient {
 std::optional<FluidBody> readIfSame(const std::filesystem::path& file, const std::string& name,
                                     const Provenance& provenance);
 
+/// Name of the .ambient file in which caches keep it: a hash of all that readIfSame() compares.
+std::string keptFileName(const std::string& name, const Provenance& provenance);
+
 }  // namespace ambient

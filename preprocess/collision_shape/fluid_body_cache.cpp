@@ -23,16 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using SharedBody = SharedBodies::Body;
 
-std::string fileNameFor(const Provenance& provenance, const std::string& name) {
-  const std::string text = name + '\n' + provenance.source + '\n' +
-                           std::to_string(provenance.source_hash) + '\n' + provenance.settings +
-                           '\n' + provenance.generator;
-  char file_name[32];
-  std::snprintf(file_name, sizeof file_name, "%016llx.ambient",
-                static_cast<unsigned long long>(fnv1a64(text)));
-  return file_name;
-}
-
 // Tells the fluid bodies of one kind of shape apart, the same in all programs.
 std::string nameFor(const std::string& kind, const std::string& content) {
   char number[18];
@@ -73,7 +63,7 @@ struct FluidBodyCache::Store {
     if (folder.empty()) return std::make_shared<const FluidBody>(make(form));
     const Provenance provenance = describeForm(form, settings);
     const std::string& name = settings.name.empty() ? form.kind : settings.name;
-    const fs::path file = folder / fileNameFor(provenance, name);
+    const fs::path file = folder / keptFileName(name, provenance);
     if (std::optional<FluidBody> kept = readIfSame(file, name, provenance)) {
       ++read;
       return std::make_shared<const FluidBody>(*std::move(kept));
