@@ -105,10 +105,9 @@ std::optional<Matrix6> tabulatedAddedMass(const ShapePart& part) {
 
 std::vector<Solid> makeSolids(const std::vector<ShapePart>& parts,
                               const SolidResolution& resolution) {
-  constexpr int kLeastFaces = 350;
   const int count = std::max(1, static_cast<int>(parts.size()));
   SolidResolution each = resolution;
-  each.faces = std::max(kLeastFaces, resolution.faces / count);
+  each.faces = std::max(resolution.least_faces, resolution.faces / count);
   each.flow_faces = std::max(each.faces, resolution.flow_faces / count);
   std::vector<Solid> solids;
   for (const ShapePart& part : parts) solids.push_back(placed(makeSolid(part, each), part));

@@ -11,9 +11,10 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// How finely round solids are made.
 struct SolidResolution {
-  int faces = 0;       ///< triangles aimed at for the loads
-  int flow_faces = 0;  ///< and for the flow
-  bool tables = true;  ///< of the added mass, as far as they reach
+  int faces = 0;        ///< triangles aimed at for the loads, of all solids together
+  int least_faces = 0;  ///< of each of them
+  int flow_faces = 0;   ///< as `faces`, for the flow
+  bool tables = true;   ///< of the added mass, as far as they reach
 };
 
 /// An ellipsoid of Bullet's btMultiSphereShape.

@@ -75,8 +75,10 @@ CollisionShapeSettings usedSettings(CollisionShapeSettings settings) {
 
 std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
                             const CollisionShapeSettings& settings) {
+  constexpr int kLeastFaces = 350, kLeastInstantFaces = 40;
   SolidResolution resolution;
   resolution.faces = settings.faces;
+  resolution.least_faces = settings.quality == Quality::kInstant ? kLeastInstantFaces : kLeastFaces;
   resolution.flow_faces = std::max(settings.faces, settings.flow.max_panels);
   resolution.tables = usesTables(settings);
   return makeSolids(parts, resolution);
@@ -172,22 +174,13 @@ std::optional<AddedMass> addedMassOf(const SeparateSolids& separate,
   return sum;
 }
 
-}  // namespace
-
-ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
-  const std::string name = settings.name.empty() ? shape.getName() : settings.name;
-  requireUsable(settings, name);
-  return {shape.getName(), readShapeParts(shape, settings.margins, name), 1};
-}
-
-FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& wanted) {
-  const CollisionShapeSettings settings = usedSettings(wanted);
+FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
+                 const CollisionShapeSettings& settings) {
   BuildSettings build;
   build.name = nameOf(form, settings);
   build.origin = Eigen::Vector3d::Zero();
   build.flow = settings.flow;
   build.provenance = describeForm(form, settings);
-  const SeparateSolids separate = uniteSolids(solidsOf(form.parts, settings), settings, build.name);
   const std::vector<Solid>& solids = separate.solids;
   if (std::optional<AddedMass> known = addedMassOf(separate, settings, build.name)) {
     build.added_mass = known->total;
@@ -201,6 +194,27 @@ FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& want
       body.form_levels.push_back(*std::move(level));
   if (settings.report) reportSolids(solids, body, form.size, settings);
   return body;
+}
+
+}  // namespace
+
+ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
+  const std::string name = settings.name.empty() ? shape.getName() : settings.name;
+  requireUsable(settings, name);
+  return {shape.getName(), readShapeParts(shape, settings.margins, name), 1};
+}
+
+FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& wanted) {
+  const CollisionShapeSettings settings = usedSettings(wanted);
+  const std::string& name = nameOf(form, settings);
+  const std::vector<Solid> parts = solidsOf(form.parts, settings);
+  const SeparateSolids separate = uniteSolids(parts, settings, name);
+  try {
+    return bodyOf(separate, form, settings);
+  } catch (const std::runtime_error& error) {
+    if (!separate.has_unions || settings.fallback == CompoundFallback::kRefuse) throw;
+    return bodyOf(replaceUnions(parts, settings, error.what(), name), form, settings);
+  }
 }
 
 Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& settings) {

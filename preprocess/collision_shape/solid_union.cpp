@@ -111,6 +111,21 @@ void keepSum(std::vector<Solid> group, const std::string& reason, const std::str
                   " of the smaller one's size");
 }
 
+/// What stands for a group that cannot be united.
+void fallBack(const std::vector<Solid>& group, const CollisionShapeSettings& settings,
+              const std::string& reason, const std::string& name, SeparateSolids& result) {
+  switch (settings.fallback) {
+    case CompoundFallback::kHull:
+      result.solids.push_back(hullOf(group, settings, reason, name));
+      break;
+    case CompoundFallback::kSum:
+      keepSum(group, reason, name, result);
+      break;
+    case CompoundFallback::kRefuse:
+      refuse(group, reason, name);
+  }
+}
+
 }  // namespace
 
 SeparateSolids uniteSolids(const std::vector<Solid>& solids, const CollisionShapeSettings& settings,
@@ -123,17 +138,23 @@ SeparateSolids uniteSolids(const std::vector<Solid>& solids, const CollisionShap
     }
     try {
       result.solids.push_back(uniteGroup(group, settings, name));
+      result.has_unions = true;
     } catch (const std::runtime_error& error) {
-      switch (settings.fallback) {
-        case CompoundFallback::kHull:
-          result.solids.push_back(hullOf(group, settings, error.what(), name));
-          break;
-        case CompoundFallback::kSum:
-          keepSum(group, error.what(), name, result);
-          break;
-        case CompoundFallback::kRefuse:
-          refuse(group, error.what(), name);
-      }
+      fallBack(group, settings, error.what(), name, result);
+    }
+  }
+  return result;
+}
+
+SeparateSolids replaceUnions(const std::vector<Solid>& solids,
+                             const CollisionShapeSettings& settings, const std::string& reason,
+                             const std::string& name) {
+  SeparateSolids result;
+  for (const std::vector<Solid>& group : contactGroups(solids)) {
+    if (group.size() == 1) {
+      result.solids.push_back(group.front());
+    } else {
+      fallBack(group, settings, reason, name, result);
     }
   }
   return result;

@@ -13,7 +13,8 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 /// Solids with gaps between them, which bound the same body.
 struct SeparateSolids {
   std::vector<Solid> solids;
-  bool is_sum = false;  ///< CompoundFallback::kSum was needed: some of them touch or overlap
+  bool has_unions = false;  ///< some of them are made of several
+  bool is_sum = false;      ///< CompoundFallback::kSum was needed: some of them touch or overlap
 };
 
 /// Unites solids that touch or overlap, or leave gaps too narrow for the flow (kLeastGap). Each
@@ -24,6 +25,13 @@ struct SeparateSolids {
 /// cannot be united and the settings say so.
 SeparateSolids uniteSolids(const std::vector<Solid>& solids, const CollisionShapeSettings& settings,
                            const std::string& name);
+
+/// What the settings' fallback puts in place of solids that touch or overlap, with a warning, where
+/// they could be united but the flow around their union could not be solved for that reason.
+/// @throws std::runtime_error as uniteSolids().
+SeparateSolids replaceUnions(const std::vector<Solid>& solids,
+                             const CollisionShapeSettings& settings, const std::string& reason,
+                             const std::string& name);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

@@ -67,6 +67,17 @@ TEST(InstantBody, OfADumbbellIsNearItsParts) {
   EXPECT_LT(rotationError(guess.added_mass, solved.added_mass), 0.25);
 }
 
+// Children share the faces: uniting them takes the product of theirs.
+TEST(InstantBody, OfManyChildrenHasNoMoreFaces) {
+  btSphereShape ball(btScalar(0.3));
+  btCompoundShape beads;
+  for (int i = 0; i < 5; ++i) {
+    beads.addChildShape(
+        btTransform(btQuaternion::getIdentity(), btVector3(btScalar(0.4 * i), 0, 0)), &ball);
+  }
+  EXPECT_LE(makeFluidBody(beads, instant()).faces.size(), 2u * kInstantFaces);
+}
+
 TEST(InstantCache, GoesOnToTheSolutionAndTells) {
   FluidBodyCache cache(instant(), {}, FluidBodyCache::Replacement::kWhenAsked);
   FluidBodyCache standard(test::coarse());

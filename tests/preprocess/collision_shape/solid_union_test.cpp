@@ -125,5 +125,22 @@ TEST(SolidUnion, RefusesIfToldTo) {
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 
+// A union whose flow cannot be solved.
+TEST(SolidUnion, IsReplacedByWhatStandsForIt) {
+  const std::vector<Solid> solids{cubeSolid(0, "a"), cubeSolid(0.5, "b"), cubeSolid(3, "c")};
+  EXPECT_TRUE(uniteSolids(solids, test::coarse(), "it").has_unions);
+  const SeparateSolids hull =
+      replaceUnions(solids, fallingBackTo(CompoundFallback::kHull), "no flow", "it");
+  ASSERT_EQ(hull.solids.size(), 2u);
+  EXPECT_FALSE(hull.has_unions);
+  EXPECT_NEAR(computeMassProperties(hull.solids[0].mesh).volume, 1.5, 1e-12);
+  EXPECT_EQ(hull.solids[0].warnings.at(0).rfind("it: a and b cannot be united (no flow): ", 0), 0u);
+  EXPECT_TRUE(hull.solids[1].warnings.empty());
+  const SeparateSolids sum =
+      replaceUnions(solids, fallingBackTo(CompoundFallback::kSum), "no flow", "it");
+  EXPECT_EQ(sum.solids.size(), 3u);
+  EXPECT_TRUE(sum.is_sum);
+}
+
 }  // namespace
 }  // namespace ambient

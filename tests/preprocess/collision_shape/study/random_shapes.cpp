@@ -1,0 +1,108 @@
+#include "tests/preprocess/collision_shape/study/random_shapes.h"
+
+#include <cmath>
+#include <utility>
+
+#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/spatial/pi.h"
+
+namespace ambient {
+
+template <class Shape>
+Shape& RandomShapes::keep(std::unique_ptr<Shape> shape) {
+  Shape& kept = *shape;
+  shapes_.push_back(std::move(shape));
+  return kept;
+}
+
+double RandomShapes::uniform(double low, double high) {
+  return low + (high - low) * (static_cast<double>(random_()) / 4294967296.0);
+}
+
+double RandomShapes::length(double low, double high, bool on_grid) {
+  const double value = uniform(low, high);
+  return on_grid ? std::ceil(4 * value) / 4 : value;
+}
+
+btConvexHullShape& RandomShapes::hull() {
+  auto hull = std::make_unique<btConvexHullShape>();
+  const Vector3 stretch(1, uniform(0.3, 1), uniform(0.15, 1));
+  const int count = 6 + static_cast<int>(random_() % 25);
+  for (int i = 0; i < count; ++i) {
+    const Vector3 point(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    hull->addPoint(toBullet(Vector3(stretch.cwiseProduct(point))));
+  }
+  hull->setMargin(0);
+  return keep(std::move(hull));
+}
+
+const btCompoundShape& RandomShapes::compound() {
+  auto compound = std::make_unique<btCompoundShape>();
+  const int count = 2 + static_cast<int>(random_() % 4);
+  for (int i = 0; i < count; ++i) {
+    const btQuaternion turn(btVector3(0, 0, 1), static_cast<btScalar>(uniform(0, 3)));
+    const Vector3 place(uniform(-0.8, 0.8), uniform(-0.8, 0.8), uniform(-0.8, 0.8));
+    compound->addChildShape(btTransform(turn, toBullet(place)), primitive(false));
+  }
+  return keep(std::move(compound));
+}
+
+const btCompoundShape& RandomShapes::mixedCompound(bool on_grid) {
+  auto compound = std::make_unique<btCompoundShape>();
+  const int count = 2 + static_cast<int>(random_() % 4);
+  for (int i = 0; i < count; ++i) {
+    const double angle = on_grid ? kPi / 2 * (random_() % 4) : uniform(0, 3);
+    const btQuaternion turn(btVector3(0, 0, 1), static_cast<btScalar>(angle));
+    const Vector3 place(length(-1, 0.75, on_grid), length(-1, 0.75, on_grid),
+                        length(-1, 0.75, on_grid));
+    const bool is_hull = random_() % 5 == 0;
+    btCollisionShape* child = is_hull ? &hull() : primitive(on_grid);
+    compound->addChildShape(btTransform(turn, toBullet(place)), child);
+  }
+  return keep(std::move(compound));
+}
+
+btCollisionShape* RandomShapes::primitive(bool on_grid) {
+  const auto size = [&] { return static_cast<btScalar>(length(0.2, 0.8, on_grid)); };
+  const btVector3 half(size(), size(), size());
+  switch (random_() % 4) {
+    case 0:
+      return &keep(std::make_unique<btSphereShape>(half.x()));
+    case 1:
+      return &keep(std::make_unique<btCylinderShape>(btVector3(half.x(), half.y(), half.x())));
+    case 2:
+      return &keep(std::make_unique<btCapsuleShape>(half.x(), half.y()));
+    default:
+      return &keep(std::make_unique<btBoxShape>(half));
+  }
+}
+
+const btCollisionShape& RandomShapes::prism() {
+  auto mesh = std::make_unique<btTriangleMesh>();
+  const int count = 6 + static_cast<int>(random_() % 10);
+  const double height = uniform(0.1, 1.5);
+  std::vector<Vector3> rim;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * kPi * i / count, radius = uniform(0.4, 1);
+    rim.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height / 2);
+  }
+  const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
+    mesh->addTriangle(toBullet(a), toBullet(b), toBullet(c));
+  };
+  const Vector3 up(0, 0, height), middle = up / 2;
+  for (int i = 0; i < count; ++i) {
+    const Vector3 a = rim[static_cast<std::size_t>(i)];
+    const Vector3 b = rim[static_cast<std::size_t>((i + 1) % count)];
+    add(a, b, middle);
+    add(b - up, a - up, middle - up);
+    add(a - up, b - up, b);
+    add(a - up, b, a);
+  }
+  auto shape = std::make_unique<btGImpactMeshShape>(mesh.get());
+  shape->setMargin(0);
+  shape->updateBound();
+  meshes_.push_back(std::move(mesh));
+  return keep(std::move(shape));
+}
+
+}  // namespace ambient
