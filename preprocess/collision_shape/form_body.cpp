@@ -76,9 +76,11 @@ CollisionShapeSettings usedSettings(CollisionShapeSettings settings) {
 std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
                             const CollisionShapeSettings& settings) {
   constexpr int kLeastFaces = 350, kLeastInstantFaces = 40;
+  const bool is_instant = settings.quality == Quality::kInstant;
   SolidResolution resolution;
   resolution.faces = settings.faces;
-  resolution.least_faces = settings.quality == Quality::kInstant ? kLeastInstantFaces : kLeastFaces;
+  if (is_instant && parts.size() > 1) resolution.faces /= 2;  // where they meet, both are cut
+  resolution.least_faces = is_instant ? kLeastInstantFaces : kLeastFaces;
   resolution.flow_faces = std::max(settings.faces, settings.flow.max_panels);
   resolution.tables = usesTables(settings);
   return makeSolids(parts, resolution);
