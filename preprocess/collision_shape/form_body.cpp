@@ -75,7 +75,7 @@ CollisionShapeSettings usedSettings(CollisionShapeSettings settings) {
 
 std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
                             const CollisionShapeSettings& settings) {
-  constexpr int kLeastFaces = 350, kLeastInstantFaces = 40;
+  constexpr int kLeastFaces = 350, kLeastInstantFaces = 60;
   const bool is_instant = settings.quality == Quality::kInstant;
   SolidResolution resolution;
   resolution.faces = settings.faces;

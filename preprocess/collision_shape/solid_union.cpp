@@ -8,12 +8,15 @@
 #include "preprocess/collision_shape/convex_solids.h"
 #include "preprocess/collision_shape/hull_mesh.h"
 #include "preprocess/collision_shape/quick_added_mass.h"
+#include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/mesh_union.h"
 #include "preprocess/mesh/solid_contact.h"
+#include "preprocess/mesh/weld_vertices.h"
 #include "preprocess/potential_flow/flat_merging.h"
 
 namespace ambient {
@@ -72,6 +75,17 @@ Solid uniteGroup(const std::vector<Solid>& group, const CollisionShapeSettings& 
   return solid;
 }
 
+/// Of points that may lie closer to each other, or in line, than a flow can resolve: those closer
+/// than 1e-4 of the size become one.
+TriangleMesh cleanHull(const std::vector<Eigen::Vector3d>& points, const std::string& name) {
+  constexpr double kWelded = 1e-4;
+  TriangleMesh cloud = makeTriangleMesh(points, {});
+  cloud = weldVertices(cloud, kWelded * cloud.extents().norm());
+  std::vector<Eigen::Vector3d> kept;
+  for (Eigen::Index v = 0; v < cloud.vertexCount(); ++v) kept.emplace_back(cloud.vertices.col(v));
+  return mendTriangles(makeHullMesh(kept, name), name).mesh;
+}
+
 Solid hullOf(const std::vector<Solid>& group, const CollisionShapeSettings& settings,
              const std::string& reason, const std::string& name) {
   std::vector<Eigen::Vector3d> points;
@@ -82,7 +96,7 @@ Solid hullOf(const std::vector<Solid>& group, const CollisionShapeSettings& sett
       points.emplace_back(solid.mesh.vertices.col(v));
   }
   Solid hull;
-  hull.mesh = evenlyDivided(makeHullMesh(points, name), settings.faces);
+  hull.mesh = evenlyDivided(cleanHull(points, name), settings.faces);
   std::ostringstream text;
   text.precision(3);
   text << name << ": " << namesOf(group) << " cannot be united (" << reason

@@ -137,11 +137,12 @@ CheckedMesh withoutTJunctions(const TriangleMesh& mesh, const std::string& name)
   if (!hasBoundary(mesh)) return {mesh, {}};
   TriangleMesh divided = withoutCracks(mesh, kOnEdge * mesh.extents().norm());
   if (hasBoundary(divided)) return {mesh, {}};
+  const auto more = std::to_string(divided.triangleCount() - mesh.triangleCount());
   return {std::move(divided),
           {name +
            ": vertices lie on edges of other triangles (T-junctions), which were divided "
-           "there: " +
-           std::to_string(divided.triangleCount() - mesh.triangleCount()) + " triangles more"}};
+           "there; triangles added: " +
+           more}};
 }
 
 }  // namespace ambient

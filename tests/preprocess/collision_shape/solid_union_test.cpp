@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/mesh/solid_tree.h"
+#include "preprocess/mesh/topology_defects.h"
+#include "preprocess/potential_flow/potential_flow.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -104,6 +107,23 @@ TEST(SolidUnion, FallsBackToTheHullWithItsCost) {
   EXPECT_EQ(warning.rfind("it: child 0 (Box) and child 1 (Box) cannot be united (", 0), 0u);
   EXPECT_NE(warning.find("their convex hull stands for them, with -2"), std::string::npos)
       << warning;
+}
+
+// Hulls that barely overlap leave points that differ by little more than rounding.
+TEST(SolidUnion, HullsOfPointsSideBySideHaveNoFlatTriangles) {
+  std::vector<Solid> solids = leakingPair();
+  solids[1].mesh = solids[0].mesh;
+  for (Eigen::Index v = 0; v < solids[1].mesh.vertexCount(); ++v)
+    solids[1].mesh.vertices.col(v) += 1e-8 * std::sin(7.0 * v) * Eigen::Vector3d(1, 2, 3);
+  const SeparateSolids separate = uniteSolids(solids, fallingBackTo(CompoundFallback::kHull), "it");
+  ASSERT_EQ(separate.solids.size(), 1u);
+  const TriangleMesh& hull = separate.solids[0].mesh;
+  EXPECT_TRUE(isClosed(computeMeshEdges(hull)));
+  EXPECT_TRUE(findFlatTriangles(hull).empty());
+  EXPECT_NEAR(computeMassProperties(hull).volume, 1, 1e-6);
+  PotentialFlowSettings flow;
+  flow.sheet = false;
+  EXPECT_NO_THROW(solvePotentialFlow(hull, flow));
 }
 
 TEST(SolidUnion, FallsBackToTheSum) {

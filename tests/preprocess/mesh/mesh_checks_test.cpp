@@ -291,9 +291,9 @@ TEST(MeshChecks, TJunctionsAreDividedWithAWarning) {
   EXPECT_TRUE(isClosed(computeMeshEdges(checked.mesh)));
   EXPECT_EQ(checked.mesh.triangleCount(), 6);
   EXPECT_NEAR(computeMassProperties(checked.mesh).volume, 1.0 / 6, 1e-7);
-  EXPECT_EQ(checked.warnings,
-            std::vector<std::string>{"thing.obj: vertices lie on edges of other triangles "
-                                     "(T-junctions), which were divided there: 1 triangles more"});
+  EXPECT_EQ(checked.warnings, std::vector<std::string>{
+                                  "thing.obj: vertices lie on edges of other triangles "
+                                  "(T-junctions), which were divided there; triangles added: 1"});
   EXPECT_TRUE(diagnoseMesh(tetrahedronWithTJunction(1e-7), "thing.obj", {}).defects.empty());
 }
 
