@@ -9,6 +9,7 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/primitive_limits.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/potential_flow/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/surface_refinement.h"
@@ -160,7 +161,8 @@ Solid makeCylinderSolid(double radius, double height, const SolidResolution& res
                         const std::string& name) {
   requireSize(name, "the radius", radius);
   requireSize(name, "the height", height);
-  return solidOf(meshOf(CylinderShape{radius, height}, resolution.faces, name));
+  const int faces = std::max(resolution.faces, leastCylinderFaces(radius, height));
+  return solidOf(meshOf(CylinderShape{radius, height}, faces, name));
 }
 
 Solid makeCapsuleSolid(double radius, double height, const SolidResolution& resolution,
@@ -169,8 +171,9 @@ Solid makeCapsuleSolid(double radius, double height, const SolidResolution& reso
   requireSize(name, "the radius", radius);
   requireSize(name, "the height", height);
   const CapsuleShape capsule{radius, height};
-  const TriangleMesh mesh = meshOf(capsule, resolution.faces, name);
-  if (resolution.flow_faces <= resolution.faces) return solidOf(mesh);
+  const int faces = std::max(resolution.faces, leastCapsuleFaces(radius, height));
+  const TriangleMesh mesh = meshOf(capsule, faces, name);
+  if (resolution.flow_faces <= faces) return solidOf(mesh);
   return smoothSolid(mesh, meshOf(capsule, resolution.flow_faces, name));
 }
 
@@ -178,7 +181,10 @@ Solid makeConeSolid(double radius, double height, double margin, const SolidReso
                     const std::string& name) {
   requireSize(name, "the radius", radius);
   requireSize(name, "the height", height);
-  if (margin <= 0) return solidOf(meshOf(ConeShape{radius, height}, resolution.faces, name));
+  if (margin <= 0) {
+    const int faces = std::max(resolution.faces, leastConeFaces(radius, height));
+    return solidOf(meshOf(ConeShape{radius, height}, faces, name));
+  }
   requireSize(name, "the margin", margin);
   const double volume = roundedConeVolume(radius, height, margin);
   const auto make = [&](int faces) {

@@ -81,7 +81,7 @@ std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
   resolution.faces = settings.faces;
   if (is_instant && parts.size() > 1) resolution.faces /= 2;  // where they meet, both are cut
   resolution.least_faces = is_instant ? kLeastInstantFaces : kLeastFaces;
-  resolution.flow_faces = std::max(settings.faces, settings.flow.max_panels);
+  resolution.flow_faces = std::max(resolution.faces, settings.flow.max_panels);
   resolution.tables = usesTables(settings);
   return makeSolids(parts, resolution);
 }

@@ -12,4 +12,9 @@ void requirePositiveSize(const std::string& shape, const std::string& what, doub
 /// @throws std::runtime_error naming the shape, the number and the limit.
 void requireFaces(const std::string& shape, int faces, int least);
 
+/// The least number of triangles of makeCylinderMesh() and so on: the more slender, the more.
+int leastCylinderFaces(double radius, double height);
+int leastCapsuleFaces(double radius, double height);
+int leastConeFaces(double radius, double height);
+
 }  // namespace ambient

@@ -234,27 +234,39 @@ double roundedConeVolume(double radius, double height, double rounding) {
          kPi * height / 3 * (narrow * narrow + narrow * wide + wide * wide);
 }
 
+int leastCylinderFaces(double radius, double height) {
+  return static_cast<int>(triangleCount(cylinderRings(radius, height, 1)));
+}
+
 TriangleMesh makeCylinderMesh(double radius, double height, int faces) {
   requirePositiveSize("cylinder", "radius", radius);
   requirePositiveSize("cylinder", "height", height);
   const auto make = [&](int n) { return cylinderRings(radius, height, n); };
-  requireFaces("cylinder", faces, static_cast<int>(triangleCount(make(1))));
+  requireFaces("cylinder", faces, leastCylinderFaces(radius, height));
   return Lathe(finestRings(faces, make)).mesh();
+}
+
+int leastCapsuleFaces(double radius, double height) {
+  return static_cast<int>(triangleCount(capsuleRings(radius, height, 1)));
 }
 
 TriangleMesh makeCapsuleMesh(double radius, double height, int faces) {
   requirePositiveSize("capsule", "radius", radius);
   requirePositiveSize("capsule", "height", height);
   const auto make = [&](int n) { return capsuleRings(radius, height, n); };
-  requireFaces("capsule", faces, static_cast<int>(triangleCount(make(1))));
+  requireFaces("capsule", faces, leastCapsuleFaces(radius, height));
   return Lathe(finestRings(faces, make)).mesh();
+}
+
+int leastConeFaces(double radius, double height) {
+  return static_cast<int>(triangleCount(coneRings(radius, height, 1)));
 }
 
 TriangleMesh makeConeMesh(double radius, double height, int faces) {
   requirePositiveSize("cone", "radius", radius);
   requirePositiveSize("cone", "height", height);
   const auto make = [&](int n) { return coneRings(radius, height, n); };
-  requireFaces("cone", faces, static_cast<int>(triangleCount(make(1))));
+  requireFaces("cone", faces, leastConeFaces(radius, height));
   return Lathe(finestRings(faces, make)).mesh();
 }
 

@@ -9,6 +9,7 @@
 
 #include "bullet_ambient/ambient.h"
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 
@@ -76,6 +77,22 @@ TEST(InstantBody, OfManyChildrenHasNoMoreFaces) {
         btTransform(btQuaternion::getIdentity(), btVector3(btScalar(0.4 * i), 0, 0)), &ball);
   }
   EXPECT_LE(makeFluidBody(beads, instant()).faces.size(), 2u * kInstantFaces);
+}
+
+TEST(InstantBody, OfSlenderChildrenHasAsManyFacesAsTheyNeed) {
+  btCylinderShapeX rod(btVector3(4, btScalar(0.05), btScalar(0.05)));
+  btCapsuleShape mast(btScalar(0.05), 4);
+  btConeShapeZ spike(btScalar(0.05), 4);
+  btCompoundShape cross;
+  for (btCollisionShape* arm :
+       {static_cast<btCollisionShape*>(&rod), static_cast<btCollisionShape*>(&mast),
+        static_cast<btCollisionShape*>(&spike)}) {
+    arm->setMargin(0);
+    cross.addChildShape(btTransform::getIdentity(), arm);
+  }
+  const double rods = kPi * 0.0025 * 8, masts = kPi * 0.0025 * 4, spikes = masts / 3;
+  const FluidBody guess = makeFluidBody(cross, instant());
+  EXPECT_NEAR(guess.volume, rods + masts + spikes, 0.1 * rods);
 }
 
 TEST(InstantCache, GoesOnToTheSolutionAndTells) {
