@@ -14,8 +14,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// How much a fluid body may cost.
 enum class Quality {
-  kInstant,   ///< milliseconds, of compounds tens: few faces, added mass of the ellipsoid with the
-              ///< second moments
+  kInstant,   ///< milliseconds: few faces, added mass of the ellipsoid with the second moments
   kStandard,  ///< seconds: the flow is solved
 };
 
