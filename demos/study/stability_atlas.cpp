@@ -62,12 +62,9 @@ class CaseGenerator {
 };
 
 // Rows may add energy: Bullet pushes bodies apart and pulls joints together.
-bool hasRows(AtlasSetting setting) {
-  return setting == AtlasSetting::kOnPlane || setting == AtlasSetting::kOnJoint;
-}
-
 double mostRise(AtlasSetting setting) {
-  return hasRows(setting) ? std::numeric_limits<double>::infinity() : kMostRise;
+  const bool has_rows = setting == AtlasSetting::kOnPlane || setting == AtlasSetting::kOnJoint;
+  return has_rows ? std::numeric_limits<double>::infinity() : kMostRise;
 }
 
 struct Tally {
@@ -109,8 +106,7 @@ int run(int runs, unsigned seed, const std::string& out) {
     const AtlasCase atlas_case = cases.next();
     const AtlasResult result = runAtlasCase(atlas_case);
     tallies[atlas_case.setting].add(result);
-    if (hasRows(atlas_case.setting))
-      in_vacuum[atlas_case.setting].add(runAtlasCase(atlas_case, AtlasFluid::kNone));
+    in_vacuum[atlas_case.setting].add(runAtlasCase(atlas_case, AtlasFluid::kNone));
     table += lineOf(atlas_case, result);
   }
   if (!out.empty()) {

@@ -49,6 +49,19 @@ TEST(FormLawScenes, TheSameCubeShootsUpByThePublishedLaw) {
       << record.warning;
 }
 
+TEST(FormLawScenes, ASlabFallsFlatInOneSubstepPerStep) {
+  nlohmann::json scene = cubeInWater("form", 1.0 / 60);
+  scene["bodies"][0]["shape"]["size"] = {0.2, 0.2, 0.05};
+  scene["bodies"][0]["mass"] = 5;
+  const RunRecord record = runSharing(sceneFrom(scene));
+  // C_D of 1.17 carries what 5 kg weigh in water.
+  const double weight = 9.81 * (5 - 998 * 0.002);
+  const double speed = std::sqrt(weight / (0.5 * 998 * 1.17 * 0.04));
+  EXPECT_NEAR(record.motion[0].back().twist.linear.z(), -speed, 0.01 * speed);
+  EXPECT_EQ(record.work[0].substeps, 180);
+  EXPECT_EQ(record.work[0].coarse, 0);
+}
+
 /// A card of 85 x 55 mm and 300 g/m^2 in air, 60 degrees from level.
 nlohmann::json cardInAir(double step) {
   nlohmann::json scene = ballScene();

@@ -115,11 +115,12 @@ TEST(FormLevels, AreAsSmallAsAnErrorAllows) {
 
 TEST(FormLevels, TakeEnergyInEveryMotion) {
   const FluidBody body = ellipsoid();
-  const FormLevel level = buildFormLevels(body, {48}).front();
   test::Arbitrary arbitrary(6);
-  for (int i = 0; i < 10000; ++i) {
-    const Twist x = someTwist(arbitrary, 0.35);
-    EXPECT_LT(loadOn(level.faces, x).dot(x.vector()), 0);
+  for (const FormLevel& level : buildFormLevels(body, {48, 96, 200})) {
+    for (int i = 0; i < 40000; ++i) {
+      const Twist x = someTwist(arbitrary, 0.35);
+      EXPECT_LT(loadOn(level.faces, x).dot(x.vector()), 0) << level.faces.size();
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 
@@ -98,29 +99,34 @@ TEST(Slope, HoldsBodiesThatStandOnATiltedFace) {
   EXPECT_LT(worst.ambient, worst.stock);
 }
 
-// 2.7 times as dense as water, of irregular shape.
+// An irregular body in water; its points are those of the seed.
+btRigidBody& addHull(Slope& slope, Arbitrary& arbitrary, double density_ratio, bool in_fluid) {
+  const Vector3 axes(0.3, 0.25, 0.15);
+  for (int i = 0; i < 20; ++i)
+    slope.hull.addPoint(toBullet(Vector3(arbitrary.vector().normalized().cwiseProduct(axes))));
+  const double mass = density_ratio * water().density * ellipsoidVolume(axes);
+  BodyDef def{mass, ellipsoidMoments(axes, mass), {}, &slope.hull};
+  def.start.position = {0, 0, 0.2};
+  btRigidBody& body = slope.add(def);
+  if (!in_fluid) return body;
+  AttachDef attach;
+  attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(axes, 1));
+  attach.medium = water();
+  attach.fluid_frame.rotation =
+      Quaternion(Eigen::AngleAxisd(0.3, arbitrary.vector().normalized())).toRotationMatrix();
+  attach.fluid_frame.translation = arbitrary.vector(0.01);
+  slope.registry.attach(body, attach);
+  return body;
+}
+
 TEST(Slope, HoldsRandomHullsAsWellAsDryOnes) {
-  const Worst worst =
-      worstCreep(6, [&](Slope& slope, Arbitrary& arbitrary, bool in_fluid) -> btRigidBody& {
-        const Vector3 axes(0.3, 0.25, 0.15);
-        for (int i = 0; i < 20; ++i)
-          slope.hull.addPoint(
-              toBullet(Vector3(arbitrary.vector().normalized().cwiseProduct(axes))));
-        const double mass = 2.7 * water().density * ellipsoidVolume(axes);
-        BodyDef def{mass, ellipsoidMoments(axes, mass), {}, &slope.hull};
-        def.start.position = {0, 0, 0.2};
-        if (!in_fluid) return slope.add(def);
-        btRigidBody& body = slope.add(def);
-        AttachDef attach;
-        attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(axes, 1));
-        attach.medium = water();
-        attach.fluid_frame.rotation =
-            Quaternion(Eigen::AngleAxisd(0.3, arbitrary.vector().normalized())).toRotationMatrix();
-        attach.fluid_frame.translation = arbitrary.vector(0.01);
-        slope.registry.attach(body, attach);
-        return body;
-      });
-  EXPECT_LT(worst.ambient, worst.stock);
+  for (const double density_ratio : {1.2, 2.7}) {
+    const auto add = [&](Slope& slope, Arbitrary& arbitrary, bool in_fluid) -> btRigidBody& {
+      return addHull(slope, arbitrary, density_ratio, in_fluid);
+    };
+    const Worst worst = worstCreep(6, add);
+    EXPECT_LT(worst.ambient, worst.stock) << density_ratio;
+  }
 }
 
 int contactsOf(btDispatcher& dispatcher) {
