@@ -41,7 +41,7 @@ class RowsOf : public btMultiBodyConstraint {
   }
 };
 
-std::size_t coordinatesOf(const btMultiBody& body) {
+std::size_t velocityCount(const btMultiBody& body) {
   return 6 + static_cast<std::size_t>(body.getNumDofs());
 }
 
@@ -138,7 +138,7 @@ MultiBodyState saveMultiBody(const btMultiBody& body) {
   s.interpolation_position = body.getInterpolateBasePos();
   s.orientation = body.getWorldToBaseRot();
   s.interpolation_orientation = body.getInterpolateWorldToBaseRot();
-  s.velocity.assign(body.getVelocityVector(), body.getVelocityVector() + coordinatesOf(body));
+  s.velocity.assign(body.getVelocityVector(), body.getVelocityVector() + velocityCount(body));
   s.links.push_back(saveBase(body));
   for (int i = 0; i < body.getNumLinks(); ++i) s.links.push_back(saveLink(body.getLink(i)));
   for (int i = -1; i < body.getNumLinks(); ++i)
@@ -172,10 +172,10 @@ void requireFits(const MultiBodyState& state, const btMultiBody& body, std::size
     refuse(what, number,
            "has " + std::to_string(state.links.size() - 1) + " links, but the world's has " +
                std::to_string(body.getNumLinks()));
-  if (state.velocity.size() != coordinatesOf(body))
+  if (state.velocity.size() != velocityCount(body))
     refuse(what, number,
            "has " + std::to_string(state.velocity.size()) + " velocities, but the world's has " +
-               std::to_string(coordinatesOf(body)));
+               std::to_string(velocityCount(body)));
   for (std::size_t i = 0; i < state.links.size(); ++i) {
     const int link = static_cast<int>(i) - 1;
     const std::string name = "link " + std::to_string(link);
