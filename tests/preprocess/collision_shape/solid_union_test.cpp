@@ -114,7 +114,8 @@ TEST(SolidUnion, HullsOfPointsSideBySideHaveNoFlatTriangles) {
   std::vector<Solid> solids = leakingPair();
   solids[1].mesh = solids[0].mesh;
   for (Eigen::Index v = 0; v < solids[1].mesh.vertexCount(); ++v)
-    solids[1].mesh.vertices.col(v) += 1e-8 * std::sin(7.0 * v) * Eigen::Vector3d(1, 2, 3);
+    solids[1].mesh.vertices.col(v) +=
+        1e-8 * std::sin(7.0 * static_cast<double>(v)) * Eigen::Vector3d(1, 2, 3);
   const SeparateSolids separate = uniteSolids(solids, fallingBackTo(CompoundFallback::kHull), "it");
   ASSERT_EQ(separate.solids.size(), 1u);
   const TriangleMesh& hull = separate.solids[0].mesh;

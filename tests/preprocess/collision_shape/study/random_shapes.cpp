@@ -51,7 +51,7 @@ const btCompoundShape& RandomShapes::mixedCompound(bool on_grid) {
   auto compound = std::make_unique<btCompoundShape>();
   const int count = 2 + static_cast<int>(random_() % 4);
   for (int i = 0; i < count; ++i) {
-    const double angle = on_grid ? kPi / 2 * (random_() % 4) : uniform(0, 3);
+    const double angle = on_grid ? kPi / 2 * static_cast<double>(random_() % 4) : uniform(0, 3);
     const btQuaternion turn(btVector3(0, 0, 1), static_cast<btScalar>(angle));
     const Vector3 place(length(-1, 0.75, on_grid), length(-1, 0.75, on_grid),
                         length(-1, 0.75, on_grid));
