@@ -150,7 +150,8 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegist
 using FluidBodyLookup = std::function<std::shared_ptr<const FluidBody>(const std::string& name)>;
 
 /// A saved state as bytes: little-endian, with version, precision and checksum, the same state
-/// gives the same bytes.
+/// gives the same bytes. A function in FlowSettings::own_law is not in them: set it in what
+/// decodeState() returns.
 /// @throws std::runtime_error if two fluid bodies of one name have different contents.
 std::string encodeState(const WorldState& state);
 

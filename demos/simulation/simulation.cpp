@@ -8,6 +8,18 @@
 #include "demos/simulation/simulation_world.h"
 
 namespace ambient {
+namespace {
+
+/// Which bytes have not, as it is a function.
+void setLaw(WorldState& state, const LoadLaw& law) {
+  for (BodyState& body : state.bodies)
+    if (body.ambient) body.ambient->def.flow.own_law = law;
+  for (MultiBodyState& body : state.multi_bodies)
+    for (LinkFluidState& fluid : body.fluids) fluid.ambient.def.flow.own_law = law;
+}
+
+}  // namespace
+
 Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies)
     : world_(std::make_unique<World>(scene, bodies)) {}
 
@@ -56,8 +68,9 @@ void Simulation::restoreState(std::string_view bytes) {
   std::memcpy(&steps, bytes.data(), sizeof steps);
   if (steps < 0) throw std::runtime_error(source + ": is damaged: its steps are below 0");
   const auto lookup = [&w](const std::string& name) { return w.findFluidBody(name); };
-  ambient::restoreState(decodeState(bytes.substr(sizeof steps), source, lookup), *w.bullet.world,
-                        w.registry);
+  WorldState state = decodeState(bytes.substr(sizeof steps), source, lookup);
+  setLaw(state, w.own_law);
+  ambient::restoreState(state, *w.bullet.world, w.registry);
   w.steps = steps;
 }
 

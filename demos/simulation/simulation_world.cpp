@@ -66,13 +66,13 @@ LoadLaw loadLawOf(const Scene& scene) {
 }
 
 AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBody& prepared,
-                        const Matrix3& R_SB) {
+                        const Matrix3& R_SB, const LoadLaw& own_law) {
   AttachDef attach;
   attach.fluid_body = prepared.fluid_body;
   attach.medium = def.medium.value_or(scene.medium);
   if (def.fluid_density) attach.medium.density = *def.fluid_density;
   attach.flow = def.flow;
-  attach.flow.own_law = loadLawOf(scene);
+  attach.flow.own_law = own_law;
   attach.wave_damping = def.wave_damping;
   attach.flight = scene.flight;
   attach.fluid_frame.rotation = R_SB.transpose();
@@ -126,6 +126,7 @@ BulletWorld makeBulletWorld(bool has_robots, AmbientRegistry& registry,
 Simulation::World::World(const Scene& scene, const std::vector<PreparedBody>& prepared)
     : bullet(
           makeBulletWorld(!scene.robots.empty(), registry, dispatcher, broadphase, configuration)),
+      own_law(loadLawOf(scene)),
       time_step(scene.time_step) {
   registry.setReport([this](const std::string& sentence) { report = sentence; });
   bullet.world->setGravity(toBullet(scene.gravity));
@@ -157,7 +158,7 @@ void Simulation::World::add(const Scene& scene, const BodyDef& def, const Prepar
   WorldBody& added = bodies.back();
   if (scene.model == FluidModel::kVacuum || prepared.mass == 0 || !prepared.fluid_body) return;
   try {
-    attach(added, makeAttachDef(scene, def, prepared, added.R_SB));
+    attach(added, makeAttachDef(scene, def, prepared, added.R_SB, own_law));
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("body \"" + def.name + "\": " + error.what());
   }

@@ -45,6 +45,7 @@ struct Simulation::World {
   std::vector<WorldBody> bodies;
   std::vector<std::unique_ptr<SceneRobot>> robots;
   std::vector<std::unique_ptr<btTypedConstraint>> joints;
+  LoadLaw own_law;  ///< of all bodies; empty: this library's
   std::string report;
   double time_step = 0;
   long long steps = 0;
