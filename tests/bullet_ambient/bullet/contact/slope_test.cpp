@@ -12,7 +12,8 @@ namespace ambient::test {
 namespace {
 
 constexpr double kSlope = 0.25, kFriction = 0.8, kStep = 1.0 / 60;
-constexpr int kSettling = 60, kSteps = 540;
+// A body little denser than water takes seconds until it has rolled to rest.
+constexpr int kSettling = 600, kSteps = 540;
 
 // The slope is level and gravity oblique.
 struct Slope : FluidWorld {
