@@ -78,7 +78,8 @@ class CrackMender {
   std::vector<int> verticesOn(const Edge& edge, const std::vector<int>& candidates) const {
     const Vector3d a = points_[static_cast<std::size_t>(edge.first)];
     const Vector3d along = points_[static_cast<std::size_t>(edge.second)] - a;
-    const auto [low, high] = std::minmax({x(edge.first), x(edge.second)});
+    const double low = std::min(x(edge.first), x(edge.second));
+    const double high = std::max(x(edge.first), x(edge.second));
     const double length = along.norm();
     std::vector<std::pair<double, int>> found;
     const auto first = std::partition_point(candidates.begin(), candidates.end(),
