@@ -27,7 +27,7 @@ void meetSurfaceAgain(AmbientBody& ambient, const FluidRegions& regions) {
 
 std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBodyState& state,
                                       AmbientBodies& registered) {
-  const auto index = static_cast<std::size_t>(saved.link + 1);
+  const auto index = static_cast<std::size_t>(saved.link) + 1;
   if (saved.link < -1 || index >= state.links.size())
     throw std::invalid_argument("restoreState: a fluid is that of link " +
                                 std::to_string(saved.link) + ", which the state has not");

@@ -143,7 +143,7 @@ MultiBodyState saveMultiBody(const btMultiBody& body) {
   for (int i = 0; i < body.getNumLinks(); ++i) s.links.push_back(saveLink(body.getLink(i)));
   for (int i = -1; i < body.getNumLinks(); ++i)
     if (const btMultiBodyLinkCollider* collider = colliderOf(body, i))
-      s.links[static_cast<std::size_t>(i + 1)].collider = saveObject(*collider);
+      s.links[static_cast<std::size_t>(i) + 1].collider = saveObject(*collider);
   s.linear_damping = body.getLinearDamping();
   s.angular_damping = body.getAngularDamping();
   s.velocity_limit = body.getMaxCoordinateVelocity();
@@ -199,7 +199,7 @@ void requireFits(const MultiBodyJointState& state, const btMultiBodyConstraint& 
 void restoreMultiBody(const MultiBodyState& state, btMultiBody& body) {
   restoreBase(state, body);
   for (int i = 0; i < body.getNumLinks(); ++i)
-    restoreLink(state.links[static_cast<std::size_t>(i + 1)], body.getLink(i));
+    restoreLink(state.links[static_cast<std::size_t>(i) + 1], body.getLink(i));
   forEachCollider(state, body, restoreObject);
   // Where Bullet keeps them; it writes there itself (btMultiBodyDynamicsWorld, RK4).
   std::copy(state.velocity.begin(), state.velocity.end(),
