@@ -8,6 +8,7 @@
 #include <set>
 
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/plain_text.h"
 #include "preprocess/robot/urdf_text.h"
 #include "preprocess/shape/json_text.h"
 
@@ -24,7 +25,7 @@ class UrdfdomMessages : public console_bridge::OutputHandler {
 
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR)
-      text_ += (text_.empty() ? "" : "; ") + text;
+      text_ += (text_.empty() ? "" : "; ") + plainLine(text);
   }
   const std::string& text() const { return text_; }
 
@@ -58,7 +59,7 @@ void parseChecked(const std::string& urdf, const std::string& source, UrdfModel&
     parsed.model = urdf::parseURDF(urdf);
     if (parsed.model && messages.text().empty()) return;
   } catch (const std::exception& error) {
-    raiseInputError(source, error.what());
+    raiseInputError(source, plainLine(error.what()));
   }
   raiseInputError(source, messages.text().empty() ? "is not a robot" : messages.text());
 }

@@ -139,6 +139,7 @@ TEST(UrdfReader, RefusesBadInputInOneLine) {
       {R"(<link name="a"><inertial><mass value="-1"/>
           <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>)",
        "link \"a\": <inertial>: mass is -1; must be >= 0"},
+      {collides("<box size=\"1 2 3\nx\"/>"), "[3\\nx]"},
       {R"(<link name="a"><inertial><mass value="1e999"/></inertial></link>)", "mass"},
   };
   for (const auto& [content, expected] : cases) {
