@@ -127,8 +127,8 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
   EXPECT_GT(sticking, 200);
   EXPECT_GT(sliding, 200);
   // Solvers that are not iterative find the solution of these rows to 2e-6 in float, and so do the
-  // others for all pairs but one, where they converge slowly: 2.5e-5 by the rounding of thousands
-  // of iterations (5e-5 if they go on until nothing changes).
+  // others but for one pair, where they converge slowly: 2.5e-5, probably the rounding of thousands
+  // of iterations.
   constexpr bool kIterates = !std::is_same_v<typename TypeParam::Base, btMLCPSolver>;
   EXPECT_LT(worst, kIterates && sizeof(btScalar) == 4 ? 3 * kTolerance : kTolerance);
   EXPECT_LT(worst_point_force, kTolerance);
