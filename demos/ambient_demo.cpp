@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/output_file.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "demos/cases_command.h"
 #include "demos/gltf/gltf_text.h"
 #include "demos/scene/scene_lookup.h"
@@ -24,7 +25,6 @@
 #include "demos/sweep/case_runs.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
-#include "preprocess/mesh/plain_text.h"
 
 namespace ambient {
 namespace {

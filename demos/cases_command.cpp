@@ -4,11 +4,11 @@
 #include <cstdio>
 
 #include "bullet_ambient/fluid_body/output_file.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "demos/simulation/run_signals.h"
 #include "demos/sweep/case_runs.h"
 #include "demos/sweep/case_table.h"
 #include "preprocess/builder/elapsed_display.h"
-#include "preprocess/mesh/plain_text.h"
 
 namespace ambient {
 namespace {

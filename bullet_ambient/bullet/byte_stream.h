@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
@@ -72,7 +73,7 @@ class ByteReader {
   }
   std::size_t left() const { return bytes_.size(); }
   [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(source_ + ": the saved state " + what);
+    throw std::runtime_error(plainLine(source_ + ": the saved state " + what));
   }
 
  private:

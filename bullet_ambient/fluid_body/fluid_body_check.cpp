@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
@@ -27,7 +28,7 @@ class Checker {
     message.precision(9);
     message << source_ << ": ";
     (message << ... << parts);
-    throw std::runtime_error(message.str());
+    throw std::runtime_error(plainLine(message.str()));
   }
 
   void finite(double value, const char* what) const {

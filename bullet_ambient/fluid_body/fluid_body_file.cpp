@@ -9,6 +9,7 @@
 #include "bullet_ambient/fluid_body/fluid_body_file_header.h"
 #include "bullet_ambient/fluid_body/load_fluid_body.h"
 #include "bullet_ambient/fluid_body/output_file.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 
 namespace ambient {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what) {
-  throw std::runtime_error(file.string() + ": " + what);
+  throw std::runtime_error(plainLine(file.string() + ": " + what));
 }
 
 std::uint64_t sizeOfRegularFile(const fs::path& file) {

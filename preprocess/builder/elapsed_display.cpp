@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "preprocess/mesh/plain_text.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 
 namespace ambient {
 

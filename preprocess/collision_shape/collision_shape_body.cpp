@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "preprocess/collision_shape/form_body.h"
-#include "preprocess/mesh/plain_text.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {

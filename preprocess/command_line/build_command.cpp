@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/reuse.h"
@@ -14,7 +15,6 @@
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
-#include "preprocess/mesh/plain_text.h"
 #include "preprocess/reduced_loads/form_levels.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "bullet_ambient/fluid_body/output_file.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
@@ -13,7 +14,6 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_diagnosis.h"
 #include "preprocess/mesh/mesh_import.h"
-#include "preprocess/mesh/plain_text.h"
 #include "preprocess/mesh/usual_size.h"
 #include "preprocess/shape/shape_mesh.h"
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "preprocess/command_line/json_numbers.h"
-#include "preprocess/mesh/plain_text.h"
 #include "preprocess/mesh/usual_size.h"
 
 namespace ambient {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "preprocess/command_line/closest_word.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
-#include "preprocess/mesh/plain_text.h"
 
 namespace ambient {
 namespace {

@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "bullet_ambient/fluid_body/output_file.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
@@ -11,7 +12,6 @@
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/plain_text.h"
 #include "preprocess/mesh/usual_size.h"
 #include "preprocess/mesh_report/mesh_report.h"
 #include "preprocess/mesh_report/potential_picture.h"

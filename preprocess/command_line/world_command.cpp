@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <iostream>
 
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/bullet_world/world_builder.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/plain_text.h"
 #include "preprocess/mesh/usual_size.h"
 
 namespace ambient {

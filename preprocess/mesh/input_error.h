@@ -5,16 +5,18 @@
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/fluid_body/plain_text.h"
+
 namespace ambient {
 
-/// "source: parts" in one line.
+/// "source: parts" in one line: control characters of what is quoted are shown, see plainLine().
 template <class... Parts>
 std::string inputMessage(const std::string& source, const Parts&... parts) {
   std::ostringstream message;
   message.precision(9);
   message << source << ": ";
   (message << ... << parts);
-  return message.str();
+  return plainLine(message.str());
 }
 
 /// Refuses bad input in one line that begins with `source`, the file or shape it came from.

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <set>
 
+#include "bullet_ambient/fluid_body/plain_text.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/plain_text.h"
 #include "preprocess/robot/urdf_text.h"
 #include "preprocess/shape/json_text.h"
 
@@ -59,7 +59,7 @@ void parseChecked(const std::string& urdf, const std::string& source, UrdfModel&
     parsed.model = urdf::parseURDF(urdf);
     if (parsed.model && messages.text().empty()) return;
   } catch (const std::exception& error) {
-    raiseInputError(source, plainLine(error.what()));
+    raiseInputError(source, error.what());
   }
   raiseInputError(source, messages.text().empty() ? "is not a robot" : messages.text());
 }

@@ -127,6 +127,7 @@ TEST(UrdfReader, RefusesBadInputInOneLine) {
       {collides(R"(<sphere/>)"), "radius"},
       {collides(R"(<capsule radius="1" length="x"/>)"),
        "line 1, link \"a\": <capsule> length: is \"x\"; must be 1 number > 0"},
+      {collides("<capsule radius=\"1\" length=\"x&#10;y\"/>"), "length: is \"x\\ny\"; must be"},
       {collides(R"(<ellipsoid semi_axes="1 2"/>)"), "must be 3 numbers > 0"},
       {collides(R"(<mesh filename="http://x/y.obj"/>)"),
        "link \"a\": <collision> 1: \"http://x/y.obj\" begins with http://"},

@@ -112,6 +112,17 @@ TEST_F(StateBytes, NameWhatIsForeign) {
                                           : "have 8 bytes, here they have 4");
 }
 
+TEST_F(StateBytes, NamesOfSeveralLinesAreToldInOne) {
+  for (BodyState& body : state.bodies) {
+    if (!body.ambient) continue;
+    auto renamed = std::make_shared<FluidBody>(*body.ambient->def.fluid_body);
+    renamed->name += "\n\x1b[2J";
+    body.ambient->def.fluid_body = renamed;
+  }
+  EXPECT_NE(refusal(encodeState(state), {}).find("\\n?[2J', which is not known"),
+            std::string::npos);
+}
+
 TEST_F(StateBytes, NameTheFluidBodyThatIsMissingOrAnother) {
   EXPECT_NE(refusal(bytes, {}).find("'box', which is not known"), std::string::npos);
   const auto changed = [this](const std::string& name) {

@@ -1,4 +1,4 @@
-#include "preprocess/mesh/plain_text.h"
+#include "bullet_ambient/fluid_body/plain_text.h"
 
 namespace ambient {
 namespace {
