@@ -15,6 +15,7 @@ import bullet_ambient as ba
 EXAMPLES = Path(__file__).resolve().parents[3] / "demos/python/examples"
 sys.path.append(str(EXAMPLES))
 
+import hull_rates  # noqa: E402
 import pybullet_limits  # noqa: E402
 
 
@@ -35,6 +36,28 @@ class PyBulletTest(unittest.TestCase):
         scene = ba.Scene("football_vacuum", {"duration": 0.1, "medium": {"density": 0}})
         path, fall = pybullet_limits.fall_by_forces(scene), ba.World(scene).run(0.1, scene.time_step).position[1:, 0]
         np.testing.assert_allclose(path, fall, rtol=1e-9, atol=1e-12)
+
+
+class HullRatesTest(unittest.TestCase):
+    def hull(self, ratio):
+        return ba.FluidBody.from_shape({"type": "ellipsoid", "semi_axes": [ratio, 1, 1], "faces": 500})
+
+    def test_potential_flow_has_the_rates_of_its_closed_form(self):
+        # Lamb, Hydrodynamics, articles 114 and 115: inertia coefficients of prolate spheroids.
+        ratio, e = 2, np.sqrt(1 - 1 / 2**2)
+        log = np.log((1 + e) / (1 - e))
+        a, b = 2 * (1 - e**2) / e**3 * (log / 2 - e), 1 / e**2 - (1 - e**2) / (2 * e**3) * log
+        along, across = 2 / (2 - a), 2 / (2 - b)
+        turning = (ratio**2 + 1) / 5 * (1 + e**4 * (b - a) / ((2 - e**2) * (2 * e**2 - (2 - e**2) * (b - a))))
+        expected = np.sqrt(along * (across - along) / (across * turning))
+        hull = self.hull(ratio)
+        found = sorted(hull_rates.rates(hull, hull_rates.derivatives(hull, None)))
+        np.testing.assert_allclose(found, [-expected, expected], rtol=1e-2)
+
+    def test_long_hulls_hold_their_course_by_the_form_law_alone(self):
+        hull = self.hull(4)
+        self.assertGreater(max(hull_rates.rates(hull, hull_rates.derivatives(hull, "published"))), 0.2)
+        self.assertLess(max(hull_rates.rates(hull, hull_rates.derivatives(hull, "form"))), 0)
 
 
 class PicturesTest(unittest.TestCase):
