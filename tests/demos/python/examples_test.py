@@ -17,6 +17,7 @@ sys.path.append(str(EXAMPLES))
 
 import hull_rates  # noqa: E402
 import pybullet_limits  # noqa: E402
+import scene_energy  # noqa: E402
 
 
 class PyBulletTest(unittest.TestCase):
@@ -58,6 +59,22 @@ class HullRatesTest(unittest.TestCase):
         hull = self.hull(4)
         self.assertGreater(max(hull_rates.rates(hull, hull_rates.derivatives(hull, "published"))), 0.2)
         self.assertLess(max(hull_rates.rates(hull, hull_rates.derivatives(hull, "form"))), 0)
+
+
+class SceneEnergyTest(unittest.TestCase):
+    def test_leaves_that_fall_lose_energy_only(self):
+        scene = ba.Scene("leaves", {"duration": 0.5})
+        values = scene_energy.energy(scene, ba.World(scene).run(0.5, scene.output_step))
+        self.assertLess(values[-1], values[0] - 1e-3)
+        self.assertLess(scene_energy.rise(values), 1e-9)
+
+    def test_a_ball_that_rests_in_water_has_the_potential_energy_of_its_weight_there(self):
+        body = {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "mass": 5, "position": [0, 0, 2]}
+        still = {"duration": 1, "gravity": [0, 0, -9.81], "medium": {"density": 1000, "viscosity": 0.001}, "bodies": [body]}
+        scene = ba.Scene(still)
+        motion = ba.World(scene).run(0.1)
+        weight = (5 - 1000 * 4 / 3 * np.pi * 0.1**3) * 9.81
+        self.assertAlmostEqual(scene_energy.energy(scene, motion)[0], 2 * weight, delta=1e-12 * weight)
 
 
 class PicturesTest(unittest.TestCase):
