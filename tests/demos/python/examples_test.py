@@ -70,8 +70,9 @@ class SceneEnergyTest(unittest.TestCase):
 
     def test_a_ball_that_rests_in_water_has_the_potential_energy_of_its_weight_there(self):
         body = {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "mass": 5, "position": [0, 0, 2]}
-        still = {"duration": 1, "gravity": [0, 0, -9.81], "medium": {"density": 1000, "viscosity": 0.001}, "bodies": [body]}
-        scene = ba.Scene(still)
+        steps = {"duration": 1, "time_step": 1 / 60, "output_step": 1 / 60}
+        water = {"density": 1000, "viscosity": 0.001}
+        scene = ba.Scene({**steps, "gravity": [0, 0, -9.81], "medium": water, "bodies": [body]})
         motion = ba.World(scene).run(0.1)
         weight = (5 - 1000 * 4 / 3 * np.pi * 0.1**3) * 9.81
         self.assertAlmostEqual(scene_energy.energy(scene, motion)[0], 2 * weight, delta=1e-12 * weight)
