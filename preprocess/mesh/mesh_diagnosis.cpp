@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "preprocess/mesh/defect_message.h"
 #include "preprocess/mesh/mesh_mending.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/mesh_topology.h"

@@ -6,8 +6,8 @@
 
 #include "bullet_ambient/spatial/ambient_assert.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "preprocess/mesh/defect_message.h"
 #include "preprocess/mesh/graded_grid.h"
-#include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/surface_crossing.h"
 #include "preprocess/mesh/winding_number.h"
 

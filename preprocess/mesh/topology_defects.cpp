@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "preprocess/mesh/defect_message.h"
 #include "preprocess/mesh/mesh_mending.h"
 #include "preprocess/mesh/mesh_orientation.h"
 
