@@ -83,7 +83,6 @@ set(BULLET_AMBIENT_PUBLIC_PREPROCESS_HEADERS
   builder/fluid_body_builder.h
   collision_shape/collision_shape_body.h
   collision_shape/fluid_body_cache.h
-  mesh/input_error.h
   mesh/mesh_checks.h
   mesh/mesh_defect.h
   mesh/mesh_import.h
