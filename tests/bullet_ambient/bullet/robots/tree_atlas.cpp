@@ -1,0 +1,127 @@
+#include "tests/bullet_ambient/bullet/robots/tree_atlas.h"
+
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "bullet_ambient/bullet/multibody_dynamics.h"
+#include "tests/bullet_ambient/bullet/robots/robot_world.h"
+#include "tests/support/ellipsoid_body.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr double kHertz[] = {30, 60, 120, 240};
+constexpr double kRadius = 0.05;  // of the collider of a link [m]
+constexpr double kGap = 0.05;     // between the walls of a box and what is in it [m]
+
+RobotDef treeOf(Arbitrary& arbitrary) {
+  RobotDef def;
+  def.links = 1 + static_cast<int>(arbitrary.between(0, 12));
+  def.joints = static_cast<Joints>(static_cast<int>(arbitrary.between(0, 3)));
+  def.has_fixed_base = arbitrary.between(0, 1) < 0.25;
+  def.speed = std::pow(10, arbitrary.between(-1, 1)) / 2;
+  def.collider_radius = kRadius;
+  return def;
+}
+
+void attachFluid(Arbitrary& arbitrary, RobotWorld& world, btMultiBody& body, TreeFluid fluid) {
+  const double ratio = std::pow(10, arbitrary.between(-2, 2));
+  if (fluid == TreeFluid::kIdeal) putIntoFluid(arbitrary, world, body, ratio);
+  if (fluid != TreeFluid::kWater) return;
+  AttachDef def;
+  def.medium = water();
+  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1));
+  for (int link = body.hasFixedBase() ? 0 : -1; link < body.getNumLinks(); ++link)
+    world.fluid.add(body, link, def);
+}
+
+// The last link on a ball joint to the world.
+void tie(RobotWorld& world, btMultiBody& body) {
+  const int tip = body.getNumLinks() - 1;
+  const btVector3 point(bt(0.15), 0, 0);
+  auto joint = std::make_unique<btMultiBodyPoint2Point>(
+      &body, tip, static_cast<btRigidBody*>(nullptr), point,
+      body.getLink(tip).m_cachedWorldTransform * point);
+  joint->setMaxAppliedImpulse(bt(1e9));
+  world.take(std::move(joint));
+}
+
+// Walls around all links as they begin.
+void addBox(RobotWorld& world, btMultiBody& body) {
+  for (int i = 0; i < 6; ++i) {
+    btVector3 normal(0, 0, 0);
+    normal[i / 2] = bt(i % 2 == 0 ? 1 : -1);
+    btScalar nearest = normal.dot(body.getBasePos());
+    for (int link = 0; link < body.getNumLinks(); ++link)
+      nearest =
+          std::min(nearest, normal.dot(body.getLink(link).m_cachedWorldTransform.getOrigin()));
+    world.addFixed(std::make_unique<btStaticPlaneShape>(normal, nearest - bt(kRadius + kGap)),
+                   btTransform::getIdentity());
+  }
+}
+
+TreeResult watch(RobotWorld& world, const btMultiBody& body, double hertz) {
+  const AmbientRegistry& registry = world.fluid.registry();
+  const double start = kineticEnergy(registry, body);
+  TreeResult result;
+  for (int i = 0; i < std::lround(hertz); ++i) {
+    world.step(1 / hertz);
+    const double rise = kineticEnergy(registry, body) / start - 1;
+    if (!std::isfinite(rise)) return {false, 0};
+    result.energy_rise = std::max(result.energy_rise, rise);
+  }
+  return result;
+}
+
+}  // namespace
+
+const char* nameOf(TreeSetting setting) {
+  switch (setting) {
+    case TreeSetting::kFree:
+      return "free";
+    case TreeSetting::kTethered:
+      return "on a tether";
+    case TreeSetting::kInBox:
+      return "in a box";
+    case TreeSetting::kTetheredInBox:
+      break;
+  }
+  return "on a tether in a box";
+}
+
+TreeResult runTree(const TreeCase& tree_case) {
+  Arbitrary arbitrary(tree_case.seed);
+  RobotWorld world;
+  world.world.getSolverInfo().m_erp = bt(0.2);  // Bullet's own
+  world.world.getSolverInfo().m_numIterations = 50;
+  const double hertz = kHertz[static_cast<int>(arbitrary.between(0, 4))];
+  btMultiBody& body = world.add(arbitrary, treeOf(arbitrary));
+  attachFluid(arbitrary, world, body, tree_case.fluid);
+  const TreeSetting setting = tree_case.setting;
+  if (setting == TreeSetting::kTethered || setting == TreeSetting::kTetheredInBox) tie(world, body);
+  if (setting == TreeSetting::kInBox || setting == TreeSetting::kTetheredInBox) addBox(world, body);
+  return watch(world, body, hertz);
+}
+
+void TreeTally::add(const TreeResult& result) {
+  ++runs;
+  not_finite += !result.is_finite;
+  rose += result.energy_rise > 1e-6;
+  rose_much += result.energy_rise > 0.01;
+  largest_rise = std::max(largest_rise, result.energy_rise);
+}
+
+TreeTable runTrees(int runs, unsigned seed) {
+  TreeTable table;
+  for (int s = 0; s < kTreeSettings; ++s)
+    for (int f = 0; f < 3; ++f)
+      for (int i = 0; i < runs; ++i)
+        table[s][f].add(runTree({static_cast<TreeSetting>(s), static_cast<TreeFluid>(f),
+                                 seed + static_cast<unsigned>(i)}));
+  return table;
+}
+
+}  // namespace ambient::test

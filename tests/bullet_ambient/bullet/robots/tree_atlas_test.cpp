@@ -1,0 +1,33 @@
+#include "tests/bullet_ambient/bullet/robots/tree_atlas.h"
+
+#include <gtest/gtest.h>
+
+namespace ambient::test {
+namespace {
+
+constexpr unsigned kSeeds = 30;
+
+// tree_atlas_study: none of 2000.
+TEST(TreeAtlas, InWaterNeverGainsEnergy) {
+  for (int setting = 0; setting < kTreeSettings; ++setting)
+    for (unsigned seed = 0; seed < kSeeds; ++seed) {
+      const TreeResult result =
+          runTree({static_cast<TreeSetting>(setting), TreeFluid::kWater, seed});
+      EXPECT_TRUE(result.is_finite) << setting << ", seed " << seed;
+      EXPECT_LT(result.energy_rise, 1e-6) << setting << ", seed " << seed;
+    }
+}
+
+// Bullet's correction of gaps and overlaps does work: 0.0017 of the start at most in 1500 runs.
+TEST(TreeAtlas, OnRowsInAnIdealFluidGainsLittle) {
+  for (const TreeSetting setting :
+       {TreeSetting::kTethered, TreeSetting::kInBox, TreeSetting::kTetheredInBox})
+    for (unsigned seed = 0; seed < kSeeds; ++seed) {
+      const TreeResult result = runTree({setting, TreeFluid::kIdeal, seed});
+      EXPECT_TRUE(result.is_finite) << nameOf(setting) << ", seed " << seed;
+      EXPECT_LT(result.energy_rise, 0.005) << nameOf(setting) << ", seed " << seed;
+    }
+}
+
+}  // namespace
+}  // namespace ambient::test
