@@ -14,8 +14,8 @@ namespace ambient::test {
 namespace {
 
 constexpr double kHertz[] = {30, 60, 120, 240};
-constexpr double kRadius = 0.05;  // of the collider of a link [m]
-constexpr double kGap = 0.05;     // between the walls of a box and what is in it [m]
+constexpr double kColliderRadius = 0.05;  // of the collider of a link [m]
+constexpr double kGap = 0.05;             // between the walls of a box and what is in it [m]
 
 RobotDef treeOf(Arbitrary& arbitrary) {
   RobotDef def;
@@ -23,7 +23,7 @@ RobotDef treeOf(Arbitrary& arbitrary) {
   def.joints = static_cast<Joints>(static_cast<int>(arbitrary.between(0, 3)));
   def.has_fixed_base = arbitrary.between(0, 1) < 0.25;
   def.speed = std::pow(10, arbitrary.between(-1, 1)) / 2;
-  def.collider_radius = kRadius;
+  def.collider_radius = kColliderRadius;
   return def;
 }
 
@@ -58,8 +58,9 @@ void addBox(RobotWorld& world, btMultiBody& body) {
     for (int link = 0; link < body.getNumLinks(); ++link)
       nearest =
           std::min(nearest, normal.dot(body.getLink(link).m_cachedWorldTransform.getOrigin()));
-    world.addFixed(std::make_unique<btStaticPlaneShape>(normal, nearest - bt(kRadius + kGap)),
-                   btTransform::getIdentity());
+    world.addFixed(
+        std::make_unique<btStaticPlaneShape>(normal, nearest - bt(kColliderRadius + kGap)),
+        btTransform::getIdentity());
   }
 }
 
