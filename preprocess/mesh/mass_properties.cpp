@@ -119,7 +119,6 @@ MeshProperties computeMassProperties(const TriangleMesh& mesh) {
 
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh) {
   const MassAndDistribution sheet = distributionOf(mesh, triangleMoments);
-  AMBIENT_ASSERT(sheet.mass > 0);
   return {0, sheet.mass, sheet.distribution, distributionOf(mesh, barycentreMoments).distribution};
 }
 

@@ -27,7 +27,8 @@ struct MeshProperties {
 MeshProperties computeMassProperties(const TriangleMesh& mesh);
 
 /// The same of an open sheet of zero thickness: exact integrals over its area. Cost O(T).
-/// @pre the mesh has a positive area.
+/// Centres and moments are not finite where the area is 0, as it is by underflow on a sheet that is
+/// no usual one (requireUsualSize()).
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh);
 
 }  // namespace ambient

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -75,10 +76,14 @@ Solid cubeSolid(double x, const char* part) {
   return solid;
 }
 
-// Two cubes that overlap by half, one of them with a hole.
-std::vector<Solid> leakingPair() {
-  std::vector<Solid> solids{cubeSolid(0, "child 0 (Box)"), cubeSolid(0.5, "child 1 (Box)")};
-  solids[0].mesh = withoutTriangle(solids[0].mesh, 0);
+// Two cubes that overlap by half, one of them turned by so little that their sides cross, but are
+// too near to each other for cuts.
+std::vector<Solid> nearlyFlushPair() {
+  std::vector<Solid> solids{cubeSolid(0, "child 0 (Box)"), cubeSolid(0, "child 1 (Box)")};
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 3).normalized();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(3e-4, axis).toRotationMatrix();
+  const Eigen::Matrix3Xd turned = turn * solids[1].mesh.vertices;
+  solids[1].mesh.vertices = turned.colwise() + Eigen::Vector3d(0.5, 0, 0);
   return solids;
 }
 
@@ -99,9 +104,9 @@ TEST(SolidUnion, LeavesSolidsWithGapsAlone) {
 
 TEST(SolidUnion, FallsBackToTheHullWithItsCost) {
   const SeparateSolids separate =
-      uniteSolids(leakingPair(), fallingBackTo(CompoundFallback::kHull), "it");
+      uniteSolids(nearlyFlushPair(), fallingBackTo(CompoundFallback::kHull), "it");
   ASSERT_EQ(separate.solids.size(), 1u);
-  EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume, 1.5, 1e-12);
+  EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume, 1.5, 1e-3);
   ASSERT_EQ(separate.solids[0].warnings.size(), 1u);
   const std::string& warning = separate.solids[0].warnings[0];
   EXPECT_EQ(warning.rfind("it: child 0 (Box) and child 1 (Box) cannot be united (", 0), 0u);
@@ -111,12 +116,12 @@ TEST(SolidUnion, FallsBackToTheHullWithItsCost) {
 
 // Hulls that barely overlap leave points that differ by little more than rounding.
 TEST(SolidUnion, HullsOfPointsSideBySideHaveNoFlatTriangles) {
-  std::vector<Solid> solids = leakingPair();
-  solids[1].mesh = solids[0].mesh;
+  std::vector<Solid> solids{cubeSolid(0, "a"), cubeSolid(0, "b")};
   for (Eigen::Index v = 0; v < solids[1].mesh.vertexCount(); ++v)
     solids[1].mesh.vertices.col(v) +=
         1e-8 * std::sin(7.0 * static_cast<double>(v)) * Eigen::Vector3d(1, 2, 3);
-  const SeparateSolids separate = uniteSolids(solids, fallingBackTo(CompoundFallback::kHull), "it");
+  const SeparateSolids separate =
+      replaceUnions(solids, fallingBackTo(CompoundFallback::kHull), "no flow", "it");
   ASSERT_EQ(separate.solids.size(), 1u);
   const TriangleMesh& hull = separate.solids[0].mesh;
   EXPECT_TRUE(isClosed(computeMeshEdges(hull)));
@@ -129,15 +134,15 @@ TEST(SolidUnion, HullsOfPointsSideBySideHaveNoFlatTriangles) {
 
 TEST(SolidUnion, FallsBackToTheSum) {
   const SeparateSolids separate =
-      uniteSolids(leakingPair(), fallingBackTo(CompoundFallback::kSum), "it");
+      uniteSolids(nearlyFlushPair(), fallingBackTo(CompoundFallback::kSum), "it");
   EXPECT_EQ(separate.solids.size(), 2u);
   EXPECT_TRUE(separate.is_sum);
   ASSERT_EQ(separate.solids[0].warnings.size(), 1u);
 }
 
 TEST(SolidUnion, RefusesIfToldTo) {
-  const std::string message =
-      messageOf([] { uniteSolids(leakingPair(), fallingBackTo(CompoundFallback::kRefuse), "it"); });
+  const std::string message = messageOf(
+      [] { uniteSolids(nearlyFlushPair(), fallingBackTo(CompoundFallback::kRefuse), "it"); });
   EXPECT_EQ(message.rfind("it: child 0 (Box) and child 1 (Box) touch or overlap and cannot be "
                           "united (it: ",
                           0),
