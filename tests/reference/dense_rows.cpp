@@ -103,8 +103,7 @@ class DenseSystem {
       if (bounds_[r] == Bound::kFree)
         A.block<1, 6>(at, first_unknown_[body]) += jacobian.transpose();
     };
-    addSide(row.body_a, row.jacobian_a);
-    addSide(row.body_b, row.jacobian_b);
+    for (const DenseSide& side : row.sides()) addSide(side.body, side.jacobian);
     if (bounds_[r] == Bound::kFree) {
       A(at, at) = row.softness;
       b[at] = row.target;
@@ -123,10 +122,9 @@ class DenseSystem {
   Real excess(int r, const Vector& solution) const {
     const DenseRow& row = rows_[r];
     Real value = row.softness * solution[impulseOf(r)] - row.target;
-    if (!bodies_[row.body_a].fixed)
-      value += row.jacobian_a.dot(solution.segment<6>(first_unknown_[row.body_a]));
-    if (!bodies_[row.body_b].fixed)
-      value += row.jacobian_b.dot(solution.segment<6>(first_unknown_[row.body_b]));
+    for (const DenseSide& side : row.sides())
+      if (!bodies_[side.body].fixed)
+        value += side.jacobian.dot(solution.segment<6>(first_unknown_[side.body]));
     return value;
   }
 
@@ -175,6 +173,12 @@ class DenseSystem {
 
 }  // namespace
 
+std::vector<DenseSide> DenseRow::sides() const {
+  std::vector<DenseSide> all{{body_a, jacobian_a}, {body_b, jacobian_b}};
+  all.insert(all.end(), further.begin(), further.end());
+  return all;
+}
+
 DenseSolution solveDense(const std::vector<DenseBody>& bodies, const std::vector<DenseRow>& rows) {
   return DenseSystem(bodies, rows).solve();
 }
@@ -187,8 +191,8 @@ std::optional<DenseSolution> onlySolution(const std::vector<DenseBody>& bodies,
 Real response(const std::vector<DenseBody>& bodies, const DenseRow& row, const DenseRow& to) {
   const auto jacobian = [](const DenseRow& r, int body) {
     DenseVector6 sum = DenseVector6::Zero();
-    if (r.body_a == body) sum += r.jacobian_a;
-    if (r.body_b == body) sum += r.jacobian_b;
+    for (const DenseSide& side : r.sides())
+      if (side.body == body) sum += side.jacobian;
     return sum;
   };
   Real sum = 0;
@@ -240,6 +244,12 @@ DenseRow spinRow(const Vector3r& direction) {
   row.body_b = 1;
   row.jacobian_a.head<3>() = direction;
   row.jacobian_b.head<3>() = -direction;
+  return row;
+}
+
+DenseRow gearRow(const DenseRow& a, Real ratio, const DenseRow& b) {
+  DenseRow row = a;
+  for (const DenseSide& side : b.sides()) row.further.push_back({side.body, ratio * side.jacobian});
   return row;
 }
 

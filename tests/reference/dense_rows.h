@@ -21,8 +21,14 @@ struct DenseBody {
   DenseVector6 free_velocity = DenseVector6::Zero();  ///< at the end of the step, without rows
 };
 
-/// One scalar constraint J u + softness * impulse = target between two bodies, or, where the
-/// impulse reaches a bound, the inequality that remains.
+/// What a row sees of a body.
+struct DenseSide {
+  int body = 0;
+  DenseVector6 jacobian = DenseVector6::Zero();
+};
+
+/// One scalar constraint J u + softness * impulse = target between two bodies or more, or, where
+/// the impulse reaches a bound, the inequality that remains.
 struct DenseRow {
   static constexpr Real kUnbounded = std::numeric_limits<Real>::infinity();
 
@@ -33,6 +39,10 @@ struct DenseRow {
   Real lower = -kUnbounded, upper = kUnbounded;
   int normal_row = -1;  ///< friction row: bounds are -+ friction times the impulse of that row
   Real friction = 0;
+  std::vector<DenseSide> further;  ///< of a gear, which ties two joints
+
+  /// All of them; a body may occur in several.
+  std::vector<DenseSide> sides() const;
 };
 
 struct DenseSolution {
@@ -72,5 +82,8 @@ DenseRow pointRow(const Eigen::Matrix<Real, 3, 1>& direction,
 
 /// Row of the relative spin about a unit direction.
 DenseRow spinRow(const Eigen::Matrix<Real, 3, 1>& direction);
+
+/// Row of the sum a + ratio * b of two velocities, with the target and bounds of a.
+DenseRow gearRow(const DenseRow& a, Real ratio, const DenseRow& b);
 
 }  // namespace ambient::reference

@@ -57,6 +57,13 @@ JointFrame frameOf(const btMultiBody& body, int link) {
   return frame;
 }
 
+// A row between a link and its parent.
+reference::DenseRow atJoint(const btMultiBody& body, int link, reference::DenseRow row) {
+  row.body_a = link + 1;
+  row.body_b = body.getLink(link).m_parent + 1;
+  return row;
+}
+
 std::vector<reference::DenseRow> rowsOfJoint(const btMultiBody& body, int link) {
   const JointFrame frame = frameOf(body, link);
   const std::vector<DenseVector3> all{DenseVector3::UnitX(), DenseVector3::UnitY(),
@@ -87,10 +94,7 @@ std::vector<reference::DenseRow> rowsOfJoint(const btMultiBody& body, int link) 
   for (const DenseVector3& d : held_at_link)
     rows.push_back(reference::pointRow(d, DenseVector3::Zero(), frame.link_from_parent));
   for (const DenseVector3& d : held_turns) rows.push_back(reference::spinRow(d));
-  for (reference::DenseRow& row : rows) {
-    row.body_a = link + 1;
-    row.body_b = body.getLink(link).m_parent + 1;
-  }
+  for (reference::DenseRow& row : rows) row = atJoint(body, link, row);
   return rows;
 }
 
@@ -132,10 +136,30 @@ reference::DenseRow groundRow(const btMultiBody& body, int link, const btVector3
 }
 
 reference::DenseRow rateRow(const btMultiBody& body, int link) {
-  reference::DenseRow row = reference::spinRow(frameOf(body, link).axis);
-  row.body_a = link + 1;
-  row.body_b = body.getLink(link).m_parent + 1;
-  return row;
+  const JointFrame frame = frameOf(body, link);
+  const bool slides = body.getLink(link).m_jointType == btMultibodyLink::ePrismatic;
+  return atJoint(body, link,
+                 slides
+                     ? reference::pointRow(frame.axis, DenseVector3::Zero(), frame.link_from_parent)
+                     : reference::spinRow(frame.axis));
+}
+
+reference::DenseRow turnRow(const btMultiBody& body, int link, int axis) {
+  return atJoint(body, link, reference::spinRow(axesOf(body, link).col(axis)));
+}
+
+void driveBase(const btMultiBody& body, DenseRobot& robot) {
+  for (int axis = 0; axis < 3; ++axis) {
+    btVector3 direction(0, 0, 0);
+    direction[axis] = 1;
+    reference::DenseRow slide = groundRow(body, -1, body.getBasePos(), direction);
+    slide.target = robot.bodies[0].free_velocity[3 + axis];
+    reference::DenseRow turn = reference::spinRow(DenseVector3::Unit(axis));
+    turn.body_b = robot.ground();
+    turn.target = robot.bodies[0].free_velocity[axis];
+    robot.rows.push_back(slide);
+    robot.rows.push_back(turn);
+  }
 }
 
 double twistError(const btMultiBody& now, const std::vector<DenseVector6>& expected,

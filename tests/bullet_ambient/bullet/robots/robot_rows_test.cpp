@@ -14,9 +14,6 @@
 namespace ambient::test {
 namespace {
 
-// So short that forces do nothing, but more than Bullet's zero.
-constexpr double kMoment = byPrecision(1e-13, 2e-7);
-constexpr double kRowTolerance = byPrecision(1e-10, 1e-5);
 constexpr double kRadius = 0.05;
 
 // A box whose face a link's sphere touches, with its normal along `normal`.
