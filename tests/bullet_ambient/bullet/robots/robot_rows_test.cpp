@@ -7,48 +7,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "tests/bullet_ambient/bullet/robots/link_reference.h"
-#include "tests/bullet_ambient/bullet/robots/robot_world.h"
+#include "tests/bullet_ambient/bullet/robots/link_contacts.h"
 
 // Rows of links in fluid against one dense system of all links, joints and rows.
 namespace ambient::test {
 namespace {
-
-constexpr double kRadius = 0.05;
-
-// A box whose face a link's sphere touches, with its normal along `normal`.
-void addFloor(RobotWorld& world, const btMultiBody& body, int link, const btVector3& normal,
-              double restitution) {
-  const btVector3 centre =
-      link < 0 ? body.getBasePos() : body.getLink(link).m_cachedWorldTransform.getOrigin();
-  const btScalar half = bt(0.04), overlap = bt(1e-6);
-  btTransform place(shortestArcQuat(btVector3(0, 0, 1), normal),
-                    centre - normal * (bt(kRadius) + half - overlap));
-  auto box = std::make_unique<btBoxShape>(btVector3(half, half, half));
-  box->setMargin(bt(1e-4));
-  world.addFixed(std::move(box), place).setRestitution(bt(restitution));
-}
-
-// One row for each contact point of the step that was just made.
-void addContacts(RobotWorld& world, const btMultiBody& body,
-                 const std::vector<DenseVector6>& before, double restitution, DenseRobot& robot) {
-  for (int i = 0; i < world.dispatcher.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *world.dispatcher.getManifoldByIndexInternal(i);
-    const auto* a = btMultiBodyLinkCollider::upcast(manifold.getBody0());
-    const auto* b = btMultiBodyLinkCollider::upcast(manifold.getBody1());
-    for (int k = 0; k < manifold.getNumContacts(); ++k) {
-      const btManifoldPoint& point = manifold.getContactPoint(k);
-      const btVector3 normal = a ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
-      const int link = (a ? a : b)->m_link;
-      reference::DenseRow row = groundRow(
-          body, link, a ? point.getPositionWorldOnA() : point.getPositionWorldOnB(), normal);
-      row.lower = 0;
-      const Real approach = row.jacobian_a.dot(before[link + 1]);
-      row.target = std::max<Real>(0, -restitution * approach);
-      robot.rows.push_back(row);
-    }
-  }
-}
 
 struct Impact {
   double error = 0;
@@ -69,7 +32,7 @@ Impact hit(unsigned seed, const RobotDef& def, double restitution, int floors) {
   const std::vector<DenseVector6> before = twistsOf(body);
   world.step(kMoment);
   const auto rows_of_joints = robot.rows.size();
-  addContacts(world, body, before, restitution, robot);
+  addContacts(world, body, before, ContactLaw{restitution}, robot);
   const auto expected = reference::solveDense(robot.bodies, robot.rows);
   return {twistError(body, expected.velocities, before),
           static_cast<int>(robot.rows.size() - rows_of_joints)};
@@ -78,7 +41,7 @@ Impact hit(unsigned seed, const RobotDef& def, double restitution, int floors) {
 void expectImpacts(RobotDef def, double restitution, int floors) {
   double worst = 0;
   int hits = 0;
-  def.collider_radius = kRadius;
+  def.collider_radius = kSphereRadius;
   for (unsigned seed = 0; seed < 20; ++seed) {
     const Impact impact = hit(seed, def, restitution, floors);
     if (impact.contacts == 0) continue;
@@ -116,7 +79,7 @@ TEST(RobotRows, ABaseAloneEqualsTheDenseSolution) {
 Eigen::VectorXd velocityAfterHit(unsigned seed, RobotWorld& world, AmbientRegistry& registry) {
   Arbitrary arbitrary(seed);
   RobotDef def;
-  def.collider_radius = kRadius;
+  def.collider_radius = kSphereRadius;
   btMultiBody& body = world.add(arbitrary, def);
   for (int link = -1; link < 3; ++link)
     registry.attach(world.world, body, link, coupledFluid(arbitrary, body, link, 5));
