@@ -1,0 +1,78 @@
+#include "tests/preprocess/potential_flow/study/surface_cases.h"
+
+#include <cmath>
+#include <utility>
+
+#include "bullet_ambient/force/load_tables.h"
+#include "bullet_ambient/spatial/pi.h"
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/mesh/graded_grid.h"
+#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/weld_vertices.h"
+#include "tests/preprocess/potential_flow/study/study_meshes.h"
+
+namespace ambient::study {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kPanels = 1000;  // of the body alone, before extrapolation
+
+/// Length 4, breadth 1.2, parabolic waterlines and sections from the keel at z = -0.6 to z = 0, and
+/// walls up to the deck at z = 0.4 [m].
+TriangleMesh makeHullMesh() {
+  constexpr int kStations = 16, kRows = 5;
+  constexpr double kHalfLength = 2, kHalfBreadth = 0.6, kDepth = 0.6, kFreeboard = 0.4;
+  constexpr int kAround = 2 * kRows + 3;  // from deck to keel to deck
+  std::vector<Vector3d> vertices;
+  for (int i = 0; i <= kStations; ++i)
+    for (int j = 0; j < kAround; ++j) {
+      const double x = 2.0 * i / kStations - 1;
+      const int down = std::abs(j - (kRows + 1));  // 0 at the keel, kRows at z = 0
+      const double z = down > kRows ? kFreeboard / kDepth : 1.0 * down / kRows - 1;
+      const double section = 1 - std::pow(std::min(z, 0.0), 2), side = j > kRows + 1 ? 1 : -1;
+      vertices.emplace_back(kHalfLength * x, side * kHalfBreadth * (1 - x * x) * section,
+                            kDepth * z);
+    }
+  std::vector<Eigen::Vector3i> triangles;
+  const auto vertex = [&](int station, int around) { return station * kAround + around % kAround; };
+  appendGridTriangles(kStations, kAround, vertex, triangles);
+  return weldVertices(makeTriangleMesh(vertices, triangles), 1e-9 * kHalfLength);
+}
+
+SurfaceCase caseOf(const std::string& shape, TriangleMesh mesh, double sphere_radius = 0) {
+  BuildSettings settings;
+  settings.name = shape;
+  settings.sphere_radius = sphere_radius;
+  settings.flow.max_panels = kPanels;
+  settings.flow.threads = 1;
+  const auto body = std::make_shared<const FluidBody>(makeFluidBody(mesh, settings));
+  mesh.vertices.colwise() -= Vector3d(body->origin);
+
+  SurfaceModelDef def;
+  def.shape = body;
+  const double mass = 0.5 * body->volume;
+  def.mass = {mass, mass * body->uniform_mass.inertia};
+  def.below = {1, 0, {0, 0, 0}, {0, 0, 0}};
+  def.flow.own_law = [](const auto&, const auto&) { return nullptr; };
+  LoadTables tables;
+  return {shape, std::move(mesh), makeSurfaceModel(def, tables)};
+}
+
+}  // namespace
+
+std::vector<SurfaceCase> surfaceCases() {
+  const auto ellipsoid = [](const Vector3d& semi_axes) {
+    return withVolume(makeEllipsoidMesh(semi_axes, 500), 4 * kPi / 3 * semi_axes.prod());
+  };
+  std::vector<SurfaceCase> cases;
+  cases.push_back(caseOf("sphere", ellipsoid({1, 1, 1}), 1));
+  cases.push_back(caseOf("cube", makeBoxMesh({1, 1, 1}, 12)));
+  cases.push_back(caseOf("box 4 : 2 : 1", makeBoxMesh({2, 1, 0.5}, 12)));
+  cases.push_back(caseOf("cylinder, height 2 diameters", makeCylinderMesh(0.5, 2, 300)));
+  cases.push_back(caseOf("ellipsoid 5 : 4 : 3", ellipsoid({1.25, 1, 0.75})));
+  cases.push_back(caseOf("hull with a deck", makeHullMesh()));
+  return cases;
+}
+
+}  // namespace ambient::study

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/motion/surface_model.h"
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient::study {
+
+/// A body of half the density of the water, which is 1, uniform inside, and its mesh in F. The
+/// origin is the centre of mass.
+struct SurfaceCase {
+  std::string shape;
+  TriangleMesh mesh;
+  SurfaceModel model;
+};
+
+/// Sphere, cube, box, cylinder, ellipsoid and a hull with a deck; sizes of the order of 1 m.
+std::vector<SurfaceCase> surfaceCases();
+
+}  // namespace ambient::study

@@ -1,0 +1,138 @@
+#include "tests/preprocess/potential_flow/study/surface_table.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
+
+#include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "tests/preprocess/potential_flow/study/image_flow.h"
+
+namespace ambient::study {
+namespace {
+
+/// The pose at which an entering body raises the plane to that of `at`; docs/theory.md eq. (65).
+Immersion beforePileUp(const Immersion& at) {
+  const double wet = at.draught() / at.size();
+  if (wet >= 1) return at;
+  double low = 0, high = wet;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (middle * (1 + 0.4 * std::pow(1 - middle, 8)) < wet ? low : high) = middle;
+  }
+  Immersion before = at;
+  before.plane.height = at.low + low * at.size();
+  return before;
+}
+
+/// Uniform over all directions, from the bits of the generator alone.
+Vector3 randomNormal(std::mt19937& random) {
+  const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0 * 2 - 1; };
+  while (true) {
+    const Vector3 point(uniform(), uniform(), uniform());
+    if (point.squaredNorm() < 1 && point.squaredNorm() > 1e-4) return point.normalized();
+  }
+}
+
+struct Errors {
+  std::vector<double> runtime;     ///< as bodies move
+  std::vector<double> restricted;  ///< eq. (60), (61) without the raised plane
+
+  void add(const SurfaceCase& body, const SurfacePlane& plane, int panels) {
+    const Matrix6 reference = imageInertia(body, plane, panels);
+    const Immersion at = immersionOf(body.model, plane);
+    runtime.push_back(largestError(inertiaAt(body.model, at).inertia, reference));
+    restricted.push_back(largestError(inertiaAt(body.model, beforePileUp(at)).inertia, reference));
+  }
+};
+
+/// Of sorted values, linear between them.
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto i = static_cast<std::size_t>(place);
+  const std::size_t next = std::min(i + 1, values.size() - 1);
+  return values[i] + (place - static_cast<double>(i)) * (values[next] - values[i]);
+}
+
+std::string cellOf(const std::vector<double>& errors) {
+  char text[64];
+  std::snprintf(text, sizeof text, " %.1f / %.1f / %.1f %% |", 100 * quantile(errors, 0.5),
+                100 * quantile(errors, 0.9), 100 * quantile(errors, 1));
+  return text;
+}
+
+std::string lineOf(const std::string& name, const Errors& afloat, const Errors& anywhere) {
+  return "| " + name + " |" + cellOf(afloat.runtime) + cellOf(anywhere.runtime) +
+         cellOf(anywhere.restricted) + "\n";
+}
+
+void append(const Errors& more, Errors& all) {
+  all.runtime.insert(all.runtime.end(), more.runtime.begin(), more.runtime.end());
+  all.restricted.insert(all.restricted.end(), more.restricted.begin(), more.restricted.end());
+}
+
+}  // namespace
+
+Matrix6 imageInertia(const SurfaceCase& body, const SurfacePlane& plane, int panels) {
+  Matrix3 axes;  // of a frame with z = 0 in the surface, in F
+  const PlaneAxes across(plane.normal);
+  axes << across.first, across.second, plane.normal;
+  const Vector3 origin_of_F = -plane.height * Vector3::UnitZ();
+  TriangleMesh mesh = body.mesh;
+  mesh.vertices = (axes.transpose() * mesh.vertices).colwise() + origin_of_F;
+  const Matrix6 water = shiftOrigin(solveImageFlow(mesh, panels), origin_of_F);
+  return body.model.above.inertia + body.model.excess_density * rotateAxes(water, axes);
+}
+
+double largestError(const Matrix6& inertia, const Matrix6& reference) {
+  const Eigen::LLT<Matrix6> root(reference);
+  const Matrix6 half = root.matrixL().solve(inertia);
+  const Matrix6 ratio = root.matrixL().solve(half.transpose());
+  const Vector6 values = symmetricEigen<6>(0.5 * (ratio + ratio.transpose())).values;
+  return (values.array() - 1).abs().maxCoeff();
+}
+
+double floatingHeight(const SurfaceModel& model, const Vector3& normal) {
+  double low = -model.radius, high = model.radius;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double wet = immersionOf(model, {normal, middle, 1, 1}).wet.volume;
+    (wet < 0.5 * model.shape->volume ? low : high) = middle;
+  }
+  return low;
+}
+
+std::string surfaceTable(int poses, int panels) {
+  std::string table =
+      "| shape | afloat | 0.1 to 1.5 of the height | the same, plane not raised "
+      "|\n|---|---|---|---|\n";
+  std::fputs(table.c_str(), stdout);
+  const auto print = [&](const std::string& line) {
+    std::fputs(line.c_str(), stdout);
+    std::fflush(stdout);
+    table += line;
+  };
+  std::mt19937 random(1);
+  Errors all_afloat, all_anywhere;
+  for (const SurfaceCase& body : surfaceCases()) {
+    Errors afloat, anywhere;
+    for (int i = 0; i < poses; ++i) {
+      const Vector3 normal = randomNormal(random);
+      afloat.add(body, {normal, floatingHeight(body.model, normal), 1, 1}, panels);
+      const Immersion at = immersionOf(body.model, {normal, 0, 1, 1});
+      const double depth = 0.1 + 1.4 * (i + 0.5) / poses;
+      anywhere.add(body, {normal, at.low + depth * at.size(), 1, 1}, panels);
+    }
+    print(lineOf(body.shape, afloat, anywhere));
+    append(afloat, all_afloat);
+    append(anywhere, all_anywhere);
+  }
+  print(lineOf("all", all_afloat, all_anywhere));
+  return table;
+}
+
+}  // namespace ambient::study
