@@ -46,6 +46,23 @@ bool LinkDynamics::articulate() noexcept {
   return is_positive && base_.info() == Eigen::Success;
 }
 
+void LinkDynamics::holdJoints() noexcept {
+  for (LinkState& link : links_) link.articulated = link.inertia;
+  for (std::size_t l = links_.size() - 1; l > 0; --l)
+    links_[links_[l].parent].articulated += links_[l].articulated.toB(links_[l].offset);
+  base_.compute(links_[0].articulated.matrix());
+}
+
+Vector6 LinkDynamics::answerHeld(const Vector6& momentum) const noexcept {
+  const Matrix3& R = links_[0].rotation_W;
+  Vector6 result;
+  result << R.transpose() * momentum.head<3>(), R.transpose() * momentum.tail<3>();
+  base_.solveInPlace(result);
+  result.head<3>() = (R * result.head<3>()).eval();
+  result.tail<3>() = (R * result.tail<3>()).eval();
+  return result;
+}
+
 // I - I S (S^T I S)^-1 S^T I: what is left of the subtree's inertia where its joint gives way.
 bool LinkDynamics::takeOutJoint(LinkState& link) noexcept {
   if (link.axes == 0) return true;

@@ -87,12 +87,11 @@ void LinkDynamics::takeSurroundings(const Link& link, LinkState& state) noexcept
   if (link.model) {
     state.inertia = LinkInertia::fromMatrix(link.model->inertia);
     state.flow = to_link * s.ambient_velocity;
-    state.flow_acceleration = to_link * s.ambient_acceleration;
     state.external = externalWrench(*link.model, s, state.rotation_W);
+    state.external += state.inertia.wrench({Vector3::Zero(), to_link * s.ambient_acceleration});
   } else {
     state.inertia = LinkInertia::ofBody(link.mass, link.inertia);
     state.flow.setZero();
-    state.flow_acceleration.setZero();
     state.external = {to_link * s.applied.torque, to_link * s.applied.force};
   }
 }
@@ -131,16 +130,22 @@ void LinkDynamics::computeForces(const double* u, const double* acceleration) no
 // f of one link: what accelerates it, less what acts on it.
 Wrench LinkDynamics::forceOn(const Link& link, const LinkState& state) const noexcept {
   const Twist V_r{state.twist.angular, state.twist.linear - state.flow};
-  const Twist A_r{state.acceleration.angular, state.acceleration.linear - state.flow_acceleration +
-                                                  state.twist.angular.cross(state.flow)};
+  const Twist A_r{state.acceleration.angular,
+                  state.acceleration.linear + state.twist.angular.cross(state.flow)};
   Wrench f = state.inertia.wrench(A_r);
   f -= gyroscopicWrench(state.inertia.momentum(V_r), V_r);
-  f -= state.external;
+  f -= appliedOn(link, state);
+  return f;
+}
+
+// Of the surroundings and of Bullet's own.
+Wrench LinkDynamics::appliedOn(const Link& link, const LinkState& state) const noexcept {
+  Wrench f = state.external;
   if (tree_.linear_damping != 0 || tree_.angular_damping != 0)
-    f -= dampingWrench(tree_, link, state.twist);
+    f += dampingWrench(tree_, link, state.twist);
   if (!tree_.has_gyroscopic_term) {
     const Vector3& w = state.twist.angular;
-    f.torque -= w.cross(link.inertia.cwiseProduct(w));
+    f.torque += w.cross(link.inertia.cwiseProduct(w));
   }
   return f;
 }
@@ -189,15 +194,12 @@ double LinkDynamics::kineticEnergy(const CoordinatesIn& u) noexcept {
   return 0.5 * twice;
 }
 
-double LinkDynamics::powerOfForces(const CoordinatesIn& u) noexcept {
-  setVelocity(u);
-  double sum = 0;
-  for (int l = 0; l < tree_.size(); ++l) {
-    const LinkState& link = links_[l];
-    sum += power(link.external, relativeTwist(l));
-    for (int i = 0; i < link.axes; ++i) sum += tree_.links[l].joint_force[i] * u[link.first + i];
-  }
-  return sum;
+void LinkDynamics::appliedForces(CoordinatesOut result) noexcept {
+  for (int l = 0; l < tree_.size(); ++l) links_[l].force = appliedOn(tree_.links[l], links_[l]);
+  sumForces(result.data());
+  for (int l = 1; l < tree_.size(); ++l)
+    for (int i = 0; i < links_[l].axes; ++i)
+      result[links_[l].first + i] += tree_.links[l].joint_force[i];
 }
 
 Eigen::MatrixXd LinkDynamics::massMatrix() {

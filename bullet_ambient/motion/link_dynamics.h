@@ -87,8 +87,15 @@ class LinkDynamics {
   /// Of links, V_l.K_b V_l / 2, and of fluid relative to its flow, V_rl.K_f V_rl / 2 [J].
   double kineticEnergy(const CoordinatesIn& u) noexcept;
 
-  /// Power of surroundings and joint forces on a motion, relative to the flow [W].
-  double powerOfForces(const CoordinatesIn& u) noexcept;
+  /// Generalized forces of surroundings, damping and joints on a tree, as they are in a frame that
+  /// does not accelerate with the flow. @pre setPose(), setVelocity()
+  void appliedForces(CoordinatesOut result) noexcept;
+
+  /// Factors the inertia of a tree with all its joints held, in place of H.
+  void holdJoints() noexcept;
+  /// Velocity that a momentum gives to the base of such a tree: both about its centre of mass, in
+  /// W, rotation first. @pre holdJoints(), a base that does not keep its velocity
+  Vector6 answerHeld(const Vector6& momentum) const noexcept;
 
   /// H, symmetric, coordinates() x coordinates(), with rows and columns of the identity for kept
   /// velocities; for programs and tests. Cost: O(links^2), allocates.
@@ -98,6 +105,7 @@ class LinkDynamics {
   void takeSurroundings(const Link& link, LinkState& state) noexcept;
   void computeForces(const double* u, const double* acceleration) noexcept;
   Wrench forceOn(const Link& link, const LinkState& state) const noexcept;
+  Wrench appliedOn(const Link& link, const LinkState& state) const noexcept;
   void sumForces(double* force) noexcept;
   bool articulate() noexcept;
   static bool takeOutJoint(LinkState& link) noexcept;

@@ -42,6 +42,7 @@ LinkFlight::LinkFlight(const LinkTree& tree)
     : tree_(tree),
       dynamics_(tree),
       kick_(tree),
+      integrals_(tree),
       mean_(dynamics_.coordinates()),
       end_(dynamics_.coordinates()),
       start_(dynamics_.coordinates()),
@@ -52,6 +53,7 @@ LinkFlight::LinkFlight(const LinkTree& tree)
 LinkFlightResult LinkFlight::fly(const TreePose& start, const CoordinatesIn& u, double duration,
                                  const LinkFlightSettings& settings) noexcept {
   LinkFlightResult result;
+  answers_rows_ = false;
   for (int substeps = 1, wanted = 1;; substeps = wanted) {
     end_pose_ = start;
     end_ = u;
@@ -59,7 +61,6 @@ LinkFlightResult LinkFlight::fly(const TreePose& start, const CoordinatesIn& u, 
         std::min(flyInSubsteps(substeps, duration, settings, result.count), settings.max_substeps);
     if (wanted <= substeps) break;
   }
-  if (result.count.coarse) boundEnergy(start, u, duration);
   mean_ = u;
   velocityBetween(tree_, start, end_pose_, duration, mean_);
   result.is_finite = mean_.allFinite() && end_.allFinite();
@@ -72,21 +73,19 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
   const double h = duration / substeps;
   const bool has_loads = kick_.hasLoads();
   const bool is_last = substeps >= settings.max_substeps;
-  if (has_loads) {
-    dynamics_.setPose(end_pose_);
-    countUp(kick_.sample(dynamics_, end_), count);
-  }
+  dynamics_.setPose(end_pose_);
+  if (has_loads) countUp(kick_.sample(dynamics_, end_), count);
   count.coarse = false;
   count.substeps = 0;
   for (int i = 0; i < substeps; ++i) {
-    if (has_loads) {
-      if (i > 0) dynamics_.setPose(end_pose_);
-      kick_.kick(dynamics_, h / 2, end_);
-    }
+    if (has_loads) kick_.kick(dynamics_, h / 2, end_);
+    integrals_.take(dynamics_, end_);
     const bool converges = findMiddle(h, settings);
+    integrals_.addForces(dynamics_, mean_, h);
     movePose(tree_, end_pose_, mean_, h, end_pose_);
     double excess = std::max(converges ? 1.0 : 2.0, std::ceil(h * largestSpin() / kLargestTurn));
-    is_in_middle_ = !has_loads;
+    dynamics_.setPose(end_pose_);
+    integrals_.impose(dynamics_, end_, is_last && excess > 1);
     if (has_loads) {
       const double error = kickAtEnd(h, count) / settings.tolerance;
       if (error > kAcceptedError) excess = std::max(excess, std::sqrt(error) / kSubstepSafety);
@@ -145,7 +144,6 @@ bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexce
 // The loads there act on both sides of the end: they are sampled at what follows from the last
 // ones. Returns the error of those.
 double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
-  dynamics_.setPose(end_pose_);
   rate_ = end_;
   kick_.kick(dynamics_, h / 2, rate_);
   countUp(kick_.sample(dynamics_, rate_), count);
@@ -154,33 +152,28 @@ double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
   return error;
 }
 
-// A motion that could not be followed gains no energy but by the work of forces.
-void LinkFlight::boundEnergy(const TreePose& start, const CoordinatesIn& u,
-                             double duration) noexcept {
-  is_in_middle_ = false;
-  restInFlow(tree_, start_);
-  dynamics_.setPose(start);
-  mean_ = u - start_;
-  double bound = dynamics_.normSquared(mean_);
+void LinkFlight::arriveAt(const TreePose& reached, bool has_rows,
+                          CoordinatesOut velocity) noexcept {
   dynamics_.setPose(end_pose_);
-  velocityBetween(tree_, start, end_pose_, duration, mean_);
-  bound += 2 * duration * dynamics_.powerOfForces(mean_);
-  end_ -= start_;
-  const double norm = dynamics_.normSquared(end_);
-  if (norm > bound) end_ *= std::sqrt(std::max(0.0, bound) / norm);
-  end_ += start_;
+  integrals_.take(dynamics_, end_);
+  dynamics_.setPose(reached);
+  if (has_rows) {
+    integrals_.imposeMomentum(dynamics_, velocity);
+  } else {
+    integrals_.impose(dynamics_, velocity, true);
+  }
 }
 
 void LinkFlight::prepareJointRows() noexcept {
-  if (!is_in_middle_) dynamics_.setPose(middle_);
+  if (answers_rows_) return;
+  dynamics_.setPose(middle_);
   dynamics_.factor();
-  is_in_middle_ = true;
+  answers_rows_ = true;
 }
 
 LinkFlightResult LinkFlight::computeRowVelocity(const TreePose& start, const CoordinatesIn& u,
                                                 double duration) noexcept {
   LinkFlightResult result;
-  is_in_middle_ = false;
   dynamics_.setPose(start);
   dynamics_.factor();
   dynamics_.accelerations(u, rate_);

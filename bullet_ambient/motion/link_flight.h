@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bullet_ambient/motion/link_integrals.h"
 #include "bullet_ambient/motion/link_kick.h"
 
 namespace ambient {
@@ -35,6 +36,10 @@ class LinkFlight {
   /// Sets dynamics() to the middle of the last substep of fly() and factors it: rows of joints are
   /// to be answered by it.
   void prepareJointRows() noexcept;
+  /// Where the tree has come to another pose than endPose(): gives its velocity there the momentum
+  /// and energy of the flight. Rows of joints change the energy; with them only the momentum, by
+  /// the base.
+  void arriveAt(const TreePose& reached, bool has_rows, CoordinatesOut velocity) noexcept;
 
   /// Velocity that rows of contacts are solved against: explicit, at the start pose. dynamics() is
   /// left there, factored.
@@ -51,14 +56,14 @@ class LinkFlight {
   double largestSpin() const noexcept;
   bool findMiddle(double h, const LinkFlightSettings& settings) noexcept;
   double kickAtEnd(double h, FlightCount& count) noexcept;
-  void boundEnergy(const TreePose& start, const CoordinatesIn& u, double duration) noexcept;
 
   const LinkTree& tree_;
   LinkDynamics dynamics_;
   LinkKick kick_;
+  LinkIntegrals integrals_;
   Coordinates mean_, end_, start_, rate_;
   TreePose end_pose_, middle_;
-  bool is_in_middle_ = false;
+  bool answers_rows_ = false;  // dynamics_ is in the middle, factored
 };
 
 }  // namespace ambient

@@ -92,7 +92,7 @@ void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept
 // drag, at most. Elsewhere it changes the motion by no more than that has.
 void LinkKick::applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept {
   dynamics.respond(lift_impulses_, change_);
-  if (findFlow(u)) {
+  if (findFlow(tree_, u, flow_)) {
     u -= flow_;
     const double before = dynamics.normSquared(u);
     u += change_;
@@ -109,20 +109,6 @@ void LinkKick::applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept {
     motion += power(dynamics.inertia(l).wrench(x), x);
   }
   if (motion > 0) u += change_ / std::sqrt(1 + lift / motion);
-}
-
-// Rest in the flow, if that is a motion in which all kept velocities are what they are.
-bool LinkKick::findFlow(const CoordinatesIn& u) noexcept {
-  if (!restInFlow(tree_, flow_)) return false;
-  int first = 0;
-  for (int l = 0; l < tree_.size(); ++l) {
-    const Link& link = tree_.links[l];
-    const int count = l == 0 ? 6 : axisCount(link.joint.kind);
-    if (link.keeps_velocity && count > 0 && u.segment(first, count).cwiseAbs().maxCoeff() > 0)
-      return false;
-    first += count;
-  }
-  return true;
 }
 
 }  // namespace ambient

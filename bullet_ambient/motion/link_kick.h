@@ -40,7 +40,6 @@ class LinkKick {
   };
 
   void applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept;
-  bool findFlow(const CoordinatesIn& u) noexcept;
 
   const LinkTree& tree_;
   std::vector<Sample> samples_;

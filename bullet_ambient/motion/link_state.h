@@ -15,13 +15,13 @@ struct LinkState {
   std::array<Twist, kMaxJointAxes> axis;
 
   // Of the pose.
-  bool is_kept = false;             ///< keeps its velocity, and so do all its ancestors
-  FrameOffset offset;               ///< in its parent; of the base in W
-  Matrix3 rotation_W;               ///< link to W
-  Vector3 position_W;               ///< of its centre of mass [m]
-  LinkInertia inertia;              ///< K
-  Vector3 flow, flow_acceleration;  ///< ambient [m/s, m/s^2]
-  Wrench external;                  ///< of the surroundings, docs/theory.md eq. (18), (19)
+  bool is_kept = false;  ///< keeps its velocity, and so do all its ancestors
+  FrameOffset offset;    ///< in its parent; of the base in W
+  Matrix3 rotation_W;    ///< link to W
+  Vector3 position_W;    ///< of its centre of mass [m]
+  LinkInertia inertia;   ///< K
+  Vector3 flow;          ///< ambient [m/s]
+  Wrench external;       ///< of the surroundings, docs/theory.md eq. (18), (19)
 
   // Of the velocity.
   Twist twist;         ///< V

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bullet_ambient/motion/rotation.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 namespace {
@@ -84,6 +85,19 @@ void velocityBetween(const LinkTree& tree, const TreePose& from, const TreePose&
   }
 }
 
+bool turnsTooFastForBullet(const LinkTree& tree, const CoordinatesIn& u, double h) noexcept {
+  const double limit = 0.25 * kPi / h;
+  bool is_too_fast = u.head<3>().norm() > limit;
+  int first = 6;
+  for (int l = 1; l < tree.size(); ++l) {
+    const JointKind kind = tree.links[l].joint.kind;
+    if (kind == JointKind::kSpherical)
+      is_too_fast = is_too_fast || u.segment<3>(first).norm() > limit;
+    first += axisCount(kind);
+  }
+  return is_too_fast;
+}
+
 bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept {
   u.setZero();
   const Vector3* flow = nullptr;
@@ -97,6 +111,19 @@ bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept {
   if (tree.links[0].keeps_velocity) return is_one && flow->cwiseAbs().maxCoeff() == 0;
   u.segment<3>(3) = *flow;
   return is_one;
+}
+
+bool findFlow(const LinkTree& tree, const CoordinatesIn& u, CoordinatesOut flow) noexcept {
+  if (!restInFlow(tree, flow)) return false;
+  int first = 0;
+  for (int l = 0; l < tree.size(); ++l) {
+    const Link& link = tree.links[l];
+    const int count = l == 0 ? 6 : axisCount(link.joint.kind);
+    if (link.keeps_velocity && count > 0 && u.segment(first, count).cwiseAbs().maxCoeff() > 0)
+      return false;
+    first += count;
+  }
+  return true;
 }
 
 }  // namespace ambient

@@ -60,10 +60,13 @@ int coordinateCount(const LinkTree& tree);
 void checkTree(const LinkTree& tree);
 
 /// q + h u: base and joints moved by constant velocities, as Bullet's stepPositionsMultiDof does
-/// (up to its limit of pi/4 per step, and its planar joints). Does not allocate if `to` has the
+/// (up to turnsTooFastForBullet(), and its planar joints). Does not allocate if `to` has the
 /// size. `to` may be `from`.
 void movePose(const LinkTree& tree, const TreePose& from, const CoordinatesIn& u, double h,
               TreePose& to) noexcept;
+
+/// Whether Bullet moves it by less: it turns a base and spherical joints by pi/4 in a step at most.
+bool turnsTooFastForBullet(const LinkTree& tree, const CoordinatesIn& u, double h) noexcept;
 
 /// The constant u by which Bullet comes from one pose to another in time h. Entries of links that
 /// keep their position stay as they are.
@@ -73,5 +76,8 @@ void velocityBetween(const LinkTree& tree, const TreePose& from, const TreePose&
 /// u of a tree that is at rest in the flow of its links: the base's velocity if it floats, else
 /// zero. False if no such motion exists: links are in different flows, or held in one that moves.
 bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept;
+
+/// The same in `flow`, if it is a motion in which all kept velocities are those of `u`.
+bool findFlow(const LinkTree& tree, const CoordinatesIn& u, CoordinatesOut flow) noexcept;
 
 }  // namespace ambient
