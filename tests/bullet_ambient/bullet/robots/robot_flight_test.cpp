@@ -58,6 +58,7 @@ double deviationInFlight(Joints joints, double hertz) {
 TEST(RobotFlight, KeepsItsEnergy) {
   EXPECT_LT(deviationInFlight(Joints::kRevolute, 60), kDouble ? 1e-11 : 1e-4);
   EXPECT_LT(deviationInFlight(Joints::kSmooth, 60), kDouble ? 1e-11 : 1e-4);
+  EXPECT_LT(deviationInFlight(Joints::kAll, 60), kDouble ? 1e-11 : 1e-4);
 }
 
 // As PyBullet gives them to every joint: rows in every step.
