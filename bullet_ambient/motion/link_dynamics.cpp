@@ -77,22 +77,17 @@ void LinkDynamics::setPose(const TreePose& pose) noexcept {
       state.position_W = parent.position_W + parent.rotation_W * state.offset.translation;
       state.is_kept = link.keeps_velocity && parent.is_kept;
     }
-    takeSurroundings(link, state);
+    takeModel(link, state);
   }
 }
 
-void LinkDynamics::takeSurroundings(const Link& link, LinkState& state) noexcept {
-  const Surroundings& s = link.surroundings;
-  const auto to_link = state.rotation_W.transpose();
+void LinkDynamics::takeModel(const Link& link, LinkState& state) noexcept {
   if (link.model) {
     state.inertia = LinkInertia::fromMatrix(link.model->inertia);
-    state.flow = to_link * s.ambient_velocity;
-    state.external = externalWrench(*link.model, s, state.rotation_W);
-    state.external += state.inertia.wrench({Vector3::Zero(), to_link * s.ambient_acceleration});
+    state.flow = state.rotation_W.transpose() * link.surroundings.ambient_velocity;
   } else {
     state.inertia = LinkInertia::ofBody(link.mass, link.inertia);
     state.flow.setZero();
-    state.external = {to_link * s.applied.torque, to_link * s.applied.force};
   }
 }
 
@@ -140,7 +135,12 @@ Wrench LinkDynamics::forceOn(const Link& link, const LinkState& state) const noe
 
 // Of the surroundings and of Bullet's own.
 Wrench LinkDynamics::appliedOn(const Link& link, const LinkState& state) const noexcept {
-  Wrench f = state.external;
+  const Surroundings& s = link.surroundings;
+  const auto to_link = state.rotation_W.transpose();
+  Wrench f = link.model ? externalWrench(*link.model, s, state.rotation_W)
+                        : Wrench{to_link * s.applied.torque, to_link * s.applied.force};
+  if (link.model && s.ambient_acceleration != Vector3::Zero())
+    f += state.inertia.wrench({Vector3::Zero(), to_link * s.ambient_acceleration});
   if (tree_.linear_damping != 0 || tree_.angular_damping != 0)
     f += dampingWrench(tree_, link, state.twist);
   if (!tree_.has_gyroscopic_term) {

@@ -30,7 +30,7 @@ class LinkDynamics {
   /// Of the link's joint in u: 6 + btMultibodyLink::m_dofOffset; 0 for the base.
   int firstCoordinate(int link) const { return links_[link].first; }
 
-  /// Takes pose, models and surroundings; all that follows is for these. Cost: O(links).
+  /// Takes pose, models and flows; all that follows is for these. Cost: O(links).
   void setPose(const TreePose& pose) noexcept;
 
   /// Axes of a link, its frame to W, and its centre of mass in W [m].
@@ -102,7 +102,7 @@ class LinkDynamics {
   Eigen::MatrixXd massMatrix();
 
  private:
-  void takeSurroundings(const Link& link, LinkState& state) noexcept;
+  static void takeModel(const Link& link, LinkState& state) noexcept;
   void computeForces(const double* u, const double* acceleration) noexcept;
   Wrench forceOn(const Link& link, const LinkState& state) const noexcept;
   Wrench appliedOn(const Link& link, const LinkState& state) const noexcept;

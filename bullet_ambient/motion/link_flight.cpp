@@ -6,9 +6,8 @@
 namespace ambient {
 namespace {
 
-constexpr double kLargestTurn = 0.5;  // of a link or a joint in one substep [rad]
-constexpr double kMiddlePrecision =
-    0.01;                             // of the middle velocity, over the tolerance of the flight
+constexpr double kLargestTurn = 0.5;       // of a link or a joint in one substep [rad]
+constexpr double kMiddlePrecision = 0.01;  // of the middle velocity, over the flight's tolerance
 constexpr double kAcceptedError = 2;  // a substep is repeated when its error exceeds this tolerance
 constexpr double kSubstepSafety = 0.9;
 
@@ -113,18 +112,17 @@ double LinkFlight::largestSpin() const noexcept {
 }
 
 // The middle of a substep from end_pose_ and end_, by iterations on its velocity; end_ becomes that
-// of the end. False if they do not converge. H is factored once, at a middle without acceleration:
-// what it differs by from that of a later middle is of second order, and so is its part in an error
-// that shrinks with each iteration.
+// of the end. False if they do not converge. H is factored once, at the start, where dynamics_ is:
+// what it differs by from that of the middle is of first order, and so is its part in an error that
+// shrinks with each iteration.
 bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexcept {
   start_ = end_;
-  movePose(tree_, end_pose_, start_, h / 2, middle_);
-  dynamics_.setPose(middle_);
   dynamics_.factor();
   dynamics_.accelerations(start_, rate_);
   mean_ = start_ + h / 2 * rate_;
   const double tolerance = settings.tolerance * settings.tolerance;
-  double rest = 0, last = 0, motion = 0;  // squares; rest: of what further iterations would change
+  double last = h * h / 4 * dynamics_.roughNormSquared(rate_);  // squares of changes
+  double rest = 0, motion = 0;  // squares; rest: of what further iterations would change
   for (int i = 0; i < settings.max_iterations; ++i) {
     movePose(tree_, end_pose_, mean_, h / 2, middle_);
     dynamics_.setPose(middle_);

@@ -21,7 +21,6 @@ struct LinkState {
   Vector3 position_W;    ///< of its centre of mass [m]
   LinkInertia inertia;   ///< K
   Vector3 flow;          ///< ambient [m/s]
-  Wrench external;       ///< of the surroundings, docs/theory.md eq. (18), (19)
 
   // Of the velocity.
   Twist twist;         ///< V
