@@ -16,8 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kPanels = 1000;  // of the body alone, before extrapolation
-
 /// Length 4, breadth 1.2, parabolic waterlines and sections from the keel at z = -0.6 to z = 0, and
 /// walls up to the deck at z = 0.4 [m].
 TriangleMesh makeHullMesh() {
@@ -40,38 +38,39 @@ TriangleMesh makeHullMesh() {
   return weldVertices(makeTriangleMesh(vertices, triangles), 1e-9 * kHalfLength);
 }
 
-SurfaceCase caseOf(const std::string& shape, TriangleMesh mesh, double sphere_radius = 0) {
+}  // namespace
+
+SurfaceCase makeSurfaceCase(const SurfaceCaseDef& def) {
   BuildSettings settings;
-  settings.name = shape;
-  settings.sphere_radius = sphere_radius;
-  settings.flow.max_panels = kPanels;
+  settings.name = def.shape;
+  settings.sphere_radius = def.sphere_radius;
+  settings.flow.max_panels = def.panels;
   settings.flow.threads = 1;
-  const auto body = std::make_shared<const FluidBody>(makeFluidBody(mesh, settings));
+  const auto body = std::make_shared<const FluidBody>(makeFluidBody(def.mesh, settings));
+  TriangleMesh mesh = def.mesh;
   mesh.vertices.colwise() -= Vector3d(body->origin);
 
-  SurfaceModelDef def;
-  def.shape = body;
+  SurfaceModelDef model;
+  model.shape = body;
   const double mass = 0.5 * body->volume;
-  def.mass = {mass, mass * body->uniform_mass.inertia};
-  def.below = {1, 0, {0, 0, 0}, {0, 0, 0}};
-  def.flow.own_law = [](const auto&, const auto&) { return nullptr; };
+  model.mass = {mass, mass * body->uniform_mass.inertia};
+  model.below = {1, 0, {0, 0, 0}, {0, 0, 0}};
+  model.flow.own_law = [](const auto&, const auto&) { return nullptr; };
   LoadTables tables;
-  return {shape, std::move(mesh), makeSurfaceModel(def, tables)};
+  return {def.shape, std::move(mesh), makeSurfaceModel(model, tables)};
 }
-
-}  // namespace
 
 std::vector<SurfaceCase> surfaceCases() {
   const auto ellipsoid = [](const Vector3d& semi_axes) {
     return withVolume(makeEllipsoidMesh(semi_axes, 500), 4 * kPi / 3 * semi_axes.prod());
   };
   std::vector<SurfaceCase> cases;
-  cases.push_back(caseOf("sphere", ellipsoid({1, 1, 1}), 1));
-  cases.push_back(caseOf("cube", makeBoxMesh({1, 1, 1}, 12)));
-  cases.push_back(caseOf("box 4 : 2 : 1", makeBoxMesh({2, 1, 0.5}, 12)));
-  cases.push_back(caseOf("cylinder, height 2 diameters", makeCylinderMesh(0.5, 2, 300)));
-  cases.push_back(caseOf("ellipsoid 5 : 4 : 3", ellipsoid({1.25, 1, 0.75})));
-  cases.push_back(caseOf("hull with a deck", makeHullMesh()));
+  cases.push_back(makeSurfaceCase({"sphere", ellipsoid({1, 1, 1}), 1}));
+  cases.push_back(makeSurfaceCase({"cube", makeBoxMesh({1, 1, 1}, 12)}));
+  cases.push_back(makeSurfaceCase({"box 4 : 2 : 1", makeBoxMesh({2, 1, 0.5}, 12)}));
+  cases.push_back(makeSurfaceCase({"cylinder, height 2 diameters", makeCylinderMesh(0.5, 2, 300)}));
+  cases.push_back(makeSurfaceCase({"ellipsoid 5 : 4 : 3", ellipsoid({1.25, 1, 0.75})}));
+  cases.push_back(makeSurfaceCase({"hull with a deck", makeHullMesh()}));
   return cases;
 }
 

@@ -17,6 +17,14 @@ struct SurfaceCase {
   SurfaceModel model;
 };
 
+struct SurfaceCaseDef {
+  std::string shape;
+  TriangleMesh mesh;
+  double sphere_radius = 0;  ///< of a mesh that stands for a sphere
+  int panels = 1000;         ///< of the body alone, before extrapolation
+};
+SurfaceCase makeSurfaceCase(const SurfaceCaseDef& def);
+
 /// Sphere, cube, box, cylinder, ellipsoid and a hull with a deck; sizes of the order of 1 m.
 std::vector<SurfaceCase> surfaceCases();
 

@@ -10,23 +10,10 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "tests/preprocess/potential_flow/study/image_flow.h"
+#include "tests/preprocess/potential_flow/study/pile_up.h"
 
 namespace ambient::study {
 namespace {
-
-/// The pose at which an entering body raises the plane to that of `at`; docs/theory.md eq. (65).
-Immersion beforePileUp(const Immersion& at) {
-  const double wet = at.draught() / at.size();
-  if (wet >= 1) return at;
-  double low = 0, high = wet;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (middle * (1 + 0.4 * std::pow(1 - middle, 8)) < wet ? low : high) = middle;
-  }
-  Immersion before = at;
-  before.plane.height = at.low + low * at.size();
-  return before;
-}
 
 /// Uniform over all directions, from the bits of the generator alone.
 Vector3 randomNormal(std::mt19937& random) {

@@ -1,0 +1,85 @@
+#include "tests/preprocess/potential_flow/study/slamming_table.h"
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "bullet_ambient/spatial/pi.h"
+#include "tests/preprocess/potential_flow/study/slamming_cases.h"
+#include "tests/reference/water_entry.h"
+
+namespace ambient::study {
+namespace {
+
+constexpr double kDepths[] = {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8};  // in radii
+constexpr double kShares[] = {0.05, 0.1, 0.2, 0.4, 0.8};             // of the wedge's height
+
+std::string cellOf(const char* format, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return std::string(" ") + text + " |";
+}
+
+std::string ballLine(const std::string& name, const std::function<double(double)>& coefficient) {
+  std::string line = "| " + name + " |";
+  for (const double depth : kDepths) line += cellOf("%.2f", coefficient(depth));
+  return line;
+}
+
+std::string rootLine(const std::string& name, double slope) {
+  return ballLine(name, [&](double depth) { return slope * std::sqrt(depth); }) + " |\n";
+}
+
+std::string peakOf(const std::function<double(double)>& coefficient) {
+  constexpr double kSpacing = 0.005;
+  double best = kSpacing;
+  for (double depth = kSpacing; depth < 1; depth += kSpacing)
+    if (coefficient(depth) > coefficient(best)) best = depth;
+  return cellOf("%.2f", coefficient(best)).substr(0, 5) + " at" + cellOf("%.2f", best);
+}
+
+}  // namespace
+
+std::string ballTable() {
+  const SurfaceCase ball = makeBallCase();
+  std::string table = "| d/R |";
+  for (const double depth : kDepths) table += cellOf("%.2f", depth);
+  table += " largest |\n|---|---|---|---|---|---|---|---|---|\n";
+  table += rootLine("von Karman, as d → 0", reference::karmanSphereSlope());
+  table += rootLine("Wagner, as d → 0", reference::wagnerSphereSlope());
+  table += rootLine("measured, as d → 0", reference::measuredSphereSlope());
+  for (const EntrySurface surface : {EntrySurface::kUndisturbed, EntrySurface::kRaised}) {
+    const auto coefficient = [&](double depth) {
+      return slammingForce(ball.model, depth, surface) / (kPi / 2);
+    };
+    const bool is_raised = surface == EntrySurface::kRaised;
+    table += ballLine(is_raised ? "here" : "here, plane not raised", coefficient) +
+             peakOf(coefficient) + "\n";
+  }
+  return table;
+}
+
+std::string wedgeTable(double length) {
+  std::string table =
+      "| deadrise | von Karman | Wagner | similarity | wedge's own K | the same, raised |";
+  for (const double share : kShares) table += cellOf("here, to %.2f", share);
+  table += "\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const reference::WedgeForce& similar : reference::kSimilarWedges) {
+    const double deadrise = similar.degrees * kPi / 180;
+    const double own = 2 * reference::wedgeAddedMass(deadrise), rise = std::tan(deadrise);
+    const SurfaceCase wedge = makeWedgeCase(deadrise, length);
+    table += "|" + cellOf("%.0f°", similar.degrees) +
+             cellOf("%.1f", reference::karmanWedgeForce(deadrise)) +
+             cellOf("%.1f", reference::wagnerWedgeForce(deadrise)) + cellOf("%.1f", similar.force) +
+             cellOf("%.1f", own) + cellOf("%.1f", 1.4 * 1.4 * own);
+    for (const double share : kShares) {
+      const double draught = share * kHalfBreadth * rise;
+      const double K = heaveInertia(wedge.model, draught, EntrySurface::kRaised) / length;
+      table += cellOf("%.1f", 2 * K / (draught * draught));
+    }
+    table += "\n";
+  }
+  return table;
+}
+
+}  // namespace ambient::study

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+// Forces on bodies that enter still water at a constant speed V, without gravity: potential flow.
+namespace ambient::reference {
+
+/// Force on a sphere over 1/2 rho pi R^2 V^2, as its lowest point touches, over the root of the
+/// depth of that point in radii. Von Karman: 4/3 a^3 of a disc with a^2 = 2 R d.
+inline double karmanSphereSlope() { return 8 * std::sqrt(2.0) / std::acos(-1.0); }
+/// Wagner: the same with a^2 = 3 R d, where the raised water wets the sphere.
+inline double wagnerSphereSlope() { return 12 * std::sqrt(3.0) / std::acos(-1.0); }
+/// Moghisi and Squire, Journal of Fluid Mechanics 108 (1981), measured. Quoted from memory.
+inline double measuredSphereSlope() { return 5.5; }
+
+// Of a wedge with the deadrise [rad], per length: F / (rho V^3 t).
+
+/// Von Karman: pi/2 b^2 of a plate as wide as the section in the undisturbed surface.
+inline double karmanWedgeForce(double deadrise) {
+  return std::acos(-1.0) / std::pow(std::tan(deadrise), 2);
+}
+/// Wagner: the same, pi/2 times as wide.
+inline double wagnerWedgeForce(double deadrise) {
+  return std::pow(std::acos(-1.0) / 2, 2) * karmanWedgeForce(deadrise);
+}
+
+/// Added mass of the wet wedge over rho d^2, d its draught; the potential is 0 on the undisturbed
+/// surface: half of that of a rhombus, by a Schwarz-Christoffel map. Quoted from memory; 45 degrees
+/// are half a square, small angles the plate.
+inline double wedgeAddedMass(double deadrise) {
+  const double pi = std::acos(-1.0), p = deadrise / pi;
+  const double gammas =
+      std::tgamma(1.5 - p) / (std::pow(std::tgamma(1 - p), 2) * std::tgamma(0.5 + p));
+  return (pi / std::sin(deadrise) * gammas - 1) / std::tan(deadrise);
+}
+
+/// Similarity solutions, Zhao and Faltinsen, Journal of Fluid Mechanics 246 (1993), table 1. Quoted
+/// from memory.
+struct WedgeForce {
+  double degrees, force;
+};
+inline constexpr std::array<WedgeForce, 5> kSimilarWedges{
+    {{10, 213.98}, {15, 85.522}, {20, 42.485}, {25, 23.657}, {30, 14.139}}};
+
+}  // namespace ambient::reference
