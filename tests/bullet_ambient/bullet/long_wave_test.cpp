@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "bullet_ambient/force/airy_waves.h"
+#include "bullet_ambient/spatial/pi.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/part_bodies.h"
+
+// A body that is small against a wave moves as the water at the surface does: with the height
+// a cos(theta), theta = k x - omega t, it is displaced by -a sin(theta) along the wave.
+namespace ambient::test {
+namespace {
+
+constexpr double kGravity = 9.81;
+const Vector3 kBoxSize(0.8, 0.6, 0.4);
+
+/// A wave of slope 0.04, so many times as long as the box.
+struct LongWave {
+  double number, frequency, amplitude;  ///< [1/m], [rad/s], [m]
+
+  explicit LongWave(double boxes)
+      : number(2 * kPi / (boxes * kBoxSize.x())),
+        frequency(std::sqrt(kGravity * number)),
+        amplitude(0.04 / number) {}
+  double period() const { return 2 * kPi / frequency; }
+};
+
+/// Over the amplitude of the wave, and ahead of the water's motion [rad].
+struct Response {
+  double size, phase;
+};
+struct Responses {
+  Response heave, surge;
+};
+
+struct Track {
+  double time_step;
+  std::vector<double> time;
+  std::vector<Vector3> position;
+};
+
+/// A box of half the density of the water that starts as the water at the crest; its motion from
+/// the third to the twelfth period.
+Track boxInWave(const LongWave& wave, double time_step) {
+  FluidWorld fluid;
+  fluid.world.setGravity({0, 0, bt(-kGravity)});
+  FluidRegion sea;
+  sea.below = {1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
+  sea.surface = std::make_shared<AiryWaves>(
+      CalmSea{}, std::vector<WaveComponent>{{wave.amplitude, wave.period(), {1, 0, 0}, 0}});
+  fluid.registry.addRegion(sea);
+  BodyDef def;
+  def.mass = 500 * kBoxSize.prod();
+  const Vector3 q = kBoxSize.cwiseAbs2() * (def.mass / 12);
+  def.moments = Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
+  def.start.position = {0, 0, wave.amplitude};
+  def.start.twist.linear = {wave.amplitude * wave.frequency, 0, 0};
+  btRigidBody& body = fluid.add(def);
+  AttachDef attach;
+  attach.fluid_body = std::make_shared<FluidBody>(floatingBox(kBoxSize));
+  attach.flow.law = PressureLaw::kForm;
+  fluid.registry.attach(body, attach);
+
+  Track track{time_step, {}, {}};
+  const auto steps = [&](double periods) {
+    return static_cast<int>(std::lround(periods * wave.period() / time_step));
+  };
+  for (int i = 1; i <= steps(12); ++i) {
+    fluid.step(time_step);
+    if (i <= steps(2)) continue;
+    track.time.push_back(i * time_step);
+    track.position.push_back(toVector3(body.getWorldTransform().getOrigin()));
+  }
+  return track;
+}
+
+/// Least squares by a place, a drift, and cosine and sine of the wave where the drift has come to.
+Responses responsesOf(const Track& track, const LongWave& wave) {
+  const auto rows = static_cast<Eigen::Index>(track.time.size());
+  Eigen::MatrixXd basis(rows, 4), moved(rows, 2);
+  Eigen::MatrixXd fit = Eigen::MatrixXd::Zero(4, 2);
+  for (int pass = 0; pass < 3; ++pass) {
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const double t = track.time[static_cast<std::size_t>(i)];
+      const Vector3& p = track.position[static_cast<std::size_t>(i)];
+      const double angle = wave.number * (fit(0, 0) + fit(1, 0) * t) - wave.frequency * t;
+      basis.row(i) << 1, t, std::cos(angle), std::sin(angle);
+      moved.row(i) << p.x(), p.z();
+    }
+    fit = basis.colPivHouseholderQr().solve(moved);
+  }
+  // Time runs against theta.
+  return {{fit.col(1).tail<2>().norm() / wave.amplitude, std::atan2(fit(3, 1), fit(2, 1))},
+          {fit.col(0).tail<2>().norm() / wave.amplitude, std::atan2(fit(2, 0), -fit(3, 0))}};
+}
+
+Responses responsesTo(double boxes, double time_step) {
+  const LongWave wave(boxes);
+  return responsesOf(boxInWave(wave, time_step), wave);
+}
+
+// As measured, and as docs/water.md says. The surge is late by half a step: in each, the velocity
+// of the water is that of its start.
+TEST(LongWave, ASmallBodyMovesAsTheWaterAtTheSurface) {
+  for (const double boxes : {40.0, 281.0})
+    for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240}) {
+      const Responses response = responsesTo(boxes, step);
+      const double step_angle = LongWave(boxes).frequency * step;
+      EXPECT_NEAR(response.heave.size, 1, 0.0015) << boxes << ", " << step;
+      EXPECT_NEAR(response.surge.size, 0.9925, 0.0025) << boxes << ", " << step;
+      EXPECT_NEAR(response.heave.phase, 0, 0.1 * step_angle) << boxes << ", " << step;
+      EXPECT_NEAR(response.surge.phase, -0.4 * step_angle, 0.25 * step_angle)
+          << boxes << ", " << step;
+    }
+}
+
+}  // namespace
+}  // namespace ambient::test
