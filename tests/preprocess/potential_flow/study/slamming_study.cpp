@@ -11,8 +11,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1.0, 1000.0));
   CLI11_PARSE(app, argc, argv);
   try {
-    std::printf("%s\n%s", ambient::study::ballTable().c_str(),
-                ambient::study::wedgeTable(length).c_str());
+    std::printf("%s\n", ambient::study::ballTable().c_str());
+    std::printf("%s\n", ambient::study::wedgeTable(length).c_str());
+    std::printf("%s", ambient::study::wedgeFallTable(20, length).c_str());
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <vector>
 
 #include "bullet_ambient/spatial/pi.h"
 #include "tests/preprocess/potential_flow/study/slamming_cases.h"
+#include "tests/preprocess/potential_flow/study/slamming_fall.h"
 #include "tests/reference/water_entry.h"
 
 namespace ambient::study {
@@ -38,6 +40,13 @@ std::string peakOf(const std::function<double(double)>& coefficient) {
   return cellOf("%.2f", coefficient(best)).substr(0, 5) + " at" + cellOf("%.2f", best);
 }
 
+/// At ten radii a second.
+std::string ballFallLine(const std::string& name, const SurfaceCase& ball, double time_step,
+                         bool has_loads) {
+  const std::vector<FallStep> fall = fallIntoWater({ball.model.shape, 10, time_step, has_loads});
+  return ballLine(name, [&](double depth) { return forceAt(fall, depth) / (kPi / 2); }) + " |\n";
+}
+
 }  // namespace
 
 std::string ballTable() {
@@ -56,7 +65,9 @@ std::string ballTable() {
     table += ballLine(is_raised ? "here" : "here, plane not raised", coefficient) +
              peakOf(coefficient) + "\n";
   }
-  return table;
+  return table + ballFallLine("falls, steps of 1/240 s", ball, 1.0 / 240, false) +
+         ballFallLine("falls, steps of 1/960 s", ball, 1.0 / 960, false) +
+         ballFallLine("the same, with loads on its faces", ball, 1.0 / 960, true);
 }
 
 std::string wedgeTable(double length) {
@@ -79,6 +90,33 @@ std::string wedgeTable(double length) {
     }
     table += "\n";
   }
+  return table;
+}
+
+std::string wedgeFallTable(double degrees, double length) {
+  const double deadrise = degrees * kPi / 180, height = kHalfBreadth * std::tan(deadrise);
+  const SurfaceCase wedge = makeWedgeCase(deadrise, length);
+  std::string table = "| wedge of" + cellOf("%.0f°, of its height", degrees);
+  for (const double share : kShares) table += cellOf("%.2f", share);
+  table += "\n|---|---|---|---|---|---|\n";
+  const auto line = [&](const std::string& name, const std::function<double(double)>& force) {
+    table += "| " + name + " |";
+    for (const double share : kShares) {
+      const double draught = share * height;
+      table += cellOf("%.1f", force(draught) / (length * draught));
+    }
+    table += "\n";
+  };
+  line("here",
+       [&](double draught) { return slammingForce(wedge.model, draught, EntrySurface::kRaised); });
+  const auto fallLine = [&](const std::string& name, double time_step, bool has_loads) {
+    const std::vector<FallStep> fall =
+        fallIntoWater({wedge.model.shape, 10 * height, time_step, has_loads});
+    line(name, [&](double draught) { return forceAt(fall, draught); });
+  };
+  fallLine("falls, steps of 1/240 s", 1.0 / 240, false);
+  fallLine("falls, steps of 1/960 s", 1.0 / 960, false);
+  fallLine("the same, with loads on its faces", 1.0 / 960, true);
   return table;
 }
 

@@ -8,7 +8,11 @@ namespace ambient::study {
 /// as Markdown.
 std::string ballTable();
 
-/// Force on wedges so long [m] and 2 m wide at the deck, per length, beside theories; as Markdown.
+/// Mean force from the touch on, on wedges so long [m] and 2 m wide at the deck, per length, beside
+/// theories; as Markdown.
 std::string wedgeTable(double length);
+
+/// The same of a wedge that falls in a Bullet world, F / (rho V^3 t) at the moment; as Markdown.
+std::string wedgeFallTable(double degrees, double length);
 
 }  // namespace ambient::study

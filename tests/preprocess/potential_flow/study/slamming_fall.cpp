@@ -1,0 +1,74 @@
+#include "tests/preprocess/potential_flow/study/slamming_fall.h"
+
+#include <algorithm>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
+namespace ambient::study {
+namespace {
+
+constexpr double kDensity = 1000;        // of the water [kg/m^3]
+constexpr double kLittleGravity = 1e-6;  // [m/s^2]; without any there is no surface
+
+/// z of the lowest and of the highest point in F.
+std::pair<double, double> extentOf(const FluidBody& body) {
+  const double centre = body.centre_of_volume.z();
+  if (body.sphere_radius > 0) return {centre - body.sphere_radius, centre + body.sphere_radius};
+  const std::vector<double>& v = body.surface.vertices;
+  double low = v[2], high = v[2];
+  for (std::size_t i = 2; i < v.size(); i += 3) {
+    low = std::min(low, v[i]);
+    high = std::max(high, v[i]);
+  }
+  return {low, high};
+}
+
+btRigidBody& addBody(const FallDef& def, double height, test::FluidWorld& fluid) {
+  test::BodyDef body;
+  body.mass = def.specific_gravity * kDensity * def.shape->volume;
+  body.moments = body.mass * def.shape->uniform_mass.inertia.diagonal();
+  body.start.position = {0, 0, height};
+  body.start.twist.linear = {0, 0, -def.speed};
+  btRigidBody& added = fluid.add(body);
+  AttachDef attach;
+  attach.fluid_body = def.shape;
+  if (!def.has_loads) attach.flow.own_law = [](const auto&, const auto&) { return nullptr; };
+  fluid.registry.attach(added, attach);
+  return added;
+}
+
+}  // namespace
+
+std::vector<FallStep> fallIntoWater(const FallDef& def) {
+  test::FluidWorld fluid;
+  fluid.world.setGravity({0, 0, test::bt(-kLittleGravity)});
+  FluidRegion sea;
+  sea.below = {kDensity, 1e-3, {0, 0, 0}, {0, 0, 0}};
+  sea.surface = std::make_shared<StillWater>(0.0, Vector3::UnitZ());
+  fluid.registry.addRegion(sea);
+  const auto [low, high] = extentOf(*def.shape);
+  const btRigidBody& body = addBody(def, -low, fluid);
+
+  const auto draught = [&, low = low] {
+    return -low - static_cast<double>(body.getWorldTransform().getOrigin().z());
+  };
+  const auto speed = [&] { return -static_cast<double>(body.getLinearVelocity().z()); };
+  const double mass = def.specific_gravity * kDensity * def.shape->volume;
+  std::vector<FallStep> steps;
+  while (draught() < high - low && speed() > 0) {
+    const double before = speed();
+    fluid.step(def.time_step);
+    const double middle = 0.5 * (before + speed());
+    const double force = mass * (before - speed()) / def.time_step;
+    steps.push_back({draught(), speed(), force / (kDensity * middle * middle)});
+  }
+  return steps;
+}
+
+double forceAt(const std::vector<FallStep>& fall, double draught) {
+  const auto step = std::find_if(fall.begin(), fall.end(),
+                                 [&](const FallStep& s) { return s.draught_after > draught; });
+  return step == fall.end() ? 0 : step->force;
+}
+
+}  // namespace ambient::study
