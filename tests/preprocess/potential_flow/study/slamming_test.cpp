@@ -4,6 +4,7 @@
 #include <tuple>
 #include <vector>
 
+#include "bullet_ambient/force/wetted_sphere.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "tests/preprocess/potential_flow/study/slamming_cases.h"
 #include "tests/preprocess/potential_flow/study/slamming_fall.h"
@@ -70,9 +71,8 @@ TEST(Slamming, OfABallIsLargestAtATenthOfTheRadius) {
 // is raised is taken from a touching ball, whose added mass grows with 3/2 of the depth.
 TEST(Slamming, TheRaisedPlaneIsThatOfWedgesOfTenToThirtyDegrees) {
   const double depth = 1e-5;
-  const double rise = std::pow(heaveInertia(ball().model, depth, EntrySurface::kRaised) /
-                                   heaveInertia(ball().model, depth, EntrySurface::kUndisturbed),
-                               2.0 / 3);
+  const double K = heaveInertia(ball().model, depth, EntrySurface::kRaised);
+  const double rise = std::pow(K / sphereInertiaAt(depth).along, 2.0 / 3);
   for (const reference::WedgeForce& similar : reference::kSimilarWedges) {
     const double own = 2 * reference::wedgeAddedMass(radians(similar.degrees));
     const double ratio = rise * rise * own / similar.force;
