@@ -15,16 +15,16 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kGravity = 9.81;
-const Vector3 kBoxSize(0.8, 0.6, 0.4);
+constexpr double kWaveGravity = 9.81;
+const Vector3 kFloatSize(0.8, 0.6, 0.4);
 
 /// A wave of slope 0.04, so many times as long as the box.
 struct LongWave {
   double number, frequency, amplitude;  ///< [1/m], [rad/s], [m]
 
   explicit LongWave(double boxes)
-      : number(2 * kPi / (boxes * kBoxSize.x())),
-        frequency(std::sqrt(kGravity * number)),
+      : number(2 * kPi / (boxes * kFloatSize.x())),
+        frequency(std::sqrt(kWaveGravity * number)),
         amplitude(0.04 / number) {}
   double period() const { return 2 * kPi / frequency; }
 };
@@ -47,21 +47,21 @@ struct Track {
 /// the third to the twelfth period.
 Track boxInWave(const LongWave& wave, double time_step) {
   FluidWorld fluid;
-  fluid.world.setGravity({0, 0, bt(-kGravity)});
+  fluid.world.setGravity({0, 0, bt(-kWaveGravity)});
   FluidRegion sea;
   sea.below = {1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
   sea.surface = std::make_shared<AiryWaves>(
       CalmSea{}, std::vector<WaveComponent>{{wave.amplitude, wave.period(), {1, 0, 0}, 0}});
   fluid.registry.addRegion(sea);
   BodyDef def;
-  def.mass = 500 * kBoxSize.prod();
-  const Vector3 q = kBoxSize.cwiseAbs2() * (def.mass / 12);
+  def.mass = 500 * kFloatSize.prod();
+  const Vector3 q = kFloatSize.cwiseAbs2() * (def.mass / 12);
   def.moments = Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
   def.start.position = {0, 0, wave.amplitude};
   def.start.twist.linear = {wave.amplitude * wave.frequency, 0, 0};
   btRigidBody& body = fluid.add(def);
   AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(floatingBox(kBoxSize));
+  attach.fluid_body = std::make_shared<FluidBody>(floatingBox(kFloatSize));
   attach.flow.law = PressureLaw::kForm;
   fluid.registry.attach(body, attach);
 
