@@ -16,14 +16,14 @@ namespace ambient::test {
 namespace {
 
 constexpr double kWaveGravity = 9.81;
-const Vector3 kFloatSize(0.8, 0.6, 0.4);
+const Vector3 kBuoySize(0.8, 0.6, 0.4);
 
 /// A wave of slope 0.04, so many times as long as the box.
 struct LongWave {
   double number, frequency, amplitude;  ///< [1/m], [rad/s], [m]
 
   explicit LongWave(double boxes)
-      : number(2 * kPi / (boxes * kFloatSize.x())),
+      : number(2 * kPi / (boxes * kBuoySize.x())),
         frequency(std::sqrt(kWaveGravity * number)),
         amplitude(0.04 / number) {}
   double period() const { return 2 * kPi / frequency; }
@@ -54,14 +54,14 @@ Track boxInWave(const LongWave& wave, double time_step) {
       CalmSea{}, std::vector<WaveComponent>{{wave.amplitude, wave.period(), {1, 0, 0}, 0}});
   fluid.registry.addRegion(sea);
   BodyDef def;
-  def.mass = 500 * kFloatSize.prod();
-  const Vector3 q = kFloatSize.cwiseAbs2() * (def.mass / 12);
+  def.mass = 500 * kBuoySize.prod();
+  const Vector3 q = kBuoySize.cwiseAbs2() * (def.mass / 12);
   def.moments = Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
   def.start.position = {0, 0, wave.amplitude};
   def.start.twist.linear = {wave.amplitude * wave.frequency, 0, 0};
   btRigidBody& body = fluid.add(def);
   AttachDef attach;
-  attach.fluid_body = std::make_shared<FluidBody>(floatingBox(kFloatSize));
+  attach.fluid_body = std::make_shared<FluidBody>(floatingBox(kBuoySize));
   attach.flow.law = PressureLaw::kForm;
   fluid.registry.attach(body, attach);
 
