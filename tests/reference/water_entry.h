@@ -26,8 +26,9 @@ inline double wagnerWedgeForce(double deadrise) {
 }
 
 /// Added mass of the wet wedge over rho d^2, d its draught; the potential is 0 on the undisturbed
-/// surface: half of that of a rhombus, by a Schwarz-Christoffel map. Quoted from memory; 45 degrees
-/// are half a square, small angles the plate.
+/// surface: half of that of a rhombus. Faltinsen, Hydrodynamics of High-Speed Marine Vehicles
+/// (2005), eq. 9.63, as cited in python-openplaning; 45 degrees are half a square, small angles the
+/// plate.
 inline double wedgeAddedMass(double deadrise) {
   const double pi = std::acos(-1.0), p = deadrise / pi;
   const double gammas =
