@@ -10,7 +10,7 @@ Immersion beforePileUp(const Immersion& at) {
   double low = 0, high = wet;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    (middle * (1 + 0.4 * std::pow(1 - middle, 8)) < wet ? low : high) = middle;
+    (middle * (1 + kPileUp * std::pow(1 - middle, 8)) < wet ? low : high) = middle;
   }
   Immersion before = at;
   before.plane.height = at.low + low * at.size();

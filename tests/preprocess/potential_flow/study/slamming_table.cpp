@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/pi.h"
+#include "tests/preprocess/potential_flow/study/pile_up.h"
 #include "tests/preprocess/potential_flow/study/slamming_cases.h"
 #include "tests/preprocess/potential_flow/study/slamming_fall.h"
 #include "tests/reference/water_entry.h"
@@ -16,10 +17,15 @@ namespace {
 constexpr double kDepths[] = {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8};  // in radii
 constexpr double kShares[] = {0.05, 0.1, 0.2, 0.4, 0.8};             // of the wedge's height
 
-std::string cellOf(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
+template <class... Values>
+std::string cellOf(const char* format, Values... values) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, values...);
   return std::string(" ") + text + " |";
+}
+
+std::string nameOf(EntrySurface surface) {
+  return surface == EntrySurface::kRaised ? "here" : "here, plane not raised";
 }
 
 std::string ballLine(const std::string& name, const std::function<double(double)>& coefficient) {
@@ -37,7 +43,7 @@ std::string peakOf(const std::function<double(double)>& coefficient) {
   double best = kSpacing;
   for (double depth = kSpacing; depth < 1; depth += kSpacing)
     if (coefficient(depth) > coefficient(best)) best = depth;
-  return cellOf("%.2f", coefficient(best)).substr(0, 5) + " at" + cellOf("%.2f", best);
+  return cellOf("%.2f at %.2f", coefficient(best), best);
 }
 
 /// At ten radii a second.
@@ -61,9 +67,7 @@ std::string ballTable() {
     const auto coefficient = [&](double depth) {
       return slammingForce(ball.model, depth, surface) / (kPi / 2);
     };
-    const bool is_raised = surface == EntrySurface::kRaised;
-    table += ballLine(is_raised ? "here" : "here, plane not raised", coefficient) +
-             peakOf(coefficient) + "\n";
+    table += ballLine(nameOf(surface), coefficient) + peakOf(coefficient) + "\n";
   }
   return table + ballFallLine("falls, steps of 1/240 s", ball, 1.0 / 240, false) +
          ballFallLine("falls, steps of 1/960 s", ball, 1.0 / 960, false) +
@@ -82,7 +86,7 @@ std::string wedgeTable(double length) {
     table += "|" + cellOf("%.0f°", similar.degrees) +
              cellOf("%.1f", reference::karmanWedgeForce(deadrise)) +
              cellOf("%.1f", reference::wagnerWedgeForce(deadrise)) + cellOf("%.1f", similar.force) +
-             cellOf("%.1f", own) + cellOf("%.1f", 1.4 * 1.4 * own);
+             cellOf("%.1f", own) + cellOf("%.1f", std::pow(1 + kPileUp, 2) * own);
     for (const double share : kShares) {
       const double draught = share * kHalfBreadth * rise;
       const double K = heaveInertia(wedge.model, draught, EntrySurface::kRaised) / length;
@@ -107,8 +111,9 @@ std::string wedgeFallTable(double degrees, double length) {
     }
     table += "\n";
   };
-  line("here",
-       [&](double draught) { return slammingForce(wedge.model, draught, EntrySurface::kRaised); });
+  for (const EntrySurface surface : {EntrySurface::kUndisturbed, EntrySurface::kRaised})
+    line(nameOf(surface),
+         [&](double draught) { return slammingForce(wedge.model, draught, surface); });
   const auto fallLine = [&](const std::string& name, double time_step, bool has_loads) {
     const std::vector<FallStep> fall =
         fallIntoWater({wedge.model.shape, 10 * height, time_step, has_loads});
