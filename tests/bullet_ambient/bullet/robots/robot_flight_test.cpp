@@ -12,6 +12,7 @@
 #include "bullet_ambient/bullet/tree_state.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/ellipsoid_body.h"
+#include "tests/support/free_body.h"
 
 // Energy of robots in an ideal fluid at rest, which no step should make and few should lose.
 namespace ambient::test {
@@ -116,6 +117,56 @@ TEST(RobotFlight, KeepsItsMomentumUnderStrongMotors) {
     const Vector6 momentum = momentumOf(world, body);
     EXPECT_LT((momentum - start).norm(), (kDouble ? 1e-11 : 1e-4) * start.norm()) << i;
   }
+}
+
+// Thin plates: added mass of ten thousand times their own across them, none along.
+void putPlatesIntoFluid(RobotWorld& world, btMultiBody& body) {
+  for (int link = -1; link < body.getNumLinks(); ++link) {
+    const double mass = static_cast<double>(link < 0 ? body.getBaseMass() : body.getLinkMass(link));
+    Matrix6 added = Matrix6::Zero();
+    added(5, 5) = 1e4 * mass;
+    added(0, 0) = added(1, 1) = 1e4 * mass * 0.05 * 0.05;
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(shapeWithoutFaces(added, 1e-9));
+    def.medium = idealFluid(1);
+    world.fluid.add(body, link, def);
+  }
+}
+
+TEST(RobotFlight, OfPlatesOfTenThousandTimesTheirMassInFluidKeepsItsEnergy) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    Arbitrary arbitrary(seed);
+    RobotWorld world;
+    RobotDef def;
+    def.links = 5;
+    def.speed = 0.5;
+    btMultiBody& body = world.add(arbitrary, def);
+    putPlatesIntoFluid(world, body);
+    EXPECT_LT(watch(world, body, 60, 10).highest, kDouble ? 1 + 1e-9 : 1.001) << seed;
+  }
+}
+
+TEST(RobotFlight, MotorsHoldPlatesOfTenThousandTimesTheirMassInFluid) {
+  Arbitrary arbitrary(3);
+  RobotWorld world;
+  world.world.getSolverInfo().m_numIterations = 50;
+  RobotDef def;
+  def.links = 5;
+  def.speed = 0;
+  def.collider_radius = 0.01;
+  btMultiBody& body = world.add(arbitrary, def);
+  putPlatesIntoFluid(world, body);
+  for (int i = 0; i < body.getNumLinks(); ++i)
+    world.take(std::make_unique<btMultiBodyJointMotor>(&body, i, bt(0), bt(1e6)));
+  std::vector<btScalar> angles;
+  for (int i = 0; i < body.getNumLinks(); ++i) angles.push_back(body.getJointPos(i));
+  for (int i = 0; i < 600; ++i) {
+    body.addLinkForce(4, {0, 0, i % 120 < 60 ? bt(100) : bt(-100)});
+    world.step(1.0 / 60);
+  }
+  for (int i = 0; i < body.getNumLinks(); ++i)
+    EXPECT_NEAR(body.getJointPos(i), angles[i], 1e-3) << i;
+  EXPECT_GT(velocityOf(body).head<6>().norm() + body.getBasePos().length(), 1e-3);
 }
 
 // Tip on a ball joint to the world.

@@ -29,5 +29,12 @@ TEST(TreeAtlas, InAnIdealFluidGainsRoundingAtMost) {
     }
 }
 
+// Ball joints that Bullet turns by less than they want, an eighth of a revolution in a step.
+TEST(TreeAtlas, FastBallJointsGainRoundingAtMost) {
+  if (!kDouble) return;  // other trees
+  for (const unsigned seed : {1019u, 1237u, 1270u})
+    EXPECT_LT(runTree({TreeSetting::kFree, TreeFluid::kIdeal, seed}).energy_rise, 1e-12) << seed;
+}
+
 }  // namespace
 }  // namespace ambient::test
