@@ -1,0 +1,148 @@
+#include "tests/bullet_ambient/bullet/water/water_atlas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "bullet_ambient/spatial/pi.h"
+#include "tests/support/random_bodies.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr double kHertz[] = {30, 60, 240, 960};
+
+double logarithmic(Arbitrary& arbitrary, double low, double high) {
+  return std::exp(arbitrary.between(std::log(low), std::log(high)));
+}
+
+WaterBodyDef anyBody(Arbitrary& arbitrary, double size) {
+  WaterBodyDef def;
+  def.shape = static_cast<WaterShape>(static_cast<int>(arbitrary.between(0, kWaterShapes)));
+  def.size = size;
+  def.specific_gravity = logarithmic(arbitrary, 0.02, 20);
+  const double speed = std::sqrt(kRunGravity * size) * logarithmic(arbitrary, 0.03, 3);
+  def.start.position.z() = arbitrary.between(-2, 2) * size;
+  def.start.orientation = Quaternion(arbitrary.rotation());
+  def.start.twist = arbitrary.twist(speed / size, speed);
+  def.law = arbitrary.between(0, 1) < 0.5 ? PressureLaw::kForm : PressureLaw::kPublished;
+  if (arbitrary.between(0, 1) < 0.5) def.separation_angle = kPi;
+  return def;
+}
+
+// At a point of the first body's frame; a hinge about its z.
+std::unique_ptr<btTypedConstraint> anyJoint(Arbitrary& arbitrary, btRigidBody& body,
+                                            const btVector3& point, btRigidBody* other) {
+  const bool is_hinge = arbitrary.between(0, 1) < 0.5;
+  const btTransform& pose = body.getWorldTransform();
+  if (!other) {
+    if (is_hinge) return std::make_unique<btHingeConstraint>(body, point, btVector3(0, 0, 1));
+    return std::make_unique<btPoint2PointConstraint>(body, point);
+  }
+  const btTransform to_other = other->getWorldTransform().inverse() * pose;
+  if (!is_hinge)
+    return std::make_unique<btPoint2PointConstraint>(body, *other, point, to_other * point);
+  return std::make_unique<btHingeConstraint>(body, *other, point, to_other * point,
+                                             btVector3(0, 0, 1),
+                                             to_other.getBasis() * btVector3(0, 0, 1));
+}
+
+// Beside the first, not overlapping.
+WaterBodyDef anySecond(Arbitrary& arbitrary, const WaterBodyDef& first, double gap) {
+  WaterBodyDef def = anyBody(arbitrary, first.size * logarithmic(arbitrary, 0.5, 2));
+  const double angle = arbitrary.between(0, 2 * kPi);
+  const double way = kWaterShapeRadius * (first.size + def.size) + gap * first.size;
+  def.start.position = first.start.position + way * Vector3(std::cos(angle), std::sin(angle), 0);
+  return def;
+}
+
+void addBodies(Arbitrary& arbitrary, WaterSetting setting, WaterRun& run) {
+  WaterBodyDef def = anyBody(arbitrary, logarithmic(arbitrary, 0.05, 5));
+  const double radius = kWaterShapeRadius * def.size, gap = 0.2 * def.size;
+  if (setting == WaterSetting::kOnFloor) {
+    const double floor = -arbitrary.between(0, 2) * def.size;
+    def.start.position.z() = floor + radius + arbitrary.between(0, 2) * def.size;
+    run.addPlane({0, 0, 1}, floor);
+  }
+  if (setting == WaterSetting::kAtWall) {
+    def.start.twist.linear.x() = std::abs(def.start.twist.linear.x());
+    run.addPlane({-1, 0, 0}, -radius - gap);
+  }
+  btRigidBody& body = run.add(def);
+  if (setting == WaterSetting::kColliding) {
+    WaterBodyDef second = anySecond(arbitrary, def, 0.2);
+    const Vector3 way = (second.start.position - def.start.position).normalized();
+    second.start.twist.linear -= 2 * std::abs(way.dot(second.start.twist.linear)) * way;
+    run.add(second);
+  }
+  if (setting == WaterSetting::kJoined) {
+    WaterBodyDef second = anySecond(arbitrary, def, 0);
+    btRigidBody& other = run.add(second);
+    const Vector3 way = (second.start.position - def.start.position).normalized();
+    const Vector3 point = def.start.orientation.conjugate() * (radius * way);
+    run.join(anyJoint(arbitrary, body, toBullet(point), &other));
+  }
+  if (setting == WaterSetting::kTethered) {
+    const Vector3 point = radius * arbitrary.vector().normalized();
+    run.join(anyJoint(arbitrary, body, toBullet(point), nullptr));
+  }
+}
+
+}  // namespace
+
+const char* nameOf(WaterSetting setting) {
+  switch (setting) {
+    case WaterSetting::kFree:
+      return "free";
+    case WaterSetting::kOnFloor:
+      return "onto a floor";
+    case WaterSetting::kAtWall:
+      return "against a wall";
+    case WaterSetting::kColliding:
+      return "two that collide";
+    case WaterSetting::kJoined:
+      return "two on a joint";
+    case WaterSetting::kTethered:
+      break;
+  }
+  return "on a joint to the world";
+}
+
+WaterResult runWater(const WaterCase& water_case) {
+  Arbitrary arbitrary(water_case.seed);
+  const double hertz = kHertz[static_cast<int>(arbitrary.between(0, 4))];
+  WaterRun run(water_case.around);
+  addBodies(arbitrary, water_case.setting, run);
+  const double start = run.energy();
+  double lowest = start, over_start = 0, over_earlier = 0;
+  for (int i = 0; i < std::lround(kWaterAtlasTime * hertz); ++i) {
+    run.step(1 / hertz);
+    const double energy = run.energy();
+    if (!std::isfinite(energy)) return {false, 0, 0};
+    over_start = std::max(over_start, energy - start);
+    over_earlier = std::max(over_earlier, energy - lowest);
+    lowest = std::min(lowest, energy);
+  }
+  return {run.rejected() == 0, over_start / run.energyScale(), over_earlier / run.energyScale()};
+}
+
+void WaterTally::add(const WaterResult& result) {
+  ++runs;
+  not_finite += !result.is_finite;
+  rose += result.over_start > 1e-3;
+  rose_much += result.over_start > 1e-2;
+  over_start = std::max(over_start, result.over_start);
+  over_earlier = std::max(over_earlier, result.over_earlier);
+}
+
+WaterTable runWaters(int runs, unsigned seed) {
+  WaterTable table;
+  for (int s = 0; s < kWaterSettings; ++s)
+    for (int a = 0; a < 2; ++a)
+      for (int i = 0; i < runs; ++i)
+        table[s][a].add(runWater({static_cast<WaterSetting>(s), static_cast<Around>(a),
+                                  seed + static_cast<unsigned>(i)}));
+  return table;
+}
+
+}  // namespace ambient::test

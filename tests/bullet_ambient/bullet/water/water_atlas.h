@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+
+#include "tests/bullet_ambient/bullet/water/water_run.h"
+
+namespace ambient::test {
+
+/// What random bodies meet besides the surface of still water.
+enum class WaterSetting {
+  kFree,
+  kOnFloor,
+  kAtWall,
+  kColliding,  ///< two
+  kJoined,     ///< two, by a ball joint or a hinge
+  kTethered,   ///< by one of these to a point in the world
+};
+constexpr int kWaterSettings = 6;
+const char* nameOf(WaterSetting setting);
+
+/// Bodies of all shapes, 0.05 to 5 m, 0.02 to 20 times as dense as the water, by either law,
+/// separating at pi/2 or pi; from above the surface or below it in any attitude, at up to three
+/// times the speed of a fall by their size; steps of 1/30, 1/60, 1/240 or 1/960 s.
+struct WaterCase {
+  WaterSetting setting = WaterSetting::kFree;
+  Around around = Around::kWater;
+  unsigned seed = 0;  ///< of all the rest
+};
+
+constexpr double kWaterAtlasTime = 3;  ///< of a run [s]
+
+struct WaterResult {
+  bool is_finite = true;  ///< and no result of a step was left out
+  /// Of the energy, over the scale of WaterRun::energyScale().
+  double over_start = 0;    ///< the largest rise above that of the start
+  double over_earlier = 0;  ///< above any earlier one
+};
+WaterResult runWater(const WaterCase& water_case);
+
+/// What became of many.
+struct WaterTally {
+  int runs = 0, not_finite = 0;
+  int rose = 0, rose_much = 0;  ///< over the start, by more than 1e-3, by more than 1e-2
+  double over_start = 0, over_earlier = 0;  ///< the largest
+
+  void add(const WaterResult& result);
+};
+
+/// `runs` of each setting, in water and in a vacuum: [setting][around].
+using WaterTable = std::array<std::array<WaterTally, 2>, kWaterSettings>;
+WaterTable runWaters(int runs, unsigned seed);
+
+}  // namespace ambient::test

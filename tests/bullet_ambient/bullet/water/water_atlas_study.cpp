@@ -1,0 +1,29 @@
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/bullet_ambient/bullet/water/water_atlas.h"
+
+// water_atlas_study [RUNS [SEED]]: random bodies at the surface of still water, RUNS (100) in each
+// surroundings, and the same in a vacuum. Exit code 1 if a state was not finite in water.
+int main(int argc, char** argv) {
+  using namespace ambient::test;
+  const int runs = argc > 1 ? std::atoi(argv[1]) : 100;
+  const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
+  const WaterTable table = runWaters(runs, seed);
+  bool is_finite = true;
+  std::puts(
+      "| surroundings | | runs | not finite | energy over the start by more than 1e-3 | 1e-2 | "
+      "most | over any earlier one, most |");
+  std::puts("|---|---|---|---|---|---|---|---|");
+  for (int s = 0; s < kWaterSettings; ++s)
+    for (const Around around : {Around::kWater, Around::kVacuum}) {
+      const bool is_water = around == Around::kWater;
+      const WaterTally& tally = table[s][static_cast<int>(around)];
+      std::printf("| %s | %s | %d | %d | %d | %d | %.2g | %.2g |\n",
+                  nameOf(static_cast<WaterSetting>(s)), is_water ? "water" : "vacuum", tally.runs,
+                  tally.not_finite, tally.rose, tally.rose_much, tally.over_start,
+                  tally.over_earlier);
+      is_finite = is_finite && (!is_water || tally.not_finite == 0);
+    }
+  return is_finite ? 0 : 1;
+}

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/bullet_ambient/bullet/water/water_shapes.h"
+
+namespace ambient::test {
+
+constexpr double kRunGravity = 9.81;  // [m/s^2]
+
+struct WaterBodyDef {
+  WaterShape shape = WaterShape::kBox;
+  double size = 1;              ///< [m]
+  double specific_gravity = 1;  ///< over the water's density
+  RigidState start{};           ///< twist in world axes
+  PressureLaw law = PressureLaw::kForm;
+  double separation_angle = 1.5707963267948966;  ///< [rad]
+};
+
+/// What is around the bodies of a run.
+enum class Around {
+  kWater,   ///< still, its level 0, below air
+  kVacuum,  ///< stock Bullet
+};
+
+/// Uniform bodies in a world with gravity along -z.
+class WaterRun {
+ public:
+  explicit WaterRun(Around around);
+  ~WaterRun();
+
+  btRigidBody& add(const WaterBodyDef& def);
+  /// A plane that holds what is on the side of its normal.
+  void addPlane(const Vector3& normal, double height);
+  /// Takes the joint; what it joins does not collide.
+  void join(std::unique_ptr<btTypedConstraint> joint);
+  void step(double duration) { fluid_.step(duration); }
+
+  /// Of bodies, water and the waves that they made, docs/theory.md eq. (64); in a vacuum, of the
+  /// bodies [J].
+  double energy() const;
+  /// (m + rho V) g L of all bodies; in a vacuum m g L [J].
+  double energyScale() const { return energy_scale_; }
+  long long rejected() const { return fluid_.registry.counters().rejected; }
+
+ private:
+  struct FloatingBody {
+    SizedShape shape;
+    double mass;
+    btRigidBody* body;
+  };
+  void attach(const FloatingBody& floating, const WaterBodyDef& def);
+  double energyOf(const FloatingBody& floating) const;
+
+  Around around_;
+  std::deque<FloatingBody> bodies_;
+  std::deque<btStaticPlaneShape> planes_;
+  FluidWorld fluid_;
+  std::deque<std::unique_ptr<btTypedConstraint>> joints_;
+  double energy_scale_ = 0;
+};
+
+}  // namespace ambient::test
