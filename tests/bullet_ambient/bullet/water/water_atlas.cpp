@@ -72,7 +72,8 @@ void addBodies(Arbitrary& arbitrary, WaterSetting setting, WaterRun& run) {
   if (setting == WaterSetting::kColliding) {
     WaterBodyDef second = anySecond(arbitrary, def, 0.2);
     const Vector3 way = (second.start.position - def.start.position).normalized();
-    second.start.twist.linear -= 2 * std::abs(way.dot(second.start.twist.linear)) * way;
+    const double speed = arbitrary.between(1, 4) * std::sqrt(kRunGravity * def.size);
+    second.start.twist.linear = def.start.twist.linear - speed * way;
     run.add(second);
   }
   if (setting == WaterSetting::kJoined) {
@@ -115,7 +116,7 @@ WaterResult runWater(const WaterCase& water_case) {
   addBodies(arbitrary, water_case.setting, run);
   const double start = run.energy();
   double lowest = start, over_start = 0, over_earlier = 0;
-  for (int i = 0; i < std::lround(kWaterAtlasTime * hertz); ++i) {
+  for (int i = 0; i < std::lround(kWaterAtlasTime * hertz) && !run.isDeep(); ++i) {
     run.step(1 / hertz);
     const double energy = run.energy();
     if (!std::isfinite(energy)) return {false, 0, 0};
@@ -123,14 +124,14 @@ WaterResult runWater(const WaterCase& water_case) {
     over_earlier = std::max(over_earlier, energy - lowest);
     lowest = std::min(lowest, energy);
   }
-  return {run.rejected() == 0, over_start / run.energyScale(), over_earlier / run.energyScale()};
+  return {run.rejected() == 0, over_earlier / run.energyScale(), over_start / run.energyScale()};
 }
 
 void WaterTally::add(const WaterResult& result) {
   ++runs;
   not_finite += !result.is_finite;
-  rose += result.over_start > 1e-3;
-  rose_much += result.over_start > 1e-2;
+  rose += result.over_earlier > 1e-3;
+  rose_much += result.over_earlier > 1e-2;
   over_start = std::max(over_start, result.over_start);
   over_earlier = std::max(over_earlier, result.over_earlier);
 }

@@ -27,21 +27,21 @@ struct WaterCase {
   unsigned seed = 0;  ///< of all the rest
 };
 
-constexpr double kWaterAtlasTime = 3;  ///< of a run [s]
+constexpr double kWaterAtlasTime = 3;  ///< the longest; what has sunk by five sizes ends it [s]
 
 struct WaterResult {
   bool is_finite = true;  ///< and no result of a step was left out
   /// Of the energy, over the scale of WaterRun::energyScale().
-  double over_start = 0;    ///< the largest rise above that of the start
-  double over_earlier = 0;  ///< above any earlier one
+  double over_earlier = 0;  ///< the largest rise above any earlier one
+  double over_start = 0;    ///< above that of the start
 };
 WaterResult runWater(const WaterCase& water_case);
 
 /// What became of many.
 struct WaterTally {
   int runs = 0, not_finite = 0;
-  int rose = 0, rose_much = 0;  ///< over the start, by more than 1e-3, by more than 1e-2
-  double over_start = 0, over_earlier = 0;  ///< the largest
+  int rose = 0, rose_much = 0;              ///< over any earlier one, by more than 1e-3, 1e-2
+  double over_earlier = 0, over_start = 0;  ///< the largest
 
   void add(const WaterResult& result);
 };

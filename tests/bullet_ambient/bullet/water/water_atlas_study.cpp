@@ -12,8 +12,9 @@ int main(int argc, char** argv) {
   const WaterTable table = runWaters(runs, seed);
   bool is_finite = true;
   std::puts(
-      "| surroundings | | runs | not finite | energy over the start by more than 1e-3 | 1e-2 | "
-      "most | over any earlier one, most |");
+      "| surroundings | | runs | not finite | energy above any earlier one by more than 1e-3 | "
+      "1e-2 "
+      "| most | above the start, most |");
   std::puts("|---|---|---|---|---|---|---|---|");
   for (int s = 0; s < kWaterSettings; ++s)
     for (const Around around : {Around::kWater, Around::kVacuum}) {
@@ -21,8 +22,8 @@ int main(int argc, char** argv) {
       const WaterTally& tally = table[s][static_cast<int>(around)];
       std::printf("| %s | %s | %d | %d | %d | %d | %.2g | %.2g |\n",
                   nameOf(static_cast<WaterSetting>(s)), is_water ? "water" : "vacuum", tally.runs,
-                  tally.not_finite, tally.rose, tally.rose_much, tally.over_start,
-                  tally.over_earlier);
+                  tally.not_finite, tally.rose, tally.rose_much, tally.over_earlier,
+                  tally.over_start);
       is_finite = is_finite && (!is_water || tally.not_finite == 0);
     }
   return is_finite ? 0 : 1;

@@ -1,5 +1,6 @@
 #include "tests/bullet_ambient/bullet/water/water_run.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
@@ -24,7 +25,7 @@ WaterRun::~WaterRun() {
 
 btRigidBody& WaterRun::add(const WaterBodyDef& def) {
   FloatingBody& floating =
-      bodies_.emplace_back(FloatingBody{makeWaterShape(def.shape, def.size), 0, nullptr});
+      bodies_.emplace_back(FloatingBody{makeWaterShape(def.shape, def.size), def.size, 0, nullptr});
   const double displaced = water().density * floating.shape.fluid_body->volume;
   floating.mass = def.specific_gravity * displaced;
   BodyDef body;
@@ -59,6 +60,12 @@ void WaterRun::addPlane(const Vector3& normal, double height) {
 void WaterRun::join(std::unique_ptr<btTypedConstraint> joint) {
   fluid_.world.addConstraint(joint.get(), true);
   joints_.push_back(std::move(joint));
+}
+
+bool WaterRun::isDeep() const {
+  return std::all_of(bodies_.begin(), bodies_.end(), [](const FloatingBody& floating) {
+    return readState(*floating.body).position.z() < -5 * floating.size;
+  });
 }
 
 double WaterRun::energy() const {

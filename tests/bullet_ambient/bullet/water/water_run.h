@@ -38,6 +38,8 @@ class WaterRun {
   void join(std::unique_ptr<btTypedConstraint> joint);
   void step(double duration) { fluid_.step(duration); }
 
+  /// Whether all bodies are below five times their size.
+  bool isDeep() const;
   /// Of bodies, water and the waves that they made, docs/theory.md eq. (64); in a vacuum, of the
   /// bodies [J].
   double energy() const;
@@ -48,7 +50,7 @@ class WaterRun {
  private:
   struct FloatingBody {
     SizedShape shape;
-    double mass;
+    double size, mass;
     btRigidBody* body;
   };
   void attach(const FloatingBody& floating, const WaterBodyDef& def);
