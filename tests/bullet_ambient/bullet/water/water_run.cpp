@@ -11,11 +11,19 @@ namespace ambient::test {
 WaterRun::WaterRun(Around around) : around_(around) {
   fluid_.world.setGravity({0, 0, bt(-kRunGravity)});
   fluid_.registry.setReport(nullptr);
-  if (around == Around::kVacuum) return;
+  if (around == Around::kWater) fill(std::make_shared<StillWater>(0.0, Vector3(0, 0, 1)));
+}
+
+WaterRun::WaterRun(std::shared_ptr<const WaterSurface> surface) : WaterRun(Around::kVacuum) {
+  around_ = Around::kWater;
+  fill(std::move(surface));
+}
+
+void WaterRun::fill(std::shared_ptr<const WaterSurface> surface) {
   FluidRegion sea;
   sea.below = water();
   sea.above = air();
-  sea.surface = std::make_shared<StillWater>(0.0, Vector3(0, 0, 1));
+  sea.surface = std::move(surface);
   fluid_.registry.addRegion(sea);
 }
 
@@ -46,6 +54,7 @@ void WaterRun::attach(const FloatingBody& floating, const WaterBodyDef& def) {
   attach.fluid_frame = floating.shape.fluid_frame;
   attach.flow.law = def.law;
   attach.flow.separation_angle = def.separation_angle;
+  attach.flight.max_substeps = def.max_substeps;
   fluid_.registry.attach(*floating.body, attach);
 }
 

@@ -17,11 +17,12 @@ struct WaterBodyDef {
   RigidState start{};           ///< twist in world axes
   PressureLaw law = PressureLaw::kForm;
   double separation_angle = 1.5707963267948966;  ///< [rad]
+  int max_substeps = 0;                          ///< FlightSettings::max_substeps
 };
 
 /// What is around the bodies of a run.
 enum class Around {
-  kWater,   ///< still, its level 0, below air
+  kWater,   ///< below air, its level 0
   kVacuum,  ///< stock Bullet
 };
 
@@ -29,6 +30,8 @@ enum class Around {
 class WaterRun {
  public:
   explicit WaterRun(Around around);
+  /// In water with waves on it.
+  explicit WaterRun(std::shared_ptr<const WaterSurface> surface);
   ~WaterRun();
 
   btRigidBody& add(const WaterBodyDef& def);
@@ -40,8 +43,8 @@ class WaterRun {
 
   /// Whether all bodies are below five times their size.
   bool isDeep() const;
-  /// Of bodies, water and the waves that they made, docs/theory.md eq. (64); in a vacuum, of the
-  /// bodies [J].
+  /// Of bodies, still water and the waves that they made, docs/theory.md eq. (64); in a vacuum,
+  /// of the bodies [J].
   double energy() const;
   /// (m + rho V) g L of all bodies; in a vacuum m g L [J].
   double energyScale() const { return energy_scale_; }
@@ -53,6 +56,7 @@ class WaterRun {
     double size, mass;
     btRigidBody* body;
   };
+  void fill(std::shared_ptr<const WaterSurface> surface);
   void attach(const FloatingBody& floating, const WaterBodyDef& def);
   double energyOf(const FloatingBody& floating) const;
 

@@ -42,6 +42,9 @@ SizedShape makeCollisionShape(WaterShape shape, double size) {
     case WaterShape::kBox:
       made.parts[0] = makeBar(size * Vector3(0.5, 0.35, 0.225));
       break;
+    case WaterShape::kCube:
+      made.parts[0] = makeBar(size * Vector3::Constant(0.5));
+      break;
     case WaterShape::kHull:
       made.parts[0] = makeHull(size);
       break;

@@ -15,8 +15,9 @@ enum class WaterShape {
   kBox,    ///< 1 : 0.7 : 0.45
   kHull,   ///< convex, of 14 points
   kAngle,  ///< two bars, one across an end of the other: not convex
+  kCube,
 };
-constexpr int kWaterShapes = 4;
+constexpr int kWaterShapes = 5;
 
 /// As Bullet collides with it and as the fluid sees it; both in the principal axes of a uniform
 /// mass, its centre the origin.
@@ -33,6 +34,6 @@ struct SizedShape {
 SizedShape makeWaterShape(WaterShape shape, double size);
 
 /// Radius of a sphere about the centre of mass that holds any of the shapes of a size of 1 m.
-constexpr double kWaterShapeRadius = 0.75;
+constexpr double kWaterShapeRadius = 0.87;
 
 }  // namespace ambient::test
