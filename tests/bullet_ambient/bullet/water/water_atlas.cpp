@@ -10,8 +10,6 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kHertz[] = {30, 60, 240, 960};
-
 double logarithmic(Arbitrary& arbitrary, double low, double high) {
   return std::exp(arbitrary.between(std::log(low), std::log(high)));
 }
@@ -111,7 +109,8 @@ const char* nameOf(WaterSetting setting) {
 
 WaterResult runWater(const WaterCase& water_case) {
   Arbitrary arbitrary(water_case.seed);
-  const double hertz = kHertz[static_cast<int>(arbitrary.between(0, 4))];
+  const int step = static_cast<int>(arbitrary.between(0, kAtlasSteps));
+  const double hertz = kAtlasHertz[step];
   WaterRun run(water_case.around);
   addBodies(arbitrary, water_case.setting, run);
   const double start = run.energy();
@@ -119,12 +118,13 @@ WaterResult runWater(const WaterCase& water_case) {
   for (int i = 0; i < std::lround(kWaterAtlasTime * hertz) && !run.isDeep(); ++i) {
     run.step(1 / hertz);
     const double energy = run.energy();
-    if (!std::isfinite(energy)) return {false, 0, 0};
+    if (!std::isfinite(energy)) return {step, false, 0, 0};
     over_start = std::max(over_start, energy - start);
     over_earlier = std::max(over_earlier, energy - lowest);
     lowest = std::min(lowest, energy);
   }
-  return {run.rejected() == 0, over_earlier / run.energyScale(), over_start / run.energyScale()};
+  return {step, run.rejected() == 0, over_earlier / run.energyScale(),
+          over_start / run.energyScale()};
 }
 
 void WaterTally::add(const WaterResult& result) {
@@ -133,7 +133,8 @@ void WaterTally::add(const WaterResult& result) {
   rose += result.over_earlier > 1e-3;
   rose_much += result.over_earlier > 1e-2;
   over_start = std::max(over_start, result.over_start);
-  over_earlier = std::max(over_earlier, result.over_earlier);
+  double& over_earlier_there = over_earlier[result.step];
+  over_earlier_there = std::max(over_earlier_there, result.over_earlier);
 }
 
 WaterTable runWaters(int runs, unsigned seed) {

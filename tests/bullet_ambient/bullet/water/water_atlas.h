@@ -29,7 +29,11 @@ struct WaterCase {
 
 constexpr double kWaterAtlasTime = 3;  ///< the longest; what has sunk by five sizes ends it [s]
 
+constexpr double kAtlasHertz[] = {30, 60, 240, 960};
+constexpr int kAtlasSteps = 4;
+
 struct WaterResult {
+  int step = 0;           ///< which of kAtlasHertz
   bool is_finite = true;  ///< and no result of a step was left out
   /// Of the energy, over the scale of WaterRun::energyScale().
   double over_earlier = 0;  ///< the largest rise above any earlier one
@@ -40,8 +44,9 @@ WaterResult runWater(const WaterCase& water_case);
 /// What became of many.
 struct WaterTally {
   int runs = 0, not_finite = 0;
-  int rose = 0, rose_much = 0;              ///< over any earlier one, by more than 1e-3, 1e-2
-  double over_earlier = 0, over_start = 0;  ///< the largest
+  int rose = 0, rose_much = 0;            ///< over any earlier one, by more than 1e-3, 1e-2
+  double over_earlier[kAtlasSteps] = {};  ///< the largest, by steps
+  double over_start = 0;                  ///< the largest
 
   void add(const WaterResult& result);
 };
