@@ -162,6 +162,27 @@ class AttachedLoads final : public SurfaceLoads {
   FrameOffset whole_frame_;
 };
 
+/// The form law at alpha = pi, whose lee feels the pressure of the slip besides its own: of that a
+/// part of a body has its share of the whole, as by AttachedLoads.
+class AttachedFormLoads final : public SurfaceLoads {
+ public:
+  /// Of the form law at alpha = pi/2, and at pi.
+  AttachedFormLoads(std::shared_ptr<const SurfaceLoads> separated,
+                    std::shared_ptr<const SurfaceLoads> attached)
+      : separated_(std::move(separated)), attached_(std::move(attached)) {}
+
+  Wrench load(const Twist& x) const noexcept override { return attached_->load(x); }
+  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
+    const Wrench by_lee = attached_->load(x) + -1.0 * separated_->load(x);
+    return separated_->wetLoad(x, wet) + wet.share * by_lee;
+  }
+  int faces() const noexcept override { return 2 * separated_->faces() + attached_->faces(); }
+  bool needsGuard() const noexcept override { return attached_->needsGuard(); }
+
+ private:
+  std::shared_ptr<const SurfaceLoads> separated_, attached_;
+};
+
 // Of a fluid body that was filled by hand: readers and builders have checked theirs.
 void checkFaces(const FluidBody& body) {
   const FaceTable& faces = body.faces;
@@ -249,7 +270,11 @@ std::shared_ptr<const SurfaceLoads> waterlineLoadsOnFaces(const Body& body, Load
   if (is_sphere) settings.law = PressureLaw::kPublished;
   auto on_faces = loadsOnFaces(body, settings, flow, tables);
   if (settings.separation_cosine != -1) return on_faces;
-  settings.law = PressureLaw::kPublished;
+  if (settings.law == PressureLaw::kForm) {
+    settings.separation_cosine = 0;
+    auto separated = loadsOnFaces(body, settings, flow, tables);
+    return std::make_shared<AttachedFormLoads>(std::move(separated), std::move(on_faces));
+  }
   settings.skin_friction = false;
   auto slip = loadsOnFaces(body, settings, flow, tables);
   auto whole = is_sphere ? std::make_shared<SphereLoads>(*body, settings, tables) : slip;

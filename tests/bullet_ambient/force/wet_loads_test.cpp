@@ -247,5 +247,28 @@ TEST(WetLoads, InAttachedFlowHaveTheShareOfThePressureOnTheWhole) {
   }
 }
 
+// The form law has a windward pressure of its own, and that of the slip on the lee alone: this has
+// no vertical part on the whole of a body that moves horizontally.
+TEST(WetLoads, OfTheFormLawInAttachedFlowLoseNoWindwardPressure) {
+  LoadTables tables;
+  FlowSettings attached, separated;
+  attached.law = separated.law = PressureLaw::kForm;
+  attached.separation_angle = std::acos(-1.0);
+  const WetPart half = wetBelow({0, 0, 1}, 0);
+  const auto box = std::make_shared<const FluidBody>(test::boxBody({1, 0.6, 0.4}, 6));
+  for (const auto& body : {roundBody(3), box}) {
+    const auto loads = makeWaterlineLoads(body, kLiquid, attached, tables);
+    const auto by_wake = makeWaterlineLoads(body, kLiquid, separated, tables);
+    const Twist along{Vector3::Zero(), {2, 0, 0}}, turning{{0, 0, 3}, {2, 0, 0}};
+    for (const Twist& x : {along, turning}) {
+      const Vector3 deep = loads->load(x).force, floating = loads->wetLoad(x, half).force;
+      const double rounding = 2e-5 * by_wake->load(x).force.norm();
+      EXPECT_NEAR(floating.x(), 0.5 * deep.x(), rounding);
+      EXPECT_NEAR(floating.y(), 0.5 * deep.y(), rounding);
+      EXPECT_NEAR(floating.z(), by_wake->wetLoad(x, half).force.z(), rounding);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ambient
