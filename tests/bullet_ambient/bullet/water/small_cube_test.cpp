@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tests/bullet_ambient/bullet/water/water_run.h"
+
+// A cube of 1 cm at 1/60 s: it heaves with a period of some ten steps.
+namespace ambient::test {
+namespace {
+
+constexpr double kEdge = 0.01, kStep = 1.0 / 60;
+
+struct SmallCube {
+  SmallCube(double specific_gravity, double height, double tilt) : run(Around::kWater) {
+    WaterBodyDef def;
+    def.shape = WaterShape::kCube;
+    def.size = kEdge;
+    def.specific_gravity = specific_gravity;
+    def.start.position.z() = height;
+    def.start.orientation = Quaternion(Eigen::AngleAxisd(tilt, Vector3(1, 0.4, 0.2).normalized()));
+    body = &run.add(def);
+  }
+  /// The largest rise of the energy above any earlier one, over the run's scale.
+  double settle(double time) {
+    double lowest = run.energy(), rise = 0;
+    for (int i = 0; i < std::lround(time / kStep); ++i) {
+      run.step(kStep);
+      const double energy = run.energy();
+      rise = std::max(rise, energy - lowest);
+      lowest = std::min(lowest, energy);
+    }
+    return rise / run.energyScale();
+  }
+  /// Of the vertical along the edges, the least and the largest.
+  std::pair<double, double> uprightness() const {
+    const Vector3 up = (readState(*body).orientation.conjugate() * Vector3::UnitZ()).cwiseAbs();
+    return {up.minCoeff(), up.maxCoeff()};
+  }
+
+  WaterRun run;
+  btRigidBody* body = nullptr;
+};
+
+// Flat below 0.2113 and above 0.7887 times the density of water, on a corner at 0.5; docs/water.md.
+TEST(SmallCube, ComesToRestAsHydrostaticsSaysAndGainsNoEnergy) {
+  for (const double specific_gravity : {0.1, 0.5, 0.9})
+    for (const bool is_dropped : {false, true}) {
+      SmallCube cube(specific_gravity, is_dropped ? 0.05 : 0.002, is_dropped ? 0.7 : 0.05);
+      EXPECT_LT(cube.settle(60), byPrecision(1e-12, 1e-5)) << specific_gravity;
+      const RigidState end = readState(*cube.body);
+      EXPECT_NEAR(end.position.z(), kEdge * (0.5 - specific_gravity), 0.003 * kEdge);
+      EXPECT_LT(end.twist.linear.norm(), 0.01 * std::sqrt(kRunGravity * kEdge));
+      const auto [least, largest] = cube.uprightness();
+      if (specific_gravity == 0.5) {
+        EXPECT_NEAR(least, std::sqrt(1.0 / 3), 0.02);
+      } else {
+        EXPECT_GT(largest, 0.9998) << specific_gravity;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace ambient::test
