@@ -162,7 +162,10 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   const btRigidBody& body = *ambient.body;
   const RigidState start = readState(body);
   Vector6 by_waves = Vector6::Zero();
-  if (ambient.surface()) by_waves = freezeAtSurface(ambient, time_step_);
+  if (ambient.surface()) {
+    by_waves = freezeAtSurface(ambient, time_step_);
+    stiffenForRows(ambient, time_step_);
+  }
   const Surroundings surroundings = readSurroundings(ambient);
   const FlightTask task{ambient.model, surroundings, ambient.def.flight, time_step_};
   const AxisFactors factors = axisFactors(body);

@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/positive_inverse.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -136,6 +137,16 @@ Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
   return exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x, waves) - x;
 }
 
+void stiffenForRows(AmbientBody& ambient, double duration) noexcept {
+  const SurfaceStand& stand = ambient.surface()->stand;
+  if (!(duration * stand.swing > kLongestSwing)) return;
+  const Matrix6 stiff = stiffInertia(stand, duration);
+  if (const auto inverse = positiveInverse(stiff)) {
+    ambient.model.inertia = stiff;
+    ambient.model.inverse_inertia = *inverse;
+  }
+}
+
 void freezeAsMet(AmbientBody& ambient, int media) noexcept {
   SurfaceEncounter& encounter = ambient.encounter;
   AMBIENT_ASSERT(encounter.met_B);
@@ -151,14 +162,14 @@ void freezeAsMet(AmbientBody& ambient, int media) noexcept {
 }
 
 Vector6 passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes, double duration) noexcept {
+  const Matrix6 before = ambient.surface()->stand.inertia;  // since freezeAtSurface()
   const SurfaceStand& after = standAfter(ambient, duration);
   if (axes == Axes::kLocked) {
-    const double had = x.dot(ambient.model.inertia * x), has = x.dot(after.inertia * x);
+    const double had = x.dot(before * x), has = x.dot(after.inertia * x);
     return has > had ? Vector6(std::sqrt(had / has) * x) : x;
   }
   const SurfaceModel& model = ambient.surface()->model;
-  return passSurface({model, ambient.model.inertia, after, duration, gradientAt(model, after, x)},
-                     x);
+  return passSurface({model, before, after, duration, gradientAt(model, after, x)}, x);
 }
 
 bool mayRestAtSurface(AmbientBody& ambient) noexcept {

@@ -76,6 +76,10 @@ BodyModel modelNow(const AmbientBody& ambient);
 /// as well
 Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept;
 
+/// The same model for a step that rows move it by, where that is long beside its swing: stiff
+/// against going past its balance, docs/theory.md eq. (68). Allocates nothing.
+void stiffenForRows(AmbientBody& ambient, double duration) noexcept;
+
 /// Between two steps, of a saved state: the model as freezeAtSurface() left it against `met_B`.
 /// @pre `met_B` is known; `media` is one of the body's surfaces
 void freezeAsMet(AmbientBody& ambient, int media) noexcept;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kSurfaceAttempts = 3;
 constexpr int kSurfaceSubsteps = 16;
-constexpr double kLongestSwing = 0.5;    // substep times the largest natural frequency
 constexpr double kFlowAccuracy = 1e-6;   // of the tolerance
 constexpr double kMostSurfaceError = 2;  // of an accepted step, in tolerances
 
@@ -158,9 +157,7 @@ class SurfaceFlight {
                             hydrostaticWrench(stand_->wet, stand_->plane))
                                .vector();
     if (!is_stiff_) return stand_->inverse * wrench;
-    Matrix K = stand_->inertia;
-    for (const RestoringMode& mode : stand_->restoring)
-      K += h * h / 4 * std::max(0.0, mode.stiffness) * mode.motion * mode.motion.transpose();
+    const Matrix K = stiffInertia(*stand_, h);
     return Eigen::LLT<Matrix>(K).solve(wrench);
   }
 

@@ -47,6 +47,14 @@ bool isStable(const RestoringModes& modes) noexcept {
   return modes[0].stiffness > 0 && modes[1].stiffness > 0 && modes[2].stiffness > 0;
 }
 
+Matrix6 stiffInertia(const SurfaceStand& stand, double duration) noexcept {
+  Matrix6 K = stand.inertia;
+  for (const RestoringMode& mode : stand.restoring)
+    K += duration * duration / 4 * std::max(0.0, mode.stiffness) * mode.motion *
+         mode.motion.transpose();
+  return K;
+}
+
 BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
   BodyModel frozen = model.above;
   frozen.inertia = stand.inertia;

@@ -24,6 +24,13 @@ SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane
 /// Whether small displacements are turned back: up and down, and about both axes of the waterplane.
 bool isStable(const RestoringModes& modes) noexcept;
 
+/// Times the largest natural frequency, the longest step that needs no stiffInertia().
+constexpr double kLongestSwing = 0.5;
+
+/// K with which a longer step of `duration` [s] does not overshoot the balance of the buoyancy: by
+/// the implicit trapezoidal rule, K + duration^2/4 N k N^T over the stiffnesses k > 0.
+Matrix6 stiffInertia(const SurfaceStand& stand, double duration) noexcept;
+
 /// The body as one of constant inertia and displacement, for a step in which rows move it. Its
 /// loads, in the frame of `loads_below`, are left to the caller.
 BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept;

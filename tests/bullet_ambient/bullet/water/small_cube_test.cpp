@@ -13,7 +13,7 @@ namespace {
 constexpr double kEdge = 0.01, kStep = 1.0 / 60;
 
 struct SmallCube {
-  SmallCube(double specific_gravity, double height, double tilt) : run(Around::kWater) {
+  SmallCube(double specific_gravity, double height, double tilt = 0) : run(Around::kWater) {
     WaterBodyDef def;
     def.shape = WaterShape::kCube;
     def.size = kEdge;
@@ -23,10 +23,10 @@ struct SmallCube {
     body = &run.add(def);
   }
   /// The largest rise of the energy above any earlier one, over the run's scale.
-  double settle(double time) {
+  double settle(double time, double step = kStep) {
     double lowest = run.energy(), rise = 0;
-    for (int i = 0; i < std::lround(time / kStep); ++i) {
-      run.step(kStep);
+    for (int i = 0; i < std::lround(time / step); ++i) {
+      run.step(step);
       const double energy = run.energy();
       rise = std::max(rise, energy - lowest);
       lowest = std::min(lowest, energy);
@@ -59,6 +59,22 @@ TEST(SmallCube, ComesToRestAsHydrostaticsSaysAndGainsNoEnergy) {
         EXPECT_GT(largest, 0.9998) << specific_gravity;
       }
     }
+}
+
+// Of a period of 3.4 steps: with the explicit push of its buoyancy it jumps out of the water.
+TEST(SmallCube, StaysInTheWaterWhereAJointMovesItInLongSteps) {
+  constexpr double kSpecificGravity = 0.1, kLongStep = 1.0 / 30;
+  const double rest = kEdge * (0.5 - kSpecificGravity);
+  SmallCube cube(kSpecificGravity, rest + 1e-4);
+  auto rail =
+      std::make_unique<btGeneric6DofConstraint>(*cube.body, btTransform::getIdentity(), false);
+  rail->setLinearLowerLimit({0, 0, -1});
+  rail->setLinearUpperLimit({0, 0, 1});
+  rail->setAngularLowerLimit({0, 0, 0});
+  rail->setAngularUpperLimit({0, 0, 0});
+  cube.run.join(std::move(rail));
+  EXPECT_LT(cube.settle(10, kLongStep), 1e-4);
+  EXPECT_NEAR(readState(*cube.body).position.z(), rest, 0.01 * kEdge);
 }
 
 }  // namespace
