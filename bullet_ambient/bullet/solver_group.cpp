@@ -161,9 +161,9 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   ambient.body->updateInertiaTensor();
   const btRigidBody& body = *ambient.body;
   const RigidState start = readState(body);
-  Vector6 by_waves = Vector6::Zero();
+  Vector6 by_surface = Vector6::Zero();
   if (ambient.surface()) {
-    by_waves = freezeAtSurface(ambient, time_step_);
+    by_surface = freezeAtSurface(ambient, time_step_);
     stiffenForRows(ambient, time_step_);
   }
   const Surroundings surroundings = readSurroundings(ambient);
@@ -172,8 +172,8 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   RowVelocity row = member.is_locked ? computeLockedVelocity(task, start, factors)
                                      : computeRowVelocity(task, start);
   if (ambient.surface()) {
-    row.change_W.angular += start.orientation * by_waves.head<3>();
-    row.change_W.linear += start.orientation * by_waves.tail<3>();
+    row.change_W.angular += start.orientation * by_surface.head<3>();
+    row.change_W.linear += start.orientation * by_surface.tail<3>();
   }
   countLoads(ambient, row.count.load_evaluations);
   ambient.counters.guarded += row.count.guarded;

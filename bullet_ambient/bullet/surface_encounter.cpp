@@ -134,7 +134,13 @@ Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
   WaveMemory& waves = ambient.encounter.waves_with_rows;
   waves = ambient.encounter.waves;
   meetModes(modes, R, waves);
-  return exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x, waves) - x;
+  Vector6 end = exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x, waves);
+  if (surface.model.loads_above.loads) {
+    const Vector3 wind_W = ambient.medium.velocity - ambient.encounter.velocity_above;
+    end = takeWind({surface.model, stand, R.transpose() * wind_W, duration}, end);
+    countLoads(ambient, 1);
+  }
+  return end - x;
 }
 
 void stiffenForRows(AmbientBody& ambient, double duration) noexcept {

@@ -72,8 +72,8 @@ const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) n
 BodyModel modelNow(const AmbientBody& ambient);
 
 /// Before its rows are solved: makes the body's model that of the moment, and gives back the change
-/// of velocity in B by the waves that it makes. Allocates nothing. @pre it is at a surface; below
-/// as well
+/// of velocity in B by the waves that it makes and by the wind. Allocates nothing. @pre it is at a
+/// surface; below as well
 Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept;
 
 /// The same model for a step that rows move it by, where that is long beside its swing: stiff

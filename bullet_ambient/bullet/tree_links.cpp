@@ -36,8 +36,7 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
     in_tree.surroundings.ambient_velocity.setZero();
     return;
   }
-  if (ambient.surface())
-    freezeAtSurface(ambient, task.duration);  // without the waves that it makes
+  if (ambient.surface()) freezeAtSurface(ambient, task.duration);  // without its waves and the wind
   in_tree.model = &ambient.model;
   in_tree.mass = 1 / static_cast<double>(link.stand_in.getInvMass());
   in_tree.surroundings.gravity = toVector3(task.gravity);

@@ -131,7 +131,7 @@ class SurfaceFlight {
   /// The second half of a kick of h, in reversed order: loads are still those of the first half.
   void beginWith(double h) {
     if (model_.loads_below.loads) keepLoads(h);
-    if (model_.loads_above.loads) takeWind(h / 2);
+    if (model_.loads_above.loads) takeWindFor(h / 2);
     makeWaves(h / 2);
     x_ += h / 2 * fallOver(h);
   }
@@ -141,7 +141,7 @@ class SurfaceFlight {
     swing_ = std::max(swing_, stand_->swing);
     x_ += h / 2 * fallOver(h);
     makeWaves(h / 2);
-    if (model_.loads_above.loads) takeWind(h / 2);
+    if (model_.loads_above.loads) takeWindFor(h / 2);
     if (model_.loads_below.loads) takeLoads(h);
   }
 
@@ -200,17 +200,9 @@ class SurfaceFlight {
     setLoad(load);
   }
 
-  /// In the frame of the fluid above.
-  void takeWind(double h) {
-    const PartLoads& part = model_.loads_above;
-    const Vector6 shift = stack(Vector3::Zero(), toBody() * wind_W_);
-    const DualPair motion = motionOf(x_ + shift);
-    WetPart in_air = partBelow(part.frame);
-    in_air = {in_air.plane.flipped(), 1 - in_air.share};
-    const Twist twist = Twist::fromVector(motion.twist);
-    const Wrench wrench = part.frame.toB(part.loads->wetLoad(part.frame.toF(twist), in_air));
+  void takeWindFor(double h) {
+    x_ = takeWind({model_, *stand_, toBody() * wind_W_, h}, x_);
     ++flight_count_.load_evaluations;
-    x_ = passiveKick(motion, {motion, responseTo(wrench)}, h).twist - shift;
   }
 
   double kinetic2() const { return x_.dot(stand_->inertia * x_); }

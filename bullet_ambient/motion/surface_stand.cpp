@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/motion/passive_kick.h"
 #include "bullet_ambient/motion/surface_passage.h"
 
 namespace ambient {
@@ -87,6 +89,19 @@ Vector6 passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
       {move.inertia_before, after.inertia, after.inverse, move.gradient, after.plane.normal, centre,
        at.draught(), at.cover(), after.plane.gravity, move.duration},
       x);
+}
+
+Vector6 takeWind(const WindKick& kick, const Vector6& x) noexcept {
+  const PartLoads& part = kick.model.loads_above;
+  const SurfaceStand& stand = kick.stand;
+  const Vector6 shift = stack(Vector3::Zero(), kick.wind);
+  const Vector6 seen = x + shift;
+  const double share = 1 - wetShare(stand.immersion_F, kick.model.shape->volume);
+  const WetPart in_air{seenFrom(stand.plane, part.frame).flipped(), share};
+  const Twist twist = Twist::fromVector(seen);
+  const Vector6 load = part.frame.toB(part.loads->wetLoad(part.frame.toF(twist), in_air)).vector();
+  const DualPair motion{seen, stand.inertia * seen};
+  return passiveKick(motion, {motion, {stand.inverse * load, load}}, kick.duration).twist - shift;
 }
 
 }  // namespace ambient

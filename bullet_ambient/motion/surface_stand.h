@@ -49,4 +49,16 @@ struct SurfaceMove {
 };
 Vector6 passSurface(const SurfaceMove& move, const Vector6& x) noexcept;
 
+/// The fluid above blows on the dry part of a body.
+struct WindKick {
+  const SurfaceModel& model;  ///< @pre it has loads_above.loads
+  const SurfaceStand& stand;
+  Vector3 wind;     ///< velocity of the water less that of the fluid above, in B [m/s]
+  double duration;  ///< [s]
+};
+
+/// The twist after it, by docs/theory.md eq. (23) in the frame of the fluid above. Twists in B,
+/// relative to the water. Cost: one evaluation of the loads.
+Vector6 takeWind(const WindKick& kick, const Vector6& x) noexcept;
+
 }  // namespace ambient

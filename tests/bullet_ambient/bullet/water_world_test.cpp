@@ -262,6 +262,29 @@ TEST(WaterWorld, ABodyGoesWithTheCurrentAndAWaveThatIsLong) {
   EXPECT_NEAR(highest - lowest, 1, 0.03);
 }
 
+// In 2 s, free or on a rail along the wind.
+TEST(WaterWorld, WindBlowsOnBodiesThatJointsMove) {
+  FluidRegion sea = seaAt(0);
+  sea.above = air();
+  sea.above.velocity = {10, 0, 0};
+  WaterWorld free(sea), joined(sea);
+  const btRigidBody& drifting = free.addBox(0.5, at(0));
+  btRigidBody& body = joined.addBox(0.5, at(0));
+  btGeneric6DofConstraint rail(body, btTransform::getIdentity(), true);
+  rail.setLinearLowerLimit({-9, 0, -9});
+  rail.setLinearUpperLimit({9, 0, 9});
+  rail.setAngularLowerLimit({0, 0, 0});
+  rail.setAngularUpperLimit({0, 0, 0});
+  joined.fluid.world.addConstraint(&rail);
+  free.fluid.step(1.0 / 60, 120);
+  joined.fluid.step(1.0 / 60, 120);
+  const auto speed = static_cast<double>(drifting.getLinearVelocity().x());
+  EXPECT_GT(joined.fluid.registry.counters().rows, 100);
+  EXPECT_GT(speed, 0.05);
+  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()), speed, 0.1 * speed);
+  joined.fluid.world.removeConstraint(&rail);
+}
+
 TEST(WaterWorld, FloatingBodiesSleepInStillWaterButNotOnASaddle) {
   WaterWorld water(seaAt(0));
   btRigidBody& flat = water.addBox(0.5, at(0.001));
