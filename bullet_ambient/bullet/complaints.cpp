@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -41,6 +42,7 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kInertia:
     case Complaint::kEmpty:
     case Complaint::kLight:
+    case Complaint::kSwing:
     case Complaint::kCount:
       break;
   }
@@ -59,6 +61,13 @@ std::string tooLong(const AttachDef& def) {
   return sentence + "; if it has flat sides, flow.law = PressureLaw::kForm needs neither";
 }
 
+std::string coarseSwing(const AttachDef& def, double period, double step) {
+  return "bullet_ambient: a body with fluid body '" + def.fluid_body->name +
+         "' floats with a period of " + std::to_string(period) + " s and is moved by joints or " +
+         "contacts in steps of " + std::to_string(step) +
+         " s: in less than four steps a period it swings too slowly; take shorter steps";
+}
+
 }  // namespace
 
 void Complaints::say(Complaint complaint) noexcept { say(complaint, sentenceOf(complaint)); }
@@ -69,6 +78,15 @@ void Complaints::say(Complaint complaint, const char* sentence) noexcept {
     if (report) report(sentence);
   } catch (...) {
     // A user's callback that throws must not unwind through Bullet's solver.
+  }
+}
+
+void Complaints::sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept {
+  if (was_said_[static_cast<int>(Complaint::kSwing)]) return;
+  try {
+    say(Complaint::kSwing, coarseSwing(def, 2 * kPi / frequency, step).c_str());
+  } catch (...) {
+    // As below.
   }
 }
 

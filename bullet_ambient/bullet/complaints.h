@@ -23,6 +23,7 @@ enum class Complaint {
   kInertia,
   kEmpty,
   kLight,
+  kSwing,
   kCount
 };
 
@@ -34,6 +35,9 @@ class Complaints {
   void say(Complaint complaint, const char* sentence) noexcept;
   /// Of a body whose steps are too long.
   void sayTooLong(const AttachDef& def) noexcept;
+  /// Of a floating body that rows move, whose largest natural frequency [rad/s] the step [s] is too
+  /// long for.
+  void sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept;
 
   std::function<void(const std::string&)> report;  ///< null: nobody hears
 

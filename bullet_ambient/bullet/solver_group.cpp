@@ -164,7 +164,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   Vector6 by_surface = Vector6::Zero();
   if (ambient.surface()) {
     by_surface = freezeAtSurface(ambient, time_step_);
-    stiffenForRows(ambient, time_step_);
+    stiffenForRows(ambient, time_step_, bodies_.complaints);
   }
   const Surroundings surroundings = readSurroundings(ambient);
   const FlightTask task{ambient.model, surroundings, ambient.def.flight, time_step_};

@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/positive_inverse.h"
 
 namespace ambient {
@@ -143,9 +144,11 @@ Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
   return end - x;
 }
 
-void stiffenForRows(AmbientBody& ambient, double duration) noexcept {
+void stiffenForRows(AmbientBody& ambient, double duration, Complaints& complaints) noexcept {
   const SurfaceStand& stand = ambient.surface()->stand;
   if (!(duration * stand.swing > kLongestSwing)) return;
+  if (duration * stand.swing > kPi / 2)
+    complaints.sayCoarseSwing(ambient.def, stand.swing, duration);
   const Matrix6 stiff = stiffInertia(stand, duration);
   if (const auto inverse = positiveInverse(stiff)) {
     ambient.model.inertia = stiff;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_ambient/bullet/complaints.h"
 #include "bullet_ambient/bullet/precision_check.h"
 #include "bullet_ambient/bullet/region_id.h"
 #include "bullet_ambient/force/fluid_region.h"
@@ -77,8 +78,9 @@ BodyModel modelNow(const AmbientBody& ambient);
 Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept;
 
 /// The same model for a step that rows move it by, where that is long beside its swing: stiff
-/// against going past its balance, docs/theory.md eq. (68). Allocates nothing.
-void stiffenForRows(AmbientBody& ambient, double duration) noexcept;
+/// against going past its balance, docs/theory.md eq. (68). Allocates nothing, but for what it says
+/// once of a step that is more than a quarter of the period.
+void stiffenForRows(AmbientBody& ambient, double duration, Complaints& complaints) noexcept;
 
 /// Between two steps, of a saved state: the model as freezeAtSurface() left it against `met_B`.
 /// @pre `met_B` is known; `media` is one of the body's surfaces

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "tests/bullet_ambient/bullet/water/water_run.h"
@@ -32,6 +33,11 @@ struct SmallCube {
       lowest = std::min(lowest, energy);
     }
     return rise / run.energyScale();
+  }
+  long timesSaid(const std::string& text) const {
+    return std::count_if(run.said().begin(), run.said().end(), [&](const std::string& said) {
+      return said.find(text) != std::string::npos;
+    });
   }
   /// Of the vertical along the edges, the least and the largest.
   std::pair<double, double> uprightness() const {
@@ -88,6 +94,7 @@ TEST(SmallCube, StaysInTheWaterWhereAJointMovesItInLongSteps) {
   CubeOnRail cube(kSpecificGravity, 1e-4);
   EXPECT_LT(cube.settle(10, 1.0 / 30), 1e-4);
   EXPECT_NEAR(readState(*cube.body).position.z(), kEdge * (0.5 - kSpecificGravity), 0.01 * kEdge);
+  EXPECT_EQ(cube.timesSaid("less than four steps a period"), 1);
 }
 
 // Its period is 10 steps. A free one takes substeps: 0.001.
@@ -96,6 +103,7 @@ TEST(SmallCube, SwingsByASixthTooFarWhereAJointMovesIt) {
   CubeOnRail cube(0.5, kStart), fine(0.5, kStart);
   const double swing = cube.lowest(0.15, kStep) / kStart;
   EXPECT_NEAR(swing - fine.lowest(0.15, 1.0 / 960) / kStart, -0.16, 0.03);
+  EXPECT_EQ(cube.timesSaid("four steps"), 0);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace ambient::test {
 
 WaterRun::WaterRun(Around around) : around_(around) {
   fluid_.world.setGravity({0, 0, bt(-kRunGravity)});
-  fluid_.registry.setReport(nullptr);
+  fluid_.registry.setReport([this](const std::string& sentence) { said_.push_back(sentence); });
   if (around == Around::kWater) fill(std::make_shared<StillWater>(0.0, Vector3(0, 0, 1)));
 }
 

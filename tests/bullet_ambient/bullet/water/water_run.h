@@ -2,6 +2,8 @@
 
 #include <deque>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/water/water_shapes.h"
@@ -49,6 +51,7 @@ class WaterRun {
   /// (m + rho V) g L of all bodies; in a vacuum m g L [J].
   double energyScale() const { return energy_scale_; }
   long long rejected() const { return fluid_.registry.counters().rejected; }
+  const std::vector<std::string>& said() const { return said_; }
 
  private:
   struct FloatingBody {
@@ -66,6 +69,7 @@ class WaterRun {
   FluidWorld fluid_;
   std::deque<std::unique_ptr<btTypedConstraint>> joints_;
   double energy_scale_ = 0;
+  std::vector<std::string> said_;
 };
 
 }  // namespace ambient::test
