@@ -150,8 +150,7 @@ double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
   return error;
 }
 
-void LinkFlight::arriveAt(const TreePose& reached, bool has_rows,
-                          CoordinatesOut velocity) noexcept {
+void LinkFlight::arriveAt(const TreePose& reached, bool has_rows, Coordinates& velocity) noexcept {
   dynamics_.setPose(end_pose_);
   integrals_.take(dynamics_, end_);
   dynamics_.setPose(reached);

@@ -113,7 +113,7 @@ bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept {
   return is_one;
 }
 
-bool findFlow(const LinkTree& tree, const CoordinatesIn& u, CoordinatesOut flow) noexcept {
+bool findFlow(const LinkTree& tree, const CoordinatesIn& u, Coordinates& flow) noexcept {
   if (!restInFlow(tree, flow)) return false;
   int first = 0;
   for (int l = 0; l < tree.size(); ++l) {

@@ -78,6 +78,6 @@ void velocityBetween(const LinkTree& tree, const TreePose& from, const TreePose&
 bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept;
 
 /// The same in `flow`, if it is a motion in which all kept velocities are those of `u`.
-bool findFlow(const LinkTree& tree, const CoordinatesIn& u, CoordinatesOut flow) noexcept;
+bool findFlow(const LinkTree& tree, const CoordinatesIn& u, Coordinates& flow) noexcept;
 
 }  // namespace ambient
