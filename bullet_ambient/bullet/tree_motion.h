@@ -14,6 +14,7 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 //   u_m   mean velocity of the flight;  d  what the rows have changed
 //
 // but for the base's, which keeps the momentum of the flight: docs/theory.md section 14, rows.
+//
 // One with contacts or joints to other bodies has rows against x + X, at the pose of the start, and
 //
 //   xi = x + X + d   is what Bullet moves it by,   x + d + t(q_m, xi)   its velocity afterwards

@@ -43,15 +43,21 @@ EnergyRange watch(RobotWorld& world, const btMultiBody& body, double hertz, doub
   return range;
 }
 
+// In an ideal fluid, with some five times its mass of added mass.
+btMultiBody& addInFluid(RobotWorld& world, unsigned seed, const RobotDef& def) {
+  Arbitrary arbitrary(seed);
+  btMultiBody& body = world.add(arbitrary, def);
+  putIntoFluid(arbitrary, world, body, 5);
+  return body;
+}
+
 double deviationInFlight(Joints joints, double hertz) {
-  Arbitrary arbitrary(11);
   RobotWorld world;
   RobotDef def;
   def.speed = 0.7;
   def.links = joints == Joints::kRevolute ? 3 : 5;
   def.joints = joints;
-  btMultiBody& body = world.add(arbitrary, def);
-  putIntoFluid(arbitrary, world, body, 5);
+  const btMultiBody& body = addInFluid(world, 11, def);
   return watch(world, body, hertz, 10).deviation();
 }
 
@@ -68,14 +74,16 @@ void addIdleMotors(RobotWorld& world, btMultiBody& body) {
     world.take(std::make_unique<btMultiBodyJointMotor>(&body, i, bt(0.1), bt(1e-12)));
 }
 
-double deviationWithMotors(double hertz) {
-  Arbitrary arbitrary(11);
-  RobotWorld world;
+RobotDef flyingRobot() {
   RobotDef def;
   def.speed = 0.7;
   def.collider_radius = 0.01;
-  btMultiBody& body = world.add(arbitrary, def);
-  putIntoFluid(arbitrary, world, body, 5);
+  return def;
+}
+
+double deviationWithMotors(double hertz) {
+  RobotWorld world;
+  btMultiBody& body = addInFluid(world, 11, flyingRobot());
   addIdleMotors(world, body);
   return watch(world, body, hertz, 2).deviation();
 }
@@ -95,13 +103,8 @@ Vector6 momentumOf(RobotWorld& world, const btMultiBody& body) {
 
 // Which reverse the joints four times a second, at once.
 TEST(RobotFlight, KeepsItsMomentumUnderStrongMotors) {
-  Arbitrary arbitrary(12);
   RobotWorld world;
-  RobotDef def;
-  def.speed = 0.7;
-  def.collider_radius = 0.01;
-  btMultiBody& body = world.add(arbitrary, def);
-  putIntoFluid(arbitrary, world, body, 5);
+  btMultiBody& body = addInFluid(world, 12, flyingRobot());
   std::vector<btMultiBodyJointMotor*> motors;
   for (int i = 0; i < body.getNumLinks(); ++i) {
     auto motor = std::make_unique<btMultiBodyJointMotor>(&body, i, bt(0), bt(1e6));
