@@ -4,11 +4,10 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <string>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fnv1a.h"
+#include "tests/support/bits_of.h"
 
 namespace ambient {
 namespace {
@@ -50,12 +49,6 @@ FaceMotion motionFor(double cosine) {
   return {{0.75, -1.5, 0.3}, {1.25, 0.4, -2.0}, -cosine * std::abs(cosine), 1 - cosine * cosine};
 }
 
-std::string bitsOf(const FaceSums& sums) {
-  std::string bytes(sizeof sums, '\0');
-  std::memcpy(bytes.data(), &sums, sizeof sums);
-  return bytes;
-}
-
 TEST(FaceSums, HaveTheSameBitsWithEveryInstructionSet) {
   std::vector<SumFaces> kernels;
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512})
@@ -66,8 +59,9 @@ TEST(FaceSums, HaveTheSameBitsWithEveryInstructionSet) {
     for (const double cosine : {0.0, -0.3, -0.7, -1.0})
       for (const bool with_friction : {false, true})
         for (const SumFaces kernel : kernels)
-          EXPECT_EQ(bitsOf(kernel(faces.columns(), motionFor(cosine), with_friction)),
-                    bitsOf(sumFacesBaseline(faces.columns(), motionFor(cosine), with_friction)))
+          EXPECT_EQ(
+              test::bitsOf(kernel(faces.columns(), motionFor(cosine), with_friction)),
+              test::bitsOf(sumFacesBaseline(faces.columns(), motionFor(cosine), with_friction)))
               << count << " faces, cosine " << cosine;
   }
 }
@@ -76,9 +70,9 @@ TEST(FaceSums, HaveTheBitsOfTheFirstRelease) {
   // Hashes of this library's own results: another compiler, optimisation level or processor must
   // not change them. They may change with the summation order, which is then a change of behaviour.
   const ArbitraryFaces faces(333);
-  EXPECT_EQ(fnv1a64(bitsOf(sumFacesBaseline(faces.columns(), motionFor(0), true))),
+  EXPECT_EQ(fnv1a64(test::bitsOf(sumFacesBaseline(faces.columns(), motionFor(0), true))),
             15685114710678222963u);
-  EXPECT_EQ(fnv1a64(bitsOf(sumFacesBaseline(faces.columns(), motionFor(-0.7), true))),
+  EXPECT_EQ(fnv1a64(test::bitsOf(sumFacesBaseline(faces.columns(), motionFor(-0.7), true))),
             4364337294997135979u);
 }
 

@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <string>
 
 #include "bullet_ambient/fluid_body/packed_faces.h"
 #include "bullet_ambient/force/face_flow.h"
 #include "bullet_ambient/force/face_sums.h"
 #include "bullet_ambient/force/single_sums.h"
+#include "tests/support/bits_of.h"
 #include "tests/support/random_bodies.h"
 
-namespace ambient {
+namespace ambient::form_sums {
 namespace {
 
 /// Arbitrary faces; every third is flat and part of a long side, every third round.
@@ -54,13 +53,6 @@ SingleMotion singleMotionFor(float cosine, float friction) {
           friction};
 }
 
-template <class Sums>
-std::string bitsOf(const Sums& sums) {
-  std::string bytes(sizeof sums, '\0');
-  std::memcpy(bytes.data(), &sums, sizeof sums);
-  return bytes;
-}
-
 TEST(FormSums, HaveTheSameBitsWithEveryInstructionSet) {
   test::Arbitrary arbitrary(11);
   const FaceTable all = facesOf(arbitrary, 3);
@@ -73,13 +65,13 @@ TEST(FormSums, HaveTheSameBitsWithEveryInstructionSet) {
       for (const double cosine : {0.0, -0.3, -1.0})
         for (const bool friction : {false, true}) {
           const FaceTable faces = firstOf(all, count);
-          EXPECT_EQ(bitsOf(in_double(columnsOf(faces), motionFor(cosine), friction)),
-                    bitsOf(sumFacesBaseline(columnsOf(faces), motionFor(cosine), friction)));
+          EXPECT_EQ(test::bitsOf(in_double(columnsOf(faces), motionFor(cosine), friction)),
+                    test::bitsOf(sumFacesBaseline(columnsOf(faces), motionFor(cosine), friction)));
           const PackedFaces packed(faces, true);
           const SingleMotion motion =
               singleMotionFor(static_cast<float>(cosine), friction ? 0.01f : 0);
-          EXPECT_EQ(bitsOf(in_single(packed.blocks(), motion)),
-                    bitsOf(sumBlocksBaseline(packed.blocks(), motion)));
+          EXPECT_EQ(test::bitsOf(in_single(packed.blocks(), motion)),
+                    test::bitsOf(sumBlocksBaseline(packed.blocks(), motion)));
           ++compared;
         }
   }
@@ -155,4 +147,4 @@ TEST(FormSums, OfABodyAtRestAreZero) {
 }
 
 }  // namespace
-}  // namespace ambient
+}  // namespace ambient::form_sums

@@ -2,22 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <string>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/packed_hull.h"
+#include "tests/support/bits_of.h"
 #include "tests/support/hull_bodies.h"
 
 namespace ambient {
 namespace {
-
-template <class Sums>
-std::string bitsOf(const Sums& sums) {
-  std::string bytes(sizeof sums, '\0');
-  std::memcpy(bytes.data(), &sums, sizeof sums);
-  return bytes;
-}
 
 TEST(HullSums, HaveTheSameBitsWithEveryInstructionSet) {
   std::vector<const HullKernel*> kernels;
@@ -30,11 +22,11 @@ TEST(HullSums, HaveTheSameBitsWithEveryInstructionSet) {
     for (int i = -12; i <= 12; ++i) {
       const HullPlane plane{{0.48, 0.6, 0.64}, {{0.8, -0.6, 0}, {0.384, 0.512, -0.768}}, 0.1 * i};
       for (const HullKernel* kernel : kernels) {
-        EXPECT_EQ(bitsOf(kernel->sums(hull.blocks(), plane)),
-                  bitsOf(baseline.sums(hull.blocks(), plane)))
+        EXPECT_EQ(test::bitsOf(kernel->sums(hull.blocks(), plane)),
+                  test::bitsOf(baseline.sums(hull.blocks(), plane)))
             << "level " << level << ", height " << plane.height;
-        EXPECT_EQ(bitsOf(kernel->extent(hull.corners(), plane.normal)),
-                  bitsOf(baseline.extent(hull.corners(), plane.normal)));
+        EXPECT_EQ(test::bitsOf(kernel->extent(hull.corners(), plane.normal)),
+                  test::bitsOf(baseline.extent(hull.corners(), plane.normal)));
       }
     }
   }

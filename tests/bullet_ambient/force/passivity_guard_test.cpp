@@ -6,7 +6,7 @@
 
 #include "tests/support/random_bodies.h"
 
-namespace ambient {
+namespace ambient::passivity_guard {
 namespace {
 
 constexpr double kRounding = 1e-13;
@@ -87,4 +87,4 @@ TEST(PassivityGuard, LeavesWhatIsNotFiniteToTheCaller) {
 }
 
 }  // namespace
-}  // namespace ambient
+}  // namespace ambient::passivity_guard

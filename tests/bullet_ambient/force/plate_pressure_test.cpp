@@ -4,7 +4,7 @@
 #include "bullet_ambient/spatial/pi.h"
 #include "tests/reference/plate_loads.h"
 
-namespace ambient {
+namespace ambient::plate {
 namespace {
 
 // A few hundred terms of one size are added.
@@ -112,4 +112,4 @@ TEST(DiskPressure, BrakesARotationAboutADiameterWhateverItsRate) {
 }
 
 }  // namespace
-}  // namespace ambient
+}  // namespace ambient::plate

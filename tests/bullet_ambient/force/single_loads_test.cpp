@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/packed_faces.h"
@@ -11,6 +9,7 @@
 #include "bullet_ambient/force/single_sums.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/bits_of.h"
 #include "tests/support/geodesic.h"
 #include "tests/support/random_bodies.h"
 
@@ -22,12 +21,6 @@ FaceTable firstFaces(const FaceTable& faces, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
     first.add(faces.normal(i), faces.centroid(i), faces.area[i]);
   return first;
-}
-
-std::string bitsOf(const LoadSums& sums) {
-  std::string bytes(sizeof sums, '\0');
-  std::memcpy(bytes.data(), &sums, sizeof sums);
-  return bytes;
 }
 
 SingleMotion motionFor(float cosine, float friction) {
@@ -50,8 +43,8 @@ TEST(SingleSums, HaveTheSameBitsWithEveryInstructionSet) {
     for (const float cosine : {0.0f, -0.3f, -1.0f})
       for (const float friction : {0.0f, 0.03f})
         for (const SumBlocks kernel : kernels)
-          EXPECT_EQ(bitsOf(kernel(faces.blocks(), motionFor(cosine, friction))),
-                    bitsOf(sumBlocksBaseline(faces.blocks(), motionFor(cosine, friction))))
+          EXPECT_EQ(test::bitsOf(kernel(faces.blocks(), motionFor(cosine, friction))),
+                    test::bitsOf(sumBlocksBaseline(faces.blocks(), motionFor(cosine, friction))))
               << count << " faces, cosine " << cosine;
   }
 }
@@ -80,7 +73,7 @@ TEST(SingleSums, LeaveOutNoFaceThatTheFlowIsAttachedTo) {
     for (const double value : all.wrench) largest = std::max(largest, std::abs(value));
     for (int row = 0; row < 6; ++row)
       EXPECT_NEAR(some.wrench[row], all.wrench[row], 2e-6 * largest) << i;
-    if (bitsOf(some) != bitsOf(all)) ++left_out;
+    if (test::bitsOf(some) != test::bitsOf(all)) ++left_out;
   }
   EXPECT_GT(left_out, 100);
 }

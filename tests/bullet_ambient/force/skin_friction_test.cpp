@@ -7,7 +7,7 @@
 #include "tests/support/geodesic.h"
 #include "tests/support/random_bodies.h"
 
-namespace ambient {
+namespace ambient::skin_friction {
 namespace {
 
 // A golf ball in air at its launch speed and spin.
@@ -117,4 +117,4 @@ TEST(SkinFriction, LeavesThePressureAsItIs) {
 }
 
 }  // namespace
-}  // namespace ambient
+}  // namespace ambient::skin_friction

@@ -11,7 +11,7 @@
 #include "tests/reference/sphere_loads.h"
 #include "tests/support/random_bodies.h"
 
-namespace ambient {
+namespace ambient::sphere_loads {
 namespace {
 
 constexpr double kDensity = 1.7, kViscosity = 2e-5, kSpeed = 3.5, kRadius = 0.6;
@@ -197,4 +197,4 @@ TEST(SphereLoads, AreNoneAtRestAndNeverNotFinite) {
 }
 
 }  // namespace
-}  // namespace ambient
+}  // namespace ambient::sphere_loads

@@ -7,7 +7,7 @@
 #include "tests/support/geodesic.h"
 #include "tests/support/random_bodies.h"
 
-namespace ambient {
+namespace ambient::sphere_pressure {
 namespace {
 
 constexpr int kDirections = 16;
@@ -145,4 +145,4 @@ std::vector<SpinningSphere> closedForms() {
 INSTANTIATE_TEST_SUITE_P(ClosedForms, SpinningSpherePressure, testing::ValuesIn(closedForms()));
 
 }  // namespace
-}  // namespace ambient
+}  // namespace ambient::sphere_pressure

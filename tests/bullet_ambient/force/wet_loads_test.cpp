@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <string>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/packed_faces.h"
@@ -11,6 +9,7 @@
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/single_sums.h"
 #include "bullet_ambient/force/surface_loads.h"
+#include "tests/support/bits_of.h"
 #include "tests/support/hull_bodies.h"
 #include "tests/support/random_bodies.h"
 
@@ -160,13 +159,6 @@ TEST(WetLoads, OfAnotherLawAreTheShareOfTheVolume) {
   EXPECT_EQ(loads->wetLoad({}, wetBelow({0, 0, 1}, 0, 0.25)).force, Vector3(1, 1.25, 1.5));
 }
 
-template <class Sums>
-std::string bitsOf(const Sums& sums) {
-  std::string bytes(sizeof sums, '\0');
-  std::memcpy(bytes.data(), &sums, sizeof sums);
-  return bytes;
-}
-
 TEST(WetLoads, HaveTheSameBitsWithEveryInstructionSet) {
   if (!kSumBlocks.of(InstructionSet::kAvx2)) GTEST_SKIP() << "this processor has the baseline only";
   FluidBody body = *roundBody(2);
@@ -191,11 +183,11 @@ TEST(WetLoads, HaveTheSameBitsWithEveryInstructionSet) {
           if (!kSumBlocks.of(set)) continue;
           for (const bool is_form : {false, true}) {
             const PackedFaces packed(faces, is_form);
-            EXPECT_EQ(bitsOf(kSumBlocks.of(set)(packed.blocks(), single)),
-                      bitsOf(sumBlocksBaseline(packed.blocks(), single)));
+            EXPECT_EQ(test::bitsOf(kSumBlocks.of(set)(packed.blocks(), single)),
+                      test::bitsOf(sumBlocksBaseline(packed.blocks(), single)));
           }
-          EXPECT_EQ(bitsOf(kSumFaces.of(set)(columns, motion, friction > 0)),
-                    bitsOf(sumFacesBaseline(columns, motion, friction > 0)));
+          EXPECT_EQ(test::bitsOf(kSumFaces.of(set)(columns, motion, friction > 0)),
+                    test::bitsOf(sumFacesBaseline(columns, motion, friction > 0)));
         }
       }
 }

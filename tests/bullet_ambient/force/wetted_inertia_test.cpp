@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <memory>
-#include <string>
 #include <tuple>
 
 #include "bullet_ambient/force/load_tables.h"
@@ -14,6 +12,7 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "tests/support/bits_of.h"
 #include "tests/support/part_bodies.h"
 #include "tests/support/random_bodies.h"
 
@@ -215,11 +214,6 @@ TEST(WettedSphere, HasTheDerivativesOfItsTable) {
 TEST(PartSums, HaveTheSameBitsWithEveryInstructionSet) {
   if (!kPartKernels.of(InstructionSet::kAvx2))
     GTEST_SKIP() << "this processor has the baseline only";
-  const auto bitsOf = [](const auto& sums) {
-    std::string bytes(sizeof sums, '\0');
-    std::memcpy(bytes.data(), &sums, sizeof sums);
-    return bytes;
-  };
   const PackedParts parts(test::floatingEllipsoid({1, 0.8, 0.6}, 3).added_mass_parts);
   double products[PartBlock::kEntries];
   for (int i = 0; i < PartBlock::kEntries; ++i) products[i] = 0.1 * (i - 7);
@@ -227,10 +221,10 @@ TEST(PartSums, HaveTheSameBitsWithEveryInstructionSet) {
     const PartPlane plane{{0.48, 0.6, 0.64}, height, 0.07};
     for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
       if (!kPartKernels.of(set)) continue;
-      EXPECT_EQ(bitsOf(kPartKernels.of(set)->inertia(parts.blocks(), plane)),
-                bitsOf(kPartKernelBaseline.inertia(parts.blocks(), plane)));
-      EXPECT_EQ(bitsOf(kPartKernels.of(set)->gradient(parts.blocks(), plane, products)),
-                bitsOf(kPartKernelBaseline.gradient(parts.blocks(), plane, products)));
+      EXPECT_EQ(test::bitsOf(kPartKernels.of(set)->inertia(parts.blocks(), plane)),
+                test::bitsOf(kPartKernelBaseline.inertia(parts.blocks(), plane)));
+      EXPECT_EQ(test::bitsOf(kPartKernels.of(set)->gradient(parts.blocks(), plane, products)),
+                test::bitsOf(kPartKernelBaseline.gradient(parts.blocks(), plane, products)));
     }
   }
 }
