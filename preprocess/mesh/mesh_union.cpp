@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -25,8 +26,15 @@ namespace {
 
 using Meshes = std::vector<TriangleMesh>;
 
-// Of the size of the whole: what places and sizes of a form are rounded by, with room.
-constexpr double kOnPlane = 5e-6, kWelded = 4 * kOnPlane;
+/// Of the size of the whole.
+struct Tolerances {
+  double on_plane, welded;
+};
+
+constexpr double kOnPlane = 5e-6;  // what places and sizes of a form are rounded by, with room
+constexpr Tolerances kOfForms{kOnPlane, 4 * kOnPlane};
+// What cuts are rounded by, welded with room for cuts by planes at angles down to 1e-6.
+constexpr Tolerances kOfCuts{1e-12, 1e-9};
 
 /// The corners at which a polygon turns. What lies between them comes back where others need it,
 /// as the end of a crack.
@@ -106,12 +114,13 @@ std::vector<std::vector<std::size_t>> neighboursByBounds(const Meshes& parts, do
 }
 
 /// The surface of the union, closed if nothing went wrong.
-TriangleMesh unionSurface(const Meshes& parts, double size) {
-  const auto neighbours = neighboursByBounds(parts, kWelded * size);
+TriangleMesh unionSurface(const Meshes& parts, double size, const Tolerances& tolerances) {
+  const double welded = tolerances.welded * size;
+  const auto neighbours = neighboursByBounds(parts, welded);
   std::map<std::size_t, SolidTree> trees;
   for (const auto& of_part : neighbours) {
     for (const std::size_t j : of_part)
-      if (trees.count(j) == 0) trees.emplace(j, SolidTree(parts[j], kOnPlane * size));
+      if (trees.count(j) == 0) trees.emplace(j, SolidTree(parts[j], tolerances.on_plane * size));
   }
   std::vector<FlatPolygon> surface;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -126,7 +135,7 @@ TriangleMesh unionSurface(const Meshes& parts, double size) {
     }
     surface.insert(surface.end(), left.begin(), left.end());
   }
-  return stitched(meshOf(surface, kWelded * size), kWelded * size);
+  return stitched(meshOf(surface, welded), welded);
 }
 
 TriangleMesh blownUp(TriangleMesh mesh, double share) {
@@ -134,6 +143,24 @@ TriangleMesh blownUp(TriangleMesh mesh, double share) {
       (mesh.vertices.rowwise().maxCoeff() + mesh.vertices.rowwise().minCoeff()) / 2;
   mesh.vertices += share * (mesh.vertices.colwise() - centre);
   return mesh;
+}
+
+/// Each blown up by the share to twice the share, and turned by a fiftieth of it about some axis:
+/// planes of two parts then cross at angles that cutting resolves, or lie apart.
+Meshes inGeneralPosition(const Meshes& parts, double share, std::mt19937& generator) {
+  constexpr double kTurn = 0.02;
+  const auto random = [&] { return static_cast<double>(generator()) / std::mt19937::max(); };
+  Meshes moved;
+  for (const TriangleMesh& part : parts) {
+    TriangleMesh mesh = blownUp(part, share * (1 + random()));
+    const double x = random() - 0.5, y = random() - 0.5, z = random() - 0.5;
+    const Eigen::AngleAxisd turn(kTurn * share, Eigen::Vector3d(x, y, z).normalized());
+    const Eigen::Vector3d centre = boundsOf(part).center();
+    mesh.vertices =
+        (turn.toRotationMatrix() * (mesh.vertices.colwise() - centre)).colwise() + centre;
+    moved.push_back(std::move(mesh));
+  }
+  return moved;
 }
 
 double sumOfVolumes(const Meshes& parts) {
@@ -173,23 +200,39 @@ TriangleMesh orientedPart(const TriangleMesh& part, const std::string& name) {
   return oriented;
 }
 
+/// @throws std::runtime_error with the reason, as uniteMeshes().
+CheckedMesh unitedAsTheyAre(const Meshes& parts, const Tolerances& tolerances,
+                            const std::string& name) {
+  const double size = joinMeshes(parts).extents().norm();
+  CheckedMesh united = checkClosedMesh(unionSurface(parts, size, tolerances), name);
+  requireVolume(united.mesh, parts);
+  requireGaps(united.mesh);
+  united.warnings.clear();  // of what came of cutting
+  return united;
+}
+
 }  // namespace
 
 CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name) {
   std::string reason;
-  for (const double share : {0.0, 3e-4, 1.2e-3}) {
+  const auto tryToUnite = [&](const Meshes& moved,
+                              const Tolerances& tolerances) -> std::optional<CheckedMesh> {
     try {
-      Meshes blown_up;
-      for (const TriangleMesh& part : parts) blown_up.push_back(blownUp(part, share));
-      const double size = joinMeshes(blown_up).extents().norm();
-      CheckedMesh united = checkClosedMesh(unionSurface(blown_up, size), name);
-      requireVolume(united.mesh, blown_up);
-      requireGaps(united.mesh);
-      united.warnings.clear();  // of what came of cutting
-      return united;
+      return unitedAsTheyAre(moved, tolerances, name);
     } catch (const std::runtime_error& error) {
       if (reason.empty()) reason = error.what();
+      return std::nullopt;
     }
+  };
+  for (const double share : {0.0, 3e-4, 1.2e-3}) {
+    Meshes blown_up;
+    for (const TriangleMesh& part : parts) blown_up.push_back(blownUp(part, share));
+    if (auto united = tryToUnite(blown_up, kOfForms)) return *std::move(united);
+  }
+  std::mt19937 generator;  // the same numbers everywhere
+  for (const double share : {3e-4, 6e-4}) {
+    const Meshes moved = inGeneralPosition(parts, share, generator);
+    if (auto united = tryToUnite(moved, kOfCuts)) return *std::move(united);
   }
   throw std::runtime_error(reason);
 }
