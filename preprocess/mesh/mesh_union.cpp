@@ -33,8 +33,9 @@ struct Tolerances {
 
 constexpr double kOnPlane = 5e-6;  // what places and sizes of a form are rounded by, with room
 constexpr Tolerances kOfForms{kOnPlane, 4 * kOnPlane};
-// What cuts are rounded by, welded with room for cuts by planes at angles down to 1e-6.
-constexpr Tolerances kOfCuts{1e-12, 1e-9};
+// What cuts are rounded by: some 1e-16 over the angle of two planes, of one side in single
+// precision down to 1e-8.
+constexpr Tolerances kOfCuts{1e-9, 1e-8};
 
 /// The corners at which a polygon turns. What lies between them comes back where others need it,
 /// as the end of a crack.
