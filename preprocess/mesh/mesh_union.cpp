@@ -231,7 +231,7 @@ CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name) {
     if (auto united = tryToUnite(blown_up, kOfForms)) return *std::move(united);
   }
   std::mt19937 generator;  // the same numbers everywhere
-  for (const double share : {3e-4, 6e-4}) {
+  for (const double share : {3e-4, 6e-4, 6e-4, 6e-4}) {
     const Meshes moved = inGeneralPosition(parts, share, generator);
     if (auto united = tryToUnite(moved, kOfCuts)) return *std::move(united);
   }
