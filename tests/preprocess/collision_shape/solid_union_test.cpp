@@ -160,7 +160,7 @@ TEST(SolidUnion, RefusesIfToldTo) {
   const std::string message = messageOf(
       [] { uniteSolids(platesAlongANarrowGap(), fallingBackTo(CompoundFallback::kRefuse), "it"); });
   EXPECT_EQ(message.rfind("it: child 0 (Box) and child 1 (Box) touch or overlap and cannot be "
-                          "united (it: ",
+                          "united (a gap between them is too narrow",
                           0),
             0u)
       << message;

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdio>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -77,7 +76,6 @@ TEST_F(MeshUnion, NineOfTenPairsOfHullsNearlyFlushAreUnited) {
       EXPECT_LT(both.area, 0.9 * (a.area + b.area)) << apart << ", pair " << i;
     }
     EXPECT_GE(united_pairs, 0.9 * kPairs) << apart;
-    std::printf("%g %d\n", apart, united_pairs);
   }
 }
 
