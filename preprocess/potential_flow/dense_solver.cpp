@@ -58,7 +58,7 @@ Jump DenseSolver::solveJump(const Unknowns& unknowns) {
                              std::to_string(unknowns.count) +
                              " vertices is not positive definite; two sides of the surface are too "
                              "close for the size of "
-                             "its triangles: use more triangles or a sheet");
+                             "its triangles: use more triangles, a sheet, or build --wrap");
   const MatrixX6 solution = factors.solve(-assembleNormalVelocity(surface_, unknowns));
   Jump jump{MatrixX6::Zero(surface_.vertexCount(), 6), factors.rcond(), 0};
   for (Index v = 0; v < surface_.vertexCount(); ++v)

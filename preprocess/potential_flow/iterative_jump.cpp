@@ -179,7 +179,7 @@ RowVector6 columnProducts(const MatrixX6& a, const MatrixX6& b) {
       "potential flow: the linear system of " + std::to_string(unknowns) +
       " vertices was not solved within " + std::to_string(iterations) +
       " iterations; two sides of the surface are too close for the size of its triangles: use more "
-      "triangles or a sheet");
+      "triangles, a sheet, or build --wrap");
 }
 
 }  // namespace
