@@ -79,6 +79,8 @@ FluidBody scaled(const FluidBody& body, double factor) {
     part.spread *= factor * factor;
     part.inertia = scaleShape(part.inertia, factor);
   }
+  for (Matrix6& correction : result.waterline.corrections)
+    correction = scaleShape(correction, factor);
   for (FormLevel& level : result.form_levels) scale(level.faces, factor);
   std::ostringstream settings;
   settings.precision(17);

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/fluid_body/added_mass_part.h"
 #include "bullet_ambient/fluid_body/load_level.h"
+#include "bullet_ambient/fluid_body/waterline_table.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
@@ -91,6 +92,8 @@ struct FluidBody {
   /// Of patches all over the surface, for bodies that the surface of the water cuts. Their sum is
   /// the added mass to the error of its discretisation; empty: not known.
   std::vector<AddedMassPart> added_mass_parts;
+  /// What those parts lack at the surface of the water; may be empty.
+  WaterlineTable waterline;
 };
 
 /// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x is the slip velocity of fully attached

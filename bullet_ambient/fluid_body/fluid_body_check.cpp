@@ -217,6 +217,30 @@ void checkPart(const AddedMassPart& part, double size, const Checker& check) {
   check.finiteMatrix(part.inertia, "a part of the added mass");
 }
 
+void checkWaterline(const FluidBody& body, const Checker& check) {
+  const WaterlineTable& table = body.waterline;
+  constexpr int kMostSubdivisions = 64;
+  if (table.subdivisions < 0 || table.subdivisions > kMostSubdivisions)
+    check.fail("the waterline table has ", table.subdivisions, " subdivisions, but must have 0 to ",
+               kMostSubdivisions);
+  double last = 0;
+  for (const double immersion : table.immersions) {
+    if (!(immersion > last) || !(immersion < WaterlineTable::kDeep))
+      check.fail("immersion ", immersion, " of the waterline table must be above ", last,
+                 " and below ", WaterlineTable::kDeep);
+    last = immersion;
+  }
+  const std::size_t needed =
+      table.empty() ? 0 : OctahedralLattice(table.subdivisions).size() * table.immersions.size();
+  if (table.corrections.size() != needed)
+    check.fail("the waterline table has ", table.corrections.size(), " corrections, but needs ",
+               needed);
+  if (needed > 0 && body.added_mass_parts.empty())
+    check.fail("the waterline table has nothing to correct: there are no parts of the added mass");
+  for (const Matrix6& correction : table.corrections)
+    check.finiteMatrix(correction, "a correction of the waterline table");
+}
+
 }  // namespace
 
 void checkFluidBody(const FluidBody& body, const std::string& source) {
@@ -240,6 +264,7 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   for (const LoadLevel& level : body.levels) checkLevel(level, check);
   for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
   for (const AddedMassPart& part : body.added_mass_parts) checkPart(part, sizeOf(body), check);
+  checkWaterline(body, check);
   checkPlaces(body, check);
 }
 

@@ -165,6 +165,23 @@ Offset<flatbuffers::Vector<Offset<file::FormLevel>>> pack(FlatBufferBuilder& bui
   return builder.CreateVector(packed);
 }
 
+constexpr std::size_t kSymmetricNumbers = 21;
+
+/// Rows from the diagonal on.
+template <typename Add>
+void addSymmetric(const Matrix6& matrix, const Add& add) {
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column) add(matrix(row, column));
+}
+
+template <typename Next>
+Matrix6 takeSymmetric(const Next& next) {
+  Matrix6 matrix;
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column) matrix(row, column) = matrix(column, row) = next();
+  return matrix;
+}
+
 Offset<flatbuffers::Vector<float>> pack(FlatBufferBuilder& builder,
                                         const std::vector<AddedMassPart>& parts) {
   if (parts.empty()) return 0;
@@ -174,10 +191,19 @@ Offset<flatbuffers::Vector<float>> pack(FlatBufferBuilder& builder,
   for (const AddedMassPart& part : parts) {
     for (const double value : part.centre) add(value);
     for (const double value : part.spread) add(value);
-    for (int row = 0; row < 6; ++row)
-      for (int column = row; column < 6; ++column) add(part.inertia(row, column));
+    addSymmetric(part.inertia, add);
   }
   return builder.CreateVector(numbers);
+}
+
+Offset<file::WaterlineTable> pack(FlatBufferBuilder& builder, const WaterlineTable& table) {
+  if (table.empty()) return 0;
+  std::vector<float> numbers;
+  for (const Matrix6& correction : table.corrections)
+    addSymmetric(correction, [&](double value) { numbers.push_back(static_cast<float>(value)); });
+  const auto immersions = builder.CreateVector(table.immersions);
+  const auto corrections = builder.CreateVector(numbers);
+  return file::CreateWaterlineTable(builder, table.subdivisions, immersions, corrections);
 }
 
 std::vector<AddedMassPart> unpackParts(const flatbuffers::Vector<float>& packed,
@@ -192,11 +218,23 @@ std::vector<AddedMassPart> unpackParts(const flatbuffers::Vector<float>& packed,
   for (AddedMassPart& part : parts) {
     for (double& value : part.centre) value = next();
     for (double& value : part.spread) value = next();
-    for (int row = 0; row < 6; ++row)
-      for (int column = row; column < 6; ++column)
-        part.inertia(row, column) = part.inertia(column, row) = next();
+    part.inertia = takeSymmetric(next);
   }
   return parts;
+}
+
+WaterlineTable unpack(const file::WaterlineTable& packed, const std::string& source) {
+  const flatbuffers::Vector<float>& numbers = *packed.corrections();
+  if (numbers.size() % kSymmetricNumbers != 0)
+    throw std::runtime_error(source + ": the corrections of its waterline table are " +
+                             std::to_string(numbers.size()) +
+                             " numbers, but must be a multiple of 21");
+  WaterlineTable table{packed.subdivisions(), unpackVector(*packed.immersions()), {}};
+  std::size_t at = 0;
+  const auto next = [&] { return static_cast<double>(elementOf(numbers, at++)); };
+  table.corrections.resize(numbers.size() / kSymmetricNumbers);
+  for (Matrix6& correction : table.corrections) correction = takeSymmetric(next);
+  return table;
 }
 
 void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
@@ -210,6 +248,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto levels = pack(builder, body.levels);
   const auto form_levels = pack(builder, body.form_levels);
   const auto parts = pack(builder, body.added_mass_parts);
+  const auto waterline = pack(builder, body.waterline);
   const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
   const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
   const auto origin = packMatrix<file::Vector3>(body.origin);
@@ -217,10 +256,11 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   if (body.sphere_radius > 0) sphere_radius = body.sphere_radius;
   const auto drag = packMatrix<file::Vector3>(body.drag);
   file::FinishFluidBodyBuffer(
-      builder, file::CreateFluidBody(
-                   builder, name, provenance, &added_mass, body.asymmetry, body.volume, body.area,
-                   &centre_of_volume, &origin, uniform_mass, surface_mass, faces, surface, levels,
-                   sphere_radius, form_levels, body.drag.isZero(0) ? nullptr : &drag, parts));
+      builder,
+      file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry, body.volume,
+                            body.area, &centre_of_volume, &origin, uniform_mass, surface_mass,
+                            faces, surface, levels, sphere_radius, form_levels,
+                            body.drag.isZero(0) ? nullptr : &drag, parts, waterline));
 }
 
 FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
@@ -247,6 +287,7 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   if (packed.drag()) body.drag = unpackMatrix<Vector3>(*packed.drag());
   if (packed.added_mass_parts())
     body.added_mass_parts = unpackParts(*packed.added_mass_parts(), source);
+  if (packed.waterline()) body.waterline = unpack(*packed.waterline(), source);
   return body;
 }
 
@@ -266,6 +307,8 @@ std::size_t payloadBound(const FluidBody& body) {
   for (const FormLevel& level : body.form_levels)
     level_bytes += kFixedPart + numbersIn(level.faces) * sizeof(double);
   level_bytes += body.added_mass_parts.size() * AddedMassPart::kNumbers * sizeof(float);
+  level_bytes += body.waterline.corrections.size() * kSymmetricNumbers * sizeof(float) +
+                 body.waterline.immersions.size() * sizeof(double);
   return kFixedPart + level_bytes + sizeof(double) * doubles +
          sizeof(std::int32_t) * body.surface.triangles.size() + body.name.size() +
          body.provenance.source.size() + body.provenance.settings.size() +

@@ -6,6 +6,7 @@
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/wetted_parts.h"
 #include "bullet_ambient/force/wetted_sphere.h"
+#include "bullet_ambient/force/wetted_table.h"
 
 namespace ambient {
 namespace {
@@ -65,6 +66,11 @@ Matrix6 WettedInertia::inertia(const Immersion& immersion) const noexcept {
   return immersion.isDeep() ? deep_ : inertiaAt(raised(immersion, PileUp(immersion)));
 }
 
+Matrix6 WettedInertia::unraisedInertia(const Immersion& immersion) const noexcept {
+  if (immersion.isDry()) return Matrix6::Zero();
+  return immersion.isDeep() ? deep_ : inertiaAt(immersion);
+}
+
 InertiaGradient WettedInertia::gradient(const Immersion& immersion,
                                         const Twist& twist) const noexcept {
   if (immersion.isDry() || immersion.isDeep()) return {};
@@ -82,6 +88,8 @@ std::shared_ptr<const WettedInertia> makeWettedInertia(const std::shared_ptr<con
                                                        LoadTables& tables) {
   if (body->sphere_radius > 0) return std::make_shared<WettedSphere>(*body);
   if (body->added_mass_parts.empty()) return std::make_shared<WettedShare>(*body);
+  if (!body->waterline.empty())
+    return std::make_shared<WettedTable>(body, tables.addedMassParts(body));
   return std::make_shared<WettedParts>(*body, tables.addedMassParts(body));
 }
 

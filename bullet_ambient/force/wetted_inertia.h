@@ -44,6 +44,8 @@ class WettedInertia {
   /// K_w; symmetric, 0 for a dry body, FluidBody::added_mass of a deep one bit for bit. Eigenvalues
   /// may be negative by a hundredth of the largest. Allocates nothing.
   Matrix6 inertia(const Immersion& immersion) const noexcept;
+  /// The same without the raised plane of an entering body, docs/theory.md eq. (65).
+  Matrix6 unraisedInertia(const Immersion& immersion) const noexcept;
   /// Of 1/2 x.K_w x, for a twist at rest in F; 0 where K_w does not change.
   InertiaGradient gradient(const Immersion& immersion, const Twist& twist) const noexcept;
 
@@ -63,8 +65,9 @@ class WettedInertia {
 /// Share of a body's volume in the water; of its height for a sheet, which has none.
 double wetShare(const Immersion& immersion, double volume) noexcept;
 
-/// By the parts of the added mass, docs/theory.md eq. (60); of a sphere by a table; without parts,
-/// the added mass times the share of the volume. Cost: O(parts).
+/// By the parts of the added mass, docs/theory.md eq. (60), and the waterline table of the body,
+/// eq. (61a), if it has one; of a sphere by a table of all spheres; without parts, the added mass
+/// times the share of the volume. Cost: O(parts).
 std::shared_ptr<const WettedInertia> makeWettedInertia(const std::shared_ptr<const FluidBody>& body,
                                                        LoadTables& tables);
 

@@ -9,14 +9,15 @@ namespace ambient {
 
 /// Added mass at the surface from the potentials of the body alone in the fluid, weighted by their
 /// depth; docs/theory.md eq. (60), (61).
-class WettedParts final : public WettedInertia {
+class WettedParts : public WettedInertia {
  public:
   WettedParts(const FluidBody& body, std::shared_ptr<const PackedParts> parts);
 
- private:
+ protected:
   Matrix6 inertiaAt(const Immersion& raised) const noexcept override;
   InertiaGradient gradientAt(const Immersion& raised, const Twist& twist) const noexcept override;
 
+ private:
   std::shared_ptr<const PackedParts> parts_;
   Matrix6 defect_;  ///< what the parts lack of the added mass
   double volume_;

@@ -8,6 +8,7 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "preprocess/builder/known_shape.h"
+#include "preprocess/builder/waterline_builder.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/triangle_quality.h"
@@ -115,6 +116,8 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
     text << "centre-of-volume";
   }
   text << ", faces " << settings.least_faces;
+  if (settings.waterline_subdivisions > 0)
+    text << ", waterline " << settings.waterline_subdivisions;
   if (const auto known = knownShapeFor(shape, settings)) {
     text << ", " << known->source;
     return text.str();
@@ -130,6 +133,28 @@ double ownScale(const ShapeDescription& shape) {
   if (const auto* mesh = std::get_if<MeshShape>(&shape.geometry)) return mesh->scale;
   if (const auto* sheet = std::get_if<MeshSheetShape>(&shape.geometry)) return sheet->scale;
   return 1;
+}
+
+void requireWaterline(const ShapeDescription& shape, int subdivisions) {
+  if (subdivisions < 0 || subdivisions > kMostWaterlineSubdivisions)
+    raiseInputError(shape.source, "waterline subdivisions = ", subdivisions,
+                    " is not between 0 (no table) and ", kMostWaterlineSubdivisions);
+  if (subdivisions == 0) return;
+  if (isSheet(shape)) raiseInputError(shape.source, "a sheet cannot have a waterline table");
+  if (std::holds_alternative<SphereShape>(shape.geometry))
+    raiseInputError(shape.source, "a sphere needs no waterline table: all have the same one");
+}
+
+WaterlineTable waterlineOf(const FluidBody& body, const ShapeDescription& shape,
+                           const ShapeBuildSettings& settings) {
+  WaterlineSettings waterline;
+  waterline.subdivisions = settings.waterline_subdivisions;
+  waterline.threads = settings.flow.threads;
+  try {
+    return makeWaterlineTable(body, waterline);
+  } catch (const std::runtime_error& error) {
+    raiseInputError(shape.source, "waterline table: ", error.what());
+  }
 }
 
 BuiltBody readBody(const FluidBodyShape& shape, const ShapeBuildSettings& settings) {
@@ -174,6 +199,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (const auto* fluid_body = std::get_if<FluidBodyShape>(&shape.geometry)) {
     return readBody(*fluid_body, settings);
   }
+  requireWaterline(shape, settings.waterline_subdivisions);
   CheckedMesh checked = makeShapeMesh(shape, settings.scale);
   warnOfFaces(checked, shape, settings.least_faces);
   BuildSettings build;
@@ -201,6 +227,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (!fileOf(shape).empty())
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
   FluidBody body = makeFluidBody(checked.mesh, build);
+  if (settings.waterline_subdivisions > 0) body.waterline = waterlineOf(body, shape, settings);
   return {std::move(body), checked.warnings};
 }
 

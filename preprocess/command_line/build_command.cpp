@@ -10,6 +10,7 @@
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
+#include "preprocess/builder/waterline_builder.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/input_shape.h"
@@ -48,6 +49,7 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   settings.flow.threads = arguments.threads;
   settings.flow.solver = parseSolver(arguments.solver);
   settings.tables = !arguments.no_tables;
+  settings.waterline_subdivisions = arguments.waterline;
   settings.flow.memory_limit = 1e9 * arguments.memory.value_or(0);
   return settings;
 }
@@ -103,6 +105,9 @@ void requireValues(const BuildArguments& arguments) {
   requireDivisions("--least-faces", arguments.least_faces);
   requireDivisions("--panels", arguments.panels);
   requireThreads(arguments.threads);
+  if (arguments.waterline < 0 || arguments.waterline > kMostWaterlineSubdivisions)
+    raiseUsageError("--waterline-table", arguments.waterline, " is not between 0 (none) and ",
+                    kMostWaterlineSubdivisions);
   if (arguments.memory) requirePositive("--memory", *arguments.memory, " GB");
   for (const int clusters : arguments.levels) {
     if (clusters < kFewestClusters || clusters > kMostClusters)

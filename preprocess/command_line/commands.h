@@ -27,6 +27,7 @@ struct BuildArguments {
   int threads = 0;                          ///< 0: all cores
   std::string solver;                       ///< dense or hierarchical; empty: by the panels
   std::optional<double> memory;             ///< for the flow [GB]; none: what is available
+  int waterline = 0;                        ///< subdivisions of the waterline table; 0: none
   bool no_tables = false;                   ///< of the added mass of boxes, cylinders and so on
   bool no_margins = false;                  ///< of a world: hulls and cones without their margins
   bool rebuild = false;                     ///< also where nothing has changed

@@ -116,6 +116,9 @@ std::string reportJson(const FluidBody& body, std::optional<double> seconds) {
                       {"generator", body.provenance.generator}};
   if (!body.levels.empty()) report["levels"] = levelsJson(body.levels);
   if (!body.form_levels.empty()) report["form_levels"] = levelsJson(body.form_levels);
+  if (!body.waterline.empty())
+    report["waterline_table"] = {{"subdivisions", body.waterline.subdivisions},
+                                 {"immersions", body.waterline.immersions.size()}};
   if (seconds) report["seconds"] = *seconds;
   return jsonText(report);
 }
@@ -140,6 +143,8 @@ std::string reportTable(const FluidBody& body, const std::string& file) {
   for (const FormLevel& level : body.form_levels)
     table.row("form law, " + std::to_string(level.faces.size()) + " faces", "p99 ",
               100 * level.p99_error, " %");
+  if (!body.waterline.empty())
+    table.row("waterline table", body.waterline.corrections.size(), " attitudes and immersions");
   table.matrix("added mass per unit density, rotation first [m^5, m^4; m^4, m^3]", body.added_mass);
   return table.text();
 }

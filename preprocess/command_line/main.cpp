@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/plain_text.h"
+#include "preprocess/builder/waterline_builder.h"
 #include "preprocess/command_line/closest_word.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
@@ -87,6 +88,12 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
       ->add_option("--memory", arguments.memory,
                    "For the flow, at most (default: what the machine has available)")
       ->type_name("GB");
+  build
+      ->add_flag("--waterline-table{" + std::to_string(kDefaultWaterlineSubdivisions) + "}",
+                 arguments.waterline,
+                 "Solve the flow at the surface of water too, in attitudes of 4 N^2 + 2 "
+                 "directions (default none; without =N: 4)")
+      ->type_name("N");
   build->add_flag("--no-tables", arguments.no_tables,
                   "Solve the flow around boxes, cylinders, capsules and cones too");
   build->add_flag("--no-margins", arguments.no_margins,

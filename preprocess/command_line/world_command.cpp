@@ -35,6 +35,7 @@ void requireWorldOptions(const BuildArguments& arguments) {
   if (!arguments.levels.empty()) refuseForMany("--levels");
   if (!arguments.solver.empty()) refuseForMany("--solver");
   if (arguments.memory) refuseForMany("--memory");
+  if (arguments.waterline != 0) refuseForMany("--waterline-table");
 }
 
 void requireFolder(const fs::path& output) {

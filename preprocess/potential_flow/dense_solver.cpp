@@ -15,26 +15,6 @@ using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 constexpr double kDenseBytesPerPanel =
     15000;  // of near pairs and what is held between passes; measured
 
-/// Adds s m m^T for the constants m of every closed component, the kernel of W; s of the size of
-/// W's diagonal.
-void fillKernel(const PanelSurface& surface, const Unknowns& unknowns, Eigen::MatrixXd& W) {
-  std::vector<bool> open(surface.component_count, false);
-  for (Index v = 0; v < surface.vertexCount(); ++v)
-    if (surface.boundary_vertex[v]) open[surface.component[v]] = true;
-  std::vector<std::vector<int>> members(surface.component_count);
-  for (Index v = 0; v < surface.vertexCount(); ++v)
-    if (unknowns.of_vertex[v] >= 0) members[surface.component[v]].push_back(unknowns.of_vertex[v]);
-  for (int c = 0; c < surface.component_count; ++c) {
-    if (open[c]) continue;
-    double trace = 0;
-    for (int i : members[c]) trace += W(i, i);
-    const auto count = static_cast<double>(members[c].size());
-    const double s = trace / (count * count);
-    for (int i : members[c])
-      for (int j : members[c]) W(i, j) += s;
-  }
-}
-
 }  // namespace
 
 DenseSolver::DenseSolver(const PanelSurface& surface, int threads, double memory_limit)

@@ -66,6 +66,26 @@ Eigen::MatrixXd assembleHypersingular(const PanelSurface& surface, const Unknown
   return W;
 }
 
+void fillKernel(const PanelSurface& surface, const Unknowns& unknowns, Eigen::MatrixXd& W) {
+  std::vector<bool> open(surface.component_count, false);
+  std::vector<std::vector<int>> members(surface.component_count);
+  for (Index v = 0; v < surface.vertexCount(); ++v) {
+    const int component = surface.component[v], unknown = unknowns.of_vertex[v];
+    if (component < 0) continue;
+    if (unknown >= 0) members[component].push_back(unknown);
+    open[component] = open[component] || unknown < 0;
+  }
+  for (int c = 0; c < surface.component_count; ++c) {
+    if (open[c]) continue;
+    double trace = 0;
+    for (int i : members[c]) trace += W(i, i);
+    const auto count = static_cast<double>(members[c].size());
+    const double s = trace / (count * count);
+    for (int i : members[c])
+      for (int j : members[c]) W(i, j) += s;
+  }
+}
+
 Eigen::Matrix<double, Eigen::Dynamic, 6> assembleNormalVelocity(const PanelSurface& surface,
                                                                 const Unknowns& unknowns) {
   Eigen::Matrix<double, Eigen::Dynamic, 6> B(unknowns.count, 6);

@@ -21,6 +21,10 @@ Unknowns numberUnknowns(const PanelSurface& surface);
 Eigen::MatrixXd assembleHypersingular(const PanelSurface& surface, const Unknowns& unknowns,
                                       const NearPanels& near, int threads);
 
+/// Adds s m m^T for the constants m of every closed component, one whose vertices all carry an
+/// unknown: the kernel of W. s is of the size of W's diagonal.
+void fillKernel(const PanelSurface& surface, const Unknowns& unknowns, Eigen::MatrixXd& W);
+
 /// B (U x 6): int h_i n.(v + w x z) for the six unit motions, rotation first, exact; eq. (8).
 Eigen::Matrix<double, Eigen::Dynamic, 6> assembleNormalVelocity(const PanelSurface& surface,
                                                                 const Unknowns& unknowns);

@@ -109,13 +109,15 @@ std::vector<Matrix3d> findSymmetries(const TriangleMesh& mesh, const Vector3d& c
   return symmetries;
 }
 
+Matrix6 turned(const Matrix6& inertia, const Matrix3d& turn) {
+  Matrix6 both = Matrix6::Zero();
+  both.topLeftCorner<3, 3>() = turn.determinant() * turn;  // a rotation is an axial vector
+  both.bottomRightCorner<3, 3>() = turn;
+  return both * inertia * both.transpose();
+}
+
 Matrix6 symmetrised(Matrix6 inertia, const std::vector<Matrix3d>& symmetries) {
-  for (const Matrix3d& turn : symmetries) {
-    Matrix6 both = Matrix6::Zero();
-    both.topLeftCorner<3, 3>() = turn.determinant() * turn;  // a rotation is an axial vector
-    both.bottomRightCorner<3, 3>() = turn;
-    inertia = (inertia + both * inertia * both.transpose()) / 2;
-  }
+  for (const Matrix3d& turn : symmetries) inertia = (inertia + turned(inertia, turn)) / 2;
   return inertia;
 }
 

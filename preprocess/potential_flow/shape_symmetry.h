@@ -14,6 +14,9 @@ namespace ambient {
 std::vector<Eigen::Matrix3d> findSymmetries(const TriangleMesh& mesh,
                                             const Eigen::Vector3d& centre);
 
+/// The inertia of the body mapped by a mirror or a turn about the origin, rotation first.
+Matrix6 turned(const Matrix6& inertia, const Eigen::Matrix3d& turn);
+
 /// The inertia about that centre, rotation first, without what the symmetries forbid: the mean over
 /// each of them and none.
 Matrix6 symmetrised(Matrix6 inertia, const std::vector<Eigen::Matrix3d>& symmetries);

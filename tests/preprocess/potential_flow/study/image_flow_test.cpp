@@ -1,4 +1,4 @@
-#include "tests/preprocess/potential_flow/study/image_flow.h"
+#include "preprocess/potential_flow/image_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/primitives.h"
+#include "preprocess/potential_flow/wet_mesh.h"
 #include "tests/preprocess/potential_flow/study/study_meshes.h"
-#include "tests/preprocess/potential_flow/study/wet_mesh.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/graded_meshes.h"

@@ -9,7 +9,7 @@
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
-#include "tests/preprocess/potential_flow/study/image_flow.h"
+#include "preprocess/builder/waterline_builder.h"
 #include "tests/preprocess/potential_flow/study/pile_up.h"
 
 namespace ambient::study {
@@ -65,14 +65,8 @@ void append(const Errors& more, Errors& all) {
 }  // namespace
 
 Matrix6 imageInertia(const SurfaceCase& body, const SurfacePlane& plane, int panels) {
-  Matrix3 axes;  // of a frame with z = 0 in the surface, in F
-  const PlaneAxes across(plane.normal);
-  axes << across.first, across.second, plane.normal;
-  const Vector3 origin_of_F = -plane.height * Vector3::UnitZ();
-  TriangleMesh mesh = body.mesh;
-  mesh.vertices = (axes.transpose() * mesh.vertices).colwise() + origin_of_F;
-  const Matrix6 water = shiftOrigin(solveImageFlow(mesh, panels), origin_of_F);
-  return body.model.above.inertia + body.model.excess_density * rotateAxes(water, axes);
+  return body.model.above.inertia +
+         body.model.excess_density * solveImageFlow(body.mesh, plane, panels);
 }
 
 double largestError(const Matrix6& inertia, const Matrix6& reference) {

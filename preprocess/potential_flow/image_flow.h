@@ -3,7 +3,7 @@
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
-namespace ambient::study {
+namespace ambient {
 
 /// Added mass of the part of a closed body below the plane z = 0, on which the potential is 0: the
 /// flow of fast motions. Per unit density, about the origin, rotation first; symmetric; 0 of a dry
@@ -11,7 +11,8 @@ namespace ambient::study {
 /// n.(v + w x z) has the opposite sign at the image. The equations are those of
 /// solvePotentialFlow(), docs/theory.md eq. (7) to (11), for odd jumps, on `panels` flat panels of
 /// the wet part, or a few less. Error with 500 panels: 1 % (hemisphere).
-/// @pre the mesh passed checkMesh() as a body; its wet part is in one piece
+/// @pre the mesh passed checkMesh() as a body
+/// @throws std::runtime_error if the linear system cannot be solved
 Matrix6 solveImageFlow(const TriangleMesh& body, int panels);
 
-}  // namespace ambient::study
+}  // namespace ambient

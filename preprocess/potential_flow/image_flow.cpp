@@ -1,4 +1,4 @@
-#include "tests/preprocess/potential_flow/study/image_flow.h"
+#include "preprocess/potential_flow/image_flow.h"
 
 #include <Eigen/Cholesky>
 #include <stdexcept>
@@ -9,9 +9,9 @@
 #include "preprocess/potential_flow/near_panels.h"
 #include "preprocess/potential_flow/panel_surface.h"
 #include "preprocess/potential_flow/surface_refinement.h"
-#include "tests/preprocess/potential_flow/study/wet_mesh.h"
+#include "preprocess/potential_flow/wet_mesh.h"
 
-namespace ambient::study {
+namespace ambient {
 namespace {
 
 using Eigen::Index;
@@ -39,16 +39,14 @@ Unknowns numberBoth(const MirroredMesh& mirrored, const Unknowns& wet) {
   return both;
 }
 
-/// W for odd jumps: of the wet part less that of its image. The constants are its kernel where
-/// there is no waterline.
+/// W for odd jumps: of the wet part less that of its image, without its kernel.
 Eigen::MatrixXd assembleOdd(const PanelSurface& surface, const MirroredMesh& mirrored,
                             const Unknowns& wet, const NearPanels& near) {
   const Index n = wet.count;
   const Eigen::MatrixXd W =
       assembleHypersingular(surface, numberBoth(mirrored, wet), near, kThreads);
   Eigen::MatrixXd odd = W.topLeftCorner(n, n) - W.bottomLeftCorner(n, n);
-  const double mean = odd.diagonal().mean();
-  if (n == mirrored.image.size()) odd.array() += mean / static_cast<double>(n);
+  fillKernel(surface, wet, odd);
   return odd;
 }
 
@@ -99,4 +97,4 @@ Matrix6 solveImageFlow(const TriangleMesh& body, int panels) {
   return shiftOrigin(scaleShape(K, surface.length), -surface.centre);
 }
 
-}  // namespace ambient::study
+}  // namespace ambient

@@ -1,4 +1,4 @@
-#include "tests/preprocess/potential_flow/study/wet_mesh.h"
+#include "preprocess/potential_flow/wet_mesh.h"
 
 #include <algorithm>
 #include <map>
@@ -8,7 +8,7 @@
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/weld_vertices.h"
 
-namespace ambient::study {
+namespace ambient {
 namespace {
 
 using Eigen::Index;
@@ -113,4 +113,4 @@ MirroredMesh withImage(const TriangleMesh& wet) {
   return mirrored;
 }
 
-}  // namespace ambient::study
+}  // namespace ambient

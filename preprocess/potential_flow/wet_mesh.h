@@ -2,7 +2,7 @@
 
 #include "preprocess/mesh/triangle_mesh.h"
 
-namespace ambient::study {
+namespace ambient {
 
 /// The part of a closed mesh below the plane z = 0: open at the waterline, whose vertices have z =
 /// 0 exactly, or closed if no triangle reaches above it. Vertices closer to each other than a
@@ -17,4 +17,4 @@ struct MirroredMesh {
 };
 MirroredMesh withImage(const TriangleMesh& wet);
 
-}  // namespace ambient::study
+}  // namespace ambient

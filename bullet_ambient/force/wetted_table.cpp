@@ -1,0 +1,94 @@
+#include "bullet_ambient/force/wetted_table.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ambient {
+namespace {
+
+double immersionOf(const Immersion& at) { return at.draught() / at.size(); }
+
+/// Where the added mass changes with the depth.
+Vector3 placeOfChange(const WetVolume& wet) {
+  return wet.waterplane.area > 0 ? wet.waterplane.centroid : Vector3(wet.moment / wet.volume);
+}
+
+}  // namespace
+
+WettedTable::WettedTable(std::shared_ptr<const FluidBody> body,
+                         std::shared_ptr<const PackedParts> parts)
+    : WettedParts(*body, std::move(parts)),
+      body_(std::move(body)),
+      lattice_(body_->waterline.subdivisions),
+      nodes_(body_->waterline.immersions) {
+  nodes_.insert(nodes_.begin(), 0);
+  nodes_.push_back(WaterlineTable::kDeep);
+}
+
+// A cubic between two nodes, whose slopes there are those of the parabola through a node and its
+// neighbours; at the first node that of the chord, at the last one 0.
+WettedTable::Weights WettedTable::weightsAt(double immersion) const noexcept {
+  const auto next = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, immersion);
+  const auto k = static_cast<int>(next - nodes_.begin()) - 1;
+  const double width = nodes_[k + 1] - nodes_[k];
+  const double t = std::clamp((immersion - nodes_[k]) / width, 0.0, 1.0), u = 1 - t;
+  Weights weights{k - 1, {0, u * u * (1 + 2 * t), t * t * (1 + 2 * u), 0}, {}};
+  weights.of_slope[1] = -6 * t * u / width;
+  weights.of_slope[2] = -weights.of_slope[1];
+  const auto addSlope = [&](int i, double to_value, double to_slope) {
+    double shares[3] = {0, -1, 1};
+    const int node = k + i;
+    const double after = nodes_[node + 1] - nodes_[node];
+    if (node > 0) {
+      const double before = nodes_[node] - nodes_[node - 1], both = before + after;
+      shares[0] = -after / (before * both);
+      shares[1] = (after - before) / (before * after);
+      shares[2] = before / (after * both);
+    } else {
+      shares[1] = -1 / after;
+      shares[2] = 1 / after;
+    }
+    for (int j = 0; j < 3; ++j) {
+      weights.of_value[i + j] += to_value * shares[j];
+      weights.of_slope[i + j] += to_slope * shares[j];
+    }
+  };
+  addSlope(0, width * t * u * u, u * (u - 2 * t));
+  if (k + 2 < static_cast<int>(nodes_.size())) addSlope(1, -width * t * t * u, t * (t - 2 * u));
+  return weights;
+}
+
+Matrix6 WettedTable::interpolate(const Vector3& normal, int first,
+                                 const double (&weights)[4]) const noexcept {
+  const std::vector<Matrix6>& corrections = body_->waterline.corrections;
+  const auto count = static_cast<int>(nodes_.size()) - 2;
+  const OctahedralLattice::Place place = lattice_.placeOf(normal);
+  Matrix6 sum = Matrix6::Zero();
+  for (int corner = 0; corner < 3; ++corner)
+    for (int i = 0; i < 4; ++i) {
+      const int immersion = first + i - 1;  // the first and the last node have no correction
+      if (immersion < 0 || immersion >= count) continue;
+      sum += place.share[corner] * weights[i] *
+             corrections[static_cast<std::size_t>(place.node[corner] * count + immersion)];
+    }
+  return sum;
+}
+
+Matrix6 WettedTable::inertiaAt(const Immersion& at) const noexcept {
+  const Weights weights = weightsAt(immersionOf(at));
+  return WettedParts::inertiaAt(at) + interpolate(at.plane.normal, weights.first, weights.of_value);
+}
+
+InertiaGradient WettedTable::gradientAt(const Immersion& at, const Twist& twist) const noexcept {
+  InertiaGradient gradient = WettedParts::gradientAt(at, twist);
+  if (!(at.wet.volume > 0)) return gradient;
+  const Vector6 x = twist.vector();
+  const Weights weights = weightsAt(immersionOf(at));
+  const Matrix6 slope = interpolate(at.plane.normal, weights.first, weights.of_slope);
+  const double by_height = 0.5 * x.dot(slope * x) / at.size();
+  gradient.by_height += by_height;
+  gradient.by_normal -= by_height * placeOfChange(at.wet);
+  return gradient;
+}
+
+}  // namespace ambient

@@ -1,0 +1,179 @@
+#include "preprocess/builder/waterline_builder.h"
+
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "bullet_ambient/fluid_body/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed_parts.h"
+#include "bullet_ambient/force/wetted_parts.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/mesh/mesh_coarsening.h"
+#include "preprocess/potential_flow/flat_merging.h"
+#include "preprocess/potential_flow/image_flow.h"
+#include "preprocess/potential_flow/parallel_for.h"
+#include "preprocess/potential_flow/shape_symmetry.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Matrix3d;
+
+// Chosen on a cube, a box, a cylinder, an ellipsoid and a hull; docs/water.md.
+const std::vector<double> kImmersions = {0.02, 0.08, 0.28, 0.4, 0.55, 0.85, 1, 1.3, 2.2};
+
+TriangleMesh panelMesh(const FluidBody& body, int panels) {
+  TriangleMesh mesh;
+  const std::vector<double>& vertices = body.surface.vertices;
+  const std::vector<std::int32_t>& triangles = body.surface.triangles;
+  mesh.vertices = Eigen::Map<const Eigen::Matrix3Xd>(
+      vertices.data(), 3, static_cast<Eigen::Index>(vertices.size() / 3));
+  mesh.triangles = Eigen::Map<const Eigen::Matrix3Xi>(
+      triangles.data(), 3, static_cast<Eigen::Index>(triangles.size() / 3));
+  mesh = mergeFlatTriangles(mesh, false, panels);
+  return mesh.triangleCount() > panels ? coarsened(mesh, {0, panels, 0}) : mesh;
+}
+
+/// Lowest and highest corner along a direction.
+std::pair<double, double> extentOf(const TriangleMesh& mesh, const Vector3& direction) {
+  double low = direction.dot(mesh.corner(0, 0)), high = low;
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const double along = direction.dot(mesh.corner(t, k));
+      low = std::min(low, along);
+      high = std::max(high, along);
+    }
+  return {low, high};
+}
+
+/// Of a mesh on so many panels, over the body's added mass: the roots of the ratios of the
+/// diagonals, for what the panels are too coarse for. 1 where there is no added mass.
+Vector6 panelFactors(const FluidBody& body, const TriangleMesh& mesh, int panels) {
+  constexpr double kFar = 100, kNothing = 1e-6;  // sizes; of the largest entry of its kind
+  const double size = mesh.extents().maxCoeff();
+  const Vector6 coarse =
+      solveImageFlow(mesh, {Vector3::UnitZ(), kFar * size, 1, 1}, panels).diagonal();
+  const Vector6 exact = body.added_mass.diagonal();
+  Vector6 factors = Vector6::Ones();
+  for (int k = 0; k < 6; ++k) {
+    const double least = kNothing * exact.segment<3>(k < 3 ? 0 : 3).maxCoeff();
+    if (exact[k] > least && coarse[k] > least) factors[k] = std::sqrt(exact[k] / coarse[k]);
+  }
+  return factors;
+}
+
+class WaterlineSolver {
+ public:
+  WaterlineSolver(const FluidBody& body, int panels)
+      : body_(body),
+        panels_(panels),
+        mesh_(panelMesh(body, panels)),
+        factors_(panelFactors(body, mesh_, panels)),
+        hull_(body),
+        parts_(body, std::make_shared<PackedParts>(body.added_mass_parts)) {}
+
+  const TriangleMesh& mesh() const { return mesh_; }
+
+  Matrix6 correction(const Vector3& normal, double immersion) const {
+    Immersion at{{normal, 0, 1, 1}, 0, 0, {}};
+    std::tie(at.low, at.high) = computeExtent(hull_, normal);
+    at.plane.height = at.low + immersion * at.size();
+    at.wet = computeWetVolume(hull_, at.plane);
+    return reference(normal, immersion, wetShare(at, body_.volume)) - parts_.unraisedInertia(at);
+  }
+
+ private:
+  /// Panels are the finer the less of the body is wet.
+  Matrix6 reference(const Vector3& normal, double immersion, double wet_share) const {
+    const auto [low, high] = extentOf(mesh_, normal);
+    const SurfacePlane plane{normal, low + immersion * (high - low), 1, 1};
+    const Vector6 factors = factors_.array().pow(wet_share);
+    return factors.asDiagonal() * solveImageFlow(mesh_, plane, panels_) * factors.asDiagonal();
+  }
+
+  const FluidBody& body_;
+  int panels_;
+  TriangleMesh mesh_;
+  Vector6 factors_;
+  PackedHull hull_;
+  WettedParts parts_;
+};
+
+/// A node of the lattice whose flow is solved, and the turn that maps its direction to another's.
+struct Origin {
+  int node = -1;
+  Matrix3d turn = Matrix3d::Identity();
+};
+
+/// The node in a direction; -1: none.
+int nodeAt(const OctahedralLattice& lattice, const Vector3& direction) {
+  constexpr double kSame = 1 - 1e-6;
+  const OctahedralLattice::Place place = lattice.placeOf(direction);
+  for (int corner = 0; corner < 3; ++corner)
+    if (place.share[corner] > kSame) return place.node[corner];
+  return -1;
+}
+
+/// Of every node: itself, or another one that symmetries of the body map to it.
+std::vector<Origin> findOrigins(const OctahedralLattice& lattice,
+                                const std::vector<Matrix3d>& symmetries) {
+  std::vector<Origin> origins(static_cast<std::size_t>(lattice.size()));
+  std::vector<int> reached;
+  for (int node = 0; node < lattice.size(); ++node) {
+    if (origins[node].node >= 0) continue;
+    origins[node].node = node;
+    reached = {node};
+    while (!reached.empty()) {
+      const int from = reached.back();
+      reached.pop_back();
+      for (const Matrix3d& symmetry : symmetries) {
+        const int to = nodeAt(lattice, symmetry * lattice.direction(from));
+        if (to < 0 || origins[to].node >= 0) continue;
+        origins[to] = {node, symmetry * origins[from].turn};
+        reached.push_back(to);
+      }
+    }
+  }
+  return origins;
+}
+
+}  // namespace
+
+Matrix6 solveImageFlow(const TriangleMesh& body, const SurfacePlane& plane, int panels) {
+  Matrix3 axes;  // of a frame with z = 0 in the surface
+  const PlaneAxes across(plane.normal);
+  axes << across.first, across.second, plane.normal;
+  const Vector3 origin = -plane.height * Vector3::UnitZ();
+  TriangleMesh mesh = body;
+  mesh.vertices = (axes.transpose() * mesh.vertices).colwise() + origin;
+  return rotateAxes(shiftOrigin(solveImageFlow(mesh, panels), origin), axes);
+}
+
+WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings& settings) {
+  const OctahedralLattice lattice(settings.subdivisions);
+  const WaterlineSolver solver(body, settings.panels);
+  const std::vector<Origin> origins =
+      findOrigins(lattice, findSymmetries(solver.mesh(), Vector3::Zero()));
+  const std::size_t count = kImmersions.size();
+
+  WaterlineTable table{settings.subdivisions, kImmersions, {}};
+  table.corrections.resize(origins.size() * count);
+  const auto correctionOf = [&](std::ptrdiff_t i) -> Matrix6& {
+    return table.corrections[static_cast<std::size_t>(i)];
+  };
+  const auto solve = [&](std::ptrdiff_t i) {
+    const auto node = static_cast<int>(i / count);
+    if (origins[node].node != node) return;
+    correctionOf(i) = solver.correction(lattice.direction(node), kImmersions[i % count]);
+  };
+  parallelFor(threadCount(settings.threads), table.corrections.size(), solve);
+  for (std::size_t node = 0; node < origins.size(); ++node) {
+    const Origin& origin = origins[node];
+    if (origin.node == static_cast<int>(node)) continue;
+    for (std::size_t k = 0; k < count; ++k)
+      correctionOf(node * count + k) = turned(correctionOf(origin.node * count + k), origin.turn);
+  }
+  return table;
+}
+
+}  // namespace ambient

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/surface_plane.h"
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+constexpr int kDefaultWaterlineSubdivisions = 4, kMostWaterlineSubdivisions = 16;
+
+struct WaterlineSettings {
+  int subdivisions = kDefaultWaterlineSubdivisions;  ///< of the lattice of attitudes
+  int panels = 600;  ///< of each solution; the mesh is coarsened where it has more triangles
+  int threads = 0;   ///< 0: all cores; the result does not depend on it, bit for bit
+};
+
+/// What the parts of a body's added mass lack at the surface of still water, in attitudes all
+/// around and at nine immersions; docs/theory.md eq. (61a). Attitudes that symmetries of the body
+/// map to each other are solved once. Cost: 0.1 to 0.2 s of one core for each attitude and
+/// immersion, by default 66 times 9 of them, 15 times 9 of a body with three planes of symmetry.
+/// @pre the body is no sheet and no sphere, and has parts of its added mass
+/// @throws std::runtime_error if a flow cannot be solved, with the reason.
+WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings& settings);
+
+/// Added mass of the part of a mesh below a plane, as solveImageFlow(); about the mesh's origin, in
+/// its axes.
+Matrix6 solveImageFlow(const TriangleMesh& body, const SurfacePlane& plane, int panels);
+
+}  // namespace ambient
