@@ -1,5 +1,6 @@
 #include "preprocess/builder/waterline_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "bullet_ambient/fluid_body/packed_parts.h"
 #include "bullet_ambient/force/wetted_parts.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/mesh_coarsening.h"
 #include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/potential_flow/image_flow.h"
@@ -22,7 +24,7 @@ using Eigen::Matrix3d;
 // Chosen on a cube, a box, a cylinder, an ellipsoid and a hull; docs/water.md.
 const std::vector<double> kImmersions = {0.02, 0.08, 0.28, 0.4, 0.55, 0.85, 1, 1.3, 2.2};
 
-TriangleMesh panelMesh(const FluidBody& body, int panels) {
+TriangleMesh surfaceOf(const FluidBody& body) {
   TriangleMesh mesh;
   const std::vector<double>& vertices = body.surface.vertices;
   const std::vector<std::int32_t>& triangles = body.surface.triangles;
@@ -30,8 +32,13 @@ TriangleMesh panelMesh(const FluidBody& body, int panels) {
       vertices.data(), 3, static_cast<Eigen::Index>(vertices.size() / 3));
   mesh.triangles = Eigen::Map<const Eigen::Matrix3Xi>(
       triangles.data(), 3, static_cast<Eigen::Index>(triangles.size() / 3));
-  mesh = mergeFlatTriangles(mesh, false, panels);
-  return mesh.triangleCount() > panels ? coarsened(mesh, {0, panels, 0}) : mesh;
+  return mesh;
+}
+
+/// What panels are cut from.
+TriangleMesh coarseSurfaceOf(const FluidBody& body, int panels) {
+  const TriangleMesh merged = mergeFlatTriangles(surfaceOf(body), false, kDefaultPanels);
+  return merged.triangleCount() > panels ? coarsened(merged, {0, panels, 0}) : merged;
 }
 
 /// Lowest and highest corner along a direction.
@@ -67,12 +74,10 @@ class WaterlineSolver {
   WaterlineSolver(const FluidBody& body, int panels)
       : body_(body),
         panels_(panels),
-        mesh_(panelMesh(body, panels)),
+        mesh_(coarseSurfaceOf(body, panels)),
         factors_(panelFactors(body, mesh_, panels)),
         hull_(body),
         parts_(body, std::make_shared<PackedParts>(body.added_mass_parts)) {}
-
-  const TriangleMesh& mesh() const { return mesh_; }
 
   Matrix6 correction(const Vector3& normal, double immersion) const {
     Immersion at{{normal, 0, 1, 1}, 0, 0, {}};
@@ -104,6 +109,16 @@ struct Origin {
   int node = -1;
   Matrix3d turn = Matrix3d::Identity();
 };
+
+/// Those that map a direction to itself.
+std::vector<Matrix3d> keeping(const Vector3& direction, std::vector<Matrix3d> symmetries) {
+  constexpr double kOff = 1e-6;
+  const auto moves = [&](const Matrix3d& turn) {
+    return (turn * direction - direction).norm() > kOff;
+  };
+  symmetries.erase(std::remove_if(symmetries.begin(), symmetries.end(), moves), symmetries.end());
+  return symmetries;
+}
 
 /// The node in a direction; -1: none.
 int nodeAt(const OctahedralLattice& lattice, const Vector3& direction) {
@@ -152,8 +167,8 @@ Matrix6 solveImageFlow(const TriangleMesh& body, const SurfacePlane& plane, int 
 WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings& settings) {
   const OctahedralLattice lattice(settings.subdivisions);
   const WaterlineSolver solver(body, settings.panels);
-  const std::vector<Origin> origins =
-      findOrigins(lattice, findSymmetries(solver.mesh(), Vector3::Zero()));
+  const std::vector<Matrix3d> symmetries = findSymmetries(surfaceOf(body), Vector3::Zero());
+  const std::vector<Origin> origins = findOrigins(lattice, symmetries);
   const std::size_t count = kImmersions.size();
 
   WaterlineTable table{settings.subdivisions, kImmersions, {}};
@@ -164,7 +179,9 @@ WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings
   const auto solve = [&](std::ptrdiff_t i) {
     const auto node = static_cast<int>(i / count);
     if (origins[node].node != node) return;
-    correctionOf(i) = solver.correction(lattice.direction(node), kImmersions[i % count]);
+    const Vector3 normal = lattice.direction(node);
+    correctionOf(i) =
+        symmetrised(solver.correction(normal, kImmersions[i % count]), keeping(normal, symmetries));
   };
   parallelFor(threadCount(settings.threads), table.corrections.size(), solve);
   for (std::size_t node = 0; node < origins.size(); ++node) {

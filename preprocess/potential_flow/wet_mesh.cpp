@@ -1,6 +1,7 @@
 #include "preprocess/potential_flow/wet_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -87,9 +88,12 @@ TriangleMesh withoutLid(const TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh wetPartOf(const TriangleMesh& body) {
-  constexpr double kClose = 1e-3;
-  const double tolerance = kClose * body.extents().maxCoeff();
-  return withoutLid(weldVertices(WaterlineCut(body).mesh(), tolerance));
+  constexpr double kClose = 1e-3, kInSurface = 1e-9;
+  const double size = body.extents().maxCoeff();
+  TriangleMesh placed = body;
+  for (double& z : placed.vertices.row(2))
+    if (std::abs(z) <= kInSurface * size) z = 0;
+  return withoutLid(weldVertices(WaterlineCut(placed).mesh(), kClose * size));
 }
 
 MirroredMesh withImage(const TriangleMesh& wet) {

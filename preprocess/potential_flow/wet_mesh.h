@@ -5,8 +5,8 @@
 namespace ambient {
 
 /// The part of a closed mesh below the plane z = 0: open at the waterline, whose vertices have z =
-/// 0 exactly, or closed if no triangle reaches above it. Vertices closer to each other than a
-/// thousandth of the mesh are joined. No triangles of a dry mesh.
+/// 0 exactly, or closed if no triangle reaches it. A side in the plane counts as above it. Vertices
+/// closer to each other than a thousandth of the mesh are joined. No triangles of a dry mesh.
 TriangleMesh wetPartOf(const TriangleMesh& body);
 
 /// A mesh below the plane z = 0 with its mirror image above, joined where z = 0. The triangles of

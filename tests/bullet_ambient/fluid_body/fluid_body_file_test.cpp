@@ -90,6 +90,50 @@ TEST(FluidBodyFile, KeepsPartsOfTheAddedMassInSinglePrecisionAndInTheSameVersion
             "a: centre of a part of the added mass is nan, but must be finite");
 }
 
+FluidBody bodyWithWaterline() {
+  FluidBody body = test::exampleBody();
+  body.added_mass_parts.resize(1);
+  body.waterline = {1, {0.25, 1}, {}};
+  for (int i = 0; i < 12; ++i) {
+    Matrix6 correction;
+    for (int row = 0; row < 6; ++row)
+      for (int column = 0; column < 6; ++column) correction(row, column) = i - row * column;
+    body.waterline.corrections.push_back(correction);
+  }
+  return body;
+}
+
+TEST(FluidBodyFile, KeepsAWaterlineTableInTheSameVersion) {
+  const FluidBody body = bodyWithWaterline();
+  const std::string bytes = encodeFluidBody(body, "a");
+  const WaterlineTable back = decodeFluidBody(bytes, "a").waterline;
+  EXPECT_EQ(back.subdivisions, 1);
+  EXPECT_EQ(back.immersions, body.waterline.immersions);
+  EXPECT_EQ(back.corrections, body.waterline.corrections);
+  const std::string without = encodeFluidBody(test::exampleBody(), "a");
+  EXPECT_EQ(bytes.substr(0, 16), without.substr(0, 16));  // magic and version
+}
+
+TEST(FluidBodyFile, RefusesAWaterlineTableThatIsNone) {
+  const auto refusal = [](const auto& change) {
+    FluidBody body = bodyWithWaterline();
+    change(body);
+    return test::refusalOf([&] { encodeFluidBody(body, "a"); });
+  };
+  EXPECT_EQ(refusal([](FluidBody& body) { body.waterline.subdivisions = 65; }),
+            "a: the waterline table has 65 subdivisions, but must have 0 to 64");
+  EXPECT_EQ(refusal([](FluidBody& body) { body.waterline.immersions[1] = 0.25; }),
+            "a: immersion 0.25 of the waterline table must be above 0.25 and below 3");
+  EXPECT_EQ(refusal([](FluidBody& body) { body.waterline.immersions[1] = std::nan(""); }),
+            "a: immersion nan of the waterline table must be above 0.25 and below 3");
+  EXPECT_EQ(refusal([](FluidBody& body) { body.waterline.corrections.pop_back(); }),
+            "a: the waterline table has 11 corrections, but needs 12");
+  EXPECT_EQ(refusal([](FluidBody& body) { body.waterline.corrections[3](1, 2) = std::nan(""); }),
+            "a: a correction of the waterline table is nan, but must be finite");
+  EXPECT_EQ(refusal([](FluidBody& body) { body.added_mass_parts.clear(); }),
+            "a: the waterline table has nothing to correct: there are no parts of the added mass");
+}
+
 TEST(FluidBodyFile, HasTheSameBytesForTheSameBody) {
   EXPECT_EQ(encodeFluidBody(test::exampleBody(), "a"), encodeFluidBody(test::exampleBody(), "b"));
   FluidBody other = test::exampleBody();

@@ -48,6 +48,14 @@ TEST(ScaledFluidBody, ScalesThePartsOfTheAddedMass) {
   EXPECT_EQ(body.added_mass_parts[0].inertia, body.added_mass);
 }
 
+TEST(ScaledFluidBody, ScalesTheWaterlineTable) {
+  FluidBody unit = exampleBody();
+  unit.waterline = {1, {0.5}, {6, unit.added_mass}};
+  const FluidBody body = scaled(unit, 2);
+  EXPECT_EQ(body.waterline.immersions, unit.waterline.immersions);
+  EXPECT_EQ(body.waterline.corrections[5], body.added_mass);
+}
+
 TEST(ScaledFluidBody, RefusesAFactorThatIsNotPositive) {
   EXPECT_THROW(scaled(exampleBody(), 0), std::invalid_argument);
   EXPECT_THROW(scaled(exampleBody(), -1), std::invalid_argument);

@@ -62,5 +62,15 @@ TEST(ImageFlow, IsThatOfTheWetPart) {
   EXPECT_TRUE(solveImageFlow(raised(box, 1), 100).isZero(0));
 }
 
+// The deck, in the surface to rounding, is not a side in the water.
+TEST(ImageFlow, ADeckAwashIsDry) {
+  const TriangleMesh box = makeBoxMesh({1, 0.5, 0.3}, 12);
+  const Matrix6 awash = solveImageFlow(raised(box, -0.3), 100);
+  for (const double above : {-1e-15, 1e-15, 1e-6}) {
+    const Matrix6 K = solveImageFlow(raised(box, -0.3 + above), 100);
+    EXPECT_LT((K - awash).norm(), 1e-4 * awash.norm()) << above;
+  }
+}
+
 }  // namespace
 }  // namespace ambient::study

@@ -7,7 +7,6 @@
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/primitives.h"
-#include "tests/preprocess/potential_flow/study/pile_up.h"
 #include "tests/preprocess/potential_flow/study/study_meshes.h"
 
 namespace ambient::study {
@@ -40,7 +39,8 @@ double heaveInertia(const SurfaceModel& model, double draught, EntrySurface surf
   const Vector3 up = Vector3::UnitZ();
   const double low = immersionOf(model, {up, 0, 1, 1}).low;
   const Immersion at = immersionOf(model, {up, low + draught, 1, 1});
-  return model.wetted->inertia(surface == EntrySurface::kRaised ? at : beforePileUp(at))(5, 5);
+  return surface == EntrySurface::kRaised ? model.wetted->inertia(at)(5, 5)
+                                          : model.wetted->unraisedInertia(at)(5, 5);
 }
 
 double slammingForce(const SurfaceModel& model, double draught, EntrySurface surface) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/pi.h"
-#include "tests/preprocess/potential_flow/study/pile_up.h"
 #include "tests/preprocess/potential_flow/study/slamming_cases.h"
 #include "tests/preprocess/potential_flow/study/slamming_fall.h"
 #include "tests/reference/water_entry.h"
@@ -16,6 +15,7 @@ namespace {
 
 constexpr double kDepths[] = {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8};  // in radii
 constexpr double kShares[] = {0.05, 0.1, 0.2, 0.4, 0.8};             // of the wedge's height
+constexpr double kRaise = 1.4;  // of a draught that has just touched, docs/theory.md eq. (65)
 
 template <class... Values>
 std::string cellOf(const char* format, Values... values) {
@@ -86,7 +86,7 @@ std::string wedgeTable(double length) {
     table += "|" + cellOf("%.0f°", similar.degrees) +
              cellOf("%.1f", reference::karmanWedgeForce(deadrise)) +
              cellOf("%.1f", reference::wagnerWedgeForce(deadrise)) + cellOf("%.1f", similar.force) +
-             cellOf("%.1f", own) + cellOf("%.1f", std::pow(1 + kPileUp, 2) * own);
+             cellOf("%.1f", own) + cellOf("%.1f", kRaise * kRaise * own);
     for (const double share : kShares) {
       const double draught = share * kHalfBreadth * rise;
       const double K = heaveInertia(wedge.model, draught, EntrySurface::kRaised) / length;

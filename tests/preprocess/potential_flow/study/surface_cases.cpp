@@ -6,6 +6,7 @@
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/builder/waterline_builder.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/mesh/weld_vertices.h"
@@ -38,6 +39,17 @@ TriangleMesh makeHullMesh() {
   return weldVertices(makeTriangleMesh(vertices, triangles), 1e-9 * kHalfLength);
 }
 
+SurfaceModel modelOf(const std::shared_ptr<const FluidBody>& body) {
+  SurfaceModelDef model;
+  model.shape = body;
+  const double mass = 0.5 * body->volume;
+  model.mass = {mass, mass * body->uniform_mass.inertia};
+  model.below = {1, 0, {0, 0, 0}, {0, 0, 0}};
+  model.flow.own_law = [](const auto&, const auto&) { return nullptr; };
+  LoadTables tables;
+  return makeSurfaceModel(model, tables);
+}
+
 }  // namespace
 
 SurfaceCase makeSurfaceCase(const SurfaceCaseDef& def) {
@@ -49,15 +61,15 @@ SurfaceCase makeSurfaceCase(const SurfaceCaseDef& def) {
   const auto body = std::make_shared<const FluidBody>(makeFluidBody(def.mesh, settings));
   TriangleMesh mesh = def.mesh;
   mesh.vertices.colwise() -= Vector3d(body->origin);
+  return {def.shape, std::move(mesh), modelOf(body)};
+}
 
-  SurfaceModelDef model;
-  model.shape = body;
-  const double mass = 0.5 * body->volume;
-  model.mass = {mass, mass * body->uniform_mass.inertia};
-  model.below = {1, 0, {0, 0, 0}, {0, 0, 0}};
-  model.flow.own_law = [](const auto&, const auto&) { return nullptr; };
-  LoadTables tables;
-  return {def.shape, std::move(mesh), makeSurfaceModel(model, tables)};
+SurfaceCase withWaterline(const SurfaceCase& body, int subdivisions) {
+  FluidBody tabulated = *body.model.shape;
+  WaterlineSettings settings;
+  settings.subdivisions = subdivisions;
+  tabulated.waterline = makeWaterlineTable(tabulated, settings);
+  return {body.shape, body.mesh, modelOf(std::make_shared<const FluidBody>(std::move(tabulated)))};
 }
 
 std::vector<SurfaceCase> surfaceCases() {

@@ -25,6 +25,9 @@ struct SurfaceCaseDef {
 };
 SurfaceCase makeSurfaceCase(const SurfaceCaseDef& def);
 
+/// The same body with a waterline table of so many subdivisions.
+SurfaceCase withWaterline(const SurfaceCase& body, int subdivisions);
+
 /// Sphere, cube, box, cylinder, ellipsoid and a hull with a deck; sizes of the order of 1 m.
 std::vector<SurfaceCase> surfaceCases();
 

@@ -10,7 +10,6 @@
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/builder/waterline_builder.h"
-#include "tests/preprocess/potential_flow/study/pile_up.h"
 
 namespace ambient::study {
 namespace {
@@ -25,14 +24,15 @@ Vector3 randomNormal(std::mt19937& random) {
 }
 
 struct Errors {
-  std::vector<double> runtime;     ///< as bodies move
-  std::vector<double> restricted;  ///< eq. (60), (61) without the raised plane
+  std::vector<double> by_parts;
+  std::vector<double> by_table;  ///< of bodies with a waterline table
 
-  void add(const SurfaceCase& body, const SurfacePlane& plane, int panels) {
+  void add(const SurfaceCase& body, const SurfaceCase& tabulated, const SurfacePlane& plane,
+           int panels) {
     const Matrix6 reference = imageInertia(body, plane, panels);
     const Immersion at = immersionOf(body.model, plane);
-    runtime.push_back(largestError(inertiaAt(body.model, at).inertia, reference));
-    restricted.push_back(largestError(inertiaAt(body.model, beforePileUp(at)).inertia, reference));
+    by_parts.push_back(largestError(inertiaAt(body.model, at).inertia, reference));
+    by_table.push_back(largestError(inertiaAt(tabulated.model, at).inertia, reference));
   }
 };
 
@@ -53,13 +53,13 @@ std::string cellOf(const std::vector<double>& errors) {
 }
 
 std::string lineOf(const std::string& name, const Errors& afloat, const Errors& anywhere) {
-  return "| " + name + " |" + cellOf(afloat.runtime) + cellOf(anywhere.runtime) +
-         cellOf(anywhere.restricted) + "\n";
+  return "| " + name + " |" + cellOf(afloat.by_parts) + cellOf(afloat.by_table) +
+         cellOf(anywhere.by_parts) + cellOf(anywhere.by_table) + "\n";
 }
 
 void append(const Errors& more, Errors& all) {
-  all.runtime.insert(all.runtime.end(), more.runtime.begin(), more.runtime.end());
-  all.restricted.insert(all.restricted.end(), more.restricted.begin(), more.restricted.end());
+  all.by_parts.insert(all.by_parts.end(), more.by_parts.begin(), more.by_parts.end());
+  all.by_table.insert(all.by_table.end(), more.by_table.begin(), more.by_table.end());
 }
 
 }  // namespace
@@ -87,10 +87,10 @@ double floatingHeight(const SurfaceModel& model, const Vector3& normal) {
   return low;
 }
 
-std::string surfaceTable(int poses, int panels) {
+std::string surfaceTable(int poses, int panels, int subdivisions) {
   std::string table =
-      "| shape | afloat | 0.1 to 1.5 of the height | the same, plane not raised "
-      "|\n|---|---|---|---|\n";
+      "| shape | afloat | with a waterline table | 0.1 to 1.5 of the height | with a table "
+      "|\n|---|---|---|---|---|\n";
   std::fputs(table.c_str(), stdout);
   const auto print = [&](const std::string& line) {
     std::fputs(line.c_str(), stdout);
@@ -100,13 +100,15 @@ std::string surfaceTable(int poses, int panels) {
   std::mt19937 random(1);
   Errors all_afloat, all_anywhere;
   for (const SurfaceCase& body : surfaceCases()) {
+    const bool is_sphere = body.model.shape->sphere_radius > 0;
+    const SurfaceCase tabulated = is_sphere ? body : withWaterline(body, subdivisions);
     Errors afloat, anywhere;
     for (int i = 0; i < poses; ++i) {
       const Vector3 normal = randomNormal(random);
-      afloat.add(body, {normal, floatingHeight(body.model, normal), 1, 1}, panels);
+      afloat.add(body, tabulated, {normal, floatingHeight(body.model, normal), 1, 1}, panels);
       const Immersion at = immersionOf(body.model, {normal, 0, 1, 1});
       const double depth = 0.1 + 1.4 * (i + 0.5) / poses;
-      anywhere.add(body, {normal, at.low + depth * at.size(), 1, 1}, panels);
+      anywhere.add(body, tabulated, {normal, at.low + depth * at.size(), 1, 1}, panels);
     }
     print(lineOf(body.shape, afloat, anywhere));
     append(afloat, all_afloat);

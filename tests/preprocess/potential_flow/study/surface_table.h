@@ -19,7 +19,8 @@ double largestError(const Matrix6& inertia, const Matrix6& reference);
 double floatingHeight(const SurfaceModel& model, const Vector3& normal);
 
 /// The wetted inertia of the runtime against the image, as Markdown: errors of the total inertia
-/// over `poses` random attitudes of each shape, afloat and at random depths.
-std::string surfaceTable(int poses, int panels);
+/// over `poses` random attitudes of each shape, afloat and at random depths, without a waterline
+/// table and with one of so many subdivisions.
+std::string surfaceTable(int poses, int panels, int subdivisions);
 
 }  // namespace ambient::study

@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/builder/shape_builder.h"
+#include "preprocess/builder/waterline_builder.h"
+#include "preprocess/shape/shape_reader.h"
+#include "tests/bullet_ambient/fluid_body/example_body.h"
+#include "tests/support/floating_runs.h"
+
+namespace ambient {
+namespace {
+
+FluidBody bodyOf(const std::string& shape, int subdivisions) {
+  ShapeBuildSettings settings;
+  settings.flow.max_panels = 1200;
+  settings.waterline_subdivisions = subdivisions;
+  return buildShape(readShape(nlohmann::json::parse(shape), "", "shape.json"), settings).body;
+}
+
+constexpr const char* kCube = R"({"type": "box", "size": [1, 1, 1], "faces": 300})";
+constexpr const char* kBarge = R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})";
+
+/// Added mass of a body half in the water, its z axis up.
+Matrix6 halfSubmerged(const FluidBody& body) {
+  test::FloatingDef def;
+  def.shape = body;
+  const test::FloatingRun run(def);
+  return run.model().wetted->inertia(run.immersion());
+}
+
+// By Capytaine 3.0 at infinite frequency, its finer meshes: heave, roll, sway and surge.
+TEST(Waterline, AddedMassIsThatOfAnotherBoundaryElementMethod) {
+  const auto halfSubmergedWithTable = [](const char* shape, int panels) {
+    FluidBody body = bodyOf(shape, 0);
+    body.waterline = makeWaterlineTable(body, {1, panels, 0});
+    return halfSubmerged(body);
+  };
+  const Matrix6 cube = halfSubmergedWithTable(kCube, 600);
+  EXPECT_NEAR(cube(5, 5), 0.3213, 0.01 * 0.3213);
+  EXPECT_NEAR(cube(3, 3), 0.1588, 0.03 * 0.1588);
+  EXPECT_NEAR(cube(0, 0), 0.0201, 0.05 * 0.0201);
+  const Matrix6 barge = halfSubmergedWithTable(kBarge, 350);
+  EXPECT_NEAR(barge(5, 5), 0.7837, 0.01 * 0.7837);
+  EXPECT_NEAR(barge(0, 0), 0.0268, 0.05 * 0.0268);
+  EXPECT_NEAR(barge(1, 1), 0.1610, 0.02 * 0.1610);
+  EXPECT_NEAR(barge(4, 4), 0.0958, 0.05 * 0.0958);
+}
+
+TEST(Waterline, TheTableIsTheSameOnAnyNumberOfThreads) {
+  const FluidBody body = bodyOf(kBarge, 0);
+  WaterlineSettings settings{1, 100, 1};
+  const WaterlineTable one = makeWaterlineTable(body, settings);
+  settings.threads = 3;
+  EXPECT_EQ(makeWaterlineTable(body, settings).corrections, one.corrections);
+}
+
+TEST(Waterline, SymmetriesOfTheBodyAreThoseOfTheTable) {
+  const FluidBody body = bodyOf(kBarge, 0);
+  const WaterlineTable table = makeWaterlineTable(body, {2, 100, 0});
+  const OctahedralLattice lattice(2);
+  const Vector6 mirror = (Vector6() << 1, -1, -1, -1, 1, 1).finished();
+  const auto at = [&](const Vector3& direction, std::size_t immersion) -> const Matrix6& {
+    int node = 0;
+    while (lattice.direction(node) != direction) ++node;
+    return table.corrections[node * table.immersions.size() + immersion];
+  };
+  for (std::size_t i = 0; i < table.immersions.size(); ++i) {
+    const Matrix6& one = at({1, 0, 0}, i);
+    const Matrix6 other = mirror.asDiagonal() * at({-1, 0, 0}, i) * mirror.asDiagonal();
+    EXPECT_LT((one - other).norm(), 1e-12 * (1e-3 + one.norm()));
+  }
+}
+
+TEST(Waterline, SaysWhatCannotHaveATable) {
+  const auto refusal = [](const char* shape, int subdivisions) {
+    return test::refusalOf([&] { bodyOf(shape, subdivisions); });
+  };
+  EXPECT_EQ(refusal(R"({"type": "sheet", "size": [1, 1]})", 1),
+            "shape.json: a sheet cannot have a waterline table");
+  EXPECT_EQ(refusal(R"({"type": "sphere", "radius": 1})", 1),
+            "shape.json: a sphere needs no waterline table: all have the same one");
+  EXPECT_EQ(refusal(kCube, 17),
+            "shape.json: waterline subdivisions = 17 is not between 0 (no table) and 16");
+}
+
+}  // namespace
+}  // namespace ambient
