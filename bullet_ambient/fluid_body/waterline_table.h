@@ -14,8 +14,8 @@ struct WaterlineTable {
 
   /// Of the lattice of the surface's normals in F; 0: there is no table.
   int subdivisions = 0;
-  /// Depth of the lowest point over the height of the body, ascending, in (0, kDeep); there is
-  /// nothing lacking at 0 and at kDeep.
+  /// Depth of the lowest point over the height of the body, ascending, in (0, kDeep); at
+  /// kDeep there is nothing lacking.
   std::vector<double> immersions;
   /// Symmetric; of each normal in turn those at all immersions.
   std::vector<Matrix6> corrections;

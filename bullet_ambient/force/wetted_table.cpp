@@ -8,6 +8,22 @@ namespace {
 
 double immersionOf(const Immersion& at) { return at.draught() / at.size(); }
 
+/// A body that has just touched the water, less deep than the first node of its table: the added
+/// mass is that at the node, less with the square of the depth, as of a wedge.
+struct Touch {
+  Immersion at;
+  double share = 1;  ///< of the added mass there
+  double slope = 0;  ///< of the share by the height of the plane [1/m]
+
+  Touch(const Immersion& immersion, double first_node) : at(immersion) {
+    const double draught = first_node * at.size(), way = at.draught() / draught;
+    if (!(way < 1)) return;
+    at.plane.height = at.low + draught;
+    share = way * way;
+    slope = 2 * way / draught;
+  }
+};
+
 /// Where the added mass changes with the depth.
 Vector3 placeOfChange(const WetVolume& wet) {
   return wet.waterplane.area > 0 ? wet.waterplane.centroid : Vector3(wet.moment / wet.volume);
@@ -21,12 +37,11 @@ WettedTable::WettedTable(std::shared_ptr<const FluidBody> body,
       body_(std::move(body)),
       lattice_(body_->waterline.subdivisions),
       nodes_(body_->waterline.immersions) {
-  nodes_.insert(nodes_.begin(), 0);
   nodes_.push_back(WaterlineTable::kDeep);
 }
 
 // A cubic between two nodes, whose slopes there are those of the parabola through a node and its
-// neighbours; at the first node that of the chord, at the last one 0.
+// neighbours; at the first node that of the chord, at the last one 0. @pre not above the first node
 WettedTable::Weights WettedTable::weightsAt(double immersion) const noexcept {
   const auto next = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, immersion);
   const auto k = static_cast<int>(next - nodes_.begin()) - 1;
@@ -61,28 +76,35 @@ WettedTable::Weights WettedTable::weightsAt(double immersion) const noexcept {
 Matrix6 WettedTable::interpolate(const Vector3& normal, int first,
                                  const double (&weights)[4]) const noexcept {
   const std::vector<Matrix6>& corrections = body_->waterline.corrections;
-  const auto count = static_cast<int>(nodes_.size()) - 2;
+  const auto count = static_cast<int>(nodes_.size()) - 1;  // the last one has no correction
   const OctahedralLattice::Place place = lattice_.placeOf(normal);
   Matrix6 sum = Matrix6::Zero();
   for (int corner = 0; corner < 3; ++corner)
     for (int i = 0; i < 4; ++i) {
-      const int immersion = first + i - 1;  // the first and the last node have no correction
-      if (immersion < 0 || immersion >= count) continue;
+      const int node = first + i;
+      if (node < 0 || node >= count) continue;
       sum += place.share[corner] * weights[i] *
-             corrections[static_cast<std::size_t>(place.node[corner] * count + immersion)];
+             corrections[static_cast<std::size_t>(place.node[corner] * count + node)];
     }
   return sum;
 }
 
 Matrix6 WettedTable::inertiaAt(const Immersion& at) const noexcept {
-  const Weights weights = weightsAt(immersionOf(at));
-  return WettedParts::inertiaAt(at) + interpolate(at.plane.normal, weights.first, weights.of_value);
+  const Touch touch(at, nodes_.front());
+  const Weights weights = weightsAt(immersionOf(touch.at));
+  return touch.share * (WettedParts::inertiaAt(touch.at) +
+                        interpolate(at.plane.normal, weights.first, weights.of_value));
 }
 
 InertiaGradient WettedTable::gradientAt(const Immersion& at, const Twist& twist) const noexcept {
-  InertiaGradient gradient = WettedParts::gradientAt(at, twist);
-  if (!(at.wet.volume > 0)) return gradient;
+  if (!(at.wet.volume > 0)) return {};
   const Vector6 x = twist.vector();
+  const Touch touch(at, nodes_.front());
+  if (touch.slope > 0) {
+    const double by_height = 0.5 * touch.slope / touch.share * x.dot(inertiaAt(at) * x);
+    return {by_height, -by_height * placeOfChange(at.wet)};
+  }
+  InertiaGradient gradient = WettedParts::gradientAt(at, twist);
   const Weights weights = weightsAt(immersionOf(at));
   const Matrix6 slope = interpolate(at.plane.normal, weights.first, weights.of_slope);
   const double by_height = 0.5 * x.dot(slope * x) / at.size();

@@ -29,7 +29,7 @@ class WettedTable final : public WettedParts {
 
   std::shared_ptr<const FluidBody> body_;
   OctahedralLattice lattice_;
-  std::vector<double> nodes_;  ///< immersions of the table, and where it ends on both sides
+  std::vector<double> nodes_;  ///< immersions of the table, and where it ends
 };
 
 }  // namespace ambient

@@ -21,8 +21,8 @@ namespace {
 
 using Eigen::Matrix3d;
 
-// Chosen on a cube, a box, a cylinder, an ellipsoid and a hull; docs/water.md.
-const std::vector<double> kImmersions = {0.02, 0.08, 0.28, 0.4, 0.55, 0.85, 1, 1.3, 2.2};
+// Chosen on a cube, a box, a cylinder, an ellipsoid and a hull; the first ones for wedges.
+const std::vector<double> kImmersions = {0.05, 0.1, 0.17, 0.28, 0.4, 0.55, 0.85, 1, 1.3, 2.2};
 
 TriangleMesh surfaceOf(const FluidBody& body) {
   TriangleMesh mesh;

@@ -15,9 +15,9 @@ struct WaterlineSettings {
 };
 
 /// What the parts of a body's added mass lack at the surface of still water, in attitudes all
-/// around and at nine immersions; docs/theory.md eq. (61a). Attitudes that symmetries of the body
+/// around and at ten immersions; docs/theory.md eq. (61a). Attitudes that symmetries of the body
 /// map to each other are solved once. Cost: 0.1 to 0.2 s of one core for each attitude and
-/// immersion, by default 66 times 9 of them, 15 times 9 of a body with three planes of symmetry.
+/// immersion, by default 66 times 10 of them, 15 times 10 of a body with three planes of symmetry.
 /// @pre the body is no sheet and no sphere, and has parts of its added mass
 /// @throws std::runtime_error if a flow cannot be solved, with the reason.
 WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings& settings);

@@ -39,6 +39,13 @@ btRigidBody& addBody(const FallDef& def, double height, test::FluidWorld& fluid)
 
 }  // namespace
 
+double momentumOf(const SurfaceModel& model, const RigidState& state) {
+  const Matrix3 R = state.orientation.toRotationMatrix();
+  const SurfacePlane plane = seenFrom({Vector3::UnitZ(), 0, 1, 1}, R, state.position);
+  const Matrix6 K = inertiaAt(model, immersionOf(model, plane)).inertia;
+  return -(R * Twist::fromVector(K * state.twist.vector()).linear).z();
+}
+
 std::vector<FallStep> fallIntoWater(const FallDef& def) {
   test::FluidWorld fluid;
   fluid.world.setGravity({0, 0, test::bt(-kLittleGravity)});
@@ -60,7 +67,7 @@ std::vector<FallStep> fallIntoWater(const FallDef& def) {
     fluid.step(def.time_step);
     const double middle = 0.5 * (before + speed());
     const double force = mass * (before - speed()) / def.time_step;
-    steps.push_back({draught(), speed(), force / (kDensity * middle * middle)});
+    steps.push_back({draught(), readState(body), force / (kDensity * middle * middle)});
   }
   return steps;
 }

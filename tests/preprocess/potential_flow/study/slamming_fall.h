@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/motion/rigid_state.h"
+#include "bullet_ambient/motion/surface_model.h"
 
 namespace ambient::study {
 
@@ -20,9 +22,12 @@ struct FallDef {
 /// A step: its mean force, and where the lowest point has come to.
 struct FallStep {
   double draught_after;  ///< [m]
-  double speed_after;    ///< down [m/s]
+  RigidState after;      ///< the water's surface is z = 0
   double force;          ///< upwards, over rho V^2, V in the middle [m^2]
 };
+
+/// Down, of body and water, per density; the model is that of the body [m^4/s].
+double momentumOf(const SurfaceModel& model, const RigidState& state);
 
 /// Until it is covered. @throws std::invalid_argument as AmbientRegistry::attach()
 std::vector<FallStep> fallIntoWater(const FallDef& def);

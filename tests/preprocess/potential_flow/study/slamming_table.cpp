@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/pi.h"
+#include "preprocess/builder/waterline_builder.h"
 #include "tests/preprocess/potential_flow/study/slamming_cases.h"
 #include "tests/preprocess/potential_flow/study/slamming_fall.h"
 #include "tests/reference/water_entry.h"
@@ -78,20 +79,23 @@ std::string wedgeTable(double length) {
   std::string table =
       "| deadrise | von Karman | Wagner | similarity | wedge's own K | the same, raised |";
   for (const double share : kShares) table += cellOf("here, to %.2f", share);
-  table += "\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const double share : kShares) table += cellOf("by its waterline table, to %.2f", share);
+  table += "\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const reference::WedgeForce& similar : reference::kSimilarWedges) {
     const double deadrise = similar.degrees * kPi / 180;
     const double own = 2 * reference::wedgeAddedMass(deadrise), rise = std::tan(deadrise);
     const SurfaceCase wedge = makeWedgeCase(deadrise, length);
+    const SurfaceCase tabulated = withWaterline(wedge, kDefaultWaterlineSubdivisions);
     table += "|" + cellOf("%.0f°", similar.degrees) +
              cellOf("%.1f", reference::karmanWedgeForce(deadrise)) +
              cellOf("%.1f", reference::wagnerWedgeForce(deadrise)) + cellOf("%.1f", similar.force) +
              cellOf("%.1f", own) + cellOf("%.1f", kRaise * kRaise * own);
-    for (const double share : kShares) {
-      const double draught = share * kHalfBreadth * rise;
-      const double K = heaveInertia(wedge.model, draught, EntrySurface::kRaised) / length;
-      table += cellOf("%.1f", 2 * K / (draught * draught));
-    }
+    for (const SurfaceCase& body : {wedge, tabulated})
+      for (const double share : kShares) {
+        const double draught = share * kHalfBreadth * rise;
+        const double K = heaveInertia(body.model, draught, EntrySurface::kRaised) / length;
+        table += cellOf("%.1f", 2 * K / (draught * draught));
+      }
     table += "\n";
   }
   return table;
@@ -111,9 +115,13 @@ std::string wedgeFallTable(double degrees, double length) {
     }
     table += "\n";
   };
+  const SurfaceCase tabulated = withWaterline(wedge, kDefaultWaterlineSubdivisions);
   for (const EntrySurface surface : {EntrySurface::kUndisturbed, EntrySurface::kRaised})
     line(nameOf(surface),
          [&](double draught) { return slammingForce(wedge.model, draught, surface); });
+  line("by its waterline table", [&](double draught) {
+    return slammingForce(tabulated.model, draught, EntrySurface::kRaised);
+  });
   const auto fallLine = [&](const std::string& name, double time_step, bool has_loads) {
     const std::vector<FallStep> fall =
         fallIntoWater({wedge.model.shape, 10 * height, time_step, has_loads});
