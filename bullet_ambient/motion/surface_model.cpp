@@ -66,7 +66,7 @@ SurfaceModel makeSurfaceModel(const SurfaceModelDef& def, LoadTables& tables) {
   if (isFeltAbove(def)) model.loads_above = partLoads(def, def.above, tables);
   model.radius = radiusOf(*def.shape, def.fluid_frame);
   constexpr double kHeaveOfParts = 1.13;
-  if (model.hull) model.heave_factor = kHeaveOfParts;
+  if (model.hull && def.shape->waterline.empty()) model.heave_factor = kHeaveOfParts;
   model.wave_damping = def.wave_damping;
   return model;
 }

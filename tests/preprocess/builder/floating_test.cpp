@@ -4,13 +4,16 @@
 
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/shape/shape_reader.h"
-#include "tests/support/floating_runs.h"
+#include "tests/preprocess/builder/floating_swing.h"
 
 namespace ambient {
 namespace {
 
+using test::expectSwing;
+using test::floatingDef;
 using test::FloatingDef;
 using test::FloatingRun;
+using test::swingOf;
 
 FluidBody bodyOf(const std::string& shape) {
   ShapeBuildSettings settings;
@@ -50,41 +53,6 @@ TEST(Floating, AddedMassIsThatOfImageBoundaryElementsAndItsKnownError) {
     // Without the weights it would be half of that of the body in unbounded water.
     EXPECT_NEAR(K(5, 5) / (0.5 * body.added_mass(5, 5)), 0.88, 0.05);
   }
-}
-
-struct Swing {
-  double extremes[4];
-  double period;
-};
-
-template <class Value>
-Swing swingOf(FloatingRun& run, double time, const Value& value) {
-  constexpr double kStep = 1 / 240.0;
-  const double start = value();
-  std::vector<double> signal;
-  for (int i = 0; i * kStep < time; ++i) {
-    signal.push_back(value() / start);
-    run.step(kStep);
-  }
-  const auto extremes = test::extremesOf(signal, kStep);
-  EXPECT_GE(extremes.size(), 4u);
-  Swing swing{};
-  for (std::size_t i = 0; i < 4 && i < extremes.size(); ++i) swing.extremes[i] = extremes[i].value;
-  if (extremes.size() >= 4) swing.period = extremes[2].time - extremes[0].time;
-  return swing;
-}
-
-void expectSwing(const Swing& swing, const Swing& theory, double period_error) {
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(swing.extremes[i], theory.extremes[i], 0.06) << i;
-  EXPECT_NEAR(swing.period, theory.period, period_error * theory.period);
-}
-
-/// Gyration 0.4 of the widths B_i = sqrt(12 I_i / A_w), centre of mass in the waterline.
-FloatingDef floatingDef(const FluidBody& body, double length, double breadth) {
-  FloatingDef def;
-  def.shape = body;
-  def.gyration = 0.4 * Vector3(breadth, length, length);
-  return def;
 }
 
 TEST(Floating, HeavesAsLinearTheorySays) {

@@ -8,7 +8,7 @@
 #include "preprocess/builder/waterline_builder.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
-#include "tests/support/floating_runs.h"
+#include "tests/preprocess/builder/floating_swing.h"
 
 namespace ambient {
 namespace {
@@ -47,6 +47,28 @@ TEST(Waterline, AddedMassIsThatOfAnotherBoundaryElementMethod) {
   EXPECT_NEAR(barge(0, 0), 0.0268, 0.05 * 0.0268);
   EXPECT_NEAR(barge(1, 1), 0.1610, 0.02 * 0.1610);
   EXPECT_NEAR(barge(4, 4), 0.0958, 0.05 * 0.0958);
+}
+
+// Cummins' equation with Capytaine's coefficients, as in floating_test.cpp, where periods are
+// within 4 %.
+TEST(Waterline, PeriodsAreThoseOfLinearTheory) {
+  FluidBody body = bodyOf(kBarge, 0);
+  body.waterline = makeWaterlineTable(body, {2, 350, 0});
+  const double root = std::sqrt(std::sqrt(2.0) / 9.81);
+  test::FloatingRun heave(test::floatingDef(body, 2, 1));
+  heave.state.position.z() = 0.01;
+  test::expectSwing(test::swingOf(heave, 4, [&] { return heave.state.position.z(); }),
+                    {{-0.82, 0.52, -0.33, 0.22}, 4.12 * root}, 0.02);
+  const auto tilt = [](test::FloatingRun& run, int axis) {
+    return [&run, axis] { return run.state.orientation.toRotationMatrix()(2, axis); };
+  };
+  test::FloatingRun roll(test::floatingDef(body, 2, 1)), pitch(test::floatingDef(body, 2, 1));
+  roll.state.orientation = Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX());
+  test::expectSwing(test::swingOf(roll, 5, tilt(roll, 1)),
+                    {{-1.00, 0.99, -0.98, 0.97}, 5.37 * root}, 0.02);
+  pitch.state.orientation = Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY());
+  test::expectSwing(test::swingOf(pitch, 5, tilt(pitch, 0)),
+                    {{-0.97, 0.90, -0.83, 0.77}, 4.75 * root}, 0.02);
 }
 
 TEST(Waterline, TheTableIsTheSameOnAnyNumberOfThreads) {
