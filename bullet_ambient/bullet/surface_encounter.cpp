@@ -132,6 +132,7 @@ Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
   Twist relative = state.twist;
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
+  ambient.encounter.twist_before_rows = x;
   WaveMemory& waves = ambient.encounter.waves_with_rows;
   waves = ambient.encounter.waves;
   meetModes(modes, R, waves);
@@ -170,15 +171,64 @@ void freezeAsMet(AmbientBody& ambient, int media) noexcept {
   ambient.is_frozen = true;
 }
 
+namespace {
+
+/// Weight and buoyancy of a body, in B.
+struct Fall {
+  Vector6 lift;          ///< of the water
+  Vector6 wrench;        ///< of both
+  double potential = 0;  ///< of both [J]
+
+  /// @param mass less that of the fluid above that the body displaces [kg]
+  Fall(const SurfaceStand& stand, double mass)
+      : lift(hydrostaticWrench(stand.wet, stand.plane).vector()), wrench(lift) {
+    const SurfacePlane& plane = stand.plane;
+    wrench.tail<3>() -= mass * plane.gravity * plane.normal;
+    potential = hydrostaticEnergy(stand.wet, plane) - mass * plane.gravity * plane.height;
+  }
+};
+
+struct RowStep {
+  Fall before, after;
+  const Matrix6& inverse;  ///< of the inertia after it
+  Vector6 x_before;
+  double duration;
+};
+
+/// The buoyancy of the start has acted over the whole step, and the body has come to where it is
+/// another one: gives back the energy that weight and water did not have, docs/theory.md eq. (68a).
+Vector6 withinPotential(const RowStep& step, const Vector6& x) {
+  const Fall &before = step.before, &after = step.after;
+  const double given = step.duration / 2 * before.wrench.dot(step.x_before + x);
+  const double excess = given - (before.potential - after.potential);
+  const Vector6 along = before.lift + after.lift;
+  const double rate = along.dot(x);
+  if (!(excess > 0) || rate == 0) return x;
+  const Vector6 response = step.inverse * along;
+  const double per_part = along.dot(response), square = rate * rate - 2 * per_part * excess;
+  const double part =
+      square > 0 ? 2 * excess / (std::abs(rate) + std::sqrt(square)) : std::abs(rate) / per_part;
+  return x - std::copysign(part, rate) * response;
+}
+
+}  // namespace
+
 Vector6 passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes, double duration) noexcept {
-  const Matrix6 before = ambient.surface()->stand.inertia;  // since freezeAtSurface()
+  const SurfaceModel& model = ambient.surface()->model;
+  const SurfaceStand& stand = ambient.surface()->stand;  // since freezeAtSurface()
+  const Matrix6 inertia_before = stand.inertia;
+  const double mass = model.above.mass - model.above.displaced_mass;
+  const Fall fall_before(stand, mass);
   const SurfaceStand& after = standAfter(ambient, duration);
   if (axes == Axes::kLocked) {
-    const double had = x.dot(before * x), has = x.dot(after.inertia * x);
+    const double had = x.dot(inertia_before * x), has = x.dot(after.inertia * x);
     return has > had ? Vector6(std::sqrt(had / has) * x) : x;
   }
-  const SurfaceModel& model = ambient.surface()->model;
-  return passSurface({model, before, after, duration, gradientAt(model, after, x)}, x);
+  const Vector6 moved = withinPotential({fall_before, Fall(after, mass), after.inverse,
+                                         ambient.encounter.twist_before_rows, duration},
+                                        x);
+  return passSurface({model, inertia_before, after, duration, gradientAt(model, after, moved)},
+                     moved);
 }
 
 bool mayRestAtSurface(AmbientBody& ambient) noexcept {

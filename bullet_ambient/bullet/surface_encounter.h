@@ -47,8 +47,9 @@ struct SurfaceEncounter {
   int media = -1;        ///< which of AmbientBody::surfaces; -1: the surface is far
   SurfacePlane plane_W;  ///< at the start of the step
   Vector3 velocity_above = Vector3::Zero();
-  WaveMemory waves;            ///< that the body has made
-  WaveMemory waves_with_rows;  ///< after the step, if rows move the body
+  WaveMemory waves;                             ///< that the body has made
+  WaveMemory waves_with_rows;                   ///< after the step, if rows move the body
+  Vector6 twist_before_rows = Vector6::Zero();  ///< in B, relative to the water
   /// In B, at the pose where the last flight or step with rows ended: not where Bullet has rounded
   /// it to.
   std::optional<SurfacePlane> met_B;
@@ -86,9 +87,9 @@ void stiffenForRows(AmbientBody& ambient, double duration, Complaints& complaint
 /// @pre `met_B` is known; `media` is one of the body's surfaces
 void freezeAsMet(AmbientBody& ambient, int media) noexcept;
 
-/// After Bullet has moved a body with rows: its twist in B, relative to the water, after the change
-/// of its inertia on the way. With locked axes, it loses what energy the change would give it, and
-/// nothing else.
+/// After Bullet has moved a body with rows: its twist in B, relative to the water, without the
+/// energy that its buoyancy did not have, and after the change of its inertia on the way. With
+/// locked axes, it loses what energy the change would give it, and nothing else.
 enum class Axes { kFree, kLocked };
 Vector6 passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes, double duration) noexcept;
 
