@@ -61,6 +61,7 @@ set(BULLET_AMBIENT_PUBLIC_HEADERS
   fluid_body/fluid_body_file.h
   fluid_body/load_fluid_body.h
   fluid_body/load_level.h
+  fluid_body/waterline_table.h
   force/airy_waves.h
   force/face_loads.h
   force/flow_settings.h

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bullet_ambient/fluid_body/octahedral_lattice.h"
+#include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
 

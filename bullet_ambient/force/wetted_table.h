@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/force/wetted_parts.h"
 
 namespace ambient {

@@ -8,7 +8,6 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/fnv1a.h"
 #include "preprocess/builder/known_shape.h"
-#include "preprocess/builder/waterline_builder.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/triangle_quality.h"
@@ -16,6 +15,7 @@
 #include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_mesh.h"
+#include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient {
 namespace {

@@ -10,7 +10,6 @@
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
-#include "preprocess/builder/waterline_builder.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/input_shape.h"
@@ -18,6 +17,7 @@
 #include "preprocess/command_line/output_place.h"
 #include "preprocess/reduced_loads/form_levels.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
+#include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient {
 namespace {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/plain_text.h"
-#include "preprocess/builder/waterline_builder.h"
 #include "preprocess/command_line/closest_word.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
+#include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient {
 namespace {

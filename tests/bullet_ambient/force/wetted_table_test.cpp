@@ -6,6 +6,7 @@
 #include <memory>
 #include <tuple>
 
+#include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/force/load_tables.h"
 #include "tests/support/part_bodies.h"
 #include "tests/support/random_bodies.h"

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "preprocess/builder/waterline_builder.h"
+#include "preprocess/waterline/waterline_builder.h"
 #include "tests/preprocess/potential_flow/study/surface_table.h"
 
 using ambient::kDefaultWaterlineSubdivisions;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/pi.h"
-#include "preprocess/builder/waterline_builder.h"
+#include "preprocess/waterline/waterline_builder.h"
 #include "tests/preprocess/potential_flow/study/slamming_cases.h"
 #include "tests/preprocess/potential_flow/study/slamming_fall.h"
 #include "tests/reference/water_entry.h"

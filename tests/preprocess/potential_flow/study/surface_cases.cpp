@@ -6,10 +6,10 @@
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/builder/waterline_builder.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/mesh/weld_vertices.h"
+#include "preprocess/waterline/waterline_builder.h"
 #include "tests/preprocess/potential_flow/study/study_meshes.h"
 
 namespace ambient::study {

@@ -9,7 +9,7 @@
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
-#include "preprocess/builder/waterline_builder.h"
+#include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient::study {
 namespace {

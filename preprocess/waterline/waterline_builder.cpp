@@ -1,19 +1,20 @@
-#include "preprocess/builder/waterline_builder.h"
+#include "preprocess/waterline/waterline_builder.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
+#include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/fluid_body/packed_hull.h"
 #include "bullet_ambient/fluid_body/packed_parts.h"
 #include "bullet_ambient/force/wetted_parts.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/mesh_coarsening.h"
 #include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/potential_flow/image_flow.h"
 #include "preprocess/potential_flow/parallel_for.h"
+#include "preprocess/potential_flow/potential_flow.h"
 #include "preprocess/potential_flow/shape_symmetry.h"
 
 namespace ambient {
@@ -37,7 +38,7 @@ TriangleMesh surfaceOf(const FluidBody& body) {
 
 /// What panels are cut from.
 TriangleMesh coarseSurfaceOf(const FluidBody& body, int panels) {
-  const TriangleMesh merged = mergeFlatTriangles(surfaceOf(body), false, kDefaultPanels);
+  const TriangleMesh merged = mergeFlatTriangles(surfaceOf(body), false, kMostDensePanels);
   return merged.triangleCount() > panels ? coarsened(merged, {0, panels, 0}) : merged;
 }
 

@@ -1,12 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "preprocess/builder/shape_builder.h"
-#include "preprocess/builder/waterline_builder.h"
 #include "preprocess/shape/shape_reader.h"
+#include "preprocess/waterline/waterline_builder.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/preprocess/builder/floating_swing.h"
 
