@@ -76,15 +76,14 @@ WettedTable::Weights WettedTable::weightsAt(double immersion) const noexcept {
 Matrix6 WettedTable::interpolate(const Vector3& normal, int first,
                                  const double (&weights)[4]) const noexcept {
   const std::vector<Matrix6>& corrections = body_->waterline.corrections;
-  const auto count = static_cast<int>(nodes_.size()) - 1;  // the last one has no correction
+  const std::size_t count = nodes_.size() - 1;  // the last one has no correction
   const OctahedralLattice::Place place = lattice_.placeOf(normal);
   Matrix6 sum = Matrix6::Zero();
   for (int corner = 0; corner < 3; ++corner)
     for (int i = 0; i < 4; ++i) {
       const int node = first + i;
-      if (node < 0 || node >= count) continue;
-      sum += place.share[corner] * weights[i] *
-             corrections[static_cast<std::size_t>(place.node[corner] * count + node)];
+      if (node < 0 || node >= static_cast<int>(count)) continue;
+      sum += place.share[corner] * weights[i] * corrections[place.node[corner] * count + node];
     }
   return sum;
 }

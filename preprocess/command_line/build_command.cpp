@@ -106,8 +106,7 @@ void requireValues(const BuildArguments& arguments) {
   requireDivisions("--panels", arguments.panels);
   requireThreads(arguments.threads);
   if (arguments.waterline < 0 || arguments.waterline > kMostWaterlineSubdivisions)
-    raiseUsageError("--waterline-table", arguments.waterline, " is not between 0 (none) and ",
-                    kMostWaterlineSubdivisions);
+    raiseUsageError("--waterline-table", "its N is not between 1 and ", kMostWaterlineSubdivisions);
   if (arguments.memory) requirePositive("--memory", *arguments.memory, " GB");
   for (const int clusters : arguments.levels) {
     if (clusters < kFewestClusters || clusters > kMostClusters)

@@ -36,6 +36,32 @@ void addMeshOptions(CLI::App& command, Arguments& arguments) {
       ->type_name("[SIZE]");
 }
 
+/// How the flow around a mesh is solved.
+void addFlowOptions(CLI::App& build, BuildArguments& arguments) {
+  build
+      .add_option("--panels", arguments.panels,
+                  "Panels for the flow, at most; the faces stay those of the mesh (default 4200; "
+                  "0: the triangles of the mesh)")
+      ->type_name("N");
+  build.add_option("--threads", arguments.threads, "0: all cores (default)")->type_name("N");
+  build
+      .add_option("--solver", arguments.solver,
+                  "dense or hierarchical (default: hierarchical above 4200 panels)")
+      ->type_name("KIND");
+  build
+      .add_option("--memory", arguments.memory,
+                  "For the flow, at most (default: what the machine has available)")
+      ->type_name("GB");
+  build
+      .add_flag("--waterline-table{" + std::to_string(kDefaultWaterlineSubdivisions) + "}",
+                arguments.waterline,
+                "Solve the flow at the surface of water too, in attitudes of 4 N^2 + 2 "
+                "directions (default none; without =N: 4)")
+      ->type_name("N");
+  build.add_flag("--no-tables", arguments.no_tables,
+                 "Solve the flow around boxes, cylinders, capsules and cones too");
+}
+
 CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
   CLI::App* build = app.add_subcommand("build", "Makes an .ambient file from a mesh or a shape");
   build
@@ -74,28 +100,7 @@ CLI::App* addBuild(CLI::App& app, BuildArguments& arguments) {
       ->add_option("--separation-angle", arguments.separation_angle,
                    "For which the levels are fitted (default pi/2)")
       ->type_name("RAD");
-  build
-      ->add_option("--panels", arguments.panels,
-                   "Panels for the flow, at most; the faces stay those of the mesh (default 4200; "
-                   "0: the triangles of the mesh)")
-      ->type_name("N");
-  build->add_option("--threads", arguments.threads, "0: all cores (default)")->type_name("N");
-  build
-      ->add_option("--solver", arguments.solver,
-                   "dense or hierarchical (default: hierarchical above 4200 panels)")
-      ->type_name("KIND");
-  build
-      ->add_option("--memory", arguments.memory,
-                   "For the flow, at most (default: what the machine has available)")
-      ->type_name("GB");
-  build
-      ->add_flag("--waterline-table{" + std::to_string(kDefaultWaterlineSubdivisions) + "}",
-                 arguments.waterline,
-                 "Solve the flow at the surface of water too, in attitudes of 4 N^2 + 2 "
-                 "directions (default none; without =N: 4)")
-      ->type_name("N");
-  build->add_flag("--no-tables", arguments.no_tables,
-                  "Solve the flow around boxes, cylinders, capsules and cones too");
+  addFlowOptions(*build, arguments);
   build->add_flag("--no-margins", arguments.no_margins,
                   "Worlds: convex hulls and cones without their margins");
   build->add_flag("--rebuild", arguments.rebuild, "Build also where nothing has changed");
