@@ -31,6 +31,8 @@ std::uint64_t contentHash(const FluidBody& body) {
       append(column->data(), column->size());
   if (!body.drag.isZero(0)) append(body.drag.data(), 3);
   if (body.sphere_radius > 0) append(&body.sphere_radius, 1);
+  append(body.waterline.immersions.data(), body.waterline.immersions.size());
+  for (const Matrix6& correction : body.waterline.corrections) append(correction.data(), 36);
   return fnv1a64(bytes);
 }
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "bullet_ambient/fluid_body/content_hash.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
+#include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/random_bodies.h"
 
 namespace ambient {
@@ -45,6 +47,17 @@ TEST(SlipMatrix, GivesTheTangentialVelocityOfTheFluidAtEveryFace) {
 }
 
 TEST(SlipMatrix, OfNoFacesIsEmpty) { EXPECT_EQ(computeSlipMatrix(FaceTable{}).rows(), 0); }
+
+// Saved states of one do not fit the other.
+TEST(FluidBody, AWaterlineTableIsPartOfItsContent) {
+  FluidBody body = test::exampleBody();
+  const std::uint64_t without = contentHash(body);
+  body.waterline = {1, {0.5}, {6, body.added_mass}};
+  const std::uint64_t with = contentHash(body);
+  EXPECT_NE(with, without);
+  body.waterline.corrections[3](1, 2) += 1;
+  EXPECT_NE(contentHash(body), with);
+}
 
 }  // namespace
 }  // namespace ambient
