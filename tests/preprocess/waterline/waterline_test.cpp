@@ -72,6 +72,30 @@ TEST(Waterline, PeriodsAreThoseOfLinearTheory) {
                     {{-0.97, 0.90, -0.83, 0.77}, 4.75 * root}, 0.02);
 }
 
+// Dropped on an edge and pushed up from the depth, turning, in long steps and short ones.
+TEST(Waterline, ABodyWithATableGainsNoEnergy) {
+  FluidBody body = bodyOf(kBarge, 0);
+  body.waterline = makeWaterlineTable(body, {1, 100, 0});
+  for (const double gravity : {0.02, 0.5})
+    for (const double step : {1.0 / 30, 1.0 / 240})
+      for (const double height : {1.5, -2.0}) {
+        test::FloatingDef def;
+        def.shape = body;
+        def.specific_gravity = gravity;
+        test::FloatingRun run(def);
+        run.state.position.z() = height;
+        run.state.orientation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 0.3, 0).normalized());
+        run.state.twist = {{0.5, 1, -2}, {0.3, 0.2, 0}};
+        const double scale = (run.mass() + 1000 * body.volume) * 9.81;
+        double energy = run.energy();
+        for (int i = 0; i < 3 / step; ++i) {
+          run.step(step);
+          EXPECT_LE(run.energy() - energy, 1e-11 * scale) << gravity << ", " << step << ", " << i;
+          energy = run.energy();
+        }
+      }
+}
+
 TEST(Waterline, TheTableIsTheSameOnAnyNumberOfThreads) {
   const FluidBody body = bodyOf(kBarge, 0);
   WaterlineSettings settings{1, 100, 1};
