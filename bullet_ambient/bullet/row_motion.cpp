@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bullet_ambient/motion/row_velocity.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -40,7 +41,7 @@ std::optional<double> partOfWay(const RowMotion& rows, const RigidState& now, do
     part = std::clamp(gone.dot(way) / way.squaredNorm(), 0.0, 1.0);
   const bool is_beside = (gone - part * way).norm() > rounding;
   const bool is_turned =
-      start.orientation.angularDistance(now.orientation) > rows.turn + std::sqrt(kRounding);
+      angleBetween(start.orientation, now.orientation) > rows.turn + std::sqrt(kRounding);
   if (is_beside || is_turned) return std::nullopt;
   return part;
 }

@@ -6,6 +6,7 @@
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/fluid_body/plain_text.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
@@ -104,7 +105,7 @@ void checkMassDistribution(const MassDistribution& mass, const Checker& check, c
 
 /// Some length of the body [m].
 double sizeOf(const FluidBody& body) {
-  return std::max(std::sqrt(body.area), std::cbrt(body.volume));
+  return std::max(std::sqrt(body.area), portable::cbrt(body.volume));
 }
 
 void checkPlaces(const FluidBody& body, const Checker& check) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bullet_ambient/fluid_body/surface_triangles.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/single_precision.h"
 
@@ -83,7 +84,7 @@ Curvatures curvaturesOf(const SurfaceTriangles& mesh, const VertexNormals& norma
   }
   const Vector3 form = squares.inverse() * right;
   const double mean = (form[0] + form[2]) / 2;
-  const double spread = std::hypot((form[0] - form[2]) / 2, form[1]);
+  const double spread = portable::hypot((form[0] - form[2]) / 2, form[1]);
   if (!std::isfinite(mean) || !std::isfinite(spread)) return {};  // a triangle without area
   return {mean - spread, mean + spread};
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -63,9 +64,9 @@ WaterSample AiryWaves::sample(const Vector3& point_W, double time) const noexcep
   for (const Wave& wave : waves_) {
     const double angle =
         wave.wave_number * wave.direction.dot(carried) - wave.frequency * time + wave.phase;
-    const double a_cos = wave.amplitude * std::cos(angle);
-    const double a_sin = wave.amplitude * std::sin(angle);
-    const double rate = wave.frequency * std::exp(wave.wave_number * z);
+    const double a_cos = wave.amplitude * portable::cos(angle);
+    const double a_sin = wave.amplitude * portable::sin(angle);
+    const double rate = wave.frequency * portable::exp(wave.wave_number * z);
     water.height += a_cos;
     water.velocity += rate * (a_cos * wave.direction + a_sin * up);
     water.acceleration += wave.frequency * rate * (a_sin * wave.direction - a_cos * up);

@@ -7,6 +7,7 @@
 #include "bullet_ambient/force/skin_friction.h"
 #include "bullet_ambient/force/surface_plane.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 
 namespace ambient {
 namespace {
@@ -35,10 +36,10 @@ Wrench scaled(const double (&sums)[6], double factor) noexcept {
 }  // namespace
 
 double separationCosine(double separation_angle) {
-  const double right_angle = std::acos(0.0);
+  const double right_angle = portable::acos(0.0);
   const double rounding = 4 * std::numeric_limits<double>::epsilon();
   if (std::abs(separation_angle - right_angle) <= rounding) return 0;
-  return std::cos(separation_angle);
+  return portable::cos(separation_angle);
 }
 
 FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "bullet_ambient/force/instruction_set.h"
+#include "bullet_ambient/spatial/instruction_set.h"
 
 namespace ambient {
 

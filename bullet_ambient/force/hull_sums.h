@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/fluid_body/hull_block.h"
-#include "bullet_ambient/force/instruction_set.h"
+#include "bullet_ambient/spatial/instruction_set.h"
 
 namespace ambient {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "bullet_ambient/fluid_body/face_block.h"
-#include "bullet_ambient/force/instruction_set.h"
+#include "bullet_ambient/spatial/instruction_set.h"
 
 namespace ambient {
 

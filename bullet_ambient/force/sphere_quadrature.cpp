@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -26,9 +27,11 @@ class Meridian {
       : speed_(1 - share),
         spin_(share * sine, 0, share * cosine),
         cosine_sq_(separation_cosine * separation_cosine),
-        along_(std::cos(longitude), std::sin(longitude), 0) {}
+        along_(portable::cos(longitude), portable::sin(longitude), 0) {}
 
-  Vector3 normal(double angle) const { return std::sin(angle) * along_ + std::cos(angle) * kZ(); }
+  Vector3 normal(double angle) const {
+    return portable::sin(angle) * along_ + portable::cos(angle) * kZ();
+  }
 
   /// -u_s of eq. (12) and the normal part of u.
   Vector3 slip(const Vector3& n) const { return speed_ * (kZ() - n.z() * n) + spin_.cross(n); }
@@ -47,7 +50,7 @@ class Meridian {
     for (int k = 0; k < 8; ++k) {
       const double side = k < 4 ? -1 : 1;
       const double angle = middle + side * half * kPoints[k % 4];
-      const double area = half * kWeights[k % 4] * std::sin(angle) * (2 * kPi / kMeridians);
+      const double area = half * kWeights[k % 4] * portable::sin(angle) * (2 * kPi / kMeridians);
       const Vector3 n = normal(angle);
       const Vector3 t = slip(n);
       const double t_sq = t.squaredNorm();

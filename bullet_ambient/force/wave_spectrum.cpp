@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -32,12 +33,12 @@ void checkSpectrum(const WaveSpectrum& s) {
 }
 
 /// omega / omega_p below which a fully developed sea has the share u of its energy.
-double frequencyRatio(double u) { return std::pow(-0.8 * std::log(u), -0.25); }
+double frequencyRatio(double u) { return portable::pow(-0.8 * portable::log(u), -0.25); }
 
 /// By how much more energy there is than in a fully developed sea.
 double enhancement(double gamma, double frequency_ratio) {
   const double x = frequency_ratio - 1, width = x > 0 ? 0.09 : 0.07;
-  return std::pow(gamma, std::exp(-x * x / (2 * width * width)));
+  return portable::pow(gamma, portable::exp(-x * x / (2 * width * width)));
 }
 
 /// The energy over u, in equal cells of u: a smooth bounded function, and exact for gamma = 1.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/pi.h"
 
@@ -60,7 +61,7 @@ class Column {
     return (w + v) / (w / secant(i - 1) + v / secant(i));
   }
   Value atTouch(double depth) const {
-    const double part = std::pow(depth / kDepths[0], power_ - 1) / kDepths[0];
+    const double part = portable::pow(depth / kDepths[0], power_ - 1) / kDepths[0];
     return {values_[0] * depth * part, power_ * values_[0] * part};
   }
   // Beyond the table: the image is a dipole at twice the distance.

@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/force/surface_loads.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
@@ -67,7 +68,7 @@ void checkFrame(const FluidBody& body, const FrameOffset& frame) {
 // Float holds no body of which buoyancy acts farther away: 2^23 times its size.
 void checkLever(const FluidBody& body, const BodyModel& model) {
   constexpr double kSizes = 8388608;
-  const double size = std::max(std::sqrt(body.area), std::cbrt(body.volume));
+  const double size = std::max(std::sqrt(body.area), portable::cbrt(body.volume));
   const double lever = model.centre_of_volume.norm();
   if (model.displaced_mass > 0 && !(lever <= kSizes * size))
     reject(body, "distance of its centre of volume from the centre of mass [m]", lever,

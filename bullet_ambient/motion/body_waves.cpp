@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
+
 namespace ambient {
 namespace {
 
@@ -111,19 +113,21 @@ WaveModes waveModesOf(const WaveSource& source, const RestoringModes& restoring)
   const Scales k = scalesOf(source, restoring);
   const double area = source.wet.waterplane.area, gravity = source.plane.gravity;
   const double pull = source.plane.density * gravity;
+  const double log_per_depth = portable::log(k.per_depth);
+  const double log_steepness = portable::log(k.steepness);
   WaveModes modes;
   modes.heave.motion = restoring[0].motion;
   modes.heave.strength = source.damping * restoring[0].stiffness * 0.075 * k.per_depth *
-                         k.per_depth * std::pow(k.steepness, -0.63);
+                         k.per_depth * portable::exp(-0.63 * log_steepness);
   modes.heave.rate =
-      0.66 * std::pow(k.per_depth, 0.9) / std::cbrt(k.steepness) * std::sqrt(gravity / k.length);
+      0.66 * portable::exp(0.9 * log_per_depth - log_steepness / 3) * std::sqrt(gravity / k.length);
   modes.heave.loss = 1.5 * modes.heave.rate;
   for (std::size_t i = 0; i < 2; ++i) {
     const double dipole = restoring[i + 1].stiffness / pull;  // V GM
     WaveMode& mode = modes.tilt[i];
     mode.motion = restoring[i + 1].motion;
     mode.strength = source.damping * pull * dipole * dipole / (area * area) * 1.14 *
-                    std::pow(k.per_depth, 1.2) * std::pow(k.width[i], -2.6);
+                    portable::exp(1.2 * log_per_depth - 2.6 * portable::log(k.width[i]));
     mode.rate = 2.7 * std::sqrt(gravity / (k.width[i] * k.length));
     mode.loss = 1.12 * mode.rate;
   }

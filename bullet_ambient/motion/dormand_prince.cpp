@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/motion/integrators.h"
 #include "bullet_ambient/motion/momentum_equations.h"
+#include "bullet_ambient/spatial/elementary.h"
 
 namespace ambient {
 namespace {
@@ -129,7 +130,7 @@ FlightResult flyDormandPrince(const FlightTask& task, const RigidState& start,
     const double error = pair.attempt(taken);
     ++count.substeps;
     const double change =
-        std::clamp(kSafety * std::pow(error, -1.0 / 5), kLeastChange, kMostChange);
+        std::clamp(kSafety * portable::pow(error, -1.0 / 5), kLeastChange, kMostChange);
     if (error <= 1) {
       pair.accept(taken);
       left = is_last ? 0 : left - taken;

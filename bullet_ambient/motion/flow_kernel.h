@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/motion/spatial_lanes.h"
+#include "bullet_ambient/spatial/elementary.h"
 
 // See lanes.h for who may include this.
 
@@ -123,7 +124,7 @@ class MotionSeries {
   }
 
   static double reachOfTerm(int k, double excess) {
-    return excess > 1 ? ::pow(excess, -0.5 / k) : 1.0;
+    return excess > 1 ? portable::pow(excess, -0.5 / k) : 1.0;
   }
 
   const Inverse& inverse_;
@@ -156,8 +157,8 @@ Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duratio
   Lanes cosine = all(1), scale = all(0.5);
   for (int i = 0; i < kWidth; ++i) {
     if (!(angle[i] > 0)) continue;
-    cosine[i] = ::cos(angle[i] / 2);
-    scale[i] = ::sin(angle[i] / 2) / angle[i];
+    cosine[i] = portable::cos(angle[i] / 2);
+    scale[i] = portable::sin(angle[i] / 2) / angle[i];
   }
   const Vectors way_W = start.orientation.toWorld(duration * start.motion.twist.linear);
   const Spatials& m = start.motion.momentum;

@@ -2,14 +2,15 @@
 
 #include <cmath>
 
-#include "bullet_ambient/motion/rotation.h"
+#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {
 
 // Rotation by an angle about a unit axis.
 Matrix3 rotationAbout(const Vector3& axis, double angle) {
-  const double s = std::sin(angle), c = std::cos(angle);
+  const double s = portable::sin(angle), c = portable::cos(angle);
   const Vector3 n = s * axis, m = (1 - c) * axis;
   const double xy = m.x() * axis.y(), xz = m.x() * axis.z(), yz = m.y() * axis.z();
   Matrix3 R;
@@ -44,8 +45,8 @@ JointPosition movedInPlane(const Joint& joint, const JointPosition& position,
                            const double* velocity, double h) {
   const double half_turn = 0.5 * h * velocity[0];
   // Chord over arc; the series is exact to rounding where the quotient would lose digits.
-  const double chord =
-      std::abs(half_turn) < 1e-4 ? 1 - half_turn * half_turn / 6 : std::sin(half_turn) / half_turn;
+  const double chord = std::abs(half_turn) < 1e-4 ? 1 - half_turn * half_turn / 6
+                                                  : portable::sin(half_turn) / half_turn;
   const Vector3 way = rotationAbout(planeNormal(joint), position[0] + half_turn) *
                       (chord * h * planeVector(joint, velocity + 1));
   return {position[0] + 2 * half_turn, position[1] + wayAlong(joint, 1, way),

@@ -6,6 +6,7 @@
 #endif
 
 #include "bullet_ambient/force/double_lanes.h"
+#include "bullet_ambient/spatial/elementary.h"
 
 // One body per lane; the rules of double_lanes.h. No operation is fused and lanes do not mix: all
 // instruction sets give the same bits, whoever flies beside a body.
@@ -52,7 +53,7 @@ inline Lanes logarithmRatio(const Lanes& z) {
   Lanes ratio = 2 * scale * polynomial(kSeries, s * s);
   if (!anyOf(!(z <= all(kSmall)))) return ratio;
   for (int i = 0; i < kWidth; ++i)
-    if (!(z[i] <= kSmall)) ratio[i] = ::log1p(z[i]) / z[i];
+    if (!(z[i] <= kSmall)) ratio[i] = portable::log1p(z[i]) / z[i];
   return ratio;
 }
 
@@ -65,7 +66,7 @@ inline Lanes tangent(const Lanes& x) {
   Lanes t = x * polynomial(kSeries, x * x);
   if (!anyOf(!(x <= all(kSmall)))) return t;
   for (int i = 0; i < kWidth; ++i)
-    if (!(x[i] <= kSmall)) t[i] = ::tan(x[i]);
+    if (!(x[i] <= kSmall)) t[i] = portable::tan(x[i]);
   return t;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
+
 namespace ambient {
 namespace {
 
@@ -18,7 +20,7 @@ double jointSpin(const Joint& joint, const double* velocity) {
     case JointKind::kPlanar:
       return std::abs(velocity[0]);
     case JointKind::kSpherical:
-      return std::hypot(velocity[0], velocity[1], velocity[2]);
+      return portable::hypot(velocity[0], velocity[1], velocity[2]);
     default:
       return 0;
   }

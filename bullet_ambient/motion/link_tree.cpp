@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_ambient/motion/rotation.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/motion/spatial_lanes.h"
+#include "bullet_ambient/spatial/elementary.h"
 
 // See lanes.h for who may include this.
 
@@ -40,7 +41,7 @@ inline Vectors rotationVectors(const Orientations& q) {
     for (int i = 0; i < kWidth; ++i) {
       if (sine_sq[i] <= kSmall) continue;
       const double sine = ::sqrt(sine_sq[i]);
-      ratio[i] = ::atan2(sine, ::fabs(q.w[i])) / sine;
+      ratio[i] = portable::atan2(sine, ::fabs(q.w[i])) / sine;
     }
   }
   return (q.w < Lanes{} ? -2 * ratio : 2 * ratio) * q.u;

@@ -2,7 +2,7 @@
 
 #include "bullet_ambient/motion/integrators.h"
 #include "bullet_ambient/motion/kirchhoff.h"
-#include "bullet_ambient/motion/rotation.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
@@ -41,7 +42,7 @@ std::vector<double> computeTilt(const std::vector<Vector3>& normals, const Vecto
   std::vector<double> tilt;
   tilt.reserve(normals.size());
   for (const Vector3& normal : normals) {
-    const double wrapped = std::atan2(normal.dot(side), normal.dot(up));
+    const double wrapped = portable::atan2(normal.dot(side), normal.dot(up));
     const double previous = tilt.empty() ? wrapped : tilt.back();
     tilt.push_back(wrapped + 2 * kPi * std::round((previous - wrapped) / (2 * kPi)));
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bullet_ambient/spatial/rotation.h"
+
 namespace ambient {
 namespace {
 
@@ -13,7 +15,9 @@ MotionSample landingBetween(const MotionSample& above, const MotionSample& below
   MotionSample landing = above;
   landing.time += share * (below.time - above.time);
   landing.position += share * (below.position - above.position);
-  landing.orientation = above.orientation.slerp(share, below.orientation);
+  landing.orientation =
+      above.orientation *
+      rotationFromVector(share * rotationVector(above.orientation.conjugate() * below.orientation));
   landing.twist.linear += share * (below.twist.linear - above.twist.linear);
   landing.twist.angular += share * (below.twist.angular - above.twist.angular);
   return landing;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bullet_ambient/spatial/rotation.h"
 #include "demos/gltf/motion_keys.h"
 
 namespace ambient {
@@ -111,7 +112,7 @@ aiAnimation* makeAnimation(const Scene& scene, const std::vector<PreparedBody>& 
 
 Quaternion upToY(const Vector3& gravity) {
   const Vector3 up = gravity.isZero() ? Vector3::UnitZ() : Vector3(-gravity);
-  return Quaternion::FromTwoVectors(up, Vector3::UnitY());
+  return rotationBetween(up, Vector3::UnitY());
 }
 
 std::unique_ptr<aiScene> makeAssetScene(const Scene& scene, const std::vector<PreparedBody>& bodies,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "demos/scene/scene_checks.h"
 #include "demos/scene/scene_water.h"
@@ -127,13 +128,13 @@ void addLinks(std::size_t index, Scene& scene) {
 }  // namespace
 
 double JointDrive::positionAt(double time) const {
-  return position + amplitude * std::sin(2 * kPi * time / period + phase);
+  return position + amplitude * portable::sin(2 * kPi * time / period + phase);
 }
 
 double JointDrive::velocityAt(double time) const {
   if (velocity) return *velocity;
   const double rate = 2 * kPi / period;
-  return amplitude * rate * std::cos(rate * time + phase);
+  return amplitude * rate * portable::cos(rate * time + phase);
 }
 
 RigidPose RobotDef::pose() const {

@@ -4,6 +4,7 @@
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {
@@ -17,20 +18,6 @@ Vector3 hermite(const HermiteEnds& ends, double s) {
   const double t = 1 - s;
   return (1 + 2 * s) * t * t * ends.value_0 + s * t * t * ends.slope_0 +
          s * s * (3 - 2 * s) * ends.value_1 - s * s * t * ends.slope_1;
-}
-
-/// Rotation vector of a unit quaternion, length at most pi [rad].
-Vector3 rotationVector(const Quaternion& q) {
-  const double sine = q.vec().norm();
-  if (sine == 0) return Vector3::Zero();
-  const double sign = q.w() < 0 ? -1 : 1;
-  return 2 * std::atan2(sine, sign * q.w()) / sine * sign * q.vec();
-}
-
-Quaternion quaternionOf(const Vector3& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (angle == 0) return Quaternion::Identity();
-  return Quaternion(Eigen::AngleAxisd(angle, rotation_vector / angle));
 }
 
 /// The vector of the same rotation that is nearest to `guess`, full turns added.
@@ -47,8 +34,8 @@ Vector3 vectorRate(const Vector3& vector, const Vector3& w) {
   const double angle = vector.norm();
   constexpr double kSeriesBelow = 1e-2;  // the series is exact to 1e-17 there
   const double c = angle < kSeriesBelow
-                       ? 1.0 / 12 + angle * angle / 720 + std::pow(angle, 4) / 30240
-                       : 1 / (angle * angle) - 1 / (2 * angle * std::tan(angle / 2));
+                       ? 1.0 / 12 + angle * angle / 720 + portable::pow(angle, 4) / 30240
+                       : 1 / (angle * angle) - 1 / (2 * angle * portable::tan(angle / 2));
   const Matrix3 cross = crossMatrix(vector);
   return w + 0.5 * cross * w + c * cross * (cross * w);
 }
@@ -76,7 +63,7 @@ MotionSample interpolateMotion(const MotionSample& from, const MotionSample& to,
   const Vector3 turned = vector.norm() > kPi
                              ? Vector3(s * vector)
                              : hermite({Vector3::Zero(), w_0, vector, vectorRate(vector, w_1)}, s);
-  between.orientation = (from.orientation * quaternionOf(turned)).normalized();
+  between.orientation = (from.orientation * rotationFromVector(turned)).normalized();
   return between;
 }
 

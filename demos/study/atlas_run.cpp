@@ -9,6 +9,7 @@
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_body.h"
 #include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 
@@ -18,9 +19,12 @@ namespace {
 constexpr double kGravity = 9.81;
 
 Vector3 randomDirection(std::mt19937& engine) {
-  std::normal_distribution<double> normal;
-  const double x = normal(engine), y = normal(engine), z = normal(engine);
-  return Vector3(x, y, z).normalized();
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (;;) {
+    const double x = coordinate(engine), y = coordinate(engine), z = coordinate(engine);
+    const double length_sq = x * x + y * y + z * z;
+    if (length_sq > 0.01 && length_sq < 1) return Vector3(x, y, z) / std::sqrt(length_sq);
+  }
 }
 
 // The world of one case; gone with it.
@@ -70,7 +74,7 @@ class AtlasWorld {
 
  private:
   void addBody() {
-    const double solid_volume = case_.shape->solid_volume * std::pow(case_.size, 3);
+    const double solid_volume = case_.shape->solid_volume * portable::pow(case_.size, 3);
     mass_ = case_.density_ratio * medium_.density * solid_volume;
     const MassDistribution& distribution = fluid_body_.uniform_mass;
     const PrincipalFrame principal = findPrincipalFrame(mass_ * distribution.inertia);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/mesh_checks.h"
@@ -29,7 +30,7 @@ TriangleMesh deformed(TriangleMesh mesh, const Deformation& deformation) {
 Deformation twist(double angle_per_length) {
   return [=](const Vector3& p) {
     const double angle = angle_per_length * p.x();
-    const double c = std::cos(angle), s = std::sin(angle);
+    const double c = portable::cos(angle), s = portable::sin(angle);
     return Vector3(p.x(), c * p.y() - s * p.z(), s * p.y() + c * p.z());
   };
 }

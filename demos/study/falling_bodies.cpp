@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/primitives.h"
@@ -52,13 +53,13 @@ Matrix6 addedMassOfEllipsoid(const Vector3& semi_axes) {
 }
 
 Matrix6 addedMassOfDisc(double radius) {
-  const double turn = 16 * std::pow(radius, 5) / 45;
-  return diagonal({turn, turn, 0}, {0, 0, 8 * std::pow(radius, 3) / 3});
+  const double turn = 16 * portable::pow(radius, 5) / 45;
+  return diagonal({turn, turn, 0}, {0, 0, 8 * portable::pow(radius, 3) / 3});
 }
 
 Matrix6 addedMassOfStrip(const Vector3& size) {
   const double a = size.x() / 2, c = size.z() / 2, span = size.y();
-  const double turn = kPi / 8 * std::pow(a * a - c * c, 2) * span;
+  const double turn = kPi / 8 * portable::pow(a * a - c * c, 2) * span;
   const double x = kPi * c * c * span, z = kPi * a * a * span;
   return diagonal({z * span * span / 12, turn, x * span * span / 12}, {x, 0, z});
 }

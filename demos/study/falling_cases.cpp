@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "demos/study/falling_bodies.h"
 #include "preprocess/mesh/primitives.h"
@@ -158,7 +159,7 @@ void addCubesAndSpheres(Cases& cases) {
     for (const double size : {0.05, 0.1, 0.2, 0.4}) {
       FallingCase falling{"cube", std::to_string(static_cast<int>(density)), size, 3};
       falling.body = std::make_shared<FluidBody>(scaled(*cube, size));
-      falling.mass = density * std::pow(size, 3);
+      falling.mass = density * portable::pow(size, 3);
       falling.inertia = inertiaOfBox(falling.mass, Vector3::Constant(size));
       falling.medium = water();
       falling.time_step = 1.0 / 60;

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "demos/simulation/simulation.h"
 
 namespace ambient {
@@ -26,7 +28,7 @@ Scene sceneOf(const FallingCase& c, PressureLaw law) {
   body.name = c.name;
   body.shape.geometry = SphereShape{1};  // it meets nothing
   body.mass = c.mass;
-  body.orientation = Quaternion(Eigen::AngleAxisd(c.tilt * kPi / 180, Vector3::UnitY()));
+  body.orientation = rotationFromVector(c.tilt * kPi / 180 * Vector3::UnitY());
   body.flow.law = law;
   scene.bodies = {body};
   return scene;
@@ -81,7 +83,7 @@ std::string fallLine(const FallingCase& c, PressureLaw law, const FallingRun& ru
   std::snprintf(line, sizeof line, "%s,\"%s\",%g,%g,%s,%s,%.4g,%.4g,%.4g,%.3g,%.3g,%.3g\n",
                 c.family.c_str(), c.name.c_str(), c.parameter, c.tilt, nameOf(law),
                 fallingModeName(run.fall.mode).c_str(), -velocity.z(),
-                std::hypot(velocity.x(), velocity.y()), meanSpin(run.motion),
+                portable::hypot(velocity.x(), velocity.y()), meanSpin(run.motion),
                 run.fall.largest_swing * 180 / kPi, run.substeps, run.coarse);
   return line;
 }
@@ -97,7 +99,7 @@ std::string pathLines(const FallingCase& c, PressureLaw law, const FallingRun& r
     char line[160];
     std::snprintf(line, sizeof line, "%s,%s,%g,%s,%.4g,%.5g,%.5g,%.4g\n", c.family.c_str(),
                   c.name.c_str(), c.tilt, nameOf(law), s.time, s.position.x(), s.position.z(),
-                  std::atan2(chord.z(), chord.x()));
+                  portable::atan2(chord.z(), chord.x()));
     lines += line;
   }
   return lines;

@@ -8,6 +8,7 @@
 
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -20,7 +21,7 @@ double radians(double degrees) { return degrees * kPi / 180; }
 
 /// Of a plate in its own axes.
 Vector3 atIncidence(double degrees) {
-  return {std::cos(radians(degrees)), 0, std::sin(radians(degrees))};
+  return {portable::cos(radians(degrees)), 0, portable::sin(radians(degrees))};
 }
 
 double frontalArea(const FluidBody& body, const Vector3& direction) {
@@ -52,9 +53,9 @@ class Tunnel {
     for (int i = 0; i < kDirections; ++i) {  // evenly over the sphere
       const double z = 1 - (2 * i + 1.0) / kDirections, r = std::sqrt(1 - z * z);
       const double angle = kPi * (1 + std::sqrt(5.0)) * (i + 0.5);
-      sum += drag({r * std::cos(angle), r * std::sin(angle), z});
+      sum += drag({r * portable::cos(angle), r * portable::sin(angle), z});
     }
-    return sum / kDirections / (kPi * std::pow(3 * body_.volume / (4 * kPi), 2.0 / 3));
+    return sum / kDirections / (kPi * portable::pow(3 * body_.volume / (4 * kPi), 2.0 / 3));
   }
 
   double stallAngle() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -52,7 +53,8 @@ std::vector<int> addRing(MeshWriter& writer, double radius, double z) {
   std::vector<int> ring;
   for (int i = 0; i < kSegments; ++i) {
     const double angle = 2 * kPi * i / kSegments;
-    ring.push_back(writer.addVertex({radius * std::cos(angle), radius * std::sin(angle), z}));
+    ring.push_back(
+        writer.addVertex({radius * portable::cos(angle), radius * portable::sin(angle), z}));
   }
   return ring;
 }
@@ -76,7 +78,7 @@ void sortRound(std::vector<int>& side, const std::vector<Vector>& points, const 
   for (const int i : side) centre += points[i] / static_cast<double>(side.size());
   const Vector x = (points[side[0]] - centre).normalized(), y = normal.cross(x);
   const auto angle = [&](int i) {
-    return std::atan2((points[i] - centre).dot(y), (points[i] - centre).dot(x));
+    return portable::atan2((points[i] - centre).dot(y), (points[i] - centre).dot(x));
   };
   std::sort(side.begin(), side.end(), [&](int a, int b) { return angle(a) < angle(b); });
 }
@@ -125,7 +127,7 @@ TriangleMesh hemisphereMesh(bool base) {
   for (int i = 0; base && i < kRings / 2; ++i) profile.emplace_back(1.0 * i / kRings, 0);
   for (int i = 0; i < kRings; ++i) {
     const double angle = kPi / 2 * i / kRings;
-    profile.emplace_back(std::cos(angle) / 2, std::sin(angle) / 2);
+    profile.emplace_back(portable::cos(angle) / 2, portable::sin(angle) / 2);
   }
   profile.emplace_back(0, 0.5);
   return turnedMesh(profile);
@@ -139,7 +141,7 @@ TriangleMesh halfPipeMesh(double length) {
     std::vector<int> line;
     for (int k = 0; k <= kSegments; ++k) {
       const double y = length * (1.0 * k / kSegments - 0.5);
-      line.push_back(writer.addVertex({std::cos(angle) / 2, y, std::sin(angle) / 2}));
+      line.push_back(writer.addVertex({portable::cos(angle) / 2, y, portable::sin(angle) / 2}));
     }
     for (int k = 0; k < kSegments && i > 0; ++k)
       writer.addQuad(before[k], before[k + 1], line[k + 1], line[k]);
@@ -157,7 +159,7 @@ TriangleMesh dropMesh(double length) {
   constexpr int kPoints = 2 * kRings;
   Profile profile{{0, -length / 2}};
   for (int i = kPoints - 1; i > 0; --i) {
-    const double x = (1 - std::cos(kPi * i / kPoints)) / 2;
+    const double x = (1 - portable::cos(kPi * i / kPoints)) / 2;
     profile.emplace_back(radius(x), length * (0.5 - x));
   }
   profile.emplace_back(0, length / 2);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "demos/study/measured_meshes.h"
 #include "preprocess/builder/fluid_body_builder.h"
@@ -42,7 +43,7 @@ TriangleMesh triangularRod() {
 }
 
 TriangleMesh cone(double half_angle) {
-  return makeConeMesh(0.5, 0.5 / std::tan(half_angle * kPi / 180), kMeshFaces);
+  return makeConeMesh(0.5, 0.5 / portable::tan(half_angle * kPi / 180), kMeshFaces);
 }
 
 using Maker = std::function<Made(double)>;

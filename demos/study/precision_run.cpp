@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 
 namespace ambient {
 namespace {
@@ -42,7 +43,7 @@ PrecisionRun runOnce(const Scene& scene, const std::vector<PreparedBody>& bodies
 
 double angleBetween(const Quaternion& a, const Quaternion& b) {
   const Quaternion turn = a.conjugate() * b;
-  return 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+  return 2 * portable::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/added_mass_tables/table_data.h"
 #include "preprocess/added_mass_tables/table_places.h"
 
@@ -12,8 +13,8 @@ std::optional<Matrix6> lookUp(const RoundTable& table, const RoundPlace& round) 
   if (!round.place.isInside()) return std::nullopt;
   const auto [x, y] = round.place;
   RevolutionInertia inertia;
-  inertia.v_z = round.scale.v_z * std::exp(table.v_z(x, y));
-  inertia.v_x = round.scale.v_x * std::exp(table.v_x(x, y));
+  inertia.v_z = round.scale.v_z * portable::exp(table.v_z(x, y));
+  inertia.v_x = round.scale.v_x * portable::exp(table.v_x(x, y));
   inertia.w_y = round.scale.w_y * table.w_y(x, y);
   if (table.coupling.rows > 0) inertia.coupling = round.scale.coupling * table.coupling(x, y);
   return inertia.matrix();
@@ -31,7 +32,7 @@ std::optional<Matrix6> boxAddedMass(const Vector3& half_sizes) {
     if (half_sizes[k] > kLargestRatio * half_sizes.minCoeff()) return std::nullopt;
     const auto [x, y] = axis.place();
     K(k, k) = axis.rotationScale() * table.rotation(x, y);
-    K(3 + k, 3 + k) = axis.translationScale() * std::exp(table.translation(x, y));
+    K(3 + k, 3 + k) = axis.translationScale() * portable::exp(table.translation(x, y));
   }
   return K;
 }

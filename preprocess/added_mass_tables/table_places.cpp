@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/potential_flow/ellipsoid_added_mass.h"
 
 namespace ambient {
 namespace {
 
 double logOfRatio(double numerator, double denominator) {
-  return std::log(numerator / denominator) / std::log(kLargestRatio);
+  return portable::log(numerator / denominator) / portable::log(kLargestRatio);
 }
 
 RevolutionInertia roundScale(double radius, double height) {
@@ -38,7 +39,7 @@ RoundPlace cylinderPlace(double radius, double height) {
 RoundPlace capsulePlace(double radius, double height) {
   const double slenderness = height / (2 * radius);
   const Vector6 spheroid = ellipsoidAddedMass({radius, radius, radius + height / 2});
-  return {{2 * std::log1p(slenderness) / std::log1p(kLargestRatio) - 1, 0},
+  return {{2 * portable::log1p(slenderness) / portable::log1p(kLargestRatio) - 1, 0},
           {spheroid[5], spheroid[3], spheroid[0], 0}};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/collision_shape/hull_mesh.h"
@@ -38,7 +39,7 @@ TriangleMesh meshOf(const Geometry& geometry, int faces, const std::string& name
 
 TriangleMesh withVolume(TriangleMesh mesh, double volume) {
   const MeshProperties properties = computeMassProperties(mesh);
-  const double stretch = std::cbrt(volume / properties.volume);
+  const double stretch = portable::cbrt(volume / properties.volume);
   const Eigen::Vector3d centre = properties.uniform.centre;
   mesh.vertices = ((mesh.vertices.colwise() - centre) * stretch).colwise() + centre;
   return mesh;
@@ -56,7 +57,7 @@ double meanCurvatureOf(const TriangleMesh& mesh) {
     const Eigen::Vector3d a = normalOf(mesh, half.triangle);
     const Eigen::Vector3d b = normalOf(mesh, edges.half_edges[edge.first + 1].triangle);
     sum += (mesh.vertices.col(half.low) - mesh.vertices.col(half.high)).norm() *
-           std::atan2(a.cross(b).norm(), a.dot(b));
+           portable::atan2(a.cross(b).norm(), a.dot(b));
   }
   return sum / 2;
 }

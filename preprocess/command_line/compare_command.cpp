@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
@@ -48,7 +49,8 @@ Twist testTwist(int i, int count, double length) {
   // A spiral over the sphere of directions; every other motion turns too.
   constexpr double kGoldenAngle = 2.39996322972865332;
   const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z);
-  const Vector3 direction(r * std::cos(kGoldenAngle * i), r * std::sin(kGoldenAngle * i), z);
+  const Vector3 direction(r * portable::cos(kGoldenAngle * i), r * portable::sin(kGoldenAngle * i),
+                          z);
   Twist twist{Vector3::Zero(), direction};
   if (i % 2 == 1) twist.angular = Vector3(direction.y(), direction.z(), direction.x()) / length;
   return twist;

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/floating/floating_energy.h"
@@ -55,7 +56,7 @@ void checkFloating(const FloatingBody& body) {
 Vector3 startAt(int i, int count) {
   const double golden = kPi * (3 - std::sqrt(5.0));
   const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z);
-  return {r * std::cos(golden * i + 0.1), r * std::sin(golden * i + 0.1), z};
+  return {r * portable::cos(golden * i + 0.1), r * portable::sin(golden * i + 0.1), z};
 }
 
 bool isSameDirection(const Vector3& a, const Vector3& b) {
@@ -89,7 +90,7 @@ std::vector<FloatingAttitude> findFloatingAttitudes(const FloatingBody& body) {
   checkFloating(body);
   if (body.mass >= body.density * body.shape->volume) return {};
   const PackedHull hull(*body.shape);
-  const double scale = body.mass * body.gravity * std::cbrt(body.shape->volume);
+  const double scale = body.mass * body.gravity * portable::cbrt(body.shape->volume);
   std::vector<Found> found;
   for (int i = 0; i < kStarts; ++i) add(settle(body, hull, startAt(i, kStarts)), scale, found);
   std::stable_sort(found.begin(), found.end(),

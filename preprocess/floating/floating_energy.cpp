@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
+
 namespace ambient {
 namespace {
 
@@ -42,9 +44,9 @@ std::array<Vector3, 2> planeAxes(const Vector3& normal) {
 PlaneEigen planeEigen(const Matrix3& matrix, const std::array<Vector3, 2>& axes) {
   const auto& [e, f] = axes;
   const double a = e.dot(matrix * e), b = e.dot(matrix * f), d = f.dot(matrix * f);
-  const double angle = 0.5 * std::atan2(2 * b, a - d);
-  const Vector3 large = std::cos(angle) * e + std::sin(angle) * f;
-  const Vector3 small = -std::sin(angle) * e + std::cos(angle) * f;
+  const double angle = 0.5 * portable::atan2(2 * b, a - d);
+  const Vector3 large = portable::cos(angle) * e + portable::sin(angle) * f;
+  const Vector3 small = -portable::sin(angle) * e + portable::cos(angle) * f;
   return {{small.dot(matrix * small), large.dot(matrix * large)}, {small, large}};
 }
 

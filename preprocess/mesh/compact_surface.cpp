@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/surface_wrap.h"
 
@@ -24,7 +25,7 @@ std::optional<TriangleMesh> compactSurface(const TriangleMesh& mesh, int triangl
   if (!isWithin(kVolumeChange, found.volume, body.volume)) return std::nullopt;
   if (!isWithin(kAreaChange, found.area, body.area)) return std::nullopt;
   const Eigen::Vector3d& centre = found.uniform.centre;
-  const double stretch = std::cbrt(body.volume / found.volume);
+  const double stretch = portable::cbrt(body.volume / found.volume);
   compact.vertices =
       (stretch * (compact.vertices.colwise() - centre)).colwise() + body.uniform.centre;
   return compact;

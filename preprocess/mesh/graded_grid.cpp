@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -9,7 +10,7 @@ namespace ambient {
 std::vector<double> cosineSpacing(double half_length, int n) {
   std::vector<double> points(n + 1, 0.0);
   for (int i = 0; 2 * i < n; ++i) {
-    points[n - i] = half_length * std::cos(kPi * i / n);
+    points[n - i] = half_length * portable::cos(kPi * i / n);
     points[i] = -points[n - i];
   }
   return points;

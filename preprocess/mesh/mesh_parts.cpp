@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/weld_vertices.h"
@@ -40,7 +41,7 @@ std::vector<WedgeSide> sidesAround(const TriangleMesh& mesh, const MeshEdges& ed
   for (std::size_t i = group.first; i < group.last; ++i) {
     const HalfEdge& edge = edges.half_edges[i];
     const Vector3d apex = mesh.corner(edge.triangle, (edge.side + 2) % 3) - low;
-    const double angle = std::atan2(apex.dot(quarter), apex.dot(zero));
+    const double angle = portable::atan2(apex.dot(quarter), apex.dot(zero));
     sides.push_back({std::round(angle * kSteps) / kSteps, edge});
   }
   std::sort(sides.begin(), sides.end());

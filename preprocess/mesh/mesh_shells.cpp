@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/defect_message.h"
 #include "preprocess/mesh/graded_grid.h"
@@ -74,7 +75,7 @@ std::vector<Shell> findShells(const TriangleMesh& mesh, const MeshComponents& co
 Defects findFlatShells(const TriangleMesh& mesh, const std::vector<Shell>& shells) {
   MeshDefect defect{"encloses no volume", {}, {}};
   for (const Shell& shell : shells) {
-    const double ratio = std::abs(shell.volume) / std::pow(shell.area, 1.5);
+    const double ratio = std::abs(shell.volume) / portable::pow(shell.area, 1.5);
     if (ratio >= kLeastVolume) continue;
     const int first = shell.triangles.front();
     if (defect.text.empty()) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bullet_ambient/spatial/rotation.h"
 #include "preprocess/mesh/crack_mending.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/join_meshes.h"
@@ -155,10 +156,10 @@ Meshes inGeneralPosition(const Meshes& parts, double share, std::mt19937& genera
   for (const TriangleMesh& part : parts) {
     TriangleMesh mesh = blownUp(part, share * (1 + random()));
     const double x = random() - 0.5, y = random() - 0.5, z = random() - 0.5;
-    const Eigen::AngleAxisd turn(kTurn * share, Eigen::Vector3d(x, y, z).normalized());
+    const Matrix3 turn =
+        rotationFromVector(kTurn * share * Vector3(x, y, z).normalized()).toRotationMatrix();
     const Eigen::Vector3d centre = boundsOf(part).center();
-    mesh.vertices =
-        (turn.toRotationMatrix() * (mesh.vertices.colwise() - centre)).colwise() + centre;
+    mesh.vertices = (turn * (mesh.vertices.colwise() - centre)).colwise() + centre;
     moved.push_back(std::move(mesh));
   }
   return moved;

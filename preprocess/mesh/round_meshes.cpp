@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/primitive_limits.h"
@@ -53,7 +54,8 @@ class Lathe {
     if (ring.m == 0) vertices_.push_back({0, 0, ring.z});
     for (int j = 0; j < kSectors * ring.m; ++j) {
       const double angle = 2 * kPi * j / (kSectors * ring.m);
-      vertices_.push_back({ring.radius * std::cos(angle), ring.radius * std::sin(angle), ring.z});
+      vertices_.push_back(
+          {ring.radius * portable::cos(angle), ring.radius * portable::sin(angle), ring.z});
     }
   }
 
@@ -106,7 +108,7 @@ std::vector<Ring> finestRings(int faces, MakeRings make) {
 
 // Radius of ring k of n, graded towards the rim k = n.
 double gradedRadius(double radius, int k, int n) {
-  return k == n ? radius : radius * std::sin(kPi * k / (2 * n));
+  return k == n ? radius : radius * portable::sin(kPi * k / (2 * n));
 }
 
 // Rows on the side per ring of the base, at equal cell size on both sides of the rim; limited on
@@ -142,7 +144,7 @@ std::vector<Ring> capsuleRings(double radius, double height, int n) {
   for (int k = 0; k <= n; ++k) {
     const double angle = kPi * k / (2 * n);
     rings.push_back(
-        {gradedRadius(radius, k, n), height / 2 + (k == n ? 0 : radius * std::cos(angle)), k});
+        {gradedRadius(radius, k, n), height / 2 + (k == n ? 0 : radius * portable::cos(angle)), k});
   }
   // Rows as high as those of the caps; longer ones on slender capsules, where the flow varies less.
   const double slenderness = height / radius;
@@ -152,7 +154,7 @@ std::vector<Ring> capsuleRings(double radius, double height, int n) {
 }
 
 std::vector<Ring> coneRings(double radius, double height, int n) {
-  const double slant = std::hypot(radius, height);
+  const double slant = portable::hypot(radius, height);
   const int rows = std::max(n, static_cast<int>(std::lround(n * rowsPerRing(slant, radius))));
   std::vector<Ring> rings{{0, height / 2, 0}};
   for (int k = 1; k <= rows; ++k) {
@@ -167,7 +169,7 @@ std::vector<Ring> coneRings(double radius, double height, int n) {
 }
 
 /// Angle between the cone's axis and the outward normal of its side.
-double coneNormalAngle(double radius, double height) { return std::atan2(height, radius); }
+double coneNormalAngle(double radius, double height) { return portable::atan2(height, radius); }
 
 std::vector<Ring> roundedConeRings(double radius, double height, double rounding, int n) {
   const double side = coneNormalAngle(radius, height);
@@ -183,20 +185,20 @@ std::vector<Ring> roundedConeRings(double radius, double height, double rounding
   const int tip_rows = arcRows(side, 0);
   for (int k = 1; k <= tip_rows; ++k) {
     const double angle = side * k / tip_rows;
-    add(rounding * std::sin(angle), height / 2 + rounding * std::cos(angle));
+    add(rounding * portable::sin(angle), height / 2 + rounding * portable::cos(angle));
   }
-  const double slant = std::hypot(radius, height);
+  const double slant = portable::hypot(radius, height);
   const int rows = std::max(n, static_cast<int>(std::lround(n * rowsPerRing(slant, radius))));
   for (int k = 1; k <= rows; ++k) {
     const double fraction = gradedRadius(1, k, rows);
-    add(radius * fraction + rounding * std::sin(side),
-        height * (0.5 - fraction) + rounding * std::cos(side));
+    add(radius * fraction + rounding * portable::sin(side),
+        height * (0.5 - fraction) + rounding * portable::cos(side));
   }
   const int rim_rows = arcRows(kPi - side, radius);
   for (int k = 1; k <= rim_rows; ++k) {
     const double angle = k == rim_rows ? kPi : side + (kPi - side) * k / rim_rows;
-    add(radius + (k == rim_rows ? 0 : rounding * std::sin(angle)),
-        -height / 2 + rounding * std::cos(angle));
+    add(radius + (k == rim_rows ? 0 : rounding * portable::sin(angle)),
+        -height / 2 + rounding * portable::cos(angle));
   }
   const int last = rings.back().m;
   for (int k = last - 1; k >= 0; --k) {
@@ -209,8 +211,8 @@ std::vector<Ring> roundedConeRings(double radius, double height, double rounding
 /// the distance of its centre from the axis.
 double arcVolume(double offset, double rounding, double from, double to) {
   const auto integral = [&](double angle) {
-    const double c = std::cos(angle);
-    return offset * offset * -c + offset * rounding * (angle - std::sin(2 * angle) / 2) +
+    const double c = portable::cos(angle);
+    return offset * offset * -c + offset * rounding * (angle - portable::sin(2 * angle) / 2) +
            rounding * rounding * (c * c * c / 3 - c);
   };
   return kPi * rounding * (integral(to) - integral(from));
@@ -229,7 +231,7 @@ TriangleMesh makeRoundedConeMesh(double radius, double height, double rounding, 
 
 double roundedConeVolume(double radius, double height, double rounding) {
   const double side = coneNormalAngle(radius, height);
-  const double narrow = rounding * std::sin(side), wide = radius + narrow;
+  const double narrow = rounding * portable::sin(side), wide = radius + narrow;
   return arcVolume(0, rounding, 0, side) + arcVolume(radius, rounding, side, kPi) +
          kPi * height / 3 * (narrow * narrow + narrow * wide + wide * wide);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
@@ -29,7 +30,7 @@ TriangleQuality qualityOf(const TriangleMesh& mesh, Index t) {
   TriangleQuality quality;
   quality.triangle = static_cast<int>(t);
   quality.aspect = edges[2] * edges[2] / twice_area;
-  quality.smallest_angle = std::asin(std::min(1.0, twice_area / (edges[1] * edges[2])));
+  quality.smallest_angle = portable::asin(std::min(1.0, twice_area / (edges[1] * edges[2])));
   quality.barycentre = barycentreOf(mesh, t);
   return quality;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 
@@ -18,7 +19,7 @@ void requireUsualWidth(const MeshProperties& properties, double size, bool sheet
     raiseInputError(source, "it is too narrow: its area over the square of its size ",
                     "must be at least ", kLeastArea);
   }
-  const double thickness = properties.volume / std::pow(properties.area, 1.5);
+  const double thickness = properties.volume / portable::pow(properties.area, 1.5);
   if (!sheet && !(thickness >= kLeastVolume)) {
     raiseInputError(source, "it is too thin: its volume over its area^1.5 is ", thickness,
                     ", at least ", kLeastVolume, " needed (a sheet has no thickness)");

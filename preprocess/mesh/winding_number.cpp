@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
+
 namespace ambient {
 
 double solidAngle(const TriangleMesh& mesh, Eigen::Index triangle, const Eigen::Vector3d& point) {
@@ -11,7 +13,7 @@ double solidAngle(const TriangleMesh& mesh, Eigen::Index triangle, const Eigen::
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   const double numerator = a.dot(b.cross(c));
   const double denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return 2 * std::atan2(numerator, denominator);
+  return 2 * portable::atan2(numerator, denominator);
 }
 
 }  // namespace ambient

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -49,8 +50,8 @@ PolarReference usualReference(const FluidBody& body, const Matrix3& axes) {
 
 PolarCoefficients polarCoefficients(const BodyLoads& loads, const PolarFlight& flight,
                                     double attack, double side_slip) {
-  const double ca = std::cos(attack), sa = std::sin(attack);
-  const double cb = std::cos(side_slip), sb = std::sin(side_slip);
+  const double ca = portable::cos(attack), sa = portable::sin(attack);
+  const double cb = portable::cos(side_slip), sb = portable::sin(side_slip);
   const Vector3 motion(ca * cb, -sb, -sa * cb), lift(sa, 0, ca);
   const Vector3 side = motion.cross(lift);  // to the right
   const Twist twist{Vector3::Zero(), flight.axes * motion * flight.speed};

@@ -1,3 +1,4 @@
+#include "bullet_ambient/spatial/instruction_set.h"
 #include "preprocess/potential_flow/block_product_kernel.h"
 
 namespace ambient {
@@ -10,7 +11,7 @@ void addBlockProductBaseline(const MatrixBlock& block, const float* x, int field
 
 auto fastestProduct() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return addBlockProductAvx2;
+  if (fastestInstructionSet() != InstructionSet::kBaseline) return addBlockProductAvx2;
 #endif
   return addBlockProductBaseline;
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/spatial/large_products.h"
 #include "preprocess/potential_flow/memory_limit.h"
 
 namespace ambient {
@@ -20,6 +21,7 @@ constexpr double kDenseBytesPerPanel =
 DenseSolver::DenseSolver(const PanelSurface& surface, int threads, double memory_limit)
     : surface_(surface), threads_(threads) {
   requireMemory(surface.panelCount(), bytesNeeded(), memory_limit);
+  fixBlocksOfLargeProducts();
   near_ = findNearPanels(surface, threads);
 }
 

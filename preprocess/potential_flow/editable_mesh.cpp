@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -26,7 +27,7 @@ bool holds(const Eigen::Vector3i& t, int v) { return t[0] == v || t[1] == v || t
 int apexOf(const Eigen::Vector3i& t, int a, int b) { return t.sum() - a - b; }
 
 double angleAt(const Vector3d& apex, const Vector3d& a, const Vector3d& b) {
-  return std::atan2((a - apex).cross(b - apex).norm(), (a - apex).dot(b - apex));
+  return portable::atan2((a - apex).cross(b - apex).norm(), (a - apex).dot(b - apex));
 }
 
 }  // namespace

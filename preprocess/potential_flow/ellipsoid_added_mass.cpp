@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
@@ -22,7 +23,7 @@ double integralD(Vector3 arguments) {
     weight /= 4;
     arguments = (arguments.array() + shift) / 4;
   }
-  return 3 * sum + weight / std::pow(arguments.z(), 1.5);
+  return 3 * sum + weight / portable::pow(arguments.z(), 1.5);
 }
 
 }  // namespace
@@ -40,12 +41,12 @@ Vector6 ellipsoidAddedMass(const Vector3& semi_axes) {
   Vector6 K = Vector6::Zero();
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    K[3 + k] = volume * demagnetisation[k] / (2 - demagnetisation[k]) * std::pow(size, 3);
+    K[3 + k] = volume * demagnetisation[k] / (2 - demagnetisation[k]) * portable::pow(size, 3);
     const double difference = squares[i] - squares[j];
     if (difference == 0) continue;  // a body of revolution about k moves no fluid when it spins
     const double twist = demagnetisation[j] - demagnetisation[i];
     K[k] = volume / 5 * difference * difference * twist /
-           (2 * difference - (squares[i] + squares[j]) * twist) * std::pow(size, 5);
+           (2 * difference - (squares[i] + squares[j]) * twist) * portable::pow(size, 5);
   }
   return K;
 }

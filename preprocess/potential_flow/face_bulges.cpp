@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/potential_flow/edge_cuts.h"
 
@@ -19,7 +20,7 @@ constexpr double kMostTilt = 1.6;          // from a triangle; the tip of a cone
 constexpr double kMostUneven = 4;          // slopes at the two ends of an edge, ratio
 
 double angleBetween(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return portable::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 struct VertexNormal {

@@ -1,5 +1,6 @@
 #include "preprocess/potential_flow/hierarchical_solver.h"
 
+#include "bullet_ambient/spatial/large_products.h"
 #include "preprocess/potential_flow/iterative_jump.h"
 #include "preprocess/potential_flow/memory_limit.h"
 #include "preprocess/potential_flow/tree_double_layer.h"
@@ -25,6 +26,7 @@ HierarchicalSolver::HierarchicalSolver(const PanelSurface& surface, int threads,
       tree_(makePanelTree(surface, kLeafSize)),
       pairs_(pairClusters(tree_, kOpening)) {
   requireMemory(surface.panelCount(), bytesNeeded(), memory_limit);
+  fixBlocksOfLargeProducts();
 }
 
 double HierarchicalSolver::bytesNeeded() const {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/large_products.h"
 #include "preprocess/potential_flow/double_layer.h"
 #include "preprocess/potential_flow/hypersingular.h"
 #include "preprocess/potential_flow/near_panels.h"
@@ -87,6 +88,7 @@ Matrix6 integrate(const PanelSurface& surface, const PanelMoments& moments, Inde
 }  // namespace
 
 Matrix6 solveImageFlow(const TriangleMesh& body, int panels) {
+  fixBlocksOfLargeProducts();
   const TriangleMesh coarse = wetPartOf(body);
   if (coarse.triangleCount() == 0) return Matrix6::Zero();
   const bool is_cut = (coarse.vertices.row(2).array() == 0).any();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
+
 namespace ambient {
 namespace {
 
@@ -25,13 +27,13 @@ PanelView view(const Panel& panel, const Eigen::Vector3d& x) {
     const double sum = r[k] + r[next];
     const double gap = sum - panel.edge_length[k];
     // On the edge itself the logarithm is infinite, but always multiplied by a distance of 0.
-    v.edge_potential[k] = gap > 0 ? std::log((sum + panel.edge_length[k]) / gap) : 0;
+    v.edge_potential[k] = gap > 0 ? portable::log((sum + panel.edge_length[k]) / gap) : 0;
   }
   v.height = -d[0].dot(panel.normal);
   const double denominator =
       r[0] * r[1] * r[2] + d[0].dot(d[1]) * r[2] + d[1].dot(d[2]) * r[0] + d[2].dot(d[0]) * r[1];
   // van Oosterom and Strackee 1983, with the triple product -d0.(d1 x d2) = 2 area height.
-  v.solid_angle = 2 * std::atan2(2 * panel.area * v.height, denominator);
+  v.solid_angle = 2 * portable::atan2(2 * panel.area * v.height, denominator);
   return v;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/potential_flow/quadrature_rules.h"
 
 namespace ambient {
@@ -39,7 +40,7 @@ SharedCorners findSharedCorners(const PanelSurface& surface, Index t, Index s) {
 double selfIntegral(const Panel& p) {
   const double perimeter = p.edge_length[0] + p.edge_length[1] + p.edge_length[2];
   double sum = 0;
-  for (double l : p.edge_length) sum += 2 * std::atanh(l / (perimeter - l)) / l;
+  for (double l : p.edge_length) sum += 2 * portable::atanh(l / (perimeter - l)) / l;
   return 4.0 / 3.0 * p.area * p.area * sum;
 }
 

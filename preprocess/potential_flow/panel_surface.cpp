@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
@@ -47,7 +48,7 @@ void placeAndScale(const TriangleMesh& mesh, bool sheet, PanelSurface& surface) 
   for (Index t = 0; t < mesh.triangleCount(); ++t)
     for (int k = 0; k < 3; ++k)
       surface.length = std::max(surface.length, (mesh.corner(t, k) - surface.centre).norm());
-  surface.volume = sheet ? 0 : centroids.volume / std::pow(surface.length, 3);
+  surface.volume = sheet ? 0 : centroids.volume / portable::pow(surface.length, 3);
 }
 
 void fillArrays(PanelSurface& surface) {

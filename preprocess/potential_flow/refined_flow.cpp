@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/compact_surface.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -27,7 +28,7 @@ constexpr Eigen::Index kMostDenseSmoothPanels = 2000;
 
 /// To panels of no size, from the added mass on both levels.
 Matrix6 extrapolated(const Matrix6& fine, const Matrix6& coarse, double panel_ratio) {
-  return fine + (fine - coarse) / (std::pow(panel_ratio, kOrder / 2) - 1);
+  return fine + (fine - coarse) / (portable::pow(panel_ratio, kOrder / 2) - 1);
 }
 
 /// Relative to the largest entry of its block, the larger one of rotation and translation.
@@ -107,7 +108,7 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
         computeCurvatureCorrection(mesh, bulges, levels.fine, flow.potential);
     refined.added_mass += correction.added_mass;
     const double volume = computeMassProperties(mesh).volume;
-    stretch = std::cbrt(volume / (volume + correction.volume));
+    stretch = portable::cbrt(volume / (volume + correction.volume));
   }
   refined.added_mass = withSymmetriesOf(mesh, settings.sheet, stretch, refined.added_mass);
   return refined;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 
 namespace ambient {
 namespace {
@@ -90,10 +91,10 @@ int thinAcrossSharpEdges(bool sheet, int most_levels, int max_triangles, Divided
 const DividedSurface* beforeHalving(const std::vector<DividedSurface>& uniform) {
   const auto last = static_cast<double>(uniform.back().mesh.triangleCount());
   const DividedSurface* best = nullptr;
-  double least = std::log(1.6);  // of the ratio of triangles, from 4
+  double least = portable::log(1.6);  // of the ratio of triangles, from 4
   for (const DividedSurface& surface : uniform) {
     const auto count = static_cast<double>(surface.mesh.triangleCount());
-    const double distance = std::abs(std::log(last / (4 * count)));
+    const double distance = std::abs(portable::log(last / (4 * count)));
     if (distance >= least) continue;
     least = distance;
     best = &surface;

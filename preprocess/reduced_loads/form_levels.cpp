@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/spatial/large_products.h"
 #include "preprocess/reduced_loads/centred_faces.h"
 #include "preprocess/reduced_loads/face_clusters.h"
 #include "preprocess/reduced_loads/face_mirrors.h"
@@ -87,6 +88,7 @@ FaceTable joined(const FaceTable& faces, const FaceClusters& clusters) {
 void fitPositive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, std::vector<double>& x) {
   constexpr int kRounds = 300;
   constexpr double kPull = 1e-4;
+  fixBlocksOfLargeProducts();
   const Eigen::MatrixXd G = A.transpose() * A;
   const Eigen::VectorXd g = A.transpose() * b;
   const Eigen::Index n = G.rows();

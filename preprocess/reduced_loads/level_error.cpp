@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/force/face_loads.h"
 #include "bullet_ambient/force/skin_friction.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 
@@ -49,7 +50,7 @@ class Comparison {
     const LoadSettings without{1, 0, cosine_, false}, with{1, 1, cosine_, true};
     double scale = 0;
     for (std::size_t i = 0; i < faces_.size(); ++i)
-      scale += faces_.area[i] * std::pow(slipSquared(x, i), 1 + kReynoldsExponent / 2);
+      scale += faces_.area[i] * portable::pow(slipSquared(x, i), 1 + kReynoldsExponent / 2);
     return ratio(difference(x, with) + -1.0 * difference(x, without),
                  0.5 * kFrictionCoefficient * scale);
   }
@@ -86,7 +87,7 @@ double percentile99(std::vector<Sample>& samples) {
 double climb(const Comparison& comparison, Sample sample, ArbitraryNumbers& numbers) {
   for (int step = 0; step < kAscentSteps; ++step) {
     const double progress = static_cast<double>(step) / kAscentSteps;
-    const double stride = kFirstStride * std::pow(kLastStride / kFirstStride, progress);
+    const double stride = kFirstStride * portable::pow(kLastStride / kFirstStride, progress);
     const Vector6 motion = (sample.motion + stride * sampleMotion(numbers)).normalized();
     const double error = comparison.error(motion);
     if (error > sample.error) sample = {motion, error};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/spatial/large_products.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 
@@ -110,6 +111,7 @@ Wrenches suggestedWrenches(const std::vector<Cluster>& clusters) {
 
 Wrenches fitWrenches(const FaceTable& faces, const LoadLevel& even,
                      const std::vector<Cluster>& clusters, double cosine) {
+  fixBlocksOfLargeProducts();
   const auto unknowns = static_cast<Eigen::Index>(2 * clusters.size());
   const Eigen::Index samples = std::max<Eigen::Index>(kLeastSamples, kSamplesPerUnknown * unknowns);
   Eigen::MatrixXd functions(samples, unknowns);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -24,7 +25,7 @@ Vector3 ArbitraryNumbers::direction() {
 Vector6 sampleMotion(ArbitraryNumbers& numbers) {
   const double angle = kPi / 2 * numbers.uniform();
   Vector6 x;
-  x << std::sin(angle) * numbers.direction(), std::cos(angle) * numbers.direction();
+  x << portable::sin(angle) * numbers.direction(), portable::cos(angle) * numbers.direction();
   return x;
 }
 

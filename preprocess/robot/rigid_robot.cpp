@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {
@@ -18,7 +19,7 @@ namespace {
 /// Axes of a constraint in the joint's: one of them, the hinge's z or the slider's x, along `axis`.
 RigidPose constraintAxes(const Vector3& along, const Vector3& axis) {
   RigidPose pose = RigidPose::Identity();
-  pose.linear() = Quaternion::FromTwoVectors(along, axis).toRotationMatrix();
+  pose.linear() = rotationBetween(along, axis).toRotationMatrix();
   return pose;
 }
 

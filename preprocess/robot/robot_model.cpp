@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/spatial/principal_frame.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {
@@ -92,7 +93,7 @@ RobotModel withoutRoot(RobotModel model) {
 RigidPose motionOf(const JointModel& joint, double position) {
   RigidPose motion = RigidPose::Identity();
   if (joint.kind == JointKind::kRevolute)
-    motion.linear() = Eigen::AngleAxisd(position, Eigen::Vector3d(joint.axis)).toRotationMatrix();
+    motion.linear() = rotationFromVector(position * joint.axis).toRotationMatrix();
   if (joint.kind == JointKind::kPrismatic) motion.translation() = position * joint.axis;
   return motion;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/convex_hull.h"
 #include "preprocess/mesh/input_error.h"
@@ -23,7 +24,7 @@ TriangleMesh withVolumeAcross(TriangleMesh mesh, double volume) {
 }
 
 TriangleMesh withVolume(TriangleMesh mesh, double volume) {
-  mesh.vertices *= std::cbrt(volume / computeMassProperties(mesh).volume);
+  mesh.vertices *= portable::cbrt(volume / computeMassProperties(mesh).volume);
   return mesh;
 }
 

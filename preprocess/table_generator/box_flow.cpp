@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/potential_flow/potential_flow.h"
 
@@ -47,7 +48,7 @@ Vector6 solveBoxFlow(const Vector3& half_sizes) {
   const Divisions least = leastDivisions(half_sizes);
   const Vector6 coarse = solveOn(half_sizes, times(kCoarse, least));
   const Vector6 fine = solveOn(half_sizes, times(kFine, least));
-  const double ratio = std::pow(static_cast<double>(kFine) / kCoarse, kOrder);
+  const double ratio = portable::pow(static_cast<double>(kFine) / kCoarse, kOrder);
   return fine + (fine - coarse) / (ratio - 1);
 }
 

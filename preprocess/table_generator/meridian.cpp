@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
+
 namespace ambient {
 namespace {
 
@@ -15,11 +17,11 @@ MeridianPiece arc(const MeridianPoint& begin, const MeridianPoint& end,
 /// Angle from the begin of an arc to its end, clockwise.
 double angleOf(const MeridianPiece& arc) {
   const Eigen::Vector2d from = arc.begin - arc.centre, to = arc.end - arc.centre;
-  return std::atan2(from.y() * to.x() - from.x() * to.y(), from.dot(to));
+  return portable::atan2(from.y() * to.x() - from.x() * to.y(), from.dot(to));
 }
 
 Eigen::Vector2d turnedBack(const Eigen::Vector2d& arm, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = portable::cos(angle), s = portable::sin(angle);
   return {c * arm.x() + s * arm.y(), c * arm.y() - s * arm.x()};
 }
 

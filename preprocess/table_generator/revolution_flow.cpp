@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/spatial/large_products.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/potential_flow/parallel_for.h"
 
@@ -26,7 +28,7 @@ struct GaussRule {
 GaussRule makeGaussRule() {
   GaussRule rule;
   for (int i = 0; i < kPoints; ++i) {
-    double x = std::cos(kPi * (i + 0.75) / (kPoints + 0.5)), slope = 1;
+    double x = portable::cos(kPi * (i + 0.75) / (kPoints + 0.5)), slope = 1;
     for (int step = 0; step < 100; ++step) {
       double previous = 1, value = x;
       for (int n = 2; n <= kPoints; ++n) {
@@ -171,6 +173,7 @@ std::array<Equations, 2> makeEquations(const std::vector<Panel>& panels,
 
 /// Potentials on the body for normal velocities on it.
 Eigen::MatrixXd potentialsOf(const Equations& equations, const Eigen::MatrixXd& velocities) {
+  fixBlocksOfLargeProducts();
   const Eigen::Index size = velocities.rows();
   const Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size) / 2 - equations.dipole;
   return matrix.partialPivLu().solve(-equations.source * velocities);

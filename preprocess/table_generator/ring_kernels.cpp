@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
@@ -34,8 +35,8 @@ EllipticIntegrals ellipticIntegrals(double complementary) {
 RingKernel ringKernel(const MeridianPoint& target, const MeridianPoint& source,
                       const Eigen::Vector2d& source_normal) {
   const double rise = source.y() - target.y();
-  const double far = std::hypot(source.x() + target.x(), rise);
-  const double near = std::hypot(source.x() - target.x(), rise);
+  const double far = portable::hypot(source.x() + target.x(), rise);
+  const double near = portable::hypot(source.x() - target.x(), rise);
   const EllipticIntegrals elliptic = ellipticIntegrals(near / far);
   const double twice_product = 2 * source.x() * target.x();
   const double squares = source.x() * source.x() + target.x() * target.x() + rise * rise;

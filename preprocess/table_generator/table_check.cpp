@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <random>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
 #include "preprocess/added_mass_tables/revolution_inertia.h"
 #include "preprocess/added_mass_tables/table_places.h"
@@ -17,17 +18,17 @@ using Random = std::mt19937;
 
 double uniform(Random& random) { return static_cast<double>(random()) / 4294967296.0; }
 
-double anyRatio(Random& random) { return std::pow(kLargestRatio, 2 * uniform(random) - 1); }
+double anyRatio(Random& random) { return portable::pow(kLargestRatio, 2 * uniform(random) - 1); }
 
 TableShape randomShape(TableShape::Kind kind, Random& random) {
   const double x = uniform(random), y = uniform(random);
   switch (kind) {
     case TableShape::kBox:
-      return {kind, {1, std::pow(kLargestRatio, x), std::pow(kLargestRatio, y)}};
+      return {kind, {1, portable::pow(kLargestRatio, x), portable::pow(kLargestRatio, y)}};
     case TableShape::kCylinder:
       return {kind, {1, 2 * anyRatio(random), 0}};
     case TableShape::kCapsule:
-      return {kind, {1, 2 * std::expm1(x * std::log1p(kLargestRatio)), 0}};
+      return {kind, {1, 2 * portable::expm1(x * portable::log1p(kLargestRatio)), 0}};
     default:
       break;
   }

@@ -6,6 +6,8 @@
 #include <cstdio>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/spatial/large_products.h"
 #include "preprocess/added_mass_tables/table_places.h"
 
 namespace ambient {
@@ -32,7 +34,7 @@ struct SeriesPoint {
 constexpr double kDamping = 3e-5;
 
 double chebyshev(int degree, double x) {
-  return std::cos(degree * std::acos(std::clamp(x, -1.0, 1.0)));
+  return portable::cos(degree * portable::acos(std::clamp(x, -1.0, 1.0)));
 }
 
 FittedSeries fitSeries(const std::string& name, const SeriesTerms& terms,
@@ -52,6 +54,7 @@ FittedSeries fitSeries(const std::string& name, const SeriesTerms& terms,
     values[p] = points[p].value;
   }
   AMBIENT_ASSERT(size >= terms_size);
+  fixBlocksOfLargeProducts();
   basis.bottomRows(terms_size).diagonal().setConstant(kDamping);
   const Eigen::VectorXd solution = basis.colPivHouseholderQr().solve(values);
   FittedSeries series{name, terms.rows, terms.columns, {}, 0};
@@ -70,7 +73,7 @@ std::vector<FittedSeries> fitBoxes(const TableSamples& samples) {
     for (int k = 0; k < 3; ++k) {
       const BoxAxis axis{shape.sizes[k], shape.sizes[(k + 1) % 3], shape.sizes[(k + 2) % 3]};
       rotation.push_back({axis.place(), K[k] / axis.rotationScale()});
-      translation.push_back({axis.place(), std::log(K[3 + k] / axis.translationScale())});
+      translation.push_back({axis.place(), portable::log(K[3 + k] / axis.translationScale())});
     }
   }
   return {fitSeries("rotation", kRotation, rotation),
@@ -92,8 +95,8 @@ std::vector<FittedSeries> fitRound(TableShape::Kind kind, const TableSamples& sa
     if (shape.kind != kind) continue;
     const std::vector<double>& K = *samples.find(shape);
     const RoundPlace round = placeOf(shape);
-    v_z.push_back({round.place, std::log(K[0] / round.scale.v_z)});
-    v_x.push_back({round.place, std::log(K[1] / round.scale.v_x)});
+    v_z.push_back({round.place, portable::log(K[0] / round.scale.v_z)});
+    v_x.push_back({round.place, portable::log(K[1] / round.scale.v_x)});
     w_y.push_back({round.place, K[2] / round.scale.w_y});
     coupling.push_back({round.place, K[3] / round.scale.coupling});
   }

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/added_mass_tables/table_places.h"
 #include "preprocess/builder/fluid_body_builder.h"
@@ -23,18 +24,18 @@ constexpr int kConeRatios = 21, kConeRoundings = 9;
 const std::string kComment = "# Added mass of simple shapes by ";
 
 /// From -1 to 1, denser towards both.
-double chebyshevNode(int i, int count) { return -std::cos(kPi * i / (count - 1)); }
+double chebyshevNode(int i, int count) { return -portable::cos(kPi * i / (count - 1)); }
 
-double ratioAt(double x) { return std::pow(kLargestRatio, x); }
+double ratioAt(double x) { return portable::pow(kLargestRatio, x); }
 
 /// Rings around the cube in the plane of the logarithms, closer together towards the largest ratio.
 void appendBoxes(std::vector<TableShape>& shapes) {
   for (int ring = 0; ring <= kBoxRings; ++ring) {
-    const double longest = ratioAt(std::sin(kPi / 2 * ring / kBoxRings));
+    const double longest = ratioAt(portable::sin(kPi / 2 * ring / kBoxRings));
     const int count = (ring + 1) / 2 + 1;
     for (int i = 0; i < count; ++i) {
       const double share = count == 1 ? 0 : (1 + chebyshevNode(i, count)) / 2;
-      shapes.push_back({TableShape::kBox, {longest, std::pow(longest, share), 1}});
+      shapes.push_back({TableShape::kBox, {longest, portable::pow(longest, share), 1}});
     }
   }
 }
@@ -69,7 +70,7 @@ std::vector<TableShape> tableShapes() {
   appendBoxes(shapes);
   for (int i = 0; i < kRatios; ++i) {
     const double x = chebyshevNode(i, kRatios);
-    const double slenderness = std::expm1((1 + x) / 2 * std::log1p(kLargestRatio));
+    const double slenderness = portable::expm1((1 + x) / 2 * portable::log1p(kLargestRatio));
     shapes.push_back({TableShape::kCylinder, {1, 2 * ratioAt(x), 0}});
     // The first one is a ball, which does not turn.
     if (i > 0) shapes.push_back({TableShape::kCapsule, {1, 2 * slenderness, 0}});

@@ -9,6 +9,7 @@
 #include "bullet_ambient/fluid_body/packed_hull.h"
 #include "bullet_ambient/fluid_body/packed_parts.h"
 #include "bullet_ambient/force/wetted_parts.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/mesh_coarsening.h"
 #include "preprocess/potential_flow/flat_merging.h"
@@ -93,7 +94,8 @@ class WaterlineSolver {
   Matrix6 reference(const Vector3& normal, double immersion, double wet_share) const {
     const auto [low, high] = extentOf(mesh_, normal);
     const SurfacePlane plane{normal, low + immersion * (high - low), 1, 1};
-    const Vector6 factors = factors_.array().pow(wet_share);
+    const Vector6 factors =
+        factors_.unaryExpr([&](double x) { return portable::pow(x, wet_share); });
     return factors.asDiagonal() * solveImageFlow(mesh_, plane, panels_) * factors.asDiagonal();
   }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/geodesic.h"
@@ -12,7 +13,7 @@
 namespace ambient::test {
 
 inline double ellipsoidVolume(const Vector3& semi_axes) {
-  return 4.0 / 3.0 * std::acos(-1.0) * semi_axes.prod();
+  return 4.0 / 3.0 * portable::acos(-1.0) * semi_axes.prod();
 }
 
 /// Moments of inertia of a homogeneous ellipsoid [kg m^2].
@@ -27,7 +28,7 @@ inline FluidBody facelessEllipsoid(const Vector3& semi_axes) {
   shape.name = "ellipsoid";
   shape.added_mass = reference::ellipsoidAddedMass(semi_axes).asDiagonal();
   shape.volume = ellipsoidVolume(semi_axes);
-  shape.area = 4 * std::acos(-1.0) * std::pow(semi_axes.prod(), 2.0 / 3.0);
+  shape.area = 4 * portable::acos(-1.0) * portable::pow(semi_axes.prod(), 2.0 / 3.0);
   return shape;
 }
 
@@ -43,7 +44,7 @@ inline FluidBody meshedEllipsoid(const Vector3& semi_axes, int level) {
 inline std::vector<std::pair<double, double>> gaussRule(int count) {
   std::vector<std::pair<double, double>> rule;
   for (int i = 0; i < count; ++i) {
-    double x = std::cos(std::acos(-1.0) * (i + 0.75) / (count + 0.5));
+    double x = portable::cos(portable::acos(-1.0) * (i + 0.75) / (count + 0.5));
     double slope = 1;
     for (int newton = 0; newton < 8; ++newton) {
       double value = 1, before = 0;  // Legendre polynomials by their recurrence
@@ -69,12 +70,13 @@ inline FluidBody gaussSphere(double radius) {
   constexpr int kMeridians = 16;
   constexpr int kLatitudes = 16;
   FluidBody shape = facelessEllipsoid(Vector3::Constant(radius));
-  const double turn = 2 * std::acos(-1.0) / kMeridians;
+  const double turn = 2 * portable::acos(-1.0) / kMeridians;
   for (const double side : {1.0, -1.0}) {
     for (const auto& [node, weight] : gaussRule(kLatitudes)) {
       for (int j = 0; j < kMeridians; ++j) {
         const double sine = std::sqrt(1 - node * node);
-        const Vector3 normal(sine * std::cos(j * turn), sine * std::sin(j * turn), side * node);
+        const Vector3 normal(sine * portable::cos(j * turn), sine * portable::sin(j * turn),
+                             side * node);
         shape.faces.add(normal.normalized(), radius * normal, weight * turn * radius * radius);
       }
     }

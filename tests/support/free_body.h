@@ -5,6 +5,7 @@
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/motion/kirchhoff.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "tests/support/body_models.h"
 
 namespace ambient::test {
@@ -62,7 +63,7 @@ inline FluidBody shapeWithoutFaces(const Matrix6& added_mass, double volume = 1)
   shape.name = "inertia alone";
   shape.added_mass = added_mass;
   shape.volume = volume;
-  shape.area = std::pow(volume, 2.0 / 3.0);
+  shape.area = portable::pow(volume, 2.0 / 3.0);
   return shape;
 }
 
@@ -88,7 +89,7 @@ inline Flow flowWithoutLoads(const FreeBody& body, double duration, double preci
 /// Angle between two orientations [rad].
 inline double angleBetween(const Quaternion& a, const Quaternion& b) {
   const Quaternion turn = a.conjugate() * b;
-  return 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+  return 2 * portable::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
 
 }  // namespace ambient::test

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 
 namespace ambient::test {
@@ -60,7 +61,7 @@ void forLattice(int n, const Add& add) {
 }
 
 /// 0 to 1 with quadratic approach to both ends.
-double graded(double t) { return (1 - std::cos(kPi * t)) / 2; }
+double graded(double t) { return (1 - portable::cos(kPi * t)) / 2; }
 
 }  // namespace
 
@@ -105,9 +106,9 @@ TriangleMesh gradedHemisphere(int n) {
     const double fraction = static_cast<double>(r.ring) / n;
     const double azimuth = r.ring == 0 ? 0 : kPi / 3 * r.step / r.ring;
     const double polar = kPi / 2 * fraction;
-    const double radius = std::sin(polar);  // of the flat face too: graded towards the rim
-    const double z = r.cap == 0 && r.ring < n ? std::cos(polar) : 0;
-    return Vector3d(radius * std::cos(azimuth), radius * std::sin(azimuth), z);
+    const double radius = portable::sin(polar);  // of the flat face too: graded towards the rim
+    const double z = r.cap == 0 && r.ring < n ? portable::cos(polar) : 0;
+    return Vector3d(radius * portable::cos(azimuth), radius * portable::sin(azimuth), z);
   });
   for (int sector = 0; sector < 6; ++sector) {
     const auto name = [&](const std::array<int, 2>& node, int cap) {
@@ -127,8 +128,8 @@ TriangleMesh makeTorus(const TorusShape& shape) {
   using Node = std::array<int, 2>;
   NamedMesh<Node> mesh([&](const Node& node) {
     const double u = 2 * kPi * node[0] / shape.along, v = 2 * kPi * node[1] / shape.around;
-    const double r = shape.radius + shape.tube * std::cos(v);
-    return Vector3d(r * std::cos(u), r * std::sin(u), shape.tube * std::sin(v));
+    const double r = shape.radius + shape.tube * portable::cos(v);
+    return Vector3d(r * portable::cos(u), r * portable::sin(u), shape.tube * portable::sin(v));
   });
   for (int i = 0; i < shape.along; ++i)
     for (int j = 0; j < shape.around; ++j) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/block_order.h"
+#include "bullet_ambient/spatial/elementary.h"
 #include "tests/support/ellipsoid_body.h"
 #include "tests/support/hull_bodies.h"
 
@@ -78,7 +79,8 @@ inline FluidBody floatingBall(double radius, int level = 2) {
 /// A box of uniform density without parts: the added mass is that of the ellipsoid of its volume.
 inline FluidBody floatingBox(const Vector3& size, int divisions = 2) {
   FluidBody body = boxBody(size, divisions);
-  body.added_mass = facelessEllipsoid(size * std::cbrt(3 / (4 * std::acos(-1.0)))).added_mass;
+  body.added_mass =
+      facelessEllipsoid(size * portable::cbrt(3 / (4 * portable::acos(-1.0)))).added_mass;
   return body;
 }
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
-#include "bullet_ambient/motion/rotation.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {

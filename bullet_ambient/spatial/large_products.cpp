@@ -1,0 +1,15 @@
+#include "bullet_ambient/spatial/large_products.h"
+
+#include <Eigen/Core>
+
+namespace ambient {
+
+void fixBlocksOfLargeProducts() {
+  // Written once: other threads may be multiplying.
+  [[maybe_unused]] static const bool is_done = [] {
+    Eigen::setCpuCacheSizes(32 << 10, 1 << 20, 8 << 20);
+    return true;
+  }();
+}
+
+}  // namespace ambient

@@ -1,0 +1,44 @@
+#include "bullet_ambient/spatial/rotation.h"
+
+#include <cmath>
+
+#include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/elementary.h"
+
+namespace ambient {
+
+Quaternion rotationFromVector(const Vector3& r) {
+  const double angle = r.norm();
+  // sin(a/2)/a, whose series is exact to rounding where the quotient would lose digits.
+  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : portable::sin(angle / 2) / angle;
+  const Vector3 v = scale * r;
+  return Quaternion(portable::cos(angle / 2), v.x(), v.y(), v.z()).normalized();
+}
+
+Vector3 rotationVector(const Quaternion& q) {
+  constexpr double kTiny = 1e-150;  // whose square does not vanish
+  const double sine = q.vec().norm();
+  const double ratio = sine > kTiny ? portable::atan2(sine, std::abs(q.w())) / sine : 1;
+  return (q.w() < 0 ? -2 * ratio : 2 * ratio) * q.vec();
+}
+
+Quaternion rotationBetween(const Vector3& from, const Vector3& to) {
+  AMBIENT_ASSERT(!from.isZero(0) && !to.isZero(0));
+  const Vector3 a = from.stableNormalized(), b = to.stableNormalized();
+  const Vector3 between = a + b;  // twice the cosine of half the angle
+  if (between.norm() > 1e-7) {
+    const Vector3 half = between.normalized();
+    const Vector3 axis = a.cross(half);
+    return Quaternion(a.dot(half), axis.x(), axis.y(), axis.z()).normalized();
+  }
+  int least = 0;
+  a.cwiseAbs().minCoeff(&least);
+  const Vector3 axis = a.cross(Vector3(Vector3::Unit(least))).normalized();
+  return Quaternion(0, axis.x(), axis.y(), axis.z());
+}
+
+double angleBetween(const Quaternion& a, const Quaternion& b) {
+  return rotationVector(a.conjugate() * b).norm();
+}
+
+}  // namespace ambient

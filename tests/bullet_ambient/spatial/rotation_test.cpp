@@ -1,0 +1,51 @@
+#include "bullet_ambient/spatial/rotation.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+TEST(RotationFromVector, TurnsAboutTheVectorByItsLength) {
+  test::Arbitrary arbitrary(2);
+  for (const double angle : {1e-5, 0.3, 2.0, 6.0, 100.0}) {
+    const Vector3 axis = arbitrary.vector().normalized();
+    const Matrix3 expected = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+    const Matrix3 R = rotationFromVector(angle * axis).toRotationMatrix();
+    EXPECT_LT((R - expected).cwiseAbs().maxCoeff(), 1e-14) << angle;
+  }
+}
+
+TEST(RotationVector, IsThatOfTheQuaternionOrItsNegative) {
+  test::Arbitrary arbitrary(3);
+  for (const double angle : {0.0, 1e-200, 1e-20, 1e-5, 0.3, 2.0, 3.1}) {
+    const Vector3 expected = angle * arbitrary.vector().normalized();
+    const Quaternion q = rotationFromVector(expected);
+    EXPECT_LE((rotationVector(q) - expected).norm(), 4e-16 * angle) << angle;
+    EXPECT_EQ(rotationVector(Quaternion(-q.coeffs())), rotationVector(q)) << angle;
+  }
+}
+
+TEST(RotationBetween, TakesOneDirectionToTheOther) {
+  test::Arbitrary arbitrary(4);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 from = 1e-3 * arbitrary.vector(), to = 1e5 * arbitrary.vector();
+    const Vector3 turned = rotationBetween(from, to) * from.normalized();
+    EXPECT_LT((turned - to.normalized()).norm(), 1e-15);
+  }
+  for (const Vector3& axis : {Vector3(Vector3::UnitX()), Vector3(1, -2, 3)}) {
+    const Vector3 turned = rotationBetween(axis, -axis) * axis;
+    EXPECT_LT((turned + axis).norm(), 1e-15 * axis.norm());
+    EXPECT_LT(rotationVector(rotationBetween(axis, axis)).norm(), 1e-15);
+  }
+}
+
+TEST(AngleBetween, IsThatOfTheRotation) {
+  const Quaternion a = rotationFromVector({0.1, 0.2, -0.3}), turn = rotationFromVector({0, 0.7, 0});
+  EXPECT_NEAR(angleBetween(a, a * turn), 0.7, 1e-15);
+  EXPECT_NEAR(angleBetween(a, Quaternion(-(a * turn).coeffs())), 0.7, 1e-15);
+}
+
+}  // namespace
+}  // namespace ambient
