@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/rotation.h"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/spatial/ambient_assert.h"
-#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {
@@ -39,11 +39,6 @@ PrecisionRun runOnce(const Scene& scene, const std::vector<PreparedBody>& bodies
     run.coarse += static_cast<double>(work.coarse);
   }
   return run;
-}
-
-double angleBetween(const Quaternion& a, const Quaternion& b) {
-  const Quaternion turn = a.conjugate() * b;
-  return 2 * portable::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
 
 }  // namespace

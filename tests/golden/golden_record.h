@@ -42,19 +42,9 @@ struct GoldenRun {
 /// The runs of a program, each defines its own.
 std::vector<GoldenRun> goldenRuns();
 
-/// A text file: a line for the machine, then one for each run, numbers in hexadecimal.
-struct GoldenFile {
-  std::uint64_t machine = 0;  ///< mathHash() where it was recorded
-  std::vector<GoldenRecord> records;
-};
-
+/// A text file with a line for each run, numbers in hexadecimal.
 /// @throws std::runtime_error naming the file, and the line if it is not understood.
-GoldenFile readGoldenFile(const std::filesystem::path& file);
-void writeGoldenFile(const std::filesystem::path& file, const GoldenFile& golden);
-
-/// Hash of what no standard fixes to the last bit: values of the C library's functions, which
-/// depend on the processor, and a product of large matrices, whose order of sums depends on its
-/// caches.
-std::uint64_t mathHash();
+std::vector<GoldenRecord> readGoldenFile(const std::filesystem::path& file);
+void writeGoldenFile(const std::filesystem::path& file, const std::vector<GoldenRecord>& records);
 
 }  // namespace ambient::test

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_ambient/spatial/elementary.h"
-
 namespace ambient::test {
 
 /// Root mean square of error(i), i = 0 ... count - 1.
@@ -25,7 +23,7 @@ struct Convergence {
   double finest() const { return errors.back(); }
   /// Mean order between the coarsest and the finest mesh.
   double order() const {
-    return portable::log2(errors.front() / errors.back()) / static_cast<double>(errors.size() - 1);
+    return std::log2(errors.front() / errors.back()) / static_cast<double>(errors.size() - 1);
   }
 };
 

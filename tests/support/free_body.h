@@ -6,6 +6,7 @@
 #include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/motion/kirchhoff.h"
 #include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "tests/support/body_models.h"
 
 namespace ambient::test {
@@ -84,12 +85,6 @@ inline Flow flowWithoutLoads(const FreeBody& body, double duration, double preci
   lanes.precision[0] = precision;
   fastestFlightKernel().flow(lanes);
   return {stateOf(lanes, 0, body.state.position), !(lanes.is_coarse[0] > 0)};
-}
-
-/// Angle between two orientations [rad].
-inline double angleBetween(const Quaternion& a, const Quaternion& b) {
-  const Quaternion turn = a.conjugate() * b;
-  return 2 * portable::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
 
 }  // namespace ambient::test

@@ -37,7 +37,7 @@ TEST(DormandPrince, ErrorFollowsTheToleranceWhereTheLoadsAreSmooth) {
     // 24 steps, and the disc's glide is unstable: errors grow fivefold. Its length is 0.24 m.
     constexpr double kGrowth = 24 * 5;
     EXPECT_LT(distance(disc.state, exact), kGrowth * tolerance * 0.24) << tolerance;
-    EXPECT_LT(test::angleBetween(disc.state.orientation, exact.orientation), kGrowth * tolerance);
+    EXPECT_LT(angleBetween(disc.state.orientation, exact.orientation), kGrowth * tolerance);
   }
 }
 

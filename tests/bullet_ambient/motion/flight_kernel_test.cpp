@@ -207,7 +207,7 @@ TEST(FlowWithoutLoads, IsAsPreciseAsAskedAndNeverGainsEnergy) {
       const Vector6 error = body.state.twist.vector() - exact.twist.vector();
       EXPECT_LT(std::sqrt(inertiaNormSquared(body.model(), error) / (2 * before)), precision)
           << seed;
-      EXPECT_LT(test::angleBetween(body.state.orientation, exact.orientation), precision) << seed;
+      EXPECT_LT(angleBetween(body.state.orientation, exact.orientation), precision) << seed;
       // Up to the rounding of the scaling: each component, and the factor.
       EXPECT_LE(body.kineticEnergy(), before * (1 + 1e-15)) << seed;
     }

@@ -107,7 +107,7 @@ double medianRotationError(double spin, double step, Integrator integrator) {
     const Eigen::Matrix<double, 6, 6> inertia = body.model().inertia;
     s = reference::integrate({inertia.inverse()}, s, kSpinDuration, static_cast<int>(spin * 40));
     body.advance(step, static_cast<int>(std::lround(kSpinDuration / step)));
-    errors.push_back(test::angleBetween(body.state.orientation, reference::orientationOf(s)));
+    errors.push_back(angleBetween(body.state.orientation, reference::orientationOf(s)));
   }
   std::sort(errors.begin(), errors.end());
   return errors[kBodies / 2];
@@ -137,7 +137,7 @@ TEST(FlowWithoutLoads, OfTwoHalvesIsTheFlowOfTheWhole) {
     body.state = flowWithoutLoads(body, 0.02).state;
     const RigidState twice = flowWithoutLoads(body, 0.02).state;
     EXPECT_LT((twice.position - once.position).norm(), 1e-13) << seed;
-    EXPECT_LT(test::angleBetween(twice.orientation, once.orientation), 1e-13) << seed;
+    EXPECT_LT(angleBetween(twice.orientation, once.orientation), 1e-13) << seed;
     EXPECT_LT((twice.twist.vector() - once.twist.vector()).norm(), 1e-12) << seed;
   }
 }

@@ -48,7 +48,7 @@ TEST(MovingFluid, ASteadyCurrentIsStillWaterSeenFromAMovingFrame) {
     const Vector3 way = kDriftSteps * kStep * current;
     // Rounding of adding and taking away the current, amplified by the switching of the faces.
     EXPECT_LT((carried.state.position - still.state.position - way).norm(), 1e-12);
-    EXPECT_LT(test::angleBetween(carried.state.orientation, still.state.orientation), 1e-11);
+    EXPECT_LT(angleBetween(carried.state.orientation, still.state.orientation), 1e-11);
     const Vector3 relative =
         carried.state.twist.linear - carried.state.orientation.conjugate() * current;
     EXPECT_LT((relative - still.state.twist.linear).norm(), 1e-11);
@@ -72,7 +72,7 @@ TEST(MovingFluid, ItsAccelerationActsLikeGravityOnBodyAndDisplacedFluid) {
     const double t = kDriftSteps * kStep;
     const Vector3 way = t * t / 2 * acceleration;
     EXPECT_LT((carried.state.position - still.state.position - way).norm(), 1e-11);
-    EXPECT_LT(test::angleBetween(carried.state.orientation, still.state.orientation), 1e-10);
+    EXPECT_LT(angleBetween(carried.state.orientation, still.state.orientation), 1e-10);
   }
 }
 

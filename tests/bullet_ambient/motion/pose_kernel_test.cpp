@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "bullet_ambient/motion/flight_group.h"
-#include "bullet_ambient/motion/rotation.h"
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "tests/support/random_bodies.h"
 
 namespace ambient {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {
@@ -24,11 +25,6 @@ std::vector<MotionSample> keysOf(double spin, double step, int steps) {
   std::vector<MotionSample> motion;
   for (int i = 0; i <= steps; ++i) motion.push_back(spinningAt(i * step, spin));
   return makeMotionKeys(motion);
-}
-
-double angleBetween(const Quaternion& a, const Quaternion& b) {
-  const Quaternion turn = a.conjugate() * b;
-  return 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
 
 TEST(MotionKeys, AreTheSamplesOfASlowBody) { EXPECT_EQ(keysOf(10, 0.01, 7).size(), 8u); }
