@@ -261,8 +261,14 @@ TEST(SceneRun, BodiesComeToRestOnAStaticOne) {
   // Cone and hull have a margin of 1 % of their size; a cone's centre of mass is at a quarter.
   EXPECT_NEAR(height(4), 0.12 / 4, 1e-3);
   EXPECT_NEAR(height(5), 0.02, 1e-3);
-  for (std::size_t i = 1; i < record.motion.size(); ++i)
-    EXPECT_LE(record.motion[i].back().twist.linear.norm(), 1e-2) << i;
+  // The way of the last half second. The velocity of a single step says less: where Bullet drops
+  // and finds a contact of the cone it jumps for a step, at times that rounding decides.
+  for (std::size_t i = 1; i < record.motion.size(); ++i) {
+    const std::vector<MotionSample>& motion = record.motion[i];
+    std::size_t before = motion.size() - 1;
+    while (motion[before].time > motion.back().time - 0.5) --before;
+    EXPECT_LE((motion.back().position - motion[before].position).norm(), 2e-3) << i;
+  }
 }
 
 TEST(SceneRun, OrientationsDoNotJumpToTheOppositeSign) {
