@@ -1,9 +1,9 @@
 #pragma once
 
-#include "bullet_ambient/spatial/instruction_set.h"
 #include "bullet_ambient/motion/flight.h"
 #include "bullet_ambient/motion/flight_lanes.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/instruction_set.h"
 
 namespace ambient {
 

@@ -24,9 +24,7 @@ struct Kernels {
     if (set == InstructionSet::kAvx512) return avx512;
     return set == InstructionSet::kAvx2 ? avx2 : baseline;
   }
-  Pointer fastest() const noexcept {
-    return of(fastestInstructionSet());
-  }
+  Pointer fastest() const noexcept { return of(fastestInstructionSet()); }
 };
 
 }  // namespace ambient

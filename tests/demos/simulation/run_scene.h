@@ -33,10 +33,14 @@ inline std::vector<PreparedBody> prepare(const Scene& scene) {
   return prepareBodies(scene, cache);
 }
 
-/// Runs a scene; scenes of one shape share its fluid body.
-inline RunRecord runSharing(const Scene& scene) {
+/// The bodies of a scene; scenes of one shape share its fluid body.
+inline std::vector<PreparedBody> prepareSharing(const Scene& scene) {
   static SceneBodyCache cache;
-  return runPrepared(scene, prepareBodies(scene, cache));
+  return prepareBodies(scene, cache);
+}
+
+inline RunRecord runSharing(const Scene& scene) {
+  return runPrepared(scene, prepareSharing(scene));
 }
 
 /// Of the first body.
