@@ -36,7 +36,7 @@ struct AmbientCounters {
   long long load_evaluations = 0;
   long long faces = 0;     ///< faces or clusters summed in them; a sphere has none
   long long guarded = 0;   ///< load evaluations in which the passivity guard acted
-  long long coarse = 0;    ///< steps whose error stayed too large at the most substeps
+  long long coarse = 0;    ///< steps whose error stayed too large at the most substeps or retries
   long long rows = 0;      ///< constraint rows rewritten
   long long rejected = 0;  ///< results of steps, and samples of regions, not finite and left out
   long long regions_asked = 0;   ///< whether they hold the body

@@ -19,9 +19,10 @@ struct Surroundings {
 struct FlightCount {
   int substeps = 0;
   int load_evaluations = 0;
-  int guarded = 0;      ///< evaluations in which the passivity guard acted
-  bool coarse = false;  ///< the bound on substeps was reached with the error above tolerance
-  double error = 0;     ///< of the velocity in a coarse step, relative to the motion; 1: not known
+  int guarded = 0;  ///< evaluations in which the passivity guard acted
+  bool coarse =
+      false;  ///< the bound on substeps or retries was reached with the error above tolerance
+  double error = 0;  ///< of the velocity in a coarse step, relative to the motion; 1: not known
 };
 
 struct FlightResult {

@@ -160,7 +160,7 @@ class Leapfrog {
       result.state = stateOf(lanes_, i, result.state.position);
       result.memory = {wrenchOf(lanes_.load_W, i), way.has_load, std::min(next, 4 * h)};
       const bool is_flow_coarse = lanes_.is_coarse[i] > 0;
-      result.count.coarse = is_flow_coarse || (ratio > kAcceptance && way.substeps == way.most);
+      result.count.coarse = is_flow_coarse || ratio > kAcceptance;
       if (result.count.coarse) result.count.error = is_flow_coarse ? 1 : way.error;
       way.is_done = true;
       return;

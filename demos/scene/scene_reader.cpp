@@ -98,7 +98,7 @@ BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path
   if (from.contains("law")) body.flow.law = valueOf(from.at("law"), kPressureLawNames);
   body.flow.stall_lag = from.value("stall_lag", body.flow.stall_lag);
   body.flow.skin_friction = from.value("skin_friction", true);
-  body.flow.maximum_load_error = from.value("maximum_load_error", 0.0);
+  body.flow.maximum_load_error = from.value("maximum_load_error", body.flow.maximum_load_error);
   if (from.contains("fluid_density")) body.fluid_density = from.at("fluid_density").get<double>();
   body.wave_damping = from.value("wave_damping", body.wave_damping);
   body.restitution = from.value("restitution", body.restitution);

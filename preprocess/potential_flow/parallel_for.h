@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -15,7 +16,8 @@ inline int threadCount(int setting) {
 }
 
 /// Calls body(i) once for every i in [0, count), on up to `threads` threads, in any order; returns
-/// when all calls have returned. The first exception is passed on. Results do not depend on the
+/// when all calls have returned. Where the system gives fewer threads, fewer do the work. The first
+/// exception is passed on. Results do not depend on the
 /// number of threads as long as body(i) writes only what belongs to i.
 template <typename Body>
 void parallelFor(int threads, std::ptrdiff_t count, const Body& body) {
@@ -33,7 +35,11 @@ void parallelFor(int threads, std::ptrdiff_t count, const Body& body) {
   };
   std::vector<std::thread> helpers;
   const std::ptrdiff_t extra = std::min<std::ptrdiff_t>(threads, count) - 1;
-  for (std::ptrdiff_t k = 0; k < extra; ++k) helpers.emplace_back(work);
+  try {
+    for (std::ptrdiff_t k = 0; k < extra; ++k) helpers.emplace_back(work);
+  } catch (const std::system_error&) {
+    // Those that run, and this one, do it all.
+  }
   work();
   for (std::thread& helper : helpers) helper.join();
   if (failure) std::rethrow_exception(failure);

@@ -59,5 +59,21 @@ TEST(FluidBody, AWaterlineTableIsPartOfItsContent) {
   EXPECT_NE(contentHash(body), with);
 }
 
+TEST(FluidBody, WhatTheSurfaceOfWaterAndTheFormLawNeedIsPartOfItsContent) {
+  const FluidBody body = test::exampleBody();
+  const std::uint64_t hash = contentHash(body);
+  const auto changed = [&](auto change) {
+    FluidBody other = body;
+    change(other);
+    return contentHash(other);
+  };
+  EXPECT_NE(changed([](FluidBody& b) { b.surface.vertices.push_back(1); }), hash);
+  EXPECT_NE(changed([](FluidBody& b) { b.surface.triangles.push_back(1); }), hash);
+  EXPECT_NE(changed([](FluidBody& b) { b.added_mass_parts.emplace_back(); }), hash);
+  EXPECT_NE(changed([](FluidBody& b) { b.faces.sharpness.push_back(0.5); }), hash);
+  EXPECT_NE(changed([](FluidBody& b) { b.form_levels.emplace_back().faces.sharpness = {1}; }),
+            hash);
+}
+
 }  // namespace
 }  // namespace ambient

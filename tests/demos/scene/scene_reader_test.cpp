@@ -87,7 +87,7 @@ TEST(SceneReader, FillsInWhatMayBeLeftOut) {
   EXPECT_EQ(scene.bodies[0].name, "body_0");
   EXPECT_EQ(scene.bodies[0].flow.separation_angle, std::acos(-1.0) / 2);
   EXPECT_TRUE(scene.bodies[0].flow.skin_friction);
-  EXPECT_EQ(scene.bodies[0].flow.maximum_load_error, 0);
+  EXPECT_EQ(scene.bodies[0].flow.maximum_load_error, FlowSettings{}.maximum_load_error);
   EXPECT_FALSE(scene.bodies[0].inertia);
 }
 

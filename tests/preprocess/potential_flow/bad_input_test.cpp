@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -85,6 +88,25 @@ TEST(ParallelFor, VisitsEveryIndexOnce) {
     EXPECT_EQ(visits, std::vector<int>(1000, 1));
   }
 }
+
+// Under the address sanitizer a program needs more memory than such a limit leaves.
+#if defined(__has_feature)
+#define AMBIENT_HAS_ADDRESS_SANITIZER __has_feature(address_sanitizer)
+#else
+#define AMBIENT_HAS_ADDRESS_SANITIZER 0
+#endif
+#if !AMBIENT_HAS_ADDRESS_SANITIZER
+TEST(ParallelFor, DoesItAllWhereNoThreadCanBeStarted) {
+  const auto countWithoutThreads = [] {
+    std::vector<int> visits(100, 0);
+    const rlimit no_more_memory{1, 1};  // [bytes]: none for the stack of a thread
+    setrlimit(RLIMIT_AS, &no_more_memory);
+    parallelFor(8, 100, [&](std::ptrdiff_t i) { ++visits[i]; });
+    std::_Exit(std::count(visits.begin(), visits.end(), 1) == 100 ? 0 : 1);
+  };
+  EXPECT_EXIT(countWithoutThreads(), ::testing::ExitedWithCode(0), "");
+}
+#endif
 
 TEST(ParallelFor, PassesExceptionsOn) {
   const auto failing = [](std::ptrdiff_t i) {
