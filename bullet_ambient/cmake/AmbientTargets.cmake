@@ -1,17 +1,21 @@
 include(AmbientInstall)
 
-# ambient_add_box(NAME [SOURCES ...] [DEPENDS ...] [PRIVATE_DEPENDS ...] [PRECISION float32|float64])
+# ambient_add_box(NAME [COLD] [SOURCES ...] [DEPENDS ...] [PRIVATE_DEPENDS ...] [PRECISION float32|float64])
 #
 # One library target per box of docs/architecture.md. A box without sources is header-only. DEPENDS are public; the
 # linker enforces who may include whom. PRIVATE_DEPENDS are header-only libraries that the sources alone see: they
 # do not reach the installed package. PRECISION: the box includes Bullet's headers of that precision, and everything
-# that links it is compiled with BULLET_AMBIENT_FLOAT64 = 0 or 1.
+# that links it is compiled with BULLET_AMBIENT_FLOAT64 = 0 or 1. COLD: its own work takes no time; it is optimised little,
+# which compiles faster.
 function(ambient_add_box name)
-  cmake_parse_arguments(BOX "" "PRECISION" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(BOX "COLD" "PRECISION" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   if(BOX_SOURCES)
     add_library(${name} ${BOX_SOURCES})
     set(scope PUBLIC)
     ambient_set_compile_options(${name})
+    if(BOX_COLD)
+      ambient_optimise_little(${name})
+    endif()
     foreach(dependency IN LISTS BOX_PRIVATE_DEPENDS)
       target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:${dependency}>)
     endforeach()
@@ -64,6 +68,11 @@ function(ambient_name_for_precision out name precision)
   else()
     set(${out} ${name} PARENT_SCOPE)
   endif()
+endfunction()
+
+# For what is compiled more often than it computes; it overrides the -O3 of Release.
+function(ambient_optimise_little name)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # Options every target of this project is compiled with. Sources that are compiled together may use a local name that
