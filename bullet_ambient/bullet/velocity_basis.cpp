@@ -1,21 +1,14 @@
 #include "bullet_ambient/bullet/velocity_basis.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "bullet_ambient/bullet/conversions.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/cholesky.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
-
-using Matrix = Eigen::Matrix<double, 6, 6>;
-
-// L^-T of K = L L^T, upper triangular.
-Matrix inverseTransposedFactor(const Matrix6& inertia) {
-  return Eigen::LLT<Matrix>(inertia).matrixU().solve(Matrix::Identity());
-}
 
 WorldBasis toBullet(const Matrix6& T) {
   return {toBulletMatrix(T.topLeftCorner<3, 3>()), toBulletMatrix(T.topRightCorner<3, 3>()),
@@ -28,7 +21,7 @@ Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& inertia_diagona
   AMBIENT_ASSERT(inertia_diagonal.minCoeff() > 0 && model.mass > 0);
   Vector6 scale;
   scale << inertia_diagonal.cwiseSqrt(), Vector3::Constant(std::sqrt(model.mass));
-  return inverseTransposedFactor(model.inertia) * scale.asDiagonal();
+  return Cholesky<6>(model.inertia).inverseTransposed() * scale.asDiagonal();
 }
 
 WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& R) {
@@ -54,7 +47,7 @@ Matrix3 rootInertia(const Vector3& inertia_diagonal, const Matrix3& R) {
 WorldBasis makeLockedBasis(const BodyModel& model, const Matrix3& root_inertia_W, const Matrix3& R,
                            const AxisFactors& factors) {
   const Matrix6 K_W = rotateAxes(model.inertia, R);
-  Matrix6 root = inverseTransposedFactor(freeInertia(K_W, factors));
+  Matrix6 root = Cholesky<6>(freeInertia(K_W, factors)).inverseTransposed();
   // Rows scaled by the factors; columns of locked axes must not move the body.
   const Vector6 scale = stack(factors.angular, factors.linear);
   for (int axis = 0; axis < 6; ++axis) {

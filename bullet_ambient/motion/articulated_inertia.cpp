@@ -13,10 +13,9 @@ bool invert(const Matrix3& D, int count, Matrix3& inverse) {
     inverse(0, 0) = 1 / D(0, 0);
     return D(0, 0) > 0 && std::isfinite(inverse(0, 0));
   }
-  const Eigen::LLT<Matrix3> cholesky(D);
-  inverse.setIdentity();
-  cholesky.solveInPlace(inverse);
-  return cholesky.info() == Eigen::Success && inverse.allFinite();
+  const Cholesky<3> factor(D);
+  inverse = factor.inverse();
+  return factor.isPositive() && inverse.allFinite();
 }
 
 }  // namespace
@@ -42,22 +41,22 @@ bool LinkDynamics::articulate() noexcept {
     if (!parent.is_kept) parent.articulated += link.articulated.toB(link.offset);
   }
   if (links_[0].is_kept) return is_positive;
-  base_.compute(links_[0].articulated.matrix());
-  return is_positive && base_.info() == Eigen::Success;
+  base_ = Cholesky<6>(links_[0].articulated.matrix());
+  return is_positive && base_.isPositive();
 }
 
 void LinkDynamics::holdJoints() noexcept {
   for (LinkState& link : links_) link.articulated = link.inertia;
   for (std::size_t l = links_.size() - 1; l > 0; --l)
     links_[links_[l].parent].articulated += links_[l].articulated.toB(links_[l].offset);
-  base_.compute(links_[0].articulated.matrix());
+  base_ = Cholesky<6>(links_[0].articulated.matrix());
 }
 
 Vector6 LinkDynamics::answerHeld(const Vector6& momentum) const noexcept {
   const Matrix3& R = links_[0].rotation_W;
   Vector6 result;
   result << R.transpose() * momentum.head<3>(), R.transpose() * momentum.tail<3>();
-  base_.solveInPlace(result);
+  result = base_.solve(result);
   result.head<3>() = (R * result.head<3>()).eval();
   result.tail<3>() = (R * result.tail<3>()).eval();
   return result;
@@ -172,8 +171,7 @@ void LinkDynamics::solveBase(double* result) noexcept {
   LinkState& base = links_[0];
   Vector6 a = Vector6::Zero();
   if (!base.is_kept) {
-    a = -base.force.vector();
-    base_.solveInPlace(a);
+    a = base_.solve(-base.force.vector());
   }
   base.acceleration = Twist::fromVector(a);
   for (int i = 0; i < 2; ++i) {

@@ -1,10 +1,10 @@
 #include "bullet_ambient/motion/axis_locks.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "bullet_ambient/motion/kirchhoff.h"
 #include "bullet_ambient/motion/passive_kick.h"
+#include "bullet_ambient/spatial/cholesky.h"
 
 namespace ambient {
 namespace {
@@ -71,8 +71,7 @@ Matrix6 freeInertia(const Matrix6& inertia_W, const AxisFactors& factors) {
 }
 
 Matrix6 lockedInverse(const Matrix6& inertia_W, const AxisFactors& factors) {
-  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> cholesky(freeInertia(inertia_W, factors));
-  const Matrix6 inverse = cholesky.solve(Eigen::Matrix<double, 6, 6>::Identity());
+  const Matrix6 inverse = Cholesky<6>(freeInertia(inertia_W, factors)).inverse();
   const Vector6 scale = stack(factors.angular, factors.linear);
   const Matrix6 scaled = scale.asDiagonal() * inverse * scale.asDiagonal();
   return 0.5 * (scaled + scaled.transpose());

@@ -1,6 +1,5 @@
 #include "bullet_ambient/motion/body_model.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "bullet_ambient/force/surface_loads.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
@@ -115,12 +115,12 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   model.inertia = rigidBodyInertia(mass.mass, mass.inertia) +
                   medium.density * fluid_frame.inertiaToB(fluid_body.added_mass);
   model.inertia = withoutRounding(model.inertia);
-  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> cholesky(model.inertia);
-  if (cholesky.info() != Eigen::Success || !model.inertia.allFinite()) {
+  const Cholesky<6> factor(model.inertia);
+  if (!factor.isPositive() || !model.inertia.allFinite()) {
     reject(fluid_body, "largest entry of body and added inertia",
            model.inertia.cwiseAbs().maxCoeff(), "finite, in a positive definite 6x6 matrix");
   }
-  model.inverse_inertia = cholesky.solve(Eigen::Matrix<double, 6, 6>::Identity());
+  model.inverse_inertia = factor.inverse();
   model.inverse_inertia = 0.5 * (model.inverse_inertia + model.inverse_inertia.transpose()).eval();
   AMBIENT_ASSERT(model.inverse_inertia.diagonal().minCoeff() > 0);
   model.has_diagonal_inertia = model.inertia.isDiagonal(0) && model.inverse_inertia.isDiagonal(0);

@@ -1,7 +1,6 @@
 #include "bullet_ambient/motion/even_response.h"
 
-#include <Eigen/Cholesky>
-
+#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
@@ -23,12 +22,11 @@ Vector6 EvenResponse::beyond(const Vector6& momentum, const Vector6& change) con
 }
 
 EvenResponse makeEvenResponse(const Matrix6& inverse_inertia, const Matrix3& dry_inertia) {
-  const Eigen::LLT<Eigen::Matrix3d> root(dry_inertia);
-  const Eigen::Matrix3d L = root.matrixL();
+  const Cholesky<3> root(dry_inertia);
+  const Matrix3& L = root.lower();
   const Eigen::Matrix3d angular = L.transpose() * inverse_inertia.topLeftCorner<3, 3>() * L;
   const Eigen::Matrix3d linear = inverse_inertia.bottomRightCorner<3, 3>();
-  return {largestEigenvalue(angular) * root.solve(Eigen::Matrix3d::Identity()),
-          largestEigenvalue(linear)};
+  return {largestEigenvalue(angular) * root.inverse(), largestEigenvalue(linear)};
 }
 
 }  // namespace ambient

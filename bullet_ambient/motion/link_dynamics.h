@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <vector>
 
 #include "bullet_ambient/motion/link_state.h"
 #include "bullet_ambient/motion/link_tree.h"
+#include "bullet_ambient/spatial/cholesky.h"
 
 namespace ambient {
 
@@ -116,8 +116,8 @@ class LinkDynamics {
   const LinkTree& tree_;
   int coordinates_ = 0;
   std::vector<LinkState> links_;
-  Eigen::LLT<Matrix6> base_;  // of its articulated inertia
-  Coordinates missing_;       // of correctAccelerations()
+  Cholesky<6> base_;     // of its articulated inertia
+  Coordinates missing_;  // of correctAccelerations()
 };
 
 }  // namespace ambient

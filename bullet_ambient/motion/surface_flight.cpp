@@ -1,12 +1,12 @@
 #include "bullet_ambient/motion/surface_flight.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "bullet_ambient/force/surface_loads.h"
 #include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/motion/passive_kick.h"
+#include "bullet_ambient/spatial/cholesky.h"
 
 namespace ambient {
 namespace {
@@ -15,8 +15,6 @@ constexpr int kSurfaceAttempts = 3;
 constexpr int kSurfaceSubsteps = 16;
 constexpr double kFlowAccuracy = 1e-6;   // of the tolerance
 constexpr double kMostSurfaceError = 2;  // of an accepted step, in tolerances
-
-using Matrix = Eigen::Matrix<double, 6, 6>;
 
 struct Pose {
   Quaternion orientation;
@@ -157,8 +155,7 @@ class SurfaceFlight {
                             hydrostaticWrench(stand_->wet, stand_->plane))
                                .vector();
     if (!is_stiff_) return stand_->inverse * wrench;
-    const Matrix K = stiffInertia(*stand_, h);
-    return Eigen::LLT<Matrix>(K).solve(wrench);
+    return Cholesky<6>(stiffInertia(*stand_, h)).solve(wrench);
   }
 
   Wrench loadAt(const Vector6& x) {

@@ -1,10 +1,10 @@
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "bullet_ambient/force/load_tables.h"
 #include "bullet_ambient/force/wetted_inertia.h"
+#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
@@ -53,9 +53,8 @@ Eigen::Matrix3d inertiaOf(const FloatingBody& body, const PackedHull& hull,
   Eigen::Matrix<double, 6, 3> motions;
   motions << stack(Vector3::Zero(), of.up), stack(of.axes[0], Vector3::Zero()),
       stack(of.axes[1], Vector3::Zero());
-  const Eigen::Matrix<double, 6, 6> K = total;
-  const Eigen::Matrix3d response = motions.transpose() * K.llt().solve(motions);
-  return response.inverse();
+  const Matrix3 response = motions.transpose() * Cholesky<6>(total).inverse() * motions;
+  return Cholesky<3>(response).inverse();
 }
 
 FloatingMode modeOf(const Eigen::Vector3d& q, double square, const Eigen::Matrix3d& stiffness,
@@ -73,13 +72,12 @@ std::array<FloatingMode, 3> modesOf(const FloatingBody& body, const PackedHull& 
                                     const FloatingPose& pose) {
   const Floaters of{pose.plane.normal, planeAxes(pose.plane.normal)};
   const Eigen::Matrix3d K = stiffnessOf(body, pose, of), M = inertiaOf(body, hull, pose, of);
-  const Eigen::LLT<Eigen::Matrix3d> factor(M);
-  const Eigen::Matrix3d half = factor.matrixL().solve(K);
-  const Eigen::Matrix3d reduced = factor.matrixL().solve(half.transpose().eval());
+  const Matrix3 root = Cholesky<3>(M).inverseTransposed();
+  const Matrix3 reduced = root.transpose() * K * root;
   const SymmetricEigen<3> eigen = symmetricEigen<3>(reduced);
   std::array<FloatingMode, 3> modes;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d q = factor.matrixU().solve(eigen.vectors.col(i));
+    const Eigen::Vector3d q = root * eigen.vectors.col(i);
     modes[static_cast<std::size_t>(i)] = modeOf(q, eigen.values[i], K, of);
   }
   return modes;

@@ -1,0 +1,63 @@
+#include "bullet_ambient/spatial/cholesky.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+template <int N>
+auto arbitraryInertia(test::Arbitrary& arbitrary) {
+  typename Cholesky<N>::Matrix A;
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) A(i, j) = arbitrary.between(-1, 1);
+  return (A * A.transpose() + 0.1 * Cholesky<N>::Matrix::Identity()).eval();
+}
+
+// Condition numbers are below 200, so that rounding stays below 1e-13.
+template <int N>
+void expectThatItFactorises() {
+  using Matrix = typename Cholesky<N>::Matrix;
+  constexpr double kRounding = 1e-13;
+  test::Arbitrary arbitrary(3);
+  for (int i = 0; i < 100; ++i) {
+    const Matrix A = arbitraryInertia<N>(arbitrary);
+    const Cholesky<N> factor(A);
+    ASSERT_TRUE(factor.isPositive());
+    const Matrix& L = factor.lower();
+    EXPECT_TRUE(L.isLowerTriangular(0));
+    EXPECT_LT((L * L.transpose() - A).norm(), kRounding);
+    EXPECT_LT((A * factor.inverse() - Matrix::Identity()).norm(), 10 * kRounding);
+    EXPECT_TRUE(factor.inverseTransposed().isUpperTriangular(0));
+    EXPECT_LT((L.transpose() * factor.inverseTransposed() - Matrix::Identity()).norm(), kRounding);
+    const typename Cholesky<N>::Vector b = A.col(0) - A.col(N - 1);
+    EXPECT_LT((A * factor.solve(b) - b).norm(), 10 * kRounding);
+  }
+}
+
+TEST(Cholesky, FactorisesThreeRows) { expectThatItFactorises<3>(); }
+
+TEST(Cholesky, FactorisesSixRows) { expectThatItFactorises<6>(); }
+
+TEST(Cholesky, ReadsTheLowerHalfOnly) {
+  test::Arbitrary arbitrary(4);
+  Matrix6 A = arbitraryInertia<6>(arbitrary);
+  const Matrix6 L = Cholesky<6>(A).lower();
+  A(0, 5) = 1e9;
+  EXPECT_EQ(Cholesky<6>(A).lower(), L);
+}
+
+TEST(Cholesky, IsNotPositiveOfOtherMatrices) {
+  test::Arbitrary arbitrary(5);
+  for (int i = 0; i < 6; ++i) {
+    Matrix6 A = arbitraryInertia<6>(arbitrary);
+    A(i, i) = -0.1;
+    EXPECT_FALSE(Cholesky<6>(A).isPositive()) << i;
+  }
+  EXPECT_FALSE(Cholesky<3>(Matrix3::Zero()).isPositive());
+  EXPECT_FALSE(Cholesky<6>().isPositive());
+}
+
+}  // namespace
+}  // namespace ambient
