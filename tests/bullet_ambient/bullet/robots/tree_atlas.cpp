@@ -67,12 +67,14 @@ void addBox(RobotWorld& world, btMultiBody& body) {
 TreeResult watch(RobotWorld& world, const btMultiBody& body, double hertz) {
   const AmbientRegistry& registry = world.fluid.registry();
   const double start = kineticEnergy(registry, body);
+  double lowest = start;
   TreeResult result;
   for (int i = 0; i < std::lround(hertz); ++i) {
     world.step(1 / hertz);
-    const double rise = kineticEnergy(registry, body) / start - 1;
-    if (!std::isfinite(rise)) return {false, 0};
-    result.energy_rise = std::max(result.energy_rise, rise);
+    const double energy = kineticEnergy(registry, body);
+    if (!std::isfinite(energy)) return {false, 0};
+    result.energy_rise = std::max(result.energy_rise, (energy - lowest) / start);
+    lowest = std::min(lowest, energy);
   }
   return result;
 }

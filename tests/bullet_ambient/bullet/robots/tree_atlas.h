@@ -27,7 +27,8 @@ struct TreeCase {
 
 struct TreeResult {
   bool is_finite = true;
-  double energy_rise = 0;  ///< largest kinetic energy in 1 s over that of the start, less 1
+  /// Largest rise of the kinetic energy in 1 s above any earlier one, over that of the start.
+  double energy_rise = 0;
 };
 TreeResult runTree(const TreeCase& tree_case);
 
