@@ -248,9 +248,7 @@ TEST_F(CommandLine, WithoutTablesTheFlowAroundABoxIsSolved) {
     return resultOf(arguments);
   };
   const json looked_up = built({}), solved = built({"--no-tables"});
-  const auto settings = [](const json& report) {
-    return report["settings"].get<std::string>();
-  };
+  const auto settings = [](const json& report) { return report["settings"].get<std::string>(); };
   EXPECT_NE(settings(looked_up).find("added mass tables"), std::string::npos) << looked_up;
   EXPECT_EQ(settings(solved).find("added mass tables"), std::string::npos) << solved;
   EXPECT_NE(settings(solved).find("panels"), std::string::npos) << solved;
