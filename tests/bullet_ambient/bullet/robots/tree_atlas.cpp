@@ -90,9 +90,11 @@ const char* nameOf(TreeSetting setting) {
     case TreeSetting::kInBox:
       return "in a box";
     case TreeSetting::kTetheredInBox:
+      return "on a tether in a box";
+    case TreeSetting::kLong:
       break;
   }
-  return "on a tether in a box";
+  return "free, of 100 links";
 }
 
 TreeResult runTree(const TreeCase& tree_case) {
@@ -101,9 +103,11 @@ TreeResult runTree(const TreeCase& tree_case) {
   world.world.getSolverInfo().m_erp = bt(0.2);  // Bullet's own
   world.world.getSolverInfo().m_numIterations = 50;
   const double hertz = kHertz[static_cast<int>(arbitrary.between(0, 4))];
-  btMultiBody& body = world.add(arbitrary, treeOf(arbitrary));
-  attachFluid(arbitrary, world, body, tree_case.fluid);
   const TreeSetting setting = tree_case.setting;
+  RobotDef def = treeOf(arbitrary);
+  if (setting == TreeSetting::kLong) def.links = 100;
+  btMultiBody& body = world.add(arbitrary, def);
+  attachFluid(arbitrary, world, body, tree_case.fluid);
   if (setting == TreeSetting::kTethered || setting == TreeSetting::kTetheredInBox) tie(world, body);
   if (setting == TreeSetting::kInBox || setting == TreeSetting::kTetheredInBox) addBox(world, body);
   return watch(world, body, hertz);

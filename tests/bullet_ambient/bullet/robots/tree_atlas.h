@@ -6,8 +6,14 @@
 namespace ambient::test {
 
 /// What a random tree meets, besides still fluid without gravity.
-enum class TreeSetting { kFree, kTethered, kInBox, kTetheredInBox };
-constexpr int kTreeSettings = 4;
+enum class TreeSetting {
+  kFree,
+  kTethered,
+  kInBox,
+  kTetheredInBox,
+  kLong,  ///< nothing, but it has 100 links
+};
+constexpr int kTreeSettings = 5;
 const char* nameOf(TreeSetting setting);
 
 /// What is around its links.
@@ -17,7 +23,7 @@ enum class TreeFluid {
   kWater,  ///< with the loads on the faces of ellipsoids
 };
 
-/// A tree of 1 to 12 links with joints of all kinds, its base fixed or free, at 0.1 to 10 rad/s,
+/// A tree of 1 to 12 links, or of 100, with joints of all kinds, its base fixed or free, at 0.1 to 10 rad/s,
 /// steps from 1/30 to 1/240 s.
 struct TreeCase {
   TreeSetting setting = TreeSetting::kFree;
