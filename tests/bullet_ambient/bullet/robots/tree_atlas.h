@@ -5,15 +5,16 @@
 
 namespace ambient::test {
 
-/// What a random tree meets, besides still fluid without gravity.
+/// What a random tree meets, besides still fluid; without gravity but in the last.
 enum class TreeSetting {
   kFree,
   kTethered,
   kInBox,
   kTetheredInBox,
-  kLong,  ///< nothing, but it has 100 links
+  kLong,            ///< nothing, but it has 100 links
+  kThroughSurface,  ///< weight, and the surface of still water; not in ideal fluid
 };
-constexpr int kTreeSettings = 5;
+constexpr int kTreeSettings = 6;
 const char* nameOf(TreeSetting setting);
 
 /// What is around its links.
@@ -23,8 +24,8 @@ enum class TreeFluid {
   kWater,  ///< with the loads on the faces of ellipsoids
 };
 
-/// A tree of 1 to 12 links, or of 100, with joints of all kinds, its base fixed or free, at 0.1 to 10 rad/s,
-/// steps from 1/30 to 1/240 s.
+/// A tree of 1 to 12 links, or of 100, with joints of all kinds, its base fixed or free, at 0.1 to
+/// 10 rad/s, steps from 1/30 to 1/240 s.
 struct TreeCase {
   TreeSetting setting = TreeSetting::kFree;
   TreeFluid fluid = TreeFluid::kIdeal;
@@ -33,7 +34,8 @@ struct TreeCase {
 
 struct TreeResult {
   bool is_finite = true;
-  /// Largest rise of the kinetic energy in 1 s above any earlier one, over that of the start.
+  /// Largest rise of the energy in 1 s above any earlier one; over the kinetic energy of the start,
+  /// with weight plus that of a fall of links and displaced water by a link's length.
   double energy_rise = 0;
 };
 TreeResult runTree(const TreeCase& tree_case);

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   for (int s = 0; s < kTreeSettings; ++s)
     for (int f = 0; f < 3; ++f) {
       const TreeTally& tally = table[s][f];
+      if (tally.runs == 0) continue;
       std::printf("| %s | %s | %d | %d | %d | %d | %.2g |\n", nameOf(static_cast<TreeSetting>(s)),
                   kFluids[f], tally.runs, tally.not_finite, tally.rose, tally.rose_much,
                   tally.largest_rise);
