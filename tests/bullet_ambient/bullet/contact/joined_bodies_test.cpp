@@ -155,7 +155,6 @@ TEST(Top, OnABallJointLosesNoMoreThanItsTurnPerStepExplains) {
     for (unsigned seed = 0; seed < kSeeds; ++seed)
       mean += energyOfTop(spin, rate, seed).end / kSeeds;
     EXPECT_GT(mean, least) << spin << " rad/s, " << rate << " Hz";
-    printf("TOP %g %g %g\n", spin, rate, mean);
   }
 }
 
