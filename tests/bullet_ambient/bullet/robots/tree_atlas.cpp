@@ -131,13 +131,15 @@ TreeResult watch(RobotWorld& world, const btMultiBody& body, double hertz,
     return kineticEnergy(registry, body) + (weight ? weight->energy() : 0);
   };
   const double scale = kineticEnergy(registry, body) + (weight ? weight->scale() : 0);
-  double lowest = energy_now();
+  const double start = energy_now();
+  double lowest = start;
   TreeResult result;
   for (int i = 0; i < std::lround(hertz); ++i) {
     world.step(1 / hertz);
     const double energy = energy_now();
-    if (!std::isfinite(energy)) return {false, 0};
-    result.energy_rise = std::max(result.energy_rise, (energy - lowest) / scale);
+    if (!std::isfinite(energy)) return {false, 0, 0};
+    result.over_earlier = std::max(result.over_earlier, (energy - lowest) / scale);
+    result.over_start = std::max(result.over_start, (energy - start) / scale);
     lowest = std::min(lowest, energy);
   }
   return result;
@@ -187,9 +189,10 @@ TreeResult runTree(const TreeCase& tree_case) {
 void TreeTally::add(const TreeResult& result) {
   ++runs;
   not_finite += !result.is_finite;
-  rose += result.energy_rise > 1e-6;
-  rose_much += result.energy_rise > 0.01;
-  largest_rise = std::max(largest_rise, result.energy_rise);
+  rose += result.over_earlier > 1e-6;
+  rose_much += result.over_earlier > 0.01;
+  largest_rise = std::max(largest_rise, result.over_earlier);
+  over_start = std::max(over_start, result.over_start);
 }
 
 TreeTable runTrees(int runs, unsigned seed) {

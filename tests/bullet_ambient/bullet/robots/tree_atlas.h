@@ -34,16 +34,17 @@ struct TreeCase {
 
 struct TreeResult {
   bool is_finite = true;
-  /// Largest rise of the energy in 1 s above any earlier one; over the kinetic energy of the start,
-  /// with weight plus that of a fall of links and displaced water by a link's length.
-  double energy_rise = 0;
+  /// Of the energy in 1 s; over the kinetic energy of the start, with weight plus that of a fall of
+  /// links and displaced water by a link's length.
+  double over_earlier = 0;  ///< the largest rise above any earlier one
+  double over_start = 0;    ///< above that of the start
 };
 TreeResult runTree(const TreeCase& tree_case);
 
 /// What became of many.
 struct TreeTally {
   int runs = 0, not_finite = 0, rose = 0, rose_much = 0;  ///< by more than 1e-6, by more than 1 %
-  double largest_rise = 0;
+  double largest_rise = 0, over_start = 0;
 
   void add(const TreeResult& result);
 };
