@@ -308,6 +308,7 @@ TEST(DrawingOfWater, WithoutBoundsReachesAsFarAsAskedFor) {
   sea.below = water();
   sea.surface = std::make_shared<StillWater>(0.5, Vector3(0, 0, 1));
   fluid.registry.addRegion(sea);
+  fluid.step(1e-3);
   fluid.action.drawing.water_surface = true;
   for (const double extent : {10.0, 3.0}) {
     fluid.action.drawing.surface_extent = extent;
