@@ -132,7 +132,7 @@ std::vector<double> massesWith(const json& robot) {
 }
 
 TEST(SceneRobots, FixedLinksAreMergedUnlessTheSceneSaysNo) {
-  EXPECT_EQ(massesWith({}), (std::vector<double>{3}));
+  EXPECT_EQ(massesWith(json::object()), (std::vector<double>{3}));
   EXPECT_EQ(massesWith({{"merge_fixed_links", true}}), (std::vector<double>{3}));
   EXPECT_EQ(massesWith({{"merge_fixed_links", false}}), (std::vector<double>{2, 1}));
 }
