@@ -19,29 +19,32 @@ std::vector<TreeResult> resultsOf(TreeSetting setting, TreeFluid fluid) {
   return results;
 }
 
-// tree_atlas_study: none of 1000.
-TEST(TreeAtlas, InWaterNeverGainsEnergy) {
-  for (const TreeSetting setting : {TreeSetting::kFree, TreeSetting::kTethered, TreeSetting::kInBox,
-                                    TreeSetting::kTetheredInBox, TreeSetting::kLong})
-    for (const TreeResult& result : resultsOf(setting, TreeFluid::kWater))
-      EXPECT_LT(result.over_earlier, kRounding) << nameOf(setting);
+// tree_atlas_study: nothing in water, 2e-14 in ideal fluid; 2e-9 of 100 links.
+TEST(TreeAtlas, FreeGainsRoundingAtMost) {
+  for (const TreeFluid fluid : {TreeFluid::kWater, TreeFluid::kIdeal}) {
+    for (const TreeResult& result : resultsOf(TreeSetting::kFree, fluid))
+      EXPECT_LT(result.over_earlier, kRounding);
+    for (const TreeResult& result : resultsOf(TreeSetting::kLong, fluid))
+      EXPECT_LT(result.over_earlier, byPrecision(1e-8, 1e-2));
+  }
 }
 
-TEST(TreeAtlas, FreeInAnIdealFluidGainsRoundingAtMost) {
-  for (const TreeSetting setting : {TreeSetting::kFree, TreeSetting::kLong})
-    for (const TreeResult& result : resultsOf(setting, TreeFluid::kIdeal))
-      EXPECT_LT(result.over_earlier, kRounding) << nameOf(setting);
-}
-
-// Walls and the tether give back what turns have lost before, and no more: energy rises above an
-// earlier value, in tree_atlas_study by 0.06 at most, and not above that of the start.
-TEST(TreeAtlas, HeldInAnIdealFluidGainsNothingOverItsStart) {
+// Walls and the tether correct gaps, and so give back some of what turns have lost before: energy
+// rises above an earlier value, in tree_atlas_study by 0.25 at most, and not above that of the
+// start.
+TEST(TreeAtlas, HeldGainsNothingOverItsStart) {
   for (const TreeSetting setting :
        {TreeSetting::kTethered, TreeSetting::kInBox, TreeSetting::kTetheredInBox})
-    for (const TreeResult& result : resultsOf(setting, TreeFluid::kIdeal)) {
-      EXPECT_LT(result.over_start, kRounding) << nameOf(setting);
-      EXPECT_LT(result.over_earlier, 0.1) << nameOf(setting);
-    }
+    for (const TreeFluid fluid : {TreeFluid::kWater, TreeFluid::kIdeal})
+      for (const TreeResult& result : resultsOf(setting, fluid)) {
+        EXPECT_LT(result.over_start, kRounding) << nameOf(setting);
+        EXPECT_LT(result.over_earlier, 0.3) << nameOf(setting);
+      }
+}
+
+// docs/robots.md has how far the energy rises.
+TEST(TreeAtlas, ThroughASurfaceStaysFinite) {
+  EXPECT_EQ(resultsOf(TreeSetting::kThroughSurface, TreeFluid::kWater).size(), kSeeds);
 }
 
 // Ball joints that Bullet turns by less than they want, an eighth of a revolution in a step.
