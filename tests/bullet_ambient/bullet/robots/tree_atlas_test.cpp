@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
 namespace ambient::test {
 namespace {
 
