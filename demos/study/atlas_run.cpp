@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "bullet_ambient/bullet/ambient_action.h"
 #include "bullet_ambient/bullet/ambient_body.h"
@@ -27,94 +30,138 @@ Vector3 randomDirection(std::mt19937& engine) {
   }
 }
 
+btScalar bt(double x) { return static_cast<btScalar>(x); }
+
+/// One body of a case, in the fluid or not.
+struct AtlasBody {
+  std::unique_ptr<btRigidBody> body;
+  Matrix6 inertia;  ///< of body and fluid, in B
+  double mass = 0, displaced_mass = 0;
+  Vector3 centre_of_volume_B = Vector3::Zero();
+
+  double kineticEnergy() const {
+    const Vector6 x = readState(*body).twist.vector();
+    return x.dot(inertia * x) / 2;
+  }
+  double potentialEnergy() const {
+    const RigidState state = readState(*body);
+    const Vector3 centre_of_volume = state.position + state.orientation * centre_of_volume_B;
+    return kGravity * (mass * state.position.z() - displaced_mass * centre_of_volume.z());
+  }
+};
+
 // The world of one case; gone with it.
 class AtlasWorld {
  public:
   AtlasWorld(const AtlasCase& atlas_case, AtlasFluid fluid)
       : case_(atlas_case),
         has_gravity_(atlas_case.setting != AtlasSetting::kFree),
-        fluid_body_(scaled(*atlas_case.shape->body, atlas_case.size)),
+        fluid_body_(std::make_shared<FluidBody>(scaled(*atlas_case.shape->body, atlas_case.size))),
         medium_(atlas_case.water ? water() : air()),
         box_(toBullet(Vector3(atlas_case.size * atlas_case.shape->half_size))),
-        plane_({0, 0, 1}, static_cast<btScalar>(-atlas_case.size / 2)),
+        plane_({0, 0, 1}, bt(-atlas_case.size / 2)),
         floor_(0, nullptr, &plane_) {
     world_.addAction(&action_);
-    world_.setGravity({0, 0, has_gravity_ ? -kGravity : 0});
-    addBody();
-    if (fluid == AtlasFluid::kAttached) attachBody();
+    world_.setGravity({0, 0, bt(has_gravity_ ? -kGravity : 0)});
+    registry_.setReport(nullptr);
+    addBodies();
+    if (fluid == AtlasFluid::kAttached)
+      for (AtlasBody& body : bodies_) attach(body);
     if (case_.setting == AtlasSetting::kOnPlane) world_.addRigidBody(&floor_);
     if (case_.setting == AtlasSetting::kOnJoint) {
-      joint_ = std::make_unique<btPoint2PointConstraint>(*body_, btVector3(case_.size / 2, 0, 0));
+      joint_ = std::make_unique<btPoint2PointConstraint>(*bodies_.front().body,
+                                                         btVector3(bt(case_.size / 2), 0, 0));
       world_.addConstraint(joint_.get());
     }
   }
   ~AtlasWorld() {
     if (joint_) world_.removeConstraint(joint_.get());
     if (floor_.isInWorld()) world_.removeRigidBody(&floor_);
-    world_.removeRigidBody(body_.get());
+    for (const AtlasBody& body : bodies_) world_.removeRigidBody(body.body.get());
     world_.removeAction(&action_);
   }
   AtlasWorld(const AtlasWorld&) = delete;
   AtlasWorld& operator=(const AtlasWorld&) = delete;
 
-  void step() { world_.stepSimulation(case_.step, 0, case_.step); }
-  bool isFinite() const { return readState(*body_).isFinite(); }
+  void step() { world_.stepSimulation(bt(case_.step), 0, bt(case_.step)); }
+  bool isFinite() const {
+    return std::all_of(bodies_.begin(), bodies_.end(),
+                       [](const AtlasBody& body) { return readState(*body.body).isFinite(); });
+  }
   double kineticEnergy() const {
-    const Vector6 x = readState(*body_).twist.vector();
-    return x.dot(inertia_ * x) / 2;
+    return sum([](const AtlasBody& body) { return body.kineticEnergy(); });
   }
   double potentialEnergy() const {
     if (!has_gravity_) return 0;
-    const RigidState state = readState(*body_);
-    const Vector3 centre_of_volume = state.position + state.orientation * centre_of_volume_B_;
-    return kGravity * (mass_ * state.position.z() - displaced_mass_ * centre_of_volume.z());
+    return sum([](const AtlasBody& body) { return body.potentialEnergy(); });
   }
-  double energyOfAFall() const { return has_gravity_ ? mass_ * kGravity * case_.size : 0; }
+  double energyOfAFall() const {
+    if (!has_gravity_) return 0;
+    return kGravity * case_.size * sum([](const AtlasBody& body) { return body.mass; });
+  }
   AmbientCounters counters() const { return registry_.counters(); }
 
  private:
-  void addBody() {
+  template <class Quantity>
+  double sum(const Quantity& quantity) const {
+    double sum = 0;
+    for (const AtlasBody& body : bodies_) sum += quantity(body);
+    return sum;
+  }
+
+  void addBodies() {
     const double solid_volume = case_.shape->solid_volume * portable::pow(case_.size, 3);
-    mass_ = case_.density_ratio * medium_.density * solid_volume;
-    const MassDistribution& distribution = fluid_body_.uniform_mass;
-    const PrincipalFrame principal = findPrincipalFrame(mass_ * distribution.inertia);
-    body_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-        mass_, nullptr, &box_, toBullet(principal.moments)));
+    const double mass = case_.density_ratio * medium_.density * solid_volume;
     std::mt19937 engine(case_.seed);
     const Vector3 axis = randomDirection(engine);
     const Vector3 turn = 3 * randomDirection(engine);
-    body_->setWorldTransform(btTransform(
-        btQuaternion(toBullet(Vector3(turn.normalized())), turn.norm()), btVector3(0, 0, 0)));
-    body_->setLinearVelocity(toBullet(Vector3(case_.speed * axis)));
-    body_->setAngularVelocity(toBullet(Vector3(case_.spin * randomDirection(engine))));
-    body_->setActivationState(DISABLE_DEACTIVATION);
-    world_.addRigidBody(body_.get());
-    inertia_ = rigidBodyInertia(mass_, principal.moments.asDiagonal());
+    btRigidBody& body = add(mass);
+    body.setLinearVelocity(toBullet(Vector3(case_.speed * axis)));
+    body.setAngularVelocity(toBullet(Vector3(case_.spin * randomDirection(engine))));
+    if (case_.load_ratio == 0) {
+      body.setWorldTransform(btTransform(
+          btQuaternion(toBullet(Vector3(turn.normalized())), bt(turn.norm())), {0, 0, 0}));
+      return;
+    }
+    constexpr double kGap = 0.01;  // in sizes
+    const double height = case_.size * (2 * case_.shape->half_size.z() + kGap);
+    add(case_.load_ratio * mass).getWorldTransform().setOrigin({0, 0, bt(height)});
   }
-  void attachBody() {
-    const MassDistribution& distribution = fluid_body_.uniform_mass;
-    const PrincipalFrame principal = findPrincipalFrame(mass_ * distribution.inertia);
+
+  btRigidBody& add(double mass) {
+    const PrincipalFrame principal = findPrincipalFrame(mass * fluid_body_->uniform_mass.inertia);
+    AtlasBody added;
+    added.mass = mass;
+    added.inertia = rigidBodyInertia(mass, principal.moments.asDiagonal());
+    added.body = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
+        bt(mass), nullptr, &box_, toBullet(principal.moments)));
+    added.body->setActivationState(DISABLE_DEACTIVATION);
+    bodies_.push_back(std::move(added));
+    world_.addRigidBody(bodies_.back().body.get());
+    return *bodies_.back().body;
+  }
+
+  void attach(AtlasBody& body) {
+    const MassDistribution& distribution = fluid_body_->uniform_mass;
+    const PrincipalFrame principal = findPrincipalFrame(body.mass * distribution.inertia);
     AttachDef def;
     def.fluid_frame.rotation = principal.rotation.transpose();
     def.fluid_frame.translation = -(principal.rotation.transpose() * distribution.centre);
-    centre_of_volume_B_ =
-        def.fluid_frame.rotation * fluid_body_.centre_of_volume + def.fluid_frame.translation;
-    def.fluid_body = std::make_shared<FluidBody>(fluid_body_);
+    def.fluid_body = fluid_body_;
     def.medium = medium_;
     def.flow.separation_angle = case_.shape->separation_angle;
-    registry_.setReport(nullptr);
-    registry_.attach(world_, *body_, def);
-    inertia_ = registry_.inertia(*body_);
-    displaced_mass_ = medium_.density * fluid_body_.volume;
+    def.flow.law = case_.law;
+    body.centre_of_volume_B =
+        def.fluid_frame.rotation * fluid_body_->centre_of_volume + def.fluid_frame.translation;
+    body.displaced_mass = medium_.density * fluid_body_->volume;
+    registry_.attach(world_, *body.body, def);
+    body.inertia = registry_.inertia(*body.body);
   }
 
   const AtlasCase& case_;
   bool has_gravity_;
-  FluidBody fluid_body_;
+  std::shared_ptr<const FluidBody> fluid_body_;
   Medium medium_;
-  double mass_ = 0, displaced_mass_ = 0;
-  Matrix6 inertia_;  // of body and fluid, in B
-  Vector3 centre_of_volume_B_ = Vector3::Zero();
   AmbientRegistry registry_;
   AmbientSolver<> solver_{registry_};
   btDefaultCollisionConfiguration configuration_;
@@ -125,11 +172,13 @@ class AtlasWorld {
   btBoxShape box_;
   btStaticPlaneShape plane_;
   btRigidBody floor_;
-  std::unique_ptr<btRigidBody> body_;
+  std::vector<AtlasBody> bodies_;
   std::unique_ptr<btPoint2PointConstraint> joint_;
 };
 
 }  // namespace
+
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 AtlasResult runAtlasCase(const AtlasCase& atlas_case, AtlasFluid fluid) {
   AtlasWorld world(atlas_case, fluid);
@@ -156,4 +205,5 @@ AtlasResult runAtlasCase(const AtlasCase& atlas_case, AtlasFluid fluid) {
   return result;
 }
 
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/force/flow_settings.h"
 #include "bullet_ambient/force/medium.h"
 #include "demos/study/atlas_shapes.h"
 
@@ -18,6 +20,7 @@ constexpr int kAtlasSettings = 4;
 struct AtlasCase {
   const AtlasShape* shape = nullptr;
   AtlasSetting setting = AtlasSetting::kFree;
+  PressureLaw law = PressureLaw::kPublished;
   bool water = false;
   double density_ratio = 1;  ///< body over fluid
   double size = 1;           ///< [m]
@@ -25,16 +28,21 @@ struct AtlasCase {
   double spin = 0;           ///< at the start [rad/s]
   double step = 1.0 / 60;    ///< [s]
   unsigned seed = 0;         ///< of the directions of velocity, spin and orientation
+  /// Mass of a second body that lies upon the first, over the first's; 0: there is none. Both begin
+  /// in the axes of the world.
+  double load_ratio = 0;
 };
 
 struct AtlasResult {
   bool finite = true;  ///< state after every step
-  /// Largest rise of the energy of body and fluid, potential included, above any earlier value;
-  /// over the largest kinetic energy plus that of a fall by the body's size.
+  /// Largest rise of the energy of bodies and fluid, potential included, above any earlier value;
+  /// over the largest kinetic energy plus that of a fall of all by the body's size.
   double energy_rise = 0;
   long long rejected = 0;  ///< steps whose result was not finite and was not taken over
   double coarse = 0;       ///< part of the steps whose error stayed above the tolerance
 };
+
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 constexpr double kAtlasDuration = 2;  ///< of a run [s]
 
@@ -44,4 +52,5 @@ enum class AtlasFluid { kAttached, kNone };
 /// Bullet in a vacuum.
 AtlasResult runAtlasCase(const AtlasCase& atlas_case, AtlasFluid fluid = AtlasFluid::kAttached);
 
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

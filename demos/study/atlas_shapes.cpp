@@ -8,6 +8,7 @@
 #include "bullet_ambient/spatial/elementary.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/mesh/primitives.h"
 
@@ -65,6 +66,23 @@ AtlasShape makeShape(const std::string& name, const TriangleMesh& mesh, bool she
   return shape;
 }
 
+// With the closed form of its added mass.
+AtlasShape makeNeedle() {
+  const Vector3 half_size(0.5, 0.0005, 0.0005);
+  ShapeDescription description;
+  description.geometry = EllipsoidShape{half_size};
+  description.faces = kFaces;
+  ShapeBuildSettings settings;
+  settings.name = "needle";
+  AtlasShape shape;
+  shape.name = settings.name;
+  shape.body = std::make_shared<FluidBody>(buildShape(description, settings).body);
+  shape.solid_volume = shape.body->volume;
+  shape.half_size = half_size;
+  shape.separation_angle = kRightAngle;
+  return shape;
+}
+
 }  // namespace
 
 std::vector<AtlasShape> makeAtlasShapes() {
@@ -82,6 +100,7 @@ std::vector<AtlasShape> makeAtlasShapes() {
                                return twist(1.2)(p + Vector3(0, 0.3 * p.x() * p.x(), 0.2 * p.y()));
                              })));
   shapes.push_back(makeShape("tetrahedron", tetrahedron()));
+  shapes.push_back(makeNeedle());
   return shapes;
 }
 

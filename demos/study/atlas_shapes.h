@@ -18,8 +18,9 @@ struct AtlasShape {
 };
 
 /// Sphere, plates of 5:1 and 200:1, a sheet without thickness, a cone with separation at 1.5 pi/2,
-/// a propeller (a plate twisted by a right angle), a chiral body (a box twisted and sheared) and a
-/// tetrahedron. Cost: eight boundary element solutions, some seconds.
+/// a propeller (a plate twisted by a right angle), a chiral body (a box twisted and sheared), a
+/// tetrahedron and, the last, a needle of 1000:1. Cost: eight boundary element solutions, some
+/// seconds.
 std::vector<AtlasShape> makeAtlasShapes();
 
 }  // namespace ambient

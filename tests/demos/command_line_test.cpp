@@ -195,5 +195,29 @@ TEST(AmbientDemo, BadUsageExitsWithTwo) {
   EXPECT_EQ(demo({"--help"}).exit_code, 0);
 }
 
+/// Names of the files of the one case of a run.
+std::vector<std::string> filesOfCase(const Arguments& more) {
+  const TemporaryFolder folder;
+  nlohmann::json scene = smallBall();
+  scene["model"] = "vacuum";
+  const std::string cases = folder / "cases.jsonl", out = folder / "out";
+  writeText(cases, nlohmann::json{{"scene", scene}}.dump() + "\n");
+  Arguments arguments{"--cases", cases, "--out", out, "--quiet"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  EXPECT_EQ(demo(arguments).exit_code, 0);
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
+    if (entry.is_regular_file() && entry.path().extension() != ".ambient")
+      names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TEST(AmbientDemo, SummariesAreAllThatIsKeptWhereAskedFor) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(filesOfCase({}), (Names{"geometry.json", "summary.json", "trajectory.csv"}));
+  EXPECT_EQ(filesOfCase({"--summaries"}), Names{"summary.json"});
+}
+
 }  // namespace
 }  // namespace ambient

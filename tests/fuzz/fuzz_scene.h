@@ -78,7 +78,7 @@ class FuzzScene {
 
   Arbitrary arbitrary_;
   long long steps_ = 0;
-  std::size_t allocations_ = 0;  // of operator new within steps
+  std::size_t allocations_ = 0;  // within steps, besides Bullet's
   std::string complaint_;
   // What a saved state does not bring back to the bit is left out: bodies that sleep and rows that
   // are shuffled, because both depend on boxes whose margins have a longer past, and shapes of

@@ -4,18 +4,14 @@
 
 namespace ambient::test {
 
-// Linking ambient_allocation_counter replaces the global operator new of the program by one that
-// counts.
+// Linking ambient_allocation_counter makes a program count what it asks of the C library's
+// allocator: by malloc, calloc, realloc and their aligned forms, and so by operator new, Eigen,
+// Bullet and libraries in C.
 
-/// Number of calls of operator new so far, by all threads.
+/// Calls so far, by all threads.
 std::size_t allocationCount();
 
-/// Number of calls of malloc() so far, by all threads: by operator new, Eigen and Bullet. 0
-/// where countsMallocs() is false: under sanitizers, which have a malloc() of their own.
-std::size_t mallocCount();
-bool countsMallocs();
-
-/// Bytes asked of operator new so far, by all threads.
+/// Bytes asked for so far, by all threads.
 std::size_t allocatedBytes();
 
 }  // namespace ambient::test

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/pi.h"
+#include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/sphere_fall.h"
 
@@ -30,11 +31,6 @@ void setGravity(FluidWorld& fluid, double gravity) {
 
 double speedOf(const btRigidBody& body) {
   return static_cast<double>(body.getLinearVelocity().length());
-}
-
-double kineticEnergy(const FluidWorld& fluid, const btRigidBody& body) {
-  const RigidState s = readState(body);
-  return s.twist.vector().dot(fluid.registry.inertia(body) * s.twist.vector()) / 2;
 }
 
 /// Speed of a sphere after a time without gravity: K dv/dt = -c v^2.

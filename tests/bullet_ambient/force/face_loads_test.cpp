@@ -132,12 +132,5 @@ TEST(FaceLoads, AllocateNothing) {
   EXPECT_NE(loads.total().vector(), Vector6::Zero());
 }
 
-TEST(AllocationCounter, SeesAnAllocation) {
-  const std::size_t before = test::allocationCount();
-  void* memory = ::operator new(100);  // unlike a new expression, never optimised away
-  EXPECT_EQ(test::allocationCount(), before + 1);
-  ::operator delete(memory);
-}
-
 }  // namespace
 }  // namespace ambient

@@ -66,9 +66,9 @@ TEST(Leapfrog, NeverGainsEnergyInAStillFluid) {
 TEST(Leapfrog, NeverGainsEnergyInGravity) {
   Arbitrary arbitrary(3);
   int falls = 0;
-  for (int i = 0; i < kRandomBodies / 4; ++i) {
+  for (int i = 0; i < kRandomBodies / 2; ++i) {
     FreeBody body = wildBody(arbitrary);
-    body.state.twist = arbitrary.twist(3, 1);
+    if (i % 2 == 0) body.state.twist = arbitrary.twist(3, 1);
     body.setGravity({0, 0, -9.81});
     const double step = wildStep(arbitrary);
     for (int n = 0; n < 20; ++n) {
@@ -84,31 +84,7 @@ TEST(Leapfrog, NeverGainsEnergyInGravity) {
       falls += kinetic > 0;
     }
   }
-  EXPECT_EQ(falls, 20 * (kRandomBodies / 4));
-}
-
-TEST(Leapfrog, StaysFiniteAndBoundedUnderGravity) {
-  // Where drag stops a body within one step, gravity's kicks of half a step each are coarse: the
-  // total energy rises by at most a tenth of the work that gravity can do in the step, m g dt (v +
-  // g dt).
-  Arbitrary arbitrary(2);
-  constexpr double g = 9.81;
-  double largest = 0;
-  for (int i = 0; i < kRandomBodies; ++i) {
-    FreeBody body = wildBody(arbitrary);
-    body.setGravity({0, 0, -g});
-    const double step = wildStep(arbitrary);
-    for (int n = 0; n < 10; ++n) {
-      const double before = body.totalEnergy();
-      const double speed = body.state.twist.linear.norm();
-      body.advance(step);
-      ASSERT_TRUE(body.state.isFinite()) << i;
-      const double mass = body.model().mass + body.model().displaced_mass;
-      const double scale = mass * g * step * (speed + g * step) + 1e-12 * std::abs(before);
-      largest = std::max(largest, (body.totalEnergy() - before) / scale);
-    }
-  }
-  EXPECT_LT(largest, 0.3);
+  EXPECT_EQ(falls, 20 * (kRandomBodies / 2));
 }
 
 TEST(Leapfrog, TotalEnergyOfATumblingBodyUnderGravityNeverRises) {

@@ -2,6 +2,7 @@
 """The Python module: values against formulas and against ambient_demo, errors, interrupts."""
 
 import csv
+import json
 import os
 import pickle
 import signal
@@ -20,6 +21,7 @@ import numpy as np
 import bullet_ambient as ba
 
 DEMO = sys.argv.pop(1)
+PREPROCESS = Path(DEMO).with_name("ambient_preprocess")
 
 BALL = {"name": "ball", "mass": 0.5, "shape": {"type": "sphere", "radius": 0.1, "faces": 80}}
 STILL = {"duration": 0.2, "time_step": 0.01, "gravity": [0, 0, 0], "bodies": [BALL]}
@@ -119,6 +121,46 @@ class FluidBodyTest(Temporary):
         self.assertGreater(abs(form - wrenches).max(), 0)
         with self.assertRaisesRegex(ValueError, r"must be of shape \(N, 6\) or \(6,\), not \(2, 3\)"):
             body.loads(np.zeros((2, 3)), ba.water())
+
+    def test_drag_of_a_ball_is_that_of_its_separation_angle(self):
+        ball = ba.FluidBody.from_shape({"type": "sphere", "radius": 1, "faces": 5120})
+        for angle in (np.pi / 2, 2.0, 2.5):
+            flow = ba.FlowSettings(separation_angle=angle, skin_friction=False)
+            force = ball.loads([0, 0, 0, 1, 0, 0], ba.Medium(density=1), flow)[3]
+            self.assertAlmostEqual(force, -np.pi / 2 * np.sin(angle) ** 4 / 2, delta=0.01)
+
+    def test_skin_friction_is_that_of_a_turbulent_layer(self):
+        ball = ba.FluidBody.from_shape({"type": "sphere", "radius": 1, "faces": 5120})
+        water = ba.water()
+        drag = [-ball.loads([0, 0, 0, 3, 0, 0], water, ba.FlowSettings(skin_friction=f))[3] for f in (False, True)]
+        # 1/2 rho 0.0576 Re^(-1/5) of the root of the area, |u|^1.8 = (3 sin)^1.8 along the flow with sin, on the front.
+        angles = (np.arange(10000) + 0.5) * np.pi / 20000
+        integral = (np.sin(angles) ** 3.8).sum() * np.pi / 20000
+        scale = water.density / 2 * 0.0576 * (water.density * np.sqrt(4 * np.pi) / water.viscosity) ** -0.2
+        self.assertAlmostEqual((drag[1] - drag[0]) / (scale * 3**1.8 * 2 * np.pi * integral), 1, delta=0.01)
+
+    def test_stall_lag_matters_to_what_turns_by_the_form_law(self):
+        wing = ba.FluidBody.from_shape({"type": "box", "size": [1, 2, 0.1], "faces": 200}, panels=0)
+        late, now = (ba.FlowSettings(law="form", stall_lag=lag) for lag in (4.5, 0))
+        along, turning = [0, 0, 0, 1, 0, -0.3], [0, 0.5, 0, 1, 0, -0.3]
+        air = ba.air()
+        self.assertSameBits(wing.loads(along, air, late), wing.loads(along, air, now))
+        self.assertGreater(abs(wing.loads(turning, air, late) - wing.loads(turning, air, now)).max(), 0.01)
+        self.assertEqual(ba.FlowSettings().stall_lag, 4.5)
+
+    def test_reduced_loads_stand_in_where_their_error_is_allowed(self):
+        shape, file = self.folder / "body.json", self.folder / "body.ambient"
+        shape.write_text('{"type": "ellipsoid", "semi_axes": [1, 2, 3]}')
+        command = [PREPROCESS, "build", shape, "-o", file, "--levels", "100", "--json"]
+        report = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+        body = ba.FluidBody.read(file)
+        forces = [
+            body.loads([0.1, 0.2, 0, 1, 0.5, 0], ba.water(), ba.FlowSettings(maximum_load_error=error))[3:] for error in (0, 1e-9, 1)
+        ]
+        self.assertSameBits(forces[0], forces[1])
+        difference = np.linalg.norm(forces[2] - forces[0]) / np.linalg.norm(forces[0])
+        self.assertGreater(difference, 0)
+        self.assertLess(difference, report["levels"][0]["maximum_error"])
 
     def test_polar_is_that_of_the_loads(self):
         body = ba.FluidBody.from_shape({"type": "box", "size": [1, 2, 0.1], "faces": 200}, panels=0)

@@ -109,5 +109,46 @@ TEST(SceneRobots, RefusesWhatCannotBe) {
   EXPECT_THROW(readRobots(twice), std::runtime_error);
 }
 
+const char* const kFixedMast = R"(<robot name="r">
+  <link name="hull"><inertial><mass value="2"/>
+    <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <link name="mast"><inertial><mass value="1"/>
+    <inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <joint name="foot" type="fixed"><parent link="hull"/><child link="mast"/>
+    <origin xyz="0 0 3"/></joint>
+</robot>)";
+
+std::vector<double> massesWith(const json& robot) {
+  const TemporaryFolder folder;
+  writeText(folder / "r.urdf", kFixedMast);
+  json scene = json::parse(R"({"duration": 1, "time_step": 0.01, "robots": [{"urdf": "r.urdf"}]})");
+  scene["robots"][0].update(robot);
+  std::vector<double> masses;
+  for (const BodyDef& body : readScene(writeScene(folder, scene.dump())).bodies)
+    masses.push_back(body.mass);
+  return masses;
+}
+
+TEST(SceneRobots, FixedLinksAreMergedUnlessTheSceneSaysNo) {
+  EXPECT_EQ(massesWith(json::object()), (std::vector<double>{3}));
+  EXPECT_EQ(massesWith({{"merge_fixed_links", true}}), (std::vector<double>{3}));
+  EXPECT_EQ(massesWith({{"merge_fixed_links", false}}), (std::vector<double>{2, 1}));
+}
+
+TEST(SceneRobots, SelfCollisionAndGainsAreThoseOfTheScene) {
+  json scene = robotScene();
+  EXPECT_FALSE(readRobots(scene).robots[0].self_collision);
+  EXPECT_EQ(readRobots(scene).robots[0].motors.at("shoulder").velocity_gain, 1);
+  scene["robots"][0]["self_collision"] = true;
+  scene["robots"][0]["motors"]["shoulder"]["velocity_gain"] = 0.25;
+  scene["robots"][0]["motors"]["shoulder"]["position_gain"] = 0.5;
+  const RobotDef robot = readRobots(scene).robots[0];
+  EXPECT_TRUE(robot.self_collision);
+  EXPECT_EQ(robot.motors.at("shoulder").velocity_gain, 0.25);
+  EXPECT_EQ(robot.motors.at("shoulder").position_gain, 0.5);
+}
+
 }  // namespace
 }  // namespace ambient

@@ -20,7 +20,7 @@ class PlateSweep : public testing::Test {
 
   static std::size_t bodyOfMass(double mass) {
     std::size_t body = 0;
-    while (std::abs(scene_.bodies.at(body).mass - mass) > 1e-9) ++body;
+    while (std::abs(scene_.bodies.at(body).mass - mass) > 1e-6 * mass) ++body;
     return body;
   }
 

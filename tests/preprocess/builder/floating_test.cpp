@@ -33,23 +33,23 @@ Matrix6 halfSubmerged(const FluidBody& body) {
 }
 
 TEST(Floating, AddedMassIsThatOfImageBoundaryElementsAndItsKnownError) {
-  // Heave and surge at infinite frequency by Capytaine 3.0, and the largest error of eq. (60).
+  // Heave and surge at infinite frequency by Capytaine 3.0, and the error that eq. (60) has of
+  // them.
   struct Case {
     const char* shape;
     double heave, heave_error, surge, surge_error;
   };
   const Case cases[] = {
-      {R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})", 0.7878, -0.10, 0.0465, 0.91},
-      {R"({"type": "box", "size": [1, 1, 1], "faces": 300})", 0.3213, -0.11, 0.1588, 0.46},
-      {R"({"type": "box", "size": [4, 4, 0.2], "faces": 300})", 16.0031, -0.10, 0.0345, 2.01},
-      {R"({"type": "ellipsoid", "semi_axes": [1.5, 0.75, 0.5]})", 1.3047, -0.15, 0.0919, 0.37}};
+      {R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})", 0.7878, -0.10, 0.0465, 0.83},
+      {R"({"type": "box", "size": [1, 1, 1], "faces": 300})", 0.3213, -0.11, 0.1588, 0.48},
+      {R"({"type": "box", "size": [4, 4, 0.2], "faces": 300})", 16.0031, -0.10, 0.0345, 0.90},
+      {R"({"type": "ellipsoid", "semi_axes": [1.5, 0.75, 0.5]})", 1.3047, -0.15, 0.0919, 0.38}};
   for (const Case& c : cases) {
     const FluidBody body = bodyOf(c.shape);
     ASSERT_FALSE(body.added_mass_parts.empty());
     const Matrix6 K = halfSubmerged(body);
     EXPECT_NEAR(K(5, 5), (1 + c.heave_error) * c.heave, 0.03 * c.heave) << c.shape;
-    EXPECT_GT(K(3, 3), 0.95 * c.surge) << c.shape;
-    EXPECT_LT(K(3, 3), (1.15 + c.surge_error) * c.surge) << c.shape;
+    EXPECT_NEAR(K(3, 3), (1 + c.surge_error) * c.surge, 0.03 * c.surge) << c.shape;
     // Without the weights it would be half of that of the body in unbounded water.
     EXPECT_NEAR(K(5, 5) / (0.5 * body.added_mass(5, 5)), 0.88, 0.05);
   }

@@ -239,5 +239,25 @@ TEST_F(CommandLine, LevelsAreThoseAskedForWithTheirErrors) {
   EXPECT_EQ(wetted["levels"][0]["separation_angle"], 2.2);
 }
 
+// Tables and panels agree within what docs/accuracy.md has of boxes, and are not one number.
+TEST_F(CommandLine, WithoutTablesTheFlowAroundABoxIsSolved) {
+  const std::string box = write("box.json", R"({"type": "box", "size": [1, 2, 3]})");
+  const auto built = [&](const Arguments& more) {
+    Arguments arguments{"build", box, "-o", path("box.ambient"), "--json", "--panels", "1200"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return resultOf(arguments);
+  };
+  const json looked_up = built({}), solved = built({"--no-tables"});
+  const auto settings = [](const json& report) { return report["settings"].get<std::string>(); };
+  EXPECT_NE(settings(looked_up).find("added mass tables"), std::string::npos) << looked_up;
+  EXPECT_EQ(settings(solved).find("added mass tables"), std::string::npos) << solved;
+  EXPECT_NE(settings(solved).find("panels"), std::string::npos) << solved;
+  for (int i = 0; i < 6; ++i) {
+    const double a = looked_up["added_mass"][i][i], b = solved["added_mass"][i][i];
+    EXPECT_NE(a, b) << i;
+    EXPECT_NEAR(b, a, 0.05 * a) << i;
+  }
+}
+
 }  // namespace
 }  // namespace ambient

@@ -52,5 +52,23 @@ TEST_F(FloatingCommand, InspectSaysWhatIsWrong) {
             std::string::npos);
 }
 
+// Of body and water without waves: a period is 2 pi sqrt(inertia / (density gravity geometry)).
+TEST_F(FloatingCommand, InspectHasThePeriodsOfTheGravityThatIsGiven) {
+  const std::string file = barge();
+  const auto upright = [&](const char* gravity) {
+    return resultOf({"inspect", file, "--mass", "500", "--gravity", gravity, "--json"})
+        .at("floating")
+        .at(0);
+  };
+  const json here = upright("9.81"), moon = upright("1.62");
+  EXPECT_EQ(resultOf({"inspect", file, "--mass", "500", "--json"}).at("floating").at(0), here);
+  EXPECT_NEAR(moon["draught"].get<double>(), here["draught"].get<double>(), 1e-12);
+  ASSERT_EQ(here["modes"].size(), 3u);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(moon["modes"][i]["period"].get<double>() / here["modes"][i]["period"].get<double>(),
+                std::sqrt(9.81 / 1.62), 1e-9)
+        << i;
+}
+
 }  // namespace
 }  // namespace ambient

@@ -80,5 +80,18 @@ TEST(RigidRobot, RefusesWhatRigidBodiesCannotBe) {
   EXPECT_THROW(RigidRobot(armModel()).body("e"), std::runtime_error);
 }
 
+TEST(RigidRobot, AtRestItSleepsIfItCan) {
+  for (const bool can_sleep : {false, true}) {
+    RobotSettings settings;
+    settings.can_sleep = can_sleep;
+    RobotWorld in;
+    RigidRobot robot(armModel(), settings);
+    robot.addTo(in.world);
+    for (int i = 0; i < 30; ++i) in.world.stepSimulation(btScalar(0.1), 0);
+    EXPECT_EQ(robot.body("a").isActive(), !can_sleep);
+    EXPECT_EQ(robot.body("c").isActive(), !can_sleep);
+  }
+}
+
 }  // namespace
 }  // namespace ambient

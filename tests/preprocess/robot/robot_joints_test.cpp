@@ -127,5 +127,25 @@ TEST(RobotJoints, MimicFollows) {
   EXPECT_NEAR(robot.position("ac"), -2 * robot.position("ab") + 0.3, 2e-3);
 }
 
+// Each step makes good the gain's share of what the velocity lacks.
+TEST(RobotJoints, VelocityGainIsTheShareOfAStep) {
+  for (const double gain : {0.1, 0.25, 1.0}) {
+    RobotWorld in;
+    Robot robot(wheelOnBase(""), fixedBase());
+    robot.addTo(in.world);
+    robot.multiBody().setJointVel(0, 1);
+    MotorTarget target;
+    target.velocity = 5;
+    target.position_gain = 0;
+    target.velocity_gain = gain;
+    robot.setMotor("ab", target);
+    for (int n = 1; n <= 8; ++n) {
+      in.step(robot, 0.01);
+      EXPECT_NEAR(robot.velocity("ab"), 5 - 4 * std::pow(1 - gain, n), 100 * rounding())
+          << gain << ", step " << n;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ambient

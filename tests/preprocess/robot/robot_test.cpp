@@ -177,5 +177,49 @@ TEST(Robot, RefusesBadSettings) {
   EXPECT_THROW(Robot(missing, {}), std::runtime_error);
 }
 
+// Two arms of one base that overlap by 0.05 m: a joint connects neither with the other.
+RobotModel crossedArms() {
+  const std::string ball = "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision>";
+  const std::string slides = R"(<axis xyz="1 0 0"/>)" + std::string(kWideLimit);
+  return parseRobot(massiveLink("a") + massiveLink("b", ball) + massiveLink("c", ball) +
+                    joint("ab", "prismatic", "a", "b", slides) +
+                    joint("ac", "prismatic", "a", "c", slides));
+}
+
+TEST(Robot, LinksPushEachOtherApartWithSelfCollisionOnly) {
+  for (const bool self_collision : {false, true}) {
+    RobotSettings settings;
+    settings.fixed_base = true;
+    settings.positions = {{"ab", 1}, {"ac", 1.15}};
+    settings.self_collision = self_collision;
+    RobotWorld in;
+    Robot robot(crossedArms(), settings);
+    robot.addTo(in.world);
+    in.step(robot, 0.01, 100);
+    const double distance = robot.position("ac") - robot.position("ab");
+    if (self_collision)
+      EXPECT_GT(distance, 0.195);
+    else
+      EXPECT_NEAR(distance, 0.15, 10 * rounding());
+  }
+}
+
+// Bullet puts to sleep what has been slow for two seconds.
+TEST(Robot, AtRestItSleepsIfItCan) {
+  for (const bool can_sleep : {false, true}) {
+    RobotSettings settings;
+    settings.can_sleep = can_sleep;
+    RobotWorld in;
+    Robot robot(skewRobot(), settings);
+    robot.addTo(in.world);
+    in.step(robot, 0.1, 19);
+    EXPECT_TRUE(robot.multiBody().isAwake());
+    in.step(robot, 0.1, 3);
+    EXPECT_EQ(robot.multiBody().isAwake(), !can_sleep);
+    robot.setMotor("ab", {});
+    EXPECT_TRUE(robot.multiBody().isAwake());
+  }
+}
+
 }  // namespace
 }  // namespace ambient

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 #include "tests/preprocess/robot/urdf_text_of.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/comma_locale.h"
 
 namespace ambient {
 namespace {
@@ -170,12 +170,13 @@ TEST(UrdfReader, RefusesWhatIsNotARobot) {
 }
 
 TEST(UrdfReader, ResultDoesNotDependOnTheLocale) {
-  const char* before = std::setlocale(LC_ALL, nullptr);
-  const std::string old = before ? before : "C";
-  std::setlocale(LC_ALL, "de_DE.UTF-8");
+  const test::CommaLocale locale;
+  ASSERT_TRUE(locale.rulesTheCLibrary()) << "localedef of Debian's libc-bin is missing";
+  std::ostringstream half;
+  half << 0.5;
+  ASSERT_EQ(half.str(), "0,5");
   const RobotModel robot = parseRobot(massiveLink("a", R"(<collision><geometry>
       <capsule radius="0.5" length="2.25"/></geometry></collision>)"));
-  std::setlocale(LC_ALL, old.c_str());
   EXPECT_EQ(std::get<CapsuleShape>(robot.links[0].collisions[0].shape).height, 2.25);
   EXPECT_EQ(robot.links[0].inertia(0, 0), 0.1);
 }

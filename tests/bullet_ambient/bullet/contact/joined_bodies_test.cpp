@@ -109,27 +109,53 @@ TEST(JoinedChain, KeepsItsMomentumAndGainsNothing) {
   EXPECT_GT(row.energy(), 0.9 * energy);
 }
 
+/// Of a body on a ball joint at its rim in two seconds, over its energy at the start.
+struct TopEnergy {
+  double largest = 1, end = 1;
+};
+
+TopEnergy energyOfTop(double spin, double rate, unsigned seed) {
+  Arbitrary arbitrary(seed);
+  const Vector3 axis = arbitrary.vector().normalized(), pivot(0.5, 0, 0);
+  FluidWorld scene;
+  BodyDef def = unevenBody();
+  def.start.twist = {spin * axis, spin * pivot.cross(axis)};
+  btRigidBody& body = scene.add(def, unevenFluid(arbitrary, 3), idealFluid(1));
+  btPoint2PointConstraint joint(body, toBullet(pivot));
+  scene.world.addConstraint(&joint);
+  const double start = kineticEnergy(scene, body);
+  TopEnergy top;
+  for (int i = 0; i < 2 * rate; ++i) {
+    scene.step(1 / rate);
+    top.end = kineticEnergy(scene, body) / start;
+    top.largest = std::max(top.largest, top.end);
+  }
+  scene.world.removeConstraint(&joint);
+  return top;
+}
+
 // Up to a third of a turn per step and far beyond; stock Bullet gains 53 times at 1000 rad/s.
 TEST(Top, OnABallJointGainsNoEnergy) {
-  for (const double spin : {1, 3, 10, 20, 40, 60, 200, 1000}) {
+  for (const double spin : {1, 3, 10, 20, 40, 60, 200, 1000})
     for (unsigned seed = 0; seed < 24; ++seed) {
-      Arbitrary arbitrary(seed);
-      const Vector3 axis = arbitrary.vector().normalized();
       const double rate = 30 << seed % 5;
-      FluidWorld scene;
-      BodyDef def = unevenBody();
-      const Vector3 pivot(0.5, 0, 0);
-      def.start.twist = {spin * axis, spin * pivot.cross(axis)};
-      btRigidBody& body = scene.add(def, unevenFluid(arbitrary, 3), idealFluid(1));
-      btPoint2PointConstraint joint(body, toBullet(pivot));
-      scene.world.addConstraint(&joint);
-      const double start = kineticEnergy(scene, body);
-      for (int i = 0; i < 2 * rate; ++i) {
-        scene.step(1 / rate);
-        ASSERT_LT(kineticEnergy(scene, body), 1.02 * start) << spin << " rad/s, " << rate << " Hz";
-      }
-      scene.world.removeConstraint(&joint);
+      EXPECT_LT(energyOfTop(spin, rate, seed).largest, 1.02) << spin << " rad/s, " << rate << " Hz";
     }
+}
+
+// What the bound (31a) takes grows with the turn in a step; docs/stability.md has the means.
+TEST(Top, OnABallJointLosesNoMoreThanItsTurnPerStepExplains) {
+  struct Case {
+    double spin, rate, least;
+  };
+  constexpr unsigned kSeeds = 24;
+  for (const auto& [spin, rate, least] :
+       {Case{1, 60, 0.999}, Case{10, 240, 0.98}, Case{10, 60, 0.8}, Case{20, 60, 0.36},
+        Case{60, 60, 0.08}}) {
+    double mean = 0;
+    for (unsigned seed = 0; seed < kSeeds; ++seed)
+      mean += energyOfTop(spin, rate, seed).end / kSeeds;
+    EXPECT_GT(mean, least) << spin << " rad/s, " << rate << " Hz";
   }
 }
 

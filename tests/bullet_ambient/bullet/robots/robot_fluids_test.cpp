@@ -57,6 +57,25 @@ TEST_F(Robots, AreAttachedWithTheWorld) {
   EXPECT_EQ(world.fluid.attachAll(world.world, shapes, water(), settings).attached_before, 6);
 }
 
+TEST_F(Robots, OfTheWorldAreAttachedByTheFilterOfLinks) {
+  RobotDef def;
+  def.collider_radius = 0.05;
+  btMultiBody& floating = add(def);
+  btMultiBody& other = add(def);
+  OneShape shapes;
+  AttachSettings settings;
+  settings.filter_link = [&](const btMultiBody& body, int link) {
+    return &body == &floating && link != 1;
+  };
+  EXPECT_EQ(world.fluid.attachAll(world.world, shapes, water(), settings).attached,
+            floating.getNumLinks());
+  const AmbientRegistry& registry = world.fluid.registry();
+  for (int link = -1; link < floating.getNumLinks(); ++link) {
+    EXPECT_EQ(registry.isAttached(floating, link), link != 1) << link;
+    EXPECT_FALSE(registry.isAttached(other, link)) << link;
+  }
+}
+
 TEST_F(Robots, SwimInRegions) {
   btMultiBody& body = add();
   putIntoFluid(arbitrary, world, body, 2);

@@ -7,14 +7,18 @@
 #include <memory>
 
 #include "bullet_ambient/bullet/multibody_dynamics.h"
+#include "bullet_ambient/force/hydrostatics.h"
+#include "bullet_ambient/force/water_surface.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/ellipsoid_body.h"
+#include "tests/support/part_bodies.h"
 
 namespace ambient::test {
 namespace {
 
 constexpr double kHertz[] = {30, 60, 120, 240};
 constexpr double kColliderRadius = 0.05;  // of the collider of a link [m]
+constexpr double kGravity = 9.81;         // [m/s^2]
 constexpr double kGap = 0.05;             // between the walls of a box and what is in it [m]
 
 RobotDef treeOf(Arbitrary& arbitrary) {
@@ -27,13 +31,17 @@ RobotDef treeOf(Arbitrary& arbitrary) {
   return def;
 }
 
-void attachFluid(Arbitrary& arbitrary, RobotWorld& world, btMultiBody& body, TreeFluid fluid) {
+const Vector3 kLinkAxes(0.15, 0.08, 0.05);  // of an ellipsoid [m]
+
+void attachFluid(Arbitrary& arbitrary, RobotWorld& world, btMultiBody& body, TreeFluid fluid,
+                 bool has_surface) {
   const double ratio = std::pow(10, arbitrary.between(-2, 2));
   if (fluid == TreeFluid::kIdeal) putIntoFluid(arbitrary, world, body, ratio);
   if (fluid != TreeFluid::kWater) return;
   AttachDef def;
   def.medium = water();
-  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1));
+  def.fluid_body = std::make_shared<FluidBody>(has_surface ? floatingEllipsoid(kLinkAxes, 1)
+                                                           : meshedEllipsoid(kLinkAxes, 1));
   for (int link = body.hasFixedBase() ? 0 : -1; link < body.getNumLinks(); ++link)
     world.fluid.add(body, link, def);
 }
@@ -64,15 +72,75 @@ void addBox(RobotWorld& world, btMultiBody& body) {
   }
 }
 
-TreeResult watch(RobotWorld& world, const btMultiBody& body, double hertz) {
+void fillSea(RobotWorld& world) {
+  FluidRegion sea;
+  sea.below = water();
+  sea.surface = std::make_shared<StillWater>(0.0, Vector3(0, 0, 1));
+  world.fluid.addRegion(sea);
+}
+
+// Weight of a tree and energy of the still water that its links displace, if there is any.
+class TreeWeight {
+ public:
+  TreeWeight(const btMultiBody& body, TreeFluid fluid)
+      : body_(body),
+        shape_(floatingEllipsoid(kLinkAxes, 1)),
+        hull_(shape_),
+        density_(fluid == TreeFluid::kWater ? water().density : 0) {}
+
+  double energy() const {
+    double sum = 0;
+    for (int link = first(); link < body_.getNumLinks(); ++link) sum += energyOf(link);
+    return sum;
+  }
+  /// Of a fall by a link's length.
+  double scale() const {
+    double mass = 0;
+    for (int link = first(); link < body_.getNumLinks(); ++link)
+      mass += massOf(link) + density_ * shape_.volume;
+    return mass * kGravity * 2 * kLinkAxes.x();
+  }
+
+ private:
+  int first() const { return body_.hasFixedBase() ? 0 : -1; }
+  double massOf(int link) const {
+    return static_cast<double>(link < 0 ? body_.getBaseMass() : body_.getLinkMass(link));
+  }
+  double energyOf(int link) const {
+    const btCollisionObject* collider =
+        link < 0 ? body_.getBaseCollider() : body_.getLinkCollider(link);
+    const btTransform& place = collider->getWorldTransform();
+    const Vector3 position = toVector3(place.getOrigin());
+    const Matrix3 axes = toQuaternion(place.getRotation()).toRotationMatrix();
+    const SurfacePlane still{{0, 0, 1}, 0, density_, kGravity};
+    const SurfacePlane plane = seenFrom(still, axes, position);
+    return massOf(link) * kGravity * position.z() +
+           hydrostaticEnergy(computeWetVolume(hull_, plane), plane);
+  }
+
+  const btMultiBody& body_;
+  FluidBody shape_;
+  PackedHull hull_;
+  double density_;
+};
+
+TreeResult watch(RobotWorld& world, const btMultiBody& body, double hertz,
+                 const TreeWeight* weight) {
   const AmbientRegistry& registry = world.fluid.registry();
-  const double start = kineticEnergy(registry, body);
+  const auto energy_now = [&] {
+    return kineticEnergy(registry, body) + (weight ? weight->energy() : 0);
+  };
+  const double scale = kineticEnergy(registry, body) + (weight ? weight->scale() : 0);
+  const double start = energy_now();
+  double lowest = start;
   TreeResult result;
   for (int i = 0; i < std::lround(hertz); ++i) {
     world.step(1 / hertz);
-    const double rise = kineticEnergy(registry, body) / start - 1;
-    if (!std::isfinite(rise)) return {false, 0};
-    result.energy_rise = std::max(result.energy_rise, rise);
+    const double energy = energy_now();
+    if (!std::isfinite(energy)) return {false, 0, 0};
+    result.over_earlier = std::max(result.over_earlier, (energy - lowest) / scale);
+    result.over_start = std::max(result.over_start, (energy - start) / scale);
+    lowest = std::min(lowest, energy);
   }
   return result;
 }
@@ -88,9 +156,13 @@ const char* nameOf(TreeSetting setting) {
     case TreeSetting::kInBox:
       return "in a box";
     case TreeSetting::kTetheredInBox:
+      return "on a tether in a box";
+    case TreeSetting::kLong:
+      return "free, of 100 links";
+    case TreeSetting::kThroughSurface:
       break;
   }
-  return "on a tether in a box";
+  return "through a surface";
 }
 
 TreeResult runTree(const TreeCase& tree_case) {
@@ -99,29 +171,39 @@ TreeResult runTree(const TreeCase& tree_case) {
   world.world.getSolverInfo().m_erp = bt(0.2);  // Bullet's own
   world.world.getSolverInfo().m_numIterations = 50;
   const double hertz = kHertz[static_cast<int>(arbitrary.between(0, 4))];
-  btMultiBody& body = world.add(arbitrary, treeOf(arbitrary));
-  attachFluid(arbitrary, world, body, tree_case.fluid);
   const TreeSetting setting = tree_case.setting;
+  RobotDef def = treeOf(arbitrary);
+  if (setting == TreeSetting::kLong) def.links = 100;
+  btMultiBody& body = world.add(arbitrary, def);
+  const bool has_surface = setting == TreeSetting::kThroughSurface;
+  attachFluid(arbitrary, world, body, tree_case.fluid, has_surface);
   if (setting == TreeSetting::kTethered || setting == TreeSetting::kTetheredInBox) tie(world, body);
   if (setting == TreeSetting::kInBox || setting == TreeSetting::kTetheredInBox) addBox(world, body);
-  return watch(world, body, hertz);
+  if (!has_surface) return watch(world, body, hertz, nullptr);
+  world.world.setGravity({0, 0, bt(-kGravity)});
+  if (tree_case.fluid == TreeFluid::kWater) fillSea(world);
+  const TreeWeight weight(body, tree_case.fluid);
+  return watch(world, body, hertz, &weight);
 }
 
 void TreeTally::add(const TreeResult& result) {
   ++runs;
   not_finite += !result.is_finite;
-  rose += result.energy_rise > 1e-6;
-  rose_much += result.energy_rise > 0.01;
-  largest_rise = std::max(largest_rise, result.energy_rise);
+  rose += result.over_earlier > 1e-6;
+  rose_much += result.over_earlier > 0.01;
+  largest_rise = std::max(largest_rise, result.over_earlier);
+  over_start = std::max(over_start, result.over_start);
 }
 
 TreeTable runTrees(int runs, unsigned seed) {
   TreeTable table;
   for (int s = 0; s < kTreeSettings; ++s)
-    for (int f = 0; f < 3; ++f)
+    for (int f = 0; f < 3; ++f) {
+      const TreeCase kind{static_cast<TreeSetting>(s), static_cast<TreeFluid>(f), seed};
+      if (kind.setting == TreeSetting::kThroughSurface && kind.fluid == TreeFluid::kIdeal) continue;
       for (int i = 0; i < runs; ++i)
-        table[s][f].add(runTree({static_cast<TreeSetting>(s), static_cast<TreeFluid>(f),
-                                 seed + static_cast<unsigned>(i)}));
+        table[s][f].add(runTree({kind.setting, kind.fluid, seed + static_cast<unsigned>(i)}));
+    }
   return table;
 }
 

@@ -149,6 +149,25 @@ TEST_F(Drawing, NormalsShowWhereTheFlowIsAttached) {
   }
 }
 
+TEST_F(Drawing, NormalsAndTheCrossAreAsLongAsAskedFor) {
+  const double reference_length = std::sqrt(ambient().def.fluid_body->area);
+  for (const double normal_length : {0.05, 0.2}) {
+    FluidDrawing what = unitLengths();
+    what.normal_length = normal_length;
+    what.separation = what.centre_of_volume = true;
+    draw(what);
+    auto drawn = recorder.linesOf(fluid_colours::kAttached);
+    for (const btVector3& colour : {fluid_colours::kSeparated, fluid_colours::kBuoyancy}) {
+      const auto more = recorder.linesOf(colour);
+      drawn.insert(drawn.end(), more.begin(), more.end());
+    }
+    ASSERT_EQ(drawn.size(), faceCount() + 3);
+    for (const Line& line : drawn)
+      EXPECT_NEAR((toVector3(line.to) - toVector3(line.from)).norm(),
+                  normal_length * reference_length, 10 * tolerance);
+  }
+}
+
 TEST_F(Drawing, SlipVelocitiesLieInTheirFaces) {
   FluidDrawing what = unitLengths();
   what.slip_velocity = true;
@@ -276,6 +295,32 @@ TEST(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
     EXPECT_NEAR(from.z(), 0.75 + 0.1 * from.x(), 1e-6);
     EXPECT_LE(std::abs(from.x()), 1 + 1e-6);
     EXPECT_LE(std::abs(from.y()), 2 + 1e-6);
+  }
+  fluid.world.setDebugDrawer(nullptr);
+}
+
+TEST(DrawingOfWater, WithoutBoundsReachesAsFarAsAskedFor) {
+  Recorder recorder;
+  FluidWorld fluid;
+  fluid.world.setDebugDrawer(&recorder);
+  fluid.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
+  FluidRegion sea;
+  sea.below = water();
+  sea.surface = std::make_shared<StillWater>(0.5, Vector3(0, 0, 1));
+  fluid.registry.addRegion(sea);
+  fluid.step(1e-3);
+  fluid.action.drawing.water_surface = true;
+  for (const double extent : {10.0, 3.0}) {
+    fluid.action.drawing.surface_extent = extent;
+    recorder.clear();
+    fluid.world.debugDrawWorld();
+    Vector3 lowest = Vector3::Zero(), highest = Vector3::Zero();
+    for (const Line& line : recorder.linesOf(fluid_colours::kWater)) {
+      lowest = lowest.cwiseMin(toVector3(line.from));
+      highest = highest.cwiseMax(toVector3(line.to));
+    }
+    EXPECT_LT((lowest - Vector3(-extent, -extent, 0)).norm(), 1e-6 * extent) << extent;
+    EXPECT_LT((highest - Vector3(extent, extent, 0.5)).norm(), 1e-6 * extent) << extent;
   }
   fluid.world.setDebugDrawer(nullptr);
 }

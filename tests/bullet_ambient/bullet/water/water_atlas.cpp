@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "bullet_ambient/force/airy_waves.h"
 #include "bullet_ambient/spatial/pi.h"
 #include "tests/support/random_bodies.h"
 
@@ -54,10 +55,38 @@ WaterBodyDef anySecond(Arbitrary& arbitrary, const WaterBodyDef& first, double g
   return def;
 }
 
+// Seven more, at the corners of a cube on the first.
+void addPile(Arbitrary& arbitrary, const WaterBodyDef& first, WaterRun& run) {
+  for (int corner = 1; corner < 8; ++corner) {
+    WaterBodyDef def = anyBody(arbitrary, first.size * logarithmic(arbitrary, 0.5, 1));
+    const double way = 2.1 * kWaterShapeRadius * first.size;
+    def.start.position =
+        first.start.position + way * Vector3(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    run.add(def);
+  }
+}
+
+void tether(Arbitrary& arbitrary, btRigidBody& body, double radius, WaterRun& run) {
+  const Vector3 point = radius * arbitrary.vector().normalized();
+  run.join(anyJoint(arbitrary, body, toBullet(point), nullptr));
+}
+
+WaterRun makeRun(const WaterCase& water_case, Arbitrary& arbitrary) {
+  if (water_case.setting != WaterSetting::kSteep || water_case.around == Around::kVacuum)
+    return WaterRun(water_case.around);
+  // Waves break at a height of 0.142 lengths.
+  const double length = logarithmic(arbitrary, 0.5, 20);
+  WaveComponent wave;
+  wave.amplitude = 0.9 * 0.142 * length / 2;
+  wave.period = std::sqrt(2 * kPi * length / kRunGravity);
+  return WaterRun(std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{wave}));
+}
+
 void addBodies(Arbitrary& arbitrary, WaterSetting setting, WaterRun& run) {
   WaterBodyDef def = anyBody(arbitrary, logarithmic(arbitrary, 0.05, 5));
   const double radius = kWaterShapeRadius * def.size, gap = 0.2 * def.size;
-  if (setting == WaterSetting::kOnFloor) {
+  if (setting == WaterSetting::kTabled) def.shape = WaterShape::kBall;
+  if (setting == WaterSetting::kOnFloor || setting == WaterSetting::kSteep) {
     const double floor = -arbitrary.between(0, 2) * def.size;
     def.start.position.z() = floor + radius + arbitrary.between(0, 2) * def.size;
     run.addPlane({0, 0, 1}, floor);
@@ -81,10 +110,10 @@ void addBodies(Arbitrary& arbitrary, WaterSetting setting, WaterRun& run) {
     const Vector3 point = def.start.orientation.conjugate() * (radius * way);
     run.join(anyJoint(arbitrary, body, toBullet(point), &other));
   }
-  if (setting == WaterSetting::kTethered) {
-    const Vector3 point = radius * arbitrary.vector().normalized();
-    run.join(anyJoint(arbitrary, body, toBullet(point), nullptr));
-  }
+  if (setting == WaterSetting::kTethered || setting == WaterSetting::kTabled)
+    tether(arbitrary, body, radius, run);
+  if (setting == WaterSetting::kPile) addPile(arbitrary, def, run);
+  if (setting == WaterSetting::kSteep) run.add(anySecond(arbitrary, def, 0.2));
 }
 
 }  // namespace
@@ -102,16 +131,24 @@ const char* nameOf(WaterSetting setting) {
     case WaterSetting::kJoined:
       return "two on a joint";
     case WaterSetting::kTethered:
+      return "on a joint to the world";
+    case WaterSetting::kPile:
+      return "a pile of eight";
+    case WaterSetting::kTabled:
+      return "with a table, on a joint";
+    case WaterSetting::kSteep:
       break;
   }
-  return "on a joint to the world";
+  return "two over a floor in steep waves";
 }
 
 WaterResult runWater(const WaterCase& water_case) {
   Arbitrary arbitrary(water_case.seed);
   const int step = static_cast<int>(arbitrary.between(0, kAtlasSteps));
   const double hertz = kAtlasHertz[step];
-  WaterRun run(water_case.around);
+  const bool has_energy =
+      water_case.setting != WaterSetting::kSteep || water_case.around == Around::kVacuum;
+  WaterRun run = makeRun(water_case, arbitrary);
   addBodies(arbitrary, water_case.setting, run);
   const double start = run.energy();
   double lowest = start, over_start = 0, over_earlier = 0;
@@ -119,6 +156,7 @@ WaterResult runWater(const WaterCase& water_case) {
     run.step(1 / hertz);
     const double energy = run.energy();
     if (!std::isfinite(energy)) return {step, false, 0, 0};
+    if (!has_energy) continue;
     over_start = std::max(over_start, energy - start);
     over_earlier = std::max(over_earlier, energy - lowest);
     lowest = std::min(lowest, energy);

