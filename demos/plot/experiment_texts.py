@@ -5,6 +5,7 @@ HEAD = """# Experiments
 The experiments of [Padilla 2025](theory.md#references), the models that the paper compares with, and scenes with
 contacts and joints. Every number of "this library" in the tables and every picture is written by
 
+<!-- not run: takes a quarter of an hour -->
     demos/run --all
 
 from the logs of that very run, in `out`. `demos/run NAME` runs one scene of [data/scenes](../data/scenes). The tests in

@@ -24,6 +24,7 @@ law**, over what no parameter was fitted on {unfitted_published} and {unfitted_f
 
 Everything here but the words is written by
 
+<!-- not run: takes minutes -->
     demos/run --reality
 
 from [measurements.json](../data/reality/measurements.json) and from runs of this very library. Each number has its

@@ -1,10 +1,10 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The moving picture of the README: plates of 8, 9 and 10 cm fall in air, seen from the side, in real time.
 
-falling_plates_gif.py FILE.gif. Needs python3-pil.
+Needs python3-pil.
 """
 
-import sys
+import argparse
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -70,4 +70,6 @@ def main(file):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file", metavar="FILE.gif")
+    main(parser.parse_args().file)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Whether hulls hold their course by both pressure laws, linearized about steady flight nose first: docs/reality_runs.md.
 
 hull_rates.py [--faces N]: one row for each hull: side force per radian over dynamic pressure and frontal area; yawing moment

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How 10 000 plates fall or rise in water: steady, fluttering, tumbling or both, over thickness and mass, as a map.
 
 plate_map.py [--side N] [--out DIR] [--picture FILE.png]: N x N plates (100), whose cases and results go to the folder

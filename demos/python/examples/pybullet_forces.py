@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A fluid around a body of PyBullet, by forces alone: see the limits in docs/python.md.
 
     from pybullet_forces import FluidForces

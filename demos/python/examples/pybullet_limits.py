@@ -1,9 +1,11 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What forces alone lose: bodies that fall freely, by pybullet_forces.py in stock Bullet beside bullet_ambient.
 
 The numbers of docs/python.md. PyBullet itself is not needed: a World in a vacuum is stock Bullet, and DryBullet gives it
 the five functions of PyBullet that the forces use.
 """
+
+import argparse
 
 import numpy as np
 from pybullet_forces import FluidForces
@@ -94,6 +96,7 @@ def collision():
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     print("| scene | fell [m] | step [1/s] | forces alone [m] | bullet_ambient [m] |\n|---|---|---|---|---|")
     for name, duration in (("sphere_fall", 1.0), ("sphere_rise", 1.0), ("plate_8cm", 0.5), ("underwater_ellipsoid", 1.0)):
         for step in STEPS:

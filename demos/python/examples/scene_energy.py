@@ -1,11 +1,11 @@
-#!/usr/bin/env python3
-"""Energy of bodies and fluid with weight and buoyancy, over a scene of bodies that begin and end at rest: scene_energy.py SCENE.
+#!/usr/bin/python3
+"""Energy of bodies and fluid with weight and buoyancy, over a scene of bodies that begin and end at rest.
 
 Over that at the end: at the start and every second; and the largest rise above any earlier value. By both pressure laws.
 For bodies of uniform density that have their origin in the middle.
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -59,4 +59,6 @@ def main(name):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene", metavar="SCENE", help="a name of data/scenes")
+    main(parser.parse_args().scene)

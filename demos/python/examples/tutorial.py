@@ -1,10 +1,7 @@
-#!/usr/bin/env python3
-"""From a mesh to a polar, a falling plate and a sweep: the tutorial of docs/python.md.
+#!/usr/bin/python3
+"""From a mesh to a polar, a falling plate and a sweep: the tutorial of docs/python.md."""
 
-tutorial.py [FILE.png]: draws what it finds; default out/tutorial.png.
-"""
-
-import sys
+import argparse
 from pathlib import Path
 
 import matplotlib
@@ -77,7 +74,9 @@ def sweep_of_masses(axes):
 
 
 def main():
-    file = Path(sys.argv[1] if len(sys.argv) > 1 else "out/tutorial.png")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file", type=Path, nargs="?", default=Path("out/tutorial.png"), metavar="FILE.png", help="the picture; default: %(default)s")
+    file = parser.parse_args().file
     file.parent.mkdir(parents=True, exist_ok=True)
     figure, axes = plt.subplots(1, 3, figsize=(13, 4), layout="constrained")
     polar_of_a_wing(axes[0])

@@ -1,9 +1,10 @@
-#!/usr/bin/env python3
-"""with_dask.py CASES OUT [SCHEDULER]: the cases by Dask in 64 shards, on the workers of a scheduler, or two here.
+#!/usr/bin/python3
+"""The cases by Dask in 64 shards, on the workers of a scheduler, or two here.
 
 Given again after whatever happened, it goes on. Workers that die are replaced, and their shards run again.
 """
 
+import argparse
 import sys
 
 from dask.distributed import Client, as_completed
@@ -28,4 +29,8 @@ def main(cases, out, scheduler=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("cases", metavar="CASES")
+    parser.add_argument("out", metavar="OUT")
+    parser.add_argument("scheduler", nargs="?", metavar="SCHEDULER", help="its address; default: two workers here")
+    sys.exit(main(**vars(parser.parse_args())))

@@ -78,6 +78,16 @@ class SceneEnergyTest(unittest.TestCase):
         self.assertAlmostEqual(scene_energy.energy(scene, motion)[0], 2 * weight, delta=1e-12 * weight)
 
 
+class ArgumentsTest(unittest.TestCase):
+    def test_wrong_arguments_are_answered_by_the_usage(self):
+        for script in EXAMPLES.glob("*.py"):
+            if "__main__" in script.read_text():
+                with self.subTest(script=script.name):
+                    run = subprocess.run([script, "--nosuch"], capture_output=True, text=True)
+                    self.assertEqual(run.returncode, 2, run.stderr)
+                    self.assertTrue(run.stderr.startswith("usage: "), run.stderr)
+
+
 class PicturesTest(unittest.TestCase):
     def draw(self, script, *arguments):
         with tempfile.TemporaryDirectory() as folder:

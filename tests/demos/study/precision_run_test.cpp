@@ -28,6 +28,16 @@ class PrecisionRuns : public ::testing::Test {
   std::vector<PreparedBody> bodies_;
 };
 
+class FlapRuns : public PrecisionRuns {
+ protected:
+  void SetUp() override {
+    scene_ =
+        readScene(std::string(AMBIENT_DATA) + "/scenes/flap_in_current.json", {{"duration", "1"}});
+    SceneBodyCache cache;
+    bodies_ = prepareBodies(scene_, cache);
+  }
+};
+
 TEST_F(PrecisionRuns, ErrorShrinksWithTheStep) {
   const PrecisionRun reference = run(Integrator::kDormandPrince, 1920);
   const PrecisionError coarse = errorOf(run(Integrator::kSymplecticEuler, 60), reference);
@@ -36,6 +46,14 @@ TEST_F(PrecisionRuns, ErrorShrinksWithTheStep) {
   EXPECT_LT(fine.position, coarse.position / 12);
   EXPECT_LT(fine.angle, coarse.angle / 12);
   EXPECT_LT(errorOf(run(Integrator::kDormandPrince, 60), reference).position, fine.position);
+}
+
+TEST_F(FlapRuns, JointsErrToFirstOrderInTheStep) {
+  // docs/error_vs_runtime.md; the reference has a sixteenth of the coarse run's error.
+  const PrecisionRun reference = run(Integrator::kPassiveLeapfrog, 3840);
+  const PrecisionError coarse = errorOf(run(Integrator::kPassiveLeapfrog, 240), reference);
+  const PrecisionError fine = errorOf(run(Integrator::kPassiveLeapfrog, 480), reference);
+  EXPECT_NEAR(coarse.position / fine.position, 15.0 / 7, 0.3);
 }
 
 TEST_F(PrecisionRuns, ComparesAtSamplesAndCountsTheWork) {

@@ -1,0 +1,160 @@
+#!/usr/bin/python3
+"""Runs the commands of the pages, and looks up the programs and options of those that are not run: commands_test.py BUILD_DIR
+
+The blocks of a page run one after the other in one folder, which looks like the checkout after a build.
+"""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from functools import cache
+from pathlib import Path
+
+from blocks import COMMANDS, ROOT, all_blocks, pages
+
+BUILD = None
+REFERENCE = ROOT / "docs/file_format.md"  # its forms have all options
+OTHERS = "build/crates cd cp ctest npm parallel sbatch seq snakemake tar".split()
+INLINE = re.compile(r"`((?:ambient_(?:demo|preprocess) |build/\w+/bin/|demos/run|tests/run|cmake |ctest )[^`]*)`")
+OPTION = re.compile(r"(?<![\w:=-])--?[a-z][a-z_-]*")
+
+
+@cache
+def words_of(*patterns):
+    files = [file for pattern in patterns for file in ROOT.glob(pattern) if "build" not in file.relative_to(ROOT).parts]
+    return frozenset(re.findall(r"[\w-]+", "\n".join(file.read_text() for file in files)))
+
+
+@cache
+def options_of(program, command):
+    """What --help of one of the two programs shows: for each option its names."""
+    arguments = [command, "--help"] if command else ["--help"]
+    run = subprocess.run([BUILD / "bin" / program, *arguments], capture_output=True, text=True, check=True)
+    return [set(names.split(",")) for names in re.findall(r"^  (-[\w,-]+)", run.stdout, re.MULTILINE)]
+
+
+def command_lines(block):
+    """Single commands: continued lines joined, comments and redirections of output left out."""
+    text = re.sub(r"(^|\s)#.*", "", re.sub(r"\\\n|\n {2,}", " ", block.text))
+    for line in re.split("\n" if "usage" in block.notes else r"&&|[;|\n]", text):
+        words = [word for word in line.split() if not re.match(r"\w+=", word)]
+        while words and words[0] in ("do", "done", "for"):
+            words = words[1:] if words[0] == "do" else []
+        if words:
+            yield words[0], words[1:]
+
+
+def wrong_in_cmake(words):
+    presets = {preset["name"] for preset in json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]}
+    targets = words_of("**/CMakeLists.txt")
+    settings = targets | words_of("CMakeLists.txt", "**/*.cmake")
+    after = dict(zip(words, words[1:]))
+    if after.get("--preset", "release") not in presets:
+        yield f"there is no preset {after['--preset']}"
+    for target in words[words.index("--target") + 1 :] if "--target" in words else []:
+        if target.removesuffix("-float64") not in targets:
+            yield f"there is no target {target}"
+    for setting in re.findall(r"-D(BULLET_AMBIENT_\w+)=", " ".join(words)):
+        if setting not in settings:
+            yield f"CMake knows no {setting}"
+
+
+def wrong_options(program, words):
+    used = set(OPTION.findall(" ".join(words)))
+    if program in ("ambient_demo", "ambient_preprocess"):
+        command = words[0] if program == "ambient_preprocess" else None
+        known = set().union(*options_of(program, command))
+    else:
+        known = words_of("tests/**/*.cpp", "demos/**/*.cpp", "preprocess/**/*.cpp")
+    return (f"{program} has no {option}" for option in used - known if not option.startswith("--benchmark_"))
+
+
+def wrong_in_command(program, words):
+    """What a command names that is not there."""
+    name = re.sub(r"^build/\w+/bin/", "", program)
+    script = ROOT / program
+    if name != program or name.startswith("ambient_"):
+        if name.removesuffix("-float64") not in words_of("**/CMakeLists.txt"):
+            return [f"there is no target {name}"]
+        return list(wrong_options(name, words))
+    if program == "cmake":
+        return list(wrong_in_cmake(words))
+    if program == "/usr/bin/python3":
+        script = ROOT / words[0]
+    if script.is_file():
+        missing = [] if os.access(script, os.X_OK) or script.name != Path(program).name else [f"{program} is not executable"]
+        used = OPTION.findall(" ".join(words))
+        return missing + [f"{program} does not read {option}" for option in used if option not in script.read_text()]
+    known = program in OTHERS or (ROOT / "demos/sweep/recipes" / program).is_file()
+    return [] if known else [f"there is no {program}"]
+
+
+class CommandTest(unittest.TestCase):
+    def test_commands_that_are_not_run_have_programs_and_options(self):
+        for block in all_blocks(COMMANDS):
+            if block.notes.keys() & {"not run", "usage"}:
+                wrong = [text for command in command_lines(block) for text in wrong_in_command(*command)]
+                with self.subTest(block=str(block)):
+                    self.assertEqual(wrong, [])
+
+    def test_commands_within_sentences_have_programs_and_options(self):
+        for page in pages():
+            text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+            for code in INLINE.findall(text):
+                program, *words = code.split()
+                with self.subTest(page=page.name, code=code):
+                    self.assertEqual(list(wrong_in_command(program, words)), [])
+
+    def test_pages_that_name_a_benchmark_say_how_it_is_built(self):
+        benchmarks = [file.stem for file in ROOT.glob("tests/benchmark/*.cpp")]
+        for page in pages():
+            text = page.read_text()
+            if any(name in text for name in benchmarks):
+                self.assertRegex(text, "BULLET_AMBIENT_BENCHMARKS=ON|CONTRIBUTING.md#benchmarks", page.name)
+
+    def test_the_reference_has_all_options(self):
+        shown = {}
+        for block in all_blocks(COMMANDS):
+            if block.page == REFERENCE and "usage" in block.notes:
+                for program, words in command_lines(block):
+                    key = program, words[0] if program == "ambient_preprocess" else None
+                    shown.setdefault(key, set()).update(OPTION.findall(" ".join(words)))
+        for (program, command), options in shown.items():
+            if program.startswith("ambient_"):
+                with self.subTest(program=program, command=command):
+                    missing = [names for names in options_of(program, command) if not names & (options | {"--help"})]
+                    self.assertEqual(missing, [])
+
+    def test_the_other_commands_run(self):
+        runs = [block for block in all_blocks(COMMANDS) if not block.notes.keys() & {"not run", "usage"}]
+        for page in dict.fromkeys(block.page for block in runs):
+            self.run_in_turn([block for block in runs if block.page == page])
+
+    def run_in_turn(self, blocks):
+        with tempfile.TemporaryDirectory() as folder:
+            options = {"cwd": folder, "env": make_checkout(Path(folder)), "capture_output": True, "text": True}
+            for block in blocks:
+                with self.subTest(block=str(block)):
+                    script = f"{block.notes.get('given', '')}\n{block.text}"
+                    run = subprocess.run(["bash", "-euo", "pipefail", "-c", script], **options)
+                    self.assertEqual(run.returncode, 0, run.stderr)
+
+
+def make_checkout(folder):
+    """Makes the folder look like the checkout after a build; returns the environment of commands."""
+    for file in ROOT.iterdir():
+        if file.name not in ("build", "docs", "out", ".git"):
+            (folder / file.name).symlink_to(file)
+    (folder / "build").mkdir()
+    (folder / "build/release").symlink_to(BUILD)
+    path = f"{BUILD / 'bin'}:{os.environ['PATH']}"
+    return {**os.environ, "PATH": path, "PYTHONPATH": str(BUILD / "python"), "MPLCONFIGDIR": str(folder / "build")}
+
+
+if __name__ == "__main__":
+    BUILD = Path(sys.argv.pop(1)).resolve()
+    unittest.main()
