@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/region_call.h"
 #include "bullet_ambient/bullet/row_motion.h"
 #include "bullet_ambient/bullet/tree_group.h"
 
@@ -100,7 +101,8 @@ void AmbientAction::debugDraw(btIDebugDraw* drawer) {
   const auto* dynamics = dynamic_cast<const btDynamicsWorld*>(world_);
   if (drawing.water_surface && dynamics) {
     const btVector3 gravity = const_cast<btDynamicsWorld*>(dynamics)->getGravity();
-    for (const FluidRegions::Entry& entry : regions.all())
+    const RegionCall call(regions);
+    for (const auto& [id, entry] : regions.all())
       drawSurface({entry.region, gravity, regions.time}, drawing, *drawer);
   }
   const btCollisionObjectArray& objects = world_->getCollisionObjectArray();
