@@ -3,6 +3,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
+#include <cmath>
 #include <utility>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
@@ -42,6 +43,7 @@ bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
 }
 
 void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& complaints) {
+  if (kind == Outcome::kHeld) return release(ambient);
   if (kind == Outcome::kFlown) {
     endFlight(ambient, time_step);
   } else {
@@ -49,6 +51,20 @@ void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& 
   }
   if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
   keepAwakeInUnsteadyFluid(ambient);
+}
+
+// Of a substep whose duration is not finite: the next one would start its contacts with them.
+void forgetBrokenImpulses(btCollisionWorld& world) {
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      btManifoldPoint& point = manifold.getContactPoint(k);
+      for (btScalar* impulse : {&point.m_appliedImpulse, &point.m_appliedImpulseLateral1,
+                                &point.m_appliedImpulseLateral2})
+        if (!std::isfinite(*impulse)) *impulse = 0;
+    }
+  }
 }
 
 // Those that the world has: others may have been destroyed.
@@ -82,7 +98,12 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }
   completeTrees(*world, bodies, static_cast<double>(time_step));
-  bodies.regions.time += static_cast<double>(time_step);
+  if (std::isfinite(time_step)) {
+    bodies.regions.time += static_cast<double>(time_step);
+  } else if (bodies.size() > 0 || !bodies.trees.empty()) {
+    bodies.complaints.say(Complaint::kDuration);
+    forgetBrokenImpulses(*world);
+  }
   if (std::exchange(bodies.regions.has_changed, false)) wakeFollowers(*world, bodies);
   if (isSolverMissing(*world)) {
     const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);

@@ -37,6 +37,9 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kRungeKutta:
       return "bullet_ambient: a btMultiBody in fluid has useRK4Integration, which moves it by its "
              "dry mass; it moves as if that was switched off";
+    case Complaint::kDuration:
+      return "bullet_ambient: the world was stepped by a time that is not finite; bodies in fluid "
+             "and the time of regions stay as they were";
     case Complaint::kRegion:  // these name the region or the body
     case Complaint::kInertia:
     case Complaint::kEmpty:

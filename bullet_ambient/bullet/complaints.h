@@ -29,6 +29,7 @@ enum class Complaint {
   kSwing,
   kTooLong,
   kChange,
+  kDuration,
   kCount
 };
 

@@ -57,7 +57,9 @@ TEST(StepErrors, AreReportedOfOneBodyAndCountedOfAll) {
   }
   fluid.step(1.0 / 60, 60);
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("'feather'"), std::string::npos) << said[0];
+  const bool names_one = said[0].find("'feather'") != std::string::npos ||
+                         said[0].find("'flake'") != std::string::npos;
+  EXPECT_TRUE(names_one) << said[0];
   EXPECT_NE(said[0].find("take shorter steps"), std::string::npos) << said[0];
   EXPECT_EQ(fluid.registry.counters().too_long, 2);
 }
