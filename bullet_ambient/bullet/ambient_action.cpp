@@ -100,7 +100,7 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   completeTrees(*world, bodies, static_cast<double>(time_step));
   if (std::isfinite(time_step)) {
     bodies.regions.time += static_cast<double>(time_step);
-  } else if (bodies.size() > 0 || !bodies.trees.empty()) {
+  } else if (bodies.size() > 0 || !bodies.trees.empty() || !bodies.regions.empty()) {
     bodies.complaints.say(Complaint::kDuration);
     forgetBrokenImpulses(*world);
   }
