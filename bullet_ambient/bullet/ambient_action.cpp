@@ -122,7 +122,7 @@ void AmbientAction::debugDraw(btIDebugDraw* drawer) {
   const auto* dynamics = dynamic_cast<const btDynamicsWorld*>(world_);
   if (drawing.water_surface && dynamics) {
     const btVector3 gravity = const_cast<btDynamicsWorld*>(dynamics)->getGravity();
-    const RegionCall call(regions);
+    RegionCall call(regions);
     for (const auto& [id, entry] : regions.all())
       drawSurface({entry.region, gravity, regions.time}, drawing, *drawer);
   }

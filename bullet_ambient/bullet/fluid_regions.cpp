@@ -27,7 +27,7 @@ void discount(std::map<Kind, int>& counts, const Kind& kind) {
 }
 
 template <class Kind>
-std::vector<Kind> without(const std::map<Kind, int>& counts, std::vector<Kind> kinds) {
+std::vector<Kind> without(const std::map<Kind, int>& counts, const std::vector<Kind>& kinds) {
   std::vector<Kind> missing;
   for (const Kind& kind : kinds)
     if (counts.count(kind) == 0) missing.push_back(kind);

@@ -35,7 +35,7 @@ Vector3 centreOf(const AmbientBody& ambient) {
 
 RegionSample sampleFor(AmbientBody& ambient, const FluidRegions::Entry& entry,
                        const FluidRegions& regions, Complaints& complaints) noexcept {
-  const RegionCall call(regions);
+  RegionCall call(regions);
   const RegionSample sample = sampleRegion(entry.region, centreOf(ambient), regions.time);
   if (sample.is_finite) return sample;
   ++ambient.counters.rejected;
