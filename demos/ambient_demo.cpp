@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -171,6 +172,11 @@ RunRecord runShown(const Scene& scene, const std::vector<PreparedBody>& bodies, 
   });
 }
 
+long long bodiesWithLongSteps(const RunRecord& record) {
+  return std::accumulate(record.work.begin(), record.work.end(), 0LL,
+                         [](long long sum, const FlightWork& work) { return sum + work.too_long; });
+}
+
 void runAndWrite(const Arguments& arguments) {
   const Scene scene = readScene(findScene(arguments.scene, sceneFolders()), arguments.overrides);
   const fs::path out =
@@ -192,12 +198,16 @@ void runAndWrite(const Arguments& arguments) {
     files.commit();
     cache.save();
   }
-  if (!record.warning.empty() && !arguments.quiet)
-    std::fprintf(stderr, "warning: %s\n", plainLine(record.warning).c_str());
-  if (!arguments.quiet)
+  if (!arguments.quiet) {
+    if (!record.warning.empty())
+      std::fprintf(stderr, "warning: %s\n", plainLine(record.warning).c_str());
+    if (const long long count = bodiesWithLongSteps(record); count > 0)
+      std::fprintf(stderr, "warning: steps were too long for the motion of %lld of %zu bodies\n",
+                   count, record.work.size());
     std::printf("%s: %lld steps in %.2f s; wrote trajectory.csv and summary.json to %s\n",
                 plainLine(scene.name).c_str(), record.steps, record.wall_seconds,
                 plainLine(files.folder.path().string()).c_str());
+  }
 }
 
 CasesArguments casesOf(const Arguments& arguments) {

@@ -3,10 +3,12 @@
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
+#include <cmath>
 #include <utility>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/region_call.h"
 #include "bullet_ambient/bullet/row_motion.h"
 #include "bullet_ambient/bullet/tree_group.h"
 
@@ -41,6 +43,7 @@ bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
 }
 
 void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& complaints) {
+  if (kind == Outcome::kHeld) return release(ambient);
   if (kind == Outcome::kFlown) {
     endFlight(ambient, time_step);
   } else {
@@ -48,6 +51,20 @@ void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& 
   }
   if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
   keepAwakeInUnsteadyFluid(ambient);
+}
+
+// Of a substep whose duration is not finite: the next one would start its contacts with them.
+void forgetBrokenImpulses(btCollisionWorld& world) {
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      btManifoldPoint& point = manifold.getContactPoint(k);
+      for (btScalar* impulse : {&point.m_appliedImpulse, &point.m_appliedImpulseLateral1,
+                                &point.m_appliedImpulseLateral2})
+        if (!std::isfinite(*impulse)) *impulse = 0;
+    }
+  }
 }
 
 // Those that the world has: others may have been destroyed.
@@ -81,7 +98,12 @@ void AmbientAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     complete(kind, *ambient, static_cast<double>(time_step), bodies.complaints);
   }
   completeTrees(*world, bodies, static_cast<double>(time_step));
-  bodies.regions.time += static_cast<double>(time_step);
+  if (std::isfinite(time_step)) {
+    bodies.regions.time += static_cast<double>(time_step);
+  } else if (bodies.size() > 0 || !bodies.trees.empty() || !bodies.regions.empty()) {
+    bodies.complaints.say(Complaint::kDuration);
+    forgetBrokenImpulses(*world);
+  }
   if (std::exchange(bodies.regions.has_changed, false)) wakeFollowers(*world, bodies);
   if (isSolverMissing(*world)) {
     const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
@@ -100,7 +122,8 @@ void AmbientAction::debugDraw(btIDebugDraw* drawer) {
   const auto* dynamics = dynamic_cast<const btDynamicsWorld*>(world_);
   if (drawing.water_surface && dynamics) {
     const btVector3 gravity = const_cast<btDynamicsWorld*>(dynamics)->getGravity();
-    for (const FluidRegions::Entry& entry : regions.all())
+    RegionCall call(regions);
+    for (const auto& [id, entry] : regions.all())
       drawSurface({entry.region, gravity, regions.time}, drawing, *drawer);
   }
   const btCollisionObjectArray& objects = world_->getCollisionObjectArray();

@@ -1,7 +1,10 @@
 #include "bullet_ambient/bullet/ambient_bodies.h"
 
 #include <stdexcept>
+#include <string>
 #include <utility>
+
+#include "bullet_ambient/bullet/region_call.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -64,6 +67,19 @@ void AmbientBodies::clear() {
   by_object_.clear();
   bodies_.clear();
   trees.clear();
+}
+
+void AmbientBodies::requireChangeable(const char* function) {
+  RegionCall* call = RegionCall::current(regions);
+  if (!call) return;
+  call->was_refused = true;
+  const std::string sentence =
+      std::string("bullet_ambient: the flow or the surface of a region of fluid has called ") +
+      function +
+      ", which changes what is asked for its fluid; nothing has changed: call it between "
+      "steps";
+  complaints.say(Complaint::kChange, sentence.c_str());
+  throw std::logic_error(sentence);
 }
 
 void AmbientBodies::meet(AmbientBody& ambient) noexcept {

@@ -51,6 +51,10 @@ class AmbientBodies {
       for (const auto& link : tree->links) visit(link->ambient);
   }
 
+  /// @throws std::logic_error that names the function, and says so once, if a region is being asked
+  /// for its fluid on this thread.
+  void requireChangeable(const char* function);
+
   /// The solver meets the body, on any thread.
   void meet(AmbientBody& ambient) noexcept;
   /// Those that were met since the last call, linked by next_met; null: none.

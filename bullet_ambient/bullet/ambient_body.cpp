@@ -31,10 +31,10 @@ void rebuildSurfaces(AmbientBody& ambient, const MassProperties& mass) {
   for (SurfaceMedia& surface : ambient.surfaces) {
     SurfaceModel& model = surface.model;
     surface.has_stand = false;
-    model.below =
-        makeBodyModel(*def.fluid_body, def.fluid_frame, mass, surface.below, model.below.loads);
-    model.above =
-        makeBodyModel(*def.fluid_body, def.fluid_frame, mass, surface.above, model.above.loads);
+    model.below = makeBodyModel(*def.fluid_body, def.fluid_frame, mass, surface.kind.below.medium(),
+                                model.below.loads);
+    model.above = makeBodyModel(*def.fluid_body, def.fluid_frame, mass, surface.kind.above.medium(),
+                                model.above.loads);
   }
 }
 
@@ -66,6 +66,7 @@ AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other) {
   rejected += other.rejected;
   regions_asked += other.regions_asked;
   medium_changes += other.medium_changes;
+  too_long += other.too_long;
   return *this;
 }
 
@@ -103,8 +104,9 @@ bool isModelStale(const AmbientBody& ambient) {
 
 void refreshModel(AmbientBody& ambient, const FluidRegions& regions, LoadTables& tables) {
   AmbientBody fresh = ambient;
-  fresh.media = makeMediumLoads(ambient.def, regions, tables, {});
-  fresh.surfaces = makeSurfaceMedia(ambient.def, regions, tables, {});
+  fresh.media = {makeOwnLoads(ambient.def, tables)};
+  fresh.surfaces.clear();
+  learnFluids(fresh, makeKnownFluids(ambient.def, regions.fluids(), tables));
   fresh.medium = ambient.def.medium;
   fresh.place = {};
   fresh.encounter = {};

@@ -25,7 +25,7 @@ class FluidRegions;
 
 /// The loads of a body in one of the media that it may meet; null: there are none.
 struct MediumLoads {
-  double density, viscosity;
+  FluidKind kind;
   std::shared_ptr<const SurfaceLoads> loads;
 };
 
@@ -34,9 +34,9 @@ struct AmbientBody {
   btRigidBody* body = nullptr;  ///< may have been destroyed: look it up in a world first
   int instance = 0;             ///< instanceNumber() of the body that was attached
   AttachDef def;
-  Medium medium;      ///< around it now: its own, or that of its region
-  RegionPlace place;  ///< none, if the medium is its own
-  std::vector<MediumLoads> media;
+  Medium medium;                   ///< around it now: its own, or that of its region
+  RegionPlace place;               ///< none, if the medium is its own
+  std::vector<MediumLoads> media;  ///< its own first
   std::vector<SurfaceMedia> surfaces;
   SurfaceEncounter encounter;
   bool is_frozen = false;  ///< the model is that of the surface at some moment

@@ -53,6 +53,22 @@ void changeFluidBody(AmbientBody& ambient, std::shared_ptr<const FluidBody> flui
   replaceDef(ambient, std::move(def), bodies);
 }
 
+// Makes all loads first: what throws changes nothing.
+void learnAll(AmbientBodies& bodies, const RegionFluids& fluids) {
+  if (fluids.empty()) return;
+  std::vector<KnownFluids> made;
+  bodies.forEach([&](const AmbientBody& ambient) {
+    made.push_back(makeKnownFluids(ambient.def, fluids, bodies.load_tables));
+  });
+  std::size_t next = 0;
+  bodies.forEach([&](AmbientBody& ambient) { learnFluids(ambient, std::move(made[next++])); });
+}
+
+void forgetAll(AmbientBodies& bodies, const RegionFluids& fluids) {
+  if (fluids.empty()) return;
+  bodies.forEach([&](AmbientBody& ambient) { forgetFluids(ambient, fluids); });
+}
+
 }  // namespace
 
 AmbientBodies& bodiesOf(const AmbientRegistry& registry) { return *registry.bodies_; }
@@ -69,19 +85,27 @@ void AmbientRegistry::attach(const btDynamicsWorld& world, btRigidBody& body, At
 }
 
 void AmbientRegistry::attach(btRigidBody& body, AttachDef def) {
+  bodies_->requireChangeable("attach");
   attachBody(*bodies_, body, std::move(def));
   const AmbientBody& ambient = bodies_->require(body);
   const DisplacedMass mass = displacedMass(ambient);
   if (mass.isMuchLighter()) sayLight(bodies_->complaints, *ambient.def.fluid_body, mass, 1);
 }
 
-bool AmbientRegistry::detach(const btRigidBody& body) { return bodies_->erase(body); }
+bool AmbientRegistry::detach(const btRigidBody& body) {
+  bodies_->requireChangeable("detach");
+  return bodies_->erase(body);
+}
 
-void AmbientRegistry::clear() { bodies_->clear(); }
+void AmbientRegistry::clear() {
+  bodies_->requireChangeable("clear");
+  bodies_->clear();
+}
 
 bool AmbientRegistry::isAttached(const btRigidBody& body) const { return bodies_->find(&body); }
 
 void AmbientRegistry::setMedium(const btRigidBody& body, const Medium& medium) {
+  bodies_->requireChangeable("setMedium");
   AmbientBody& ambient = bodies_->require(body);
   if (changeMedium(ambient, medium, *bodies_)) ambient.body->activate();
 }
@@ -94,6 +118,7 @@ void AmbientRegistry::setFluidBody(const btRigidBody& body,
 void AmbientRegistry::setFluidBody(const btRigidBody& body,
                                    std::shared_ptr<const FluidBody> fluid_body,
                                    const FrameOffset& fluid_frame) {
+  bodies_->requireChangeable("setFluidBody");
   AmbientBody& ambient = bodies_->require(body);
   changeFluidBody(ambient, std::move(fluid_body), fluid_frame, *bodies_);
   ambient.body->activate();
@@ -103,40 +128,33 @@ const Medium& AmbientRegistry::medium(const btRigidBody& body) const {
   return bodies_->require(body).medium;
 }
 
-// Changes a copy and makes all loads first: what throws changes nothing.
-template <class Change>
-auto AmbientRegistry::changeRegions(const Change& change) {
-  FluidRegions regions = bodies_->regions;
-  const auto result = change(regions);
-  std::vector<std::vector<MediumLoads>> media;
-  std::vector<std::vector<SurfaceMedia>> surfaces;
-  LoadTables& tables = bodies_->load_tables;
-  bodies_->forEach([&](const AmbientBody& ambient) {
-    media.push_back(makeMediumLoads(ambient.def, regions, tables, ambient.media));
-    surfaces.push_back(makeSurfaceMedia(ambient.def, regions, tables, ambient.surfaces));
-  });
-  bodies_->regions = std::move(regions);
-  std::size_t next = 0;
-  bodies_->forEach([&](AmbientBody& ambient) {
-    ambient.media = std::move(media[next]);
-    replaceSurfaces(ambient, std::move(surfaces[next++]));
-  });
-  return result;
-}
-
 RegionId AmbientRegistry::addRegion(FluidRegion region) {
-  return changeRegions([&](FluidRegions& regions) { return regions.add(std::move(region)); });
+  bodies_->requireChangeable("addRegion");
+  FluidRegions& regions = bodies_->regions;
+  checkRegion(regions.next(), region);
+  learnAll(*bodies_, regions.missing(region));
+  return regions.add(std::move(region));
 }
 
 void AmbientRegistry::setRegion(RegionId id, FluidRegion region) {
-  changeRegions([&](FluidRegions& regions) {
-    regions.set(id, std::move(region));
-    return id;
-  });
+  bodies_->requireChangeable("setRegion");
+  FluidRegions& regions = bodies_->regions;
+  checkRegion(id, region);
+  const FluidRegion before = regions.require(id);
+  learnAll(*bodies_, regions.missing(region));
+  regions.set(id, std::move(region));
+  forgetAll(*bodies_, regions.missing(before));
 }
 
 bool AmbientRegistry::removeRegion(RegionId id) {
-  return changeRegions([&](FluidRegions& regions) { return regions.remove(id); });
+  bodies_->requireChangeable("removeRegion");
+  FluidRegions& regions = bodies_->regions;
+  const auto found = regions.all().find(id);
+  if (found == regions.all().end()) return false;
+  const FluidRegion before = found->second.region;
+  regions.remove(id);
+  forgetAll(*bodies_, regions.missing(before));
+  return true;
 }
 
 RegionId AmbientRegistry::region(const btRigidBody& body) const {
@@ -151,15 +169,18 @@ Matrix6 AmbientRegistry::inertia(const btRigidBody& body) const {
 
 void AmbientRegistry::attach(btMultiBodyDynamicsWorld& world, btMultiBody& multi_body, int link,
                              AttachDef def) {
+  bodies_->requireChangeable("attach");
   checkWorldKind("attach", world);
   attachLink(*bodies_, world, {multi_body, link}, std::move(def));
 }
 
 bool AmbientRegistry::detach(const btMultiBody& multi_body, int link) {
+  bodies_->requireChangeable("detach");
   return bodies_->trees.erase(multi_body, link);
 }
 
 bool AmbientRegistry::detach(const btMultiBody& multi_body) {
+  bodies_->requireChangeable("detach");
   return bodies_->trees.erase(multi_body);
 }
 
@@ -169,6 +190,7 @@ bool AmbientRegistry::isAttached(const btMultiBody& multi_body, int link) const 
 }
 
 void AmbientRegistry::setMedium(const btMultiBody& multi_body, int link, const Medium& medium) {
+  bodies_->requireChangeable("setMedium");
   AmbientBody& ambient = bodies_->trees.require(multi_body, link).ambient;
   if (changeMedium(ambient, medium, *bodies_)) wake(*bodies_->trees.find(&multi_body)->multi_body);
 }
@@ -176,6 +198,7 @@ void AmbientRegistry::setMedium(const btMultiBody& multi_body, int link, const M
 void AmbientRegistry::setFluidBody(const btMultiBody& multi_body, int link,
                                    std::shared_ptr<const FluidBody> fluid_body,
                                    const FrameOffset& fluid_frame) {
+  bodies_->requireChangeable("setFluidBody");
   AmbientBody& ambient = bodies_->trees.require(multi_body, link).ambient;
   changeFluidBody(ambient, std::move(fluid_body), fluid_frame, *bodies_);
   wake(*bodies_->trees.find(&multi_body)->multi_body);
@@ -210,7 +233,7 @@ AmbientCounters AmbientRegistry::counters() const {
 }
 
 void AmbientRegistry::setReport(std::function<void(const std::string&)> report) {
-  bodies_->complaints.report = std::move(report);
+  bodies_->complaints.setReport(std::move(report));
 }
 
 void AmbientRegistry::setTaskRunner(TaskRunner* runner) { bodies_->task_runner = runner; }

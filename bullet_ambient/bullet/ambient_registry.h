@@ -25,7 +25,8 @@ class AmbientBodies;
 
 /// Which bodies are in which fluid. Shared by one AmbientSolver (or several, with a multithreaded
 /// world) and one AmbientAction; Fluid holds all three. Change it between steps only; it uses
-/// neither user pointers nor callbacks of the world.
+/// neither user pointers nor callbacks of the world. What a region's flow or surface tries to
+/// change while it is asked is refused: std::logic_error, and nothing has changed.
 class AmbientRegistry {
  public:
   AmbientRegistry();
@@ -59,7 +60,9 @@ class AmbientRegistry {
 
   /// Fills a part of the world with a fluid. Bodies whose AttachDef follows regions find it by
   /// themselves at the start of each step, and wake up at the end of the next. Regions that stay
-  /// cost a body one comparison with the bounds of each; without any, nothing.
+  /// cost a body some comparisons of bounds, whose number grows like the logarithm of that of
+  /// regions; without any, nothing. Cost: some microseconds; a fluid that no other region has is
+  /// made known to every body that follows regions.
   /// @throws std::invalid_argument, naming value and limit, if bounds or media are not physical, or
   /// as attach() for a body that may meet them; then nothing has changed.
   RegionId addRegion(FluidRegion region);
@@ -111,8 +114,9 @@ class AmbientRegistry {
   /// Receives one sentence the first time something cannot be right: the action or the solver is
   /// missing from the world, a step's result was not finite, a body was attached whose moments of
   /// inertia no rigid body has, whose fluid body is empty, or that has less than half the mass of
-  /// the medium it displaces; and one of each body for whose motion steps are so long that it is
-  /// wrong by some per cent, or that came later and was refused. Default: standard error.
+  /// the medium it displaces, or steps are so long that its motion is wrong by some per cent; and
+  /// one of each body that came later and was refused. Solvers on several threads report one after
+  /// the other. What it throws is dropped. Default: standard error.
   void setReport(std::function<void(const std::string&)> report);
 
   /// Flies the bodies of one group of the solver on the runner's threads; they end with the same
@@ -120,8 +124,6 @@ class AmbientRegistry {
   void setTaskRunner(TaskRunner* runner);
 
  private:
-  template <class Change>
-  auto changeRegions(const Change& change);
   friend AmbientBodies& bodiesOf(const AmbientRegistry& registry);
 
   std::unique_ptr<AmbientBodies> bodies_;

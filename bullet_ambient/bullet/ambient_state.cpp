@@ -1,6 +1,5 @@
 #include "bullet_ambient/bullet/ambient_state.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,11 +16,9 @@ namespace {
 // compares with its own.
 void meetSurfaceAgain(AmbientBody& ambient, const FluidRegions& regions) {
   if (!ambient.place.is_at_surface || !ambient.encounter.met_B) return;
-  const auto region =
-      std::find_if(regions.all().begin(), regions.all().end(),
-                   [&](const auto& entry) { return entry.id == ambient.place.region; });
-  if (region == regions.all().end()) return;
-  const int media = findSurface(ambient.surfaces, region->region.below, region->region.above);
+  const auto entry = regions.all().find(ambient.place.region);
+  if (entry == regions.all().end()) return;
+  const int media = findSurface(ambient.surfaces, SurfaceKind(entry->second.region));
   if (media >= 0) freezeAsMet(ambient, media);
 }
 

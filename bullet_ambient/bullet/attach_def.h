@@ -39,8 +39,9 @@ struct AmbientCounters {
   long long coarse = 0;    ///< steps whose error stayed too large at the most substeps or retries
   long long rows = 0;      ///< constraint rows rewritten
   long long rejected = 0;  ///< results of steps, and samples of regions, not finite and left out
-  long long regions_asked = 0;   ///< whether they hold the body
+  long long regions_asked = 0;   ///< whether bounds of one, or around several, hold the body
   long long medium_changes = 0;  ///< to another density or viscosity, by regions
+  long long too_long = 0;  ///< bodies whose errors add up: steps are too long for their motion
 
   AmbientCounters& operator+=(const AmbientCounters& other);
 };

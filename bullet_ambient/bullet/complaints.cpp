@@ -1,7 +1,6 @@
 #include "bullet_ambient/bullet/complaints.h"
 
 #include <string>
-#include <utility>
 
 #include "bullet_ambient/bullet/attach_def.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
@@ -38,11 +37,16 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kRungeKutta:
       return "bullet_ambient: a btMultiBody in fluid has useRK4Integration, which moves it by its "
              "dry mass; it moves as if that was switched off";
+    case Complaint::kDuration:
+      return "bullet_ambient: the world was stepped by a time that is not finite; bodies in fluid "
+             "and the time of regions stay as they were";
     case Complaint::kRegion:  // these name the region or the body
     case Complaint::kInertia:
     case Complaint::kEmpty:
     case Complaint::kLight:
     case Complaint::kSwing:
+    case Complaint::kTooLong:
+    case Complaint::kChange:
     case Complaint::kCount:
       break;
   }
@@ -57,8 +61,9 @@ std::string tooLong(const AttachDef& def) {
       "more substeps, say "
       "flight.max_substeps = 256";
   const bool may_chatter = def.flow.law == PressureLaw::kPublished && !def.flow.own_law;
-  if (!may_chatter) return sentence;
-  return sentence + "; if it has flat sides, flow.law = PressureLaw::kForm needs neither";
+  const std::string way_out =
+      may_chatter ? "; if it has flat sides, flow.law = PressureLaw::kForm needs neither" : "";
+  return sentence + way_out + "; further bodies of which this is true are only counted";
 }
 
 std::string coarseSwing(const AttachDef& def, double period, double step) {
@@ -70,31 +75,45 @@ std::string coarseSwing(const AttachDef& def, double period, double step) {
 
 }  // namespace
 
+bool Complaints::wasSaid(Complaint complaint) const noexcept {
+  return was_said_[static_cast<int>(complaint)].load(std::memory_order_relaxed);
+}
+
 void Complaints::say(Complaint complaint) noexcept { say(complaint, sentenceOf(complaint)); }
 
 void Complaints::say(Complaint complaint, const char* sentence) noexcept {
-  if (std::exchange(was_said_[static_cast<int>(complaint)], true)) return;
+  if (wasSaid(complaint) || was_said_[static_cast<int>(complaint)].exchange(true)) return;
   try {
-    if (report) report(sentence);
+    tell(sentence);
   } catch (...) {
-    // A user's callback that throws must not unwind through Bullet's solver.
+    // Out of memory for the sentence, which must not unwind through Bullet's solver.
   }
 }
 
 void Complaints::sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept {
-  if (was_said_[static_cast<int>(Complaint::kSwing)]) return;
+  if (wasSaid(Complaint::kSwing)) return;
   try {
     say(Complaint::kSwing, coarseSwing(def, 2 * kPi / frequency, step).c_str());
   } catch (...) {
-    // As below.
+    // As above.
   }
 }
 
 void Complaints::sayTooLong(const AttachDef& def) noexcept {
+  if (wasSaid(Complaint::kTooLong)) return;
   try {
-    if (report) report(tooLong(def));
+    say(Complaint::kTooLong, tooLong(def).c_str());
   } catch (...) {
     // As above.
+  }
+}
+
+void Complaints::tell(const std::string& sentence) noexcept {
+  try {
+    const std::lock_guard<std::recursive_mutex> lock(telling_);
+    if (report_) report_(sentence);
+  } catch (...) {
+    // A user's callback that throws must not unwind through Bullet's solver.
   }
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <mutex>
 #include <string>
+#include <utility>
 
 #include "bullet_ambient/bullet/precision_check.h"
 
@@ -24,25 +27,37 @@ enum class Complaint {
   kEmpty,
   kLight,
   kSwing,
+  kTooLong,
+  kChange,
+  kDuration,
   kCount
 };
 
-/// Says each complaint once, but for those that are said once of each body.
+/// Says each complaint once. Solvers on several threads may say them at the same time; the report
+/// hears one after the other. Takes a lock only where a complaint is said for the first time.
 class Complaints {
  public:
   /// In a sentence that fits all bodies, or in one that names the body.
   void say(Complaint complaint) noexcept;
   void say(Complaint complaint, const char* sentence) noexcept;
-  /// Of a body whose steps are too long.
+  /// Names the first body whose steps are too long; AmbientCounters::too_long counts them.
   void sayTooLong(const AttachDef& def) noexcept;
   /// Of a floating body that rows move, whose largest natural frequency [rad/s] the step [s] is too
   /// long for.
   void sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept;
 
-  std::function<void(const std::string&)> report;  ///< null: nobody hears
+  /// Passes a sentence to the report, each time. Drops what the report throws, which must not
+  /// unwind through Bullet's step.
+  void tell(const std::string& sentence) noexcept;
+  /// Between steps. Null: nobody hears.
+  void setReport(std::function<void(const std::string&)> report) { report_ = std::move(report); }
 
  private:
-  bool was_said_[static_cast<int>(Complaint::kCount)] = {};
+  bool wasSaid(Complaint complaint) const noexcept;
+
+  std::atomic<bool> was_said_[static_cast<int>(Complaint::kCount)] = {};
+  std::recursive_mutex telling_;  // recursive: a report may attach or detach, and that may say more
+  std::function<void(const std::string&)> report_;
 };
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

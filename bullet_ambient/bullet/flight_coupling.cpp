@@ -36,6 +36,19 @@ bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step)
   }
 }
 
+void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept {
+  bodies.meet(ambient);
+  SubstepOutcome& outcome = ambient.outcome;
+  outcome.kind = Outcome::kHeld;
+  outcome.world_index = ambient.body->getWorldArrayIndex();
+  outcome.activation_state = ambient.body->getActivationState();
+  ambient.body->forceActivationState(DISABLE_SIMULATION);
+}
+
+void release(AmbientBody& ambient) noexcept {
+  ambient.body->forceActivationState(ambient.outcome.activation_state);
+}
+
 void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   btRigidBody& body = *ambient.body;
   // Zero times a number is zero if it is finite.

@@ -15,6 +15,12 @@ bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) 
 /// Finds its region among those of `bodies`, and rebuilds a stale model. Whether the fluid acts.
 bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
 
+/// The solver meets the body in a substep whose duration is not finite: Bullet must not move it.
+void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept;
+
+/// After that substep: the body goes on as it was.
+void release(AmbientBody& ambient) noexcept;
+
 /// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports
 /// it.
 void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;

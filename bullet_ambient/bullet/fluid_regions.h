@@ -1,9 +1,11 @@
 #pragma once
 
-#include <vector>
+#include <map>
 
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/region_fluids.h"
 #include "bullet_ambient/bullet/region_id.h"
+#include "bullet_ambient/bullet/region_index.h"
 #include "bullet_ambient/force/fluid_region.h"
 
 namespace ambient {
@@ -12,20 +14,25 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 /// The regions of one registry. Changed between steps only; any thread may read them in a step.
 class FluidRegions {
  public:
-  struct Entry {
-    RegionId id;
-    FluidRegion region;
-  };
+  using Entry = RegionEntry;
 
   bool empty() const noexcept { return entries_.empty(); }
-  /// The highest priority first; of equal ones the last added.
-  const std::vector<Entry>& all() const noexcept { return entries_; }
-  /// The region that counts at a point, null: none. Adds to `asked` how many were asked.
+  const std::map<RegionId, Entry>& all() const noexcept { return entries_; }
+  /// The region that counts at a point, null: none. The highest priority first; of equal ones the
+  /// last added. `asked`: as RegionIndex::find().
   const Entry* find(const Vector3& point_W, long long& asked) const noexcept;
+  /// @throws std::invalid_argument if there is no such region.
+  const FluidRegion& require(RegionId id) const;
 
-  /// @throws std::invalid_argument as checkRegion().
+  /// The fluids of all regions.
+  RegionFluids fluids() const;
+  /// Those of a region that no region here has.
+  RegionFluids missing(const FluidRegion& region) const;
+
+  /// The number of the next region that is added.
+  RegionId next() const noexcept { return static_cast<RegionId>(next_); }
+  /// @pre checkRegion() has passed.
   RegionId add(FluidRegion region);
-  /// @throws std::invalid_argument as checkRegion(), or if there is no such region.
   void set(RegionId id, FluidRegion region);
   /// False if there is none.
   bool remove(RegionId id);
@@ -34,11 +41,19 @@ class FluidRegions {
   bool has_changed = false;  ///< bodies that sleep have yet to hear of it
 
  private:
-  void insert(RegionId id, FluidRegion region);
+  void insert(Entry& entry);
+  void withdraw(const Entry& entry);
 
-  std::vector<Entry> entries_;
+  std::map<RegionId, Entry> entries_;
+  RegionIndex index_;
+  // How many regions have them.
+  std::map<FluidKind, int> media_;
+  std::map<SurfaceKind, int> surfaces_;
   int next_ = 0;
 };
+
+/// @throws std::invalid_argument as checkRegion(), beginning with the region's number.
+void checkRegion(RegionId id, const FluidRegion& region);
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

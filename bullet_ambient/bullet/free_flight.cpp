@@ -137,6 +137,7 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, d
   // Who sets a bound of substeps has chosen what is too long.
   end.is_too_long =
       ambient.step_errors.add(flight.count.error) && ambient.def.flight.max_substeps == 0;
+  if (end.is_too_long) ambient.counters.too_long = 1;
   if (!fitsBullet(flight.state, end_W)) {
     ambient.outcome.kind = Outcome::kAdrift;
     ++ambient.counters.rejected;

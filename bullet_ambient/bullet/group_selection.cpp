@@ -3,6 +3,8 @@
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
+#include <cmath>
+
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
@@ -17,8 +19,13 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   time_step_ = static_cast<double>(time_step);
   members_.clear();
   saved_.clear();
+  is_held_ = false;
   if (bodies_.size() == 0) return bodies;
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
+  if (!std::isfinite(time_step_)) {
+    is_held_ = holdAll(bodies);
+    return bodies;
+  }
   findMembers(bodies);
   if (members_.empty()) return bodies;
   // For all of them: how many the solver knows changes from step to step.
@@ -39,6 +46,18 @@ void SolverGroup::findMembers(const GroupBodies& bodies) noexcept {
     object.setCompanionId(static_cast<int>(members_.size()));
     members_.push_back({ambient, !axisFactors(*ambient->body).areFree()});
   }
+}
+
+// Bullet moves no body that is disabled. Whether there are any.
+bool SolverGroup::holdAll(const GroupBodies& bodies) noexcept {
+  bool is_any = false;
+  for (int i = 0; i < bodies.count; ++i) {
+    AmbientBody* ambient = bodies_.find(bodies.first[i]);
+    if (!ambient || !ambient->isInFluid() || ambient->body->isStaticOrKinematicObject()) continue;
+    is_any = true;
+    hold(*ambient, bodies_);
+  }
+  return is_any;
 }
 
 void SolverGroup::markPairs(const GroupInput& input) noexcept {

@@ -2,22 +2,20 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <optional>
 #include <utility>
 
+#include "bullet_ambient/bullet/region_call.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
-bool isSameFluid(const MediumLoads& loads, const Medium& medium) {
-  return loads.density == medium.density && loads.viscosity == medium.viscosity;
-}
-
-const MediumLoads* findLoads(const std::vector<MediumLoads>& loads, const Medium& medium) {
-  const auto found = std::find_if(loads.begin(), loads.end(), [&](const MediumLoads& entry) {
-    return isSameFluid(entry, medium);
-  });
+const MediumLoads* findLoads(const std::vector<MediumLoads>& loads, const FluidKind& kind) {
+  const auto found = std::find_if(loads.begin(), loads.end(),
+                                  [&](const MediumLoads& entry) { return entry.kind == kind; });
   return found == loads.end() ? nullptr : &*found;
 }
 
@@ -31,77 +29,89 @@ void sayNotFinite(RegionId id, Complaints& complaints) noexcept {
   complaints.say(Complaint::kRegion, sentence);
 }
 
-SurfaceMedia makeSurfaceMediaOf(const AttachDef& def, const FluidRegion& region,
-                                LoadTables& tables) {
+Vector3 centreOf(const AmbientBody& ambient) {
+  return toVector3(ambient.body->getWorldTransform().getOrigin());
+}
+
+RegionSample sampleFor(AmbientBody& ambient, const FluidRegions::Entry& entry,
+                       const FluidRegions& regions, Complaints& complaints) noexcept {
+  RegionCall call(regions);
+  const RegionSample sample = sampleRegion(entry.region, centreOf(ambient), regions.time);
+  if (sample.is_finite) return sample;
+  ++ambient.counters.rejected;
+  if (!call.was_refused) sayNotFinite(entry.id, complaints);  // or it was said what it did
+  return sample;
+}
+
+SurfaceMedia makeSurfaceMedia(const AttachDef& def, const SurfaceKind& kind, LoadTables& tables) {
   SurfaceModelDef model;
   model.shape = def.fluid_body;
   model.fluid_frame = def.fluid_frame;
   model.mass = {1, Matrix3::Identity()};
-  model.above = region.above;
-  model.below = region.below;
-  // Whether it blows decides on loads; a function may blow.
-  if (region.flow && model.above.velocity.isZero(0)) model.above.velocity = Vector3::Ones();
+  model.above = kind.above.medium();
+  model.below = kind.below.medium();
+  // Whether it blows decides on loads.
+  if (kind.may_blow) model.above.velocity = Vector3::Ones();
   model.flow = def.flow;
   model.wave_damping = def.wave_damping;
-  SurfaceMedia made{region.below, region.above, makeSurfaceModel(model, tables),
-                    nullptr,      {},           false};
+  SurfaceMedia made{kind, makeSurfaceModel(model, tables), nullptr, {}, false};
   const auto& loads = made.model.loads_below.loads;
   if (loads) made.loads = std::make_shared<LoadsAtSurface>(loads);
   return made;
 }
 
+template <class Kind>
+bool isAmong(const std::vector<Kind>& kinds, const Kind& kind) {
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+
 }  // namespace
 
-std::vector<MediumLoads> makeMediumLoads(const AttachDef& def, const FluidRegions& regions,
-                                         LoadTables& tables,
-                                         const std::vector<MediumLoads>& known) {
-  std::vector<MediumLoads> made;
-  const auto add = [&](const Medium& medium) {
-    if (findLoads(made, medium)) return;
-    const MediumLoads* old = findLoads(known, medium);
-    made.push_back({medium.density, medium.viscosity,
-                    old ? old->loads : makeSurfaceLoads(def.fluid_body, medium, def.flow, tables)});
-  };
-  add(def.medium);
-  if (!def.follow_regions) return made;
-  for (const FluidRegions::Entry& entry : regions.all()) {
-    add(entry.region.below);
-    if (entry.region.surface) add(entry.region.above);
-  }
-  return made;
+MediumLoads makeOwnLoads(const AttachDef& def, LoadTables& tables) {
+  return {FluidKind(def.medium), makeSurfaceLoads(def.fluid_body, def.medium, def.flow, tables)};
 }
 
-std::vector<SurfaceMedia> makeSurfaceMedia(const AttachDef& def, const FluidRegions& regions,
-                                           LoadTables& tables,
-                                           const std::vector<SurfaceMedia>& known) {
-  std::vector<SurfaceMedia> made;
-  if (!def.follow_regions) return made;
-  for (const FluidRegions::Entry& entry : regions.all()) {
-    const FluidRegion& region = entry.region;
-    if (!region.surface || findSurface(made, region.below, region.above) >= 0) continue;
-    const int old = findSurface(known, region.below, region.above);
-    made.push_back(old >= 0 ? known[static_cast<std::size_t>(old)]
-                            : makeSurfaceMediaOf(def, region, tables));
-  }
-  return made;
+KnownFluids makeKnownFluids(const AttachDef& def, const RegionFluids& fluids, LoadTables& tables) {
+  KnownFluids known;
+  if (!def.follow_regions) return known;
+  for (const FluidKind& kind : fluids.media)
+    if (!(kind == FluidKind(def.medium)))
+      known.media.push_back(
+          {kind, makeSurfaceLoads(def.fluid_body, kind.medium(), def.flow, tables)});
+  for (const SurfaceKind& kind : fluids.surfaces)
+    known.surfaces.push_back(makeSurfaceMedia(def, kind, tables));
+  return known;
 }
 
-void replaceSurfaces(AmbientBody& ambient, std::vector<SurfaceMedia> surfaces) {
-  int known = 0;
-  for (const SurfaceMedia& old : ambient.surfaces)
-    if (findSurface(surfaces, old.below, old.above) >= 0) ++known;
-  if (known < static_cast<int>(surfaces.size())) markStale(ambient);  // new ones lack the mass
-  if (const SurfaceMedia* at = ambient.surface()) {
-    ambient.encounter.media = findSurface(surfaces, at->below, at->above);
-    if (!ambient.surface() && ambient.is_frozen) markStale(ambient);
-  }
-  ambient.surfaces = std::move(surfaces);
+void learnFluids(AmbientBody& ambient, KnownFluids fluids) {
+  if (!fluids.surfaces.empty()) markStale(ambient);  // the new ones lack the mass
+  std::move(fluids.media.begin(), fluids.media.end(), std::back_inserter(ambient.media));
+  std::move(fluids.surfaces.begin(), fluids.surfaces.end(), std::back_inserter(ambient.surfaces));
+}
+
+void forgetFluids(AmbientBody& ambient, const RegionFluids& fluids) {
+  std::vector<MediumLoads>& media = ambient.media;
+  media.erase(
+      std::remove_if(media.begin() + 1, media.end(),  // without its own
+                     [&](const MediumLoads& loads) { return isAmong(fluids.media, loads.kind); }),
+      media.end());
+  std::optional<SurfaceKind> met;
+  if (const SurfaceMedia* surface = ambient.surface()) met = surface->kind;
+  std::vector<SurfaceMedia>& surfaces = ambient.surfaces;
+  surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(),
+                                [&](const SurfaceMedia& surface) {
+                                  return isAmong(fluids.surfaces, surface.kind);
+                                }),
+                 surfaces.end());
+  if (!met) return;
+  ambient.encounter.media = findSurface(surfaces, *met);
+  if (!ambient.surface() && ambient.is_frozen) markStale(ambient);
 }
 
 bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& medium) noexcept {
   const Medium& before = ambient.medium;
   if (medium.density != before.density || medium.viscosity != before.viscosity) {
-    const MediumLoads* found = findLoads(ambient.media, medium);
+    const MediumLoads* found = findLoads(ambient.media, FluidKind(medium));
     if (!found) return false;
     ambient.model.loads = found->loads;
     ++ambient.counters.medium_changes;
@@ -123,21 +133,18 @@ bool followRegions(AmbientBody& ambient, const FluidRegions& regions, double dur
                    Complaints& complaints) noexcept {
   if (!ambient.def.follow_regions) return false;
   if (regions.empty() && ambient.place.region == RegionId::kNone) return false;
-  const Vector3 centre = toVector3(ambient.body->getWorldTransform().getOrigin());
-  const FluidRegions::Entry* entry = regions.find(centre, ambient.counters.regions_asked);
+  const FluidRegions::Entry* entry =
+      regions.find(centreOf(ambient), ambient.counters.regions_asked);
   ambient.may_rest = !entry || isSteady(entry->region);
   const long long changes = ambient.counters.medium_changes;
   if (!entry) {
     enterMedium(ambient, {}, ambient.def.medium);
     return ambient.counters.medium_changes != changes;
   }
-  const RegionSample sample = sampleRegion(entry->region, centre, regions.time);
-  if (!sample.is_finite) {
-    ++ambient.counters.rejected;
-    sayNotFinite(entry->id, complaints);
-  }
-  const SurfaceSide side =
-      entry->region.surface ? meetSurface(ambient, sample, duration) : SurfaceSide::kBelow;
+  const RegionSample sample = sampleFor(ambient, *entry, regions, complaints);
+  const SurfaceSide side = entry->region.surface
+                               ? meetSurface(ambient, SurfaceKind(entry->region), sample, duration)
+                               : SurfaceSide::kBelow;
   const bool is_above = side == SurfaceSide::kAbove;
   [[maybe_unused]] const bool has_loads =
       enterMedium(ambient, {entry->id, is_above, side == SurfaceSide::kAt},

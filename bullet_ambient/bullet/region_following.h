@@ -10,30 +10,35 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
-/// The loads of a body in its own medium, which come first, and in those of the regions that it
-/// follows; each density with each viscosity once. Takes over what is `known`, which must be of the
-/// same shape and flow settings.
+/// What a body knows of some fluids.
+struct KnownFluids {
+  std::vector<MediumLoads> media;
+  std::vector<SurfaceMedia> surfaces;  ///< of unit mass and inertia until its model is built
+};
+
+/// The loads of a body in its own medium.
 /// @throws std::invalid_argument as makeSurfaceLoads().
-std::vector<MediumLoads> makeMediumLoads(const AttachDef& def, const FluidRegions& regions,
-                                         LoadTables& tables, const std::vector<MediumLoads>& known);
+MediumLoads makeOwnLoads(const AttachDef& def, LoadTables& tables);
 
-/// The same for the pairs of fluids that a surface parts; of unit mass and inertia until the body's
-/// model is built.
-/// @throws std::invalid_argument as makeSurfaceModel().
-std::vector<SurfaceMedia> makeSurfaceMedia(const AttachDef& def, const FluidRegions& regions,
-                                           LoadTables& tables,
-                                           const std::vector<SurfaceMedia>& known);
+/// Of a body in the fluids of regions, but for its own medium; nothing, if it follows none.
+/// @throws std::invalid_argument as makeSurfaceLoads() and makeSurfaceModel().
+KnownFluids makeKnownFluids(const AttachDef& def, const RegionFluids& fluids, LoadTables& tables);
 
-/// Between steps, after the regions have changed: the body stays at its surface, if that is there.
-void replaceSurfaces(AmbientBody& ambient, std::vector<SurfaceMedia> surfaces);
+/// Between steps, before regions have fluids that the body does not know. Its model is stale then,
+/// if there are new surfaces.
+void learnFluids(AmbientBody& ambient, KnownFluids fluids);
+
+/// Between steps, after no region has these fluids any more. The body stays at its surface, if that
+/// is not among them.
+void forgetFluids(AmbientBody& ambient, const RegionFluids& fluids);
 
 /// Puts a body into a medium whose loads it has; the model is stale then, if density or viscosity
 /// are others than before. False if it has none. Allocates nothing.
 bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& medium) noexcept;
 
 /// At the start of a step of `duration` [s]: finds the medium around a body that follows regions.
-/// Cost: a comparison with the bounds of each region of higher priority than its own. Allocates
-/// nothing. Whether density or viscosity are others than before: the model is stale then.
+/// Cost: RegionIndex::find(), and a call of the functions of its region. Allocates nothing. Whether
+/// density or viscosity are others than before: the model is stale then.
 bool followRegions(AmbientBody& ambient, const FluidRegions& regions, double duration,
                    Complaints& complaints) noexcept;
 

@@ -300,6 +300,8 @@ void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
 
 void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
   restoreFeedbackJacobians(joints);
+  if (is_held_)
+    for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
   for (const Member& member : members_) {
     if (member.solver_body == kAlone) {
       fliers_.push_back(&member);

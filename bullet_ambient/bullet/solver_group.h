@@ -120,6 +120,7 @@ class SolverGroup {
   };
 
   void findMembers(const GroupBodies& bodies) noexcept;
+  bool holdAll(const GroupBodies& bodies) noexcept;
   void markPairs(const GroupInput& input) noexcept;
   void mark(const btCollisionObject& body, bool has_rows) noexcept;
   GroupBodies withoutLoners(const GroupBodies& bodies) noexcept;
@@ -139,6 +140,7 @@ class SolverGroup {
   AmbientBodies& bodies_;
   double time_step_ = 0;
   bool may_hold_slopes_ = false;
+  bool is_held_ = false;  // the group has ambient bodies, and its time step is not finite
   std::vector<Member> members_;
   std::vector<btCollisionObject*> converted_;  // those that the solver has to know
   std::vector<int> member_of_solver_body_;     // -1: not ambient

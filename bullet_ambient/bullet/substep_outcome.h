@@ -16,6 +16,7 @@ enum class Outcome {
   kRows,    ///< moved by rows
   kAdrift,  ///< moved by no row, and does not fly: locked, fast among rows, or its flight failed
   kFlown,   ///< moved by no row, and has flown
+  kHeld,    ///< moved by nothing: the substep has no finite duration
 };
 
 /// What rows leave to the action; docs/theory.md eq. (31).
@@ -41,9 +42,10 @@ struct FlightEnd {
 /// What a substep did to one body: written by the solver, taken once by the action.
 struct SubstepOutcome {
   Outcome kind = Outcome::kNotMet;
-  int world_index = -1;  ///< where the body stood in its world's array when it was met
-  RowMotion rows;        ///< of kRows and kAdrift
-  FlightEnd flight;      ///< of kFlown
+  int world_index = -1;      ///< where the body stood in its world's array when it was met
+  int activation_state = 0;  ///< of kHeld: the body's own, meanwhile it is disabled
+  RowMotion rows;            ///< of kRows and kAdrift
+  FlightEnd flight;          ///< of kFlown
 };
 
 }  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE

@@ -13,10 +13,6 @@ namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
-bool isSameFluid(const Medium& a, const Medium& b) {
-  return a.density == b.density && a.viscosity == b.viscosity;
-}
-
 // The surface as a plane in W: against gravity as the water feels it, through the point of the
 // surface above the body.
 SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
@@ -67,21 +63,19 @@ BodyModel freeze(const SurfaceMedia& surface, const SurfaceStand& stand,
 
 }  // namespace
 
-int findSurface(const std::vector<SurfaceMedia>& surfaces, const Medium& below,
-                const Medium& above) noexcept {
+int findSurface(const std::vector<SurfaceMedia>& surfaces, const SurfaceKind& kind) noexcept {
   for (std::size_t i = 0; i < surfaces.size(); ++i)
-    if (isSameFluid(surfaces[i].below, below) && isSameFluid(surfaces[i].above, above))
-      return static_cast<int>(i);
+    if (surfaces[i].kind == kind) return static_cast<int>(i);
   return -1;
 }
 
-SurfaceSide meetSurface(AmbientBody& ambient, const RegionSample& sample,
+SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const RegionSample& sample,
                         double duration) noexcept {
   SurfaceEncounter& encounter = ambient.encounter;
   const SurfaceSide by_centre = sample.isAbove() ? SurfaceSide::kAbove : SurfaceSide::kBelow;
   const btRigidBody& body = *ambient.body;
   const Vector3 gravity = toVector3(body.getGravity());
-  const int media = findSurface(ambient.surfaces, sample.below, sample.above);
+  const int media = findSurface(ambient.surfaces, kind);
   if (media < 0 || !(gravity.norm() > 0) || !((gravity - sample.below.acceleration).norm() > 0))
     return by_centre;
   const SurfaceModel& model = ambient.surfaces[static_cast<std::size_t>(media)].model;

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/bullet/complaints.h"
 #include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/region_fluids.h"
 #include "bullet_ambient/bullet/region_id.h"
 #include "bullet_ambient/force/fluid_region.h"
 #include "bullet_ambient/force/surface_loads.h"
@@ -35,7 +36,7 @@ class LoadsAtSurface final : public SurfaceLoads {
 
 /// A body between two fluids of a region.
 struct SurfaceMedia {
-  Medium below, above;
+  SurfaceKind kind;
   SurfaceModel model;
   std::shared_ptr<LoadsAtSurface> loads;  ///< this body's own; null: there are none
   SurfaceStand stand;                     ///< the last one; see standAt()
@@ -55,14 +56,14 @@ struct SurfaceEncounter {
   std::optional<SurfacePlane> met_B;
 };
 
-/// The index of a pair of fluids of the same densities and viscosities; -1: none.
-int findSurface(const std::vector<SurfaceMedia>& surfaces, const Medium& below,
-                const Medium& above) noexcept;
+/// The index of a kind; -1: none.
+int findSurface(const std::vector<SurfaceMedia>& surfaces, const SurfaceKind& kind) noexcept;
 
 /// The body is where the sample was taken: whether the surface matters to it in a step of
 /// `duration` [s]; if it does, keeps what the step needs to know. Without gravity there is no
 /// surface, and the centre of mass decides. Allocates nothing.
-SurfaceSide meetSurface(AmbientBody& ambient, const RegionSample& sample, double duration) noexcept;
+SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const RegionSample& sample,
+                        double duration) noexcept;
 
 /// The body against a plane in B; where that is the plane that it met last, but for the rounding of
 /// its pose in Bullet, what is known of it already. A function of the encounter's plane alone, so

@@ -62,6 +62,18 @@ std::string nameOf(int index, const btCollisionObject& object) {
   return shape ? name + " (" + shape->getName() + "): " : name + ": ";
 }
 
+// Calls a function of the program's settings; what it throws is named after the function.
+template <class Call>
+auto callOf(const char* name, const Call& call) -> decltype(call()) {
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string(name) + " threw: " + error.what());
+  } catch (...) {
+    throw std::runtime_error(std::string(name) + " threw something unknown");
+  }
+}
+
 // What is said of all bodies together that were just attached.
 struct Tally {
   std::set<const FluidBody*> shapes;
@@ -111,13 +123,14 @@ AttachDef WorldAttachment::makeDef(const btCollisionShape* shape, Met& met) cons
 }
 
 const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, Met& met, AttachReport& report) {
-  if (!isDynamic(body) || (settings_.filter && !settings_.filter(body))) return nullptr;
+  if (!isDynamic(body)) return nullptr;
+  if (settings_.filter && !callOf("filter", [&] { return settings_.filter(body); })) return nullptr;
   if (registry_.isAttached(body)) {
     ++report.attached_before;
     return nullptr;
   }
   AttachDef def = makeDef(body.getCollisionShape(), met);
-  if (settings_.adjust) settings_.adjust(body, def);
+  if (settings_.adjust) callOf("adjust", [&] { settings_.adjust(body, def); });
   if (!def.fluid_body) return nullptr;
   ambient::attachBody(bodiesOf(registry_), body, std::move(def));
   return bodiesOf(registry_).find(&body);
@@ -126,7 +139,9 @@ const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, Met& met, Atta
 const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link, Met& met,
                                                AttachReport& report) {
   if (!canMove(multi_body, link)) return nullptr;
-  if (settings_.filter_link && !settings_.filter_link(multi_body, link)) return nullptr;
+  if (settings_.filter_link &&
+      !callOf("filter_link", [&] { return settings_.filter_link(multi_body, link); }))
+    return nullptr;
   if (registry_.isAttached(multi_body, link)) {
     ++report.attached_before;
     return nullptr;
@@ -134,7 +149,8 @@ const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link
   const btMultiBodyLinkCollider* collider =
       link < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(link);
   AttachDef def = makeDef(collider->getCollisionShape(), met);
-  if (settings_.adjust_link) settings_.adjust_link(multi_body, link, def);
+  if (settings_.adjust_link)
+    callOf("adjust_link", [&] { settings_.adjust_link(multi_body, link, def); });
   if (!def.fluid_body) return nullptr;
   registry_.attach(*multibody_world_, multi_body, link, std::move(def));
   return &bodiesOf(registry_).trees.require(multi_body, link).ambient;
@@ -179,7 +195,7 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
       }
     } catch (const std::exception& error) {
       report.refused.push_back({index, nameOf(index, *object) + error.what()});
-    } catch (...) {  // thrown by a function of the program
+    } catch (...) {  // thrown by the program's source
       report.refused.push_back({index, nameOf(index, *object) + "something unknown was thrown"});
     }
   }
@@ -221,13 +237,14 @@ void WorldAttachment::replaceFluidBodies(btCollisionWorld& world) {
       met->second->given = better.get();
     } catch (const std::exception& error) {
       tell(nameOf(i, *objects[i]) + error.what());
+    } catch (...) {  // thrown by the program's source
+      tell(nameOf(i, *objects[i]) + "something unknown was thrown");
     }
   }
 }
 
 void WorldAttachment::tell(const std::string& sentence) const {
-  const Complaints& complaints = bodiesOf(registry_).complaints;
-  if (complaints.report) complaints.report("bullet_ambient: " + sentence);
+  bodiesOf(registry_).complaints.tell("bullet_ambient: " + sentence);
 }
 
 void WorldAttachment::update(btCollisionWorld& world) noexcept {
@@ -236,9 +253,11 @@ void WorldAttachment::update(btCollisionWorld& world) noexcept {
       for (const AttachReport::Refusal& refusal : attachNew(world).refused) tell(refusal.reason);
     }
     const unsigned revision = source_.revision();
-    if (std::exchange(revision_, revision) != revision) replaceFluidBodies(world);
+    if (revision == revision_) return;
+    replaceFluidBodies(world);
+    revision_ = revision;
   } catch (...) {
-    // Out of memory, or a callback that throws: neither must unwind through Bullet's step.
+    // Out of memory, which must not unwind through Bullet's step: the next one tries again.
   }
 }
 

@@ -134,6 +134,7 @@ WorldState saveState(const btDynamicsWorld& world, const AmbientRegistry& regist
 }
 
 void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientRegistry& registry) {
+  bodiesOf(registry).requireChangeable("restoreState");
   const std::vector<btRigidBody*> bodies = rigidBodiesOf(world);
   checkFits(state, world, registry);
   checkNumbers(state);

@@ -76,20 +76,36 @@ std::string faultOfProperties(const BodyState& body) {
   return {};
 }
 
+// Flights take energies of them.
+template <class Vector>
+bool hasFiniteSquare(const Vector& v) {
+  return std::isfinite(v.squaredNorm());
+}
+
+bool isNatural(double number) { return number >= 0 && std::isfinite(number); }
+
+bool isPhysical(const WaveMemory& waves) {
+  return hasFiniteSquare(waves.tilt_W[0]) && hasFiniteSquare(waves.tilt_W[1]) &&
+         std::isfinite(waves.heave[0] * waves.heave[0]) &&
+         std::isfinite(waves.heave[1] * waves.heave[1]) && isNatural(waves.heave_energy) &&
+         isNatural(waves.tilt_energy) && std::isfinite(waves.energy());
+}
+
+bool isPhysical(const SurfacePlane& plane) {
+  return std::abs(plane.normal.squaredNorm() - 1) < 0.01 && std::isfinite(plane.height) &&
+         isNatural(plane.density) && isNatural(plane.gravity);
+}
+
 std::string faultOfFlight(const AmbientState& ambient) {
   const FlightMemory& memory = ambient.memory;
-  if (!memory.load_W.vector().allFinite() || !ambient.left_W.vector().allFinite() ||
-      !std::isfinite(memory.substep))
-    return "flight has numbers that are not finite";
-  const WaveMemory& waves = ambient.waves;
-  if (!waves.tilt_W[0].allFinite() || !waves.tilt_W[1].allFinite() ||
-      !std::isfinite(waves.heave[0]) || !std::isfinite(waves.heave[1]) ||
-      !std::isfinite(waves.energy()))
-    return "waves have numbers that are not finite";
-  if (const auto& met = ambient.met_B;
-      met && !(met->normal.allFinite() && std::isfinite(met->height) &&
-               std::isfinite(met->density) && std::isfinite(met->gravity)))
-    return "surface of the water is not finite";
+  if (!hasFiniteSquare(memory.load_W.vector()) || !hasFiniteSquare(ambient.left_W.vector()))
+    return "flight has a load or velocity that is not finite, or its square is not";
+  if (!isNatural(memory.substep))
+    return "flight has a substep that is negative or not finite: " + std::to_string(memory.substep);
+  if (!isPhysical(ambient.waves))
+    return "waves have energies that are negative or not finite, or heights that have such";
+  if (ambient.met_B && !isPhysical(*ambient.met_B))
+    return "surface of the water is not finite, or its normal is no direction";
   const Medium& medium = ambient.medium;
   if (!(medium.density >= 0) || !(medium.viscosity >= 0) || !std::isfinite(medium.density) ||
       !std::isfinite(medium.viscosity) || !medium.velocity.allFinite() ||

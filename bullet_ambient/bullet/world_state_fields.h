@@ -78,6 +78,7 @@ void transferFlight(Stream& s, State& state) {
   s.number(state.counters.rejected);
   s.number(state.counters.regions_asked);
   s.number(state.counters.medium_changes);
+  s.number(state.counters.too_long);
 }
 
 template <class Stream, class State>

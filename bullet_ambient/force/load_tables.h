@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <memory>
-#include <unordered_map>
+#include <tuple>
+#include <utility>
 
 #include "bullet_ambient/fluid_body/packed_faces.h"
 #include "bullet_ambient/fluid_body/packed_hull.h"
@@ -12,15 +15,36 @@
 
 namespace ambient {
 
-/// What loads have in common, made when it is first asked for. Owned by who makes loads; for one
-/// thread at a time, and never read by the loads themselves.
+struct Medium;
+class SurfaceLoads;
+class WettedInertia;
+
+/// Whether loads are those of a body in one fluid, or of one that the surface may cut.
+enum class LoadPlace { kUnbounded, kWaterline };
+
+/// What bodies of one shape have in common: made when it is first asked for, and kept as long as
+/// somebody uses it. Owned by who makes loads; for one thread at a time, and never read by the
+/// loads themselves.
 class LoadTables {
  public:
   using Body = std::shared_ptr<const FluidBody>;
-
   using Faces = std::shared_ptr<const FaceTable>;
 
-  /// formLawFaces(). One for all who use it at the same time, as below.
+  /// What `make()` returns, once for all bodies of a shape in a fluid, by settings without a law of
+  /// their own.
+  template <class Make>
+  std::shared_ptr<const SurfaceLoads> loads(const Body& body, const Medium& medium,
+                                            const FlowSettings& flow, LoadPlace place,
+                                            const Make& make) {
+    return loads_.get(body, keyOf(medium, flow, place), make);
+  }
+  /// The same for the added mass at the surface of water.
+  template <class Make>
+  std::shared_ptr<const WettedInertia> wettedInertia(const Body& body, const Make& make) {
+    return wetted_.get(body, {}, make);
+  }
+
+  /// formLawFaces().
   Faces formFaces(const Body& body);
   /// Faces as `law` reads them in single precision. Cost: PackedFaces().
   std::shared_ptr<const PackedFaces> packedFaces(const Faces& faces, PressureLaw law);
@@ -34,23 +58,49 @@ class LoadTables {
   std::shared_ptr<const SphereTable> sphereTable(double separation_cosine);
 
  private:
-  /// What was made of something, as long as it is used.
-  template <class Source, class Table>
+  /// What was made of something by some settings, as long as it is used.
+  template <class Source, class Table, class Settings = std::tuple<>>
   class Made {
    public:
+    /// `make()` returns a shared table.
     template <class Make>
-    std::shared_ptr<const Table> get(const std::shared_ptr<const Source>& source, const Make& make);
+    std::shared_ptr<const Table> get(const std::shared_ptr<const Source>& source,
+                                     const Settings& settings, const Make& make) {
+      const std::pair<const Source*, Settings> key{source.get(), settings};
+      if (const auto found = entries_.find(key); found != entries_.end())
+        if (auto table = found->second.table.lock(); table && found->second.source.lock() == source)
+          return table;
+      if (entries_.size() >= most_entries_) dropUnused();
+      std::shared_ptr<const Table> table = make();
+      entries_[key] = {source, table};
+      return table;
+    }
 
    private:
     struct Entry {
       std::weak_ptr<const Source> source;  ///< tells it from another one at its address
       std::weak_ptr<const Table> table;
     };
-    std::unordered_map<const Source*, Entry> entries_;
+
+    // As many may be added until the next time as are kept now: the cost per entry stays bounded.
+    void dropUnused() {
+      for (auto entry = entries_.begin(); entry != entries_.end();)
+        entry = entry->second.table.expired() ? entries_.erase(entry) : std::next(entry);
+      most_entries_ = 2 * entries_.size() + 1;
+    }
+
+    std::map<std::pair<const Source*, Settings>, Entry> entries_;
+    std::size_t most_entries_ = 1;
   };
 
+  using LoadKey = std::tuple<LoadPlace, double, double, double, bool, LoadPrecision, double,
+                             PressureLaw, double>;
+  static LoadKey keyOf(const Medium& medium, const FlowSettings& flow, LoadPlace place);
+
+  Made<FluidBody, SurfaceLoads, LoadKey> loads_;
+  Made<FluidBody, WettedInertia> wetted_;
   Made<FluidBody, FaceTable> form_faces_;
-  Made<FaceTable, PackedFaces> packed_, packed_form_;
+  Made<FaceTable, PackedFaces, PressureLaw> packed_;
   Made<FluidBody, PackedHull> hulls_;
   Made<FluidBody, PackedParts> parts_;
   std::map<double, std::shared_ptr<const SphereTable>> spheres_;  ///< by separation cosine

@@ -76,9 +76,14 @@ struct LevelLoads final : SummedLoads<LoadLevel, sumClusters> {
 /// The form law: faces as above, and what acts on the body as a whole.
 class FormLoads final : public SurfaceLoads {
  public:
-  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const DragScale& drag,
-            const FormLift& lift, double density)
-      : on_faces_(std::move(on_faces)), drag_(drag), lift_(lift), density_(density) {}
+  /// on_faces: of `faces`, which are kept for other media and settings of the shape.
+  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, LoadTables::Faces faces,
+            const FluidBody& body, double stall_lag, double density)
+      : on_faces_(std::move(on_faces)),
+        faces_(std::move(faces)),
+        drag_(body, *faces_),
+        lift_(body, stall_lag),
+        density_(density) {}
 
   Wrench load(const Twist& x) const noexcept override {
     return drag_.factor(x) * on_faces_->load(x) + lift_.load(x, density_);
@@ -96,6 +101,7 @@ class FormLoads final : public SurfaceLoads {
 
  private:
   std::shared_ptr<const SurfaceLoads> on_faces_;
+  LoadTables::Faces faces_;
   DragScale drag_;
   FormLift lift_;
   double density_;
@@ -258,8 +264,8 @@ std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, const LoadSet
     return loadsOn({body, &body->faces}, length, settings, flow.precision, tables);
   const LoadTables::Faces faces = chooseFormFaces(body, flow, tables);
   auto on_faces = loadsOn(faces, length, settings, flow.precision, tables);
-  return std::make_shared<FormLoads>(std::move(on_faces), DragScale(*body, *faces),
-                                     FormLift(*body, flow.stall_lag), settings.density);
+  return std::make_shared<FormLoads>(std::move(on_faces), faces, *body, flow.stall_lag,
+                                     settings.density);
 }
 
 /// On faces, a sphere by the law of SphereLoads.
@@ -281,19 +287,9 @@ std::shared_ptr<const SurfaceLoads> waterlineLoadsOnFaces(const Body& body, Load
   return std::make_shared<AttachedLoads>(std::move(on_faces), std::move(slip), std::move(whole));
 }
 
-}  // namespace
-
-LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
-  return {medium.density, medium.viscosity, separationCosine(flow.separation_angle),
-          flow.skin_friction, flow.law};
-}
-
-std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
-                                                     const Medium& medium, const FlowSettings& flow,
-                                                     LoadTables& tables) {
+std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& settings,
+                                          const FlowSettings& flow, LoadTables& tables) {
   checkFaces(*body);
-  checkFlow(*body, flow);
-  const LoadSettings settings = loadSettings(medium, flow);
   if (!(settings.density > 0)) return nullptr;
   if (flow.own_law) return flow.own_law(body, settings);
   if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, settings, tables);
@@ -304,19 +300,45 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
   return loadsOnFaces(body, settings, flow, tables);
 }
 
+std::shared_ptr<const SurfaceLoads> waterlineLawOf(const Body& body, const LoadSettings& settings,
+                                                   const FlowSettings& flow, LoadTables& tables) {
+  checkFaces(*body);
+  if (!(settings.density > 0)) return nullptr;
+  FlowSettings on_all = flow;
+  on_all.maximum_load_error = 0;
+  return waterlineLoadsOnFaces(body, settings, on_all, tables);
+}
+
+// What is not one has no loads, or is refused later.
+bool isFluid(const Medium& medium) { return medium.density > 0 && medium.viscosity >= 0; }
+
+}  // namespace
+
+LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
+  return {medium.density, medium.viscosity, separationCosine(flow.separation_angle),
+          flow.skin_friction, flow.law};
+}
+
+std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
+                                                     const Medium& medium, const FlowSettings& flow,
+                                                     LoadTables& tables) {
+  const LoadSettings settings = loadSettings(medium, flow);
+  const auto make = [&] { return lawOf(body, settings, flow, tables); };
+  checkFlow(*body, flow);
+  const bool is_shared = isFluid(medium) && !flow.own_law;
+  return is_shared ? tables.loads(body, medium, flow, LoadPlace::kUnbounded, make) : make();
+}
+
 std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
                                                        const Medium& medium,
                                                        const FlowSettings& flow,
                                                        LoadTables& tables) {
   const bool has_places = body->faces.size() > 0 && !flow.own_law;
   if (!has_places) return makeSurfaceLoads(body, medium, flow, tables);
-  checkFaces(*body);
-  checkFlow(*body, flow);
   const LoadSettings settings = loadSettings(medium, flow);
-  if (!(settings.density > 0)) return nullptr;
-  FlowSettings on_all = flow;
-  on_all.maximum_load_error = 0;
-  return waterlineLoadsOnFaces(body, settings, on_all, tables);
+  const auto make = [&] { return waterlineLawOf(body, settings, flow, tables); };
+  checkFlow(*body, flow);
+  return isFluid(medium) ? tables.loads(body, medium, flow, LoadPlace::kWaterline, make) : make();
 }
 
 }  // namespace ambient

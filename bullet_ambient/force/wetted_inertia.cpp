@@ -86,11 +86,13 @@ InertiaGradient WettedInertia::gradient(const Immersion& immersion,
 
 std::shared_ptr<const WettedInertia> makeWettedInertia(const std::shared_ptr<const FluidBody>& body,
                                                        LoadTables& tables) {
-  if (body->sphere_radius > 0) return std::make_shared<WettedSphere>(*body);
-  if (body->added_mass_parts.empty()) return std::make_shared<WettedShare>(*body);
-  if (!body->waterline.empty())
-    return std::make_shared<WettedTable>(body, tables.addedMassParts(body));
-  return std::make_shared<WettedParts>(*body, tables.addedMassParts(body));
+  return tables.wettedInertia(body, [&]() -> std::shared_ptr<const WettedInertia> {
+    if (body->sphere_radius > 0) return std::make_shared<WettedSphere>(*body);
+    if (body->added_mass_parts.empty()) return std::make_shared<WettedShare>(*body);
+    if (!body->waterline.empty())
+      return std::make_shared<WettedTable>(body, tables.addedMassParts(body));
+    return std::make_shared<WettedParts>(*body, tables.addedMassParts(body));
+  });
 }
 
 }  // namespace ambient

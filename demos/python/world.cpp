@@ -127,6 +127,7 @@ py::dict workOf(const PythonBody& body) {
   counts["load_evaluations"] = work.load_evaluations;
   counts["guarded"] = work.guarded;
   counts["coarse"] = work.coarse;
+  counts["too_long"] = work.too_long;
   return counts;
 }
 

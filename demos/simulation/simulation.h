@@ -17,6 +17,8 @@ struct FlightWork {
   long long load_evaluations = 0;
   long long guarded = 0;  ///< evaluations in which the passivity guard acted
   long long coarse = 0;   ///< steps that stayed above the integrator's tolerance
+  /// 1 where the errors of the steps add up: they are too long for the motion.
+  long long too_long = 0;
 };
 
 /// A stock btDiscreteDynamicsWorld with the bodies of a scene in their fluid.

@@ -67,7 +67,8 @@ json toJson(const FlightWork& work) {
   return {{"substeps", work.substeps},
           {"load_evaluations", work.load_evaluations},
           {"guarded", work.guarded},
-          {"coarse", work.coarse}};
+          {"coarse", work.coarse},
+          {"too_long", work.too_long}};
 }
 
 json toJson(const FluidBody& body) {

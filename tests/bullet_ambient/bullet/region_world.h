@@ -8,6 +8,7 @@
 namespace ambient::test {
 
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
+inline constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 inline BodyDef tumblingBody(const Vector3& position) {
   BodyDef def{2, ellipsoidMoments(kUnequalAxes, 2), {}, nullptr};

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/force/water_surface.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/ellipsoid_body.h"
+#include "tests/support/part_bodies.h"
 
 // What a scene does not need is not computed, by the counters of the registry.
 namespace ambient::test {
@@ -161,18 +163,30 @@ TEST(SparedWork, ADetachedBodyCostsNothing) {
 
 TEST(SparedWork, BodiesOfOneShapeShareItsData) {
   FluidWorld fluid;
-  const auto shape = std::make_shared<const FluidBody>(meshedEllipsoid(kUnequalAxes, 2));
-  for (int i = 0; i < 5; ++i) {
+  FluidRegion sea;
+  sea.below = water();
+  sea.above = air();
+  sea.surface = std::make_shared<StillWater>(-50, Vector3::UnitZ());
+  fluid.registry.addRegion(sea);
+  for (const PressureLaw law : {PressureLaw::kPublished, PressureLaw::kForm}) {
     AttachDef def;
-    def.fluid_body = shape;
+    def.fluid_body = std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2));
     def.medium = air();
-    fluid.registry.attach(fluid.add(bodyAt(2.0 * i)), def);
+    def.flow.law = law;
+    const AmbientBody* bodies[2] = {};
+    for (const AmbientBody*& ambient : bodies) {
+      btRigidBody& body = fluid.add(bodyAt(2));
+      fluid.registry.attach(body, def);
+      ambient = bodiesOf(fluid.registry).find(&body);
+    }
+    EXPECT_EQ(bodies[0]->media[0].loads, bodies[1]->media[0].loads);
+    EXPECT_EQ(bodies[0]->media[1].loads, bodies[1]->media[1].loads);
+    const SurfaceModel &a = bodies[0]->surfaces[0].model, &b = bodies[1]->surfaces[0].model;
+    EXPECT_EQ(a.loads_below.loads, b.loads_below.loads);
+    EXPECT_EQ(a.wetted, b.wetted);
+    EXPECT_EQ(a.hull, b.hull);
+    EXPECT_NE(bodies[0]->surfaces[0].loads, bodies[1]->surfaces[0].loads);  // each has its part
   }
-  EXPECT_EQ(bodiesOf(fluid.registry)
-                .load_tables.packedFaces({shape, &shape->faces}, PressureLaw::kPublished)
-                .use_count(),
-            5 + 1);
-  EXPECT_LT(sizeof(AmbientBody), 3000U);
 }
 
 }  // namespace

@@ -24,6 +24,57 @@ void addFloatingBodies(FluidWorld& fluid, BodyDef def) {
   }
 }
 
+FluidBody formShape() {
+  FluidBody shape = floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 3);
+  shape.faces.sharpness.assign(shape.faces.size(), 0.5);
+  return shape;
+}
+
+// What docs/bullet_step.md says of it, by the form law with nothing that reduces it.
+TEST(Attachment, OfAnEqualBodyTakesSomeKilobytes) {
+  const auto shape = std::make_shared<const FluidBody>(formShape());
+  for (const bool has_surface : {false, true}) {
+    FluidWorld fluid;
+    FluidRegion sea;
+    sea.below = water();
+    sea.above = air();
+    if (has_surface) sea.surface = std::make_shared<StillWater>(0, Vector3::UnitZ());
+    fluid.registry.addRegion(sea);
+    constexpr std::size_t kBodies = 64;
+    std::vector<btRigidBody*> bodies;
+    for (std::size_t i = 0; i <= kBodies; ++i) bodies.push_back(&fluid.add(BodyDef{}));
+    std::size_t before = 0;
+    for (std::size_t i = 0; i <= kBodies; ++i) {
+      if (i == 1) before = allocatedBytes();
+      AttachDef def;
+      def.fluid_body = shape;
+      def.medium = water();
+      def.flow.law = PressureLaw::kForm;
+      fluid.registry.attach(*bodies[i], def);
+    }
+    EXPECT_LT((allocatedBytes() - before) / kBodies, has_surface ? 12000U : 5000U);
+  }
+}
+
+// Neither does it grow with the number of regions, nor do bodies that know the fluid count.
+TEST(Attachment, OfARegionToManyTakesSomeHundredBytes) {
+  FluidWorld fluid;
+  for (int i = 0; i < 10; ++i) fluid.add(BodyDef{}, formShape(), air());
+  const auto add = [&](int from, int to) {
+    const std::size_t before = allocatedBytes();
+    for (int i = from; i < to; ++i) {
+      FluidRegion zone;
+      zone.below = air();
+      zone.bounds = RegionBounds{{1.0 * i, 0, 0}, {i + 1.0, 1, 1}};
+      fluid.registry.addRegion(zone);
+    }
+    return static_cast<double>(allocatedBytes() - before) / (to - from);
+  };
+  add(0, 1);
+  EXPECT_LT(add(1, 1000), 2000);
+  EXPECT_LT(add(1000, 5000), 2000);
+}
+
 struct NoShapes : FluidBodySource {
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape&) override { return nullptr; }
 };

@@ -285,6 +285,22 @@ TEST(WaterWorld, WindBlowsOnBodiesThatJointsMove) {
   joined.fluid.world.removeConstraint(&rail);
 }
 
+// In a sea of its own, beside a calm one, or over one that was calm.
+TEST(WaterWorld, WindIsFeltWhateverTheFluidsOfOtherRegions) {
+  FluidRegion calm = seaAt(0), windy = seaAt(0);
+  calm.above = windy.above = air();
+  windy.above.velocity = {10, 0, 0};
+  calm.bounds = RegionBounds{{100, -100, -100}, {200, 100, 100}};
+  WaterWorld beside(windy), later(calm);
+  beside.fluid.registry.addRegion(calm);
+  const btRigidBody& drifting = beside.addBox(0.5, at(0));
+  const btRigidBody& surprised = later.addBox(0.5, at(0));
+  later.fluid.registry.setRegion(RegionId{0}, windy);
+  for (WaterWorld* world : {&beside, &later}) world->fluid.step(1.0 / 60, 120);
+  EXPECT_GT(static_cast<double>(drifting.getLinearVelocity().x()), 0.05);
+  EXPECT_GT(static_cast<double>(surprised.getLinearVelocity().x()), 0.05);
+}
+
 TEST(WaterWorld, FloatingBodiesSleepInStillWaterButNotOnASaddle) {
   WaterWorld water(seaAt(0));
   btRigidBody& flat = water.addBox(0.5, at(0.001));

@@ -3,10 +3,12 @@
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
@@ -20,6 +22,7 @@ class BallTable : public FluidBodySource {
  public:
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override {
     ++asked;
+    if (std::exchange(throws_once, false)) throw 1;
     if (shape.getShapeType() != SPHERE_SHAPE_PROXYTYPE) throw std::runtime_error("not a ball");
     return ball;
   }
@@ -30,6 +33,7 @@ class BallTable : public FluidBodySource {
   }
 
   int asked = 0;
+  bool throws_once = false;
   std::shared_ptr<const FluidBody> ball =
       std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
 
@@ -245,6 +249,58 @@ TEST_F(WorldInFluid, ReplacesFluidBodiesWhenTheSourceKnowsBetter) {
   const int asked = shapes.asked;
   step();
   EXPECT_EQ(shapes.asked, asked);
+}
+
+// Each refusal is told, to a report that throws each time.
+TEST_F(WorldInFluid, AReportThatThrowsLosesNoReplacement) {
+  btRigidBody& refused = add(kHeavy, sphere);
+  btRigidBody& last = add(kHeavy, sphere);
+  AttachSettings settings;
+  settings.later_bodies = true;
+  fluid.attachAll(world, shapes, water(), settings);
+  fluid.registry().setReport([this](const std::string& sentence) {
+    said.push_back(sentence);
+    throw std::runtime_error("no terminal");
+  });
+  const double before = fluid.registry().inertia(last)(3, 3);
+  refused.setMassProps(kHeavy, btVector3(0, 0, 0));
+  shapes.improve(std::make_shared<FluidBody>(scaled(*shapes.ball, 1.1)));
+  add(kHeavy, box);
+  add(kHeavy, box);
+  step();
+  const auto refusals = std::count_if(said.begin(), said.end(), [](const std::string& sentence) {
+    return sentence.rfind("bullet_ambient: body ", 0) == 0;
+  });
+  EXPECT_EQ(refusals, 3);
+  EXPECT_NEAR(fluid.registry().inertia(last)(3, 3) - kHeavy, (before - kHeavy) * 1.331,
+              1e-6 * before);
+}
+
+TEST_F(WorldInFluid, ASourceThatFailsOnceLosesOneReplacement) {
+  const btRigidBody& first = add(kHeavy, sphere);
+  const btRigidBody& last = add(kHeavy, sphere);
+  fluid.attachAll(world, shapes, water());
+  const double before = fluid.registry().inertia(first)(3, 3);
+  shapes.throws_once = true;
+  shapes.improve(std::make_shared<FluidBody>(scaled(*shapes.ball, 1.1)));
+  step();
+  EXPECT_EQ(fluid.registry().inertia(first)(3, 3), before);
+  EXPECT_GT(fluid.registry().inertia(last)(3, 3), before);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0], "bullet_ambient: body 0 (SPHERE): something unknown was thrown");
+}
+
+TEST_F(WorldInFluid, NamesTheFunctionThatThrew) {
+  add(kHeavy, sphere);
+  AttachSettings settings;
+  settings.adjust = [](const btRigidBody&, AttachDef&) { throw std::runtime_error("no table"); };
+  const AttachReport adjusted = fluid.attachAll(world, shapes, water(), settings);
+  ASSERT_EQ(adjusted.refused.size(), 1u);
+  EXPECT_EQ(adjusted.refused[0].reason, "body 0 (SPHERE): adjust threw: no table");
+  settings.filter = [](const btRigidBody&) -> bool { throw 1; };
+  const AttachReport filtered = fluid.attachAll(world, shapes, water(), settings);
+  ASSERT_EQ(filtered.refused.size(), 1u);
+  EXPECT_EQ(filtered.refused[0].reason, "body 0 (SPHERE): filter threw something unknown");
 }
 
 TEST_F(WorldInFluid, ClearFollowsNothing) {

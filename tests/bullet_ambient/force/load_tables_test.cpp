@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "bullet_ambient/force/surface_loads.h"
 #include "tests/support/geodesic.h"
+#include "tests/support/hull_bodies.h"
 
 namespace ambient {
 namespace {
@@ -11,6 +13,10 @@ std::shared_ptr<const FluidBody> sphere() {
   FluidBody body;
   body.faces = test::faceTableOf(test::geodesicSphere(1));
   return std::make_shared<const FluidBody>(body);
+}
+
+std::shared_ptr<const FluidBody> closedSphere() {
+  return std::make_shared<const FluidBody>(test::hullBody(test::geodesicSphere(1)));
 }
 
 std::shared_ptr<const PackedFaces> packed(LoadTables& tables,
@@ -45,6 +51,45 @@ TEST(LoadTables, KeepNoFacesThatNobodyUses) {
   const auto body = sphere();
   const std::weak_ptr<const PackedFaces> faces = packed(tables, body);
   EXPECT_TRUE(faces.expired());
+}
+
+// For further media and settings of the shape.
+TEST(LoadTables, KeepTheFacesOfTheFormLawAsLongAsLoadsAreUsed) {
+  LoadTables tables;
+  const auto body = closedSphere();
+  FlowSettings flow;
+  flow.law = PressureLaw::kForm;
+  auto loads = makeSurfaceLoads(body, water(), flow, tables);
+  const std::weak_ptr<const FaceTable> faces = tables.formFaces(body);
+  EXPECT_FALSE(faces.expired());
+  loads = nullptr;
+  EXPECT_TRUE(faces.expired());
+}
+
+TEST(LoadTables, HaveOneSetOfLoadsPerShapeFluidAndSettings) {
+  LoadTables tables;
+  const auto body = closedSphere(), same = closedSphere();
+  const FlowSettings flow;
+  const auto loads = makeSurfaceLoads(body, water(), flow, tables);
+  EXPECT_EQ(makeSurfaceLoads(body, water(), flow, tables), loads);
+  EXPECT_NE(makeSurfaceLoads(same, water(), flow, tables), loads);
+  EXPECT_NE(makeSurfaceLoads(body, air(), flow, tables), loads);
+  EXPECT_NE(makeWaterlineLoads(body, water(), flow, tables), loads);
+  FlowSettings others[7];
+  others[0].separation_angle = 2;
+  others[1].skin_friction = false;
+  others[2].precision = LoadPrecision::kDouble;
+  others[3].maximum_load_error = 0;
+  others[4].law = PressureLaw::kForm;
+  others[5].stall_lag = 1;
+  others[6].own_law = [](const auto& shape, const LoadSettings&) {
+    LoadTables own;
+    return makeSurfaceLoads(shape, water(), {}, own);
+  };
+  for (const FlowSettings& other : others)
+    EXPECT_NE(makeSurfaceLoads(body, water(), other, tables), loads);
+  EXPECT_NE(makeSurfaceLoads(body, water(), others[6], tables),
+            makeSurfaceLoads(body, water(), others[6], tables));
 }
 
 TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {

@@ -1,7 +1,9 @@
-// Scenes at 60 Hz of which each is right to the eye: nothing is said of their steps.
+// Scenes at 60 Hz of which each is right to the eye: nothing is said of their steps. Longer ones
+// are counted.
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <string>
 
 #include "tests/demos/simulation/run_scene.h"
@@ -9,9 +11,16 @@
 namespace ambient {
 namespace {
 
-RunRecord runAt60Hz(const std::string& name) {
-  return runSharing(readNamedScene(
-      name, {{"time_step", std::to_string(1.0 / 60)}, {"duration", "2"}, {"output_step", "0.1"}}));
+Scene sceneInSteps(const std::string& name, double step) {
+  return readNamedScene(
+      name, {{"time_step", std::to_string(step)}, {"duration", "2"}, {"output_step", "0.1"}});
+}
+
+RunRecord runAt60Hz(const std::string& name) { return runSharing(sceneInSteps(name, 1.0 / 60)); }
+
+long long bodiesWithLongSteps(const RunRecord& record) {
+  return std::accumulate(record.work.begin(), record.work.end(), 0LL,
+                         [](long long sum, const FlightWork& work) { return sum + work.too_long; });
 }
 
 TEST(LongSteps, AreNoneForFallingPlates) {
@@ -25,6 +34,15 @@ TEST(LongSteps, AreNotToldWhereFewAreCoarse) {
   for (const FlightWork& work : record.work) coarse += work.coarse;
   EXPECT_GT(coarse, 0);
   EXPECT_EQ(record.warning, "");
+  EXPECT_EQ(bodiesWithLongSteps(record), 0);
+}
+
+TEST(LongSteps, AreToldOnceAndCountedOfEachBody) {
+  const Scene scene = sceneInSteps("leaves", 0.1);
+  const RunRecord record = runSharing(scene);
+  EXPECT_NE(record.warning.find("the world's step is too long"), std::string::npos);
+  EXPECT_GT(bodiesWithLongSteps(record), 1);
+  EXPECT_LE(bodiesWithLongSteps(record), static_cast<long long>(scene.bodies.size()));
 }
 
 }  // namespace

@@ -325,6 +325,7 @@ TEST(Summary, HasTheKeysThatProgramsReadAndTheFall) {
   EXPECT_EQ(plate["fall"]["mode"], "flutter");
   EXPECT_EQ(plate["fluid_body"]["faces"], 980);
   EXPECT_GT(plate["work"]["load_evaluations"], 0);
+  EXPECT_EQ(plate["work"]["too_long"], 0);
 }
 
 TEST(Summary, ABallIsNotAPlate) {

@@ -179,6 +179,22 @@ TEST_F(StateBytes, WithNumbersThatNoWorldCanHaveAreRefusedHoweverTheyCome) {
       {[](WorldState& s) { s.bodies[1].friction = kInfinity; }, "friction"},
       {[](WorldState& s) { s.bodies[1].ccd_threshold = kNaN; }, "threshold"},
       {[](WorldState& s) { s.bodies[1].ambient->medium.density = -1; }, "medium"},
+      {[](WorldState& s) { s.bodies[1].ambient->memory.substep = -0.01; }, "substep"},
+      {[](WorldState& s) { s.bodies[1].ambient->memory.load_W.force.z() = 1e200; }, "load"},
+      {[](WorldState& s) { s.bodies[1].ambient->memory.load_W.torque.x() = -1e200; }, "load"},
+      {[](WorldState& s) { s.bodies[1].ambient->left_W.angular.y() = 1e200; }, "velocity"},
+      {[](WorldState& s) { s.bodies[1].ambient->waves.heave_energy = -1; }, "waves"},
+      {[](WorldState& s) { s.bodies[1].ambient->waves.tilt_energy = -1e-9; }, "waves"},
+      {[](WorldState& s) { s.bodies[1].ambient->waves.heave[1] = 1e200; }, "waves"},
+      {[](WorldState& s) { s.bodies[1].ambient->waves.tilt_W[0].x() = 1e200; }, "waves"},
+      {[](WorldState& s) {
+         s.bodies[1].ambient->met_B = SurfacePlane{{0, 0, 2}, 0, 998, 9.81};
+       },
+       "normal"},
+      {[](WorldState& s) {
+         s.bodies[1].ambient->met_B = SurfacePlane{{0, 0, 1}, 0, -998, 9.81};
+       },
+       "surface of the water"},
       {[](WorldState& s) { firstPoint(s).m_localPointA.setX(kNaN); }, "contact point"},
       {[](WorldState& s) { firstPoint(s).m_appliedImpulse = kNaN; }, "contact point"},
       {[](WorldState& s) { firstPoint(s).m_normalWorldOnB *= 2; }, "contact point"}};

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <tuple>
+#include <vector>
+
+#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/force/fluid_region.h"
+
+namespace ambient {
+inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+
+/// What the loads of a medium depend on.
+struct FluidKind {
+  double density = 0;    ///< [kg/m^3]
+  double viscosity = 0;  ///< [Pa s]
+
+  explicit FluidKind(const Medium& medium) : density(medium.density), viscosity(medium.viscosity) {}
+  friend bool operator==(const FluidKind& a, const FluidKind& b) {
+    return a.density == b.density && a.viscosity == b.viscosity;
+  }
+  friend bool operator<(const FluidKind& a, const FluidKind& b) {
+    return std::tie(a.density, a.viscosity) < std::tie(b.density, b.viscosity);
+  }
+  /// At rest.
+  Medium medium() const { return {density, viscosity, Vector3::Zero(), Vector3::Zero()}; }
+};
+
+/// What a body at a surface depends on of the fluids that it parts.
+struct SurfaceKind {
+  FluidKind below, above;
+  bool may_blow;  ///< the fluid above may move
+
+  explicit SurfaceKind(const FluidRegion& region)
+      : below(region.below),
+        above(region.above),
+        may_blow(region.flow || !region.above.velocity.isZero(0)) {}
+  friend bool operator==(const SurfaceKind& a, const SurfaceKind& b) {
+    return a.below == b.below && a.above == b.above && a.may_blow == b.may_blow;
+  }
+  friend bool operator<(const SurfaceKind& a, const SurfaceKind& b) {
+    return std::tie(a.below, a.above, a.may_blow) < std::tie(b.below, b.above, b.may_blow);
+  }
+};
+
+/// Some of the fluids of some regions; each once.
+struct RegionFluids {
+  std::vector<FluidKind> media;
+  std::vector<SurfaceKind> surfaces;
+
+  bool empty() const noexcept { return media.empty() && surfaces.empty(); }
+};
+
+}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
+}  // namespace ambient
