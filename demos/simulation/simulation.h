@@ -15,8 +15,10 @@ namespace ambient {
 struct FlightWork {
   long long substeps = 0;
   long long load_evaluations = 0;
-  long long guarded = 0;  ///< evaluations in which the passivity guard acted
-  long long coarse = 0;   ///< steps that stayed above the integrator's tolerance
+  long long guarded = 0;      ///< evaluations in which the passivity guard acted
+  long long coarse = 0;       ///< steps that stayed above the integrator's tolerance
+  long long halted = 0;       ///< steps at the surface of water that ended early
+  double energy_removed = 0;  ///< by bounds on the energy of steps [J]
 };
 
 /// A stock btDiscreteDynamicsWorld with the bodies of a scene in their fluid.

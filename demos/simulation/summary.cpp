@@ -64,10 +64,9 @@ json toJson(const PathSummary& path) {
 }
 
 json toJson(const FlightWork& work) {
-  return {{"substeps", work.substeps},
-          {"load_evaluations", work.load_evaluations},
-          {"guarded", work.guarded},
-          {"coarse", work.coarse}};
+  return {{"substeps", work.substeps}, {"load_evaluations", work.load_evaluations},
+          {"guarded", work.guarded},   {"coarse", work.coarse},
+          {"halted", work.halted},     {"energy_removed", work.energy_removed}};
 }
 
 json toJson(const FluidBody& body) {
