@@ -69,19 +69,17 @@ TEST(SurfacePassage, NeverAddsEnergyWhateverChanges) {
 // Without a gradient the momentum stays: K_1^-1 K_0 x but for the bound.
 TEST(SurfacePassage, TellsTheEnergyThatItRemoves) {
   test::Arbitrary arbitrary(3);
-  int bounded = 0;
   for (int i = 0; i < 100; ++i) {
-    const Matrix6 before = arbitrary.positiveDefinite(), after = arbitrary.positiveDefinite();
+    const Matrix6 before = arbitrary.positiveDefinite();
+    const Matrix6 after = (i % 2 == 0 ? 0.5 : 1.5) * before;
     const Matrix6 inverse = after.inverse();
     const Vector6 x = arbitrary.twist().vector(), end = inverse * (before * x);
     const double had = x.dot(before * x) / 2, gain = end.dot(after * end) / 2 - had;
+    EXPECT_EQ(gain > 0, i % 2 == 0);
     const SurfacePassage passage{
         before, after, inverse, {{0, 0, 0}, {0, 0, 0}}, {0, 0, 1}, {0, 0, 0}, 1, 1, 9.81, 0.01};
     EXPECT_NEAR(passSurface(passage, x).energy_removed, std::max(0.0, gain), 1e-11 * had) << i;
-    bounded += gain > 0;
   }
-  EXPECT_GT(bounded, 10);
-  EXPECT_LT(bounded, 90);
 }
 
 TEST(SurfacePassage, LeavesABodyAloneWhoseInertiaStays) {
