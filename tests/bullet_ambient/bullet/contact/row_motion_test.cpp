@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -64,6 +66,43 @@ TEST(RowMotion, LeavesImpulsesOfOtherActionsWhole) {
       EXPECT_LT(change.norm(), byPrecision(1e-13, 1e-5) * (1 + alone.norm())) << spin;
     }
   }
+}
+
+// A turn of 0.7 and 3.3 rad: the momentum after the rows would have more energy in the next pose
+// than eq. (31a) allows.
+TEST(RowMotion, CountsTheEnergyThatItsBoundRemoves) {
+  constexpr double kStep = 1.0 / 60;
+  int bounded = 0;
+  for (const double spin : {1, 40, 200}) {
+    Held held(spin);
+    const Matrix6 K = held.scene.registry.inertia(*held.body);
+    const auto turned = [](const Quaternion& q, const Vector6& x) {
+      return stack(q * Vector3(x.head<3>()), q * Vector3(x.tail<3>()));
+    };
+    const Quaternion from = readState(*held.body).orientation;
+    Vector6 by_momentum = Vector6::Zero();  // eq. (31), in B
+    held.after(
+        [&] {
+          const RigidState now = readState(*held.body);
+          const Vector6 moved_W = turned(now.orientation, now.twist.vector());
+          Vector6 momentum_W = turned(from, K * turned(from.conjugate(), moved_W));
+          const Vector3 way = kStep * moved_W.tail<3>(), linear = momentum_W.tail<3>();
+          momentum_W.head<3>() -= way.cross(linear);
+          by_momentum = K.inverse() * turned(now.orientation.conjugate(), momentum_W);
+        },
+        true);
+    const Vector6 end = readState(*held.body).twist.vector();
+    const double has = end.dot(K * end) / 2;
+    const double removed = held.scene.registry.counters(*held.body).energy_removed;
+    if (spin == 1) {
+      EXPECT_EQ(removed, 0);
+      continue;
+    }
+    const double gain = by_momentum.dot(K * by_momentum) / 2 - has;
+    EXPECT_NEAR(removed, std::max(0.0, gain), byPrecision(1e-12, 1e-4) * has) << spin;
+    bounded += gain > 0.01 * has;
+  }
+  EXPECT_GT(bounded, 0);
 }
 
 TEST(RowMotion, LeavesABodyAloneThatAnActionHasPutElsewhere) {
