@@ -41,12 +41,11 @@ class SurfaceFlight {
   }
 
   SurfaceFlightResult fly() {
-    const SurfaceStand& begin = task_.stand;
     const int most =
         task_.settings.max_substeps > 0 ? task_.settings.max_substeps : kSurfaceSubsteps;
     const double duration = task_.duration;
     const double remembered = memory_.substep > 0 ? memory_.substep : duration;
-    swing_ = begin.swing;
+    swing_ = task_.stand.swing;
     int count = substepsOf(std::min(remembered, kLongestSwing / swing_), most);
     for (int attempt = 1;; ++attempt) {
       is_stiff_ = duration / count * swing_ > kLongestSwing * (1 + 1e-9);
