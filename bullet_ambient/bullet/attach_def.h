@@ -30,13 +30,17 @@ struct AttachDef {
   FrameOffset fluid_frame = {};  ///< F in the btRigidBody's frame (centre of mass)
 };
 
-/// What was computed for one body since it was attached.
+/// What was computed for one body since it was attached. The first link of a tree has what is
+/// counted once for the tree.
 struct AmbientCounters {
   long long substeps = 0;  ///< of free flight
   long long load_evaluations = 0;
-  long long faces = 0;     ///< faces or clusters summed in them; a sphere has none
-  long long guarded = 0;   ///< load evaluations in which the passivity guard acted
-  long long coarse = 0;    ///< steps whose error stayed too large at the most substeps or retries
+  long long faces = 0;    ///< faces or clusters summed in them; a sphere has none
+  long long guarded = 0;  ///< load evaluations in which the passivity guard acted
+  long long coarse = 0;   ///< steps whose error stayed too large at the most substeps or retries
+  long long halted = 0;   ///< steps at the surface that ended early, docs/theory.md eq. (64)
+  /// By bounds on the energy of steps, docs/theory.md eq. (25a), (31a), (64), (68), (68a) [J].
+  double energy_removed = 0;
   long long rows = 0;      ///< constraint rows rewritten
   long long rejected = 0;  ///< results of steps, and samples of regions, not finite and left out
   long long regions_asked = 0;   ///< whether bounds of one, or around several, hold the body

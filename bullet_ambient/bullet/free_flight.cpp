@@ -4,6 +4,7 @@
 #include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/motion/flight_group.h"
 #include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
@@ -12,8 +13,7 @@ namespace {
 // A velocity that others changed by more than this part since the last flight makes its history
 // worthless.
 constexpr double kSameVelocity = 1e-3;
-constexpr double kBulletMaxTurn =
-    3.14159265358979323846 / 4;  // [rad] per step in integrateTransform
+constexpr double kBulletMaxTurn = kPi / 4;  // [rad] per step in integrateTransform
 
 // Bodies before their flight.
 struct Departures {
@@ -127,6 +127,7 @@ void add(const FlightCount& count, AmbientBody& ambient) {
   countLoads(ambient, count.load_evaluations);
   ambient.counters.guarded += count.guarded;
   ambient.counters.coarse += count.coarse;
+  ambient.counters.halted += count.halted;
 }
 
 // Keeps the end of a flight if it is one.
@@ -147,11 +148,19 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, d
     return;
   }
   ambient.outcome.kind = Outcome::kFlown;
+  ambient.counters.energy_removed += flight.count.energy_removed;
   ambient.memory = flight.memory;
   end.state = flight.state;
   end.twist_W = end_W;
   end.effective_W = mean_W;
   end.length_scale = length_scale;
+}
+
+// Bullet bounds the turn of a step. From half a turn on, the turn is the small rest of a large
+// spin, whose rounding would turn the body away from its angular momentum.
+bool turnsTooFarForBullet(const FlightEnd& flight, double time_step) {
+  return flight.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) ||
+         flight.twist_W.angular.norm() * time_step > kPi;
 }
 
 // Within rounding of where the flight ends, or did a continuous collision stop the body on its way?
@@ -197,8 +206,7 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
   const FlightEnd& flight = ambient.outcome.flight;
-  if (flight.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) &&
-      reachedEnd(ambient)) {
+  if (turnsTooFarForBullet(flight, time_step) && reachedEnd(ambient)) {
     btTransform end = body.getWorldTransform();
     end.setRotation(toBullet(flight.state.orientation));
     body.setCenterOfMassTransform(end);

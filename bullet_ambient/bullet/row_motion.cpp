@@ -47,14 +47,15 @@ std::optional<double> partOfWay(const RowMotion& rows, const RigidState& now, do
 }
 
 // From `from` towards `to`, as far as an energy allows; if it does not allow `from`, a part of it.
-Vector6 withinEnergy(const BodyModel& model, const Vector6& from, const Vector6& to, double bound) {
+BoundedTwist withinEnergy(const BodyModel& model, const Vector6& from, const Vector6& to,
+                          double bound) {
   const DualPair start = pairOfTwist(model, from), step = pairOfTwist(model, to - from);
   const double excess = inner(start, start) - bound;
-  if (excess > 0) return std::sqrt(bound / inner(start, start)) * from;
-  const double a = inner(step, step), b = inner(start, step);
-  if (!(a + 2 * b + excess > 0)) return to;
+  const double a = inner(step, step), b = inner(start, step), removed = (a + 2 * b + excess) / 2;
+  if (excess > 0) return {std::sqrt(bound / inner(start, start)) * from, std::max(0.0, removed)};
+  if (!(removed > 0)) return {to};
   const double root = std::sqrt(b * b - a * excess);
-  return from + (b > 0 ? -excess / (b + root) : (root - b) / a) * (to - from);
+  return {from + (b > 0 ? -excess / (b + root) : (root - b) / a) * (to - from), removed};
 }
 
 }  // namespace
@@ -99,20 +100,25 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
   if (!part) return;
   const Twist moved_W = turnedBy(rows.start.orientation, rows.start.twist.vector());
   const Vector6 moved = turnedBy(now.orientation.conjugate(), moved_W.vector()).vector();
-  Vector6 end = moved;
+  BoundedTwist end{moved};
   if (rows.momentum) {
     const Vector3 position = rows.momentum->pivot + *part * time_step * moved_W.linear;
-    end = twistOf(ambient.model, *rows.momentum, now.orientation, position).vector();
+    end.twist = twistOf(ambient.model, *rows.momentum, now.orientation, position).vector();
   }
-  if (rows.energy_bound) end = withinEnergy(ambient.model, moved, end, *rows.energy_bound);
-  if (ambient.surface())
-    end = passWithRows(ambient, end, rows.momentum ? Axes::kFree : Axes::kLocked, time_step);
-  const Twist change_W = withoutTraces(turnedBy(now.orientation, end - moved), time_step);
+  if (rows.energy_bound) end = withinEnergy(ambient.model, moved, end.twist, *rows.energy_bound);
+  double energy_removed = end.energy_removed;
+  if (ambient.surface()) {
+    const Axes axes = rows.momentum ? Axes::kFree : Axes::kLocked;
+    end = passWithRows(ambient, end.twist, axes, time_step);
+    energy_removed += end.energy_removed;
+  }
+  const Twist change_W = withoutTraces(turnedBy(now.orientation, end.twist - moved), time_step);
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
     complaints.say(Complaint::kNotFinite);
     return;
   }
+  ambient.counters.energy_removed += energy_removed;
   body.setAngularVelocity(body.getAngularVelocity() + toBullet(change_W.angular));
   body.setLinearVelocity(body.getLinearVelocity() + toBullet(change_W.linear));
 }

@@ -163,7 +163,8 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   const RigidState start = readState(body);
   Vector6 by_surface = Vector6::Zero();
   if (ambient.surface()) {
-    by_surface = freezeAtSurface(ambient, time_step_);
+    freezeAtSurface(ambient);
+    by_surface = kickByWavesAndWind(ambient, time_step_);
     stiffenForRows(ambient, time_step_, bodies_.complaints);
   }
   const Surroundings surroundings = readSurroundings(ambient);

@@ -115,11 +115,15 @@ BodyModel modelNow(const AmbientBody& ambient) {
                 loads ? std::make_shared<LoadsAtSurface>(loads) : nullptr);
 }
 
-Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept {
+void freezeAtSurface(AmbientBody& ambient) noexcept {
   const SurfaceMedia& surface = *ambient.surface();
-  const SurfaceStand& stand = standAfter(ambient, 0);
-  ambient.model = freeze(surface, stand, surface.loads);
+  ambient.model = freeze(surface, standAfter(ambient, 0), surface.loads);
   ambient.is_frozen = true;
+}
+
+Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
+  const SurfaceMedia& surface = *ambient.surface();
+  const SurfaceStand& stand = surface.stand;  // since freezeAtSurface()
   const RigidState state = readState(*ambient.body);
   const Matrix3 R = state.orientation.toRotationMatrix();
   const WaveModes& modes = stand.waves;
@@ -191,38 +195,40 @@ struct RowStep {
 
 /// The buoyancy of the start has acted over the whole step, and the body has come to where it is
 /// another one: gives back the energy that weight and water did not have, docs/theory.md eq. (68a).
-Vector6 withinPotential(const RowStep& step, const Vector6& x) {
+BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
   const Fall &before = step.before, &after = step.after;
   const double given = step.duration / 2 * before.wrench.dot(step.x_before + x);
   const double excess = given - (before.potential - after.potential);
   const Vector6 along = before.lift + after.lift;
   const double rate = along.dot(x);
-  if (!(excess > 0) || rate == 0) return x;
+  if (!(excess > 0) || rate == 0) return {x};
   const Vector6 response = step.inverse * along;
   const double per_part = along.dot(response), square = rate * rate - 2 * per_part * excess;
   const double part =
       square > 0 ? 2 * excess / (std::abs(rate) + std::sqrt(square)) : std::abs(rate) / per_part;
-  return x - std::copysign(part, rate) * response;
+  const double removed = part * (std::abs(rate) - part / 2 * per_part);
+  return {x - std::copysign(part, rate) * response, removed};
 }
 
 }  // namespace
 
-Vector6 passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes, double duration) noexcept {
+BoundedTwist passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes,
+                          double duration) noexcept {
   const SurfaceModel& model = ambient.surface()->model;
   const SurfaceStand& stand = ambient.surface()->stand;  // since freezeAtSurface()
   const Matrix6 inertia_before = stand.inertia;
   const double mass = model.above.mass - model.above.displaced_mass;
   const Fall fall_before(stand, mass);
   const SurfaceStand& after = standAfter(ambient, duration);
-  if (axes == Axes::kLocked) {
-    const double had = x.dot(inertia_before * x), has = x.dot(after.inertia * x);
-    return has > had ? Vector6(std::sqrt(had / has) * x) : x;
-  }
-  const Vector6 moved = withinPotential({fall_before, Fall(after, mass), after.inverse,
-                                         ambient.encounter.twist_before_rows, duration},
-                                        x);
-  return passSurface({model, inertia_before, after, duration, gradientAt(model, after, moved)},
-                     moved);
+  if (axes == Axes::kLocked)
+    return scaledWithin(x, x.dot(after.inertia * x), x.dot(inertia_before * x));
+  const BoundedTwist moved = withinPotential({fall_before, Fall(after, mass), after.inverse,
+                                              ambient.encounter.twist_before_rows, duration},
+                                             x);
+  const Wrench gradient = gradientAt(model, after, moved.twist);
+  BoundedTwist end = passSurface({model, inertia_before, after, duration, gradient}, moved.twist);
+  end.energy_removed += moved.energy_removed;
+  return end;
 }
 
 bool mayRestAtSurface(AmbientBody& ambient) noexcept {

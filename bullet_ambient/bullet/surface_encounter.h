@@ -74,10 +74,14 @@ const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) n
 /// surface.
 BodyModel modelNow(const AmbientBody& ambient);
 
-/// Before its rows are solved: makes the body's model that of the moment, and gives back the change
-/// of velocity in B by the waves that it makes and by the wind. Allocates nothing. @pre it is at a
-/// surface; below as well
-Vector6 freezeAtSurface(AmbientBody& ambient, double duration) noexcept;
+/// Makes the body's model that of its pose now, against the surface. Allocates nothing. @pre it is
+/// at a surface; below as well
+void freezeAtSurface(AmbientBody& ambient) noexcept;
+
+/// Returns the change of velocity in B by the waves that the body makes and by the wind, over a
+/// step in which rows move it; keeps the waves after the step. Allocates nothing. @pre the model is
+/// frozen at this pose
+Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept;
 
 /// The same model for a step that rows move it by, where that is long beside its swing: stiff
 /// against going past its balance, docs/theory.md eq. (68). Allocates nothing, but for what it says
@@ -92,7 +96,8 @@ void freezeAsMet(AmbientBody& ambient, int media) noexcept;
 /// energy that its buoyancy did not have, and after the change of its inertia on the way. With
 /// locked axes, it loses what energy the change would give it, and nothing else.
 enum class Axes { kFree, kLocked };
-Vector6 passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes, double duration) noexcept;
+BoundedTwist passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes,
+                          double duration) noexcept;
 
 /// Of a body that hardly moves: whether it may fall asleep where it floats. False on a saddle.
 bool mayRestAtSurface(AmbientBody& ambient) noexcept;

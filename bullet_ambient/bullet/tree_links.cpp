@@ -36,7 +36,7 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
     in_tree.surroundings.ambient_velocity.setZero();
     return;
   }
-  if (ambient.surface()) freezeAtSurface(ambient, task.duration);  // without its waves and the wind
+  if (ambient.surface()) freezeAtSurface(ambient);  // links feel no waves and no wind
   in_tree.model = &ambient.model;
   in_tree.mass = 1 / static_cast<double>(link.stand_in.getInvMass());
   in_tree.surroundings.gravity = toVector3(task.gravity);
@@ -66,6 +66,7 @@ void passSurface(AmbientTree& tree, double before) {
   tree.flight.dynamics().setPose(tree.step.pose);
   const double now = energyFromFlow(tree);
   if (!(now > before)) return;
+  countEnergyRemoved((now - before) / 2, tree);
   const Vector3 flow = flowAround(tree.tree);
   tree.step.start.segment<3>(3) -= flow;
   tree.step.start *= std::sqrt(before / now);
@@ -118,6 +119,10 @@ void addCount(const FlightCount& count, AmbientTree& tree) noexcept {
   AmbientCounters& counters = tree.links.front()->ambient.counters;
   counters.guarded += count.guarded;
   counters.coarse += count.coarse;
+}
+
+void countEnergyRemoved(double energy, AmbientTree& tree) noexcept {
+  tree.links.front()->ambient.counters.energy_removed += energy;
 }
 
 void keepTreeAwake(AmbientTree& tree) noexcept {

@@ -20,6 +20,9 @@ void moveStandIns(AmbientTree& tree) noexcept;
 /// Adds what was computed of a tree to the counters of its links.
 void addCount(const FlightCount& count, AmbientTree& tree) noexcept;
 
+/// Adds energy that a bound has taken from the motion of a tree [J].
+void countEnergyRemoved(double energy, AmbientTree& tree) noexcept;
+
 /// As keepAwakeWhileMoving() and keepAwakeInUnsteadyFluid() of a body.
 void keepTreeAwake(AmbientTree& tree) noexcept;
 

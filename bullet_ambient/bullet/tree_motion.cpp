@@ -80,6 +80,7 @@ bool fly(AmbientTree& tree, double h) {
   const LinkFlightResult result = tree.flight.fly(step.pose, step.start, h, settingsOf(tree));
   addCount(result.count, tree);
   if (!result.is_finite) return false;
+  countEnergyRemoved(result.count.energy_removed, tree);
   step.outcome = TreeOutcome::kFlown;
   step.reserve = 0;
   step.moved = tree.flight.meanVelocity();
@@ -144,22 +145,25 @@ void finishRows(AmbientTree& tree, const TreeTask& task) {
 }
 
 // From `from` towards `to`, both seen from the flow, as far as an energy allows. If it allows
-// neither, a part of `to`, or of `from` where that is no velocity of a whole turn.
-void keepWithin(double energy, LinkDynamics& dynamics, Coordinates& to, TreeStep& step) {
+// neither, a part of `to`, or of `from` where that is no velocity of a whole turn. Returns the
+// energy that `to` has lost [J].
+double keepWithin(double energy, LinkDynamics& dynamics, Coordinates& to, TreeStep& step) {
   const Coordinates& from = step.spare;
   const double has = dynamics.normSquared(to);
-  if (!(has > energy)) return;
+  if (!(has > energy)) return 0;
+  const double removed = (has - energy) / 2;
   const double had = dynamics.normSquared(from), excess = had - energy;
   if (excess > 0) {
     const bool is_slow = step.extent <= kSlowTurn;
     to = std::sqrt(energy / (is_slow ? has : had)) * (is_slow ? to : from);
-    return;
+    return removed;
   }
   Coordinates& way = step.change;
   way = to - from;
   const double a = dynamics.normSquared(way), b = (has - had - a) / 2;
   const double root = std::sqrt(std::max(0.0, b * b - a * excess));
   to = from + (b > 0 ? -excess / (b + root) : (root - b) / a) * way;
+  return removed;
 }
 
 // In `share`: h times what of du/dt at `pose` is due to u, the turning part t.
@@ -190,7 +194,7 @@ void turnAfterRows(AmbientTree& tree, double h) {
   readPose(*tree.multi_body, step.pose);
   flight.dynamics().setPose(step.pose);
   const double allowed = step.energy + step.reserve;
-  keepWithin(allowed, flight.dynamics(), turn, step);
+  countEnergyRemoved(keepWithin(allowed, flight.dynamics(), turn, step), tree);
   const double left = allowed - flight.dynamics().normSquared(turn);
   step.reserve = std::clamp(left, 0.0, step.energy);
   step.end = turn + step.moved - from;
@@ -202,7 +206,7 @@ void keepIntegrals(AmbientTree& tree, double h) {
   const bool has_rows = !step.change.isZero(0);
   if (!has_rows && !turnsTooFastForBullet(tree.tree, step.moved, h)) return;
   readPose(*tree.multi_body, step.pose);
-  tree.flight.arriveAt(step.pose, has_rows, step.end);
+  countEnergyRemoved(tree.flight.arriveAt(step.pose, has_rows, step.end), tree);
 }
 
 }  // namespace

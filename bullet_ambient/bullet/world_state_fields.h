@@ -74,6 +74,8 @@ void transferFlight(Stream& s, State& state) {
   s.number(state.counters.faces);
   s.number(state.counters.guarded);
   s.number(state.counters.coarse);
+  s.number(state.counters.halted);
+  s.number(state.counters.energy_removed);
   s.number(state.counters.rows);
   s.number(state.counters.rejected);
   s.number(state.counters.regions_asked);

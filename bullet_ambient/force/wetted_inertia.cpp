@@ -90,7 +90,7 @@ std::shared_ptr<const WettedInertia> makeWettedInertia(const std::shared_ptr<con
     if (body->sphere_radius > 0) return std::make_shared<WettedSphere>(*body);
     if (body->added_mass_parts.empty()) return std::make_shared<WettedShare>(*body);
     if (!body->waterline.empty())
-      return std::make_shared<WettedTable>(body, tables.addedMassParts(body));
+      return std::make_shared<WettedTable>(body, tables.addedMassParts(body), tables.hull(body));
     return std::make_shared<WettedParts>(*body, tables.addedMassParts(body));
   });
 }

@@ -8,22 +8,6 @@ namespace {
 
 double immersionOf(const Immersion& at) { return at.draught() / at.size(); }
 
-/// A body that has just touched the water, less deep than the first node of its table: the added
-/// mass is that at the node, less with the square of the depth, as of a wedge.
-struct Touch {
-  Immersion at;
-  double share = 1;  ///< of the added mass there
-  double slope = 0;  ///< of the share by the height of the plane [1/m]
-
-  Touch(const Immersion& immersion, double first_node) : at(immersion) {
-    const double draught = first_node * at.size(), way = at.draught() / draught;
-    if (!(way < 1)) return;
-    at.plane.height = at.low + draught;
-    share = way * way;
-    slope = 2 * way / draught;
-  }
-};
-
 /// Where the added mass changes with the depth.
 Vector3 placeOfChange(const WetVolume& wet) {
   return wet.waterplane.area > 0 ? wet.waterplane.centroid : Vector3(wet.moment / wet.volume);
@@ -32,12 +16,25 @@ Vector3 placeOfChange(const WetVolume& wet) {
 }  // namespace
 
 WettedTable::WettedTable(std::shared_ptr<const FluidBody> body,
-                         std::shared_ptr<const PackedParts> parts)
+                         std::shared_ptr<const PackedParts> parts,
+                         std::shared_ptr<const PackedHull> hull)
     : WettedParts(*body, std::move(parts)),
       body_(std::move(body)),
+      hull_(std::move(hull)),
       lattice_(body_->waterline.subdivisions),
       nodes_(body_->waterline.immersions) {
   nodes_.push_back(WaterlineTable::kDeep);
+}
+
+WettedTable::Touch WettedTable::touchAt(const Immersion& immersion) const noexcept {
+  Touch touch{immersion};
+  const double draught = nodes_.front() * immersion.size(), way = immersion.draught() / draught;
+  if (!(way < 1)) return touch;
+  touch.at.plane.height = immersion.low + draught;
+  touch.at.wet = computeWetVolume(*hull_, touch.at.plane);
+  touch.share = way * way;
+  touch.slope = 2 * way / draught;
+  return touch;
 }
 
 // A cubic between two nodes, whose slopes there are those of the parabola through a node and its
@@ -88,19 +85,23 @@ Matrix6 WettedTable::interpolate(const Vector3& normal, int first,
   return sum;
 }
 
-Matrix6 WettedTable::inertiaAt(const Immersion& at) const noexcept {
-  const Touch touch(at, nodes_.front());
-  const Weights weights = weightsAt(immersionOf(touch.at));
-  return touch.share * (WettedParts::inertiaAt(touch.at) +
+Matrix6 WettedTable::inertiaOf(const Touch& touch) const noexcept {
+  const Immersion& at = touch.at;
+  const Weights weights = weightsAt(immersionOf(at));
+  return touch.share * (WettedParts::inertiaAt(at) +
                         interpolate(at.plane.normal, weights.first, weights.of_value));
+}
+
+Matrix6 WettedTable::inertiaAt(const Immersion& at) const noexcept {
+  return inertiaOf(touchAt(at));
 }
 
 InertiaGradient WettedTable::gradientAt(const Immersion& at, const Twist& twist) const noexcept {
   if (!(at.wet.volume > 0)) return {};
   const Vector6 x = twist.vector();
-  const Touch touch(at, nodes_.front());
+  const Touch touch = touchAt(at);
   if (touch.slope > 0) {
-    const double by_height = 0.5 * touch.slope / touch.share * x.dot(inertiaAt(at) * x);
+    const double by_height = 0.5 * touch.slope / touch.share * x.dot(inertiaOf(touch) * x);
     return {by_height, -by_height * placeOfChange(at.wet)};
   }
   InertiaGradient gradient = WettedParts::gradientAt(at, twist);

@@ -32,7 +32,7 @@ constexpr double kErrorWeights[kStages] = {
 class Pair {
  public:
   Pair(const FlightTask& task, const RigidState& start, FlightCount& count)
-      : task_(task), equations_(task, start, count), now_(equations_.start()) {
+      : task_(task), count_(count), equations_(task, start, count), now_(equations_.start()) {
     rates_[0] = equations_.rate(now_);
     speed_ = speedOf(equations_.start());
     push_ = pushOn(equations_.start());
@@ -69,6 +69,7 @@ class Pair {
     const double scale = bound / speed_;
     now_.linear *= scale;
     now_.angular *= scale;
+    count_.energy_removed += 0.5 * (speed_ * speed_ - bound * bound);
     rates_[0] = equations_.rate(now_);
     speed_ = bound;
   }
@@ -106,6 +107,7 @@ class Pair {
   }
 
   const FlightTask& task_;
+  FlightCount& count_;
   MomentumEquations equations_;
   MomentumPhase now_;
   MomentumPhase next_;
@@ -149,6 +151,7 @@ FlightResult flyDormandPrince(const FlightTask& task, const RigidState& start,
     flight.count.substeps += rest.body.count.substeps;
     flight.count.load_evaluations += rest.body.count.load_evaluations;
     flight.count.guarded += rest.body.count.guarded;
+    flight.count.energy_removed += rest.body.count.energy_removed;
     flight.count.coarse = true;
     flight.count.error = 1;
   }

@@ -23,6 +23,10 @@ struct FlightCount {
   bool coarse =
       false;  ///< the bound on substeps or retries was reached with the error above tolerance
   double error = 0;  ///< of the velocity in a coarse step, relative to the motion; 1: not known
+  /// The motion ended before the step: beyond, no substep keeps the energy, docs/theory.md eq.
+  /// (64).
+  bool halted = false;
+  double energy_removed = 0;  ///< by bounds, docs/theory.md eq. (22), (25a), (64), (68) [J]
 };
 
 struct FlightResult {

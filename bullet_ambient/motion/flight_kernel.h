@@ -126,6 +126,8 @@ struct BoundStep {
     const Lanes allowed = larger(2 * (load(bodies.energy + at) - now.potential), zero);
     const Mask gains = active & (now.kinetic2 > allowed) & (dot(torque, torque) == zero);
     if (!anyOf(gains)) return;
+    const Lanes removed = gains ? 0.5 * (now.kinetic2 - allowed) : zero;
+    store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
     const Lanes scale = squareRoot(gains ? allowed / now.kinetic2 : all(1));
     setMotion(bodies, at, gains, scale * motionOf(bodies, at));
   }

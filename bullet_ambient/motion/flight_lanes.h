@@ -35,9 +35,10 @@ struct alignas(64) FlightLanes {
   FlightLane twist_B[6], momentum_B[6];
   FlightLane energy;  ///< of body and fluid, with that of position, when last measured, eq. (25a)
 
-  FlightLane flow_time;  ///< of the next flow
-  FlightLane kick_time;  ///< of the next kick
-  FlightLane is_coarse;  ///< set to 1 by a flow that was too long for its precision
+  FlightLane flow_time;       ///< of the next flow
+  FlightLane kick_time;       ///< of the next kick
+  FlightLane is_coarse;       ///< set to 1 by a flow that was too long for its precision
+  FlightLane energy_removed;  ///< flow() and bound() add what they take from the motion [J]
 
   // Within a kick. A wrench is a torque and a force; all are 0 for a body without surface loads.
   FlightLane load_W[6];      ///< the last one

@@ -207,6 +207,8 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   const Lanes after = inner(now.motion, now.motion);
   const Mask has_gained = after > energy;
   const Lanes scale = has_gained ? squareRoot(energy / (has_gained ? after : all(1))) : all(1);
+  const Lanes removed = moves & has_gained ? 0.5 * (after - energy) : zero;
+  store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
   now.motion = scale * now.motion;
   now = select(moves, now, start);
   store(bodies.orientation, at, now.orientation.u);

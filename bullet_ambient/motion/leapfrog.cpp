@@ -84,6 +84,7 @@ class Leapfrog {
     way.error = 0;
     lanes_.kick_time[i] = way.flight->task.duration / way.substeps;
     lanes_.is_coarse[i] = 0;
+    lanes_.energy_removed[i] = 0;
   }
 
   // All substeps. The half flows between two kicks are one flow: it is exact.
@@ -161,6 +162,7 @@ class Leapfrog {
       result.memory = {wrenchOf(lanes_.load_W, i), way.has_load, std::min(next, 4 * h)};
       const bool is_flow_coarse = lanes_.is_coarse[i] > 0;
       result.count.coarse = is_flow_coarse || ratio > kAcceptance;
+      result.count.energy_removed = lanes_.energy_removed[i];
       if (result.count.coarse) result.count.error = is_flow_coarse ? 1 : way.error;
       way.is_done = true;
       return;

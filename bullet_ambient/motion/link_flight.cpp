@@ -78,6 +78,7 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
   if (has_loads) countUp(kick_.sample(dynamics_, end_), count);
   count.coarse = false;
   count.substeps = 0;
+  count.energy_removed = 0;
   for (int i = 0; i < substeps; ++i) {
     if (has_loads) kick_.kick(dynamics_, h / 2, end_);
     integrals_.take(dynamics_, end_);
@@ -86,7 +87,7 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
     movePose(tree_, end_pose_, mean_, h, end_pose_);
     double excess = std::max(converges ? 1.0 : 2.0, std::ceil(h * largestSpin() / kLargestTurn));
     dynamics_.setPose(end_pose_);
-    integrals_.impose(dynamics_, end_, is_last && excess > 1);
+    count.energy_removed += integrals_.impose(dynamics_, end_, is_last && excess > 1);
     if (has_loads) {
       const double error = kickAtEnd(h, count) / settings.tolerance;
       if (error > kAcceptedError) excess = std::max(excess, std::sqrt(error) / kSubstepSafety);
@@ -152,15 +153,14 @@ double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
   return error;
 }
 
-void LinkFlight::arriveAt(const TreePose& reached, bool has_rows, Coordinates& velocity) noexcept {
+double LinkFlight::arriveAt(const TreePose& reached, bool has_rows,
+                            Coordinates& velocity) noexcept {
   dynamics_.setPose(end_pose_);
   integrals_.take(dynamics_, end_);
   dynamics_.setPose(reached);
-  if (has_rows) {
-    integrals_.imposeMomentum(dynamics_, velocity);
-  } else {
-    integrals_.impose(dynamics_, velocity, true);
-  }
+  if (!has_rows) return integrals_.impose(dynamics_, velocity, true);
+  integrals_.imposeMomentum(dynamics_, velocity);
+  return 0;
 }
 
 void LinkFlight::prepareJointRows() noexcept {

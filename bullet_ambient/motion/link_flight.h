@@ -38,8 +38,8 @@ class LinkFlight {
   void prepareJointRows() noexcept;
   /// Where the tree has come to another pose than endPose(): gives its velocity there the momentum
   /// and energy of the flight. Rows of joints change the energy; with them only the momentum, by
-  /// the base.
-  void arriveAt(const TreePose& reached, bool has_rows, Coordinates& velocity) noexcept;
+  /// the base. Returns the energy that the bound of LinkIntegrals::impose() has removed [J].
+  double arriveAt(const TreePose& reached, bool has_rows, Coordinates& velocity) noexcept;
 
   /// Velocity that rows of contacts are solved against: explicit, at the start pose. dynamics() is
   /// left there, factored.

@@ -42,8 +42,8 @@ Vector6 LinkIntegrals::momentumAbout(const Vector3& point_W) const noexcept {
   return result;
 }
 
-void LinkIntegrals::impose(LinkDynamics& dynamics, CoordinatesOut u, bool is_coarse) noexcept {
-  if (!is_known_ && !is_coarse) return;
+double LinkIntegrals::impose(LinkDynamics& dynamics, CoordinatesOut u, bool is_coarse) noexcept {
+  if (!is_known_ && !is_coarse) return 0;
   x_ = u - flow_;
   dynamics.momentum(x_, momenta_);
   const double has = momenta_.dot(x_);
@@ -56,11 +56,12 @@ void LinkIntegrals::impose(LinkDynamics& dynamics, CoordinatesOut u, bool is_coa
     if (isModest(factor)) {
       u = flow_ + factor * x_;
       u.head<6>() += base - factor * held;
-      return;
+      return 0;
     }
   }
   const double factor = std::sqrt(std::max(0.0, energy_) / has);
   if (factor < 1 || (is_known_ && isModest(factor))) u = flow_ + factor * x_;
+  return !is_known_ && factor < 1 ? (1 - factor * factor) * has / 2 : 0;
 }
 
 void LinkIntegrals::imposeMomentum(LinkDynamics& dynamics, CoordinatesOut u) noexcept {

@@ -20,9 +20,9 @@ class LinkIntegrals {
   /// Gives `u` both: the tree with its joints held the momentum, what is left the energy. Where
   /// that would change the motion of the joints by more than half, the energy alone, and at most
   /// half more than it has. Where they are not known and the substep is coarse, at most that
-  /// energy.
+  /// energy. Returns what this bound has removed [J].
   /// @pre `dynamics` has the pose. Its factor is lost.
-  void impose(LinkDynamics& dynamics, CoordinatesOut u, bool is_coarse) noexcept;
+  double impose(LinkDynamics& dynamics, CoordinatesOut u, bool is_coarse) noexcept;
   /// The momentum alone, by the base: joints keep their velocities. As impose() in all else.
   void imposeMomentum(LinkDynamics& dynamics, CoordinatesOut u) noexcept;
 

@@ -39,23 +39,24 @@ class SurfaceFlight {
   }
 
   SurfaceFlightResult fly() {
-    const SurfaceStand& begin = task_.stand;
     const int most =
         task_.settings.max_substeps > 0 ? task_.settings.max_substeps : kSurfaceSubsteps;
     const double duration = task_.duration;
     const double remembered = memory_.substep > 0 ? memory_.substep : duration;
-    swing_ = begin.swing;
+    swing_ = task_.stand.swing;
     int count = substepsOf(std::min(remembered, kLongestSwing / swing_), most);
     for (int attempt = 1;; ++attempt) {
-      run(count);
+      is_stiff_ = duration / count * swing_ > kLongestSwing * (1 + 1e-9);
+      run(count, count);
       const double ratio = error_ / task_.settings.tolerance, h = duration / count;
       const double next = ratio > 0 ? std::min(4 * h, 0.9 * h / std::sqrt(ratio)) : 4 * h;
       const int needed = substepsOf(kLongestSwing / swing_, most);
       const bool is_coarse = ratio > kMostSurfaceError || has_gained_;
       const bool is_done = !is_coarse && needed <= count;
-      if (is_done || attempt == kSurfaceAttempts || count == most) {
-        if (has_gained_) stay();
-        return resultOf(next, is_coarse && count == most);
+      const bool is_last = count == most || (attempt >= kSurfaceAttempts && !has_gained_);
+      if (is_done || is_last) {
+        if (has_gained_) halt(count);
+        return resultOf(flight_count_.halted ? h : next, is_coarse);
       }
       count = std::min(
           most, std::max({has_gained_ ? 2 * count : count + 1, needed, substepsOf(next, most)}));
@@ -86,8 +87,15 @@ class SurfaceFlight {
     return {seenFrom(stand_->plane, frame), wetShare(stand_->immersion_F, model_.shape->volume)};
   }
 
-  void run(int count) {
-    is_stiff_ = task_.duration / count * swing_ > kLongestSwing * (1 + 1e-9);
+  /// The first `made` of `count` substeps.
+  void run(int count, int made) {
+    const double before = begin(), h = task_.duration / count;
+    for (int substep = 0; substep < made; ++substep) advance(h);
+    boundEnergy(before);
+  }
+
+  /// Returns the energy at the start of the step [J].
+  double begin() {
     has_gained_ = false;
     returnToStart();
     x_ = start_.twist.vector();
@@ -95,14 +103,16 @@ class SurfaceFlight {
     load_W_ = memory_.load_W;
     has_load_ = memory_.has_load;
     error_ = 0;
-    const double before = energy(), h = task_.duration / count;
-    for (int substep = 0; substep < count; ++substep) {
-      beginWith(h);
-      move(h);
-      endWith(h);
-    }
-    boundEnergy(before);
-    flight_count_.substeps += count;
+    energy_removed_ = 0;
+    lanes_.is_coarse[0] = lanes_.energy_removed[0] = 0;
+    return energy();
+  }
+
+  void advance(double h) {
+    beginWith(h);
+    move(h);
+    endWith(h);
+    ++flight_count_.substeps;
   }
 
   /// The flow with the inertia frozen in body axes, eq. (22), and then its change.
@@ -123,7 +133,7 @@ class SurfaceFlight {
     const Matrix6 before = stand_->inertia;
     later_stand_ = standHere();
     stand_ = &later_stand_;
-    x_ = passSurface({model_, before, *stand_, duration, gradient}, x_);
+    keep(passSurface({model_, before, *stand_, duration, gradient}, x_));
   }
 
   /// The second half of a kick of h, in reversed order: loads are still those of the first half.
@@ -216,21 +226,39 @@ class SurfaceFlight {
   }
   double energy() const { return 0.5 * kinetic2() + potential(); }
 
-  void boundEnergy(double before) {
-    const bool has_wind = model_.loads_above.loads && !wind_W_.isZero(0);
-    if (has_wind || !task_.surroundings.applied.torque.isZero(0)) return;
-    constexpr double kRounding = 1e-13;
-    const double left = before - potential();
-    has_gained_ = left < -kRounding * (fall_scale_ * fall_scale_ + std::abs(before));
-    const double has = kinetic2(), allowed = std::max(0.0, 2 * left);
-    if (has > allowed) x_ *= std::sqrt(allowed / has);
+  void keep(const BoundedTwist& bounded) {
+    x_ = bounded.twist;
+    energy_removed_ += bounded.energy_removed;
   }
 
-  /// Of a body that would come to a place with more energy than it has: its steps are too long.
-  void stay() {
-    returnToStart();
-    x_.setZero();
-    waves_ = start_waves_;
+  bool mayGain() const {
+    const bool has_wind = model_.loads_above.loads && !wind_W_.isZero(0);
+    return has_wind || !task_.surroundings.applied.torque.isZero(0);
+  }
+  /// Whether the energy of place alone is more than all that there was before: `left` is the rest.
+  bool isGain(double left, double before) const {
+    constexpr double kRounding = 1e-13;
+    return left < -kRounding * (fall_scale_ * fall_scale_ + std::abs(before));
+  }
+  void boundEnergy(double before) {
+    if (mayGain()) return;
+    const double left = before - potential();
+    has_gained_ = isGain(left, before);
+    keep(scaledWithin(x_, kinetic2(), std::max(0.0, 2 * left)));
+  }
+
+  /// Ends the motion after the last substep that ends where the energy reaches. Where there is no
+  /// such one, the body stays where it is, at rest.
+  void halt(int count) {
+    const double before = begin(), h = task_.duration / count;
+    int reached = 0;
+    for (int substep = 1; substep <= count; ++substep) {
+      advance(h);
+      if (!isGain(before - potential(), before)) reached = substep;
+    }
+    run(count, reached);
+    if (reached == 0) keep(scaledWithin(x_, kinetic2(), 0));
+    flight_count_.halted = true;
   }
   void returnToStart() {
     turnTo(start_.orientation);
@@ -240,7 +268,9 @@ class SurfaceFlight {
 
   SurfaceFlightResult resultOf(double next_substep, bool is_coarse) {
     flight_count_.coarse = is_coarse || lanes_.is_coarse[0] > 0;
-    if (flight_count_.coarse) flight_count_.error = lanes_.is_coarse[0] > 0 ? 1 : error_;
+    const bool is_unknown = lanes_.is_coarse[0] > 0 || flight_count_.halted;
+    if (flight_count_.coarse) flight_count_.error = is_unknown ? 1 : error_;
+    flight_count_.energy_removed = energy_removed_ + lanes_.energy_removed[0];
     const RigidState state{pose_.orientation, start_.position + pose_.way_W, Twist::fromVector(x_)};
     return {{state, {load_W_, has_load_, next_substep}, flight_count_}, waves_, *stand_};
   }
@@ -267,6 +297,7 @@ class SurfaceFlight {
   Wrench load_W_;
   bool has_load_ = false;
   double error_ = 0;
+  double energy_removed_ = 0;  // by all but the flow [J]
   FlightCount flight_count_;
 };
 

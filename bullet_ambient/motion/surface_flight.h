@@ -31,7 +31,8 @@ struct SurfaceFlightResult {
 /// equations with an inertia that depends on the pose, docs/theory.md eq. (62) to (72), from
 /// `start` (twist absolute, in B). Between bodies above and below the surface and this one there is
 /// no jump. In still water without wind and applied torque the energy never grows, however long the
-/// step. Allocates nothing. The result is not finite if the input or a load is not: check before
+/// step: where no number of substeps keeps it, the motion ends early, FlightCount::halted.
+/// Allocates nothing. The result is not finite if the input or a load is not: check before
 /// use.
 SurfaceFlightResult flyAtSurface(const SurfaceTask& task, const RigidState& start,
                                  const FlightMemory& memory, const WaveMemory& waves) noexcept;

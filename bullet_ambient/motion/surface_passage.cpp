@@ -30,17 +30,16 @@ Wrench impulseOf(const SurfacePassage& p, const Vector6& x) noexcept {
 
 }  // namespace
 
-Vector6 passSurface(const SurfacePassage& p, const Vector6& x) noexcept {
+BoundedTwist passSurface(const SurfacePassage& p, const Vector6& x) noexcept {
   constexpr double kRounding = 1e-12;
   const double change = (p.after - p.before).cwiseAbs().maxCoeff();
-  if (change < kRounding * p.before.cwiseAbs().maxCoeff()) return x;
+  if (change < kRounding * p.before.cwiseAbs().maxCoeff()) return {x};
   Wrench impulse = impulseOf(p, x);
   const double lost = sprayShare(p, x) * std::max(0.0, -p.normal.dot(impulse.force));
   impulse += -lost * Wrench::ofForceAt(-p.normal, p.centre_of_buoyancy);
   const Vector6 momentum = p.before * x;
   const Vector6 end = p.inverse_after * (momentum + impulse.vector());
-  const double had = x.dot(momentum), has = end.dot(p.after * end);
-  return has > had ? Vector6(std::sqrt(had / has) * end) : end;
+  return scaledWithin(end, end.dot(p.after * end), x.dot(momentum));
 }
 
 }  // namespace ambient

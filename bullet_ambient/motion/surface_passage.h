@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/force/wetted_inertia.h"
+#include "bullet_ambient/motion/bounded_twist.h"
 
 namespace ambient {
 
@@ -21,6 +22,6 @@ struct SurfacePassage {
 /// The twist after the passage, docs/theory.md eq. (66) to (68): momentum of the water goes to the
 /// body, from it, or into spray. The kinetic energy x.K x never grows; horizontal momentum and the
 /// angular one about the vertical stay but for where that bound acts. @return x for equal inertias.
-Vector6 passSurface(const SurfacePassage& passage, const Vector6& x) noexcept;
+BoundedTwist passSurface(const SurfacePassage& passage, const Vector6& x) noexcept;
 
 }  // namespace ambient

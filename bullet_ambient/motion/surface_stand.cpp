@@ -80,7 +80,7 @@ Wrench gradientAt(const SurfaceModel& model, const SurfaceStand& stand, const Ve
   return model.excess_density * frame.toB(model.wetted->gradient(at, in_F).wrench(at.plane));
 }
 
-Vector6 passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
+BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
   const SurfaceStand& after = move.after;
   const Immersion& at = after.immersion_F;
   const Vector3 centre = after.wet.volume > 0 ? Vector3(after.wet.moment / after.wet.volume)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/motion/body_waves.h"
+#include "bullet_ambient/motion/bounded_twist.h"
 #include "bullet_ambient/motion/surface_model.h"
 
 namespace ambient {
@@ -47,7 +48,7 @@ struct SurfaceMove {
   double duration;
   Wrench gradient;  ///< F_K at the first pose or the second
 };
-Vector6 passSurface(const SurfaceMove& move, const Vector6& x) noexcept;
+BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept;
 
 /// The fluid above blows on the dry part of a body.
 struct WindKick {

@@ -128,6 +128,8 @@ py::dict workOf(const PythonBody& body) {
   counts["guarded"] = work.guarded;
   counts["coarse"] = work.coarse;
   counts["too_long"] = work.too_long;
+  counts["halted"] = work.halted;
+  counts["energy_removed"] = work.energy_removed;
   return counts;
 }
 
@@ -146,7 +148,9 @@ void bindBody(py::module_& module) {
       .def_property_readonly(
           "twist", [](const PythonBody& b) { return arrayOf(b.sample().twist.vector()); },
           "(6,), angular [rad/s], then linear velocity [m/s]")
-      .def_property_readonly("work", &workOf, "What the fluid has cost so far, as counts.")
+      .def_property_readonly(
+          "work", &workOf,
+          "What the fluid has cost so far, as counts, and the energy that bounds removed [J].")
       .def("apply_force", &applyForce, py::arg("force"), py::arg("at") = py::none(),
            "Adds a force (3,) [N] at a point (3,) [m], default the centre of mass, for one step.")
       .def(

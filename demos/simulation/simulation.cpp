@@ -78,8 +78,8 @@ const std::string& Simulation::warning() const { return world_->report; }
 
 FlightWork Simulation::work(std::size_t body) const {
   const AmbientCounters counters = world_->counters(world_->bodies.at(body));
-  return {counters.substeps, counters.load_evaluations, counters.guarded, counters.coarse,
-          counters.too_long};
+  return {counters.substeps, counters.load_evaluations, counters.guarded,       counters.coarse,
+          counters.too_long, counters.halted,           counters.energy_removed};
 }
 
 }  // namespace ambient

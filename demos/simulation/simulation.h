@@ -19,6 +19,8 @@ struct FlightWork {
   long long coarse = 0;   ///< steps that stayed above the integrator's tolerance
   /// 1 where the errors of the steps add up: they are too long for the motion.
   long long too_long = 0;
+  long long halted = 0;       ///< steps at the surface of water that ended early
+  double energy_removed = 0;  ///< by bounds on the energy of steps [J]
 };
 
 /// A stock btDiscreteDynamicsWorld with the bodies of a scene in their fluid.

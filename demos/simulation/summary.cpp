@@ -68,7 +68,9 @@ json toJson(const FlightWork& work) {
           {"load_evaluations", work.load_evaluations},
           {"guarded", work.guarded},
           {"coarse", work.coarse},
-          {"too_long", work.too_long}};
+          {"too_long", work.too_long},
+          {"halted", work.halted},
+          {"energy_removed", work.energy_removed}};
 }
 
 json toJson(const FluidBody& body) {

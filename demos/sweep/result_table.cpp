@@ -52,6 +52,8 @@ constexpr Column kColumns[] = {
     {"load_evaluations", "/work/load_evaluations"},
     {"guarded_evaluations", "/work/guarded"},
     {"coarse_steps", "/work/coarse"},
+    {"halted_steps", "/work/halted"},
+    {"energy_removed", "/work/energy_removed"},
 };
 
 TableCell cellOf(const json& body, const Column& column) {

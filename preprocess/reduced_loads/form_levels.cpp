@@ -17,7 +17,8 @@ namespace ambient {
 namespace {
 
 constexpr std::uint64_t kErrorSeed = 3, kFitSeed = 4;
-constexpr int kErrorMotions = 1000, kFitMotions = 200;
+constexpr int kErrorMotions = 1000, kFitMotions = 200, kFitTranslations = 50;
+constexpr double kTranslationWeight = 3;  // of a translation in the fit, over a motion with spin
 
 /// Pressure and friction at a Reynolds number of 1000, where the law of friction has most of it.
 Vector6 loadOn(const FaceTable& faces, const Vector6& motion) {
@@ -41,14 +42,12 @@ Matrix6 scaleOf(const FaceTable& faces) {
 
 /// Motions, and the loads on the faces in them over their scales.
 struct LoadSamples {
-  LoadSamples(const FaceTable& faces, std::uint64_t seed, int count) {
+  LoadSamples(const FaceTable& faces, std::uint64_t seed, int count, int translations = 0) {
     const Matrix6 form = scaleOf(faces);
     ArbitraryNumbers numbers(seed);
-    for (int i = 0; i < count; ++i) {
-      motions.push_back(sampleMotion(numbers));
-      scales.push_back(motions.back().dot(form * motions.back()));
-      loads.push_back(loadOn(faces, motions.back()) / scales.back());
-    }
+    for (int i = 0; i < count; ++i) add(faces, form, sampleMotion(numbers), 1);
+    for (int i = 0; i < translations; ++i)
+      add(faces, form, stack(Vector3::Zero(), numbers.direction()), kTranslationWeight);
   }
 
   /// The error of other faces that one motion in a hundred exceeds.
@@ -62,7 +61,15 @@ struct LoadSamples {
   }
 
   std::vector<Vector6> motions, loads;
-  std::vector<double> scales;
+  std::vector<double> scales, weights;  ///< weights: in the fit
+
+ private:
+  void add(const FaceTable& faces, const Matrix6& form, const Vector6& motion, double weight) {
+    motions.push_back(motion);
+    weights.push_back(weight);
+    scales.push_back(motion.dot(form * motion));
+    loads.push_back(loadOn(faces, motion) / scales.back());
+  }
 };
 
 /// The mean normal, place and sharpness of each cluster, and the area of all its faces.
@@ -107,7 +114,7 @@ class LevelMaker {
   LevelMaker(const FluidBody& body, const FaceTable& faces)
       : centred_(body, faces),
         for_error_(centred_.faces, kErrorSeed, kErrorMotions),
-        for_fit_(centred_.faces, kFitSeed, kFitMotions),
+        for_fit_(centred_.faces, kFitSeed, kFitMotions, kFitTranslations),
         mirrors_(findMirrors()),
         folded_(mirrors_.folded(centred_.faces)) {}
 
@@ -140,7 +147,7 @@ class LevelMaker {
     Eigen::MatrixXd A(6 * motions, folded.size());
     Eigen::VectorXd b(6 * motions);
     for (std::size_t i = 0; i < motions; ++i)
-      b.segment<6>(static_cast<Eigen::Index>(6 * i)) = for_fit_.loads[i];
+      b.segment<6>(static_cast<Eigen::Index>(6 * i)) = for_fit_.weights[i] * for_fit_.loads[i];
     for (std::size_t k = 0; k < folded.size(); ++k) {
       FaceTable unit;
       unit.add(folded.normal(k), folded.centroid(k), 1);
@@ -148,7 +155,7 @@ class LevelMaker {
       const FaceTable images = mirrors_.unfolded(unit);
       for (std::size_t i = 0; i < motions; ++i)
         A.block<6, 1>(static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(k)) =
-            loadOn(images, for_fit_.motions[i]) / for_fit_.scales[i];
+            for_fit_.weights[i] / for_fit_.scales[i] * loadOn(images, for_fit_.motions[i]);
     }
     fitPositive(A, b, folded.area);
   }

@@ -48,6 +48,7 @@ class FloatingRun {
   FlightMemory memory;
   WaveMemory waves;
   FlightCount count;
+  FlightSettings settings;
 
   const SurfaceModel& model() const { return model_; }
   Surroundings& surroundings() { return surroundings_; }
@@ -56,7 +57,7 @@ class FloatingRun {
   void step(double duration) {
     const SurfaceStand stand = standAtSurface(model_, plane_B());
     const SurfaceFlightResult result =
-        flyAtSurface({model_, kStill, surroundings_, Vector3::Zero(), settings_, duration, stand},
+        flyAtSurface({model_, kStill, surroundings_, Vector3::Zero(), settings, duration, stand},
                      state, memory, waves);
     state = result.flight.state;
     memory = result.flight.memory;
@@ -93,7 +94,6 @@ class FloatingRun {
   double mass_ = 0;
   SurfaceModel model_;
   Surroundings surroundings_;
-  FlightSettings settings_;
 };
 
 /// Extremes of a signal after its start.

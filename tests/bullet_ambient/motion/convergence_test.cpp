@@ -92,6 +92,18 @@ TEST(Leapfrog, ReportsAStepThatStaysAboveTheTolerance) {
       fly({plate.model(), plate.surroundings, easy, 1.0 / 60}, plate.state, {}).count.coarse);
 }
 
+// Where a face switches the error falls with the first power of the step: two retries, which count
+// on the second, do not reach the tolerance, and the most substeps are far.
+TEST(Leapfrog, ReportsAStepThatRetriesLeaveAboveTheTolerance) {
+  FreeBody plate = tumblingEllipsoid({});
+  const FlightSettings strict{Integrator::kPassiveLeapfrog, 1e-6, 1000000};
+  const FlightResult result =
+      fly({plate.model(), plate.surroundings, strict, 1.0 / 60}, plate.state, {});
+  EXPECT_LT(result.count.substeps, strict.max_substeps / 2);
+  EXPECT_TRUE(result.count.coarse);
+  EXPECT_GT(result.count.error, 2 * strict.tolerance);
+}
+
 TEST(RungeKutta, TurnsByLessThanSixDegreesPerSubstep) {
   FreeBody plate = tumblingEllipsoid({Integrator::kRungeKutta4, 1e-3, 0});
   plate.state.twist.angular = {0, 0, 100};

@@ -77,7 +77,8 @@ std::vector<double> motion(const FlightLanes& lanes, int body) {
 // The same and what a substep finds of an active body: all that it changes.
 std::vector<double> lane(const FlightLanes& lanes, int body) {
   std::vector<double> values = motion(lanes, body);
-  values.insert(values.end(), {lanes.error[body], lanes.is_coarse[body]});
+  values.insert(values.end(),
+                {lanes.error[body], lanes.is_coarse[body], lanes.energy_removed[body]});
   return values;
 }
 

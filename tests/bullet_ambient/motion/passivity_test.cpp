@@ -87,6 +87,35 @@ TEST(Leapfrog, NeverGainsEnergyInGravity) {
   EXPECT_EQ(falls, 20 * (kRandomBodies / 2));
 }
 
+// Loads that are none: all that the flight of such a body loses is by eq. (25a).
+class NoLoads final : public SurfaceLoads {
+ public:
+  Wrench load(const Twist&) const noexcept override { return {}; }
+  bool needsGuard() const noexcept override { return false; }
+};
+
+TEST(Leapfrog, CountsTheEnergyThatItsBoundRemoves) {
+  Arbitrary arbitrary(3);
+  int bounded = 0;
+  for (int i = 0; i < 100; ++i) {
+    FreeBody body = wildBody(arbitrary);
+    body.state.twist = arbitrary.twist(3, 1);
+    body.setGravity({0, 0, -9.81});
+    BodyModel free = body.model(), loaded = body.model();
+    free.loads = nullptr;
+    loaded.loads = std::make_shared<NoLoads>();
+    const double before = body.totalEnergy(), step = wildStep(arbitrary);
+    const FlightSettings one{Integrator::kPassiveLeapfrog, 1e-6, 1};
+    const RigidState start = body.state;
+    body.state = fly({free, body.surroundings, one, step}, start, {}).state;
+    const double gain = body.totalEnergy() - before, moved = body.kineticEnergy();
+    const FlightResult result = fly({loaded, body.surroundings, one, step}, start, {});
+    EXPECT_NEAR(result.count.energy_removed, std::max(0.0, gain), 1e-9 * moved) << i;
+    bounded += gain > 1e-6 * moved;
+  }
+  EXPECT_GT(bounded, 10);
+}
+
 TEST(Leapfrog, TotalEnergyOfATumblingBodyUnderGravityNeverRises) {
   for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
     const Vector3 semi_axes(0.3, 0.2, 0.1);

@@ -139,18 +139,23 @@ TEST(SurfaceFlight, EnergyNeverGrows) {
   }
 }
 
-TEST(SurfaceFlight, LightBodyDoesNotFallDeeperThanItsEnergyReaches) {
-  // 1.3 cm long, 0.035 times as heavy as water: in one step it comes to where its buoyancy would
-  // need more than all its energy.
+/// 1.3 cm long, 0.035 times as heavy as water: in one step of 0.022 s it comes to where its
+/// buoyancy would need more than all its energy.
+FloatingRun chipAt(double height) {
   FloatingDef def;
   def.shape = test::floatingEllipsoid({0.0065, 0.0013, 0.00065}, 1);
   def.gyration = Vector3::Constant(0.005);
   def.specific_gravity = 0.035;
+  FloatingRun body(def);
+  body.state.position = {0, 0, height};
+  body.state.twist = {{2, 5, -6}, {0, 0, -0.5}};
+  return body;
+}
+
+TEST(SurfaceFlight, LightBodyDoesNotFallDeeperThanItsEnergyReaches) {
   for (const double height : {0.02, 0.03, 0.04}) {
-    FloatingRun body(def);
-    body.state.position = {0, 0, height};
-    body.state.twist = {{2, 5, -6}, {0, 0, -0.5}};
-    const double scale = test::kWaterDensity * def.shape.volume * 9.81 * 0.013;
+    FloatingRun body = chipAt(height);
+    const double scale = test::kWaterDensity * body.model().shape->volume * 9.81 * 0.013;
     double energy = body.energy();
     for (int n = 0; n < 30; ++n) {
       body.step(0.022);
@@ -158,6 +163,59 @@ TEST(SurfaceFlight, LightBodyDoesNotFallDeeperThanItsEnergyReaches) {
       energy = body.energy();
     }
   }
+}
+
+// Two substeps are too few. It keeps the motion after the first where that is allowed, or comes to
+// rest at the cost of all its motion.
+TEST(SurfaceFlight, HaltsAfterTheLastSubstepThatItsEnergyReaches) {
+  FloatingRun body = chipAt(0.02);
+  body.settings.max_substeps = 2;
+  int stopped = 0, rested = 0;
+  for (int n = 0; n < 30; ++n) {
+    const Vector3 from = body.state.position;
+    const double before = body.energy();
+    body.step(0.022);
+    EXPECT_LE(body.energy(), before * (1 + 1e-12)) << n;
+    if (!body.count.halted) continue;
+    EXPECT_TRUE(body.count.coarse);
+    EXPECT_EQ(body.count.error, 1);
+    if (body.state.position != from) {
+      EXPECT_GT(body.velocity_W().norm(), 0.1);
+      ++stopped;
+    } else {
+      EXPECT_EQ(body.state.twist.vector(), Vector6(Vector6::Zero()));
+      EXPECT_NEAR(body.count.energy_removed, before - body.energy(), 1e-12 * before);
+      ++rested;
+    }
+  }
+  EXPECT_EQ(stopped, 1);
+  EXPECT_EQ(rested, 2);
+}
+
+// Small and light bodies at long steps: two retries would leave them at rest in 26 of these 1000.
+TEST(SurfaceFlight, TakesAllSubstepsBeforeItRests) {
+  test::Arbitrary arbitrary(4);
+  const FluidBody shape = test::floatingEllipsoid({0.5, 0.4, 0.3}, 1);
+  int resting = 0, halted = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double size = std::pow(10, arbitrary.between(-2.5, -1));
+    FloatingDef def;
+    def.shape = scaled(shape, size);
+    def.gyration *= size;
+    def.specific_gravity = std::pow(10, arbitrary.between(-2, -1));
+    FloatingRun body(def);
+    const double speed = 3 * std::sqrt(9.81 * size);
+    body.state.position = {0, 0, arbitrary.between(-1, 1.5) * size};
+    body.state.orientation = Quaternion(arbitrary.rotation());
+    body.state.twist = arbitrary.twist(speed / size, speed);
+    for (int n = 0; n < 10; ++n) {
+      body.step(1.0 / 15);
+      resting += body.state.twist.vector().isZero(0);
+      halted += body.count.halted;
+    }
+  }
+  EXPECT_EQ(resting, 0);
+  EXPECT_EQ(halted, 0);
 }
 
 TEST(SurfaceFlight, DropConvergesInTheStep) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "bullet_ambient/spatial/inertia.h"
@@ -32,7 +33,7 @@ double speedAfterEntry(double gravity, double start, int steps) {
     const SurfacePassage passage{before,    after,     inverse, {{0, 0, 0}, {0, 0, -by_height}},
                                  {0, 0, 1}, {0, 0, 0}, to,      to - 10,
                                  gravity,   duration};
-    speed = -passSurface(passage, x)[5];
+    speed = -passSurface(passage, x).twist[5];
   }
   return speed;
 }
@@ -60,8 +61,24 @@ TEST(SurfacePassage, NeverAddsEnergyWhateverChanges) {
                                  arbitrary.between(-1, 1),
                                  arbitrary.between(0, 10),
                                  arbitrary.between(0, 1)};
-    const Vector6 end = passSurface(passage, x);
+    const Vector6 end = passSurface(passage, x).twist;
     EXPECT_LE(end.dot(after * end), x.dot(before * x) * (1 + 1e-12));
+  }
+}
+
+// Without a gradient the momentum stays: K_1^-1 K_0 x but for the bound.
+TEST(SurfacePassage, TellsTheEnergyThatItRemoves) {
+  test::Arbitrary arbitrary(3);
+  for (int i = 0; i < 100; ++i) {
+    const Matrix6 before = arbitrary.positiveDefinite();
+    const Matrix6 after = (i % 2 == 0 ? 0.5 : 1.5) * before;
+    const Matrix6 inverse = after.inverse();
+    const Vector6 x = arbitrary.twist().vector(), end = inverse * (before * x);
+    const double had = x.dot(before * x) / 2, gain = end.dot(after * end) / 2 - had;
+    EXPECT_EQ(gain > 0, i % 2 == 0);
+    const SurfacePassage passage{
+        before, after, inverse, {{0, 0, 0}, {0, 0, 0}}, {0, 0, 1}, {0, 0, 0}, 1, 1, 9.81, 0.01};
+    EXPECT_NEAR(passSurface(passage, x).energy_removed, std::max(0.0, gain), 1e-11 * had) << i;
   }
 }
 
@@ -71,7 +88,8 @@ TEST(SurfacePassage, LeavesABodyAloneWhoseInertiaStays) {
   const Vector6 x = arbitrary.twist().vector();
   const SurfacePassage passage{K, K,    inverse, {{1, 2, 3}, {4, 5, 6}}, {0, 0, 1}, {0, 0, 0}, 1,
                                1, 9.81, 0.01};
-  EXPECT_EQ(passSurface(passage, x), x);
+  EXPECT_EQ(passSurface(passage, x).twist, x);
+  EXPECT_EQ(passSurface(passage, x).energy_removed, 0);
 }
 
 }  // namespace

@@ -295,6 +295,14 @@ class WorldTest(Temporary):
         world.step(60)
         self.assertSameBits(world.position, end)
 
+    def test_work_tells_what_bounds_removed(self):
+        world = ba.World(ba.Scene("plate_10cm"))
+        world.step(480)
+        work = world.bodies["plate"].work
+        self.assertGreater(work["load_evaluations"], 0)
+        self.assertEqual(work["halted"], 0)
+        self.assertGreater(work["energy_removed"], 0)
+
     def test_run_is_what_ambient_demo_writes(self):
         subprocess.run([DEMO, "plate_9cm", "--out", self.folder, "--quiet", "--set", "duration=1"], check=True)
         with open(self.folder / "trajectory.csv") as file:

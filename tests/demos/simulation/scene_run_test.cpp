@@ -326,6 +326,8 @@ TEST(Summary, HasTheKeysThatProgramsReadAndTheFall) {
   EXPECT_EQ(plate["fluid_body"]["faces"], 980);
   EXPECT_GT(plate["work"]["load_evaluations"], 0);
   EXPECT_EQ(plate["work"]["too_long"], 0);
+  EXPECT_EQ(plate["work"]["halted"], 0);
+  EXPECT_GT(plate["work"]["energy_removed"], 0);
 }
 
 TEST(Summary, ABallIsNotAPlate) {

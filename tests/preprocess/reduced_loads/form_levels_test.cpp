@@ -99,6 +99,45 @@ TEST(FormLevels, AddNoMirrors) {
   }
 }
 
+/// A box of 1 : a : b by 4 x 4 Gauss points a side.
+FluidBody box(const Vector3& edges) {
+  constexpr double kPlaces[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                0.8611363115940526};
+  constexpr double kWeights[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                 0.17392742256872693};
+  FluidBody body;
+  body.name = "box";
+  for (int side = 0; side < 6; ++side) {
+    const Vector3 n = (side < 3 ? 1 : -1) * Vector3::Unit(side % 3);
+    const int a = (side + 1) % 3, b = (side + 2) % 3;
+    for (int i = 0; i < 16; ++i) {
+      const Vector3 place =
+          n + kPlaces[i / 4] * Vector3::Unit(a) + kPlaces[i % 4] * Vector3::Unit(b);
+      body.faces.add(n, 0.5 * edges.cwiseProduct(place),
+                     kWeights[i / 4] * kWeights[i % 4] * edges[a] * edges[b]);
+      body.faces.sharpness.push_back(1);
+    }
+  }
+  return body;
+}
+
+/// 0.21 %, and 0.93 % without weight on translations in the fit. The drag of a box that moves along
+/// its diagonal is a closed form, and is looked at first.
+TEST(FormLevels, KeepTheLoadsOnBoxesInTranslation) {
+  test::Arbitrary arbitrary(8);
+  for (const Vector3& edges :
+       {Vector3(1, 1, 1), Vector3(1.25, 1.25, 1), Vector3(2, 1.5, 1), Vector3(4, 2, 1)}) {
+    const FluidBody body = box(edges);
+    const FaceTable faces = buildFormLevels(body, {64}).front().faces;
+    for (int i = 0; i < 100; ++i) {
+      const Vector3 v = i == 0 ? edges : arbitrary.vector();
+      const Vector6 all = loadOn(body.faces, {Vector3::Zero(), v.normalized()});
+      const Vector6 few = loadOn(faces, {Vector3::Zero(), v.normalized()});
+      EXPECT_LT((few - all).norm(), 3e-3 * all.norm()) << edges.transpose() << ", " << i;
+    }
+  }
+}
+
 TEST(FormLevels, AreAsSmallAsAnErrorAllows) {
   const FluidBody body = ellipsoid();
   std::size_t before = 0;

@@ -172,6 +172,16 @@ TEST(RobotFlight, MotorsHoldPlatesOfTenThousandTimesTheirMassInFluid) {
   EXPECT_GT(velocityOf(body).head<6>().norm() + body.getBasePos().length(), 1e-3);
 }
 
+void holdTip(RobotWorld& world, btMultiBody& body) {
+  const int tip = body.getNumLinks() - 1;
+  const btVector3 point(bt(0.1), 0, 0);
+  auto joint = std::make_unique<btMultiBodyPoint2Point>(
+      &body, tip, static_cast<btRigidBody*>(nullptr), point,
+      body.getLink(tip).m_cachedWorldTransform * point);
+  joint->setMaxAppliedImpulse(bt(1e9));
+  world.take(std::move(joint));
+}
+
 // Tip on a ball joint to the world.
 EnergyRange tether(unsigned seed, double hertz) {
   Arbitrary arbitrary(seed);
@@ -205,6 +215,24 @@ TEST(RobotFlight, OnATetherNeverGainsEnergy) {
     EXPECT_LT(highest, 1.01);  // the correction of gaps does work
     EXPECT_GT(mean, hertz < 100 ? 0.65 : 0.9);
   }
+}
+
+// Eq. (31a): what turns after rows lose beyond its reserve.
+TEST(RobotFlight, OnATetherCountsTheEnergyThatItsBoundRemoves) {
+  Arbitrary arbitrary(1);
+  RobotWorld world;
+  RobotDef def;
+  def.speed = 10;
+  def.collider_radius = 0.01;
+  btMultiBody& body = world.add(arbitrary, def);
+  putIntoFluid(arbitrary, world, body, 5);
+  holdTip(world, body);
+  const AmbientRegistry& registry = world.fluid.registry();
+  const double start = kineticEnergy(registry, body);
+  world.step(1.0 / 60, 30);
+  const double removed = registry.counters(body, -1).energy_removed;
+  EXPECT_GT(removed, 0.01 * start);
+  EXPECT_EQ(registry.counters().energy_removed, removed);
 }
 
 EnergyRange inBox(unsigned seed, double hertz) {
@@ -242,16 +270,6 @@ TEST(RobotFlight, ThrownIntoABoxNeverGainsEnergy) {
 }
 
 // Loads of water on fast robots at steps that are too long for them.
-void holdTip(RobotWorld& world, btMultiBody& body) {
-  const int tip = body.getNumLinks() - 1;
-  const btVector3 point(bt(0.1), 0, 0);
-  auto joint = std::make_unique<btMultiBodyPoint2Point>(
-      &body, tip, static_cast<btRigidBody*>(nullptr), point,
-      body.getLink(tip).m_cachedWorldTransform * point);
-  joint->setMaxAppliedImpulse(bt(1e9));
-  world.take(std::move(joint));
-}
-
 TEST(RobotFlight, InWaterSlowsDownAtLongSteps) {
   const auto shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1));
   for (unsigned seed = 0; seed < 60; ++seed) {

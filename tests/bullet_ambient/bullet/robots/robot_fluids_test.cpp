@@ -112,30 +112,55 @@ TEST_F(Robots, StayBoundedUnderMotorsInWater) {
   EXPECT_LT(last, 1e-3 * start);
 }
 
-// Half as dense as water, let go at the surface.
-TEST_F(Robots, FloatAtASurface) {
-  world.world.setGravity({0, 0, bt(-9.81)});
-  FluidRegion sea;
-  sea.below = water();
-  sea.below.viscosity = 0;
-  sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
-  world.fluid.addRegion(sea);
+// A multibody of one link, half as dense as water, let go at the surface.
+class FloatingLink {
+ public:
+  explicit FloatingLink(const Vector3& wind) {
+    world.world.setGravity({0, 0, bt(-9.81)});
+    FluidRegion sea;
+    sea.below = water();
+    sea.below.viscosity = 0;
+    sea.above = air();
+    sea.above.velocity = wind;
+    sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
+    world.fluid.addRegion(sea);
+    body.setLinearDamping(bt(0.5));
+    body.setAngularDamping(bt(0.5));
+    body.finalizeMultiDof();
+    body.setBasePos({0, 0, bt(0.05)});
+    world.world.addMultiBody(&body);
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(box);
+    def.medium = air();
+    world.fluid.add(body, -1, def);
+  }
+  ~FloatingLink() { world.world.removeMultiBody(&body); }
+
+  double height() const { return static_cast<double>(body.getBasePos().z()); }
+  AmbientCounters counters() const { return world.fluid.registry().counters(body, -1); }
+
   const FluidBody box = floatingBox({0.4, 0.4, 0.2});
   const double mass = 0.5 * water().density * box.volume;
-  btMultiBody body(0, bt(mass), bt(mass / 12) * btVector3(bt(0.2), bt(0.2), bt(0.32)), false,
-                   false);
-  body.setLinearDamping(bt(0.5));
-  body.setAngularDamping(bt(0.5));
-  body.finalizeMultiDof();
-  body.setBasePos({0, 0, bt(0.05)});
-  world.world.addMultiBody(&body);
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(box);
-  def.medium = air();
-  world.fluid.add(body, -1, def);
-  world.step(1 / 240.0, 4800);
-  EXPECT_NEAR(static_cast<double>(body.getBasePos().z()), 0, 5e-3);
-  world.world.removeMultiBody(&body);
+  RobotWorld world;
+  btMultiBody body{0, bt(mass), bt(mass / 12) * btVector3(bt(0.2), bt(0.2), bt(0.32)), false,
+                   false};
+};
+
+TEST_F(Robots, FloatAtASurface) {
+  FloatingLink link({0, 0, 0});
+  link.world.step(1 / 240.0, 4800);
+  EXPECT_NEAR(link.height(), 0, 5e-3);
+}
+
+// Links feel no wind: its loads are not computed.
+TEST_F(Robots, DoNotPayForWindThatTheyDoNotFeel) {
+  FloatingLink calm({0, 0, 0}), windy({10, 0, 0});
+  calm.world.step(1 / 240.0, 60);
+  windy.world.step(1 / 240.0, 60);
+  ASSERT_EQ(windy.height(), calm.height());
+  EXPECT_GT(calm.counters().load_evaluations, 60);
+  EXPECT_EQ(windy.counters().load_evaluations, calm.counters().load_evaluations);
+  EXPECT_EQ(windy.counters().faces, calm.counters().faces);
 }
 
 }  // namespace

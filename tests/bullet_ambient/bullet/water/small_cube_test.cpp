@@ -104,6 +104,7 @@ TEST(SmallCube, GainsNothingWhereItLeavesTheWaterOnAJoint) {
     for (const double depth : {0.5, 1.0, 2.0, 3.0}) {
       CubeOnRail cube(specific_gravity, -depth * kEdge);
       EXPECT_LT(cube.settle(1), 0.01) << specific_gravity << ", " << depth;
+      EXPECT_GT(cube.run.counters().energy_removed, 0.02 * cube.run.energyScale());
     }
 }
 

@@ -161,7 +161,7 @@ WaterResult runWater(const WaterCase& water_case) {
     over_earlier = std::max(over_earlier, energy - lowest);
     lowest = std::min(lowest, energy);
   }
-  return {step, run.rejected() == 0, over_earlier / run.energyScale(),
+  return {step, run.counters().rejected == 0, over_earlier / run.energyScale(),
           over_start / run.energyScale()};
 }
 

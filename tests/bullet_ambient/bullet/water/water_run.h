@@ -50,7 +50,7 @@ class WaterRun {
   double energy() const;
   /// (m + rho V) g L of all bodies; in a vacuum m g L [J].
   double energyScale() const { return energy_scale_; }
-  long long rejected() const { return fluid_.registry.counters().rejected; }
+  AmbientCounters counters() const { return fluid_.registry.counters(); }
   const std::vector<std::string>& said() const { return said_; }
 
  private:
