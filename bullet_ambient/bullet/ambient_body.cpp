@@ -63,6 +63,7 @@ AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other) {
   guarded += other.guarded;
   coarse += other.coarse;
   rows += other.rows;
+  joint_rows += other.joint_rows;
   rejected += other.rejected;
   regions_asked += other.regions_asked;
   medium_changes += other.medium_changes;

@@ -33,6 +33,7 @@ class AmbientSolver : public Base {
                 "btSoftRigidDynamicsWorld or btMultiBodyDynamicsWorld");
   static constexpr bool kHasMultiBodies = std::is_base_of_v<btMultiBodyConstraintSolver, Base>;
   // These infer the number of rows from the sizes of their pools, or keep pools of their own.
+  static constexpr bool kSolvesAtOnce = std::is_base_of_v<btMLCPSolver, Base>;
   static constexpr bool kHasEvenFrictions =
       std::is_base_of_v<btMLCPSolver, Base> ||
       std::is_base_of_v<btSequentialImpulseConstraintSolverMt, Base>;
@@ -95,6 +96,23 @@ class AmbientSolver : public Base {
     } else {
       group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), nullptr, info);
     }
+    solved_joints_ = 0;
+    if constexpr (!kSolvesAtOnce)
+      solved_joints_ =
+          group_.solveJoints(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool);
+  }
+
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
+                                             btPersistentManifold** manifolds, int manifold_count,
+                                             btTypedConstraint** constraints, int constraint_count,
+                                             const btContactSolverInfo& info,
+                                             btIDebugDraw* debug_drawer) override {
+    btContactSolverInfo once = info;
+    // One iteration takes what rounding has left, whatever remains then.
+    once.m_leastSquaresResidualThreshold = BT_LARGE_FLOAT;
+    return Base::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count,
+                                                   constraints, constraint_count,
+                                                   isSolved() ? once : info, debug_drawer);
   }
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
@@ -152,6 +170,17 @@ class AmbientSolver : public Base {
     }
   }
 
+  // All rows of the group are.
+  bool isSolved() const {
+    if (solved_joints_ == 0) return false;
+    if constexpr (kHasMultiBodies)
+      if (this->m_multiBodyNormalContactConstraints.size() > 0 ||
+          this->m_multiBodyNonContactConstraints.size() > 0)
+        return false;
+    return this->m_tmpSolverContactConstraintPool.size() == 0 &&
+           solved_joints_ == this->m_tmpSolverNonContactConstraintPool.size();
+  }
+
   RowPools pools() {
     return {this->m_tmpSolverContactConstraintPool, this->m_tmpSolverContactFrictionConstraintPool,
             this->m_tmpSolverContactRollingFrictionConstraintPool,
@@ -161,6 +190,7 @@ class AmbientSolver : public Base {
   SolverGroup group_;
   TreeGroup trees_;
   int first_frictions_ = 0;  // those that Bullet has made
+  int solved_joints_ = 0;    // rows
   GroupInput input_;
 };
 

@@ -34,11 +34,12 @@ struct AttachDef {
 struct AmbientCounters {
   long long substeps = 0;  ///< of free flight
   long long load_evaluations = 0;
-  long long faces = 0;     ///< faces or clusters summed in them; a sphere has none
-  long long guarded = 0;   ///< load evaluations in which the passivity guard acted
-  long long coarse = 0;    ///< steps whose error stayed too large at the most substeps or retries
-  long long rows = 0;      ///< constraint rows rewritten
-  long long rejected = 0;  ///< results of steps, and samples of regions, not finite and left out
+  long long faces = 0;       ///< faces or clusters summed in them; a sphere has none
+  long long guarded = 0;     ///< load evaluations in which the passivity guard acted
+  long long coarse = 0;      ///< steps whose error stayed too large at the most substeps or retries
+  long long rows = 0;        ///< constraint rows rewritten
+  long long joint_rows = 0;  ///< of these, solved together before the solver's iterations
+  long long rejected = 0;    ///< results of steps, and samples of regions, not finite and left out
   long long regions_asked = 0;   ///< whether they hold the body
   long long medium_changes = 0;  ///< to another density or viscosity, by regions
 

@@ -10,6 +10,7 @@
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/joint_chains.h"
 #include "bullet_ambient/bullet/multibody_rows.h"
 #include "bullet_ambient/bullet/row_motion.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
@@ -128,7 +129,9 @@ class FlightTasks final : public Task {
 }  // namespace
 
 SolverGroup::SolverGroup(AmbientRegistry& registry)
-    : bodies_(bodiesOf(registry)), row_bodies_(std::make_unique<RowBodies>()) {}
+    : bodies_(bodiesOf(registry)),
+      row_bodies_(std::make_unique<RowBodies>()),
+      joint_chains_(std::make_unique<JointChains>()) {}
 
 SolverGroup::~SolverGroup() = default;
 
@@ -252,6 +255,11 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
   reapplyWarmStart(solver_bodies, rows, multibodies, info.m_solverMode);
 }
 
+int SolverGroup::solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+  if (row_bodies_->empty() || joints.size() == 0) return 0;
+  return joint_chains_->solve(joints, *row_bodies_, solver_bodies);
+}
+
 void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
                                              const btMultiBodyConstraintArray& joints) noexcept {
   forEachJoinedBody(joints, [&](int id) {
@@ -310,7 +318,10 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
     // Rows that are near have allowed the velocity that they were solved against; a flight with a
     // fast turn would take the body elsewhere.
     const bool may_fly = !row_body || (!member.is_locked && row_body->extent <= kSlowTurn);
-    if (row_body) member.ambient->counters.rows += row_body->rows;
+    if (row_body) {
+      member.ambient->counters.rows += row_body->rows;
+      member.ambient->counters.joint_rows += row_body->joint_rows;
+    }
     if (may_fly && isUntouched(solver_body)) {
       fliers_.push_back(&member);
     } else {

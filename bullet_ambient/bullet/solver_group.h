@@ -22,6 +22,7 @@ struct AmbientBody;
 class AmbientBodies;
 class AmbientRegistry;
 class AmbientTrees;
+class JointChains;
 class RowBodies;
 
 /// The rows that Bullet has set up for one group of bodies.
@@ -99,6 +100,10 @@ class SolverGroup {
   void rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                    const MultiBodyRows* multibodies, const btContactSolverInfo& info) noexcept;
 
+  /// After that: solves rows of joints together, from which the iterations go on. Returns how many;
+  /// joint_chains.h.
+  int solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
+
   /// Before the stock write-back: velocity changes back into Bullet's basis; bodies that no row has
   /// moved fly freely.
   void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
@@ -144,6 +149,7 @@ class SolverGroup {
   std::vector<int> member_of_solver_body_;     // -1: not ambient
   std::vector<const Member*> fliers_;          // members that no row has moved
   std::unique_ptr<RowBodies> row_bodies_;
+  std::unique_ptr<JointChains> joint_chains_;
   std::vector<SavedJacobian> saved_;
 };
 

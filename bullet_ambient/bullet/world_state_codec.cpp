@@ -12,7 +12,7 @@ namespace {
 
 // Header: magic, version, bytes per number of Bullet, FNV-1a of the payload, payload.
 constexpr std::string_view kMagic = "AMBSTATE";
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 constexpr std::size_t kBodySize = 200, kMultiBodySize = 100;  // at least [bytes]
 
 using Hashes = std::map<const FluidBody*, std::uint64_t>;

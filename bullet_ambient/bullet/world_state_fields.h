@@ -75,6 +75,7 @@ void transferFlight(Stream& s, State& state) {
   s.number(state.counters.guarded);
   s.number(state.counters.coarse);
   s.number(state.counters.rows);
+  s.number(state.counters.joint_rows);
   s.number(state.counters.rejected);
   s.number(state.counters.regions_asked);
   s.number(state.counters.medium_changes);
