@@ -12,6 +12,7 @@
 
 class btMLCPSolver;
 class btMultiBodyConstraintSolver;
+class btMultiBodyMLCPConstraintSolver;
 class btSequentialImpulseConstraintSolverMt;
 class btDeformableMultiBodyConstraintSolver;
 
@@ -32,8 +33,10 @@ class AmbientSolver : public Base {
                 "together with deformable ones in a way that cannot be rewritten; use "
                 "btSoftRigidDynamicsWorld or btMultiBodyDynamicsWorld");
   static constexpr bool kHasMultiBodies = std::is_base_of_v<btMultiBodyConstraintSolver, Base>;
+  // These solve all rows together themselves.
+  static constexpr bool kSolvesAtOnce = std::is_base_of_v<btMLCPSolver, Base> ||
+                                        std::is_base_of_v<btMultiBodyMLCPConstraintSolver, Base>;
   // These infer the number of rows from the sizes of their pools, or keep pools of their own.
-  static constexpr bool kSolvesAtOnce = std::is_base_of_v<btMLCPSolver, Base>;
   static constexpr bool kHasEvenFrictions =
       std::is_base_of_v<btMLCPSolver, Base> ||
       std::is_base_of_v<btSequentialImpulseConstraintSolverMt, Base>;
@@ -108,11 +111,12 @@ class AmbientSolver : public Base {
                                              const btContactSolverInfo& info,
                                              btIDebugDraw* debug_drawer) override {
     btContactSolverInfo once = info;
-    // One iteration takes what rounding has left, whatever remains then.
+    // Where no residual is asked for, one iteration takes what rounding has left.
+    const bool is_enough = isSolved() && !(info.m_leastSquaresResidualThreshold > 0);
     once.m_leastSquaresResidualThreshold = BT_LARGE_FLOAT;
     return Base::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count,
                                                    constraints, constraint_count,
-                                                   isSolved() ? once : info, debug_drawer);
+                                                   is_enough ? once : info, debug_drawer);
   }
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,

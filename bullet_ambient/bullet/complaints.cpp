@@ -43,6 +43,7 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kEmpty:
     case Complaint::kLight:
     case Complaint::kSwing:
+    case Complaint::kGaping:
     case Complaint::kCount:
       break;
   }
@@ -68,6 +69,14 @@ std::string coarseSwing(const AttachDef& def, double period, double step) {
          " s: in less than four steps a period it swings too slowly; take shorter steps";
 }
 
+std::string gapingJoint(const AttachDef& def, const AttachDef* other) {
+  const std::string partner =
+      other ? "one with fluid body '" + other->fluid_body->name + "'" : "one without fluid";
+  return "bullet_ambient: a joint of a body with fluid body '" + def.fluid_body->name + "' and " +
+         partner + " comes apart: the solver's iterations do not hold it; take more iterations, " +
+         "btContactSolverInfo::m_numIterations, or shorter steps";
+}
+
 }  // namespace
 
 void Complaints::say(Complaint complaint) noexcept { say(complaint, sentenceOf(complaint)); }
@@ -87,6 +96,15 @@ void Complaints::sayCoarseSwing(const AttachDef& def, double frequency, double s
     say(Complaint::kSwing, coarseSwing(def, 2 * kPi / frequency, step).c_str());
   } catch (...) {
     // As below.
+  }
+}
+
+void Complaints::sayGaping(const AttachDef& def, const AttachDef* other) noexcept {
+  if (was_said_[static_cast<int>(Complaint::kGaping)]) return;
+  try {
+    say(Complaint::kGaping, gapingJoint(def, other).c_str());
+  } catch (...) {
+    // As above.
   }
 }
 

@@ -24,6 +24,7 @@ enum class Complaint {
   kEmpty,
   kLight,
   kSwing,
+  kGaping,
   kCount
 };
 
@@ -38,6 +39,8 @@ class Complaints {
   /// Of a floating body that rows move, whose largest natural frequency [rad/s] the step [s] is too
   /// long for.
   void sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept;
+  /// Of a body whose joint comes apart; `other`: null if it has no fluid.
+  void sayGaping(const AttachDef& def, const AttachDef* other) noexcept;
 
   std::function<void(const std::string&)> report;  ///< null: nobody hears
 

@@ -1,5 +1,6 @@
 #include "bullet_ambient/bullet/joint_chains.h"
 
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
@@ -18,18 +19,21 @@ constexpr double kNoPivot = 64 * static_cast<double>(std::numeric_limits<btScala
 // Multiplications per row, of the factor. Bodies with dozens of joints on one of them exceed it.
 constexpr double kMostWork = 1e4;
 
-bool hasBounds(const btSolverConstraint& row) {
-  return row.m_lowerLimit > -SIMD_INFINITY || row.m_upperLimit < SIMD_INFINITY;
-}
-
 const btTypedConstraint* jointOf(const btSolverConstraint& row) {
   return static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
+}
+
+// Others than the impulse that breaks the joint.
+bool hasBounds(const btSolverConstraint& row) {
+  const btScalar most = jointOf(row)->getBreakingImpulseThreshold();
+  return row.m_lowerLimit > -most || row.m_upperLimit < most;
 }
 
 }  // namespace
 
 int JointChains::solve(btConstraintArray& joints, RowBodies& ambient,
                        SolverBodies& bodies) noexcept {
+  if (ambient.empty() || joints.size() == 0) return 0;
   joints_ = &joints;
   ambient_ = &ambient;
   bodies_ = &bodies;
@@ -223,7 +227,8 @@ int JointChains::apply() noexcept {
     if (!std::isfinite(impulse)) return 0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     btSolverConstraint& row = (*joints_)[rows_[i].index];
-    const auto impulse = static_cast<btScalar>(impulse_[i]);
+    const btScalar impulse =
+        btClamped(static_cast<btScalar>(impulse_[i]), row.m_lowerLimit, row.m_upperLimit);
     row.m_appliedImpulse = impulse;
     btSolverBody &a = (*bodies_)[row.m_solverBodyIdA], &b = (*bodies_)[row.m_solverBodyIdB];
     a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA,

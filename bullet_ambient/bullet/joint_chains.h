@@ -25,8 +25,8 @@ inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 //   du  what warm starting has changed
 //
 // by a Cholesky factor of the rows in the order in which they hang together, within its envelope.
-// A row with bounds (limits, motors, springs, joints that may break) or of a body with locked axes
-// is left to the iterations, and so are joints in loops, whose rows may contradict each other.
+// A row with bounds (limits, motors, springs) or of a body with locked axes is left to the
+// iterations, and so are joints in loops, whose rows may contradict each other.
 
 /// Solves the joint rows of ambient bodies, and of bodies joined to them. Keeps its memory.
 class JointChains {

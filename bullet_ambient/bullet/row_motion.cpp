@@ -1,5 +1,6 @@
 #include "bullet_ambient/bullet/row_motion.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,6 +58,26 @@ Vector6 withinEnergy(const BodyModel& model, const Vector6& from, const Vector6&
   return from + (b > 0 ? -excess / (b + root) : (root - b) / a) * (to - from);
 }
 
+// The twist with this spin and no linear momentum.
+Vector6 spinAlone(const BodyModel& model, const Vector3& spin) {
+  const Matrix6& K = model.inertia;
+  const Matrix3 coupling = K.bottomLeftCorner<3, 3>(), mass = K.bottomRightCorner<3, 3>();
+  return stack(spin, mass.llt().solve(-coupling * spin));
+}
+
+// The velocity `to` at the cost of its spin, eq. (31b): with its linear momentum and a spin from
+// that of `from` towards its own, as far as the energy allows.
+Vector6 keepingMomentum(const BodyModel& model, const RowMotion& rows, const Vector6& from,
+                        const Vector6& to) {
+  const double bound = *rows.energy_bound;
+  const Vector6 spin = spinAlone(model, to.head<3>()), straight = to - spin;
+  const double energy = inertiaNormSquared(model, straight);
+  if (energy < bound)
+    return straight + withinEnergy(model, spinAlone(model, from.head<3>()), spin, bound - energy);
+  return rows.is_held ? withinEnergy(model, from, to, bound)
+                      : Vector6(std::sqrt(bound / energy) * straight);
+}
+
 }  // namespace
 
 void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody& solver_body,
@@ -65,6 +86,7 @@ void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody&
   const Medium& medium = ambient.medium;
   RowMotion& rows = ambient.outcome.rows;
   rows.start = row_body.start;
+  rows.is_held = row_body.is_held;
   rows.flow_W = medium.velocity + time_step * medium.acceleration;
   const Quaternion to_body = rows.start.orientation.conjugate();
   rows.start.twist =
@@ -104,7 +126,9 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
     const Vector3 position = rows.momentum->pivot + *part * time_step * moved_W.linear;
     end = twistOf(ambient.model, *rows.momentum, now.orientation, position).vector();
   }
-  if (rows.energy_bound) end = withinEnergy(ambient.model, moved, end, *rows.energy_bound);
+  if (rows.energy_bound)
+    end = rows.momentum ? keepingMomentum(ambient.model, rows, moved, end)
+                        : withinEnergy(ambient.model, moved, end, *rows.energy_bound);
   if (ambient.surface())
     end = passWithRows(ambient, end, rows.momentum ? Axes::kFree : Axes::kLocked, time_step);
   const Twist change_W = withoutTraces(turnedBy(now.orientation, end - moved), time_step);

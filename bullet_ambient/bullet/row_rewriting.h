@@ -41,11 +41,14 @@ struct RowBody {
   btVector3 velocity_change{0, 0, 0};
   btVector3 spin_aside{0, 0, 0};  ///< more than that is shown to contacts as they are set up
   btVector3 velocity_aside{0, 0, 0};
-  RigidState start;    ///< in which the solver meets it
-  Twist turning_W;     ///< share of the turning part in the velocity that rows are solved against
-  double extent = 0;   ///< of the turn in this step
-  int rows = 0;        ///< how many were rewritten
-  int joint_rows = 0;  ///< how many of them were solved together before the iterations
+  RigidState start;      ///< in which the solver meets it
+  Twist turning_W;       ///< share of the turning part in the velocity that rows are solved against
+  double extent = 0;     ///< of the turn in this step
+  bool is_held = false;  ///< by joints, or by what cannot move
+  int rows = 0;          ///< how many were rewritten
+  int joint_rows = 0;    ///< how many of them were solved together before the iterations
+  double gap = 0;        ///< by which a joint misses in this step [m]
+  int gap_to = -1;       ///< the solver body at its other side
 
   bool is_locked = false;
   btVector3 locked_angular{0, 0, 0};  ///< 1 for an axis that is locked, else 0

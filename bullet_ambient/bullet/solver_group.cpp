@@ -11,6 +11,7 @@
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
 #include "bullet_ambient/bullet/joint_chains.h"
+#include "bullet_ambient/bullet/joint_gaps.h"
 #include "bullet_ambient/bullet/multibody_rows.h"
 #include "bullet_ambient/bullet/row_motion.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
@@ -38,7 +39,7 @@ void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
   linear = T.linear * linear;
 }
 
-// That of its model, which changes at the surface of the water.
+// It changes at the surface of the water.
 Matrix6 basisOf(const AmbientBody& ambient) {
   if (!ambient.surface()) return ambient.basis_B;
   const Vector3 inverse_inertia = toVector3(ambient.body->getInvInertiaDiagLocal());
@@ -60,7 +61,7 @@ btVector3 whereZero(const btVector3& v) {
   return {btScalar(v.x() == 0), btScalar(v.y() == 0), btScalar(v.z() == 0)};
 }
 
-// The rows of a locked body take its locks from T. The solver must not apply them again.
+// Rows take the locks from T: the solver must not apply them again.
 void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& factors,
           btSolverBody& solver_body) {
   const btRigidBody& body = *ambient.body;
@@ -131,7 +132,8 @@ class FlightTasks final : public Task {
 SolverGroup::SolverGroup(AmbientRegistry& registry)
     : bodies_(bodiesOf(registry)),
       row_bodies_(std::make_unique<RowBodies>()),
-      joint_chains_(std::make_unique<JointChains>()) {}
+      joint_chains_(std::make_unique<JointChains>()),
+      joint_gaps_(std::make_unique<JointGaps>()) {}
 
 SolverGroup::~SolverGroup() = default;
 
@@ -191,6 +193,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   row_body.start = start;
   row_body.turning_W = row.turning_W;
   row_body.extent = row.extent;
+  row_body.is_held = member.is_held;
   row_body.inverse_inertia_T = body.getInvInertiaTensorWorld().transpose();
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
@@ -244,6 +247,7 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
     prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
   if (row_bodies_->empty() && !has_trees) return;
   saveFeedbackJacobians(rows.joints);
+  joint_gaps_->watch(rows.joints, *row_bodies_);
   const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
     ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);
   };
@@ -256,7 +260,6 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
 }
 
 int SolverGroup::solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
-  if (row_bodies_->empty() || joints.size() == 0) return 0;
   return joint_chains_->solve(joints, *row_bodies_, solver_bodies);
 }
 
@@ -264,7 +267,9 @@ void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
                                              const btMultiBodyConstraintArray& joints) noexcept {
   forEachJoinedBody(joints, [&](int id) {
     Member* member = memberOf(id);
-    if (member && !row_bodies_->find(id)) prepareForRows(*member, solver_bodies[id]);
+    if (!member) return;
+    if (!row_bodies_->find(id)) prepareForRows(*member, solver_bodies[id]);
+    row_bodies_->find(id)->is_held = true;
   });
 }
 
@@ -307,6 +312,7 @@ void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
 }
 
 void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+  if (!row_bodies_->empty()) joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
   restoreFeedbackJacobians(joints);
   for (const Member& member : members_) {
     if (member.solver_body == kAlone) {
@@ -321,6 +327,7 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
     if (row_body) {
       member.ambient->counters.rows += row_body->rows;
       member.ambient->counters.joint_rows += row_body->joint_rows;
+      noteGap(*member.ambient, *row_body);
     }
     if (may_fly && isUntouched(solver_body)) {
       fliers_.push_back(&member);

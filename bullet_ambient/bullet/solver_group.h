@@ -23,7 +23,9 @@ class AmbientBodies;
 class AmbientRegistry;
 class AmbientTrees;
 class JointChains;
+class JointGaps;
 class RowBodies;
+struct RowBody;
 
 /// The rows that Bullet has set up for one group of bodies.
 struct RowPools {
@@ -116,6 +118,7 @@ class SolverGroup {
     bool is_locked;
     bool is_near = false;  // to another body: Bullet converts it with the pair
     bool has_rows = false;
+    bool is_held = false;      // by joints, or by what cannot move
     int solver_body = kAlone;  // the solver does not know it
   };
   // The Jacobian of a joint row with feedback, as the joint made it.
@@ -126,7 +129,7 @@ class SolverGroup {
 
   void findMembers(const GroupBodies& bodies) noexcept;
   void markPairs(const GroupInput& input) noexcept;
-  void mark(const btCollisionObject& body, bool has_rows) noexcept;
+  void mark(const btCollisionObject& body, bool has_rows, bool is_held) noexcept;
   GroupBodies withoutLoners(const GroupBodies& bodies) noexcept;
   void prepareForRows(Member& member, btSolverBody& solver_body) noexcept;
   void prepareJoinedToMultiBodies(
@@ -136,6 +139,7 @@ class SolverGroup {
                         const MultiBodyRows* multibodies, int solver_mode) noexcept;
   void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
   void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
+  void noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept;
   void flyFreely(SolverBodies& solver_bodies) noexcept;
   void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
   Member* memberOf(int solver_body) noexcept;
@@ -150,6 +154,7 @@ class SolverGroup {
   std::vector<const Member*> fliers_;          // members that no row has moved
   std::unique_ptr<RowBodies> row_bodies_;
   std::unique_ptr<JointChains> joint_chains_;
+  std::unique_ptr<JointGaps> joint_gaps_;
   std::vector<SavedJacobian> saved_;
 };
 
