@@ -111,7 +111,8 @@ class AmbientRegistry {
   /// Receives one sentence the first time something cannot be right: the action or the solver is
   /// missing from the world, a step's result was not finite, a body was attached whose moments of
   /// inertia no rigid body has, whose fluid body is empty, or that has less than half the mass of
-  /// the medium it displaces; and one of each body for whose motion steps are so long that it is
+  /// the medium it displaces, a joint of a body came apart step after step because the solver's
+  /// iterations do not hold it; and one of each body for whose motion steps are so long that it is
   /// wrong by some per cent, or that came later and was refused. Default: standard error.
   void setReport(std::function<void(const std::string&)> report);
 

@@ -37,6 +37,7 @@ void JointGaps::watch(const btConstraintArray& joints, RowBodies& ambient) noexc
 void JointGaps::measure(const btConstraintArray& joints, RowBodies& ambient,
                         btAlignedObjectArray<btSolverBody>& bodies,
                         double time_step) const noexcept {
+  if (ambient.empty()) return;
   for (const int i : rows_) {
     const btSolverConstraint& row = joints[i];
     const int a = row.m_solverBodyIdA, b = row.m_solverBodyIdB;

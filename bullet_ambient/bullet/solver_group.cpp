@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
@@ -312,7 +311,7 @@ void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
 }
 
 void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
-  if (!row_bodies_->empty()) joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
+  joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
   restoreFeedbackJacobians(joints);
   for (const Member& member : members_) {
     if (member.solver_body == kAlone) {
