@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/joint_chains.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
 #include "bullet_ambient/bullet/solver_group.h"
 #include "bullet_ambient/motion/axis_locks.h"
@@ -25,6 +26,7 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   converted_.reserve(static_cast<std::size_t>(bodies.count));
   member_of_solver_body_.reserve(static_cast<std::size_t>(bodies.count));
   row_bodies_->reserve(bodies.count);
+  joint_chains_->reserve(bodies.count);
   markPairs(input);
   return all_stay ? bodies : withoutLoners(bodies);
 }

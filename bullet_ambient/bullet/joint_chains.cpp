@@ -31,6 +31,15 @@ bool hasBounds(const btSolverConstraint& row) {
 
 }  // namespace
 
+void JointChains::reserve(int solver_bodies) {
+  const auto count = static_cast<std::size_t>(solver_bodies);
+  first_link_.reserve(count + 1);
+  entered_by_.reserve(count);
+  is_visited_.reserve(count);
+  first_row_.reserve(count);
+  queue_.reserve(count);
+}
+
 int JointChains::solve(btConstraintArray& joints, RowBodies& ambient,
                        SolverBodies& bodies) noexcept {
   if (ambient.empty() || joints.size() == 0) return 0;
@@ -39,12 +48,11 @@ int JointChains::solve(btConstraintArray& joints, RowBodies& ambient,
   bodies_ = &bodies;
   linkBodies();
   if (links_.empty()) return 0;
-  const auto count = static_cast<std::size_t>(bodies.size());
-  entered_by_.assign(count, nullptr);
-  is_visited_.assign(count, false);
-  first_row_.assign(count, -1);
+  entered_by_.assign(ambient.size(), nullptr);
+  is_visited_.assign(ambient.size(), false);
+  first_row_.assign(ambient.size(), -1);
   int solved = 0;
-  for (int body = 0; body < bodies.size(); ++body) {
+  for (int body = 0; static_cast<std::size_t>(body) < ambient.size(); ++body) {
     if (is_visited_[body] || !ambient.find(body)) continue;
     if (!gatherChain(body) || !factorize()) continue;
     substitute();
@@ -62,6 +70,8 @@ bool JointChains::canMove(int body) const noexcept {
 bool JointChains::isPlain(int body) const noexcept {
   const RowBody* ambient = ambient_->find(body);
   if (ambient) return !ambient->is_locked;
+  // One that Bullet has added later and that can move belongs to another group.
+  if (static_cast<std::size_t>(body) >= ambient_->size()) return !canMove(body);
   const btSolverBody& solver_body = (*bodies_)[body];
   const btVector3 all(1, 1, 1);
   return !canMove(body) ||
@@ -75,7 +85,7 @@ int JointChains::otherBody(int row, int body) const noexcept {
 
 // The rows of each body that can move, one after another.
 void JointChains::linkBodies() noexcept {
-  first_link_.assign(static_cast<std::size_t>(bodies_->size()) + 1, 0);
+  first_link_.assign(ambient_->size() + 1, 0);
   const auto forEachEnd = [&](const auto& visit) {
     for (int i = 0; i < joints_->size(); ++i) {
       const btSolverConstraint& row = (*joints_)[i];

@@ -33,6 +33,7 @@ class JointChains {
  public:
   using SolverBodies = btAlignedObjectArray<btSolverBody>;
 
+  void reserve(int solver_bodies);
   /// After the rows were rewritten. Returns how many it has solved, and counts them for the ambient
   /// bodies.
   int solve(btConstraintArray& joints, RowBodies& ambient, SolverBodies& bodies) noexcept;

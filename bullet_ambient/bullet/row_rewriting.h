@@ -67,6 +67,8 @@ class RowBodies {
   void reset(int solver_body_count);
   RowBody& add(int solver_body);
   bool empty() const { return bodies_.empty(); }
+  /// Solver bodies of the group, ambient or not.
+  std::size_t size() const { return index_.size(); }
   /// Null if not ambient. Bodies that Bullet appends after convertBodies() (fixed, kinematic) never
   /// are.
   RowBody* find(int solver_body) noexcept {

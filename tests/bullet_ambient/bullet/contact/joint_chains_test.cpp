@@ -15,7 +15,7 @@
 namespace ambient::test {
 namespace {
 
-enum class Link { kFixed, kBall, kHinge };
+enum class JointKind { kFixed, kBall, kHinge };
 
 constexpr double kPivotGap = 1.3;  // from the centres to the pivots, in semi-axes
 
@@ -31,7 +31,7 @@ Vector3 semiAxes(Arbitrary& arbitrary) {
 // Open, or with both ends held by the world.
 class Chain {
  public:
-  Chain(Link link, int count, unsigned seed) : arbitrary_(seed), link_(link) {
+  Chain(JointKind kind, int count, unsigned seed) : arbitrary_(seed), kind_(kind) {
     scene_.registry.setReport(nullptr);  // bodies so light rise
     double x = 0;
     for (int i = 0; i < count; ++i) {
@@ -79,11 +79,11 @@ class Chain {
     const btQuaternion straight = btQuaternion::getIdentity();
     const btVector3 axis = toBullet(arbitrary_.vector().normalized());
     btRigidBody &first = *bodies_[a], &second = *bodies_[b];
-    if (link_ == Link::kBall)
+    if (kind_ == JointKind::kBall)
       links_.push_back(std::make_unique<btPoint2PointConstraint>(first, second, in_a, in_b));
-    if (link_ == Link::kHinge)
+    if (kind_ == JointKind::kHinge)
       links_.push_back(std::make_unique<btHingeConstraint>(first, second, in_a, in_b, axis, axis));
-    if (link_ == Link::kFixed)
+    if (kind_ == JointKind::kFixed)
       links_.push_back(std::make_unique<btFixedConstraint>(
           first, second, btTransform(straight, in_a), btTransform(straight, in_b)));
     scene_.world.addConstraint(links_.back().get(), true);
@@ -91,15 +91,15 @@ class Chain {
 
   FluidWorld scene_;
   Arbitrary arbitrary_;
-  Link link_;
+  JointKind kind_;
   std::vector<btScalar> reaches_;
   std::vector<btRigidBody*> bodies_;
   std::vector<std::unique_ptr<btTypedConstraint>> links_;
 };
 
 /// Largest rise of the energy above an earlier value in two seconds, over that of the start.
-double largestRise(Link link, unsigned seed, double rate) {
-  Chain chain(link, 4, seed);
+double largestRise(JointKind kind, unsigned seed, double rate) {
+  Chain chain(kind, 4, seed);
   const double start = chain.energy();
   double least = start, rise = 0;
   for (int i = 0; i < 2 * rate; ++i) {
@@ -112,16 +112,16 @@ double largestRise(Link link, unsigned seed, double rate) {
   return rise;
 }
 
-class JointChain : public ::testing::TestWithParam<Link> {};
+class JointChain : public ::testing::TestWithParam<JointKind> {};
 INSTANTIATE_TEST_SUITE_P(Links, JointChain,
-                         ::testing::Values(Link::kFixed, Link::kHinge, Link::kBall));
+                         ::testing::Values(JointKind::kFixed, JointKind::kHinge, JointKind::kBall));
 
 // By iterations alone 7 of 24 chains of fixed joints rise by more, and 4 of hinges, at any step.
 TEST(JointChains, GainNoEnergy) {
-  for (const Link link : {Link::kFixed, Link::kHinge})
+  for (const JointKind kind : {JointKind::kFixed, JointKind::kHinge})
     for (const double rate : {60, 240, 1000})
       for (unsigned seed = 0; seed < 24; ++seed)
-        EXPECT_LT(largestRise(link, seed, rate), 0.01) << rate << " Hz, seed " << seed;
+        EXPECT_LT(largestRise(kind, seed, rate), 0.01) << rate << " Hz, seed " << seed;
 }
 
 TEST_P(JointChain, LeavesTheIterationsNothingToDo) {
@@ -142,7 +142,7 @@ TEST_P(JointChain, LeavesTheIterationsNothingToDo) {
 }
 
 TEST(JointChains, CountsItsRowsUnlessItIsClosed) {
-  Chain open(Link::kBall, 4, 0), held(Link::kBall, 4, 0), closed(Link::kBall, 4, 0);
+  Chain open(JointKind::kBall, 4, 0), held(JointKind::kBall, 4, 0), closed(JointKind::kBall, 4, 0);
   held.hold(2);
   closed.hold(0);
   closed.hold(3);
