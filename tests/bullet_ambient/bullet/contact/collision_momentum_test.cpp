@@ -74,21 +74,21 @@ Losses lossesOf(double speed, double rate) {
   return losses;
 }
 
+// While spin was not given for momentum, 2 m/s at 60 Hz lost up to 8 %.
 TEST(Collision, KeepsTheMomentumWhereTurnsAreSlow) {
-  EXPECT_LT(lossesOf(1, 240).worst, byPrecision(1e-12, 1e-5));
-  EXPECT_LT(lossesOf(1, 60).worst, byPrecision(1e-12, 1e-5));
+  EXPECT_LT(lossesOf(2, 60).worst, byPrecision(1e-12, 1e-5));
   EXPECT_LT(lossesOf(3, 240).worst, byPrecision(1e-12, 1e-5));
 }
 
-// Up to 0.8 rad per step, then up to 2.8.
+// Up to 0.7, 0.9 and 2 rad per step. Before: 7, 15 and 15 %.
 TEST(Collision, LosesLittleOfTheMomentumWhereTurnsAreFast) {
-  const Losses slow = lossesOf(1, 30), fast = lossesOf(3, 60), wild = lossesOf(3, 30);
-  EXPECT_LT(slow.worst, 0.02);
-  EXPECT_LT(slow.mean, 0.002);
+  const Losses slow = lossesOf(1, 30), fast = lossesOf(3, 60), coarse = lossesOf(2, 30);
+  EXPECT_LT(slow.worst, 0.01);
+  EXPECT_LT(slow.mean, 0.0005);
   EXPECT_LT(fast.worst, 0.03);
   EXPECT_LT(fast.mean, 0.002);
-  EXPECT_LT(wild.worst, 0.15);
-  EXPECT_LT(wild.mean, 0.01);
+  EXPECT_LT(coarse.worst, 0.06);
+  EXPECT_LT(coarse.mean, 0.005);
 }
 
 }  // namespace
