@@ -52,13 +52,17 @@ int JointChains::solve(btConstraintArray& joints, RowBodies& ambient,
   is_visited_.assign(ambient.size(), false);
   first_row_.assign(ambient.size(), -1);
   int solved = 0;
-  for (int body = 0; static_cast<std::size_t>(body) < ambient.size(); ++body) {
-    if (is_visited_[body] || !ambient.find(body)) continue;
-    if (!gatherChain(body) || !factorize()) continue;
-    substitute();
-    solved += apply();
-  }
+  // In the order of joints: that of bodies depends on how their contacts came about.
+  for (int i = 0; i < joints.size(); ++i)
+    for (const int body : {joints[i].m_solverBodyIdA, joints[i].m_solverBodyIdB})
+      if (ambient.find(body) && !is_visited_[body]) solved += solveChain(body);
   return solved;
+}
+
+int JointChains::solveChain(int root) noexcept {
+  if (!gatherChain(root) || !factorize()) return 0;
+  substitute();
+  return apply();
 }
 
 bool JointChains::canMove(int body) const noexcept {

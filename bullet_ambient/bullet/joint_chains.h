@@ -53,6 +53,7 @@ class JointChains {
   };
 
   void linkBodies() noexcept;
+  int solveChain(int root) noexcept;
   bool gatherChain(int root) noexcept;
   void addRow(int index) noexcept;
   bool factorize() noexcept;
