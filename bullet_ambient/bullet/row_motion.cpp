@@ -72,7 +72,7 @@ Vector6 keepingMomentum(const BodyModel& model, const RowMotion& rows, const Vec
   const double bound = *rows.energy_bound;
   const Vector6 spin = spinAlone(model, to.head<3>()), straight = to - spin;
   const double energy = inertiaNormSquared(model, straight);
-  if (energy < bound)
+  if (energy <= bound)
     return straight + withinEnergy(model, spinAlone(model, from.head<3>()), spin, bound - energy);
   return rows.is_held ? withinEnergy(model, from, to, bound)
                       : Vector6(std::sqrt(bound / energy) * straight);
