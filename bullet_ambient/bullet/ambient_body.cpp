@@ -65,6 +65,7 @@ AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other) {
   halted += other.halted;
   energy_removed += other.energy_removed;
   rows += other.rows;
+  joint_rows += other.joint_rows;
   rejected += other.rejected;
   regions_asked += other.regions_asked;
   medium_changes += other.medium_changes;

@@ -49,6 +49,7 @@ struct AmbientBody {
   Twist left_W;  ///< velocity after the last flight, world axes
   AmbientCounters counters;
   StepErrors step_errors;
+  int gaping = 0;  ///< steps in a row in which a joint missed by much of its size
   SubstepOutcome outcome;
   AmbientBody* next_met = nullptr;  ///< in the list of AmbientBodies::takeMet()
 

@@ -114,7 +114,8 @@ class AmbientRegistry {
   /// Receives one sentence the first time something cannot be right: the action or the solver is
   /// missing from the world, a step's result was not finite, a body was attached whose moments of
   /// inertia no rigid body has, whose fluid body is empty, or that has less than half the mass of
-  /// the medium it displaces, or steps are so long that its motion is wrong by some per cent; and
+  /// the medium it displaces, steps are so long that its motion is wrong by some per cent, or a
+  /// joint of a body came apart step after step because the solver's iterations do not hold it; and
   /// one of each body that came later and was refused. Solvers on several threads report one after
   /// the other. What it throws is dropped. Default: standard error.
   void setReport(std::function<void(const std::string&)> report);

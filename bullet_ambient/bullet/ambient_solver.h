@@ -12,6 +12,7 @@
 
 class btMLCPSolver;
 class btMultiBodyConstraintSolver;
+class btMultiBodyMLCPConstraintSolver;
 class btSequentialImpulseConstraintSolverMt;
 class btDeformableMultiBodyConstraintSolver;
 
@@ -32,6 +33,9 @@ class AmbientSolver : public Base {
                 "together with deformable ones in a way that cannot be rewritten; use "
                 "btSoftRigidDynamicsWorld or btMultiBodyDynamicsWorld");
   static constexpr bool kHasMultiBodies = std::is_base_of_v<btMultiBodyConstraintSolver, Base>;
+  // These solve all rows together themselves.
+  static constexpr bool kSolvesAtOnce = std::is_base_of_v<btMLCPSolver, Base> ||
+                                        std::is_base_of_v<btMultiBodyMLCPConstraintSolver, Base>;
   // These infer the number of rows from the sizes of their pools, or keep pools of their own.
   static constexpr bool kHasEvenFrictions =
       std::is_base_of_v<btMLCPSolver, Base> ||
@@ -95,6 +99,24 @@ class AmbientSolver : public Base {
     } else {
       group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), nullptr, info);
     }
+    solved_joints_ = 0;
+    if constexpr (!kSolvesAtOnce)
+      solved_joints_ =
+          group_.solveJoints(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool);
+  }
+
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
+                                             btPersistentManifold** manifolds, int manifold_count,
+                                             btTypedConstraint** constraints, int constraint_count,
+                                             const btContactSolverInfo& info,
+                                             btIDebugDraw* debug_drawer) override {
+    btContactSolverInfo once = info;
+    // Where no residual is asked for, one iteration takes what rounding has left.
+    const bool is_enough = isSolved() && !(info.m_leastSquaresResidualThreshold > 0);
+    once.m_leastSquaresResidualThreshold = BT_LARGE_FLOAT;
+    return Base::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count,
+                                                   constraints, constraint_count,
+                                                   is_enough ? once : info, debug_drawer);
   }
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
@@ -152,6 +174,17 @@ class AmbientSolver : public Base {
     }
   }
 
+  // All rows of the group are.
+  bool isSolved() const {
+    if (solved_joints_ == 0) return false;
+    if constexpr (kHasMultiBodies)
+      if (this->m_multiBodyNormalContactConstraints.size() > 0 ||
+          this->m_multiBodyNonContactConstraints.size() > 0)
+        return false;
+    return this->m_tmpSolverContactConstraintPool.size() == 0 &&
+           solved_joints_ == this->m_tmpSolverNonContactConstraintPool.size();
+  }
+
   RowPools pools() {
     return {this->m_tmpSolverContactConstraintPool, this->m_tmpSolverContactFrictionConstraintPool,
             this->m_tmpSolverContactRollingFrictionConstraintPool,
@@ -161,6 +194,7 @@ class AmbientSolver : public Base {
   SolverGroup group_;
   TreeGroup trees_;
   int first_frictions_ = 0;  // those that Bullet has made
+  int solved_joints_ = 0;    // rows
   GroupInput input_;
 };
 

@@ -41,8 +41,9 @@ struct AmbientCounters {
   long long halted = 0;   ///< steps at the surface that ended early, docs/theory.md eq. (64)
   /// By bounds on the energy of steps, docs/theory.md eq. (25a), (31a), (64), (68), (68a) [J].
   double energy_removed = 0;
-  long long rows = 0;      ///< constraint rows rewritten
-  long long rejected = 0;  ///< results of steps, and samples of regions, not finite and left out
+  long long rows = 0;        ///< constraint rows rewritten
+  long long joint_rows = 0;  ///< of these, solved together before the solver's iterations
+  long long rejected = 0;    ///< results of steps, and samples of regions, not finite and left out
   long long regions_asked = 0;   ///< whether bounds of one, or around several, hold the body
   long long medium_changes = 0;  ///< to another density or viscosity, by regions
   long long too_long = 0;  ///< bodies whose errors add up: steps are too long for their motion

@@ -47,6 +47,7 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kSwing:
     case Complaint::kTooLong:
     case Complaint::kChange:
+    case Complaint::kGaping:
     case Complaint::kCount:
       break;
   }
@@ -73,6 +74,14 @@ std::string coarseSwing(const AttachDef& def, double period, double step) {
          " s: in less than four steps a period it swings too slowly; take shorter steps";
 }
 
+std::string gapingJoint(const AttachDef& def, const AttachDef* other) {
+  const std::string partner =
+      other ? "one with fluid body '" + other->fluid_body->name + "'" : "one without fluid";
+  return "bullet_ambient: a joint of a body with fluid body '" + def.fluid_body->name + "' and " +
+         partner + " comes apart: the solver's iterations do not hold it; take more iterations, " +
+         "btContactSolverInfo::m_numIterations, or shorter steps";
+}
+
 }  // namespace
 
 bool Complaints::wasSaid(Complaint complaint) const noexcept {
@@ -94,6 +103,15 @@ void Complaints::sayCoarseSwing(const AttachDef& def, double frequency, double s
   if (wasSaid(Complaint::kSwing)) return;
   try {
     say(Complaint::kSwing, coarseSwing(def, 2 * kPi / frequency, step).c_str());
+  } catch (...) {
+    // As below.
+  }
+}
+
+void Complaints::sayGaping(const AttachDef& def, const AttachDef* other) noexcept {
+  if (wasSaid(Complaint::kGaping)) return;
+  try {
+    say(Complaint::kGaping, gapingJoint(def, other).c_str());
   } catch (...) {
     // As above.
   }

@@ -30,6 +30,7 @@ enum class Complaint {
   kTooLong,
   kChange,
   kDuration,
+  kGaping,
   kCount
 };
 
@@ -45,6 +46,8 @@ class Complaints {
   /// Of a floating body that rows move, whose largest natural frequency [rad/s] the step [s] is too
   /// long for.
   void sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept;
+  /// Of a body whose joint comes apart; `other`: null if it has no fluid.
+  void sayGaping(const AttachDef& def, const AttachDef* other) noexcept;
 
   /// Passes a sentence to the report, each time. Drops what the report throws, which must not
   /// unwind through Bullet's step.

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/joint_chains.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
 #include "bullet_ambient/bullet/solver_group.h"
 #include "bullet_ambient/motion/axis_locks.h"
@@ -32,6 +33,7 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   converted_.reserve(static_cast<std::size_t>(bodies.count));
   member_of_solver_body_.reserve(static_cast<std::size_t>(bodies.count));
   row_bodies_->reserve(bodies.count);
+  joint_chains_->reserve(bodies.count);
   markPairs(input);
   return all_stay ? bodies : withoutLoners(bodies);
 }
@@ -64,24 +66,26 @@ void SolverGroup::markPairs(const GroupInput& input) noexcept {
   for (int i = 0; i < input.manifold_count; ++i) {
     const btPersistentManifold& manifold = *input.manifolds[i];
     const bool has_rows = manifold.getNumContacts() > 0;
-    mark(*manifold.getBody0(), has_rows);
-    mark(*manifold.getBody1(), has_rows);
+    const btCollisionObject &a = *manifold.getBody0(), &b = *manifold.getBody1();
+    mark(a, has_rows, has_rows && b.isStaticOrKinematicObject());
+    mark(b, has_rows, has_rows && a.isStaticOrKinematicObject());
   }
   for (int i = 0; i < input.constraint_count; ++i) {
     const btTypedConstraint& constraint = *input.constraints[i];
     if (!constraint.isEnabled()) continue;
-    mark(constraint.getRigidBodyA(), true);
-    mark(constraint.getRigidBodyB(), true);
+    mark(constraint.getRigidBodyA(), true, true);
+    mark(constraint.getRigidBodyB(), true, true);
   }
 }
 
-void SolverGroup::mark(const btCollisionObject& body, bool has_rows) noexcept {
+void SolverGroup::mark(const btCollisionObject& body, bool has_rows, bool is_held) noexcept {
   const int id = body.getCompanionId();
   if (id < 0 || static_cast<std::size_t>(id) >= members_.size()) return;
   Member& member = members_[id];
   if (member.ambient->body != &body) return;  // a number of another group
   member.is_near = true;
   member.has_rows = member.has_rows || has_rows;
+  member.is_held = member.is_held || is_held;
 }
 
 GroupBodies SolverGroup::withoutLoners(const GroupBodies& bodies) noexcept {

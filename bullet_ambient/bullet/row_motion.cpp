@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bullet_ambient/motion/row_velocity.h"
+#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
@@ -58,6 +59,29 @@ BoundedTwist withinEnergy(const BodyModel& model, const Vector6& from, const Vec
   return {from + (b > 0 ? -excess / (b + root) : (root - b) / a) * (to - from), removed};
 }
 
+// The twist with this spin and no linear momentum.
+Vector6 spinAlone(const BodyModel& model, const Vector3& spin) {
+  const Matrix6& K = model.inertia;
+  const Matrix3 coupling = K.bottomLeftCorner<3, 3>(), mass = K.bottomRightCorner<3, 3>();
+  return stack(spin, Cholesky<3>(mass).solve(-coupling * spin));
+}
+
+// The velocity `to` at the cost of its spin, eq. (31b): with its linear momentum and a spin from
+// that of `from` towards its own, as far as the energy allows.
+BoundedTwist keepingMomentum(const BodyModel& model, const RowMotion& rows, const Vector6& from,
+                             const Vector6& to) {
+  const double bound = *rows.energy_bound;
+  const Vector6 spin = spinAlone(model, to.head<3>()), straight = to - spin;
+  const double energy = inertiaNormSquared(model, straight);
+  if (energy > bound) {
+    if (rows.is_held) return withinEnergy(model, from, to, bound);
+    return {std::sqrt(bound / energy) * straight, (inertiaNormSquared(model, to) - bound) / 2};
+  }
+  BoundedTwist end = withinEnergy(model, spinAlone(model, from.head<3>()), spin, bound - energy);
+  end.twist += straight;
+  return end;
+}
+
 }  // namespace
 
 void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody& solver_body,
@@ -66,6 +90,7 @@ void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody&
   const Medium& medium = ambient.medium;
   RowMotion& rows = ambient.outcome.rows;
   rows.start = row_body.start;
+  rows.is_held = row_body.is_held;
   rows.flow_W = medium.velocity + time_step * medium.acceleration;
   const Quaternion to_body = rows.start.orientation.conjugate();
   rows.start.twist =
@@ -105,7 +130,9 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
     const Vector3 position = rows.momentum->pivot + *part * time_step * moved_W.linear;
     end.twist = twistOf(ambient.model, *rows.momentum, now.orientation, position).vector();
   }
-  if (rows.energy_bound) end = withinEnergy(ambient.model, moved, end.twist, *rows.energy_bound);
+  if (rows.energy_bound)
+    end = rows.momentum ? keepingMomentum(ambient.model, rows, moved, end.twist)
+                        : withinEnergy(ambient.model, moved, end.twist, *rows.energy_bound);
   double energy_removed = end.energy_removed;
   if (ambient.surface()) {
     const Axes axes = rows.momentum ? Axes::kFree : Axes::kLocked;

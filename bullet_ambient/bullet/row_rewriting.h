@@ -41,10 +41,14 @@ struct RowBody {
   btVector3 velocity_change{0, 0, 0};
   btVector3 spin_aside{0, 0, 0};  ///< more than that is shown to contacts as they are set up
   btVector3 velocity_aside{0, 0, 0};
-  RigidState start;   ///< in which the solver meets it
-  Twist turning_W;    ///< share of the turning part in the velocity that rows are solved against
-  double extent = 0;  ///< of the turn in this step
-  int rows = 0;       ///< how many were rewritten
+  RigidState start;      ///< in which the solver meets it
+  Twist turning_W;       ///< share of the turning part in the velocity that rows are solved against
+  double extent = 0;     ///< of the turn in this step
+  bool is_held = false;  ///< by joints, or by what cannot move
+  int rows = 0;          ///< how many were rewritten
+  int joint_rows = 0;    ///< how many of them were solved together before the iterations
+  double gap = 0;        ///< by which a joint misses in this step [m]
+  int gap_to = -1;       ///< the solver body at its other side
 
   bool is_locked = false;
   btVector3 locked_angular{0, 0, 0};  ///< 1 for an axis that is locked, else 0
@@ -63,6 +67,8 @@ class RowBodies {
   void reset(int solver_body_count);
   RowBody& add(int solver_body);
   bool empty() const { return bodies_.empty(); }
+  /// Solver bodies of the group, ambient or not.
+  std::size_t size() const { return index_.size(); }
   /// Null if not ambient. Bodies that Bullet appends after convertBodies() (fixed, kinematic) never
   /// are.
   RowBody* find(int solver_body) noexcept {

@@ -6,10 +6,11 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "bullet_ambient/bullet/ambient_bodies.h"
 #include "bullet_ambient/bullet/flight_coupling.h"
+#include "bullet_ambient/bullet/joint_chains.h"
+#include "bullet_ambient/bullet/joint_gaps.h"
 #include "bullet_ambient/bullet/multibody_rows.h"
 #include "bullet_ambient/bullet/row_motion.h"
 #include "bullet_ambient/bullet/row_rewriting.h"
@@ -37,7 +38,7 @@ void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
   linear = T.linear * linear;
 }
 
-// That of its model, which changes at the surface of the water.
+// It changes at the surface of the water.
 Matrix6 basisOf(const AmbientBody& ambient) {
   if (!ambient.surface()) return ambient.basis_B;
   const Vector3 inverse_inertia = toVector3(ambient.body->getInvInertiaDiagLocal());
@@ -59,7 +60,7 @@ btVector3 whereZero(const btVector3& v) {
   return {btScalar(v.x() == 0), btScalar(v.y() == 0), btScalar(v.z() == 0)};
 }
 
-// The rows of a locked body take its locks from T. The solver must not apply them again.
+// Rows take the locks from T: the solver must not apply them again.
 void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& factors,
           btSolverBody& solver_body) {
   const btRigidBody& body = *ambient.body;
@@ -128,7 +129,10 @@ class FlightTasks final : public Task {
 }  // namespace
 
 SolverGroup::SolverGroup(AmbientRegistry& registry)
-    : bodies_(bodiesOf(registry)), row_bodies_(std::make_unique<RowBodies>()) {}
+    : bodies_(bodiesOf(registry)),
+      row_bodies_(std::make_unique<RowBodies>()),
+      joint_chains_(std::make_unique<JointChains>()),
+      joint_gaps_(std::make_unique<JointGaps>()) {}
 
 SolverGroup::~SolverGroup() = default;
 
@@ -189,6 +193,7 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   row_body.start = start;
   row_body.turning_W = row.turning_W;
   row_body.extent = row.extent;
+  row_body.is_held = member.is_held;
   row_body.inverse_inertia_T = body.getInvInertiaTensorWorld().transpose();
   row_body.inverse_mass = body.getInvMass();
   row_body.spin_change = solver_body.m_externalTorqueImpulse;
@@ -242,6 +247,7 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
     prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
   if (row_bodies_->empty() && !has_trees) return;
   saveFeedbackJacobians(rows.joints);
+  joint_gaps_->watch(rows.joints, *row_bodies_);
   const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
     ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);
   };
@@ -253,11 +259,17 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
   reapplyWarmStart(solver_bodies, rows, multibodies, info.m_solverMode);
 }
 
+int SolverGroup::solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+  return joint_chains_->solve(joints, *row_bodies_, solver_bodies);
+}
+
 void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
                                              const btMultiBodyConstraintArray& joints) noexcept {
   forEachJoinedBody(joints, [&](int id) {
     Member* member = memberOf(id);
-    if (member && !row_bodies_->find(id)) prepareForRows(*member, solver_bodies[id]);
+    if (!member) return;
+    if (!row_bodies_->find(id)) prepareForRows(*member, solver_bodies[id]);
+    row_bodies_->find(id)->is_held = true;
   });
 }
 
@@ -300,6 +312,7 @@ void SolverGroup::restoreFeedbackJacobians(btConstraintArray& joints) noexcept {
 }
 
 void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+  joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
   restoreFeedbackJacobians(joints);
   if (is_held_)
     for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
@@ -313,7 +326,11 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
     // Rows that are near have allowed the velocity that they were solved against; a flight with a
     // fast turn would take the body elsewhere.
     const bool may_fly = !row_body || (!member.is_locked && row_body->extent <= kSlowTurn);
-    if (row_body) member.ambient->counters.rows += row_body->rows;
+    if (row_body) {
+      member.ambient->counters.rows += row_body->rows;
+      member.ambient->counters.joint_rows += row_body->joint_rows;
+      noteGap(*member.ambient, *row_body);
+    }
     if (may_fly && isUntouched(solver_body)) {
       fliers_.push_back(&member);
     } else {

@@ -22,7 +22,10 @@ struct AmbientBody;
 class AmbientBodies;
 class AmbientRegistry;
 class AmbientTrees;
+class JointChains;
+class JointGaps;
 class RowBodies;
+struct RowBody;
 
 /// The rows that Bullet has set up for one group of bodies.
 struct RowPools {
@@ -99,6 +102,10 @@ class SolverGroup {
   void rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                    const MultiBodyRows* multibodies, const btContactSolverInfo& info) noexcept;
 
+  /// After that: solves rows of joints together, from which the iterations go on. Returns how many;
+  /// joint_chains.h.
+  int solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
+
   /// Before the stock write-back: velocity changes back into Bullet's basis; bodies that no row has
   /// moved fly freely.
   void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
@@ -111,6 +118,7 @@ class SolverGroup {
     bool is_locked;
     bool is_near = false;  // to another body: Bullet converts it with the pair
     bool has_rows = false;
+    bool is_held = false;      // by joints, or by what cannot move
     int solver_body = kAlone;  // the solver does not know it
   };
   // The Jacobian of a joint row with feedback, as the joint made it.
@@ -122,7 +130,7 @@ class SolverGroup {
   void findMembers(const GroupBodies& bodies) noexcept;
   bool holdAll(const GroupBodies& bodies) noexcept;
   void markPairs(const GroupInput& input) noexcept;
-  void mark(const btCollisionObject& body, bool has_rows) noexcept;
+  void mark(const btCollisionObject& body, bool has_rows, bool is_held) noexcept;
   GroupBodies withoutLoners(const GroupBodies& bodies) noexcept;
   void prepareForRows(Member& member, btSolverBody& solver_body) noexcept;
   void prepareJoinedToMultiBodies(
@@ -132,6 +140,7 @@ class SolverGroup {
                         const MultiBodyRows* multibodies, int solver_mode) noexcept;
   void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
   void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
+  void noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept;
   void flyFreely(SolverBodies& solver_bodies) noexcept;
   void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
   Member* memberOf(int solver_body) noexcept;
@@ -146,6 +155,8 @@ class SolverGroup {
   std::vector<int> member_of_solver_body_;     // -1: not ambient
   std::vector<const Member*> fliers_;          // members that no row has moved
   std::unique_ptr<RowBodies> row_bodies_;
+  std::unique_ptr<JointChains> joint_chains_;
+  std::unique_ptr<JointGaps> joint_gaps_;
   std::vector<SavedJacobian> saved_;
 };
 

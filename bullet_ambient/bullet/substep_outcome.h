@@ -23,7 +23,8 @@ enum class Outcome {
 struct RowMotion {
   RigidState start;  ///< from where Bullet moves the body; twist relative to the flow
   Vector3 flow_W = Vector3::Zero();
-  double turn = 0;  ///< that the body can make meanwhile [rad]
+  bool is_held = false;  ///< by joints, or by what cannot move
+  double turn = 0;       ///< that the body can make meanwhile [rad]
   /// Relative to the flow, that it keeps; none: of a body with locked axes.
   std::optional<WorldMomentum> momentum;
   /// Twice the kinetic energy that it may have in its next pose [J]; none: any.

@@ -77,6 +77,7 @@ void transferFlight(Stream& s, State& state) {
   s.number(state.counters.halted);
   s.number(state.counters.energy_removed);
   s.number(state.counters.rows);
+  s.number(state.counters.joint_rows);
   s.number(state.counters.rejected);
   s.number(state.counters.regions_asked);
   s.number(state.counters.medium_changes);
