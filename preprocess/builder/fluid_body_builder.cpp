@@ -71,6 +71,13 @@ RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
   }
 }
 
+/// What no limit above has caught.
+void requireFinite(const Matrix6& added_mass, const TriangleMesh& mesh, const std::string& source) {
+  if (added_mass.allFinite()) return;
+  raiseInputError(source, "its added mass is not finite: its size of ", extentsText(mesh.extents()),
+                  " is beyond what can be solved");
+}
+
 }  // namespace
 
 std::string libraryVersion() {
@@ -112,6 +119,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
     body.added_mass_parts = flow.parts;
     body.asymmetry = flow.asymmetry;
   }
+  requireFinite(body.added_mass, mesh, sourceOf(settings));
   body.volume = properties.volume;
   body.area = settings.flow.sheet ? 2 * properties.area : properties.area;
   body.origin = origin;

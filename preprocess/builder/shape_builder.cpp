@@ -14,6 +14,7 @@
 #include "preprocess/potential_flow/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/shape/json_text.h"
+#include "preprocess/shape/shape_limits.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "preprocess/waterline/waterline_builder.h"
 
@@ -169,6 +170,7 @@ BuiltBody readBody(const FluidBodyShape& shape, const ShapeBuildSettings& settin
 }  // namespace
 
 Provenance describeShape(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
+  requireUsualExtents(shape, settings.scale);
   const std::filesystem::path file = fileOf(shape);
   ShapeBuildSettings effective = settings;
   effective.scale *= ownScale(shape);
@@ -200,6 +202,10 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
     return readBody(*fluid_body, settings);
   }
   requireWaterline(shape, settings.waterline_subdivisions);
+  const auto begin = [&](const char* stage) {
+    if (settings.begin) settings.begin(stage);
+  };
+  begin("reading and checking the mesh");
   CheckedMesh checked = makeShapeMesh(shape, settings.scale);
   warnOfFaces(checked, shape, settings.least_faces);
   BuildSettings build;
@@ -226,8 +232,11 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   build.provenance = describeShape(shape, settings);
   if (!fileOf(shape).empty())
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
+  begin("solving the flow");
   FluidBody body = makeFluidBody(checked.mesh, build);
-  if (settings.waterline_subdivisions > 0) body.waterline = waterlineOf(body, shape, settings);
+  if (settings.waterline_subdivisions == 0) return {std::move(body), checked.warnings};
+  begin("making the waterline table");
+  body.waterline = waterlineOf(body, shape, settings);
   return {std::move(body), checked.warnings};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct ShapeBuildSettings {
   bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
   /// As in BuildSettings; whether it is a sheet, the shape says.
   PotentialFlowSettings flow{false, kDefaultPanels};
+  /// Is told what is done from now on; null: nobody.
+  std::function<void(const std::string& stage)> begin = nullptr;
 };
 
 /// A fluid body, and what a user should know about its mesh, one line each.
@@ -41,7 +44,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
 /// The provenance that buildShape() gives its result: the same provenance means the same result.
 /// Reads the shape's file, if it has one.
 /// @pre the shape is not a FluidBodyShape
-/// @throws std::runtime_error if the file cannot be read.
+/// @throws std::runtime_error if the file cannot be read, or as requireUsualExtents().
 Provenance describeShape(const ShapeDescription& shape, const ShapeBuildSettings& settings);
 
 }  // namespace ambient

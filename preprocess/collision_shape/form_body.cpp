@@ -203,7 +203,9 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
 ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
   const std::string name = settings.name.empty() ? shape.getName() : settings.name;
   requireUsable(settings, name);
-  return {shape.getName(), readShapeParts(shape, settings.margins, name), 1};
+  ShapeForm form{shape.getName(), readShapeParts(shape, settings.margins, name), 1};
+  requireUsualNumbers(form.parts);
+  return form;
 }
 
 FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& wanted) {

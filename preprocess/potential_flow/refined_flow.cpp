@@ -127,9 +127,24 @@ std::optional<RefinedFlow> solveOnCompactPanels(const TriangleMesh& mesh,
   return refined;
 }
 
+/// Whether a mesh has far more triangles than panels were asked for. Sheets are no closed meshes.
+bool isFarFiner(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  constexpr Eigen::Index kTrianglesPerPanel = 8;
+  return !settings.sheet && settings.max_panels > 0 &&
+         mesh.triangleCount() > kTrianglesPerPanel * settings.max_panels;
+}
+
 }  // namespace
 
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  if (isFarFiner(mesh, settings)) {
+    const TriangleMesh fewer = inFewerTriangles(mesh, settings.max_panels);
+    if (!isFarFiner(fewer, settings)) {
+      RefinedFlow refined = solveRefinedFlow(fewer, settings);
+      refined.added_mass = withSymmetriesOf(mesh, false, 1, refined.added_mass);
+      return refined;
+    }
+  }
   const RefinedFlow refined = solveOnPanels(mesh, settings);
   if (!refined.is_coarse || settings.solver == FlowSolverKind::Dense) return refined;
   if (const auto compact = solveOnCompactPanels(mesh, settings)) return *compact;

@@ -31,6 +31,7 @@ struct CollisionPart {
   std::string source;                      ///< begins every message about it: file, link and number
 };
 
+/// The types of joints that URDF files have; continuous ones are revolute without limits.
 enum class UrdfJointKind { kFixed, kRevolute, kPrismatic, kPlanar, kFloating };
 
 /// How a link moves against its parent. Forces and torques are in [N] and [N m], positions in [m]
