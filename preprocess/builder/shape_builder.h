@@ -17,13 +17,11 @@ struct ShapeBuildSettings {
   std::optional<Eigen::Vector3d> origin;  ///< as in BuildSettings, in the shape's frame
   double scale = 1;                       ///< multiplies all lengths of the shape
   int least_faces = 0;                    ///< as in BuildSettings
-  /// Of the table for the surface of water, makeWaterlineTable(); 0: none. Neither a sheet nor a
-  /// sphere can have one.
-  int waterline_subdivisions = 0;
+  int waterline_subdivisions = 0;         ///< as in BuildSettings
   bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
   /// As in BuildSettings; whether it is a sheet, the shape says.
   PotentialFlowSettings flow{false, kDefaultPanels};
-  /// Is told what is done from now on; null: nobody.
+  /// As in BuildSettings.
   std::function<void(const std::string& stage)> begin = nullptr;
 };
 

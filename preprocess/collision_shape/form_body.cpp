@@ -70,6 +70,7 @@ CollisionShapeSettings usedSettings(CollisionShapeSettings settings) {
   settings.faces = std::min(settings.faces, kInstantFaces);
   settings.flow.max_panels = 0;
   settings.load_error = 0;
+  settings.waterline_subdivisions = 0;
   return settings;
 }
 
@@ -189,6 +190,7 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
     build.added_mass_parts = std::move(known->parts);
   }
   if (solids.size() == 1) build.sphere_radius = solids.front().sphere_radius;
+  if (build.sphere_radius == 0) build.waterline_subdivisions = settings.waterline_subdivisions;
   build.cavities = joined(solids, &Solid::cavities);
   FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
   if (settings.load_error > 0 && body.sphere_radius == 0)
@@ -228,6 +230,8 @@ Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& set
   std::ostringstream text;
   text << (settings.margins ? "with" : "without") << " margins, faces " << settings.faces
        << ", load error " << settings.load_error << ", " << sourceOf(form.parts, settings);
+  if (settings.waterline_subdivisions != 0)
+    text << ", waterline " << settings.waterline_subdivisions;
   provenance.settings = text.str();
   provenance.generator = libraryVersion();
   return provenance;
