@@ -64,7 +64,8 @@ TriangleMesh cubeOfPlates(double gap) {
   const TriangleMesh cube = boxOf12({1, 1, 1});
   TriangleMesh plates;
   plates.vertices.resize(3, 36);
-  plates.triangles = Eigen::Matrix3Xi::NullaryExpr(3, 12, [](auto k, auto t) { return 3 * t + k; });
+  plates.triangles.resize(3, 12);
+  for (int i = 0; i < 36; ++i) plates.triangles(i % 3, i / 3) = i;
   for (Eigen::Index i = 0; i < 36; ++i) {
     const Eigen::Vector3d normal = (cube.corner(i / 3, 1) - cube.corner(i / 3, 0))
                                        .cross(cube.corner(i / 3, 2) - cube.corner(i / 3, 0))
@@ -89,7 +90,7 @@ TEST(SurfaceWrap, RefusesAShellWhereItsTrianglesSurroundABody) {
   EXPECT_NEAR(wrappedProperties(plates, 0.16).volume, 8, 0.5);
 }
 
-// Five holes meet around one vertex, others lie alone; what fills them is flat.
+// Twelve of the holes are side by side, others lie alone; what fills them is flat.
 TEST(SurfaceWrap, FillsHolesBeforeItWraps) {
   const TriangleMesh whole = makeEllipsoidMesh({1, 0.7, 0.4}, 1280);
   const double volume = computeMassProperties(whole).volume;
