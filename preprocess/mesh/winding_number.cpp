@@ -15,7 +15,11 @@ double solidAngle(const TriangleMesh& mesh, Eigen::Index triangle, const Eigen::
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   const double numerator = a.dot(b.cross(c));
   const double denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return 2 * portable::atan2(numerator, denominator);
+  constexpr double kSmall = 0.01;  // of the tangent; what the series leaves out is below rounding
+  if (!(std::abs(numerator) < kSmall * denominator))
+    return 2 * portable::atan2(numerator, denominator);
+  const double tangent = numerator / denominator, square = tangent * tangent;
+  return 2 * tangent * (1 - square * (1.0 / 3 - square * (1.0 / 5 - square / 7)));
 }
 
 double enclosedVolume(const TriangleMesh& mesh) {
