@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -64,6 +65,8 @@ ThreadPool::ThreadPool(int threads) : shared_(std::make_unique<Shared>()) {
   Shared& s = *shared_;
   try {
     for (int i = 1; i < wanted; ++i) s.threads.emplace_back([&s] { s.serve(); });
+  } catch (const std::system_error&) {
+    // Those that run, and the caller, do it all.
   } catch (...) {
     s.close();
     throw;

@@ -10,8 +10,8 @@ namespace ambient {
 /// busy for another caller, it works alone.
 class ThreadPool : public TaskRunner {
  public:
-  /// @param threads that work together, the caller's included; 0 or less: all cores
-  /// @throws std::system_error if the threads cannot be started.
+  /// @param threads that work together, the caller's included; 0 or less: all cores. Where the
+  /// system gives fewer, fewer work: threads() tells.
   explicit ThreadPool(int threads = 0);
   ~ThreadPool() override;
   ThreadPool(const ThreadPool&) = delete;

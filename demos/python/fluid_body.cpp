@@ -67,11 +67,13 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
       settings.panels = value.cast<int>();
     else if (word == "threads")
       settings.threads = value.cast<int>();
+    else if (word == "waterline_table")
+      settings.waterline_subdivisions = value.cast<int>();
     else if (word == "cache")
       settings.cache = pathFrom(py::reinterpret_borrow<py::object>(value));
     else
       throw py::type_error("unknown keyword " + word +
-                           "; known are origin, panels, threads, cache");
+                           "; known are origin, panels, threads, waterline_table, cache");
   }
   return settings;
 }
@@ -256,6 +258,9 @@ void bindProperties(py::class_<FluidBody, FluidBodyPtr>& type) {
       },
       "(F,), of the faces [m^2].");
   get(
+      "waterline_table", [](const FluidBody& b) { return b.waterline.subdivisions; },
+      "Divisions of its table for the surface of water; 0: none.");
+  get(
       "settings", [](const FluidBody& b) { return b.provenance.settings; },
       "How it was made, in words.");
   get(
@@ -277,6 +282,8 @@ name : for messages
 origin : (3,) of F in the mesh's frame [m]; default: the centre of volume
 panels : into which the flow's surface is divided at most; default 4200, 0: the faces
 threads : 0 (default): all cores; the result does not depend on it
+waterline_table : N, 1 to 16: makes a table of the added mass at the surface of water, for N divisions
+    of the octahedron of attitudes, in half a minute and more; default 0: none
 cache : a folder that keeps what was solved, by content
 
 Raises ValueError in one line if the mesh is open, crosses itself or is otherwise no body.
@@ -285,7 +292,7 @@ Cost: a second or two for a thousand faces.)")
                   py::arg("name") = "shape", py::arg("folder") = ".",
                   R"(From a shape as scenes describe it: {"type": "box", "size": [1, 2, 3]}.
 
-`folder` is where relative file names begin; origin, panels, threads and cache as in from_mesh().)")
+`folder` is where relative file names begin; origin, panels, threads, waterline_table and cache as in from_mesh().)")
       .def_static("read", &read, py::arg("path"), "Reads an .ambient file.")
       .def("write", &write, py::arg("path"), "Writes an .ambient file: the old one or the new one.")
       .def(

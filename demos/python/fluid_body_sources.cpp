@@ -44,6 +44,8 @@ Provenance provenanceOf(const TriangleMesh& mesh, bool sheet, const SourceSettin
   else
     text << "centre-of-volume";
   text << ", panels " << settings.panels;
+  if (settings.waterline_subdivisions != 0)
+    text << ", waterline " << settings.waterline_subdivisions;
   Provenance provenance;
   provenance.source = "arrays";
   provenance.source_hash =
@@ -63,6 +65,7 @@ BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
   build.flow.sheet = sheet;
   build.flow.max_panels = settings.panels;
   build.flow.threads = settings.threads;
+  build.waterline_subdivisions = settings.waterline_subdivisions;
   build.provenance = provenanceOf(mesh, sheet, settings);
   return buildOnce(settings, build.provenance, [&]() -> BuiltBody {
     CheckedMesh checked = checkMesh(mesh, settings.name, {sheet});
@@ -81,6 +84,7 @@ BuiltBody buildFromShape(const std::string& json, const fs::path& folder,
   build.origin = settings.origin;
   build.flow.max_panels = settings.panels;
   build.flow.threads = settings.threads;
+  build.waterline_subdivisions = settings.waterline_subdivisions;
   if (std::holds_alternative<FluidBodyShape>(shape.geometry)) return buildShape(shape, build);
   return buildOnce(settings, describeShape(shape, build), [&] { return buildShape(shape, build); });
 }

@@ -18,7 +18,8 @@ struct SourceSettings {
       origin;  ///< of F in the mesh's frame [m]; none: the centre of volume
   int panels = kDefaultPanels;
   int threads = 0;
-  std::filesystem::path cache;  ///< a folder; empty: none
+  int waterline_subdivisions = 0;  ///< as in BuildSettings
+  std::filesystem::path cache;     ///< a folder; empty: none
 };
 
 /// A fluid body of a mesh in memory. @throws std::runtime_error in one line that begins with the

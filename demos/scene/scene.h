@@ -45,7 +45,8 @@ struct SceneLink {
 struct BodyDef {
   std::string name;
   ShapeDescription shape;
-  double mass = 0;  ///< [kg]; 0: static
+  int waterline_table = 0;  ///< its subdivisions, as in BuildSettings; 0: none
+  double mass = 0;          ///< [kg]; 0: static
   MassKind mass_kind = MassKind::kUniform;
   std::optional<Matrix3> inertia;         ///< about the centre of mass, shape's axes [kg m^2]
   std::optional<Vector3> centre_of_mass;  ///< in the shape's frame [m]

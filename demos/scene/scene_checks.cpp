@@ -60,6 +60,9 @@ void checkMass(const BodyDef& body, const Checker& check) {
                                 " m/s; must be 0");
   check.require(spin == 0, "mass is 0, a static body, but angular_velocity is " + number(spin) +
                                " rad/s; must be 0");
+  check.require(body.waterline_table == 0, "mass is 0, a static body, but waterline_table is " +
+                                               std::to_string(body.waterline_table) +
+                                               "; must be 0");
 }
 
 void checkInertia(const BodyDef& body, const Checker& check) {

@@ -92,6 +92,7 @@ BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path
   body.name = from.value("name", "body_" + std::to_string(index));
   body.shape = readShape(from.at("shape"), file.parent_path(),
                          file.string() + ": bodies[" + std::to_string(index) + "].shape");
+  body.waterline_table = from.value("waterline_table", 0);
   readMassProperties(from, body);
   readMotion(from, body);
   body.flow.separation_angle = from.value("separation_angle", kPi / 2);

@@ -64,8 +64,9 @@ PreparedBody prepareLink(const Scene& scene, const BodyDef& def, SceneBodyCache&
 
 PreparedBody prepare(const Scene& scene, const BodyDef& def, SceneBodyCache& fluid_bodies) {
   if (def.link) return prepareLink(scene, def, fluid_bodies);
-  return def.mass > 0 ? prepareDynamic(def, fluid_bodies.get(def.shape, def.name))
-                      : prepareStatic(def);
+  return def.mass > 0
+             ? prepareDynamic(def, fluid_bodies.get(def.shape, def.name, def.waterline_table))
+             : prepareStatic(def);
 }
 
 }  // namespace

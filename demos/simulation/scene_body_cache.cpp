@@ -14,9 +14,12 @@ SceneBodyCache::SceneBodyCache(fs::path folder, int threads)
     : folder_(std::move(folder)), threads_(threads) {}
 
 std::shared_ptr<const FluidBody> SceneBodyCache::get(const ShapeDescription& shape,
-                                                     const std::string& name) {
-  std::shared_ptr<const FluidBody>& known = by_text_[shape.text];
-  if (!known) known = readOrBuild(shape, name);
+                                                     const std::string& name,
+                                                     int waterline_subdivisions) {
+  std::string key = shape.text;
+  if (waterline_subdivisions != 0) key += ", waterline " + std::to_string(waterline_subdivisions);
+  std::shared_ptr<const FluidBody>& known = by_text_[key];
+  if (!known) known = readOrBuild(shape, name, waterline_subdivisions);
   return known;
 }
 
@@ -48,8 +51,10 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOr(const std::string& name,
 }
 
 std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescription& shape,
-                                                             const std::string& name) {
+                                                             const std::string& name,
+                                                             int waterline_subdivisions) {
   ShapeBuildSettings settings;
+  settings.waterline_subdivisions = waterline_subdivisions;
   settings.name = name;
   settings.flow.threads = threads_;
   settings.tables = false;  // scenes are published: new tables should not change their bits

@@ -24,8 +24,10 @@ class SceneBodyCache {
   /// `folder` need not exist; empty: no files. `threads` solve; 0: all cores.
   explicit SceneBodyCache(std::filesystem::path folder = {}, int threads = 0);
 
+  /// `waterline_subdivisions` as in BuildSettings.
   /// @throws std::runtime_error in one line that names the file or the shape's source.
-  std::shared_ptr<const FluidBody> get(const ShapeDescription& shape, const std::string& name);
+  std::shared_ptr<const FluidBody> get(const ShapeDescription& shape, const std::string& name,
+                                       int waterline_subdivisions = 0);
   /// That of what a link collides with, in the shape's frame. @throws as makeFluidBody()
   std::shared_ptr<const FluidBody> get(const btCollisionShape& shape, const std::string& name);
 
@@ -38,7 +40,7 @@ class SceneBodyCache {
 
  private:
   std::shared_ptr<const FluidBody> readOrBuild(const ShapeDescription& shape,
-                                               const std::string& name);
+                                               const std::string& name, int waterline_subdivisions);
   /// From the folder, if it is there; else what `build` returns, which save() then writes.
   std::shared_ptr<const FluidBody> readOr(const std::string& name, const Provenance& provenance,
                                           const std::function<FluidBody()>& build);

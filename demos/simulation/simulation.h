@@ -27,12 +27,13 @@ struct FlightWork {
 class Simulation {
  public:
   /// `bodies` are those of the scene, in its order.
-  /// @throws std::invalid_argument naming the body if its values are not physical.
+  /// @throws std::invalid_argument naming the scene's file and the body if its values are not
+  /// physical.
   Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies);
   ~Simulation();
 
   /// One step of scene.time_step.
-  /// @throws std::runtime_error naming body and time if a state is not finite.
+  /// @throws std::runtime_error naming the scene's file, body and time if a state is not finite.
   void step();
 
   /// Steps made so far times the step [s].

@@ -14,6 +14,7 @@
 #include "demos/rivals/rival_laws.h"
 #include "demos/scene/scene_water.h"
 #include "demos/simulation/joint.h"
+#include "preprocess/mesh/input_error.h"
 
 namespace ambient {
 namespace {
@@ -114,9 +115,9 @@ BulletWorld makeBulletWorld(bool has_robots, AmbientRegistry& registry,
   return made;
 }
 
-[[noreturn]] void throwNotFinite(const std::string& body, double time) {
+[[noreturn]] void throwNotFinite(const std::string& scene, const std::string& body, double time) {
   std::ostringstream text;
-  text << "body \"" << body << "\": its state is not finite at t = " << time
+  text << scene << ": body \"" << body << "\": its state is not finite at t = " << time
        << " s; a smaller time_step may help";
   throw std::runtime_error(text.str());
 }
@@ -127,7 +128,8 @@ Simulation::World::World(const Scene& scene, const std::vector<PreparedBody>& pr
     : bullet(
           makeBulletWorld(!scene.robots.empty(), registry, dispatcher, broadphase, configuration)),
       own_law(loadLawOf(scene)),
-      time_step(scene.time_step) {
+      time_step(scene.time_step),
+      file(scene.file.string()) {
   registry.setReport([this](const std::string& sentence) { report = sentence; });
   bullet.world->setGravity(toBullet(scene.gravity));
   bullet.world->addAction(&action);
@@ -160,7 +162,7 @@ void Simulation::World::add(const Scene& scene, const BodyDef& def, const Prepar
   try {
     attach(added, makeAttachDef(scene, def, prepared, added.R_SB, own_law));
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("body \"" + def.name + "\": " + error.what());
+    throw std::invalid_argument(inputMessage(file, "body \"", def.name, "\": ", error.what()));
   }
 }
 
@@ -179,7 +181,11 @@ void Simulation::World::add(const RobotDef& def) {
 
 void Simulation::World::add(const JointDef& def) {
   btRigidBody* second = def.bodies.size() > 1 ? &find(def.bodies[1]) : nullptr;
-  joints.push_back(makeJoint(def, find(def.bodies[0]), second));
+  try {
+    joints.push_back(makeJoint(def, find(def.bodies[0]), second));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(inputMessage(file, error.what()));
+  }
   constexpr bool kWithoutCollisions = true;
   bullet.world->addConstraint(joints.back().get(), kWithoutCollisions);
 }
@@ -190,7 +196,8 @@ void Simulation::World::step() {
   bullet.world->stepSimulation(static_cast<btScalar>(time_step), 0);
   ++steps;
   for (const WorldBody& body : bodies)
-    if (counters(body).rejected > 0 || !sample(body).isFinite()) throwNotFinite(body.name, time());
+    if (counters(body).rejected > 0 || !sample(body).isFinite())
+      throwNotFinite(file, body.name, time());
 }
 
 btMultiBody& Simulation::World::multiBodyOf(const WorldBody& link) const {

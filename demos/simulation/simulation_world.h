@@ -48,6 +48,7 @@ struct Simulation::World {
   LoadLaw own_law;  ///< of all bodies; empty: this library's
   std::string report;
   double time_step = 0;
+  std::string file;  ///< of the scene; begins every message
   long long steps = 0;
 
   World(const Scene& scene, const std::vector<PreparedBody>& prepared);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace ambient {
@@ -18,11 +19,11 @@ class RunningSweep {
         settings_(settings),
         fluid_bodies_(settings.fluid_bodies, settings.threads) {}
 
-  /// Starts the threads, watches them, and stops them whatever happens.
+  /// Starts the threads, watches them, and stops them whatever happens. Without any, works itself.
   SweepFailures run() {
-    std::vector<std::thread> threads;
+    std::vector<std::thread> threads = startThreads();
     try {
-      for (int i = 0; i < threadCount(); ++i) threads.emplace_back([this] { work(); });
+      if (threads.empty()) work();
       watch();
     } catch (...) {
       is_stopped_ = true;
@@ -39,6 +40,16 @@ class RunningSweep {
   int threadCount() const {
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return std::min(settings_.threads > 0 ? settings_.threads : cores, count());
+  }
+
+  /// As many as the system gives.
+  std::vector<std::thread> startThreads() {
+    std::vector<std::thread> threads;
+    try {
+      for (int i = 0; i < threadCount(); ++i) threads.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {
+    }
+    return threads;
   }
 
   void work() noexcept {

@@ -1,5 +1,6 @@
 #include "preprocess/builder/background_work.h"
 
+#include <system_error>
 #include <utility>
 
 namespace ambient {
@@ -14,12 +15,21 @@ BackgroundWork::~BackgroundWork() {
 }
 
 void BackgroundWork::add(std::function<void()> task) {
+  if (!hasThread()) return task();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     tasks_.push(std::move(task));
-    if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
   }
   changed_.notify_all();
+}
+
+bool BackgroundWork::hasThread() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  try {
+    if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+  } catch (const std::system_error&) {
+  }
+  return thread_.joinable();
 }
 
 void BackgroundWork::finish() {

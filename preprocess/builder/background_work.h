@@ -17,12 +17,15 @@ class BackgroundWork {
   BackgroundWork(const BackgroundWork&) = delete;
   BackgroundWork& operator=(const BackgroundWork&) = delete;
 
+  /// Where the system gives no thread, does the task before it returns.
   /// @pre the task does not throw.
   void add(std::function<void()> task);
   /// Waits until all tasks are done.
   void finish();
 
  private:
+  /// Starts it with the first task.
+  bool hasThread();
   void run();
 
   std::mutex mutex_;

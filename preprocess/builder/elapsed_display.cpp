@@ -2,15 +2,24 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
+#include <system_error>
 
 #include "bullet_ambient/fluid_body/plain_text.h"
 
 namespace ambient {
 
-ElapsedDisplay::ElapsedDisplay(const std::string& label, bool quiet) : label_(plainLine(label)) {
-  if (!quiet && ::isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show(); });
+ElapsedDisplay::ElapsedDisplay(const std::string& label, bool quiet,
+                               std::chrono::milliseconds interval)
+    : label_(plainLine(label)),
+      is_terminal_(::isatty(STDERR_FILENO) != 0),
+      interval_(is_terminal_ ? std::chrono::seconds(1) : interval) {
+  if (quiet) return;
+  try {
+    thread_ = std::thread([this] { show(); });
+  } catch (const std::system_error&) {
+    // The work matters more.
+  }
 }
 
 ElapsedDisplay::~ElapsedDisplay() {
@@ -23,19 +32,30 @@ ElapsedDisplay::~ElapsedDisplay() {
   thread_.join();
 }
 
+void ElapsedDisplay::begin(const std::string& stage) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  stage_ = plainLine(stage);
+  share_ = 0;
+}
+
+std::string ElapsedDisplay::text() const {
+  const double percent = 100 * share_;
+  const std::chrono::duration<double> seconds = Clock::now() - start_;
+  char amount[32];
+  std::snprintf(amount, sizeof amount, percent > 0 ? ", %.0f %%" : ", %.0f s",
+                percent > 0 ? percent : seconds.count());
+  return label_ + (stage_.empty() ? "" : ": ") + stage_ + amount;
+}
+
 void ElapsedDisplay::show() {
   std::unique_lock<std::mutex> lock(mutex_);
-  for (int seconds = 1;; ++seconds) {
-    const auto is_over = [this] { return is_over_; };
-    if (ended_.wait_for(lock, std::chrono::seconds(1), is_over)) {
-      if (seconds > 1) std::fputs("\r\033[K", stderr);
+  const auto is_over = [this] { return is_over_; };
+  for (bool is_shown = false;; is_shown = true) {
+    if (ended_.wait_for(lock, interval_, is_over)) {
+      if (is_terminal_ && is_shown) std::fputs("\r\033[K", stderr);
       return;
     }
-    const double percent = 100 * share_;
-    if (percent > 0)
-      std::fprintf(stderr, "\r\033[K%s, %.0f %%", label_.c_str(), percent);
-    else
-      std::fprintf(stderr, "\r\033[K%s, %d s", label_.c_str(), seconds);
+    std::fprintf(stderr, is_terminal_ ? "\r\033[K%s" : "%s\n", text().c_str());
     std::fflush(stderr);
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -8,25 +9,36 @@
 
 namespace ambient {
 
-/// A line "label, 3 s" on a terminal's standard error while it lives, from the second second on,
-/// wiped at the end; "label, 42 %" once it is told the share. Silent, and without a thread, if
-/// standard error is not a terminal or `quiet`.
+/// Shows on standard error, while it lives, that work goes on: "label: stage, 3 s", or "label:
+/// stage, 42 %" once it is told the share. On a terminal it is one line from the second second on,
+/// wiped at the end; elsewhere a line every `interval`. Silent if `quiet`, or if the system gives
+/// no thread.
 class ElapsedDisplay {
  public:
-  explicit ElapsedDisplay(const std::string& label, bool quiet = false);
+  explicit ElapsedDisplay(const std::string& label, bool quiet = false,
+                          std::chrono::milliseconds interval = std::chrono::seconds(10));
   ~ElapsedDisplay();
   ElapsedDisplay(const ElapsedDisplay&) = delete;
   ElapsedDisplay& operator=(const ElapsedDisplay&) = delete;
 
-  /// How much is done, from 0 to 1.
+  /// What is done from now on; its share is 0.
+  void begin(const std::string& stage);
+  /// How much of it is done, from 0 to 1.
   void update(double share) { share_ = share; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void show();
+  std::string text() const;
 
   std::string label_;
-  std::mutex mutex_;
+  bool is_terminal_;
+  std::chrono::milliseconds interval_;
+  Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;  // guards what follows
   std::condition_variable ended_;
+  std::string stage_;
   bool is_over_ = false;
   std::atomic<double> share_{0};
   std::thread thread_;

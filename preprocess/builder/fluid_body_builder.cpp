@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/spatial/inertia.h"
@@ -13,6 +14,7 @@
 #include "preprocess/potential_flow/refined_flow.h"
 #include "preprocess/potential_flow/solver_revision.h"
 #include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient {
 namespace {
@@ -71,6 +73,42 @@ RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
   }
 }
 
+/// What no limit above has caught.
+void requireFinite(const Matrix6& added_mass, const TriangleMesh& mesh, const std::string& source) {
+  if (added_mass.allFinite()) return;
+  raiseInputError(source, "its added mass is not finite: its size of ", extentsText(mesh.extents()),
+                  " is beyond what can be solved");
+}
+
+void requireWaterline(const BuildSettings& settings) {
+  const int subdivisions = settings.waterline_subdivisions;
+  if (subdivisions < 0 || subdivisions > kMostWaterlineSubdivisions)
+    raiseInputError(sourceOf(settings), "waterline subdivisions = ", subdivisions,
+                    " is not between 0 (no table) and ", kMostWaterlineSubdivisions);
+  if (subdivisions == 0) return;
+  if (settings.flow.sheet)
+    raiseInputError(sourceOf(settings), "a sheet cannot have a waterline table");
+  if (settings.sphere_radius > 0)
+    raiseInputError(sourceOf(settings), "a sphere needs no waterline table: all have the same one");
+}
+
+WaterlineTable waterlineOf(const FluidBody& body, const BuildSettings& settings) {
+  WaterlineSettings waterline;
+  waterline.subdivisions = settings.waterline_subdivisions;
+  waterline.threads = settings.flow.threads;
+  try {
+    if (body.added_mass_parts.empty())
+      throw std::runtime_error("the added mass is a sum, without parts that it could correct");
+    return makeWaterlineTable(body, waterline);
+  } catch (const std::runtime_error& error) {
+    raiseInputError(sourceOf(settings), "waterline table: ", error.what());
+  }
+}
+
+void tellStage(const BuildSettings& settings, const char* stage) {
+  if (settings.begin) settings.begin(stage);
+}
+
 }  // namespace
 
 std::string libraryVersion() {
@@ -86,6 +124,7 @@ Surface surfaceOf(const TriangleMesh& mesh) {
 
 FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& settings) {
   requireUsualSize(source_mesh, settings.flow.sheet, sourceOf(settings));
+  requireWaterline(settings);
   TriangleMesh mesh = divideTriangles(source_mesh, settings.least_faces);
   const MeshProperties properties = massPropertiesOf(mesh, settings.flow.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
@@ -101,6 +140,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
     body.added_mass = shiftOrigin(*settings.added_mass, origin);
     body.added_mass_parts = placed(settings.added_mass_parts, 1, -origin);
   } else {
+    tellStage(settings, "solving the flow");
     const RefinedFlow flow = solveFlow(mesh, settings);
     if (flow.is_coarse && settings.warn) {
       settings.warn(
@@ -112,6 +152,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
     body.added_mass_parts = flow.parts;
     body.asymmetry = flow.asymmetry;
   }
+  requireFinite(body.added_mass, mesh, sourceOf(settings));
   body.volume = properties.volume;
   body.area = settings.flow.sheet ? 2 * properties.area : properties.area;
   body.origin = origin;
@@ -122,6 +163,9 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   body.surface = surfaceOf(mesh);
   body.faces.sharpness = computeSharpness(body);
   body.sphere_radius = settings.sphere_radius;
+  if (settings.waterline_subdivisions == 0) return body;
+  tellStage(settings, "making the waterline table");
+  body.waterline = waterlineOf(body, settings);
   return body;
 }
 

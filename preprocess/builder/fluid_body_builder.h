@@ -39,9 +39,14 @@ struct BuildSettings {
   /// The flow is solved on up to max_panels, finer than the mesh where that helps, and on four
   /// times as many where long triangles need them; the faces remain those of the mesh.
   PotentialFlowSettings flow{false, kDefaultPanels};
+  /// Of the table for the surface of water, makeWaterlineTable(), 1 to kMostWaterlineSubdivisions;
+  /// 0: none. Neither a sheet nor a sphere can have one.
+  int waterline_subdivisions = 0;
   Provenance provenance;  ///< copied; an empty generator becomes this library and its version
   /// Receives in one line what is doubtful about the result; null: nothing is said.
   std::function<void(const std::string&)> warn = nullptr;
+  /// Is told what is done from now on; null: nobody.
+  std::function<void(const std::string& stage)> begin = nullptr;
 };
 
 /// Everything the fluid needs to know of a shape: mass properties, added mass, faces. The axes of F
@@ -50,8 +55,8 @@ struct BuildSettings {
 /// solvePotentialFlow().
 /// @pre the mesh passed checkMesh() as a body or as a sheet.
 /// @throws std::runtime_error in one line that begins with the source, if the mesh is smaller than
-/// 1e-9 m or larger than 1e9 m or too narrow, or the flow cannot be solved or needs more memory
-/// than there is.
+/// 1e-9 m or larger than 1e9 m or too narrow, the flow cannot be solved or needs more memory
+/// than there is, or the waterline table cannot be made.
 FluidBody makeFluidBody(const TriangleMesh& mesh, const BuildSettings& settings);
 
 }  // namespace ambient

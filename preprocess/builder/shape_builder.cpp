@@ -14,8 +14,8 @@
 #include "preprocess/potential_flow/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/flat_merging.h"
 #include "preprocess/shape/json_text.h"
+#include "preprocess/shape/shape_limits.h"
 #include "preprocess/shape/shape_mesh.h"
-#include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient {
 namespace {
@@ -135,40 +135,22 @@ double ownScale(const ShapeDescription& shape) {
   return 1;
 }
 
-void requireWaterline(const ShapeDescription& shape, int subdivisions) {
-  if (subdivisions < 0 || subdivisions > kMostWaterlineSubdivisions)
-    raiseInputError(shape.source, "waterline subdivisions = ", subdivisions,
-                    " is not between 0 (no table) and ", kMostWaterlineSubdivisions);
-  if (subdivisions == 0) return;
-  if (isSheet(shape)) raiseInputError(shape.source, "a sheet cannot have a waterline table");
-  if (std::holds_alternative<SphereShape>(shape.geometry))
-    raiseInputError(shape.source, "a sphere needs no waterline table: all have the same one");
-}
-
-WaterlineTable waterlineOf(const FluidBody& body, const ShapeDescription& shape,
-                           const ShapeBuildSettings& settings) {
-  WaterlineSettings waterline;
-  waterline.subdivisions = settings.waterline_subdivisions;
-  waterline.threads = settings.flow.threads;
-  try {
-    return makeWaterlineTable(body, waterline);
-  } catch (const std::runtime_error& error) {
-    raiseInputError(shape.source, "waterline table: ", error.what());
-  }
-}
-
 BuiltBody readBody(const FluidBodyShape& shape, const ShapeBuildSettings& settings) {
   const std::string name = shape.file.string();
   if (settings.origin) raiseInputError(name, "a fluid body keeps its origin");
   if (settings.scale != 1) {
     raiseInputError(name, "scale = ", settings.scale, ": a fluid body keeps its size");
   }
+  if (settings.waterline_subdivisions != 0)
+    raiseInputError(name, "waterline subdivisions = ", settings.waterline_subdivisions,
+                    ": a fluid body keeps the waterline table that it was built with");
   return {readFluidBody(shape.file), {}};
 }
 
 }  // namespace
 
 Provenance describeShape(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
+  requireUsualExtents(shape, settings.scale);
   const std::filesystem::path file = fileOf(shape);
   ShapeBuildSettings effective = settings;
   effective.scale *= ownScale(shape);
@@ -199,7 +181,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (const auto* fluid_body = std::get_if<FluidBodyShape>(&shape.geometry)) {
     return readBody(*fluid_body, settings);
   }
-  requireWaterline(shape, settings.waterline_subdivisions);
+  if (settings.begin) settings.begin("reading and checking the mesh");
   CheckedMesh checked = makeShapeMesh(shape, settings.scale);
   warnOfFaces(checked, shape, settings.least_faces);
   BuildSettings build;
@@ -219,6 +201,8 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
     warnOfPanels(checked, shape, settings.flow.max_panels);
   }
   build.least_faces = settings.least_faces;
+  build.waterline_subdivisions = settings.waterline_subdivisions;
+  build.begin = settings.begin;
   build.flow = settings.flow;
   build.flow.sheet = isSheet(shape);
   if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry))
@@ -227,7 +211,6 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   if (!fileOf(shape).empty())
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
   FluidBody body = makeFluidBody(checked.mesh, build);
-  if (settings.waterline_subdivisions > 0) body.waterline = waterlineOf(body, shape, settings);
   return {std::move(body), checked.warnings};
 }
 

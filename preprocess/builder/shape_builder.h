@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,12 +17,12 @@ struct ShapeBuildSettings {
   std::optional<Eigen::Vector3d> origin;  ///< as in BuildSettings, in the shape's frame
   double scale = 1;                       ///< multiplies all lengths of the shape
   int least_faces = 0;                    ///< as in BuildSettings
-  /// Of the table for the surface of water, makeWaterlineTable(); 0: none. Neither a sheet nor a
-  /// sphere can have one.
-  int waterline_subdivisions = 0;
+  int waterline_subdivisions = 0;         ///< as in BuildSettings
   bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
   /// As in BuildSettings; whether it is a sheet, the shape says.
   PotentialFlowSettings flow{false, kDefaultPanels};
+  /// As in BuildSettings.
+  std::function<void(const std::string& stage)> begin = nullptr;
 };
 
 /// A fluid body, and what a user should know about its mesh, one line each.
@@ -41,7 +42,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
 /// The provenance that buildShape() gives its result: the same provenance means the same result.
 /// Reads the shape's file, if it has one.
 /// @pre the shape is not a FluidBodyShape
-/// @throws std::runtime_error if the file cannot be read.
+/// @throws std::runtime_error if the file cannot be read, or as requireUsualExtents().
 Provenance describeShape(const ShapeDescription& shape, const ShapeBuildSettings& settings);
 
 }  // namespace ambient

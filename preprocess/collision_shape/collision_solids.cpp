@@ -106,8 +106,11 @@ std::optional<Matrix6> tabulatedAddedMass(const ShapePart& part) {
 std::vector<Solid> makeSolids(const std::vector<ShapePart>& parts,
                               const SolidResolution& resolution) {
   const int count = std::max(1, static_cast<int>(parts.size()));
+  constexpr int kFewestFaces = 20;  // that all kinds can be made of
   SolidResolution each = resolution;
-  each.faces = std::max(resolution.least_faces, resolution.faces / count);
+  each.least_faces = std::min(resolution.least_faces,
+                              std::max(kFewestFaces, kMostOfMany * resolution.faces / count));
+  each.faces = std::max(each.least_faces, resolution.faces / count);
   each.flow_faces = std::max(each.faces, resolution.flow_faces / count);
   std::vector<Solid> solids;
   for (const ShapePart& part : parts) solids.push_back(placed(makeSolid(part, each), part));

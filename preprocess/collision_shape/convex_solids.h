@@ -9,10 +9,13 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
+/// Triangles that many solids have together at most, over those aimed at, as far as they can.
+constexpr int kMostOfMany = 6;
+
 /// How finely round solids are made.
 struct SolidResolution {
   int faces = 0;        ///< triangles aimed at for the loads, of all solids together
-  int least_faces = 0;  ///< of each of them
+  int least_faces = 0;  ///< of each of them, unless that makes more than kMostOfMany allows
   int flow_faces = 0;   ///< as `faces`, for the flow
   bool tables = true;   ///< of the added mass, as far as they reach
 };

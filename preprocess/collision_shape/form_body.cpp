@@ -17,6 +17,7 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/refined_flow.h"
 #include "preprocess/potential_flow/shape_symmetry.h"
 #include "preprocess/reduced_loads/form_levels.h"
 
@@ -70,12 +71,20 @@ CollisionShapeSettings usedSettings(CollisionShapeSettings settings) {
   settings.faces = std::min(settings.faces, kInstantFaces);
   settings.flow.max_panels = 0;
   settings.load_error = 0;
+  settings.waterline_subdivisions = 0;
   return settings;
+}
+
+constexpr int kLeastFaces = 350;  // of a solid that is not one of many
+
+/// Whether solids have fewer faces than each would have among few.
+bool areMany(const std::vector<Solid>& solids, const CollisionShapeSettings& settings) {
+  return kLeastFaces * solids.size() > static_cast<std::size_t>(kMostOfMany * settings.faces);
 }
 
 std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
                             const CollisionShapeSettings& settings) {
-  constexpr int kLeastFaces = 350, kLeastInstantFaces = 60;
+  constexpr int kLeastInstantFaces = 60;
   const bool is_instant = settings.quality == Quality::kInstant;
   SolidResolution resolution;
   resolution.faces = settings.faces;
@@ -95,6 +104,15 @@ void reportSolids(const std::vector<Solid>& solids, const FluidBody& body, doubl
   for (const Solid& solid : solids) {
     margins += unit * solid.margin_volume;
     for (const std::string& warning : solid.warnings) settings.report(warning);
+  }
+  const auto unknown = std::count_if(solids.begin(), solids.end(),
+                                     [](const Solid& solid) { return !solid.added_mass; });
+  if (areMany(solids, settings) && unknown > 0) {
+    settings.report(inputMessage(body.name, unknown, " of its ", solids.size(),
+                                 " parts have neither a closed form nor a table and share ",
+                                 body.faces.size(),
+                                 " faces with all: the added mass may be some per cent off; give "
+                                 "more faces (CollisionShapeSettings::faces)"));
   }
   if (margins <= kMuch * (volume - margins)) return;
   std::ostringstream text;
@@ -152,6 +170,26 @@ AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings
   return {symmetrisedAddedMass(total, solid.mesh), fine.parts};
 }
 
+/// Of many solids apart: one flow around all of them on their faces, which has what they do to each
+/// other, with the closed form or table of each in place of what its few faces give alone.
+AddedMass coupledAddedMass(const std::vector<Solid>& solids, const CollisionShapeSettings& settings,
+                           const std::string& name) {
+  PotentialFlowSettings undivided = settings.flow;
+  undivided.max_panels = 0;
+  const auto solve = [&](const TriangleMesh& mesh) {
+    try {
+      return solveRefinedFlow(mesh, undivided);
+    } catch (const std::runtime_error& error) {
+      raiseInputError(name, error.what());
+    }
+  };
+  const RefinedFlow all = solve(joined(solids, &Solid::mesh));
+  Matrix6 total = all.added_mass;
+  for (const Solid& solid : solids)
+    if (solid.added_mass) total += *solid.added_mass - solve(solid.mesh).added_mass;
+  return {withoutNegativePart(total), all.parts};
+}
+
 /// Of a single solid, if it is not that of its mesh, which the builder solves.
 bool hasOwnAddedMass(const Solid& solid) {
   return solid.added_mass || solid.flow.triangleCount() > 0;
@@ -171,6 +209,8 @@ std::optional<AddedMass> addedMassOf(const SeparateSolids& separate,
     if (!hasOwnAddedMass(solids.front())) return std::nullopt;
     return addedMassOf(solids.front(), settings, name);
   }
+  if (!separate.is_sum && areMany(solids, settings))
+    return coupledAddedMass(solids, settings, name);
   if (!separate.is_sum) return std::nullopt;
   for (const Solid& solid : solids) sum.total += addedMassOf(solid, settings, name).total;
   return sum;
@@ -189,6 +229,7 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
     build.added_mass_parts = std::move(known->parts);
   }
   if (solids.size() == 1) build.sphere_radius = solids.front().sphere_radius;
+  if (build.sphere_radius == 0) build.waterline_subdivisions = settings.waterline_subdivisions;
   build.cavities = joined(solids, &Solid::cavities);
   FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
   if (settings.load_error > 0 && body.sphere_radius == 0)
@@ -203,7 +244,9 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
 ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
   const std::string name = settings.name.empty() ? shape.getName() : settings.name;
   requireUsable(settings, name);
-  return {shape.getName(), readShapeParts(shape, settings.margins, name), 1};
+  ShapeForm form{shape.getName(), readShapeParts(shape, settings.margins, name), 1};
+  requireUsualNumbers(form.parts);
+  return form;
 }
 
 FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& wanted) {
@@ -226,6 +269,8 @@ Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& set
   std::ostringstream text;
   text << (settings.margins ? "with" : "without") << " margins, faces " << settings.faces
        << ", load error " << settings.load_error << ", " << sourceOf(form.parts, settings);
+  if (settings.waterline_subdivisions != 0)
+    text << ", waterline " << settings.waterline_subdivisions;
   provenance.settings = text.str();
   provenance.generator = libraryVersion();
   return provenance;

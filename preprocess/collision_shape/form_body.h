@@ -9,8 +9,8 @@ namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
 /// The form of a collision shape, as it is, at size 1.
-/// @throws std::runtime_error as makeFluidBody() of a collision shape, for the kind of the shape
-/// and for the settings.
+/// @throws std::runtime_error as makeFluidBody() of a collision shape, for the kind of the shape,
+/// for the settings, and as requireUsualNumbers().
 ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& settings);
 
 /// The fluid body of a form at size 1, in the shape's frame; what is reported tells its volumes at

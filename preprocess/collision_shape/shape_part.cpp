@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/usual_size.h"
 
 namespace ambient {
 namespace {
@@ -16,6 +17,7 @@ double rounded(double value, int digits) {
   return std::ldexp(std::round(std::ldexp(mantissa, digits)), exponent - digits);
 }
 
+/// The largest size or place.
 double largestNumber(const ShapePart& part) {
   double largest = std::max(std::abs(part.margin), part.translation.cwiseAbs().maxCoeff());
   bool is_finite = std::isfinite(part.margin) && part.translation.allFinite();
@@ -71,6 +73,15 @@ std::string contentOf(const std::vector<ShapePart>& parts) {
     append(bytes, part.translation.data(), 3);
   }
   return bytes;
+}
+
+void requireUsualNumbers(const std::vector<ShapePart>& parts) {
+  for (const ShapePart& part : parts) {
+    const double largest = largestNumber(part);
+    if (largest == 0 || (largest >= kSmallestSize && largest <= kLargestSize)) continue;
+    raiseInputError(part.name, "its largest size or place is ", largest, " m; must be ",
+                    kSmallestSize, " m to ", kLargestSize, " m");
+  }
 }
 
 ShapeForm normalised(ShapeForm form) {

@@ -37,6 +37,11 @@ std::vector<ShapePart> scaled(std::vector<ShapePart> parts, double factor);
 /// All that acts on the fluid, as bytes: equal for equal shapes.
 std::string contentOf(const std::vector<ShapePart>& parts);
 
+/// Checks that the largest size or place of each part is 0 or kSmallestSize to kLargestSize. That
+/// sizes are positive is looked at where solids are made.
+/// @throws std::runtime_error in one line that begins with the part's name.
+void requireUsualNumbers(const std::vector<ShapePart>& parts);
+
 /// A shape by its form and its size.
 struct ShapeForm {
   std::string kind;              ///< as Bullet names it

@@ -1,5 +1,6 @@
 #include "preprocess/collision_shape/solid_union.h"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -53,8 +54,13 @@ std::string namesOf(const std::vector<Solid>& solids) {
          (solids.size() > 2 ? " and " + std::to_string(solids.size() - 2) + " more" : "");
 }
 
-Solid uniteGroup(const std::vector<Solid>& group, const CollisionShapeSettings& settings,
-                 const std::string& name) {
+/// The faces of a united group, one of several.
+int facesOf(const std::vector<Solid>& group, std::size_t all, int faces) {
+  const double share = static_cast<double>(group.size()) / static_cast<double>(all);
+  return std::max(1, static_cast<int>(std::min(1.0, kMostOfMany * share) * faces));
+}
+
+Solid uniteGroup(const std::vector<Solid>& group, int faces, const std::string& name) {
   Meshes parts, cavities;
   Matrix6 parts_added_mass = Matrix6::Zero();
   Solid solid;
@@ -67,7 +73,7 @@ Solid uniteGroup(const std::vector<Solid>& group, const CollisionShapeSettings& 
   }
   const CheckedMesh united = uniteMeshes(parts, name);
   cavities.push_back(united.cavities);
-  solid.mesh = evenlyDivided(united.mesh, settings.faces);
+  solid.mesh = evenlyDivided(united.mesh, faces);
   solid.cavities = joinMeshes(cavities);
   // What lies in two of them counts once.
   solid.parts_added_mass =
@@ -151,7 +157,8 @@ SeparateSolids uniteSolids(const std::vector<Solid>& solids, const CollisionShap
       continue;
     }
     try {
-      result.solids.push_back(uniteGroup(group, settings, name));
+      result.solids.push_back(
+          uniteGroup(group, facesOf(group, solids.size(), settings.faces), name));
       result.has_unions = true;
     } catch (const std::runtime_error& error) {
       fallBack(group, settings, error.what(), name, result);

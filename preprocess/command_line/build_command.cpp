@@ -78,12 +78,14 @@ Provenance describeBody(const ShapeDescription& shape, const ShapeBuildSettings&
   return provenance;
 }
 
-FluidBody buildAndWrite(const ShapeDescription& shape, const ShapeBuildSettings& settings,
+FluidBody buildAndWrite(const ShapeDescription& shape, ShapeBuildSettings settings,
                         const BuildArguments& arguments) {
   BuiltBody built;
   {
-    const ElapsedDisplay display("building " + settings.name);
+    ElapsedDisplay display("building " + settings.name);
+    settings.begin = [&display](const std::string& stage) { display.begin(stage); };
     built = buildShape(shape, settings);
+    display.begin("reducing the loads");
     built.body.levels = buildLoadLevels(built.body, arguments.levels,
                                         separationAngleOf(arguments.separation_angle));
     built.body.drag = dragOf(arguments);

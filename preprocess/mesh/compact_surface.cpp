@@ -1,15 +1,25 @@
 #include "preprocess/mesh/compact_surface.h"
 
 #include <cmath>
+#include <utility>
 
 #include "bullet_ambient/spatial/elementary.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mesh_coarsening.h"
 #include "preprocess/mesh/surface_wrap.h"
 
 namespace ambient {
 namespace {
 
 bool isWithin(double share, double now, double then) { return std::abs(now / then - 1) <= share; }
+
+/// Stretched and moved to the volume and the centre of a body.
+TriangleMesh fitted(TriangleMesh mesh, const MeshProperties& own, const MeshProperties& body) {
+  const double stretch = portable::cbrt(body.volume / own.volume);
+  mesh.vertices =
+      (stretch * (mesh.vertices.colwise() - own.uniform.centre)).colwise() + body.uniform.centre;
+  return mesh;
+}
 
 }  // namespace
 
@@ -24,11 +34,13 @@ std::optional<TriangleMesh> compactSurface(const TriangleMesh& mesh, int triangl
   const MeshProperties found = computeMassProperties(compact);
   if (!isWithin(kVolumeChange, found.volume, body.volume)) return std::nullopt;
   if (!isWithin(kAreaChange, found.area, body.area)) return std::nullopt;
-  const Eigen::Vector3d& centre = found.uniform.centre;
-  const double stretch = portable::cbrt(body.volume / found.volume);
-  compact.vertices =
-      (stretch * (compact.vertices.colwise() - centre)).colwise() + body.uniform.centre;
-  return compact;
+  return fitted(std::move(compact), found, body);
+}
+
+TriangleMesh inFewerTriangles(const TriangleMesh& mesh, int triangles) {
+  TriangleMesh fewer = coarsened(mesh, {triangles, triangles, 0});
+  const MeshProperties found = computeMassProperties(fewer);
+  return fitted(std::move(fewer), found, computeMassProperties(mesh));
 }
 
 }  // namespace ambient

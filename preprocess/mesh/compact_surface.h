@@ -14,4 +14,9 @@ namespace ambient {
 /// @pre closed, manifold and outward.
 std::optional<TriangleMesh> compactSurface(const TriangleMesh& mesh, int triangles);
 
+/// The body of a closed mesh in about so many of its own triangles, coarsened(), with its volume
+/// and its centre of volume. Cost O(T log T).
+/// @pre closed, manifold and outward.
+TriangleMesh inFewerTriangles(const TriangleMesh& mesh, int triangles);
+
 }  // namespace ambient

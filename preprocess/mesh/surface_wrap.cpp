@@ -5,11 +5,13 @@
 #include <stdexcept>
 
 #include "preprocess/mesh/dual_surface.h"
+#include "preprocess/mesh/hole_filling.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_coarsening.h"
 #include "preprocess/mesh/mesh_mending.h"
 #include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/winding_number.h"
 
 namespace ambient {
 namespace {
@@ -77,16 +79,19 @@ TriangleMesh fullWrap(const TriangleMesh& mesh, double step) {
   return makeDualSurface(mesh, grid, crossings, findSolidNodes(mesh, grid, crossings));
 }
 
-/// The triangles that are left to wrap, and the size to do it with.
+/// The triangles to wrap, and the size to do it with.
 struct WrapInput {
   TriangleMesh mesh;
   double size = 0;
+  int holes = 0;         ///< that were filled
+  double hole_area = 0;  ///< [m^2]
 };
 
 WrapInput usableInput(const TriangleMesh& mesh, double size, const std::string& name) {
   if (mesh.triangleCount() > 0 && !mesh.vertices.allFinite())
     raiseInputError(name, "a vertex has a coordinate that is not finite");
-  WrapInput input{withoutNeedles(mesh), size};
+  const FilledMesh filled = withHolesFilled(mesh);
+  WrapInput input{withoutNeedles(filled.mesh), size, filled.holes, filled.area};
   if (input.mesh.triangleCount() == 0) raiseInputError(name, "there are no triangles with an area");
   const double diagonal = input.mesh.extents().norm();
   if (size == 0) input.size = kDefaultWrapSize * diagonal;
@@ -95,6 +100,34 @@ WrapInput usableInput(const TriangleMesh& mesh, double size, const std::string& 
                     " m: it must be positive and at most its diagonal of ", diagonal, " m");
   }
   return input;
+}
+
+/// The first of 2, 4, 8... times a size with which nearly all that the triangles enclose is inside;
+/// 0: none.
+double sufficientSize(const TriangleMesh& mesh, double size, double enclosed) {
+  constexpr double kNearlyAll = 0.9;
+  const double largest = mesh.extents().norm() / 4;
+  for (double larger = 2 * size; larger <= largest; larger *= 2)
+    if (tetrahedraVolumeOf(fullWrap(mesh, larger)) >= kNearlyAll * enclosed) return larger;
+  return 0;
+}
+
+/// Refuses a surface through whose gaps the fluid has come in.
+void requireInside(const WrapInput& input, const TriangleMesh& surface, const std::string& name) {
+  constexpr double kLeast = 0.5;
+  const double found = tetrahedraVolumeOf(surface);
+  // The tetrahedra count twice what two parts enclose, which the points do not, at a higher cost.
+  if (found >= kLeast * std::abs(tetrahedraVolumeOf(input.mesh))) return;
+  const double enclosed = enclosedVolume(input.mesh);
+  if (found >= kLeast * enclosed) return;
+  const double larger = sufficientSize(input.mesh, input.size, enclosed);
+  const std::string problem = inputMessage(
+      name, "wrapped with a size of ", input.size, " m encloses ", found, " m^3 of the ", enclosed,
+      " m^3 that its triangles surround, less than half: gaps between them are wider than that");
+  if (larger == 0) throw std::runtime_error(problem + ", and no size closes them");
+  std::ostringstream advice;
+  advice << "; a size of " << larger << " m closes them";
+  throw std::runtime_error(problem + advice.str());
 }
 
 std::string comparison(const TriangleMesh& before, const TriangleMesh& after, double size) {
@@ -143,6 +176,7 @@ CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string
   const TriangleMesh fine = fullWrap(input.mesh, input.size);
   if (fine.triangleCount() == 0)
     raiseInputError(name, "cannot be wrapped with a size of ", input.size, " m: nothing is left");
+  requireInside(input, fine, name);
   const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
   CheckedMesh result;
   try {
@@ -150,8 +184,12 @@ CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string
   } catch (const std::runtime_error&) {
     result = checkMesh(fine, name);  // parts of the coarser one have come to touch
   }
-  result.warnings.insert(result.warnings.begin(),
-                         name + ": " + comparison(input.mesh, result.mesh, input.size));
+  std::vector<std::string> warnings{name + ": " + comparison(input.mesh, result.mesh, input.size)};
+  if (input.holes > 0) {
+    warnings.push_back(inputMessage(name, "holes filled before that: ", input.holes, ", of ",
+                                    input.hole_area, " m^2 in all"));
+  }
+  result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
   return result;
 }
 

@@ -26,9 +26,6 @@ void requireUsualWidth(const MeshProperties& properties, double size, bool sheet
   }
 }
 
-// Far beyond these sizes areas, volumes and moments leave the range of a double.
-constexpr double kSmallestSize = 1e-9, kLargestSize = 1e9;  // [m]
-
 // Beyond these a file's unit is likelier to be another one than the body to be of that size.
 constexpr double kSmallestLikely = 1e-4, kLargestLikely = 100;  // [m]
 

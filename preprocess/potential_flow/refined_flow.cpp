@@ -114,22 +114,49 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
   return refined;
 }
 
+constexpr int kPanelsPerTriangle = 5;  // where triangles are to be divided
+
+/// Of the body of a mesh in other triangles. What two divisions then differ by is not due to long
+/// triangles.
+RefinedFlow solveInOtherTriangles(const TriangleMesh& other, const TriangleMesh& mesh,
+                                  const PotentialFlowSettings& settings) {
+  RefinedFlow refined = solveOnPanels(other, settings);
+  refined.is_coarse = false;
+  refined.added_mass = withSymmetriesOf(mesh, false, 1, refined.added_mass);
+  return refined;
+}
+
 /// On panels that are cut from triangles about as long as wide; none if the body has none such.
 std::optional<RefinedFlow> solveOnCompactPanels(const TriangleMesh& mesh,
                                                 const PotentialFlowSettings& settings) {
-  constexpr int kPanelsPerTriangle = 5, kLeastPanels = 2000;
+  constexpr int kLeastPanels = 2000;
   if (settings.sheet || settings.max_panels < kLeastPanels) return std::nullopt;
   const auto compact = compactSurface(mesh, settings.max_panels / kPanelsPerTriangle);
   if (!compact) return std::nullopt;
-  RefinedFlow refined = solveOnPanels(*compact, settings);
-  refined.is_coarse = false;  // what two divisions still differ by is not due to long triangles
-  refined.added_mass = withSymmetriesOf(mesh, false, 1, refined.added_mass);
-  return refined;
+  return solveInOtherTriangles(*compact, mesh, settings);
+}
+
+/// Whether a mesh has far more triangles than panels were asked for. Sheets are no closed meshes.
+bool isFarFiner(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  constexpr Eigen::Index kTrianglesPerPanel = 8;
+  return !settings.sheet && settings.max_panels > 0 &&
+         mesh.triangleCount() > kTrianglesPerPanel * settings.max_panels;
+}
+
+/// Triangles for so many panels: one for each if the body is smooth, else some to be divided.
+TriangleMesh inTrianglesFor(int panels, const TriangleMesh& mesh) {
+  constexpr int kFewTriangles = 400;
+  TriangleMesh fewer = inFewerTriangles(mesh, panels);
+  const int divisible = std::max(kFewTriangles, panels / kPanelsPerTriangle);
+  if (divisible >= panels || isSmooth(estimateBulges(fewer))) return fewer;
+  return inFewerTriangles(fewer, divisible);
 }
 
 }  // namespace
 
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  if (isFarFiner(mesh, settings))
+    return solveInOtherTriangles(inTrianglesFor(settings.max_panels, mesh), mesh, settings);
   const RefinedFlow refined = solveOnPanels(mesh, settings);
   if (!refined.is_coarse || settings.solver == FlowSolverKind::Dense) return refined;
   if (const auto compact = solveOnCompactPanels(mesh, settings)) return *compact;

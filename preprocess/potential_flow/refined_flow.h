@@ -19,9 +19,11 @@ struct RefinedFlow {
 /// edges are divided, the result is extrapolated from two divisions, the coarser one with about a
 /// quarter of the panels. A closed mesh of one piece without sharp edges stands for a smooth body
 /// of the same volume: to first order its triangles bulge up to it; if all of it is curved, its own
-/// triangles are the panels. And what the symmetries of the body forbid is removed, however its
-/// faces are cut. A mesh of long triangles on which two divisions disagree gets panels that are
-/// cut from compactSurface(), or else four times as many, unless the dense solver was asked for.
+/// triangles are the panels. A closed mesh of more than eight times as many triangles as
+/// settings.max_panels is solved inFewerTriangles(). And what the symmetries of the body forbid is
+/// removed, however its faces are cut. A mesh of long triangles on which two divisions disagree
+/// gets panels that are cut from compactSurface(), or else four times as many, unless the dense
+/// solver was asked for.
 /// @throws std::runtime_error as solvePotentialFlow().
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings);
 

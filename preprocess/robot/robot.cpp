@@ -56,15 +56,15 @@ void Robot::setUpLink(std::size_t index) {
   const btVector3 arm = toBullet(Vector3(-in_body.translation()));
   constexpr bool kNoParentCollision = true;
   switch (link.joint.kind) {
-    case JointKind::kRevolute:
+    case UrdfJointKind::kRevolute:
       body_->setupRevolute(number, mass, moments, parent, turn, axis, pivot, arm,
                            kNoParentCollision);
       break;
-    case JointKind::kPrismatic:
+    case UrdfJointKind::kPrismatic:
       body_->setupPrismatic(number, mass, moments, parent, turn, axis, pivot, arm,
                             kNoParentCollision);
       break;
-    case JointKind::kPlanar: {
+    case UrdfJointKind::kPlanar: {
       // Bullet turns the link about its centre of mass; motions in the plane are the same.
       const Vector3 centre = joint_in_parent * link.centre_of_mass;
       body_->setupPlanar(number, mass, moments, parent, turn, axis, toBullet(centre),

@@ -73,7 +73,7 @@ bool isEmpty(const LinkModel& link) { return link.mass == 0 && link.collisions.e
 /// Whether the root is only a name for the world, in which its child floats.
 bool floatsInRoot(const RobotModel& model) {
   return model.links.size() > 1 && isEmpty(model.links[0]) &&
-         model.links[1].joint.kind == JointKind::kFloating &&
+         model.links[1].joint.kind == UrdfJointKind::kFloating &&
          std::count_if(model.links.begin(), model.links.end(),
                        [](const LinkModel& link) { return link.parent == 0; }) == 1;
 }
@@ -92,9 +92,9 @@ RobotModel withoutRoot(RobotModel model) {
 
 RigidPose motionOf(const JointModel& joint, double position) {
   RigidPose motion = RigidPose::Identity();
-  if (joint.kind == JointKind::kRevolute)
+  if (joint.kind == UrdfJointKind::kRevolute)
     motion.linear() = rotationFromVector(position * joint.axis).toRotationMatrix();
-  if (joint.kind == JointKind::kPrismatic) motion.translation() = position * joint.axis;
+  if (joint.kind == UrdfJointKind::kPrismatic) motion.translation() = position * joint.axis;
   return motion;
 }
 
@@ -119,11 +119,11 @@ void checkRobot(const RobotModel& model, bool fixed_base) {
   for (const LinkModel& link : model.links) {
     if (link.parent < 0) continue;
     const JointModel& joint = link.joint;
-    if (joint.kind == JointKind::kFloating)
+    if (joint.kind == UrdfJointKind::kFloating)
       raiseInputError(model.source, "joint \"", joint.name,
                       "\": it is floating; only the one child of a root without mass and collision "
                       "may float");
-    if (joint.kind != JointKind::kFixed) checkMovingLink(model, link);
+    if (joint.kind != UrdfJointKind::kFixed) checkMovingLink(model, link);
     checkMimic(model, joint);
   }
 }
@@ -134,7 +134,7 @@ RobotModel withoutFixedJoints(const RobotModel& model) {
   // Of each link the one that holds it now, and its pose in there.
   std::vector<std::pair<int, RigidPose>> holders;
   for (const LinkModel& link : model.links) {
-    const bool merges = link.parent >= 0 && link.joint.kind == JointKind::kFixed && !link.fluid;
+    const bool merges = link.parent >= 0 && link.joint.kind == UrdfJointKind::kFixed && !link.fluid;
     LinkModel kept = link;
     if (link.parent >= 0) {
       const auto& [holder, pose] = holders[static_cast<std::size_t>(link.parent)];

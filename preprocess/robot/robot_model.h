@@ -31,7 +31,8 @@ struct CollisionPart {
   std::string source;                      ///< begins every message about it: file, link and number
 };
 
-enum class JointKind { kFixed, kRevolute, kPrismatic, kPlanar, kFloating };
+/// The types of joints that URDF files have; continuous ones are revolute without limits.
+enum class UrdfJointKind { kFixed, kRevolute, kPrismatic, kPlanar, kFloating };
 
 /// How a link moves against its parent. Forces and torques are in [N] and [N m], positions in [m]
 /// and [rad], as the joint is prismatic or revolute.
@@ -39,7 +40,7 @@ struct JointModel {
   static constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
   std::string name;
-  JointKind kind = JointKind::kFixed;
+  UrdfJointKind kind = UrdfJointKind::kFixed;
   /// Of the joint's frame, which is the link's at 0, in the parent's; of the root in the robot's.
   RigidPose origin = RigidPose::Identity();
   Vector3 axis{1, 0, 0};  ///< of length 1 in the joint's frame; of a plane its normal
@@ -54,7 +55,9 @@ struct JointModel {
   };
   std::optional<Mimic> mimic;  ///< position = multiplier * that of the joint + offset
 
-  bool isAxial() const { return kind == JointKind::kRevolute || kind == JointKind::kPrismatic; }
+  bool isAxial() const {
+    return kind == UrdfJointKind::kRevolute || kind == UrdfJointKind::kPrismatic;
+  }
 };
 
 /// What <ambient .../> in a link says about its fluid.

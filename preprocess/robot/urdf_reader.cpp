@@ -149,7 +149,7 @@ class ModelReader {
     const std::string element = "joint \"" + joint.name + "\"";
     joint.kind = kindOf(from);
     joint.origin = toPose(from.parent_to_joint_origin_transform);
-    if (joint.isAxial() || joint.kind == JointKind::kPlanar) {
+    if (joint.isAxial() || joint.kind == UrdfJointKind::kPlanar) {
       const double length = toVector(from.axis).norm();
       require(length > 0 && std::isfinite(length), element, "the length of its axis", length,
               "> 0");
@@ -167,19 +167,19 @@ class ModelReader {
     return joint;
   }
 
-  JointKind kindOf(const urdf::Joint& from) const {
+  UrdfJointKind kindOf(const urdf::Joint& from) const {
     switch (from.type) {
       case urdf::Joint::REVOLUTE:
       case urdf::Joint::CONTINUOUS:
-        return JointKind::kRevolute;
+        return UrdfJointKind::kRevolute;
       case urdf::Joint::PRISMATIC:
-        return JointKind::kPrismatic;
+        return UrdfJointKind::kPrismatic;
       case urdf::Joint::PLANAR:
-        return JointKind::kPlanar;
+        return UrdfJointKind::kPlanar;
       case urdf::Joint::FLOATING:
-        return JointKind::kFloating;
+        return UrdfJointKind::kFloating;
       case urdf::Joint::FIXED:
-        return JointKind::kFixed;
+        return UrdfJointKind::kFixed;
       default:
         refuse("joint \"" + from.name + "\": its type is not known");
     }

@@ -12,6 +12,7 @@
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/mesh/surface_wrap.h"
 #include "preprocess/mesh/usual_size.h"
+#include "preprocess/shape/shape_limits.h"
 
 namespace ambient {
 namespace {
@@ -158,6 +159,7 @@ std::filesystem::path fileOf(const ShapeDescription& shape) {
 }
 
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale) {
+  requireUsualExtents(shape, scale);
   return scaled(makeUnscaledMesh(shape), shape, scale);
 }
 

@@ -68,6 +68,7 @@ class FluidBody:
         origin: _Vector | None = ...,
         panels: int = ...,
         threads: int = ...,
+        waterline_table: int = ...,
         cache: _Path | None = ...,
     ) -> FluidBody: ...
     @staticmethod
@@ -79,6 +80,7 @@ class FluidBody:
         origin: _Vector | None = ...,
         panels: int = ...,
         threads: int = ...,
+        waterline_table: int = ...,
         cache: _Path | None = ...,
     ) -> FluidBody: ...
     @staticmethod
@@ -124,6 +126,8 @@ class FluidBody:
     def centroids(self) -> _Floats: ...
     @property
     def areas(self) -> _Floats: ...
+    @property
+    def waterline_table(self) -> int: ...
     @property
     def settings(self) -> str: ...
     @property

@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/no_more_threads.h"
+
 namespace ambient {
 namespace {
 
@@ -38,6 +40,15 @@ TEST(ThreadPool, RunsEveryItemOnce) {
 TEST(ThreadPool, UsesAllCoresByDefault) {
   const auto cores = static_cast<int>(std::thread::hardware_concurrency());
   EXPECT_EQ(ThreadPool().threads(), std::max(1, cores));
+}
+
+TEST(ThreadPool, TheCallerDoesItAllWhereNoThreadCanBeStarted) {
+  const test::NoMoreThreads none;
+  ThreadPool pool(5);
+  EXPECT_EQ(pool.threads(), 1);
+  const Counting counting(100);
+  pool.runAll(counting, 100);
+  EXPECT_TRUE(counting.allOnce());
 }
 
 TEST(ThreadPool, SpreadsItemsThatWaitForEachOther) {

@@ -185,6 +185,15 @@ class FluidBodyTest(Temporary):
             self.assertEqual((other.name, other.content_hash), ("ball", body.content_hash))
         self.assertAlmostEqual(body.scaled(2).volume, 8 * body.volume)
 
+    def test_waterline_tables_are_made_when_they_are_asked_for(self):
+        box = {"type": "box", "size": [1, 1, 1], "faces": 48}
+        plain = ba.FluidBody.from_shape(box, panels=0)
+        body = ba.FluidBody.from_shape(box, panels=0, waterline_table=1)
+        self.assertEqual((plain.waterline_table, body.waterline_table), (0, 1))
+        self.assertNotEqual(plain.content_hash, body.content_hash)
+        with self.assertRaisesRegex(ValueError, "a sphere needs no waterline table"):
+            ba.FluidBody.from_shape({"type": "sphere", "radius": 1, "faces": 80}, waterline_table=1)
+
     def test_a_cache_solves_once(self):
         vertices, faces = box([1, 2, 3])
         solve = lambda panels: ba.FluidBody.from_mesh(vertices, faces, panels=panels, cache=self.folder)  # noqa: E731

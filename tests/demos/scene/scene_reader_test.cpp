@@ -253,6 +253,17 @@ TEST(SceneReader, RejectsAStaticBodyThatMoves) {
   EXPECT_EQ(complaintAbout(scene), "");
 }
 
+TEST(SceneReader, TakesAWaterlineTableOfABodyThatMoves) {
+  json text = ballScene();
+  text["bodies"][0]["waterline_table"] = 4;
+  EXPECT_EQ(sceneFrom(text).bodies[0].waterline_table, 4);
+  text["bodies"][0]["mass"] = 0;
+  text["bodies"][0].erase("linear_velocity");
+  text["bodies"][0].erase("angular_velocity");
+  EXPECT_EQ(complaintAbout(text),
+            "bodies[0] (ball) mass is 0, a static body, but waterline_table is 4; must be 0");
+}
+
 TEST(SceneReader, RejectsANegativeMass) {
   EXPECT_EQ(complaintAfter("/bodies/0/mass", -0.1), "bodies[0].mass is -0.1; must be >= 0");
 }

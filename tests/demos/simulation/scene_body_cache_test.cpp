@@ -29,6 +29,16 @@ TEST(SceneBodyCache, SolvesAShapeOnce) {
   EXPECT_NE(cache.get(ball(2), "c"), first);
 }
 
+TEST(SceneBodyCache, ABodyWithAWaterlineTableIsAnotherOne) {
+  const ShapeDescription box =
+      readShape({{"type", "box"}, {"size", {1, 1, 1}}, {"faces", 48}}, "", "box");
+  SceneBodyCache cache;
+  const auto plain = cache.get(box, "a"), with = cache.get(box, "a", 1);
+  EXPECT_TRUE(plain->waterline.empty());
+  EXPECT_EQ(with->waterline.subdivisions, 1);
+  EXPECT_EQ(cache.get(box, "b", 1), with);
+}
+
 TEST(SceneBodyCache, WritesNothingBeforeItIsSaved) {
   const TemporaryFolder folder;
   SceneBodyCache cache(folder / "cache");

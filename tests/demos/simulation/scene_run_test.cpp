@@ -305,8 +305,21 @@ TEST(SceneRun, AStateThatIsNotFiniteNamesBodyAndTime) {
     FAIL() << "the run went on";
   } catch (const std::exception& error) {
     const std::string what = error.what();
-    EXPECT_NE(what.find("body \"ball\": its state is not finite at t = 0.01 s"), std::string::npos)
+    EXPECT_NE(what.find(".json: body \"ball\": its state is not finite at t = 0.01 s"),
+              std::string::npos)
         << what;
+  }
+}
+
+TEST(SceneRun, MassesThatCannotBeNameFileAndBody) {
+  json text = ballScene();
+  text["bodies"][0]["mass"] = 1e300;
+  try {
+    run(sceneFrom(text));
+    FAIL() << "the run went on";
+  } catch (const std::exception& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find(".json: body \"ball\": "), std::string::npos) << what;
   }
 }
 

@@ -5,6 +5,7 @@
 #include "demos/simulation/trajectory_text.h"
 #include "demos/sweep/sweep.h"
 #include "tests/demos/sweep/ball_cases.h"
+#include "tests/support/no_more_threads.h"
 
 namespace ambient {
 namespace {
@@ -49,6 +50,15 @@ TEST(Sweep, GivesTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_NE(one.trajectories.at(0), one.trajectories.at(1));
   for (const int threads : {2, 3, 16})
     EXPECT_EQ(runWith(scenes, threads).trajectories, one.trajectories) << threads;
+}
+
+TEST(Sweep, RunsAllWhereNoThreadCanBeStarted) {
+  const std::vector<Scene> scenes = balls(3);
+  const Results one = runWith(scenes, 1);
+  const test::NoMoreThreads none;
+  const Results alone = runWith(scenes, 2);
+  EXPECT_TRUE(alone.failures.empty());
+  EXPECT_EQ(alone.trajectories, one.trajectories);
 }
 
 TEST(Sweep, ARunThatFailsDoesNotStopTheOthers) {

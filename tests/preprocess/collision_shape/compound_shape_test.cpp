@@ -79,6 +79,38 @@ TEST(CompoundShape, FarAwayChildrenAddUp) {
   checkFluidBody(body, "dumbbell");
 }
 
+// Ten sizes apart they hardly feel each other, (1/20)^3 of the added mass from each neighbour.
+TEST(CompoundShape, ManyChildrenApartShareFaces) {
+  btBoxShape box(btVector3(btScalar(0.5), btScalar(0.4), btScalar(0.3)));
+  btCompoundShape compound;
+  for (int i = 0; i < 64; ++i)
+    compound.addChildShape(at(10 * (i % 4), 10 * (i / 4 % 4), 10 * (i / 16)), &box);
+  CollisionShapeSettings settings;
+  settings.load_error = 0;
+  const FluidBody body = makeFluidBody(compound, settings);
+  EXPECT_LE(body.faces.size(), 7800u);
+  const Matrix6 alone = makeFluidBody(box, settings).added_mass;
+  for (int k = 3; k < 6; ++k) EXPECT_NEAR(body.added_mass(k, k) / (64 * alone(k, k)), 1, 3e-3) << k;
+  checkFluidBody(body, "swarm");
+}
+
+// Bodies that meet feel the others' dipoles, however few faces each of many has: the same as two
+// rows of few, which are solved on all of theirs.
+TEST(CompoundShape, ManyChildrenApartFeelEachOther) {
+  btSphereShape ball(1);
+  btCompoundShape few, many;
+  for (int i = 0; i < 8; ++i) few.addChildShape(at(2.5 * i, 0, 0), &ball);
+  for (int i = 0; i < 24; ++i) many.addChildShape(at(2.5 * (i % 8), 200 * (i / 8), 0), &ball);
+  CollisionShapeSettings settings;
+  settings.load_error = 0;
+  const Matrix6 row = makeFluidBody(few, settings).added_mass;
+  const Matrix6 rows = makeFluidBody(many, settings).added_mass;
+  const double alone = 8 * 2 * kPi / 3;
+  EXPECT_LT(row(3, 3) / alone, 0.8);  // in each other's lee
+  EXPECT_GT(row(4, 4) / alone, 1.05);
+  for (int k = 3; k < 6; ++k) EXPECT_NEAR(rows(k, k) / (3 * row(k, k)), 1, 1e-2) << k;
+}
+
 TEST(CompoundShape, LocalScalingMovesAndScalesChildren) {
   btBoxShape box(btVector3(1, 1, 1));
   btCompoundShape compound;

@@ -52,6 +52,30 @@ TEST(FluidBodyCache, EqualShapesAreOneWhereverTheyAre) {
   EXPECT_EQ(cache.counts().made, 4);
 }
 
+// Sizes scale the table as they scale the added mass; spheres have none of their own.
+TEST(FluidBodyCache, MakesWaterlineTablesOfAllButSpheres) {
+  const TemporaryFolder folder;
+  CollisionShapeSettings settings = coarse();
+  settings.waterline_subdivisions = 1;
+  FluidBodyCache cache(settings, folder.path());
+  const auto box = cache.fluidBody(btBoxShape(sizes(0.5, 0.5, 0.5)));
+  ASSERT_EQ(box->waterline.subdivisions, 1);
+  EXPECT_FALSE(box->waterline.corrections.empty());
+  const auto large = cache.fluidBody(btBoxShape(sizes(1, 1, 1)));
+  EXPECT_EQ(cache.counts().made, 1);
+  EXPECT_NEAR(large->waterline.corrections[0](3, 3) / box->waterline.corrections[0](3, 3), 8, 1e-5);
+  EXPECT_TRUE(cache.fluidBody(btSphereShape(1))->waterline.empty());
+  // What is kept without a table is another file.
+  EXPECT_TRUE(FluidBodyCache(coarse(), folder.path())
+                  .fluidBody(btBoxShape(sizes(1, 1, 1)))
+                  ->waterline.empty());
+  settings.waterline_subdivisions = 17;
+  EXPECT_NE(messageOf([&] {
+              FluidBodyCache(settings).fluidBody(btBoxShape(sizes(1, 1, 1)));
+            }).find("waterline subdivisions = 17 is not between 0 (no table) and 16"),
+            std::string::npos);
+}
+
 // As makeFluidBody() makes it, but for numbers that are rounded to a millionth.
 TEST(FluidBodyCache, GivesWhatTheShapeIs) {
   FluidBodyCache cache(coarse());

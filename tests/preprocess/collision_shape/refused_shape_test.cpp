@@ -4,6 +4,7 @@
 #include <BulletCollision/CollisionShapes/btScaledBvhTriangleMeshShape.h>
 #include <gtest/gtest.h>
 
+#include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -68,6 +69,29 @@ TEST(RefusedShape, EmptyCompoundsAndFlatBoxes) {
   EXPECT_EQ(refusalOf(btSphereShape(0)), "thing: the radius = 0 m must be positive and finite");
   const std::string flat = refusalOf(btBox2dShape(btVector3(1, 1, 0)));
   EXPECT_NE(flat.find("is not supported"), std::string::npos) << flat;
+}
+
+// Of a compound the child is named, by itself and by a cache, which solves all at size 1.
+TEST(RefusedShape, SizesBeyondTheUsualAreNamedWithTheLimit) {
+  const auto both = [](const btCollisionShape& shape) {
+    CollisionShapeSettings settings = coarse();
+    settings.name = "thing";
+    const std::string refusal = refusalOf(shape);
+    EXPECT_EQ(messageOf([&] { FluidBodyCache(settings).fluidBody(shape); }), refusal);
+    return refusal;
+  };
+  const std::string limit = " m; must be 1e-09 m to 1e+09 m";
+  btSphereShape huge(btScalar(1e30));
+  EXPECT_EQ(both(huge).find("thing: its largest size or place is 1"), 0u);
+  EXPECT_NE(both(huge).find(limit), std::string::npos) << both(huge);
+  EXPECT_NE(both(btSphereShape(btScalar(1e-30))).find(limit), std::string::npos);
+  btCompoundShape compound;
+  btTransform place = btTransform::getIdentity();
+  compound.addChildShape(place, &huge);
+  EXPECT_EQ(both(compound).find("thing: child 0: its largest size or place is 1"), 0u);
+  EXPECT_NE(refusalOf(btCapsuleShape(btScalar(1e-9), 2))
+                .find("the longest must be at most 1000000 times the shortest"),
+            std::string::npos);
 }
 
 }  // namespace

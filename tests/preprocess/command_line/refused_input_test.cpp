@@ -52,13 +52,19 @@ TEST_F(CommandLine, ShapesBeyondWhatCanBeSolvedAreRefused) {
     EXPECT_EQ(message.find(file + ": "), 0u) << message;
     return message.substr(std::min(message.size(), file.size() + 2));
   };
+  const std::string sizes = " m; each must be 1e-09 m to 1e+09 m",
+                    slender = " m; the longest must be at most 1000000 times the shortest";
   EXPECT_EQ(refusalOf(R"({"type":"sphere","radius":1e300})"),
-            "the diagonal of its bounding box is not finite; it must be 1e-9 m to 1e9 m");
-  EXPECT_EQ(refusalOf(R"({"type":"box","half_sizes":[1,1,1e-12],"faces":48})")
+            "its half extents are 1e+300 x 1e+300 x 1e+300" + sizes);
+  EXPECT_EQ(refusalOf(R"({"type":"sphere","radius":1e-300})"),
+            "its half extents are 1e-300 x 1e-300 x 1e-300" + sizes);
+  EXPECT_EQ(refusalOf(R"({"type":"box","size":[2,2e-9,2e-9]})"),
+            "its half extents are 1 x 1e-09 x 1e-09" + slender);
+  EXPECT_EQ(refusalOf(R"({"type":"sheet","size":[1e-200,2],"faces":50})"),
+            "its half extents are 5e-201 x 1" + slender);
+  EXPECT_EQ(refusalOf(R"({"type":"box","half_sizes":[1,1,2e-6],"faces":48})")
                 .find("it is too thin: its volume over its area^1.5 is "),
             0u);
-  EXPECT_EQ(refusalOf(R"({"type":"sheet","size":[1e-200,1],"faces":50})"),
-            "it is too narrow: its area over the square of its size must be at least 1e-12");
   EXPECT_EQ(refusalOf("{\"type\":\"sphere\",\"radius\":1,\"a\\nb\":2}")
                 .find("unknown key \"a\\nb\" in the shape"),
             0u);

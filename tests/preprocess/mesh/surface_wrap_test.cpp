@@ -59,26 +59,57 @@ TEST(SurfaceWrap, UnitesPartsAndFillsWhatIsInside) {
   EXPECT_NEAR(wrappedProperties(joined(box, moved(box, {3, 0, 0})), 0.05).volume, 16, 0.02);
 }
 
-// Along the diagonal of the top runs a gap of 0.03; a missing side is no gap: what is left are five
-// plates, 1.5 sizes thick.
-TEST(SurfaceWrap, ClosesGapsButNotHoles) {
-  TriangleMesh cut = boxOf12({1, 1, 1});
-  Eigen::Index top = -1;
-  for (Eigen::Index t = 0; t < 12; ++t) {
-    if ((cut.corner(t, 0) + cut.corner(t, 1) + cut.corner(t, 2)).z() == 3) top = t;
+/// The six sides of a cube of side 2, with gaps of `gap` between them.
+TriangleMesh cubeOfPlates(double gap) {
+  const TriangleMesh cube = boxOf12({1, 1, 1});
+  TriangleMesh plates;
+  plates.vertices.resize(3, 36);
+  plates.triangles.resize(3, 12);
+  for (int i = 0; i < 36; ++i) plates.triangles(i % 3, i / 3) = i;
+  for (int i = 0; i < 36; ++i) {
+    const Eigen::Vector3d normal = (cube.corner(i / 3, 1) - cube.corner(i / 3, 0))
+                                       .cross(cube.corner(i / 3, 2) - cube.corner(i / 3, 0))
+                                       .normalized();
+    const Eigen::Vector3d corner = cube.corner(i / 3, i % 3);
+    plates.vertices.col(i) = corner - gap * (corner - normal);
   }
-  ASSERT_GE(top, 0);
-  TriangleMesh apart = withoutTriangle(cut, top);
-  TriangleMesh lid =
-      meshOf({cut.corner(top, 0), cut.corner(top, 1), cut.corner(top, 2)}, {{0, 1, 2}});
-  const Eigen::Vector3d centre = lid.vertices.rowwise().mean();
-  lid.vertices = (0.97 * (lid.vertices.colwise() - centre)).colwise() + centre;
-  EXPECT_NEAR(wrappedProperties(joined(apart, lid), 0.06).volume, 8, 0.02);
+  return plates;
+}
 
-  const double size = 0.05, thickness = 1.5 * size;
-  const auto open = wrappedProperties(withoutTriangle(cut, top), size);
-  EXPECT_LT(open.volume, 24 * thickness);
-  EXPECT_GT(open.volume, 20 * thickness);
+// A gap along the edges is sqrt(2) * 0.04 wide.
+TEST(SurfaceWrap, ClosesGaps) {
+  EXPECT_NEAR(wrappedProperties(cubeOfPlates(0.04), 0.06).volume, 8, 0.05);
+}
+
+// Cubes of 0.04 pass gaps of 0.14. What is suggested is found to do.
+TEST(SurfaceWrap, RefusesAShellWhereItsTrianglesSurroundABody) {
+  const TriangleMesh plates = cubeOfPlates(0.1);
+  const std::string refusal = wrapRefusal(plates, 0.04);
+  EXPECT_EQ(refusal.find("thing.obj: wrapped with a size of 0.04 m encloses "), 0u) << refusal;
+  EXPECT_NE(refusal.find("; a size of 0.08 m closes them"), std::string::npos) << refusal;
+  EXPECT_GT(wrappedProperties(plates, 0.08).volume, 0.9 * 8);
+}
+
+// Twelve of the holes are side by side, others lie alone; what fills them is flat.
+TEST(SurfaceWrap, FillsHolesBeforeItWraps) {
+  const TriangleMesh whole = makeEllipsoidMesh({1, 0.7, 0.4}, 1280);
+  const double volume = computeMassProperties(whole).volume;
+  TriangleMesh open = whole;
+  for (int i = 24; i >= 0; --i) open = withoutTriangle(open, i < 12 ? 2 * i : 51 * i);
+  const CheckedMesh checked = wrapSurface(open, 0.02, "thing.obj");
+  EXPECT_NEAR(computeMassProperties(checked.mesh).volume / volume, 1, 0.01);
+  ASSERT_GE(checked.warnings.size(), 2u);
+  EXPECT_EQ(checked.warnings[1].find("thing.obj: holes filled before that: 25, of "), 0u)
+      << checked.warnings[1];
+}
+
+TEST(SurfaceWrap, FillsAMissingSide) {
+  TriangleMesh box = makeBoxMesh({1, 1, 1}, 300);
+  for (Eigen::Index t = box.triangleCount() - 1; t >= 0; --t) {
+    if ((box.corner(t, 0) + box.corner(t, 1) + box.corner(t, 2)).z() > 3 - 1e-9)
+      box = withoutTriangle(box, t);
+  }
+  EXPECT_NEAR(wrappedProperties(box, 0.05).volume, 8, 0.02);
 }
 
 // A rounded slab, thickness 1.5 sizes, over a square of side 2.

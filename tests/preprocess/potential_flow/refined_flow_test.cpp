@@ -9,6 +9,7 @@
 #include "bullet_ambient/spatial/pi.h"
 #include "preprocess/mesh/primitives.h"
 #include "preprocess/potential_flow/curvature_correction.h"
+#include "preprocess/potential_flow/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/face_bulges.h"
 #include "preprocess/potential_flow/surface_refinement.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
@@ -136,6 +137,19 @@ TEST(RefinedFlow, ExtrapolationHalvesTheErrorOfACube) {
     EXPECT_LT(relativeError(refined.added_mass(k + 3, k + 3), translation),
               relativeError(plain(k + 3, k + 3), translation) / 2);
   }
+}
+
+// Measured 2.5e-3.
+TEST(RefinedFlow, AMeshFarFinerThanItsPanelsIsSolvedOnSoMany) {
+  const Vector3 semi_axes(1, 0.7, 0.4);
+  const TriangleMesh mesh =
+      withVolume(makeEllipsoidMesh(semi_axes, 9680), 4 * kPi / 3 * semi_axes.prod());
+  const RefinedFlow refined = solveRefinedFlow(mesh, withPanels(1000));
+  EXPECT_LE(refined.panels, 1000);
+  EXPECT_LT(differenceOf(refined.added_mass, ellipsoidAddedMass(semi_axes).asDiagonal()), 1e-2);
+  const Matrix6 off_diagonal =
+      refined.added_mass - Matrix6(refined.added_mass.diagonal().asDiagonal());
+  EXPECT_LT(off_diagonal.cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(RefinedFlow, WhatSymmetryForbidsIsZeroWhateverTheDiagonals) {

@@ -32,7 +32,7 @@ TEST(UrdfReader, ReadsLinksAndJoints) {
   EXPECT_EQ(robot.links[0].mass, 2);
   const JointModel& shoulder = robot.links[1].joint;
   EXPECT_EQ(robot.links[1].parent, 0);
-  EXPECT_EQ(shoulder.kind, JointKind::kRevolute);
+  EXPECT_EQ(shoulder.kind, UrdfJointKind::kRevolute);
   EXPECT_EQ(shoulder.axis, Vector3(0, 1, 0));
   EXPECT_EQ(shoulder.lower, -1);
   EXPECT_EQ(shoulder.upper, 0.5);
@@ -89,14 +89,14 @@ TEST(UrdfReader, KindsOfJoints) {
       joint("ab", "continuous", "a", "b", R"(<mimic joint="bc" multiplier="2" offset="1"/>)") +
       joint("bc", "prismatic", "b", "c", limit) + joint("cd", "planar", "c", "d") +
       joint("de", "floating", "d", "e"));
-  EXPECT_EQ(robot.links[1].joint.kind, JointKind::kRevolute);
+  EXPECT_EQ(robot.links[1].joint.kind, UrdfJointKind::kRevolute);
   EXPECT_EQ(robot.links[1].joint.upper, JointModel::kUnlimited);
   ASSERT_TRUE(robot.links[1].joint.mimic);
   EXPECT_EQ(robot.links[1].joint.mimic->multiplier, 2);
   EXPECT_EQ(robot.links[1].joint.mimic->offset, 1);
-  EXPECT_EQ(robot.links[2].joint.kind, JointKind::kPrismatic);
-  EXPECT_EQ(robot.links[3].joint.kind, JointKind::kPlanar);
-  EXPECT_EQ(robot.links[4].joint.kind, JointKind::kFloating);
+  EXPECT_EQ(robot.links[2].joint.kind, UrdfJointKind::kPrismatic);
+  EXPECT_EQ(robot.links[3].joint.kind, UrdfJointKind::kPlanar);
+  EXPECT_EQ(robot.links[4].joint.kind, UrdfJointKind::kFloating);
 }
 
 TEST(UrdfReader, RefusesBadInputInOneLine) {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "preprocess/mesh/triangle_mesh.h"
+
+namespace ambient {
+
+/// A mesh and what was added to it.
+struct FilledMesh {
+  TriangleMesh mesh;
+  int holes = 0;
+  double area = 0;  ///< of the triangles that fill them [m^2]
+};
+
+/// Fills the loops of open edges with triangles on their vertices. A surface with a loop that would
+/// take more than 0.9 of its own area is a sheet, and stays open: a plate, a sail, a patch among
+/// others. Cost O(T log T), and O(n^2 log n) for a loop of n edges.
+/// @pre indices are in range, coordinates finite.
+FilledMesh withHolesFilled(const TriangleMesh& mesh);
+
+}  // namespace ambient
