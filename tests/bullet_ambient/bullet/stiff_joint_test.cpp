@@ -74,7 +74,8 @@ TEST_P(StiffJoint, DoesNotFeedASpin) {
   for (const double spin : {1e2, 1e3, 1e4}) {
     const Swing of = swing(spin, 0);
     EXPECT_LE(of.energy, 1 + byPrecision(1e-12, 1e-5)) << spin;
-    EXPECT_LT(of.late_speed, 0.4 * kSize * spin) << spin;
+    // At most 0.45 of it, at 1e4 rad/s and 1/30 s, where spin is given up for momentum, eq. (31b).
+    EXPECT_LT(of.late_speed, 0.5 * kSize * spin) << spin;
   }
 }
 

@@ -143,15 +143,16 @@ TEST(Top, OnABallJointGainsNoEnergy) {
     }
 }
 
-// What the bound (31a) takes grows with the turn in a step; docs/stability.md has the means.
+// What the bounds (31a) and (31b) take grows with the turn in a step; docs/stability.md has the
+// means.
 TEST(Top, OnABallJointLosesNoMoreThanItsTurnPerStepExplains) {
   struct Case {
     double spin, rate, least;
   };
   constexpr unsigned kSeeds = 24;
   for (const auto& [spin, rate, least] :
-       {Case{1, 60, 0.999}, Case{10, 240, 0.98}, Case{10, 60, 0.8}, Case{20, 60, 0.36},
-        Case{60, 60, 0.08}}) {
+       {Case{1, 60, 0.999}, Case{10, 240, 0.98}, Case{10, 60, 0.8}, Case{20, 60, 0.33},
+        Case{60, 60, 0.2}}) {
     double mean = 0;
     for (unsigned seed = 0; seed < kSeeds; ++seed)
       mean += energyOfTop(spin, rate, seed).end / kSeeds;
