@@ -37,10 +37,14 @@ std::optional<TriangleMesh> compactSurface(const TriangleMesh& mesh, int triangl
   return fitted(std::move(compact), found, body);
 }
 
-TriangleMesh inFewerTriangles(const TriangleMesh& mesh, int triangles) {
+std::optional<TriangleMesh> inFewerTriangles(const TriangleMesh& mesh, int triangles) {
+  constexpr double kVolumeChange = 0.02, kAreaChange = 0.02, kTooMany = 1.1;
   TriangleMesh fewer = coarsened(mesh, {triangles, triangles, 0});
-  const MeshProperties found = computeMassProperties(fewer);
-  return fitted(std::move(fewer), found, computeMassProperties(mesh));
+  if (static_cast<double>(fewer.triangleCount()) > kTooMany * triangles) return std::nullopt;
+  const MeshProperties found = computeMassProperties(fewer), body = computeMassProperties(mesh);
+  if (!isWithin(kVolumeChange, found.volume, body.volume)) return std::nullopt;
+  if (!isWithin(kAreaChange, found.area, body.area)) return std::nullopt;
+  return fitted(std::move(fewer), found, body);
 }
 
 }  // namespace ambient

@@ -143,9 +143,10 @@ class MeshCoarsener {
     return staysInShape(c, c.kept, c.removed) && staysInShape(c, c.removed, c.kept);
   }
 
-  /// Whether the triangles at `v` but not at `other` neither turn nor become slivers.
+  /// Whether the triangles at `v` but not at `other` neither turn nor become slivers. Slivers may
+  /// become a little worse: else fans around a pole could not be contracted.
   bool staysInShape(const Contraction& c, int v, int other) {
-    constexpr double kLeastCosine = 0.3, kLeastHeightOfTriangle = 0.05;
+    constexpr double kLeastCosine = 0.3, kLeastHeightOfTriangle = 0.05, kLeastOfSliver = 0.9;
     for (const int t : around(v)) {
       const CornerNumbers& own = corners(t);
       if ((own.array() == other).any()) continue;
@@ -156,7 +157,8 @@ class MeshCoarsener {
         if (own[k] == v) points[static_cast<std::size_t>(k)] = c.place;
       const Vector3d after = crossOf(points);
       if (before.dot(after) < kLeastCosine * before.norm() * after.norm()) return false;
-      if (shapeOf(points) < std::min(kLeastHeightOfTriangle, shape_before)) return false;
+      if (shapeOf(points) < std::min(kLeastHeightOfTriangle, kLeastOfSliver * shape_before))
+        return false;
     }
     return true;
   }

@@ -143,20 +143,23 @@ bool isFarFiner(const TriangleMesh& mesh, const PotentialFlowSettings& settings)
          mesh.triangleCount() > kTrianglesPerPanel * settings.max_panels;
 }
 
-/// Triangles for so many panels: one for each if the body is smooth, else some to be divided.
-TriangleMesh inTrianglesFor(int panels, const TriangleMesh& mesh) {
+/// Triangles for so many panels: one for each if the body is smooth, else some to be divided. None
+/// if so few do not show the body.
+std::optional<TriangleMesh> inTrianglesFor(int panels, const TriangleMesh& mesh) {
   constexpr int kFewTriangles = 400;
-  TriangleMesh fewer = inFewerTriangles(mesh, panels);
+  std::optional<TriangleMesh> fewer = inFewerTriangles(mesh, panels);
   const int divisible = std::max(kFewTriangles, panels / kPanelsPerTriangle);
-  if (divisible >= panels || isSmooth(estimateBulges(fewer))) return fewer;
-  return inFewerTriangles(fewer, divisible);
+  if (!fewer || divisible >= panels || isSmooth(estimateBulges(*fewer))) return fewer;
+  return inFewerTriangles(*fewer, divisible);
 }
 
 }  // namespace
 
 RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
-  if (isFarFiner(mesh, settings))
-    return solveInOtherTriangles(inTrianglesFor(settings.max_panels, mesh), mesh, settings);
+  if (isFarFiner(mesh, settings)) {
+    if (const auto fewer = inTrianglesFor(settings.max_panels, mesh))
+      return solveInOtherTriangles(*fewer, mesh, settings);
+  }
   const RefinedFlow refined = solveOnPanels(mesh, settings);
   if (!refined.is_coarse || settings.solver == FlowSolverKind::Dense) return refined;
   if (const auto compact = solveOnCompactPanels(mesh, settings)) return *compact;
