@@ -79,7 +79,8 @@ constexpr int kLeastFaces = 350;  // of a solid that is not one of many
 
 /// Whether solids have fewer faces than each would have among few.
 bool areMany(const std::vector<Solid>& solids, const CollisionShapeSettings& settings) {
-  return kLeastFaces * solids.size() > static_cast<std::size_t>(kMostOfMany * settings.faces);
+  return static_cast<double>(kLeastFaces) * static_cast<double>(solids.size()) >
+         static_cast<double>(kMostOfMany) * settings.faces;
 }
 
 std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,

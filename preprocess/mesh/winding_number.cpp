@@ -29,7 +29,8 @@ double enclosedVolume(const TriangleMesh& mesh) {
   const Eigen::Vector3d low = mesh.vertices.rowwise().minCoeff(), step = mesh.extents() / count;
   int inside = 0;
   for (int i = 0; i < count * count * count; ++i) {
-    const Eigen::Array3d place(i % count, i / count % count, i / (count * count));
+    const int x = i % count, y = i / count % count, z = i / (count * count);
+    const Eigen::Array3d place(x, y, z);
     const Eigen::Vector3d point = low.array() + (place + 0.5) * step.array();
     double angle = 0;
     for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) angle += solidAngle(mesh, t, point);
