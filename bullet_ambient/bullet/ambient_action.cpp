@@ -53,7 +53,8 @@ void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& 
   keepAwakeInUnsteadyFluid(ambient);
 }
 
-// Of a substep whose duration is not finite: the next one would start its contacts with them.
+// Clears contact impulses after a substep whose duration is not finite: the next one would start
+// its contacts with them.
 void forgetBrokenImpulses(btCollisionWorld& world) {
   btDispatcher& dispatcher = *world.getDispatcher();
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {

@@ -30,8 +30,8 @@ struct AttachDef {
   FrameOffset fluid_frame = {};  ///< F in the btRigidBody's frame (centre of mass)
 };
 
-/// What was computed for one body since it was attached. The first link of a tree has what is
-/// counted once for the tree.
+/// Counts what was computed for one body since it was attached. Counts that a tree has once are at
+/// its first link.
 struct AmbientCounters {
   long long substeps = 0;  ///< of free flight
   long long load_evaluations = 0;

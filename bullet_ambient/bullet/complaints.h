@@ -46,7 +46,7 @@ class Complaints {
   /// Of a floating body that rows move, whose largest natural frequency [rad/s] the step [s] is too
   /// long for.
   void sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept;
-  /// Of a body whose joint comes apart; `other`: null if it has no fluid.
+  /// Names a body whose joint comes apart and the other body, null if that has no fluid.
   void sayGaping(const AttachDef& def, const AttachDef* other) noexcept;
 
   /// Passes a sentence to the report, each time. Drops what the report throws, which must not

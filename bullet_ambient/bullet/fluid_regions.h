@@ -26,7 +26,7 @@ class FluidRegions {
 
   /// The fluids of all regions.
   RegionFluids fluids() const;
-  /// Those of a region that no region here has.
+  /// Returns the fluids of a region that no region here has.
   RegionFluids missing(const FluidRegion& region) const;
 
   /// The number of the next region that is added.

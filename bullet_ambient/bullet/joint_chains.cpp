@@ -223,7 +223,7 @@ void JointChains::substitute() noexcept {
   }
 }
 
-// What the row asks for beyond what has been changed already [m/s].
+// Velocity along the row that it asks for and that is not yet there [m/s].
 double JointChains::missingVelocity(const Row& row) const noexcept {
   const btSolverConstraint& constraint = (*joints_)[row.index];
   auto velocity = static_cast<double>(constraint.m_rhs / constraint.m_jacDiagABInv);

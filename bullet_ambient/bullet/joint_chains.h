@@ -39,7 +39,7 @@ class JointChains {
   int solve(btConstraintArray& joints, RowBodies& ambient, SolverBodies& bodies) noexcept;
 
  private:
-  // What one row does to one body, which can move.
+  // One row seen from one of its bodies, which can move.
   struct Side {
     int body;  // -1: none
     Vector3 angular, linear;

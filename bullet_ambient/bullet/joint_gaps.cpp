@@ -9,7 +9,7 @@ namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
-// What the row asks for and has not got [m/s]; 0 at a bound.
+// Velocity along the row that it asks for and has not got [m/s]; 0 at a bound.
 double missedBy(const btSolverConstraint& row, btSolverBody& a, btSolverBody& b) {
   const btScalar impulse = row.m_appliedImpulse;
   const bool is_bound = impulse <= row.m_lowerLimit || impulse >= row.m_upperLimit;

@@ -21,7 +21,7 @@ constexpr int kLongGape = 10;
 /// memory.
 class JointGaps {
  public:
-  /// As Bullet has set the rows up, which tells shifts from turns.
+  /// Reads the rows as Bullet has set them up, which tells shifts from turns.
   void watch(const btConstraintArray& joints, RowBodies& ambient) noexcept;
   /// After the iterations: into RowBody::gap, the largest of each body.
   void measure(const btConstraintArray& joints, RowBodies& ambient,

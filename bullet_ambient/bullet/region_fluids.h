@@ -9,7 +9,7 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
-/// What the loads of a medium depend on.
+/// The properties of a medium on which loads depend.
 struct FluidKind {
   double density = 0;    ///< [kg/m^3]
   double viscosity = 0;  ///< [Pa s]
@@ -25,7 +25,7 @@ struct FluidKind {
   Medium medium() const { return {density, viscosity, Vector3::Zero(), Vector3::Zero()}; }
 };
 
-/// What a body at a surface depends on of the fluids that it parts.
+/// The properties of two fluids, parted by a surface, on which a body there depends.
 struct SurfaceKind {
   FluidKind below, above;
   bool may_blow;  ///< the fluid above may move

@@ -10,7 +10,7 @@
 namespace ambient {
 inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 
-/// What a body knows of some fluids.
+/// Loads and models of one body in some fluids.
 struct KnownFluids {
   std::vector<MediumLoads> media;
   std::vector<SurfaceMedia> surfaces;  ///< of unit mass and inertia until its model is built
@@ -20,7 +20,8 @@ struct KnownFluids {
 /// @throws std::invalid_argument as makeSurfaceLoads().
 MediumLoads makeOwnLoads(const AttachDef& def, LoadTables& tables);
 
-/// Of a body in the fluids of regions, but for its own medium; nothing, if it follows none.
+/// Makes them for a body in the fluids of regions, but for its own medium; none, if it follows no
+/// regions.
 /// @throws std::invalid_argument as makeSurfaceLoads() and makeSurfaceModel().
 KnownFluids makeKnownFluids(const AttachDef& def, const RegionFluids& fluids, LoadTables& tables);
 

@@ -22,23 +22,24 @@ class WettedInertia;
 /// Whether loads are those of a body in one fluid, or of one that the surface may cut.
 enum class LoadPlace { kUnbounded, kWaterline };
 
-/// What bodies of one shape have in common: made when it is first asked for, and kept as long as
-/// somebody uses it. Owned by who makes loads; for one thread at a time, and never read by the
+/// Data that bodies of one shape have in common: made when first asked for, and kept as long as
+/// somebody uses them. Owned by who makes loads; for one thread at a time, and never read by the
 /// loads themselves.
 class LoadTables {
  public:
   using Body = std::shared_ptr<const FluidBody>;
   using Faces = std::shared_ptr<const FaceTable>;
 
-  /// What `make()` returns, once for all bodies of a shape in a fluid, by settings without a law of
-  /// their own.
+  /// Calls `make()` once for all bodies of a shape in a fluid, by settings without a law of their
+  /// own, and returns its result.
   template <class Make>
   std::shared_ptr<const SurfaceLoads> loads(const Body& body, const Medium& medium,
                                             const FlowSettings& flow, LoadPlace place,
                                             const Make& make) {
     return loads_.get(body, keyOf(medium, flow, place), make);
   }
-  /// The same for the added mass at the surface of water.
+  /// Calls `make()` once for all bodies of a shape and returns their added mass at the surface of
+  /// water.
   template <class Make>
   std::shared_ptr<const WettedInertia> wettedInertia(const Body& body, const Make& make) {
     return wetted_.get(body, {}, make);
@@ -58,7 +59,7 @@ class LoadTables {
   std::shared_ptr<const SphereTable> sphereTable(double separation_cosine);
 
  private:
-  /// What was made of something by some settings, as long as it is used.
+  /// Tables made of a source by some settings, kept as long as they are used.
   template <class Source, class Table, class Settings = std::tuple<>>
   class Made {
    public:
@@ -82,7 +83,7 @@ class LoadTables {
       std::weak_ptr<const Table> table;
     };
 
-    // As many may be added until the next time as are kept now: the cost per entry stays bounded.
+    // Until the next time the number of entries may double: the cost per entry stays bounded.
     void dropUnused() {
       for (auto entry = entries_.begin(); entry != entries_.end();)
         entry = entry->second.table.expired() ? entries_.erase(entry) : std::next(entry);

@@ -309,7 +309,7 @@ std::shared_ptr<const SurfaceLoads> waterlineLawOf(const Body& body, const LoadS
   return waterlineLoadsOnFaces(body, settings, on_all, tables);
 }
 
-// What is not one has no loads, or is refused later.
+// A medium that is no fluid has no loads, or is refused later.
 bool isFluid(const Medium& medium) { return medium.density > 0 && medium.viscosity >= 0; }
 
 }  // namespace

@@ -66,7 +66,7 @@ ThreadPool::ThreadPool(int threads) : shared_(std::make_unique<Shared>()) {
   try {
     for (int i = 1; i < wanted; ++i) s.threads.emplace_back([&s] { s.serve(); });
   } catch (const std::system_error&) {
-    // Those that run, and the caller, do it all.
+    // The threads that run, and the caller, do it all.
   } catch (...) {
     s.close();
     throw;

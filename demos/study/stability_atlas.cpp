@@ -13,7 +13,7 @@
 namespace ambient {
 namespace {
 
-/// What the energy may rise by, relative: nothing but rounding, of Bullet's own numbers.
+/// Largest rise of the energy, relative, that passes: the rounding of Bullet's own numbers.
 constexpr double kMostRise = sizeof(btScalar) == 8 ? 1e-6 : 1e-5;
 
 constexpr double kMuch = 0.01;

@@ -42,7 +42,7 @@ class RunningSweep {
     return std::min(settings_.threads > 0 ? settings_.threads : cores, count());
   }
 
-  /// As many as the system gives.
+  /// Starts as many threads as the system gives.
   std::vector<std::thread> startThreads() {
     std::vector<std::thread> threads;
     try {

@@ -21,7 +21,7 @@ class ElapsedDisplay {
   ElapsedDisplay(const ElapsedDisplay&) = delete;
   ElapsedDisplay& operator=(const ElapsedDisplay&) = delete;
 
-  /// What is done from now on; its share is 0.
+  /// Names what is done from now on; its share is 0.
   void begin(const std::string& stage);
   /// How much of it is done, from 0 to 1.
   void update(double share) { share_ = share; }

@@ -73,7 +73,7 @@ RefinedFlow solveFlow(const TriangleMesh& mesh, const BuildSettings& settings) {
   }
 }
 
-/// What no limit above has caught.
+/// Refuses an added mass that is not finite, which no limit above has caught.
 void requireFinite(const Matrix6& added_mass, const TriangleMesh& mesh, const std::string& source) {
   if (added_mass.allFinite()) return;
   raiseInputError(source, "its added mass is not finite: its size of ", extentsText(mesh.extents()),

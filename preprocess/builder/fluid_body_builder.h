@@ -39,8 +39,8 @@ struct BuildSettings {
   /// The flow is solved on up to max_panels, finer than the mesh where that helps, and on four
   /// times as many where long triangles need them; the faces remain those of the mesh.
   PotentialFlowSettings flow{false, kDefaultPanels};
-  /// Of the table for the surface of water, makeWaterlineTable(), 1 to kMostWaterlineSubdivisions;
-  /// 0: none. Neither a sheet nor a sphere can have one.
+  /// Subdivisions of the table for the surface of water, makeWaterlineTable(), 1 to
+  /// kMostWaterlineSubdivisions; 0: no table. Neither a sheet nor a sphere can have one.
   int waterline_subdivisions = 0;
   Provenance provenance;  ///< copied; an empty generator becomes this library and its version
   /// Receives in one line what is doubtful about the result; null: nothing is said.

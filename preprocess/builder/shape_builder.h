@@ -21,7 +21,7 @@ struct ShapeBuildSettings {
   bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
   /// As in BuildSettings; whether it is a sheet, the shape says.
   PotentialFlowSettings flow{false, kDefaultPanels};
-  /// As in BuildSettings.
+  /// Is told what is done from now on; null: nobody.
   std::function<void(const std::string& stage)> begin = nullptr;
 };
 

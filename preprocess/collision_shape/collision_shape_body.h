@@ -40,7 +40,8 @@ struct CollisionShapeSettings {
   /// Of the few faces that carry the loads by the form law in place of all, FormLevel::p99_error;
   /// 0: there are none. Bodies take them as far as FlowSettings::maximum_load_error allows.
   double load_error = 0.01;
-  /// As in BuildSettings, of kStandard; spheres, whose table all share, have none of their own.
+  /// Subdivisions of the waterline table, BuildSettings, where the quality is kStandard; spheres,
+  /// whose table all share, have none of their own.
   int waterline_subdivisions = 0;
   bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
   CompoundFallback fallback = CompoundFallback::kHull;

@@ -171,8 +171,9 @@ AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings
   return {symmetrisedAddedMass(total, solid.mesh), fine.parts};
 }
 
-/// Of many solids apart: one flow around all of them on their faces, which has what they do to each
-/// other, with the closed form or table of each in place of what its few faces give alone.
+/// Returns the added mass of many solids apart: that of one flow around all of them on their faces,
+/// which has what they do to each other, with the closed form or table of each in place of what its
+/// few faces give alone.
 AddedMass coupledAddedMass(const std::vector<Solid>& solids, const CollisionShapeSettings& settings,
                            const std::string& name) {
   PotentialFlowSettings undivided = settings.flow;

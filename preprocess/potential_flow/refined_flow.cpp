@@ -116,8 +116,8 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
 
 constexpr int kPanelsPerTriangle = 5;  // where triangles are to be divided
 
-/// Of the body of a mesh in other triangles. What two divisions then differ by is not due to long
-/// triangles.
+/// Solves the flow around the body of a mesh in other triangles. A difference of two divisions is
+/// then not due to long triangles.
 RefinedFlow solveInOtherTriangles(const TriangleMesh& other, const TriangleMesh& mesh,
                                   const PotentialFlowSettings& settings) {
   RefinedFlow refined = solveOnPanels(other, settings);
