@@ -113,7 +113,7 @@ void Complaints::sayGaping(const AttachDef& def, const AttachDef* other) noexcep
   try {
     say(Complaint::kGaping, gapingJoint(def, other).c_str());
   } catch (...) {
-    // As above.
+    // A failure to make the sentence must not unwind through the step.
   }
 }
 
@@ -122,7 +122,7 @@ void Complaints::sayTooLong(const AttachDef& def) noexcept {
   try {
     say(Complaint::kTooLong, tooLong(def).c_str());
   } catch (...) {
-    // As above.
+    // A failure to make the sentence must not unwind through the step.
   }
 }
 

@@ -10,7 +10,7 @@
 #include "tests/bullet_ambient/bullet/region_world.h"
 #include "tests/support/part_bodies.h"
 
-// What functions of regions do to their registry, and what the time is that they are given.
+// Calls of a registry from functions of its regions, and the time that they are given.
 namespace ambient::test {
 namespace {
 

@@ -109,7 +109,7 @@ TEST(JoinedChain, KeepsItsMomentumAndGainsNothing) {
   EXPECT_GT(row.energy(), 0.9 * energy);
 }
 
-/// Of a body on a ball joint at its rim in two seconds, over its energy at the start.
+/// Energies of a body on a ball joint at its rim in two seconds, over its energy at the start.
 struct TopEnergy {
   double largest = 1, end = 1;
 };
@@ -143,8 +143,8 @@ TEST(Top, OnABallJointGainsNoEnergy) {
     }
 }
 
-// What the bounds (31a) and (31b) take grows with the turn in a step; docs/stability.md has the
-// means.
+// The energy that the bounds (31a) and (31b) take grows with the turn in a step; docs/stability.md
+// has the means.
 TEST(Top, OnABallJointLosesNoMoreThanItsTurnPerStepExplains) {
   struct Case {
     double spin, rate, least;

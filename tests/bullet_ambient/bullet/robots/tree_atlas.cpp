@@ -93,7 +93,7 @@ class TreeWeight {
     for (int link = first(); link < body_.getNumLinks(); ++link) sum += energyOf(link);
     return sum;
   }
-  /// Of a fall by a link's length.
+  /// Energy of a fall by a link's length.
   double scale() const {
     double mass = 0;
     for (int link = first(); link < body_.getNumLinks(); ++link)
