@@ -1,16 +1,18 @@
 #pragma once
 
-// Bodies in air and water for a Bullet program:
+// Air and water for the bodies of a Bullet program:
 //
-//   ambient::Fluid<> fluid;
-//   btDiscreteDynamicsWorld world(dispatcher, broadphase, &fluid.solver(), configuration);
-//   fluid.attachTo(world);
+//   ambient::Fluid fluid(world);
 //   fluid.add(body, {ambient::loadFluidBody("plate.ambient"), ambient::water()});
 //
-// Apart from it: bullet/world_state.h and bullet/ambient_serializer.h (saved states),
-// bullet/ambient_impulse.h (impulses that feel the fluid), tasks/thread_pool.h and
-// bullet/bullet_task_runner.h (threads), force/surface_loads.h (loads by a law of your own).
-#include "bullet_ambient/bullet/fluid.h"
-#include "bullet_ambient/bullet/multibody_dynamics.h"
-#include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/fluid_body/load_fluid_body.h"
+// Includes what a usual program needs. Besides: solver.h, surface_loads.h, saved_state.h,
+// impulse.h, reading.h, robot_dynamics.h, threads.h.
+#include "bullet_ambient/attach_world.h"
+#include "bullet_ambient/drawing.h"
+#include "bullet_ambient/flight.h"
+#include "bullet_ambient/flow.h"
+#include "bullet_ambient/fluid.h"
+#include "bullet_ambient/fluid_body.h"
+#include "bullet_ambient/medium.h"
+#include "bullet_ambient/region.h"
+#include "bullet_ambient/waves.h"

@@ -1,39 +1,35 @@
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/output_file.h"
-#include "bullet_ambient/fluid_body/plain_text.h"
+#include "bullet_ambient/base/output_file.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "demos/cases_command.h"
 #include "demos/gltf/gltf_text.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
-#include "demos/simulation/geometry_text.h"
-#include "demos/simulation/output_folder.h"
+#include "demos/simulation/output/geometry_text.h"
+#include "demos/simulation/output/output_folder.h"
+#include "demos/simulation/output/trajectory_text.h"
 #include "demos/simulation/run_signals.h"
 #include "demos/simulation/scene_run.h"
 #include "demos/simulation/summary.h"
-#include "demos/simulation/trajectory_text.h"
 #include "demos/sweep/case_runs.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/parse_exit.h"
 
 namespace ambient {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kBadInput = 1;
-constexpr int kBadUsage = 2;
 
 struct Arguments {
   bool list = false;
@@ -41,6 +37,7 @@ struct Arguments {
   std::string scene;
   std::string out;
   std::string gltf;
+  FluidLog log;
   std::vector<SceneOverride> overrides;
   CasesArguments cases;
 };
@@ -74,14 +71,16 @@ void checkChoice(const Arguments& arguments) {
   const int choices = arguments.list + has_cases + !arguments.scene.empty();
   if (choices != 1) throw CLI::RequiredError("One of SCENE, --cases or --list");
   if (has_cases && arguments.out.empty()) throw CLI::RequiredError("--out (with --cases)");
-  if (has_cases && (!arguments.overrides.empty() || !arguments.gltf.empty()))
-    throw CLI::ExcludesError("--cases", "--set and --gltf");
+  const bool has_more = !arguments.gltf.empty() || !arguments.log.isEmpty();
+  if (has_cases && (!arguments.overrides.empty() || has_more))
+    throw CLI::ExcludesError("--cases", "--set, --gltf and --log");
   if (has_cases) Shard::parse(arguments.cases.shard);
 }
 
 Parsed parseArguments(int argc, char** argv) {
   Parsed parsed;
   std::vector<std::string> sets;
+  std::string log;
   CLI::App app("Runs a scene of rigid bodies in a fluid inside a Bullet world.", "ambient_demo");
   app.add_flag("--list", parsed.arguments.list, "List the scenes of data/scenes and stop");
   app.add_option("SCENE", parsed.arguments.scene, "A scene's name or the path of a JSON file");
@@ -96,18 +95,19 @@ Parsed parseArguments(int argc, char** argv) {
       ->check([](const std::string& file) {
         return isGltfName(file) ? "" : file + ": the name must end in .glb or .gltf";
       });
+  app.add_option("--log", log, "Further columns of trajectory.csv: wrench, wet, or both")
+      ->type_name("WORDS");
   app.add_flag("--quiet", parsed.arguments.quiet, "Print errors only");
   addCasesOptions(app, parsed.arguments.cases);
   try {
     app.parse(argc, argv);
     for (const std::string& text : sets) parsed.arguments.overrides.push_back(parseOverride(text));
+    parsed.arguments.log = parseFluidLog(log);
     checkChoice(parsed.arguments);
   } catch (const CLI::ParseError& error) {
-    std::ostringstream errors;
-    parsed.exit_code = app.exit(error, std::cout, errors) == 0 ? 0 : kBadUsage;
-    std::cerr << plainText(errors.str());
+    parsed.exit_code = exitAt(app, error);
   } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "%s\n", plainLine(error.what()).c_str());
+    std::fprintf(stderr, "ambient_demo: %s\n", plainLine(error.what()).c_str());
     parsed.exit_code = kBadUsage;
   }
   return parsed;
@@ -131,7 +131,7 @@ std::vector<PreparedBody> prepare(const Scene& scene, SceneBodyCache& cache, boo
   return prepareBodies(scene, cache);
 }
 
-/// What a run writes, none of it under its name yet.
+/// Files that a run writes, none of them under its name yet.
 struct RunFiles {
   RunFiles(const fs::path& out, const std::string& gltf_file)
       : folder(out),
@@ -164,12 +164,14 @@ RunFiles openFiles(const fs::path& out, const std::string& gltf) {
   return RunFiles(out, gltf);
 }
 
-RunRecord runShown(const Scene& scene, const std::vector<PreparedBody>& bodies, bool quiet) {
-  ElapsedDisplay display(scene.name + ": simulating", quiet);
-  return runScene(scene, bodies, [&display](double share) {
+RunRecord runShown(const Scene& scene, const std::vector<PreparedBody>& bodies,
+                   const Arguments& arguments) {
+  ElapsedDisplay display(scene.name + ": simulating", arguments.quiet);
+  const auto show = [&display](double share) {
     display.update(share);
     return !wasInterrupted();
-  });
+  };
+  return runScene(scene, bodies, show, arguments.log);
 }
 
 long long bodiesWithLongSteps(const RunRecord& record) {
@@ -189,8 +191,9 @@ void runAndWrite(const Arguments& arguments) {
   // Before, there is nothing to tidy up: signals end the program at once.
   RunFiles files = openFiles(out, arguments.gltf);
   files.geometry.write(makeGeometryText(scene, bodies));
-  const RunRecord record = runShown(scene, bodies, arguments.quiet);
-  files.trajectory.write(makeTrajectoryText(scene, record.motion));
+  const RunRecord record = runShown(scene, bodies, arguments);
+  files.trajectory.write(
+      makeTrajectoryText(scene, record.motion, fluidLogHeader(arguments.log), record.log));
   files.summary.write(makeSummary(scene, bodies, record));
   if (files.gltf) files.gltf->write(makeGltf(arguments.gltf, scene, bodies, record.motion));
   {
@@ -220,17 +223,12 @@ CasesArguments casesOf(const Arguments& arguments) {
 int run(int argc, char** argv) {
   const Parsed parsed = parseArguments(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
-  try {
-    if (parsed.arguments.list)
-      printScenes();
-    else if (!parsed.arguments.cases.cases.empty())
-      return runCasesCommand(casesOf(parsed.arguments)) ? 0 : kBadInput;
-    else
-      runAndWrite(parsed.arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ambient_demo: %s\n", plainLine(error.what()).c_str());
-    return kBadInput;
-  }
+  if (parsed.arguments.list)
+    printScenes();
+  else if (!parsed.arguments.cases.cases.empty())
+    return runCasesCommand(casesOf(parsed.arguments)) ? 0 : kBadInput;
+  else
+    runAndWrite(parsed.arguments);
   return 0;
 }
 
@@ -238,12 +236,5 @@ int run(int argc, char** argv) {
 }  // namespace ambient
 
 int main(int argc, char** argv) {
-  // Beyond a limit of the file size, writing fails with a message in place of ending the program.
-  std::signal(SIGXFSZ, SIG_IGN);
-  const int exit_code = ambient::run(argc, argv);
-  if (exit_code == 0 && std::fflush(stdout) != 0) {
-    std::fprintf(stderr, "ambient_demo: cannot write to standard output\n");
-    return ambient::kBadInput;
-  }
-  return exit_code;
+  return ambient::runProgram("ambient_demo", [&] { return ambient::run(argc, argv); });
 }

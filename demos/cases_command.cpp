@@ -3,8 +3,8 @@
 #include <chrono>
 #include <cstdio>
 
-#include "bullet_ambient/fluid_body/output_file.h"
-#include "bullet_ambient/fluid_body/plain_text.h"
+#include "bullet_ambient/base/output_file.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "demos/simulation/run_signals.h"
 #include "demos/sweep/case_runs.h"
 #include "demos/sweep/case_table.h"

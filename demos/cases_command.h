@@ -4,7 +4,7 @@
 
 namespace ambient {
 
-/// What `ambient_demo --cases` is asked for.
+/// Arguments of `ambient_demo --cases`.
 struct CasesArguments {
   std::string cases, out, shard = "0/1", collect;
   int threads = 0;

@@ -7,6 +7,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(BULLET_AMBIENT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/BulletAmbient)
+set(BULLET_AMBIENT_DETAIL_DIR ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient/detail)
 
 # ambient_install_box(NAME [float32|float64]): adds the box to the export set chosen by its folder and its precision.
 # Demos and tests are not installed.
@@ -30,80 +31,18 @@ function(ambient_install_box name)
   install(TARGETS ${name} EXPORT BulletAmbientTargets-${export}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    INCLUDES DESTINATION ${include_dir})
+    INCLUDES DESTINATION ${include_dir} ${BULLET_AMBIENT_DETAIL_DIR})
 endfunction()
 
-# The public headers: what programs include, and what that includes. Everything else is free to change.
-set(BULLET_AMBIENT_PUBLIC_HEADERS
-  ambient.h
-  bullet/ambient_action.h
-  bullet/ambient_impulse.h
-  bullet/ambient_registry.h
-  bullet/ambient_serializer.h
-  bullet/ambient_solver.h
-  bullet/attach_def.h
-  bullet/bullet_task_runner.h
-  bullet/conversions.h
-  bullet/fluid.h
-  bullet/fluid_body_source.h
-  bullet/fluid_drawing.h
-  bullet/multibody_dynamics.h
-  bullet/precision_check.h
-  bullet/region_id.h
-  bullet/solver_group.h
-  bullet/tree_group.h
-  bullet/world_attachment.h
-  bullet/world_state.h
-  bullet/world_tie.h
-  fluid_body/added_mass_part.h
-  fluid_body/cluster_block.h
-  fluid_body/fluid_body.h
-  fluid_body/fluid_body_file.h
-  fluid_body/load_fluid_body.h
-  fluid_body/load_level.h
-  fluid_body/waterline_table.h
-  force/airy_waves.h
-  force/face_loads.h
-  force/flow_settings.h
-  force/fluid_region.h
-  force/medium.h
-  force/surface_loads.h
-  force/surface_plane.h
-  force/water_surface.h
-  force/wave_spectrum.h
-  motion/flight_memory.h
-  motion/flight_settings.h
-  motion/wave_memory.h
-  spatial/frame_offset.h
-  spatial/principal_frame.h
-  spatial/spatial_vectors.h
-  spatial/vector_types.h
-  tasks/task_runner.h
-  tasks/thread_pool.h)
-set(BULLET_AMBIENT_PUBLIC_PREPROCESS_HEADERS
-  builder/fluid_body_builder.h
-  collision_shape/collision_shape_body.h
-  collision_shape/fluid_body_cache.h
-  mesh/mesh_checks.h
-  mesh/mesh_defect.h
-  mesh/mesh_import.h
-  mesh/primitives.h
-  mesh/triangle_mesh.h
-  potential_flow/potential_flow.h
-  robot/file_reference.h
-  robot/link_shape.h
-  robot/robot.h
-  robot/robot_fluid.h
-  robot/robot_model.h
-  robot/urdf_reader.h
-  shape/shape_description.h)
-
-# The headers keep the paths they have in the source tree; those of the preprocessor move below bullet_ambient/, so
-# that the include directory gets one new name.
-function(ambient_install_headers source_dir destination)
-  foreach(header IN LISTS ARGN)
-    cmake_path(GET header PARENT_PATH folder)
-    install(FILES ${source_dir}/${header} DESTINATION ${destination}/${folder})
+# The public headers stand in bullet_ambient/ and preprocess/ themselves. What they include is installed below
+# bullet_ambient/detail, under the paths of the source tree, and free to change.
+function(ambient_install_headers folder)
+  file(GLOB public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.h)
+  install(FILES ${public_headers} DESTINATION ${ARGN})
+  file(GLOB_RECURSE details RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*/*.h)
+  foreach(header IN LISTS details)
+    cmake_path(GET header PARENT_PATH room)
+    install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${BULLET_AMBIENT_DETAIL_DIR}/${room})
   endforeach()
 endfunction()
 
@@ -150,11 +89,9 @@ endfunction()
 
 # Call once, after all boxes are added.
 function(ambient_install_all)
-  ambient_install_headers(${PROJECT_SOURCE_DIR}/bullet_ambient ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient
-    ${BULLET_AMBIENT_PUBLIC_HEADERS})
+  ambient_install_headers(bullet_ambient ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient)
   if(BULLET_AMBIENT_PREPROCESS)
-    ambient_install_headers(${PROJECT_SOURCE_DIR}/preprocess ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient/preprocess
-      ${BULLET_AMBIENT_PUBLIC_PREPROCESS_HEADERS})
+    ambient_install_headers(preprocess ${CMAKE_INSTALL_INCLUDEDIR}/bullet_ambient/preprocess)
   endif()
   ambient_install_package()
   ambient_install_pkg_config()

@@ -41,6 +41,28 @@ function(ambient_add_box name)
   ambient_install_box(${name} ${BOX_PRECISION})
 endfunction()
 
+# ambient_add_kernels(BOX SOURCES ... DEPENDS ...): adds to the box sources that are compiled once per instruction set, each
+# alone, since they share the names of their vectors. The program chooses one when it runs; all give the same bits.
+function(ambient_add_kernels box)
+  cmake_parse_arguments(KERNELS "" "" "SOURCES;DEPENDS" ${ARGN})
+  foreach(set IN ITEMS Baseline Avx2 Avx512)
+    string(TOLOWER ${box}_${set} kernels)
+    add_library(${kernels} OBJECT ${KERNELS_SOURCES})
+    set_target_properties(${kernels} PROPERTIES UNITY_BUILD OFF)
+    if(BUILD_SHARED_LIBS)
+      set_target_properties(${kernels} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    endif()
+    ambient_set_compile_options(${kernels})
+    target_compile_definitions(${kernels} PRIVATE AMBIENT_INSTRUCTION_SET=${set})
+    target_link_libraries(${kernels} PRIVATE ${KERNELS_DEPENDS})
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$")
+      target_compile_options(${kernels} PRIVATE
+        $<$<STREQUAL:${set},Avx2>:-mavx2;-mfma> $<$<STREQUAL:${set},Avx512>:-mavx512f;-mavx512dq>)
+    endif()
+    target_sources(${box} PRIVATE $<TARGET_OBJECTS:${kernels}>)
+  endforeach()
+endfunction()
+
 # No target can link boxes of both precisions: CMake refuses to generate it.
 function(ambient_set_precision name scope precision)
   target_link_libraries(${name} ${scope} BulletAmbient::bullet-${precision})

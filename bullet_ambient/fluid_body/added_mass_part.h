@@ -4,13 +4,13 @@
 
 namespace ambient {
 
-/// What a patch of the surface contributes to the added mass, docs/theory.md eq. (60): for bodies
-/// that the surface of the water cuts. Per unit density, in frame F.
+/// Contribution of one patch of the body's surface to the added mass, docs/theory.md eq. (60). Used
+/// for bodies that the surface of the water cuts. Per unit density, in frame F.
 struct AddedMassPart {
-  static constexpr int kNumbers = 30;
-  Vector3 centre{0, 0, 0};            ///< of its area [m]
-  Vector6 spread = Vector6::Zero();   ///< xx, yy, zz, xy, xz, yz: mean squares about it [m^2]
-  Matrix6 inertia = Matrix6::Zero();  ///< -sym int g phi^T dA about F's origin, as added_mass
+  static constexpr int kNumbers = 30;  ///< numbers per part in files
+  Vector3 centre{0, 0, 0};             ///< centroid of the patch [m]
+  Vector6 spread = Vector6::Zero();    ///< xx, yy, zz, xy, xz, yz: mean of r r^T about centre [m^2]
+  Matrix6 inertia = Matrix6::Zero();   ///< -sym int g phi^T dA about F's origin
 };
 
 }  // namespace ambient

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
 
 namespace ambient {
 

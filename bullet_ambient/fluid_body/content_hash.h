@@ -6,10 +6,10 @@
 
 namespace ambient {
 
-/// FNV-1a of all that acts on a body's motion: added mass, volume, area, centre of volume,
-/// faces, levels and the waterline table. Name, provenance and the surface for drawing do not
-/// count. Tells whether saved states belong to a fluid body; detects accidental change, not
-/// forgery.
+/// FNV-1a hash of all data that influence motion: added mass, volume, area, centre of volume,
+/// faces, levels, drag, sphere radius, surface triangles, parts of the added mass and waterline
+/// table. Name and provenance do not count. Saved states hold the hash to recognise their fluid
+/// body. Detects accidental change, not forgery.
 std::uint64_t contentHash(const FluidBody& body);
 
 }  // namespace ambient

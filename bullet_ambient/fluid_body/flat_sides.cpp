@@ -7,7 +7,7 @@
 namespace ambient {
 namespace {
 
-constexpr double kFlat = 1e-6;  // of unit vectors: rounding of a mesh in single precision
+constexpr double kFlat = 1e-6;  // tolerance for unit vectors: a mesh in single precision
 
 using Edge = std::pair<int, int>;
 
@@ -36,7 +36,7 @@ class SideFinder {
   }
   std::vector<bool>::reference isTaken(int t) { return is_taken_[static_cast<std::size_t>(t)]; }
 
-  /// The triangle beyond an edge; -1: none.
+  /// Index of the triangle on the other side of an edge; -1: none.
   int beyond(const Edge& edge) const {
     const auto found = triangle_at_.find({edge.second, edge.first});
     return found == triangle_at_.end() ? -1 : found->second;
@@ -45,7 +45,7 @@ class SideFinder {
     return t >= 0 && (mesh_.normal(t) - side.normal).cwiseAbs().maxCoeff() <= kFlat;
   }
 
-  std::vector<int> planeFrom(int first) {
+  std::vector<int> planeFrom(int first) {  // all connected triangles with the normal of `first`
     const FlatSide plane{{}, {}, mesh_.normal(first)};
     std::vector<int> triangles{first};
     isTaken(first) = true;
@@ -59,7 +59,7 @@ class SideFinder {
     return triangles;
   }
 
-  /// Vertices around the side; empty if they are more than one ring.
+  /// Vertices around the side in order; empty if they do not form a single ring.
   std::vector<int> outlineOf(const FlatSide& side) const {
     std::map<int, int> next;
     std::size_t edges = 0;
@@ -81,7 +81,7 @@ class SideFinder {
     return ring.size() == edges ? ring : std::vector<int>{};
   }
 
-  /// Where the outline turns; empty if it turns inwards anywhere.
+  /// Returns the corners of the outline; empty if the outline is not convex.
   std::vector<Vector3> cornersOf(const FlatSide& side) const {
     const std::vector<int> ring = outlineOf(side);
     std::vector<Vector3> corners;

@@ -19,7 +19,7 @@ void scale(FaceTable& faces, double factor) {
   scale(faces.area, factor * factor);
 }
 
-// Per unit mass.
+// The mass stays 1 kg, so that the inertia grows with the square.
 void scale(MassDistribution& mass, double factor) {
   mass.centre *= factor;
   mass.inertia *= factor * factor;

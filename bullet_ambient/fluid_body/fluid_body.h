@@ -12,20 +12,20 @@
 
 namespace ambient {
 
-/// The faces that carry the fluid loads, as a structure of arrays over F faces.
-/// Frame: fluid body frame F. The slip matrix of the paper's appendix (3F x 6) is U_i = -(I - n
-/// n^T) [-[c]x, I] and is therefore held exactly by normals and centroids; computeSlipMatrix()
-/// spells it out.
+/// Faces that carry the fluid loads, as a structure of arrays with one entry per face.
+/// Frame: fluid body frame F. Normals and centroids determine the slip matrix of the paper's
+/// appendix (3F x 6), U_i = -(I - n n^T) [-[c]x, I], which is not stored. computeSlipMatrix()
+/// computes it.
 struct FaceTable {
   std::vector<double> normal_x, normal_y, normal_z;        ///< unit normals into the fluid
   std::vector<double> centroid_x, centroid_y, centroid_z;  ///< barycentres [m]
   std::vector<double> area;                                ///< [m^2]
-  /// From round (0) to flat or edged (1), more on long flat sides; docs/theory.md eq. (45). In
-  /// [0, 2]; empty: not known.
+  /// 0 on a round surface, 1 on a flat one or at an edge, more on long flat sides; docs/theory.md
+  /// eq. (45). In [0, 2]; empty: not known.
   std::vector<double> sharpness;
 
   std::size_t size() const { return area.size(); }
-  /// All of them in that order, but for the sharpness, which follows from the surface.
+  /// All columns in the order above, except sharpness, which can be computed from the surface.
   std::array<const std::vector<double>*, 7> columns() const {
     return {&normal_x, &normal_y, &normal_z, &centroid_x, &centroid_y, &centroid_z, &area};
   }
@@ -35,38 +35,43 @@ struct FaceTable {
   void add(const Vector3& normal, const Vector3& centroid, double area);
 };
 
-/// Fewer faces that stand in for all of them by the form law.
+/// Revision of the form law that levels are fitted to. 1: eq. (43) for every body; 2: with wings
+/// and slender hulls.
+constexpr int kFormLawRevision = 2;
+
+/// Smaller set of faces that replaces all faces in the sums of the form law.
 struct FormLevel {
   FaceTable faces;  ///< with sharpness
-  double p99_error =
-      0;  ///< exceeded by one motion in a hundred, relative to 1/2 rho sum A_i |u_i|^2
+  /// 99th percentile of the load error over motions, relative to 1/2 rho sum A_i |u_i|^2.
+  double p99_error = 0;
+  int law_revision = kFormLawRevision;  ///< an earlier one is used for blocks only
 };
 
-/// Where the mass sits, for a body of mass 1 kg: centre [m] in F and inertia about it [m^2], in F's
-/// axes.
+/// Distribution of a mass of 1 kg: centre of mass [m] in F, and inertia about that centre
+/// [kg m^2 per kg = m^2] in F's axes.
 struct MassDistribution {
   Vector3 centre{0, 0, 0};
   Matrix3 inertia = Matrix3::Zero();
 };
 
-/// Where a fluid body came from.
+/// Record of how a fluid body was made.
 struct Provenance {
   std::string source;             ///< file name or shape description, without directories
   std::uint64_t source_hash = 0;  ///< FNV-1a of the source's bytes
   std::string settings;           ///< solver settings, as text
-  std::string generator;          ///< program and version that made it
+  std::string generator;          ///< program and version that made the fluid body
 };
 
-/// The triangles of the shape in F, for drawing and inspection only.
+/// Triangles of the shape in F: for drawing, hydrostatics and the form law.
 struct Surface {
   std::vector<double> vertices;  ///< x, y, z per vertex [m]
   std::vector<std::int32_t>
       triangles;  ///< three vertex indices per triangle, counter-clockwise from the fluid
 };
 
-/// What the fluid needs to know of one shape: plain data, per unit fluid density, independent of
-/// any body. Frame F: origin chosen when built (default: centre of volume), axes of the source
-/// mesh.
+/// Data of one shape for the fluid loads: plain data, per unit fluid density, independent of mass
+/// and medium. Frame F: axes of the source mesh, origin chosen by the builder (default: centre of
+/// volume).
 struct FluidBody {
   std::string name;
   Provenance provenance;
@@ -81,34 +86,34 @@ struct FluidBody {
   MassDistribution surface_mass;      ///< uniform mass per area, at face barycentres
   FaceTable faces;
   Surface surface;
-  std::vector<LoadLevel> levels;       ///< of reduced loads by the published law; may be empty
-  std::vector<FormLevel> form_levels;  ///< the same by the form law
-  /// Of a body that is a sphere about its centre of volume [m]: its loads are those of the smooth
-  /// sphere, and faces and levels are not evaluated. 0: any other shape.
+  std::vector<LoadLevel> levels;       ///< reduced loads by the published law; may be empty
+  std::vector<FormLevel> form_levels;  ///< reduced loads by the form law; may be empty
+  /// Radius of a sphere about the centre of volume [m]; 0: the body is no sphere. Loads on a sphere
+  /// have a closed form, docs/theory.md section 10; faces and levels are not evaluated.
   double sphere_radius = 0;
-  /// Measured drag coefficients along the axes of F, on the frontal areas, that the form law is
-  /// scaled to; 0: none, and then all are.
+  /// Measured drag coefficients along the axes of F, on the frontal areas; the form law is scaled
+  /// to them, eq. (51). All three are positive, or all are 0: not measured.
   Vector3 drag{0, 0, 0};
-  /// Of patches all over the surface, for bodies that the surface of the water cuts. Their sum is
-  /// the added mass to the error of its discretisation; empty: not known.
+  /// Parts of the added mass, one per patch of the surface, for bodies that the water's surface
+  /// cuts. The sum of all parts is the added mass up to discretisation; empty: not known.
   std::vector<AddedMassPart> added_mass_parts;
-  /// What those parts lack at the surface of the water; may be empty.
+  /// Correction to the sum over added_mass_parts at the surface of the water; may be empty.
   WaterlineTable waterline;
 };
 
-/// Slip matrix U (3F x 6) of docs/theory.md eq. (12): U x is the slip velocity of fully attached
-/// flow at every face, stacked, for the relative twist x in F. Padilla et al. 2025, appendix A.2.
+/// Slip matrix U (3F x 6) of docs/theory.md eq. (12), for the relative twist x in F: U x stacks the
+/// slip velocities [m/s] of fully attached flow at all faces. Padilla et al. 2025, appendix A.2.
 Eigen::Matrix<double, Eigen::Dynamic, 6> computeSlipMatrix(const FaceTable& faces);
 
 /// Sizes of the bounding box of the body's surface along the axes of F [m]; 0 without a surface.
 Vector3 extentsOf(const FluidBody& body);
 
-/// The same shape, `factor` times as large about F's origin: lengths s, areas s^2, volumes s^3,
-/// added mass s^3 to s^5 as scaleShape(). The provenance stays; its settings tell the factor.
+/// Returns the shape enlarged by s = `factor` about F's origin: areas grow by s^2, volumes by s^3,
+/// added mass by s^3 to s^5, see scaleShape(). The factor is appended to provenance.settings.
 /// @throws std::invalid_argument if the factor is not positive and finite.
 FluidBody scaled(const FluidBody& body, double factor);
 
-/// @throws std::invalid_argument: one line that names the fluid body, the value and the limit.
+/// Throws std::invalid_argument: one line that names the fluid body, the value and the limit.
 [[noreturn]] void reject(const FluidBody& body, const std::string& what, double value,
                          const char* limit);
 

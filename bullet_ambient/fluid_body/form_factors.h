@@ -2,22 +2,22 @@
 
 namespace ambient {
 
-// What the form law makes of the sharpness of a face, docs/theory.md eq. (43) to (45). Alike on
-// numbers and vectors of them, in one sequence of roundings: the same bits everywhere.
+// Factors of the form law for the sharpness of a face, docs/theory.md eq. (43) to (45). The code
+// serves numbers and vectors of numbers with the same roundings: the same bits everywhere.
 
 constexpr double kWindwardDrag = 1.05;                  ///< b, of a flat face
 constexpr double kLeeDrag = 0.12;                       ///< e
 constexpr double kFlatDrag = kWindwardDrag + kLeeDrag;  ///< c: C_D of a plate broadside
 constexpr double kRoundRelief = 1 / kFlatDrag;          ///< gamma: C_D = 1/2 of a sphere
 
-/// Of q = max(u_n, 0) (by_normal u_n + by_speed |u|) - by_lee u_n^2, eq. (43) of one face. `Real`:
-/// a number or a vector of them.
+/// Factors of q = max(u_n, 0) (by_normal u_n + by_speed |u|) - by_lee u_n^2, eq. (43). `Real`:
+/// a number or a vector of numbers.
 template <class Real>
 struct FormFactors {
   Real by_normal, by_speed, by_lee;
 };
 
-/// From the sharpness; above 1, q is that of a flat face times the sharpness.
+/// Computes the factors for a sharpness. Above 1, q is the flat face's q times the sharpness.
 template <class Number, class Real>
 inline FormFactors<Real> formFactors(const Real& sharpness) {
   constexpr auto kC = static_cast<Number>(kFlatDrag);

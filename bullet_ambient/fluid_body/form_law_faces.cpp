@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/fluid_body/flat_sides.h"
+#include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 
 namespace ambient {
@@ -12,7 +14,7 @@ constexpr std::size_t kNodes = 4;  // Gauss points per direction
 constexpr std::size_t kPoints = kNodes * kNodes;
 
 struct Node {
-  double place, weight;  // on [0, 1]
+  double place, weight;  // abscissa in [0, 1], and weight; weights add up to 1
 };
 
 /// Gauss-Legendre rule of 4 points.
@@ -21,13 +23,13 @@ constexpr std::array<Node, kNodes> kRule{{{0.06943184420297371, 0.17392742256872
                                           {0.6699905217924281, 0.32607257743127307},
                                           {0.9305681557970263, 0.17392742256872693}}};
 
-/// A flat face of the form law.
+/// One integration point on a flat side: a face of the form law.
 struct Point {
   Vector3 place;
   double area;
 };
 
-/// Of a plane quadrilateral; of a triangle if two corners are one.
+/// Adds the points of a plane quadrilateral; two equal corners make it a triangle.
 void addPoints(const std::array<Vector3, 4>& corners, std::vector<Point>& points) {
   const auto& [a, b, c, d] = corners;
   for (const Node& u : kRule)
@@ -49,8 +51,8 @@ std::vector<Point> pointsOf(const FlatSide& side) {
   return points;
 }
 
-/// Whether a side is flat to the law, and either has more triangles than points or is a large part
-/// of the surface, of which one sample per triangle would tell too little.
+/// Returns true if points replace the triangles of a side. All its faces must have sharpness 1, and
+/// the side must have more triangles than points or at least kLarge of the surface's area.
 bool deservesPoints(const FlatSide& side, const FaceTable& faces, double surface_area) {
   constexpr double kLarge = 0.02;
   double area = 0;
@@ -63,10 +65,10 @@ bool deservesPoints(const FlatSide& side, const FaceTable& faces, double surface
   return points < side.triangles.size() || area >= kLarge * surface_area;
 }
 
-/// Eq. (45) of a flat side: more than 1 where it is long.
+/// Sharpness of a flat side, eq. (45): more than 1 if the side is long.
 double sharpnessOf(const FlatSide& side) {
-  constexpr double kEndless = 1.98 / 1.17 - 1;  // measured drag coefficients, less one
-  constexpr double kHalf = 40;                  // aspect ratio of half of that
+  constexpr double kEndless = 1.98 / 1.17 - 1;  // gain of an endless strip: C_D over the square's
+  constexpr double kHalf = 40;                  // y of eq. (45) at half of that gain
   const std::vector<Vector3>& corners = side.corners;
   double outline = 0, twice_area = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -78,7 +80,7 @@ double sharpnessOf(const FlatSide& side) {
   return static_cast<double>(static_cast<float>(1 + kEndless * length / (length + kHalf)));
 }
 
-/// Faces of one side of the surface, then those of its back where it has one.
+/// Collects faces with their sharpness.
 class FaceCollector {
  public:
   explicit FaceCollector(const FaceTable& faces) : faces_(faces) {}
@@ -97,11 +99,10 @@ class FaceCollector {
   const FaceTable& faces_;
 };
 
-}  // namespace
-
-FaceTable formLawFaces(const FluidBody& body) {
+FaceTable facesWithPoints(const FluidBody& body) {
   FaceTable faces = body.faces;
   if (faces.sharpness.empty()) faces.sharpness = computeSharpness(body);
+  AMBIENT_ASSERT(faces.sharpness.size() == faces.size());
   if (body.surface.triangles.empty()) return faces;
   const SurfaceTriangles mesh(body);
   FaceCollector collector(faces);
@@ -118,6 +119,15 @@ FaceTable formLawFaces(const FluidBody& body) {
   for (std::size_t face = 0; face < faces.size(); ++face)
     if (!is_replaced[face % is_replaced.size()]) collector.copy(face);
   return std::move(collector.result);
+}
+
+}  // namespace
+
+FaceTable formLawFaces(const FluidBody& body, const FormShape& shape) {
+  FaceTable faces = facesWithPoints(body);
+  for (double& sharpness : faces.sharpness)
+    if (sharpness < 1) sharpness += shape.wing * (1 - sharpness);
+  return faces;
 }
 
 }  // namespace ambient

@@ -6,8 +6,8 @@
 
 namespace ambient {
 
-// Nodes of one z lie on a square |x| + |y| = m, m = n - |z|: 4 m of them, or a pole. They are
-// numbered from the highest z down, and on a square by turns from x to y.
+// The nodes of one z lie on a square |x| + |y| = m, m = n - |z|: 4 m nodes, or a pole. Nodes are
+// numbered from the highest z down, and on a square from the x axis on counter-clockwise about z.
 
 int OctahedralLattice::nodesAbove(int z) const noexcept {
   const auto cap = [](int layers) { return layers > 0 ? 1 + 2 * layers * (layers - 1) : 0; };

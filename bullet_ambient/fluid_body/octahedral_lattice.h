@@ -6,28 +6,28 @@
 
 namespace ambient {
 
-/// Directions spread over the sphere: the points with whole coordinates of the octahedron |x| + |y|
-/// + |z| = n, 4 n^2 + 2 of them, seen from its centre. They are symmetric in all axes.
+/// Directions spread over the sphere: the 4 n^2 + 2 points with integer coordinates on the
+/// octahedron |x| + |y| + |z| = n, seen from its centre. The lattice is symmetric in all axes.
 class OctahedralLattice {
  public:
-  /// @pre subdivisions of an edge of the octahedron are positive
+  /// `subdivisions` n: intervals per edge of the octahedron. @pre subdivisions > 0
   explicit OctahedralLattice(int subdivisions) : n_(subdivisions) {}
 
   int size() const { return 4 * n_ * n_ + 2; }
-  /// Unit vector. @pre 0 <= node < size()
+  /// Unit vector towards a node. @pre 0 <= node < size()
   Vector3 direction(int node) const noexcept;
 
-  /// The corners of the triangle of the lattice that a direction meets, and the share of each:
-  /// continuous, and linear on the octahedron.
+  /// Corners of the lattice triangle that a direction meets, and their interpolation weights
+  /// (`share`, sum 1). Weights are continuous in the direction and linear on the octahedron.
   struct Place {
     std::array<int, 3> node;
     std::array<double, 3> share;
   };
-  /// @pre the direction is not 0
+  /// Locates a direction of any length. @pre the direction is not 0
   Place placeOf(const Vector3& direction) const noexcept;
 
  private:
-  /// Nodes with a larger z than that.
+  /// Number of nodes with a larger z.
   int nodesAbove(int z) const noexcept;
   int nodeOf(int x, int y, int z) const noexcept;
 

@@ -5,18 +5,18 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/base/single_precision.h"
 #include "bullet_ambient/fluid_body/surface_triangles.h"
-#include "bullet_ambient/spatial/elementary.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "bullet_ambient/spatial/single_precision.h"
 
 namespace ambient {
 namespace {
 
-/// Cosine of 41 degrees: what turns by more between two faces is an edge, to the flow as well.
+/// Cosine of 41 degrees: a larger angle between the normals of two faces is an edge.
 constexpr double kSmooth = 0.75470958;
 
-/// The normals at the vertices of a mesh.
+/// Normals at the vertices of a mesh.
 class VertexNormals {
  public:
   explicit VertexNormals(const SurfaceTriangles& mesh)
@@ -26,7 +26,7 @@ class VertexNormals {
         stars_[static_cast<std::size_t>(mesh.vertex(t, corner))].push_back({t, weight(t, corner)});
   }
 
-  /// Mean at a vertex over the faces that go on smoothly from one of them.
+  /// Weighted mean normal at a vertex, over the adjacent faces that `triangle` continues smoothly.
   Vector3 normal(int vertex, int triangle) const {
     Vector3 sum = Vector3::Zero();
     for (const Face& face : stars_[static_cast<std::size_t>(vertex)])
@@ -42,7 +42,7 @@ class VertexNormals {
     double weight;
   };
 
-  /// Makes the mean exact for every mesh inscribed in a sphere; Max 1999.
+  /// Weight that makes the mean normal exact for every mesh inscribed in a sphere; Max 1999.
   double weight(int t, int corner) const {
     const auto edgeTo = [&](int other) {
       return Vector3(mesh_.place(mesh_.vertex(t, (corner + other) % 3)) -
@@ -58,10 +58,10 @@ class VertexNormals {
 };
 
 struct Curvatures {
-  double smallest = 0, largest = 0;  ///< convex positive [1/m]
+  double smallest = 0, largest = 0;  ///< principal curvatures, positive if convex [1/m]
 };
 
-/// Of the symmetric 2x2 matrix II with dn = II de along the edges, in the least-squares sense.
+/// Eigenvalues of the symmetric 2x2 matrix II with dn = II de along the edges, by least squares.
 Curvatures curvaturesOf(const SurfaceTriangles& mesh, const VertexNormals& normals, int t) {
   const auto place = [&](int corner) { return mesh.place(mesh.vertex(t, corner)); };
   const Vector3 normal = mesh.normal(t);
@@ -75,7 +75,7 @@ Curvatures curvaturesOf(const SurfaceTriangles& mesh, const VertexNormals& norma
     const Vector3 turn =
         normals.normal(mesh.vertex(t, next), t) - normals.normal(mesh.vertex(t, corner), t);
     const double u = edge.dot(x_axis), v = edge.dot(y_axis);
-    const Vector3 rows[2] = {{u, v, 0}, {0, u, v}};  // of (II_xx, II_xy, II_yy)
+    const Vector3 rows[2] = {{u, v, 0}, {0, u, v}};  // coefficients of (II_xx, II_xy, II_yy)
     const double values[2] = {turn.dot(x_axis), turn.dot(y_axis)};
     for (int row = 0; row < 2; ++row) {
       squares += rows[row] * rows[row].transpose();
@@ -91,13 +91,14 @@ Curvatures curvaturesOf(const SurfaceTriangles& mesh, const VertexNormals& norma
 
 double sharpnessOf(double curvature, double radius) {
   const double x = std::max(curvature, 0.0) * radius;
-  const double root = 1 - 2 / (1 + 1 / (x * x));  // (1 - x^2) / (1 + x^2), of any x
+  const double root = 1 - 2 / (1 + 1 / (x * x));  // (1 - x^2) / (1 + x^2), never overflows
   return roundedToSingle(root * root);
 }
 
 }  // namespace
 
 std::vector<double> computeSharpness(const FluidBody& body) {
+  if (body.surface.triangles.empty()) return std::vector<double>(body.faces.size(), 1);
   const SurfaceTriangles mesh(body);
   const VertexNormals normals(mesh);
   const double radius = std::sqrt(body.area / (4 * kPi));

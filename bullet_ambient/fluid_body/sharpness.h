@@ -6,17 +6,20 @@
 
 namespace ambient {
 
-/// How sharp the surface is at each face, from round (0, all of a sphere) to flat, hollow or edged
-/// (1): docs/theory.md eq. (45). F entries, rounded to single precision, for the faces in their
-/// order: the triangles of `surface`, and their backs in turn if the body is a sheet. Scale
-/// invariant. Cost O(F).
+struct FormShape;
+
+/// Computes the sharpness of each face, docs/theory.md eq. (45): 0 on a sphere, 1 on flat or hollow
+/// surface and at edges. Returns one entry per face, rounded to single precision, in the order of
+/// the triangles of `surface`; a sheet has the entries of its back after those of its front. Scale
+/// invariant. Without a surface all faces count as flat. Cost O(F).
 /// @throws std::invalid_argument in one sentence, if the faces are not these triangles.
 std::vector<double> computeSharpness(const FluidBody& body);
 
-/// The faces to sum the form law over: those of the body with their sharpness, but that flat sides
-/// with few corners become 16 points per four corners, by Gauss's rule. The law has no jump at the
-/// edge of the wake, so that fewer points do, docs/accuracy.md. Cost O(F).
+/// Returns the faces that the form law is summed over: those of the body with their sharpness,
+/// except that 16 Gauss points per four corners replace the triangles of most flat sides. The form
+/// law has no jump at the edge of the wake: fewer points suffice, docs/accuracy.md. Round faces of
+/// a wing are as sharp as its edges are: s + W (1 - s). Cost O(F).
 /// @throws std::invalid_argument as computeSharpness().
-FaceTable formLawFaces(const FluidBody& body);
+FaceTable formLawFaces(const FluidBody& body, const FormShape& shape);
 
 }  // namespace ambient

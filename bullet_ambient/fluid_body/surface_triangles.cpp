@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <map>
 
+#include "bullet_ambient/base/ambient_assert.h"
+
 namespace ambient {
 
 SurfaceTriangles::SurfaceTriangles(const FluidBody& body) {
@@ -25,8 +27,12 @@ SurfaceTriangles::SurfaceTriangles(const Surface& surface) {
 }
 
 void SurfaceTriangles::weld(const Surface& surface) {
+  AMBIENT_ASSERT(surface.triangles.size() % 3 == 0 && surface.vertices.size() % 3 == 0);
   std::map<std::array<double, 3>, int> seen;
   const auto corner = [&](std::size_t i) {
+    AMBIENT_ASSERT(surface.triangles[i] >= 0 &&
+                   3 * static_cast<std::size_t>(surface.triangles[i]) + 2 <
+                       surface.vertices.size());
     const double* p = &surface.vertices[3 * static_cast<std::size_t>(surface.triangles[i])];
     const auto [entry, is_new] = seen.insert({{p[0], p[1], p[2]}, vertexCount()});
     if (is_new) places_.emplace_back(p[0], p[1], p[2]);

@@ -7,13 +7,13 @@
 
 namespace ambient {
 
-/// The triangles of a fluid body's surface; corners at one place are one vertex.
+/// Triangles of a fluid body's surface; corners with equal coordinates share one vertex.
 class SurfaceTriangles {
  public:
-  /// @throws std::invalid_argument in one sentence, if the faces of the body are not these
-  /// triangles, or once more their backs.
+  /// Takes normals from the faces. @throws std::invalid_argument in one sentence, if the number of
+  /// faces is neither that of the triangles nor twice that number (a sheet).
   explicit SurfaceTriangles(const FluidBody& body);
-  /// Without its faces: normals are those of the triangles, 0 of one without an area.
+  /// Computes normals from the corners; 0 for a triangle without area.
   explicit SurfaceTriangles(const Surface& surface);
 
   int size() const { return static_cast<int>(corners_.size()); }
@@ -30,7 +30,7 @@ class SurfaceTriangles {
   bool is_sheet_ = false;
   std::vector<Vector3> places_;
   std::vector<std::array<int, 3>> corners_;
-  std::vector<Vector3> normals_;  ///< of the faces
+  std::vector<Vector3> normals_;  ///< unit, into the fluid, one per triangle
 };
 
 }  // namespace ambient

@@ -6,18 +6,18 @@
 
 namespace ambient {
 
-/// What the parts of a body's added mass, docs/theory.md eq. (60), lack at the surface of still
-/// water, by boundary elements; docs/theory.md eq. (61a). Per unit density, about F's origin.
+/// Correction of the added mass at the surface of still water, docs/theory.md eq. (61a): boundary
+/// elements minus the sum over parts (60). Per unit density, about F's origin.
 struct WaterlineTable {
-  /// Depth of the lowest point over the height of the body from which on the surface is left out.
+  /// Immersion from which on the surface is ignored; see `immersions`.
   static constexpr double kDeep = 3;
 
-  /// Of the lattice of the surface's normals in F; 0: there is no table.
+  /// Subdivisions of the lattice of the surface's normals in F; 0: there is no table.
   int subdivisions = 0;
-  /// Depth of the lowest point over the height of the body, ascending, in (0, kDeep); at
-  /// kDeep there is nothing lacking.
+  /// Immersions eta: depth of the lowest point over the height of the body. Ascending, in
+  /// (0, kDeep); at kDeep the correction is 0.
   std::vector<double> immersions;
-  /// Symmetric; of each normal in turn those at all immersions.
+  /// Symmetric matrices; index: normal times number of immersions, plus immersion.
   std::vector<Matrix6> corrections;
 
   bool empty() const { return subdivisions == 0; }

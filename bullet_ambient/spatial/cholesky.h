@@ -4,20 +4,20 @@
 
 namespace ambient {
 
-/// Cholesky's factor L of a symmetric positive definite matrix A = L L^T of N rows, N = 3 or 6.
-/// Compiled once for all boxes: Eigen's own takes a second in each source.
+/// Cholesky factor L of a symmetric positive definite N x N matrix A = L L^T, N = 3 or 6.
+/// Compiled once for all targets: Eigen's factorisation takes a second in each source.
 template <int N>
 class Cholesky {
  public:
   using Matrix = Eigen::Matrix<double, N, N, Eigen::DontAlign>;
   using Vector = Eigen::Matrix<double, N, 1, Eigen::DontAlign>;
 
-  Cholesky() noexcept;  ///< of nothing: not positive
-  /// Reads the lower half of `symmetric`.
+  Cholesky() noexcept;  ///< L = 0; isPositive() is false
+  /// Factorises A = `symmetric`, of which only the lower half is read.
   explicit Cholesky(const Matrix& symmetric) noexcept;
 
-  /// False if the matrix is not positive definite; what the functions below return then means
-  /// nothing.
+  /// False if the matrix is not positive definite; results of the functions below are then
+  /// undefined.
   bool isPositive() const noexcept { return is_positive_; }
   const Matrix& lower() const noexcept { return lower_; }  ///< L, zeros above the diagonal
   Vector solve(const Vector& right) const noexcept;        ///< A^-1 `right`

@@ -13,11 +13,11 @@ struct FrameOffset {
   Vector3 translation{0, 0, 0};
 
   bool isIdentity() const { return rotation.isIdentity(0) && translation.isZero(0); }
-  /// The twist of the same rigid body at F's origin in F's axes, given at B's origin in B's axes.
+  /// Converts the twist of a rigid body from B's origin and axes to F's origin and axes.
   Twist toF(const Twist& x_B) const;
-  /// The wrench about B's origin in B's axes, given about F's origin in F's axes.
+  /// Converts a wrench from F's origin and axes to B's origin and axes.
   Wrench toB(const Wrench& f_F) const;
-  /// Inertia about B's origin in B's axes, given about F's origin in F's axes.
+  /// Converts a 6x6 inertia from F's origin and axes to B's origin and axes; eq. (4), (5).
   Matrix6 inertiaToB(const Matrix6& inertia_F) const;
 };
 

@@ -1,5 +1,8 @@
 #include "bullet_ambient/spatial/inertia.h"
 
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/spatial/invariants.h"
+
 namespace ambient {
 
 Matrix3 crossMatrix(const Vector3& d) {
@@ -9,14 +12,15 @@ Matrix3 crossMatrix(const Vector3& d) {
 }
 
 Matrix6 shiftOrigin(const Matrix6& inertia, const Vector3& d) {
-  // Twist at the old origin from the twist at the new one: v_old = v_new + w x (-d) = v_new + d x
-  // w.
+  // X maps the twist at the new origin to the twist at the old one:
+  // v_old = v_new + w x (-d) = v_new + d x w.
   Matrix6 X = Matrix6::Identity();
   X.bottomLeftCorner<3, 3>() = crossMatrix(d);
   return X.transpose() * inertia * X;
 }
 
 Matrix6 rotateAxes(const Matrix6& inertia, const Matrix3& rotation) {
+  AMBIENT_ASSERT(isRotation(rotation));
   Matrix6 B = Matrix6::Zero();
   B.topLeftCorner<3, 3>() = rotation;
   B.bottomRightCorner<3, 3>() = rotation;
@@ -24,6 +28,7 @@ Matrix6 rotateAxes(const Matrix6& inertia, const Matrix3& rotation) {
 }
 
 Matrix6 scaleShape(const Matrix6& inertia_per_density, double s) {
+  AMBIENT_ASSERT(s > 0);
   Vector6 powers;
   powers << s, s, s, 1, 1, 1;
   return s * s * s * (powers.asDiagonal() * inertia_per_density * powers.asDiagonal());
@@ -37,7 +42,7 @@ Matrix6 rigidBodyInertia(double mass, const Matrix3& rotational_inertia) {
 }
 
 Matrix6 FrameOffset::inertiaToB(const Matrix6& inertia_F) const {
-  // B's origin seen from F's, in B's axes, is -translation.
+  // The vector from F's origin to B's origin, in B's axes, is -translation.
   return shiftOrigin(rotateAxes(inertia_F, rotation), -translation);
 }
 

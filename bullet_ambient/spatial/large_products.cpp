@@ -5,7 +5,7 @@
 namespace ambient {
 
 void fixBlocksOfLargeProducts() {
-  // Written once: other threads may be multiplying.
+  // Eigen's sizes are written only once: other threads may be multiplying in later calls.
   [[maybe_unused]] static const bool is_done = [] {
     Eigen::setCpuCacheSizes(32 << 10, 1 << 20, 8 << 20);
     return true;

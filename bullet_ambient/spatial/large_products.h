@@ -2,9 +2,9 @@
 
 namespace ambient {
 
-/// Makes the bits of Eigen's products and factorisations of large matrices the same on every
-/// machine. Eigen sums in blocks that fit the processor's caches; from the first call on, these
-/// count as 32 kB, 1 MB and 8 MB, in the whole program. To be called before such a product.
+/// Makes Eigen's products and factorisations of large matrices give the same bits on every
+/// machine. Eigen sums in blocks that fit the processor's caches. The first call sets the cache
+/// sizes to 32 kB, 1 MB and 8 MB for the whole program. Call before the first such product.
 void fixBlocksOfLargeProducts();
 
 }  // namespace ambient

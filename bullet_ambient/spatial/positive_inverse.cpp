@@ -1,17 +1,20 @@
 #include "bullet_ambient/spatial/positive_inverse.h"
 
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/spatial/invariants.h"
+
 namespace ambient {
 namespace {
 
 constexpr int kSize = 6;
 
-/// L, unit lower triangular, and 1 / D.
+/// Factors of K = L D L^T.
 struct Factors {
-  double lower[kSize][kSize];
-  double per_pivot[kSize];
+  double lower[kSize][kSize];  // L below its diagonal of ones
+  double per_pivot[kSize];     // 1 / D
 };
 
-// Row by row; false where a pivot is not positive.
+// Factorises K row by row; returns false if a pivot is not positive.
 bool factorise(const Matrix6& K, Factors& factors) {
   double scaled[kSize];  // a row of L D
   for (int i = 0; i < kSize; ++i) {
@@ -28,7 +31,7 @@ bool factorise(const Matrix6& K, Factors& factors) {
   return true;
 }
 
-// In place: the strictly lower part of L^-1.
+// Replaces the strictly lower part of L by that of L^-1.
 void invert(double (&lower)[kSize][kSize]) {
   for (int j = 0; j < kSize; ++j)
     for (int i = j + 1; i < kSize; ++i) {
@@ -41,6 +44,7 @@ void invert(double (&lower)[kSize][kSize]) {
 }  // namespace
 
 std::optional<Matrix6> positiveInverse(const Matrix6& K) noexcept {
+  AMBIENT_ASSERT(isSymmetric(K, 1e-9));
   Factors factors;
   if (!factorise(K, factors)) return std::nullopt;
   invert(factors.lower);

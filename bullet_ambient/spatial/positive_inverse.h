@@ -6,8 +6,8 @@
 
 namespace ambient {
 
-/// The inverse of a symmetric matrix, of which the lower half is read; nothing if it is not
-/// positive definite. By K = L D L^T. Symmetric to the last bit. Cost: 60 ns.
+/// Inverts a symmetric matrix by K = L D L^T; reads its lower half. Returns nothing if K is not
+/// positive definite. The result is symmetric to the last bit. Cost: 60 ns.
 std::optional<Matrix6> positiveInverse(const Matrix6& K) noexcept;
 
 }  // namespace ambient

@@ -2,11 +2,14 @@
 
 #include <Eigen/LU>
 
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/spatial/invariants.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 
 PrincipalFrame findPrincipalFrame(const Matrix3& inertia) {
+  AMBIENT_ASSERT(inertia.allFinite() && isSymmetric(inertia, 1e-9));
   // Meshes that are mirror-symmetric have products of inertia of rounding size.
   constexpr double kRounding = 1e-12;
   const Matrix3 diagonal = inertia.diagonal().asDiagonal();

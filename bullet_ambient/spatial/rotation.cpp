@@ -2,21 +2,21 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
-#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
 
 namespace ambient {
 
 Quaternion rotationFromVector(const Vector3& r) {
   const double angle = r.norm();
-  // sin(a/2)/a, whose series is exact to rounding where the quotient would lose digits.
+  // sin(a/2)/a; for small angles by its series, because the quotient would lose digits.
   const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : portable::sin(angle / 2) / angle;
   const Vector3 v = scale * r;
   return Quaternion(portable::cos(angle / 2), v.x(), v.y(), v.z()).normalized();
 }
 
 Vector3 rotationVector(const Quaternion& q) {
-  constexpr double kTiny = 1e-150;  // whose square does not vanish
+  constexpr double kTiny = 1e-150;  // the square of kTiny does not underflow
   const double sine = q.vec().norm();
   const double ratio = sine > kTiny ? portable::atan2(sine, std::abs(q.w())) / sine : 1;
   return (q.w() < 0 ? -2 * ratio : 2 * ratio) * q.vec();
@@ -25,7 +25,7 @@ Vector3 rotationVector(const Quaternion& q) {
 Quaternion rotationBetween(const Vector3& from, const Vector3& to) {
   AMBIENT_ASSERT(!from.isZero(0) && !to.isZero(0));
   const Vector3 a = from.stableNormalized(), b = to.stableNormalized();
-  const Vector3 between = a + b;  // twice the cosine of half the angle
+  const Vector3 between = a + b;  // length: 2 cos(half the angle)
   if (between.norm() > 1e-7) {
     const Vector3 half = between.normalized();
     const Vector3 axis = a.cross(half);

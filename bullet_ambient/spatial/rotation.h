@@ -6,18 +6,18 @@
 
 namespace ambient {
 
-/// Unit quaternion of the rotation vector r [rad]: turns by |r| about r.
+/// Unit quaternion of the rotation by the angle |r| about the axis r [rad].
 Quaternion rotationFromVector(const Vector3& r);
 
-/// Rotation vector of a unit quaternion, of at most half a turn [rad]; accurate for the smallest.
+/// Rotation vector of a unit quaternion [rad], length <= pi; accurate for tiny rotations, too.
 Vector3 rotationVector(const Quaternion& q);
 
-/// Unit quaternion of the smallest rotation that takes the direction of `from` to that of `to`;
-/// half a turn about some axis across `from` where they are opposite. Lengths do not matter.
+/// Unit quaternion of the smallest rotation from the direction of `from` to that of `to`. Opposite
+/// directions give half a turn about an axis perpendicular to `from`. Lengths do not matter.
 /// @pre neither is zero
 Quaternion rotationBetween(const Vector3& from, const Vector3& to);
 
-/// Angle of the rotation that takes one attitude to the other [rad], at most pi.
+/// Angle of the rotation from attitude a to attitude b [rad], in [0, pi].
 double angleBetween(const Quaternion& a, const Quaternion& b);
 
 }  // namespace ambient

@@ -7,7 +7,7 @@
 
 namespace ambient {
 
-/// (rotation part, translation part) as one 6-vector. Eigen's comma initializer does the same at
+/// 6-vector of rotation part and translation part. Eigen's comma initializer does the same at
 /// several times the cost.
 inline Vector6 stack(const Vector3& rotation, const Vector3& translation) {
   Vector6 x;
@@ -24,7 +24,7 @@ struct Twist {
 
   static Twist fromVector(const Vector6& x) { return {x.head<3>(), x.tail<3>()}; }
   Vector6 vector() const { return stack(angular, linear); }
-  /// Velocity of the body point at `position` (from the frame's origin) [m/s].
+  /// Velocity [m/s] of the body point at `position` [m] from the frame's origin.
   Vector3 at(const Vector3& position) const { return linear + angular.cross(position); }
 };
 
@@ -34,7 +34,7 @@ struct Wrench {
   Vector3 force = Vector3::Zero();
 
   static Wrench fromVector(const Vector6& f) { return {f.head<3>(), f.tail<3>()}; }
-  /// The wrench of one force [N] that acts at `position` [m].
+  /// Wrench of a force [N] that acts at `position` [m] from the frame's origin.
   static Wrench ofForceAt(const Vector3& force, const Vector3& position) {
     return {position.cross(force), force};
   }
@@ -53,8 +53,8 @@ struct Wrench {
   friend Wrench operator*(double s, const Wrench& f) { return {s * f.torque, s * f.force}; }
 };
 
-/// Angular momentum l about a frame's origin [kg m^2/s] and linear momentum p [kg m/s]; (l, p) = K
-/// x.
+/// Angular momentum l about a frame's origin [kg m^2/s] and linear momentum p [kg m/s].
+/// The 6-vector is (l, p) = K x, rotation first.
 struct Momentum {
   Vector3 angular = Vector3::Zero();
   Vector3 linear = Vector3::Zero();

@@ -11,9 +11,9 @@ struct SymmetricEigen {
   Eigen::Matrix<double, N, N> vectors;
 };
 
-/// Diagonalises a symmetric matrix of 3 or 6 rows, of which the lower half is read. Compiled once
-/// for all boxes, because Eigen's decomposition takes seconds. Not for headers of a program: the
-/// alignment of these matrices depends on the instruction set.
+/// Diagonalises a symmetric matrix of 3 or 6 rows; reads its lower half. Compiled once for all
+/// targets, because Eigen's decomposition takes seconds. Headers for users must not include this
+/// one: the alignment of these matrices depends on the instruction set.
 template <int N>
 SymmetricEigen<N> symmetricEigen(const Eigen::Matrix<double, N, N>& matrix);
 

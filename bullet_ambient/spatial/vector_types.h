@@ -4,11 +4,11 @@
 
 namespace ambient {
 
-// Fixed-size types of the numeric core. They are never over-aligned, so that a program compiled
-// with other instruction-set flags than this library still agrees with it on the layout of every
-// struct. Headers that users include spell zeros and ones: Eigen's Zero() and Identity() take a
-// tenth of a second to compile in each of their sources. Cross products and the content of
-// Quaternion are in Eigen/Geometry: spatial_vectors.h.
+// Fixed-size types of the numeric core. They are never over-aligned: programs compiled with other
+// instruction-set flags than this library have the same layout of every struct. Headers for users
+// write zeros and ones out: Eigen's Zero() and Identity() add a tenth of a second to the compile
+// time of each user source. Cross products and the members of Quaternion need Eigen/Geometry,
+// which spatial_vectors.h includes.
 using Vector3 = Eigen::Matrix<double, 3, 1, Eigen::DontAlign>;
 using Vector6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::DontAlign>;

@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
-"""Writes the meshes of the boat and the wedge next to this file: an open sea hull of parabolas with a deck, bow along x,
-and a prism whose keel lies along x. Both are closed."""
+"""Writes the meshes of floating bodies next to this file: the boat, an open sea hull of parabolas with a deck, bow along x;
+the wedge, a prism whose keel lies along x; and bodies of docs/reality_at_sea.md: a section of a ship and a wedge, ten
+breadths long, keel along x, and cylinders with a cone below. All are closed."""
 
-from math import pi, tan
+from math import cos, pi, sin, tan
 from pathlib import Path
 
 LENGTH, BEAM, DEPTH, FREEBOARD = 2.0, 0.5, 0.2, 0.15  # of the boat [m]; z = 0 where its sides get upright
 STATIONS, WATERLINES = 24, 6
 WEDGE = dict(length=1.2, beam=0.6, deadrise=25, side=0.15)  # [m], [degrees]
 WEDGE_CELLS, EDGE_CELLS = 12, 3  # along the keel, along each edge of a section
+MEASURED_WEDGE = dict(length=12.0, beam=1.2, deadrise=25, side=0.3)  # Yettou et al. 2006
+SHIP_SECTION = dict(length=4.0, beam=0.4, depth=0.256, bilge=0.0512)  # Sundsdal et al. 2025
+CONE_BODY = dict(radius=0.026, height=0.265)  # Boom et al. 2024
 
 
 def boat():
@@ -47,17 +51,50 @@ def boat():
     return vertices, faces
 
 
-def wedge():
-    """Slices of a pentagon along x, closed by a fan at both ends."""
-    half, rise = WEDGE["beam"] / 2, WEDGE["beam"] / 2 * tan(WEDGE["deadrise"] * pi / 180)
-    pentagon = [(0, 0), (half, rise), (half, rise + WEDGE["side"]), (-half, rise + WEDGE["side"]), (-half, rise)]
-    section = []
-    for (y, z), (y_next, z_next) in zip(pentagon, pentagon[1:] + pentagon[:1]):
-        for share in (k / EDGE_CELLS for k in range(EDGE_CELLS)):
-            section.append((y + share * (y_next - y), z + share * (z_next - z)))
+def wedge(length, beam, deadrise, side):
+    half, rise = beam / 2, beam / 2 * tan(deadrise * pi / 180)
+    pentagon = [(0, 0), (half, rise), (half, rise + side), (-half, rise + side), (-half, rise)]
+    return prism(divided(pentagon, EDGE_CELLS), rise, length)
+
+
+def ship_section(length, beam, depth, bilge):
+    """Upright sides, a flat bottom at z = 0, and round bilges of this radius."""
+    arc = [(beam / 2 - bilge * (1 - sin(i * pi / 8)), bilge * (1 - cos(i * pi / 8))) for i in range(5)]
+    half = arc + [(beam / 2, depth)]
+    return prism(divided(half + [(-y, z) for y, z in half[::-1]], 2), depth / 2, length)
+
+
+def cone_body(half_angle, radius, height):
+    """Cylinder along z with a cone below, its apex at the origin."""
+    tip, turns = radius / tan(half_angle * pi / 180), 24
+    profile = [(radius * i / 6, tip * i / 6) for i in range(1, 7)]
+    profile += [(radius, tip + height * i / 8) for i in range(1, 9)]
+    profile += [(radius * i / 4, tip + height) for i in (3, 2, 1)]
+    rings = [[(r * cos(2 * pi * k / turns), r * sin(2 * pi * k / turns), z) for k in range(turns)] for r, z in profile]
+    vertices = [(0, 0, 0)] + [point for ring in rings for point in ring] + [(0, 0, tip + height)]
+    faces = []
+    for k in range(turns):
+        after = (k + 1) % turns
+        for i in range(len(rings) - 1):
+            below, above = 1 + i * turns, 1 + (i + 1) * turns
+            faces += [(below + k, below + after, above + after), (below + k, above + after, above + k)]
+        faces += [(0, 1 + after, 1 + k), (len(vertices) - 1, len(vertices) - 1 - turns + k, len(vertices) - 1 - turns + after)]
+    return vertices, orient(vertices, faces)
+
+
+def divided(corners, cells):
+    """A closed line with each edge in equal cells."""
+    line = []
+    for (y, z), (y_next, z_next) in zip(corners, corners[1:] + corners[:1]):
+        line += [(y + k / cells * (y_next - y), z + k / cells * (z_next - z)) for k in range(cells)]
+    return line
+
+
+def prism(section, middle, length):
+    """Slices of a section along x, closed at both ends by a fan about the height `middle`."""
     corners, n = len(section), WEDGE_CELLS
-    vertices = [(WEDGE["length"] * (i / n - 0.5), y, z) for i in range(n + 1) for y, z in section]
-    vertices += [(side * WEDGE["length"] / 2, 0, rise) for side in (-1, 1)]
+    vertices = [(length * (i / n - 0.5), y, z) for i in range(n + 1) for y, z in section]
+    vertices += [(side * length / 2, 0, middle) for side in (-1, 1)]
     faces = []
     for k in range(corners):
         after = (k + 1) % corners
@@ -87,4 +124,8 @@ def write(name, mesh):
 if __name__ == "__main__":
     hull, sides = boat()
     write("boat", (hull, orient(hull, sides)))
-    write("wedge", wedge())
+    write("wedge", wedge(**WEDGE))
+    write("measured_wedge", wedge(**MEASURED_WEDGE))
+    write("ship_section", ship_section(**SHIP_SECTION))
+    for half_angle in (45, 60):
+        write(f"cone_{half_angle}", cone_body(half_angle, **CONE_BODY))

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
-#include "bullet_ambient/spatial/elementary.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
@@ -19,8 +19,8 @@ std::vector<Vector3> worldNormals(const std::vector<MotionSample>& samples, cons
   return normals;
 }
 
-/// The horizontal direction in which the turning steps of the normal are largest in the mean
-/// square.
+/// Horizontal direction along which the mean square of the turning steps of the normal is
+/// largest; 0 if the normal rests.
 Vector3 findSwingAxis(const std::vector<Vector3>& normals, const Vector3& up) {
   Matrix3 sum = Matrix3::Zero();
   const Matrix3 horizontal = Matrix3::Identity() - up * up.transpose();
@@ -49,12 +49,12 @@ std::vector<double> computeTilt(const std::vector<Vector3>& normals, const Vecto
   return tilt;
 }
 
-/// Turns the passage of the tilt from sample to sample into events.
+/// Finds swings and overturns in the tilt, sample by sample.
 class EventFinder {
  public:
   explicit EventFinder(Fall& fall) : fall_(fall) {}
 
-  /// The tilt, in half turns, has gone from `before` to `after` at `time`.
+  /// Adds one step of the tilt, from `before` to `after` in half turns; time [s].
   void step(double before, double after, double time) {
     int cell = static_cast<int>(std::floor(before));
     const int last_cell = static_cast<int>(std::floor(after));
@@ -80,7 +80,7 @@ class EventFinder {
   Fall& fall_;
   bool seen_ = false;
   int position_ = 0;      // multiple of half a turn last passed
-  double departure_ = 0;  // largest since then [rad]
+  double departure_ = 0;  // largest departure since that passage [rad]
 };
 
 FallingMode classify(const Fall& fall, double middle) {

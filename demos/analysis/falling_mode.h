@@ -7,47 +7,47 @@
 
 namespace ambient {
 
-/// How a plate falls, after Andersen, Pesavento and Wang 2005 and Padilla et al. 2025, section 5.1.
+/// Mode of a falling plate, after Andersen, Pesavento and Wang 2005; Padilla et al. 2025, sec. 5.1.
 enum class FallingMode {
-  kSteady,    ///< nothing happens in the second half of the fall
-  kFlutter,   ///< it swings to and fro and does not overturn
-  kTumbling,  ///< it overturns all the time
-  kMixed,     ///< both; "chaotic" in the literature
+  kSteady,    ///< neither swings nor overturns in the second half of the fall
+  kFlutter,   ///< swings; share of overturns at most kPureShare
+  kTumbling,  ///< overturns; share of swings at most kPureShare
+  kMixed,     ///< swings and overturns; "chaotic" in the literature
 };
 
 /// "steady", "flutter", "tumbling" or "mixed".
 std::string fallingModeName(FallingMode mode);
 
-/// Least angle that a plate departs from broadside for a swing to count [rad].
+/// Smallest departure from broadside for which a swing counts [rad].
 constexpr double kLeastSwing = 0.17453292519943295;  // 10 degrees
 
-/// Share of the rarer kind of event up to which a fall still counts as the pure mode.
+/// Largest share of the rarer kind of event at which a fall still counts as flutter or tumbling.
 constexpr double kPureShare = 0.05;
 
-/// A plate passes its broadside position at `time` [s], having swung or overturned since the last.
+/// Passage through a broadside position at `time` [s], after a swing or an overturn.
 struct FallEvent {
   double time = 0;
   bool is_overturn = false;
 };
 
-/// What one fall consists of. The tilt of the plate is the angle of its normal about the swing
-/// axis, the horizontal axis that it turns about most, counted on through full turns; at a multiple
-/// of pi the plate is broadside to the vertical. Between one broadside position and the next lies
-/// either a swing (the same multiple: the plate has turned back) or an overturn (the next multiple:
-/// it has made half a turn).
+/// Swings and overturns of a fall. The swing axis is the horizontal axis that the plate turns about
+/// most. The tilt is the angle of the normal from the vertical about the swing axis, continuous
+/// over full turns. At multiples of pi the plate is broadside. A swing lies between two passages of
+/// the same multiple of pi: the plate has turned back. An overturn lies between two successive
+/// multiples: half a turn.
 struct Fall {
   FallingMode mode = FallingMode::kSteady;
   int overturns = 0;
-  int swings = 0;                 ///< of at least kLeastSwing
-  double turns = 0;               ///< full turns made by overturning, whichever way [1]
+  int swings = 0;                 ///< number of swings of at least kLeastSwing
+  double turns = 0;               ///< full turns by overturns in either direction [1]
   double largest_swing = 0;       ///< largest departure from broadside of all swings [rad]
   double descent_speed = 0;       ///< mean over the second half of the fall [m/s], > 0 downwards
-  double drift_speed = 0;         ///< horizontal, mean over the second half of the fall [m/s]
+  double drift_speed = 0;         ///< size of the mean horizontal velocity, second half [m/s]
   std::vector<FallEvent> events;  ///< in order of time
   Vector3 swing_axis = Vector3::Zero();  ///< horizontal unit vector; 0 if the normal never moves
 };
 
-/// Classifies the fall of a plate with the unit normal `normal` (shape's axes) in gravity.
+/// Classifies the fall of a plate; `normal`: unit normal in the shape's axes; gravity in W [m/s^2].
 /// @pre the samples are in order of time, the plate turns by less than half a turn between two of
 /// them, and gravity is not zero
 Fall analyseFall(const std::vector<MotionSample>& samples, const Vector3& normal,

@@ -4,8 +4,8 @@
 
 namespace ambient {
 
-/// Motion of one body at one time. Axes are those of the body's shape; the position is that of its
-/// centre of mass; the twist is in world axes, its linear part the velocity of the centre of mass.
+/// Motion of one body at one time. position: centre of mass in W [m]. orientation: axes of the
+/// shape. twist: angular velocity, and velocity of the centre of mass, in world axes.
 struct MotionSample {
   double time = 0;  ///< [s]
   Vector3 position = Vector3::Zero();

@@ -7,7 +7,7 @@
 namespace ambient {
 namespace {
 
-/// The sample where the height is 0, between two samples on either side.
+/// Interpolates the sample at height 0 between one above and one below.
 MotionSample landingBetween(const MotionSample& above, const MotionSample& below,
                             const Vector3& up) {
   const double from = above.position.dot(up);

@@ -7,16 +7,16 @@
 
 namespace ambient {
 
-/// Where a body has been.
+/// Summary of the path of one body's centre of mass.
 struct PathSummary {
-  double length = 0;                    ///< of the path of the centre of mass [m]
+  double length = 0;                    ///< length of the path [m]
   double largest_speed = 0;             ///< [m/s]
   double largest_height = 0;            ///< above the plane through W's origin, against gravity [m]
   double descent_speed = 0;             ///< mean over all samples [m/s], > 0 downwards
-  std::optional<MotionSample> landing;  ///< where it first came down through that plane
+  std::optional<MotionSample> landing;  ///< first passage through that plane downwards
 };
 
-/// Sums up one path; without gravity "up" is +z.
+/// Summarises one path; gravity in W; without gravity "up" is +z.
 PathSummary summarisePath(const std::vector<MotionSample>& samples, const Vector3& gravity);
 
 }  // namespace ambient

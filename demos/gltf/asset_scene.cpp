@@ -11,7 +11,7 @@
 namespace ambient {
 namespace {
 
-// Linear red, green, blue.
+// Colours of bodies: linear red, green, blue.
 constexpr std::array<std::array<float, 3>, 6> kColours = {{{0.013f, 0.158f, 0.831f},
                                                            {0.694f, 0.065f, 0.004f},
                                                            {0.024f, 0.254f, 0.056f},
@@ -20,7 +20,7 @@ constexpr std::array<std::array<float, 3>, 6> kColours = {{{0.013f, 0.158f, 0.83
                                                            {0.003f, 0.198f, 0.258f}}};
 constexpr std::array<float, 3> kStaticColour = {0.48f, 0.54f, 0.6f};
 
-/// An array that an aiScene deletes.
+/// Allocates an array of pointers; the aiScene takes ownership.
 template <class T>
 T** makePointers(std::size_t count) {
   return new T* [count] {};
@@ -133,7 +133,7 @@ std::unique_ptr<aiScene> makeAssetScene(const Scene& scene, const std::vector<Pr
   asset->mRootNode->addChildren(count, nodes.data());
   const bool something_moves = std::any_of(bodies.begin(), bodies.end(),
                                            [](const PreparedBody& body) { return body.mass > 0; });
-  if (something_moves) {  // an animation without channels is not valid
+  if (something_moves) {  // an animation must have a channel
     asset->mAnimations = makePointers<aiAnimation>(1);
     asset->mAnimations[asset->mNumAnimations++] = makeAnimation(scene, bodies, motion);
   }

@@ -11,13 +11,13 @@
 
 namespace ambient {
 
-/// Turns the direction against gravity into y, the axis that points up in glTF; z without gravity.
+/// Rotation from W to glTF's axes: the direction against gravity (z without gravity) becomes y.
 Quaternion upToY(const Vector3& gravity);
 
-/// A run as assimp holds it: a root node that turns world axes so that y is up, below it one node
-/// per body with its triangles and material, and one animation that moves those with mass. Body i
-/// is node, mesh and material i; nodes are named by that number, as assimp finds them by name.
-/// `motion` has the samples of each body, as RunRecord.
+/// Converts a run to an assimp scene. The root node applies upToY(). Each body is a node below the
+/// root, with its triangles and material; one animation moves the bodies with mass. Body i is node,
+/// mesh and material i; the name of the node is i, because assimp looks nodes up by name.
+/// `motion`: samples of each body, see RunRecord::motion.
 std::unique_ptr<aiScene> makeAssetScene(const Scene& scene, const std::vector<PreparedBody>& bodies,
                                         const std::vector<std::vector<MotionSample>>& motion);
 

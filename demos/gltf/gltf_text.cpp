@@ -12,7 +12,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// What the exporter makes: JSON, and the bytes of its only buffer.
+/// Output of the exporter: JSON, and the bytes of its only buffer.
 struct Asset {
   json text;
   std::string buffer;
@@ -30,8 +30,8 @@ Asset exportAsset(const aiScene& scene) {
   return {json::parse(bytes(*blob)), bytes(*blob->next)};
 }
 
-/// Mends what assimp 5.2 writes: extensions that nothing uses, the length of the buffer with the
-/// padding of its own container, and the turn of the root as a matrix of rounded numbers.
+/// Corrects the output of assimp 5.2: removes unused extensions, sets the buffer's length without
+/// the container's padding, and writes the root's rotation as a quaternion.
 void mend(Asset& asset, const Scene& scene) {
   asset.text.erase("extensionsUsed");
   asset.text["buffers"][0] = {{"byteLength", asset.buffer.size()}};
@@ -43,7 +43,7 @@ void mend(Asset& asset, const Scene& scene) {
   asset.text["nodes"][root] = node;
 }
 
-/// Nodes, meshes and materials get the names of their bodies.
+/// Renames nodes, meshes and materials to the names of their bodies.
 void nameBodies(json& text, const Scene& scene) {
   for (const char* kind : {"nodes", "meshes", "materials"})
     for (json& entry : text[kind]) {
@@ -74,7 +74,7 @@ void appendNumber(std::string& bytes, std::uint32_t number) {
   for (int k = 0; k < 4; ++k) bytes += static_cast<char>(number >> (8 * k) & 255u);
 }
 
-/// A chunk of the container: length, kind, bytes up to a multiple of four.
+/// Appends a chunk: length, kind, and bytes filled up to a multiple of four.
 void appendChunk(std::string& container, const char (&kind)[5], std::string bytes, char filling) {
   bytes.append((4 - bytes.size() % 4) % 4, filling);
   appendNumber(container, static_cast<std::uint32_t>(bytes.size()));

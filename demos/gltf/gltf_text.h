@@ -10,12 +10,12 @@
 
 namespace ambient {
 
-/// Whether a file's name ends in .glb or .gltf.
+/// True if a file's name ends in .glb or .gltf.
 bool isGltfName(const std::filesystem::path& file);
 
-/// The bytes of an animated glTF 2.0 of a run, in one piece: the binary container if the name ends
-/// in .glb, else JSON that holds its buffer. Metres and seconds, y up; one node per body, named as
-/// in the scene. `motion` has the samples of each body, as RunRecord.
+/// Bytes of a self-contained, animated glTF 2.0 file of a run: a binary container if the name ends
+/// in .glb, else JSON with embedded buffer. Metres and seconds, y up; one node per body, named as
+/// in the scene. `motion`: samples of each body, see RunRecord::motion.
 /// @throws std::runtime_error if the exporter fails.
 std::string makeGltf(const std::filesystem::path& file, const Scene& scene,
                      const std::vector<PreparedBody>& bodies,

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
-#include "demos/simulation/motion_interpolation.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "demos/simulation/output/motion_interpolation.h"
 
 namespace ambient {
 namespace {

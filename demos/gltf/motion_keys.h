@@ -6,9 +6,9 @@
 
 namespace ambient {
 
-/// The samples and as many between them as it takes that no body turns by more than an eighth of a
-/// turn from one to the next: who plays them takes the shorter way round. Successive quaternions
-/// have no sign change.
+/// Inserts interpolated samples so that the body turns by at most an eighth of a turn between two
+/// keys: glTF players interpolate along the shorter rotation. Successive quaternions have a
+/// positive scalar product.
 /// @pre times increase
 std::vector<MotionSample> makeMotionKeys(const std::vector<MotionSample>& motion);
 

@@ -5,28 +5,34 @@ const PATH_COLOURS = ['#1f6feb', '#d9480f', '#2b8a3e', '#9c36b5', '#c2255c', '#5
 // Pieces of the path's line between two samples.
 const PATH_PIECES = 4;
 // Bodies of this library are drawn after those of rivals, which would else cover them where they start.
-const OWN_FACES = 1, OWN_EDGES = 2, JOINTS = 3;
+// Water is drawn after bodies, so that it tints what is below its surface.
+const OWN_FACES = 1, OWN_EDGES = 2, WATER_FACES = 3, WATER_NET = 4, JOINTS = 5;
+const WALL_OPACITY = 0.25;
 const RIVAL_COLOURS = { vacuum: '#495057', uwrbd: '#d6336c', gwtf: '#e8590c' };
 
 class BodyView {
-  // `colour`: of the path, and of the body itself if `isRival`.
-  constructor(body, shape, colour, isRival) {
+  // `colour`: of the path, and of the body itself if `isRival`. `inPool`: static bodies are the walls of a pool, through
+  // which one sees.
+  constructor(body, shape, colour, isRival, inPool) {
     this.body = body;
     this.motion = new Motion(body.samples);
     this.isStatic = body.mass === 0;
     this.group = new THREE.Group();
     this.geometry = makeGeometry(shape);
     this.slip = this.isStatic || isRival ? null : new SlipField(shape.vertices, shape.triangles);
+    this.isWall = this.isStatic && inPool;
     this.mesh = new THREE.Mesh(this.geometry, this.makeMaterial(colour, isRival));
     this.edges = new THREE.LineSegments(makeEdges(shape),
       new THREE.LineBasicMaterial({ color: 0x223344, transparent: true, opacity: isRival ? 0.25 : 0.5 }));
-    if (!isRival) {
+    if (!isRival && !this.isWall) {
       this.mesh.renderOrder = OWN_FACES;
       this.edges.renderOrder = OWN_EDGES;
     }
     this.solid = new THREE.Group();
     this.solid.add(this.mesh, this.edges);
     this.group.add(this.solid);
+    this.forces = body.forces && !isRival ? new ForceArrows(body.forces) : null;
+    if (this.forces) this.group.add(this.forces.group);
     if (!this.isStatic) this.group.add(makePath(this.motion, colour));
   }
 
@@ -36,6 +42,10 @@ class BodyView {
     if (isRival) {
       return new THREE.MeshLambertMaterial(
         { ...common, color: colour, transparent: true, opacity: 0.35, depthWrite: false });
+    }
+    if (this.isWall) {
+      return new THREE.MeshLambertMaterial(
+        { ...common, color: 0xb4c0cb, transparent: true, opacity: WALL_OPACITY, depthWrite: false });
     }
     if (this.isStatic) return new THREE.MeshLambertMaterial({ ...common, color: 0xd3dae1 });
     // Opaque; only what is transparent is drawn after the rivals.
@@ -47,23 +57,23 @@ class BodyView {
     this.solid.position.copy(this.motion.position);
     this.solid.quaternion.copy(this.motion.orientation);
     this.solid.scale.setScalar(this.isStatic ? 1 : magnification);
+    if (this.forces) this.forces.moveTo(this.motion, time);
   }
 
-  // Colours the faces and returns the largest slip [m/s].
+  // Colours the faces; this.largest is the largest slip now [m/s].
   colour(mediumVelocity, scale, showSeparation) {
-    if (!this.slip) return 0;
+    this.largest = 0;
+    if (!this.slip) return;
     const twist = relativeTwist(this.motion, mediumVelocity);
     const colours = this.geometry.attributes.color;
-    let largest = 0;
     for (let face = 0; face < this.slip.faces; ++face) {
       const speed = this.slip.speed(face, twist);
-      largest = Math.max(largest, speed);
+      this.largest = Math.max(this.largest, speed);
       const attached = !showSeparation || this.slip.isAttached(face, twist, speed, this.body.separation_angle);
       const [red, green, blue] = attached ? colourOf(speed / scale) : SEPARATED;
       for (let corner = 3 * face; corner < 3 * face + 3; ++corner) colours.setXYZ(corner, red, green, blue);
     }
     colours.needsUpdate = true;
-    return largest;
   }
 
   // Largest slip over the run, looked up at some of its samples [m/s].

@@ -11,6 +11,10 @@ from files import reading
 
 # Samples per second that the page interpolates between.
 RATE = 60
+# Columns of trajectory.csv: time, position, orientation, angular velocity, velocity.
+MOTION = [0, *range(2, 15)]
+# Parts of a wrench, as `ambient_demo --log wrench` names them.
+FORCES = ("pressure", "friction", "buoyancy", "waves", "wind", "added_mass", "constraints")
 
 
 def encode(values, kind):
@@ -18,13 +22,14 @@ def encode(values, kind):
 
 
 def read_motion(file):
-    """Rows of trajectory.csv by body: time, position, orientation, angular velocity, velocity."""
+    """Rows of trajectory.csv by body, of the columns MOTION and then of the forces [N], if there are any."""
     motion = {}
     with open(file, newline="") as stream:
         reader = csv.reader(stream)
-        next(reader)
+        names = next(reader)
+        columns = MOTION + [names.index(f"{part}_f{axis}") for part in FORCES if f"{part}_fx" in names for axis in "xyz"]
         for row in reader:
-            motion.setdefault(row[1], []).append([float(row[0]), *map(float, row[2:15])])
+            motion.setdefault(row[1], []).append([float(row[i]) for i in columns])
     return {name: np.array(rows) for name, rows in motion.items()}
 
 
@@ -59,15 +64,16 @@ def pack_bodies(folder, summary, geometry, shapes):
     for body in geometry["bodies"]:
         rows = motion[body["name"]]
         rows = thin_out(rows, summary["output_step"]) if body["mass"] > 0 else rows[:1]
-        bodies.append(
-            {
-                "name": body["name"],
-                "mass": body["mass"],
-                "separation_angle": body["separation_angle"],
-                "shape": shapes.add(body),
-                "samples": encode(rows, "<f4"),
-            }
-        )
+        packed = {
+            "name": body["name"],
+            "mass": body["mass"],
+            "separation_angle": body["separation_angle"],
+            "shape": shapes.add(body),
+            "samples": encode(rows[:, : len(MOTION)], "<f4"),
+        }
+        if rows.shape[1] > len(MOTION) and body["mass"] > 0:
+            packed["forces"] = {"parts": FORCES, "samples": encode(rows[:, len(MOTION) :], "<f4")}
+        bodies.append(packed)
     return bodies
 
 

@@ -21,7 +21,10 @@ function readData() {
   }
   for (const run of data.runs) {
     for (const bodies of [run.bodies, ...run.rivals.map((rival) => rival.bodies)]) {
-      for (const body of bodies) body.samples = decodeBase64(body.samples, Float32Array);
+      for (const body of bodies) {
+        body.samples = decodeBase64(body.samples, Float32Array);
+        if (body.forces) body.forces.samples = decodeBase64(body.forces.samples, Float32Array);
+      }
     }
   }
   return data;
@@ -50,6 +53,12 @@ class Player {
   makeChoices() {
     for (const speed of SPEEDS) element('speed').append(new Option(`${speed} ×`, speed, speed === 1, speed === 1));
     element('legend-bar').style.background = colourGradient();
+    element('force-colours').replaceChildren(...Object.entries(FORCE_COLOURS).map(([part, colour]) => {
+      const name = document.createElement('span');
+      name.style.color = colour;
+      name.textContent = words(part);
+      return name;
+    }));
   }
 
   listen() {
@@ -63,6 +72,7 @@ class Player {
       this.view.showSeparation = event.target.checked;
       this.changed = true;
     });
+    element('show-forces').addEventListener('change', () => this.showForces());
     this.view.controls.addEventListener('change', () => { this.changed = true; });
     window.addEventListener('resize', () => { this.changed = true; });
     window.addEventListener('keydown', (event) => this.key(event));
@@ -94,6 +104,8 @@ class Player {
     element('flow').textContent = `flow of ${digits(flow)} m/s`;
     this.makeViewChoices();
     this.makeOverlays();
+    element('forces').hidden = this.view.withForces().length === 0;
+    this.showForces();
     this.setTime(0);
     this.look();
     this.play(false);
@@ -122,6 +134,13 @@ class Player {
       label.append(box, mark, MODELS[rival.model]);
       return label;
     }));
+  }
+
+  showForces() {
+    const shown = element('show-forces').checked;
+    this.view.showForces(shown);
+    element('force-colours').hidden = !shown || element('forces').hidden;
+    this.changed = true;
   }
 
   look() {
@@ -168,19 +187,19 @@ class Player {
 
   draw() {
     this.changed = false;
-    const slip = this.view.moveTo(this.time);
+    this.view.moveTo(this.time);
     element('clock').textContent = `${this.time.toFixed(3)} / ${digits(this.run.duration)} s`;
-    element('numbers').textContent = this.numbers(slip);
+    element('numbers').textContent = this.numbers();
     this.view.render();
   }
 
-  numbers(slip) {
+  // The body that is followed, else the first one that moves.
+  numbers() {
     const moving = this.view.moving();
     if (moving.length === 0) return 'no body moves';
-    const { body, motion } = this.view.followed || moving[0];
-    const name = moving.length > 1 ? `${words(body.name)}: ` : '';
-    return `${name}speed ${digits(motion.velocity.length())} m/s`
-      + ` · spin ${digits(motion.spin.length())} rad/s · largest slip ${digits(slip)} m/s`;
+    const { body, motion, largest } = this.view.followed || moving[0];
+    return `${words(body.name)}: speed ${digits(motion.velocity.length())} m/s`
+      + ` · spin ${digits(motion.spin.length())} rad/s · largest slip ${digits(largest)} m/s`;
   }
 
   // Pose of a body of the shown run at the shown time, for tests: position [m], orientation x, y, z, w.

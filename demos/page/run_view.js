@@ -37,7 +37,8 @@ class RunView {
     this.flow.show(this.viewed(this.mediumVelocity));
     const makeViews = (bodies, colour) => bodies.map((body, i) => {
       const pathColour = colour || PATH_COLOURS[i % PATH_COLOURS.length];
-      const view = new BodyView(body, shapes[body.shape], pathColour, Boolean(colour));
+      const inPool = Boolean(run.water && run.water.bounds);
+      const view = new BodyView(body, shapes[body.shape], pathColour, Boolean(colour), inPool);
       this.world.add(view.group);
       return view;
     });
@@ -51,15 +52,16 @@ class RunView {
     this.world.updateMatrixWorld();
     this.measure();
     this.frame();
+    this.scaleForces();
     if (run.water) {
       this.water = new WaterView(run.water, this.box, (vector) => this.viewed(vector));
-      this.scene.add(this.water.mesh);
+      this.scene.add(this.water.group);
     }
   }
 
   clear() {
     if (this.water) {
-      this.scene.remove(this.water.mesh);
+      this.scene.remove(this.water.group);
       this.water.dispose();
       this.water = null;
     }
@@ -188,7 +190,6 @@ class RunView {
 
   placeOf(view) { return this.viewed(view.motion.position); }
 
-  // Returns the largest slip now [m/s].
   moveTo(time) {
     const before = this.followed && this.placeOf(this.followed);
     for (const view of this.allViews()) view.moveTo(time, this.magnification);
@@ -198,8 +199,20 @@ class RunView {
       this.controls.target.add(step);
       this.camera.position.add(step);
     }
-    const slips = this.bodies.map((view) => view.colour(this.mediumVelocity, this.slipScale, this.showSeparation));
-    return Math.max(...slips);
+    for (const view of this.bodies) view.colour(this.mediumVelocity, this.slipScale, this.showSeparation);
+  }
+
+  withForces() { return this.bodies.filter((view) => view.forces); }
+
+  // The largest force of the run is an arrow of a third of what the bodies sweep, or of the size of the largest body.
+  scaleForces() {
+    const largest = Math.max(...this.withForces().map((view) => view.forces.largest()));
+    const length = Math.max(this.span / 3, ...this.withForces().map((view) => 1.5 * view.radius()));
+    for (const { forces } of this.withForces()) forces.metresPerNewton = largest > 0 ? length / largest : 0;
+  }
+
+  showForces(visible) {
+    for (const { forces } of this.withForces()) forces.group.visible = visible;
   }
 
   showRival(model, visible) {

@@ -1,7 +1,11 @@
 'use strict';
-// The surface of the water of a run: a translucent net that moves with its waves, y up.
+// The surface of the water of a run, y up: a translucent sheet, lighter at crests and darker in troughs, under a net.
 
-const WATER_CELLS = 48;
+// Cells along a side of the sheet: as many as the shortest wave asks for, within these.
+const LEAST_CELLS = 48, MOST_CELLS = 160, CELLS_PER_WAVE = 12;
+// Every so many cells has a line of the net.
+const NET_STRIDE = 4;
+const TROUGH = new THREE.Color(0x1b5a8a), CREST = new THREE.Color(0x9fd3ee);
 
 class WaterView {
   // `viewed`: turns a vector of the run into the axes of the picture.
@@ -9,15 +13,44 @@ class WaterView {
     this.water = water;
     this.waves = water.waves.map((wave) => ({ ...wave, direction: viewed(new THREE.Vector3().fromArray(wave.direction)) }));
     this.current = viewed(new THREE.Vector3().fromArray(water.current));
+    this.reach = this.waves.reduce((sum, wave) => sum + wave.amplitude, 0);
     const [low, high] = this.extent(box, viewed);
-    const size = high.clone().sub(low);
-    this.geometry = new THREE.PlaneBufferGeometry(size.x, size.z, WATER_CELLS, WATER_CELLS);
+    this.makeGeometry(low, high, this.cells(high.clone().sub(low)));
+    const look = { transparent: true, depthWrite: false };
+    this.mesh = new THREE.Mesh(this.geometry, new THREE.MeshLambertMaterial(
+      { ...look, vertexColors: THREE.VertexColors, side: THREE.DoubleSide, opacity: 0.55 }));
+    this.net = new THREE.LineSegments(this.netGeometry, new THREE.LineBasicMaterial(
+      { ...look, color: 0x0d3f66, opacity: 0.35 }));
+    this.mesh.renderOrder = WATER_FACES;
+    this.net.renderOrder = WATER_NET;
+    this.group = new THREE.Group();
+    this.group.add(this.mesh, this.net);
+    this.moveTo(0);
+  }
+
+  cells(size) {
+    const largest = Math.max(0, ...this.waves.map((wave) => wave.wave_number));
+    const wanted = CELLS_PER_WAVE * Math.max(size.x, size.z) * largest / (2 * Math.PI);
+    return NET_STRIDE * Math.round(Math.min(Math.max(wanted, LEAST_CELLS), MOST_CELLS) / NET_STRIDE);
+  }
+
+  // The sheet, and the net over its vertices.
+  makeGeometry(low, high, cells) {
+    this.geometry = new THREE.PlaneBufferGeometry(high.x - low.x, high.z - low.z, cells, cells);
     this.geometry.rotateX(-Math.PI / 2);
     this.geometry.translate((low.x + high.x) / 2, 0, (low.z + high.z) / 2);
-    const material = new THREE.MeshLambertMaterial({ color: 0x2f7fb5, side: THREE.DoubleSide });
-    Object.assign(material, { transparent: true, opacity: 0.35, depthWrite: false });
-    this.mesh = new THREE.Mesh(this.geometry, material);
-    this.moveTo(0);
+    const places = this.geometry.attributes.position;
+    this.geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * places.count), 3));
+    const lines = [];
+    for (let line = 0; line <= cells; line += NET_STRIDE) {
+      for (let k = 0; k < cells; ++k) {
+        const row = line * (cells + 1) + k, column = k * (cells + 1) + line;
+        lines.push(row, row + 1, column, column + cells + 1);
+      }
+    }
+    this.netGeometry = new THREE.BufferGeometry();
+    this.netGeometry.setAttribute('position', places);
+    this.netGeometry.setIndex(lines);
   }
 
   // The bounds of a pool; of a sea, what is looked at and half as much around it.
@@ -44,14 +77,24 @@ class WaterView {
   }
 
   moveTo(time) {
-    const places = this.geometry.attributes.position;
-    for (let i = 0; i < places.count; ++i) places.setY(i, this.height(places.getX(i), places.getZ(i), time));
+    const places = this.geometry.attributes.position, colours = this.geometry.attributes.color;
+    const colour = new THREE.Color();
+    for (let i = 0; i < places.count; ++i) {
+      const height = this.height(places.getX(i), places.getZ(i), time);
+      const share = this.reach > 0 ? (height - this.water.level) / (2 * this.reach) : 0;
+      colour.copy(TROUGH).lerp(CREST, Math.min(Math.max(0.5 + share, 0), 1));
+      places.setY(i, height);
+      colours.setXYZ(i, colour.r, colour.g, colour.b);
+    }
     places.needsUpdate = true;
+    colours.needsUpdate = true;
     if (this.waves.length > 0) this.geometry.computeVertexNormals();
   }
 
   dispose() {
-    this.geometry.dispose();
-    this.mesh.material.dispose();
+    for (const part of [this.mesh, this.net]) {
+      part.geometry.dispose();
+      part.material.dispose();
+    }
   }
 }

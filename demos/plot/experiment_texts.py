@@ -23,7 +23,7 @@ DIFFERENCES = """## Where the model is known to differ from reality
   the model's lift is 1.6 times and its drag half of the measured one.
 - **Broadside drag.** By the published law a flat face that moves along its normal has no slip and so feels no dynamic
   pressure: a plate that settles broadside falls faster than a real one. `box_pile`, `flap_in_current` and `leaves` are
-  run by the [form law](theory.md#11-flat-faces), which has that drag: both flaps stream where their moments balance,
+  run by the [form law](theory.md#11-the-form-law), which has that drag: both flaps stream where their moments balance,
   from wherever they are released: at 80.6°, and 1.3° above it with the step of the scene, because the lag of stall
   takes for a spin what a joint has not yet taken back at the end of a step (83.0, 81.9, 81.3, 81.0° at 1/120 to
   1/960 s). By the published law the one released at 45° hangs.

@@ -54,11 +54,12 @@ def add_experiments(page, numbers, runs):
     golf = runs("golf_dimpled_spin", "golf_smooth_spin", "golf_dimpled", "golf_smooth")
     page.add_picture("golf", draw_overlay(golf), "Golf balls")
     page.add_picture("basketball", draw_drop(runs("basketball_drop")[0]), "Basketballs")
-    page.add_picture("football", draw_attitudes(runs("football", "football_vacuum"), "x", 0.25, 4), "Football")
+    football = "a thrown football, in air and in a vacuum: its long axis every 0.25 s"
+    page.add_picture("football", draw_attitudes(runs("football", "football_vacuum"), "x", 0.25, 4, title=football), "Football")
     water = runs("underwater_ellipsoid", "underwater_propeller", "underwater_bunny")
     figure = draw_attitudes(water, "xzz", 0.1, 0.08, until=4)
     page.add_picture("underwater", figure, "Underwater ellipsoid, propeller and bunny")
-    page.add_picture("balloon", draw_attitudes(runs("balloon"), "z", 0.1, 0.4, across=True), "Balloon")
+    page.add_picture("balloon", draw_attitudes(runs("balloon"), "z", 0.4, 0.5, across=True, height=8), "Balloon")
     figure = draw_spinners(runs("paper_copter", "paper_copter_proxy", "winged_seed"))
     page.add_picture("spinners", figure, "Paper copters and winged seed")
 
@@ -70,7 +71,7 @@ def add_rivals(page, numbers, runs):
     page.add(RIVALS_END)
     page.add_picture("rivals_soccer", draw_overlay(rivals("soccer_curl", *RIVAL_MODELS[1:])), "Free kick")
     page.add_picture("rivals_golf", draw_overlay(rivals("golf_dimpled_spin", *RIVAL_MODELS[1:])), "Golf ball")
-    page.add_picture("rivals_plate", draw_overlay(rivals("plate_8cm", "uwrbd", "gwtf")), "Plate of 8 cm")
+    page.add_picture("rivals_plate", draw_overlay(rivals("plate_8cm", *RIVAL_MODELS[1:]), lowest=-6), "Plate of 8 cm")
     figure = draw_overlay(rivals("toy_propeller", *RIVAL_MODELS[1:]), until=0.7)
     page.add_picture("rivals_propeller", figure, "Toy propeller")
 

@@ -101,23 +101,45 @@ def draw_drop(run):
     return figure
 
 
-def draw_overlay(runs, until=np.inf):
+def draw_panel(axes, runs, curves, labels, **names):
+    for colour, style, run, curve, label in zip(COLOURS, STYLES, runs, curves, labels):
+        axes.plot(*curve, color=colour, linestyle=style, linewidth=1.7, label=label)
+    axes.set(**names)
+    decorate(axes)
+
+
+def show_between(side, other, paths, up, lowest):
+    """Heights from `lowest`, or from that of all paths, in both panels."""
+    heights = np.concatenate(paths) @ up
+    bottom, top = max(heights.min(), lowest), heights.max()
+    margin = 0.05 * (top - bottom)
+    for axes in (side, other):
+        axes.set_ylim(bottom - margin, top + margin)
+    side.set_adjustable("datalim")
+
+
+def draw_overlay(runs, until=np.inf, lowest=-np.inf):
     """A figure of the first bodies of runs in one side view, each up to its landing or a time, and in a top view if any
-    moves sideways."""
+    moves sideways, else their height over time. Below `lowest` [m] paths are cut."""
     up, along = runs[0].up(), main_direction(runs[0])
     across = np.cross(up, along)
     paths = [shown_part(run.tracks[0], until) for run in runs]
     extent = max(np.ptp(path, axis=0).max() for path in paths)
     sideways = max(np.ptp(path @ across) for path in paths) > 0.05 * extent
-    figure, panels = plt.subplots(1, 1 + sideways, figsize=(12.5, 4), squeeze=False, layout="constrained")
     rivals = len({run.name for run in runs}) == 1
-    for colour, style, run, path in zip(COLOURS, STYLES, runs, paths):
-        label = run.summary["model"] if rivals else run.name
-        for axes, vertical in zip(panels[0], (up, across)):
-            axes.plot(path @ along, path @ vertical, color=colour, linestyle=style, linewidth=1.7, label=label)
-    names = (("height [m]", "from the side"), ("across [m]", "from above"))
-    for axes, (name, title) in zip(panels[0], names):
-        axes.set(xlabel="along [m]", ylabel=name, title=title)
-        decorate(axes)
-    panels[0][0].legend(frameon=False, fontsize=9)
+    labels = [run.summary["model"] if rivals else run.name.replace("_", " ") for run in runs]
+    figure, (side, other) = plt.subplots(
+        1, 2, figsize=(12.5, 4 if sideways else 5), width_ratios=(1, 1 if sideways else 1.6), layout="constrained"
+    )
+    draw_panel(side, runs, [(path @ along, path @ up) for path in paths], labels,
+               xlabel="along [m]", ylabel="height [m]", title="from the side")
+    if sideways:
+        draw_panel(other, runs, [(path @ along, path @ across) for path in paths], labels,
+                   xlabel="along [m]", ylabel="across [m]", title="from above")
+    else:
+        curves = [(run.tracks[0].time[: len(path)], path @ up) for run, path in zip(runs, paths)]
+        draw_panel(other, runs, curves, labels, xlabel="time [s]", ylabel="height [m]", title="height over time")
+        other.set_aspect("auto")
+        show_between(side, other, paths, up, lowest)
+    other.legend(frameon=False, fontsize=11)
     return figure

@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,17 +11,17 @@
 
 namespace ambient {
 
-/// Numbers as C++ reads them: float64, row by row; an array that is so already is not copied.
+/// Array in C++ layout: float64, row-major. Arrays of this layout are not copied, others are.
 using InputArray = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
-/// An array that nobody can write to.
+/// Marks an array as read-only for Python.
 inline pybind11::array readOnly(pybind11::array array) {
   pybind11::detail::array_proxy(array.ptr())->flags &=
       ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 
-/// A matrix or vector of Eigen as a read-only array.
+/// Copies an Eigen matrix or vector to a read-only array.
 template <class Matrix>
 pybind11::array arrayOf(const Matrix& matrix) {
   std::vector<pybind11::ssize_t> shape{matrix.rows()};
@@ -32,29 +33,40 @@ pybind11::array arrayOf(const Matrix& matrix) {
   return readOnly(std::move(array));
 }
 
-/// Three numbers; @throws ValueError that begins with `name`.
+/// Converts an array of three numbers. @throws ValueError that begins with `name`
 inline Vector3 vectorFrom(const InputArray& array, const std::string& name) {
   if (array.ndim() != 1 || array.shape(0) != 3)
     throw pybind11::value_error(name + " must be three numbers");
   return {array.data()[0], array.data()[1], array.data()[2]};
 }
 
-/// "(4, 3)".
+/// Shape of an array as text, e.g. "(4, 3)".
 inline std::string shapeText(const pybind11::array& array) {
   return pybind11::str(array.attr("shape")).cast<std::string>();
 }
 
-/// A path with "~" as it stands; any os.PathLike. @throws TypeError
+/// Converts a str or os.PathLike; does not expand "~". @throws TypeError
 inline std::filesystem::path pathFrom(const pybind11::object& path) {
   return pybind11::module_::import("os").attr("fspath")(path).cast<std::string>();
 }
 
-/// @throws OSError of the right kind unless the file can be read.
+/// Opens the file for a test. @throws the matching subclass of OSError if it cannot be read
 inline void requireReadable(const std::filesystem::path& file) {
   pybind11::module_::import("io").attr("open")(file.string(), "rb").attr("close")();
 }
 
-/// JSON of a value of Python, NumPy's included.
+/// Runs what writes a file. @throws OSError for its std::runtime_error
+template <class Write>
+void writeOrOsError(const Write& write) {
+  try {
+    write();
+  } catch (const std::runtime_error& error) {
+    PyErr_SetString(PyExc_OSError, error.what());
+    throw pybind11::error_already_set();
+  }
+}
+
+/// JSON text of a Python value; NumPy values are converted. @throws TypeError
 inline std::string jsonFrom(const pybind11::object& value) {
   namespace py = pybind11;
   const auto plain = py::cpp_function([](const py::object& array) {

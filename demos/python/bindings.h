@@ -4,12 +4,13 @@
 
 namespace ambient {
 
-// Each adds its part of the module; in this order, for signatures name the types before them.
+// Each function binds a part of the module. Call in this order: signatures need earlier types.
 
 void bindSettings(pybind11::module_& module);
 void bindFluidBody(pybind11::module_& module);
 void bindScene(pybind11::module_& module);
 void bindMotion(pybind11::module_& module);
+void bindRobot(pybind11::module_& module);
 void bindWorld(pybind11::module_& module);
 void bindSweep(pybind11::module_& module);
 

@@ -6,9 +6,10 @@
 #include <memory>
 
 #include "bullet_ambient/fluid_body/content_hash.h"
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
+#include "demos/python/fluid_body_export.h"
 #include "demos/python/fluid_body_sources.h"
 #include "preprocess/polar/polar.h"
 
@@ -19,7 +20,7 @@ namespace py = pybind11;
 using FluidBodyPtr = std::shared_ptr<FluidBody>;
 using NoGil = py::call_guard<py::gil_scoped_release>;
 
-/// Vertices (V, 3) and faces (F, 3) of what many libraries call a mesh, or of two arrays.
+/// Vertices (V, 3) and faces (F, 3) of a mesh object of several libraries, or of two arrays.
 std::pair<InputArray, py::array_t<std::int64_t>> meshArrays(const py::object& mesh,
                                                             const py::object& faces) {
   const auto arrays = [](const py::object& vertices, const py::object& triangles) {
@@ -31,7 +32,7 @@ std::pair<InputArray, py::array_t<std::int64_t>> meshArrays(const py::object& me
   if (py::hasattr(mesh, "vertices") && py::hasattr(mesh, "faces"))
     return arrays(mesh.attr("vertices"), mesh.attr("faces"));
   if (py::hasattr(mesh, "points") && py::hasattr(mesh, "cells_dict")) {
-    // Keys are words in meshio and VTK's numbers in pyvista, where 5 is a triangle.
+    // meshio has names as keys, pyvista has VTK's cell types: 5 is a triangle.
     const py::dict cells = mesh.attr("cells_dict");
     if (cells.contains("triangle")) return arrays(mesh.attr("points"), cells["triangle"]);
     if (cells.contains(py::int_(5))) return arrays(mesh.attr("points"), cells[py::int_(5)]);
@@ -78,7 +79,7 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
   return settings;
 }
 
-/// Its warnings as Python has them.
+/// Issues the warnings of a build as Python warnings; returns the fluid body.
 FluidBodyPtr withWarnings(BuiltBody built) {
   for (const std::string& warning : built.warnings)
     if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
@@ -117,15 +118,10 @@ FluidBodyPtr read(const py::object& path) {
 }
 
 void write(const FluidBody& body, const py::object& path) {
-  try {
-    writeFluidBody(body, pathFrom(path));
-  } catch (const std::runtime_error& error) {
-    PyErr_SetString(PyExc_OSError, error.what());
-    throw py::error_already_set();
-  }
+  writeOrOsError([&] { writeFluidBody(body, pathFrom(path)); });
 }
 
-/// Loads for each row of twists.
+/// Loads (N, 6) for twists (N, 6), or one load for one twist.
 py::array_t<double> loadsFor(const BodyLoads& body_loads, const InputArray& twists) {
   const bool is_one = twists.ndim() == 1;
   if (twists.ndim() < 1 || twists.ndim() > 2 || twists.shape(twists.ndim() - 1) != 6)
@@ -363,6 +359,7 @@ Frame F: the axes of the mesh, its origin at the centre of volume unless chosen 
   bindProperties(type);
   bindMakers(type);
   bindLoads(type);
+  bindExport(type);
   type.def("__repr__",
            [](const FluidBody& b) {
              return "<FluidBody \"" + b.name + "\": " + std::to_string(b.faces.size()) + " faces>";

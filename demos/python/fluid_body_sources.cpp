@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/builder/reuse.h"
-#include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "preprocess/shape/shape_reader.h"
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What `build` gives, or what it gave before and the cache has kept.
+/// Returns the fluid body from the cache if its provenance agrees, else the result of `build`.
 template <class Build>
 BuiltBody buildOnce(const SourceSettings& settings, const Provenance& provenance,
                     const Build& build) {
@@ -85,7 +85,7 @@ BuiltBody buildFromShape(const std::string& json, const fs::path& folder,
   build.flow.max_panels = settings.panels;
   build.flow.threads = settings.threads;
   build.waterline_subdivisions = settings.waterline_subdivisions;
-  if (std::holds_alternative<FluidBodyShape>(shape.geometry)) return buildShape(shape, build);
+  if (std::holds_alternative<FluidBodyFile>(shape.geometry)) return buildShape(shape, build);
   return buildOnce(settings, describeShape(shape, build), [&] { return buildShape(shape, build); });
 }
 

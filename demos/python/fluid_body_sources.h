@@ -11,23 +11,23 @@
 
 namespace ambient {
 
-/// Where fluid bodies are kept between programs, and how one is made.
+/// Settings of building a fluid body, and the folder in which fluid bodies are kept.
 struct SourceSettings {
   std::string name;
   std::optional<Eigen::Vector3d>
-      origin;  ///< of F in the mesh's frame [m]; none: the centre of volume
+      origin;  ///< origin of F in the mesh's frame [m]; none: centre of volume
   int panels = kDefaultPanels;
   int threads = 0;
-  int waterline_subdivisions = 0;  ///< as in BuildSettings
-  std::filesystem::path cache;     ///< a folder; empty: none
+  int waterline_subdivisions = 0;  ///< see BuildSettings
+  std::filesystem::path cache;     ///< folder of .ambient files; empty: no cache
 };
 
-/// A fluid body of a mesh in memory. @throws std::runtime_error in one line that begins with the
-/// name.
+/// Builds a fluid body of a mesh in memory; `sheet`: the mesh is a sheet of zero thickness.
+/// @throws std::runtime_error in one line that begins with settings.name
 BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettings& settings);
 
-/// A fluid body of a shape in JSON, see shape.schema.json; relative files in it are relative to
-/// `folder`. @throws std::runtime_error as buildShape().
+/// Builds a fluid body of a shape in JSON, see shape.schema.json. Relative paths of files are
+/// relative to `folder`. @throws std::runtime_error as buildShape().
 BuiltBody buildFromShape(const std::string& json, const std::filesystem::path& folder,
                          const SourceSettings& settings);
 

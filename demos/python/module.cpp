@@ -9,8 +9,8 @@
 
 namespace {
 
-/// What the library throws, as Python expects it: files that cannot be used are OSError, whatever
-/// else is wrong with an input is ValueError. The sentences stay.
+/// Translates exceptions of the library: unusable files become OSError, other faults of an input
+/// ValueError. Messages stay the same.
 void translate(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(std::move(thrown));
@@ -19,7 +19,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const std::system_error& error) {
     PyErr_SetString(PyExc_OSError, error.what());
   } catch (const std::logic_error& error) {
-    // Of another thread, PythonWorld::simulation(); arguments that are invalid.
+    // Exceptions of another thread, PythonWorld::simulation(); arguments that are invalid.
     const bool is_argument = dynamic_cast<const std::invalid_argument*>(&error) != nullptr;
     PyErr_SetString(is_argument ? PyExc_ValueError : PyExc_RuntimeError, error.what());
   } catch (const std::runtime_error& error) {
@@ -37,6 +37,7 @@ PYBIND11_MODULE(_core, module) {
   ambient::bindFluidBody(module);
   ambient::bindScene(module);
   ambient::bindMotion(module);
+  ambient::bindRobot(module);
   ambient::bindWorld(module);
   ambient::bindSweep(module);
 }

@@ -8,18 +8,18 @@
 
 namespace ambient {
 
-/// Motion of bodies as arrays of shape (..., components).
+/// Motion of bodies as arrays of shape (..., components): position 3, orientation 4, twist 6.
 struct Motion {
   using Shape = std::vector<pybind11::ssize_t>;
 
-  /// All NaN; `shape` without the components.
+  /// Arrays filled with NaN; `shape` excludes the dimension of components.
   explicit Motion(const Shape& shape);
 
-  /// Writes the sample at a place that counts all of `shape`. Needs no lock of the interpreter:
-  /// different places may be written by different threads.
+  /// Writes a sample; `place`: flat index into `shape`. Does not need the interpreter's lock.
+  /// Several threads may write to different places.
   void set(std::size_t place, const MotionSample& sample) noexcept;
 
-  pybind11::array_t<double> times;  ///< (T,) [s]; set by who knows them
+  pybind11::array_t<double> times;  ///< (T,) [s]; filled by the caller
   pybind11::array_t<double> position, orientation, twist;
 
  private:
@@ -28,13 +28,13 @@ struct Motion {
   double* twists_;
 };
 
-/// (T, B) of the samples of each body.
+/// Motion of shape (T, B) from the samples of each body.
 Motion motionOf(const std::vector<std::vector<MotionSample>>& samples);
 
-/// array[..., begin:end]
+/// View array[..., begin:end].
 pybind11::object componentsOf(const pybind11::array& array, int begin, int end);
 
-/// x, y, z, w of w, x, y, z.
+/// Reorders quaternions w, x, y, z to x, y, z, w.
 pybind11::object scalarLast(const pybind11::array& quaternions);
 
 }  // namespace ambient

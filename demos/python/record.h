@@ -11,8 +11,8 @@
 
 namespace ambient {
 
-// How a field looks in Python: vectors as tuples, which nobody can change; words by overloads
-// beside their enumerations.
+// Converts fields for Python: vectors to immutable tuples. Overloads for enumerations, in
+// settings.cpp, convert to words.
 
 template <class Value>
 pybind11::object toPython(const Value& value) {
@@ -32,15 +32,18 @@ inline void fromPython(pybind11::handle from, Vector3& to) {
   to = Vector3(numbers[0], numbers[1], numbers[2]);
 }
 
-/// Binds a struct of settings as a class of frozen values: keyword-only constructor with the
-/// struct's own defaults, equality, hash, a repr that evaluates, pickle. One field(), one line.
+/// Binds a struct of settings as an immutable Python class: keyword-only constructor with the
+/// struct's defaults, equality, hash, repr, pickle. Call field() once per member.
 template <class T>
 class Record {
  public:
   Record(pybind11::module_& module, const char* name, const char* doc)
       : name_(name), class_(module, name, doc) {
     namespace py = pybind11;
-    class_.def(py::init([name](const py::kwargs& given) { return make(name, given); }))
+    class_
+        .def(py::init([name](const py::args& unnamed, const py::kwargs& given) {
+          return make(name, unnamed, given);
+        }))
         .def("__repr__", [name](const T& self) { return repr(name, self); })
         .def("__hash__", [](const T& self) { return py::hash(values(self)); })
         .def(
@@ -79,7 +82,9 @@ class Record {
     return all;
   }
 
-  static T make(const char* name, const pybind11::kwargs& given) {
+  static T make(const char* name, const pybind11::args& unnamed, const pybind11::kwargs& given) {
+    if (!unnamed.empty())
+      throw pybind11::type_error(std::string(name) + "(): takes keywords alone: " + names());
     T made;
     std::size_t known = 0;
     for (const Field& field : fields()) {
@@ -88,9 +93,13 @@ class Record {
       ++known;
     }
     if (known == given.size()) return made;
-    std::string names;
-    for (const Field& field : fields()) names += (names.empty() ? "" : ", ") + field.name;
-    throw pybind11::type_error(std::string(name) + "(): unknown keyword; known are " + names);
+    throw pybind11::type_error(std::string(name) + "(): unknown keyword; known are " + names());
+  }
+
+  static std::string names() {
+    std::string all;
+    for (const Field& field : fields()) all += (all.empty() ? "" : ", ") + field.name;
+    return all;
   }
 
   static pybind11::tuple values(const T& self) {

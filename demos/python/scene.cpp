@@ -13,7 +13,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// From a dict, a path or the name of a scene.
+/// Makes a scene from a dict, a path or the name of a scene.
 Scene makeScene(const py::object& source, const py::object& overrides, const py::object& folder) {
   std::vector<SceneOverride> changes;
   if (!overrides.is_none()) changes = overridesFrom(overrides);

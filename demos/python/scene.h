@@ -10,7 +10,7 @@
 
 namespace ambient {
 
-/// {"bodies.0.mass": 0.1} as overrides.
+/// Converts a dict such as {"bodies.0.mass": 0.1} to overrides.
 std::vector<SceneOverride> overridesFrom(const pybind11::dict& changes);
 
 }  // namespace ambient

@@ -1,13 +1,13 @@
 #include <stdexcept>
 
-#include "bullet_ambient/force/flow_settings.h"
-#include "bullet_ambient/force/medium.h"
+#include "bullet_ambient/force/law/flow_settings.h"
+#include "bullet_ambient/force/medium/medium.h"
 #include "demos/python/bindings.h"
 #include "demos/python/record.h"
 
 namespace ambient {
 
-// Found by their argument, and so not in a nameless namespace.
+// Outside the anonymous namespace: templates of record.h find these overloads by their argument.
 
 static pybind11::object toPython(const PressureLaw& law) {
   for (const auto& [value, name] : kPressureLawNames)
@@ -22,7 +22,7 @@ static void fromPython(pybind11::handle from, PressureLaw& to) {
     to = value;
     return;
   }
-  throw std::invalid_argument("law is \"" + word + "\"; must be published or form");
+  throw std::invalid_argument("law is \"" + word + "\"; must be form or published");
 }
 
 void bindSettings(pybind11::module_& module) {
@@ -35,7 +35,7 @@ void bindSettings(pybind11::module_& module) {
       .field("separation_angle", &FlowSettings::separation_angle,
              "from pi/2 (default) to pi [rad]; larger: more attachment")
       .field("skin_friction", &FlowSettings::skin_friction, "whether there is any")
-      .field("law", &FlowSettings::law, "of the pressure: 'published' (default) or 'form'")
+      .field("law", &FlowSettings::law, "of the pressure: 'form' (default) or 'published'")
       .field("maximum_load_error", &FlowSettings::maximum_load_error,
              "that reduced loads may make, from 0 (all faces) to 1; default 0.01")
       .field("stall_lag", &FlowSettings::stall_lag,

@@ -16,7 +16,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// Tells a callable of Python about progress when there is some, and hears the keyboard.
+/// Reports progress to a Python callable when it has changed, and checks for keyboard interrupts.
 class PythonWatch {
  public:
   explicit PythonWatch(py::object progress) : progress_(std::move(progress)) {}
@@ -34,7 +34,7 @@ class PythonWatch {
   int told_ = -1;
 };
 
-/// Scenes whose results fit into one array.
+/// Throws unless the results of all scenes fit into one array.
 void requireOneShape(const std::vector<Scene>& scenes, bool with_motion) {
   if (scenes.empty()) throw py::value_error("there are no scenes");
   const std::size_t bodies = scenes[0].bodies.size();
@@ -50,7 +50,7 @@ void requireOneShape(const std::vector<Scene>& scenes, bool with_motion) {
   }
 }
 
-/// (N, T, B), or nothing.
+/// Motion of shape (N, T, B), or null without motion.
 std::unique_ptr<Motion> makeMotion(const std::vector<Scene>& scenes, bool with_motion) {
   if (!with_motion) return nullptr;
   const auto size = [](std::size_t count) { return static_cast<py::ssize_t>(count); };
@@ -119,7 +119,7 @@ py::tuple collect(const py::object& cases, const py::object& out) {
 
 }  // namespace
 
-// Python gives them their faces: bullet_ambient/sweeps.py.
+// Private functions; the public ones are in bullet_ambient/sweeps.py.
 void bindSweep(py::module_& module) {
   module.def("_rollout", &rollout, py::arg("scenes"), py::arg("threads"), py::arg("motion"),
              py::arg("cache"), py::arg("progress"));

@@ -1,84 +1,23 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
-#include <memory>
 #include <optional>
-#include <string>
 
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "demos/python/motion.h"
-#include "demos/simulation/motion_recorder.h"
+#include "demos/python/python_world.h"
+#include "demos/python/robot.h"
+#include "demos/scene/scene_reader.h"
+#include "demos/simulation/output/motion_recorder.h"
 #include "demos/simulation/scene_run.h"
-#include "demos/simulation/simulation.h"
 
 namespace ambient {
 namespace {
 
 namespace py = pybind11;
 
-/// A simulation that Python holds: for one thread at a time, until it is closed.
-class PythonWorld {
- public:
-  PythonWorld(const Scene& scene, const std::filesystem::path& cache) : scene_(scene) {
-    const py::gil_scoped_release others_run;
-    SceneBodyCache fluid_bodies(cache, scene.threads);
-    const std::vector<PreparedBody> bodies = prepareBodies(scene, fluid_bodies);
-    if (!cache.empty()) fluid_bodies.save();
-    simulation_ = std::make_unique<Simulation>(scene, bodies);
-  }
-
-  const Scene& scene() const { return scene_; }
-  Simulation& simulation() const {
-    if (!simulation_) throw py::value_error("the world is closed");
-    if (is_stepping_) throw std::logic_error("the world is in use by another thread");
-    return *simulation_;
-  }
-  MotionSample sample(std::size_t body) const { return simulation().sample()[body]; }
-  void close() { simulation_.reset(); }
-
-  /// Steps, and hands the samples after each to `take`. The interpreter is free meanwhile, and
-  /// interrupts of the keyboard are heard every some steps.
-  template <class Take>
-  void step(long long steps, const Take& take) {
-    constexpr long long kChunk = 100;
-    Simulation& stepped = simulation();
-    const Stepping in_use(is_stepping_);
-    for (long long done = 0; done < steps;) {
-      const long long end = std::min(steps, done + kChunk);
-      stepFreely(stepped, end - done, take);
-      done = end;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    }
-  }
-
- private:
-  struct Stepping {
-    explicit Stepping(bool& flag) : flag_(flag) { flag_ = true; }
-    ~Stepping() { flag_ = false; }
-    bool& flag_;
-  };
-
-  template <class Take>
-  static void stepFreely(Simulation& stepped, long long steps, const Take& take) {
-    try {
-      const py::gil_scoped_release others_run;
-      for (long long i = 0; i < steps; ++i) {
-        stepped.step();
-        take(stepped);
-      }
-    } catch (const std::runtime_error& error) {
-      PyErr_SetString(PyExc_FloatingPointError, error.what());
-      throw py::error_already_set();
-    }
-  }
-
-  Scene scene_;
-  std::unique_ptr<Simulation> simulation_;
-  bool is_stepping_ = false;  // read and written with the interpreter's lock
-};
-
-/// One body of a world, which it keeps alive.
+/// One body of a world; keeps the world alive.
 struct PythonBody {
   std::shared_ptr<PythonWorld> world;
   std::size_t index = 0;
@@ -120,6 +59,29 @@ void applyForce(const PythonBody& body, const InputArray& force, const py::objec
   body.world->simulation().applyForce(body.index, vectorFrom(force, "force"), point);
 }
 
+PythonRobot loadUrdf(const std::shared_ptr<PythonWorld>& world, const py::object& path,
+                     const py::kwargs& settings) {
+  if (!world->simulation().takesRobots())
+    throw py::value_error("load_urdf: a scene without robots needs World(scene, robots=True)");
+  py::dict robot = settings;
+  robot["urdf"] = py::module_::import("os.path").attr("abspath")(path);
+  requireReadable(robot["urdf"].cast<std::string>());
+  const Scene& before = world->scene();
+  py::list robots =
+      py::module_::import("json").attr("loads")(before.text).attr("get")("robots", py::list());
+  robots.append(robot);
+  world->addRobots(parseScene(before.text, before.file, {{"robots", jsonFrom(robots)}}));
+  return {world, robots.size() - 1};
+}
+
+py::dict robotsOf(const std::shared_ptr<PythonWorld>& world) {
+  py::dict robots;
+  std::size_t index = 0;
+  for (const RobotDef& robot : world->scene().robots)
+    robots[py::str(robot.name)] = PythonRobot{world, index++};
+  return robots;
+}
+
 py::dict workOf(const PythonBody& body) {
   const FlightWork work = body.world->simulation().work(body.index);
   py::dict counts;
@@ -131,6 +93,25 @@ py::dict workOf(const PythonBody& body) {
   counts["halted"] = work.halted;
   counts["energy_removed"] = work.energy_removed;
   return counts;
+}
+
+py::dict wrenchOf(const PythonBody& body) {
+  const FluidWrench read = body.world->simulation().wrench(body.index);
+  py::dict parts;
+  for (const auto& [name, part] : kWrenchParts) parts[name] = arrayOf((read.*part).vector());
+  return parts;
+}
+
+py::dict wetOf(const PythonBody& body) {
+  const WetState wet = body.world->simulation().wet(body.index);
+  py::dict state;
+  state["volume"] = wet.volume;
+  state["share"] = wet.share;
+  state["draught"] = wet.draught;
+  state["area"] = wet.area;
+  state["centre_of_buoyancy"] = arrayOf(wet.centre_of_buoyancy);
+  state["region"] = static_cast<int>(wet.region);
+  return state;
 }
 
 void bindBody(py::module_& module) {
@@ -151,6 +132,31 @@ void bindBody(py::module_& module) {
       .def_property_readonly(
           "work", &workOf,
           "What the fluid has cost so far, as counts, and the energy that bounds removed [J].")
+      .def(
+          "read_wrench",
+          [](const PythonBody& b, bool is_read) {
+            b.world->simulation().readWrench(b.index, is_read);
+          },
+          py::arg("is_read") = true, "Keeps the wrench of the fluid from the next step on.")
+      .def_property_readonly("wrench", &wrenchOf,
+                             R"(Wrenches on it in the last step, by part, mean over the step.
+
+Each (6,): torque about the centre of mass [N m], then force [N], world axes. "pressure", "friction", "buoyancy", "waves",
+"wind" and "added_mass" are the fluid's; with "constraints", those of contacts and joints, and all applied forces, gravity
+included, they make the change of momentum. RuntimeError without read_wrench().
+
+>>> with World(Scene("sphere_fall")) as world:
+...     ball = world.bodies["ball"]
+...     ball.read_wrench()
+...     world.step()
+...     bool(ball.wrench["buoyancy"][5] > 0)
+True
+)")
+      .def_property_readonly("wet", &wetOf,
+                             R"(What of it is in its fluid now, below a surface if there is one.
+
+"volume" [m^3], "share" of its volume, "draught" [m] of its lowest point (inf: no surface), "area" [m^2],
+"centre_of_buoyancy" (3,) [m] and "region" (-1: none).)")
       .def("apply_force", &applyForce, py::arg("force"), py::arg("at") = py::none(),
            "Adds a force (3,) [N] at a point (3,) [m], default the centre of mass, for one step.")
       .def(
@@ -185,6 +191,22 @@ void bindWorldMotion(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type
           "(B, 6), angular [rad/s], then linear velocity [m/s], world axes");
 }
 
+void bindWorldRobots(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
+  type.def("load_urdf", &loadUrdf, py::arg("path"),
+           R"(Adds a robot of a URDF file, at any time; its links that collide are bodies NAME/LINK.
+
+Keywords are the keys of robots in scenes: name, position, orientation, fixed_base, joint_positions,
+motors, medium, law and so on. Names in it are relative to the scene's folder, the path to the
+current one. States that were saved before are of another world.
+
+>>> world = World(Scene("pool"), robots=True)
+>>> robot = world.load_urdf("data/robots/rudder_boat.urdf", name="boat", position=[0, 0, 0.5])
+>>> robot.joints
+['helm', 'left_axle', 'right_axle']
+)")
+      .def_property_readonly("robots", &robotsOf, "By name, in the order of the scene.");
+}
+
 }  // namespace
 
 void bindWorld(py::module_& module) {
@@ -199,6 +221,7 @@ Parameters
 ----------
 scene : Scene
 cache : a folder that keeps the fluid bodies that were solved
+robots : whether load_urdf() is to come; contacts of a scene without robots then differ in the last bits
 
 >>> with World(Scene("sphere_fall")) as world:
 ...     world.bodies["ball"].apply_force([1, 0, 0])
@@ -207,11 +230,13 @@ cache : a folder that keeps the fluid bodies that were solved
 True
 )");
   bindWorldMotion(type);
-  type.def(py::init([](const Scene& scene, const py::object& cache) {
+  bindWorldRobots(type);
+  type.def(py::init([](const Scene& scene, const py::object& cache, bool robots) {
              return std::make_shared<PythonWorld>(
-                 scene, cache.is_none() ? std::filesystem::path() : pathFrom(cache));
+                 scene, cache.is_none() ? std::filesystem::path() : pathFrom(cache), robots);
            }),
-           py::arg("scene"), py::kw_only(), py::arg("cache") = py::none())
+           py::arg("scene"), py::kw_only(), py::arg("cache") = py::none(),
+           py::arg("robots") = false)
       .def(
           "step", [](PythonWorld& w, long long n) { w.step(n, [](const Simulation&) {}); },
           py::arg("n") = 1,
@@ -222,7 +247,8 @@ True
       .def_property_readonly(
           "time", [](const PythonWorld& w) { return w.simulation().time(); }, "[s]")
       .def_property_readonly("bodies", &bodiesOf, "By name, in the order of the scene.")
-      .def_property_readonly("scene", &PythonWorld::scene, "What it was made of.")
+      .def_property_readonly("scene", &PythonWorld::scene,
+                             "What it was made of, and the robots that came since.")
       .def_property_readonly(
           "warning", [](const PythonWorld& w) { return w.simulation().warning(); },
           "What the library has reported last; mostly empty.")

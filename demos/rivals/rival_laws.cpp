@@ -6,12 +6,12 @@
 #include <string>
 #include <utility>
 
-#include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
 
 namespace ambient {
 namespace {
 
-/// Against the velocity of each face: f_i = -factor A_i weight(n_i, u_i) u_i.
+/// Drag against the velocity of each face: f_i = -factor A_i weight(n_i, u_i) u_i.
 template <class Weight>
 class FaceDrag : public SurfaceLoads {
  public:

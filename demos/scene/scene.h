@@ -8,69 +8,66 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/force/airy_waves.h"
-#include "bullet_ambient/force/flow_settings.h"
-#include "bullet_ambient/force/fluid_region.h"
-#include "bullet_ambient/force/medium.h"
-#include "bullet_ambient/motion/flight.h"
+#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/fluid_region.h"
+#include "bullet_ambient/force/medium/medium.h"
+#include "bullet_ambient/immersed/attach_def.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/robot/robot_model.h"
-#include "preprocess/shape/shape_description.h"
+#include "preprocess/shape/shapes.h"
 
 namespace ambient {
 
-/// How the fluid acts on the bodies of a scene.
+/// Model of the fluid's action on the bodies of a scene.
 enum class FluidModel {
   kAmbient,  ///< this library
-  kIdeal,    ///< this library without surface loads: added mass and buoyancy alone
+  kIdeal,    ///< this library without surface loads: only added mass and buoyancy
   kVacuum,   ///< stock Bullet
   kUwrbd,    ///< LinearDrag, Weissmann and Pinkall 2012
   kGwtf,     ///< WindwardFlux, a stand-in for Soliman et al. 2024
 };
 
-/// The scene file's words.
+/// Words of scene files.
 std::string modelName(FluidModel model);
 std::string integratorName(Integrator integrator);
 
 enum class MassKind { kUniform, kSurface };
 
-/// A link of a robot of a scene, by their indices.
+/// Index of a robot in Scene::robots, and index of a link in the robot's model.
 struct SceneLink {
   std::size_t robot = 0;
   std::size_t link = 0;
 };
 
-/// One rigid body of a scene. The shape's frame is that of the scene's "shape" entry, or the
-/// link's.
+/// One rigid body of a scene. The shape's frame is that of the scene's "shape" entry, or the frame
+/// of the link.
 struct BodyDef {
   std::string name;
   ShapeDescription shape;
-  int waterline_table = 0;  ///< its subdivisions, as in BuildSettings; 0: none
+  int waterline_table = 0;  ///< subdivisions of the waterline table, see BuildSettings; 0: none
   double mass = 0;          ///< [kg]; 0: static
   MassKind mass_kind = MassKind::kUniform;
   std::optional<Matrix3> inertia;         ///< about the centre of mass, shape's axes [kg m^2]
   std::optional<Vector3> centre_of_mass;  ///< in the shape's frame [m]
-  Vector3 position = Vector3::Zero();     ///< of the centre of mass in W [m]
+  Vector3 position = Vector3::Zero();     ///< centre of mass in W at t = 0 [m]
   Quaternion orientation = Quaternion::Identity();  ///< shape's axes to W
-  Vector3 linear_velocity = Vector3::Zero();        ///< of the centre of mass in W [m/s]
+  Vector3 linear_velocity = Vector3::Zero();        ///< velocity of the centre of mass in W [m/s]
   Vector3 angular_velocity = Vector3::Zero();       ///< in W [rad/s]
-  FlowSettings flow;                                ///< separation, skin friction, reduced loads
-  std::optional<double> fluid_density;              ///< overrides the medium's [kg/m^3]
-  double wave_damping = 1;                          ///< of a floating body
+  AttachDef attach;  ///< without its fluid body and the scene's integrator
   double restitution = 0;
   double friction = 0.5;
   std::optional<SceneLink> link;  ///< of a robot, which then has all that is not said here
-  std::optional<Medium> medium;   ///< in place of the scene's
 };
 
-/// What a motor of a joint wants; position + amplitude sin(2 pi t / period + phase), or a velocity.
+/// Target of a joint's motor: position + amplitude sin(2 pi t / period + phase), or `velocity`.
 struct JointDrive {
   double position = 0;             ///< [rad] or [m]
   double amplitude = 0;            ///< [rad] or [m]
   double period = 1;               ///< [s]
   double phase = 0;                ///< [rad]
-  std::optional<double> velocity;  ///< in place of a position [rad/s] or [m/s]
-  double effort = std::numeric_limits<double>::infinity();  ///< [N m] or [N]
+  std::optional<double> velocity;  ///< target velocity, replaces a position [rad/s] or [m/s]
+  double effort = std::numeric_limits<double>::infinity();  ///< largest torque or force [N m], [N]
   double position_gain = 0.1;
   double velocity_gain = 1;
 
@@ -78,56 +75,56 @@ struct JointDrive {
   double velocityAt(double time) const;
 };
 
-/// A robot of a URDF file. Its links that collide are bodies of the scene, after the others.
+/// Robot of a URDF file. Links with collision shapes are bodies of the scene, after all others.
 struct RobotDef {
   std::string name;
   std::shared_ptr<const RobotModel> model;
-  Vector3 position = Vector3::Zero();               ///< of the root link's frame in W [m]
+  Vector3 position = Vector3::Zero();               ///< origin of the root link's frame in W [m]
   Quaternion orientation = Quaternion::Identity();  ///< root link's axes to W
   bool fixed_base = false;
   bool self_collision = false;
-  std::map<std::string, double> joint_positions;  ///< at t = 0, by joint
-  std::map<std::string, JointDrive> motors;       ///< by joint
-  std::optional<Medium> medium;                   ///< of links that name none
+  std::map<std::string, double> joint_positions;  ///< positions at t = 0 by name of the joint
+  std::map<std::string, JointDrive> motors;       ///< motors by name of the joint
+  std::optional<Medium> medium;                   ///< medium of links that name none
   FlowSettings flow;
 
   RigidPose pose() const;
 };
 
-/// A joint without friction between two bodies, or of one with the world. Bodies that it joins do
-/// not collide with each other.
+/// Frictionless joint between two bodies, or between one body and the world. Joined bodies do not
+/// collide with each other.
 struct JointDef {
-  std::vector<std::string> bodies;  ///< names; one: joined to the world
+  std::vector<std::string> bodies;  ///< one or two names; one: joint to the world
   Vector3 point = Vector3::Zero();  ///< in W at t = 0 [m]
-  std::optional<Vector3> axis;      ///< of a hinge, in W at t = 0; none: a ball joint
+  std::optional<Vector3> axis;      ///< axis of a hinge in W at t = 0; none: ball joint
 };
 
-/// Water with a surface, which is level or carries waves. Above it is the scene's medium.
+/// Water with a surface, still or with waves. The fluid above the surface is Scene::medium.
 struct WaterDef {
-  CalmSea sea;                       ///< up is against the scene's gravity
-  std::vector<WaveComponent> waves;  ///< none: still
+  CalmSea sea;                       ///< sea.up is against the scene's gravity
+  std::vector<WaveComponent> waves;  ///< empty: still water
   Medium medium = water();
-  std::optional<RegionBounds> bounds;  ///< of a pool; none: a sea
+  std::optional<RegionBounds> bounds;  ///< bounds of a pool; none: a sea
 };
 
 /// One scene, checked. SI units; W is the world frame.
 struct Scene {
   std::string name;  ///< file name without extension
   std::string description;
-  std::filesystem::path file;    ///< where it was read from
-  std::string text;              ///< the whole scene after overrides, as JSON on one line
+  std::filesystem::path file;    ///< file the scene was read from
+  std::string text;              ///< whole scene after overrides, as JSON on one line
   double duration = 0;           ///< [s]
   double time_step = 0;          ///< [s]
   double output_step = 0;        ///< [s]
   Vector3 gravity{0, 0, -9.81};  ///< [m/s^2]
   Medium medium = air();
   std::optional<WaterDef> water;
-  std::vector<FluidRegion> regions;  ///< others, filled with one medium each
+  std::vector<FluidRegion> regions;  ///< regions without surface, filled with one medium each
   FluidModel model = FluidModel::kAmbient;
-  PressureLaw law = PressureLaw::kPublished;  ///< of bodies that do not name theirs
-  double linear_drag_speed = 1;               ///< of FluidModel::kUwrbd [m/s]
+  PressureLaw law = PressureLaw::kForm;  ///< law of bodies that name none
+  double linear_drag_speed = 1;          ///< speed c of linearDrag(), for kUwrbd [m/s]
   FlightSettings flight;
-  int threads = 0;  ///< of the preprocessing; 0: all cores
+  int threads = 0;  ///< threads of the preprocessing; 0: all cores
   std::vector<BodyDef> bodies;
   std::vector<RobotDef> robots;
   std::vector<JointDef> joints;

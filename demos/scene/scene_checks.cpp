@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "demos/scene/scene_water.h"
 #include "preprocess/mesh/input_error.h"
@@ -21,7 +21,7 @@ std::string number(double value) {
   return text.str();
 }
 
-/// Collects where in which file something is wrong, so that each check is one line.
+/// Checks values and throws one line that names the file, the place, the value and the limit.
 class Checker {
  public:
   Checker(const Scene& scene, std::string place)
@@ -83,7 +83,7 @@ void checkMotion(const BodyDef& body, const Checker& check) {
   check.require(std::abs(norm - 1) <= kQuaternionTolerance, "orientation has norm " + number(norm) +
                                                                 "; must be 1 within " +
                                                                 number(kQuaternionTolerance));
-  const double angle = body.flow.separation_angle;
+  const double angle = body.attach.flow.separation_angle;
   check.require(angle >= kPi / 2 - kAngleTolerance && angle <= kPi + kAngleTolerance,
                 "separation_angle", angle, "from pi/2 to pi");
 }

@@ -4,14 +4,14 @@
 
 namespace ambient {
 
-/// Checks everything about a scene that a schema cannot say.
+/// Checks all conditions on a scene that the schema does not express.
 /// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
 void checkScene(const Scene& scene);
 
-/// Largest deviation of an orientation's norm from 1 that counts as rounding of printed digits.
+/// Tolerance for the norm of an orientation: rounding of printed digits.
 constexpr double kQuaternionTolerance = 1e-6;
 
-/// Largest excess of a separation angle over its limits that counts as rounding of printed digits
+/// Tolerance for the limits of a separation angle: rounding of printed digits
 /// [rad].
 constexpr double kAngleTolerance = 1e-6;
 

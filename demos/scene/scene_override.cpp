@@ -1,6 +1,5 @@
 #include "demos/scene/scene_override.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
@@ -14,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// {"bodies", "0", "mass"} of bodies.0.mass or bodies[0].mass; empty tokens are kept as such.
+/// Splits bodies.0.mass or bodies[0].mass into {"bodies", "0", "mass"}; keeps empty tokens.
 std::vector<std::string> splitPath(const std::string& path) {
   std::vector<std::string> tokens(1);
   for (const char c : path) {
@@ -26,7 +25,7 @@ std::vector<std::string> splitPath(const std::string& path) {
   return tokens;
 }
 
-/// A text that is not JSON is meant as a string. JSON's strings are of UTF-8.
+/// Parses a value; a text that is not JSON becomes a string, which must be UTF-8.
 json parseValue(const std::string& text, const std::string& source) {
   if (json::accept(text)) return parseJson(text, source);
   json value(text);
@@ -38,7 +37,7 @@ json parseValue(const std::string& text, const std::string& source) {
   return value;
 }
 
-/// The element or member of `parent` that `token` names, made if a member is missing.
+/// Returns the element or member of `parent` named by `token`; creates a missing member.
 json& descend(json& parent, const std::string& token, const std::string& parent_name) {
   if (parent.is_array()) {
     if (!isIndex(token) || std::stoul(token) >= parent.size())
@@ -65,8 +64,8 @@ SceneOverride parseOverride(const std::string& text) {
 void applyOverride(json& scene, const SceneOverride& change, const std::string& file) {
   const std::vector<std::string> path = splitPath(change.path);
   const std::string option = "--set " + change.path + "=" + change.value + ": ";
-  if (std::count(path.begin(), path.end(), "") > 0 || !sceneSchema().knows(path))
-    raiseInputError(file, option, "a scene has no such key");
+  if (const std::string unknown = sceneSchema().unknownKey(path); !unknown.empty())
+    raiseInputError(file, option, unknown);
   json* place = &scene;
   try {
     std::vector<std::string> walked;

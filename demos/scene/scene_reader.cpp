@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "demos/scene/scene_checks.h"
 #include "demos/scene/scene_robots.h"
 #include "demos/scene/scene_schema.h"
@@ -28,14 +28,14 @@ Vector3 vectorOr(const json& parent, const char* key, const Vector3& absent) {
   return found == parent.end() ? absent : toVector(*found);
 }
 
-/// xx, yy, zz, xy, xz, yz.
+/// Symmetric matrix of the array xx, yy, zz, xy, xz, yz.
 Matrix3 toInertia(const json& v) {
   Matrix3 inertia;
   inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
   return inertia;
 }
 
-// The words of the schema.
+// Words of the schema.
 constexpr std::array<std::pair<FluidModel, const char*>, 5> kModels{
     {{FluidModel::kAmbient, "ambient"},
      {FluidModel::kIdeal, "ideal"},
@@ -43,7 +43,7 @@ constexpr std::array<std::pair<FluidModel, const char*>, 5> kModels{
      {FluidModel::kUwrbd, "uwrbd"},
      {FluidModel::kGwtf, "gwtf"}}};
 
-/// @pre the schema has let the word pass
+/// Value of a word. @pre the schema has accepted the word
 template <class Words>
 auto valueOf(const std::string& word, const Words& words) {
   const auto names_it = [&](const auto& entry) { return word == entry.second; };
@@ -88,20 +88,22 @@ void readMotion(const json& from, BodyDef& body) {
 BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path& file) {
   const std::size_t index = scene.bodies.size();
   BodyDef body;
-  body.flow.law = scene.law;
+  FlowSettings& flow = body.attach.flow;
+  flow.law = scene.law;
   body.name = from.value("name", "body_" + std::to_string(index));
   body.shape = readShape(from.at("shape"), file.parent_path(),
                          file.string() + ": bodies[" + std::to_string(index) + "].shape");
   body.waterline_table = from.value("waterline_table", 0);
   readMassProperties(from, body);
   readMotion(from, body);
-  body.flow.separation_angle = from.value("separation_angle", kPi / 2);
-  if (from.contains("law")) body.flow.law = valueOf(from.at("law"), kPressureLawNames);
-  body.flow.stall_lag = from.value("stall_lag", body.flow.stall_lag);
-  body.flow.skin_friction = from.value("skin_friction", true);
-  body.flow.maximum_load_error = from.value("maximum_load_error", body.flow.maximum_load_error);
-  if (from.contains("fluid_density")) body.fluid_density = from.at("fluid_density").get<double>();
-  body.wave_damping = from.value("wave_damping", body.wave_damping);
+  flow.separation_angle = from.value("separation_angle", kPi / 2);
+  if (from.contains("law")) flow.law = valueOf(from.at("law"), kPressureLawNames);
+  flow.stall_lag = from.value("stall_lag", flow.stall_lag);
+  flow.skin_friction = from.value("skin_friction", true);
+  flow.maximum_load_error = from.value("maximum_load_error", flow.maximum_load_error);
+  body.attach.medium = scene.medium;
+  body.attach.medium.density = from.value("fluid_density", scene.medium.density);
+  body.attach.wave_damping = from.value("wave_damping", body.attach.wave_damping);
   body.restitution = from.value("restitution", body.restitution);
   body.friction = from.value("friction", body.friction);
   return body;
@@ -143,11 +145,11 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   return scene;
 }
 
-/// Takes the rounding of printed digits out of what checkScene() let pass.
+/// Normalises orientations and clamps angles, which checkScene() accepts with small tolerances.
 void removeRounding(Scene& scene) {
   for (BodyDef& body : scene.bodies) {
     body.orientation.normalize();
-    double& angle = body.flow.separation_angle;
+    double& angle = body.attach.flow.separation_angle;
     if (std::abs(angle - kPi / 2) <= kAngleTolerance) angle = kPi / 2;
     angle = std::min(angle, kPi);
   }

@@ -9,14 +9,14 @@
 
 namespace ambient {
 
-/// Reads a scene file: overrides are put in first, then the schema and all limits are checked.
-/// Shape files are not opened here.
+/// Reads a scene file: applies the overrides, then checks the schema and all limits. Does not open
+/// shape files.
 /// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
 Scene readScene(const std::filesystem::path& file,
                 const std::vector<SceneOverride>& overrides = {});
 
-/// The same from a text; `file` stands for it in messages, and files that it names are looked for
-/// beside that. Scene::text gives the same scene again.
+/// Like readScene(), but from a JSON text. Messages name `file`; relative paths in the scene are
+/// relative to the folder of `file`. Parsing Scene::text gives the same scene.
 Scene parseScene(const std::string& text, const std::filesystem::path& file,
                  const std::vector<SceneOverride>& overrides = {});
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bullet_ambient/spatial/elementary.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 #include "demos/scene/scene_checks.h"
 #include "demos/scene/scene_water.h"
 #include "preprocess/mesh/input_error.h"
@@ -59,7 +59,7 @@ void readPlacement(const json& from, RobotDef& robot) {
   }
 }
 
-/// What <ambient medium=.../> may say in place of the robot's.
+/// Medium named by <ambient medium=.../>; none: that of the robot.
 std::optional<Medium> namedMedium(const std::string& name) {
   if (name == "water") return water();
   if (name == "air") return air();
@@ -74,8 +74,8 @@ void readFlow(const json& from, PressureLaw law, FlowSettings& flow) {
   flow.skin_friction = from.value("skin_friction", flow.skin_friction);
 }
 
-/// Joints that the scene names are there and can do what it asks; they begin where their motors
-/// want them.
+/// Reads motors and joint positions; checks that the joints are revolute or prismatic. A joint with
+/// a position motor starts at the motor's target, unless joint_positions names another position.
 void readJoints(const json& from, const std::string& place, RobotDef& robot) {
   const auto require_axial = [&](const std::string& key, const std::string& joint) {
     const auto index = static_cast<std::size_t>(robot.model->jointIndex(joint));
@@ -96,7 +96,8 @@ void readJoints(const json& from, const std::string& place, RobotDef& robot) {
     }
 }
 
-BodyDef toBody(const RobotDef& robot, std::size_t index, const RigidPose& pose) {
+BodyDef toBody(const Scene& scene, const RobotDef& robot, std::size_t index,
+               const RigidPose& pose) {
   const LinkModel& link = robot.model->links[index];
   BodyDef body;
   body.name = robot.name + "/" + link.name;
@@ -105,13 +106,13 @@ BodyDef toBody(const RobotDef& robot, std::size_t index, const RigidPose& pose) 
   body.centre_of_mass = link.centre_of_mass;
   body.position = pose * link.centre_of_mass;
   body.orientation = Quaternion(Matrix3(pose.linear()));
-  body.flow = robot.flow;
-  body.medium = robot.medium;
+  body.attach.flow = robot.flow;
+  body.attach.medium = robot.medium.value_or(scene.medium);
   body.shape.source = robot.model->source + ": link \"" + link.name + "\"";
   if (body.mass == 0) body.inertia.reset();
   if (!link.fluid) return body;
-  if (link.fluid->law) body.flow.law = *link.fluid->law;
-  if (const auto medium = namedMedium(link.fluid->medium)) body.medium = medium;
+  if (link.fluid->law) body.attach.flow.law = *link.fluid->law;
+  if (const auto medium = namedMedium(link.fluid->medium)) body.attach.medium = *medium;
   return body;
 }
 
@@ -120,7 +121,7 @@ void addLinks(std::size_t index, Scene& scene) {
   const std::vector<RigidPose> poses = linkPoses(*robot.model, robot.pose(), robot.joint_positions);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (robot.model->links[i].collisions.empty()) continue;
-    scene.bodies.push_back(toBody(robot, i, poses[i]));
+    scene.bodies.push_back(toBody(scene, robot, i, poses[i]));
     scene.bodies.back().link = SceneLink{index, i};
   }
 }

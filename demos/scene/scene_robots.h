@@ -6,8 +6,8 @@
 
 namespace ambient {
 
-/// Reads a robot of a scene and its URDF file, and adds it and the links that collide to the scene,
-/// each as a body called robot/link. @pre the schema has let it pass
+/// Reads the entry of a robot and its URDF file. Adds the robot to scene.robots, and each link with
+/// a collision shape to scene.bodies, named robot/link. @pre the schema has accepted the entry
 /// @throws std::runtime_error, one line that names the file, the place, the value and the limit.
 void addRobot(const nlohmann::json& from, Scene& scene);
 

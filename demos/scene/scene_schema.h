@@ -4,7 +4,7 @@
 
 namespace ambient {
 
-/// data/schema/scene.schema.json as it was when the program was built.
+/// Content of data/schema/scene.schema.json, compiled into the program.
 const JsonSchema& sceneSchema();
 
 }  // namespace ambient

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_ambient/force/wave_spectrum.h"
+#include "bullet_ambient/force/medium/wave_spectrum.h"
 
 namespace ambient {
 namespace {
@@ -19,7 +19,7 @@ Vector3 vectorAt(const json& parent, const char* key, const Vector3& absent) {
   return {found->at(0).get<double>(), found->at(1).get<double>(), found->at(2).get<double>()};
 }
 
-/// Null: open that way.
+/// Reads a corner [m]; a coordinate that is null becomes `open`.
 Vector3 cornerAt(const json& bounds, const char* key, double open) {
   Vector3 corner = Vector3::Constant(open);
   const auto found = bounds.find(key);
@@ -80,7 +80,7 @@ FluidRegion makeWaterRegion(const WaterDef& water, const Medium& above) {
   return region;
 }
 
-// As scenes name it; the water, if there is any, comes first.
+// Checks a region of makeRegions(); messages use the name of the region in the scene file.
 void check(const FluidRegion& region, std::size_t index, bool has_water) {
   const std::string name = has_water && index == 0
                                ? "water"

@@ -7,17 +7,17 @@
 
 namespace ambient {
 
-// Keys of a scene that say which fluid is where. @pre the schema has let them pass.
+// Conversion of a scene's keys for water, regions and media. @pre the schema has accepted them
 
-/// A medium; `absent`: of the keys that are left out.
+/// Reads a medium; missing keys are taken from `absent`.
 Medium toMedium(const nlohmann::json& from, const Medium& absent);
 
 WaterDef toWater(const nlohmann::json& from, const Vector3& gravity);
 
 FluidRegion toRegion(const nlohmann::json& from);
 
-/// The scene's water, with its medium above, and its other regions, in the order in which they are
-/// to be added. @throws std::invalid_argument naming value and limit.
+/// Regions of a scene in the order in which to add them: the water, with the scene's medium above,
+/// then the others. @throws std::invalid_argument naming value and limit.
 std::vector<FluidRegion> makeRegions(const Scene& scene);
 
 }  // namespace ambient

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/load_fluid_body.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/load_fluid_body.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/robot/link_shape.h"
 #include "preprocess/shape/shape_mesh.h"
@@ -12,7 +12,7 @@ namespace ambient {
 namespace {
 
 Surface readOrMakeSurface(const ShapeDescription& shape) {
-  if (const auto* from_file = std::get_if<FluidBodyShape>(&shape.geometry))
+  if (const auto* from_file = std::get_if<FluidBodyFile>(&shape.geometry))
     return readFluidBody(from_file->file).surface;
   return surfaceOf(makeShapeMesh(shape).mesh);
 }
@@ -28,7 +28,7 @@ PreparedBody prepareDynamic(const BodyDef& def, std::shared_ptr<const FluidBody>
   PreparedBody body;
   body.fluid_body = std::move(fluid_body);
   // A fluid body's own frame is its shape's frame if nothing else is known of the shape.
-  if (!std::holds_alternative<FluidBodyShape>(def.shape.geometry))
+  if (!std::holds_alternative<FluidBodyFile>(def.shape.geometry))
     body.fluid_origin = body.fluid_body->origin;
   body.surface = moved(body.fluid_body->surface, body.fluid_origin);
   const MassDistribution& per_mass = def.mass_kind == MassKind::kSurface
@@ -40,7 +40,8 @@ PreparedBody prepareDynamic(const BodyDef& def, std::shared_ptr<const FluidBody>
   return body;
 }
 
-/// That which its <ambient> element names, else that of what it collides with.
+/// Returns the fluid body that the link's <ambient> element names, else that of its collision
+/// shape.
 std::shared_ptr<const FluidBody> fluidBodyOf(const LinkModel& link, const std::string& name,
                                              SceneBodyCache& fluid_bodies) {
   if (link.fluid && !link.fluid->fluid_body.empty())

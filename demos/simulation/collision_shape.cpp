@@ -1,12 +1,12 @@
 #include "demos/simulation/collision_shape.h"
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/robot/primitive_shape.h"
 
 namespace ambient {
 namespace {
 
-/// Null for a shape that is no primitive.
+/// Makes a primitive of Bullet; null for a shape that is none.
 struct ShapeMaker : PrimitiveMaker {
   using PrimitiveMaker::operator();
   template <class Other>
@@ -21,7 +21,7 @@ std::unique_ptr<btCollisionShape> makeHull(const Surface& surface) {
   const Eigen::Map<const Eigen::Matrix3Xd> points(surface.vertices.data(), 3, count);
   for (Eigen::Index i = 0; i < count; ++i) hull->addPoint(toBullet(points.col(i)), false);
   const Vector3 extents = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
-  // A flat sheet has no thickness of its own: then the margin is one percent of its length.
+  // A flat sheet has no thickness: its margin is one percent of its length.
   const double smallest = extents.minCoeff() > 0 ? extents.minCoeff() : extents.maxCoeff();
   hull->setMargin(PrimitiveMaker::margin(smallest));
   hull->recalcLocalAabb();
@@ -55,8 +55,8 @@ CollisionShape makeCollisionShape(const BodyDef& def, const PreparedBody& prepar
     shape.triangles = makeTriangles(prepared.surface);
     shape.parts.push_back(std::make_unique<btBvhTriangleMeshShape>(shape.triangles.get(), true));
   }
-  // Bullet takes a contact of two plain shapes into a step when it is within its threshold of 2 cm,
-  // and a bounce loses what is left of the gap; children of compounds wait until their boxes meet.
+  // Bullet adds contacts of plain shapes at gaps below its threshold of 2 cm, and a bounce loses
+  // the remaining gap. For children of compounds Bullet waits until their boxes meet.
   if (prepared.mass == 0 && isIdentity(S_in_B)) return shape;
   auto compound = std::make_unique<btCompoundShape>();
   compound->addChildShape(S_in_B, shape.parts.back().get());

@@ -9,17 +9,17 @@
 
 namespace ambient {
 
-/// A btCollisionShape and what it is made of.
+/// A btCollisionShape with the objects that it refers to.
 struct CollisionShape {
   std::unique_ptr<btTriangleMesh> triangles;
-  std::vector<std::unique_ptr<btCollisionShape>> parts;  ///< in order of dependence
+  std::vector<std::unique_ptr<btCollisionShape>> parts;  ///< children before parents; last: root
   btCollisionShape* root() const { return parts.back().get(); }
 };
 
-/// The Bullet shape of a body in whose frame the shape's frame S has the pose `S_in_B`: a
-/// primitive, else the convex hull of its surface or, of a static body, the triangles themselves.
-/// Of a body that moves it is the child of a compound, wherever it lies: where frames agree to the
-/// last bit, contacts shall not differ from where they do not.
+/// Makes the Bullet shape of a body; `S_in_B`: pose of the shape's frame S in the body's frame B. A
+/// primitive if possible, else the triangles (static body) or their convex hull (moving body). The
+/// shape of a moving body is always the child of a compound, even if S_in_B is the identity:
+/// Bullet treats contacts of plain shapes differently.
 CollisionShape makeCollisionShape(const BodyDef& def, const PreparedBody& prepared,
                                   const btTransform& S_in_B);
 

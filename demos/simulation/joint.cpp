@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 
 namespace ambient {
 namespace {
 
-/// As far as the buoyancy of a body may act, body_model.h: 2^23 times its size.
+/// Throws if the point is more than 2^23 body sizes away: the limit of makeBodyModel().
 void checkPoint(const JointDef& joint, const std::string& name, const btRigidBody& body) {
   constexpr double kSizes = 8388608;
   const double lever =
@@ -25,7 +25,7 @@ void checkPoint(const JointDef& joint, const std::string& name, const btRigidBod
   throw std::invalid_argument(text.str());
 }
 
-/// A joint's place and direction in the frame of one body.
+/// Point and axis of a joint in the frame of one body.
 struct JointEnd {
   btVector3 point, axis;
 

@@ -8,9 +8,9 @@
 
 namespace ambient {
 
-/// Bullet's constraint of a joint between bodies in their poses at t = 0; `second` is null for a
-/// joint to the world.
-/// @throws std::invalid_argument in one line if its point is out of all proportion to a body.
+/// Makes Bullet's constraint for a joint; both bodies are in their poses at t = 0. `second`: null
+/// for a joint to the world.
+/// @throws std::invalid_argument in one line if the point is over 2^23 body sizes from a body.
 std::unique_ptr<btTypedConstraint> makeJoint(const JointDef& joint, btRigidBody& first,
                                              btRigidBody* second);
 

@@ -6,16 +6,16 @@
 #include <csignal>
 #include <string>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/base/ambient_assert.h"
 
 namespace ambient {
 namespace {
 
-// Written before the first signal can come, read by the handler only.
+// Written before the handlers are installed, then only read by the handler.
 std::vector<std::string> files, folders;
 std::atomic<bool> is_interrupted{false};
 
-// What may be called here: POSIX, "async-signal-safe functions".
+// Signal handler: calls only async-signal-safe functions of POSIX.
 void handle(int signal) {
   if (!is_interrupted.exchange(true)) return;
   for (const std::string& file : files) ::unlink(file.c_str());

@@ -5,16 +5,16 @@
 
 namespace ambient {
 
-/// Files and folders of a run that is not over, the outermost folder first.
+/// Files and folders to remove if a run is aborted; outermost folder first.
 struct Unfinished {
   std::vector<std::filesystem::path> files, folders;
 };
 
-/// From here on the first SIGINT, SIGTERM or SIGHUP asks to stop, wasInterrupted(), and the second
-/// one removes what is unfinished and ends the program at once. Called once.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP. The first signal sets wasInterrupted(); the
+/// second one removes the unfinished files and folders and ends the program. Call once.
 void hearSignals(const Unfinished& unfinished = {});
 
-/// Whether a signal has come: a run that is asked after each step stops then.
+/// True after a signal: runs check it after each step and stop.
 bool wasInterrupted() noexcept;
 
 }  // namespace ambient

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
 
@@ -57,13 +57,13 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescript
   settings.waterline_subdivisions = waterline_subdivisions;
   settings.name = name;
   settings.flow.threads = threads_;
-  settings.tables = false;  // scenes are published: new tables should not change their bits
+  settings.tables = false;  // published scenes keep their bits, even if tables change
   const auto build = [&] {
     BuiltBody built = buildShape(shape, settings);
     warnings_.insert(warnings_.end(), built.warnings.begin(), built.warnings.end());
     return std::move(built.body);
   };
-  if (std::holds_alternative<FluidBodyShape>(shape.geometry))
+  if (std::holds_alternative<FluidBodyFile>(shape.geometry))
     return std::make_shared<const FluidBody>(build());
   return readOr(name, describeShape(shape, settings), build);
 }

@@ -2,9 +2,11 @@
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include <cmath>
 #include <vector>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "preprocess/mesh/input_error.h"
 
 namespace ambient {
 namespace {
@@ -28,7 +30,7 @@ MotorTarget targetOf(const JointDrive& drive, double time, double time_step) {
   return target;
 }
 
-/// Velocities of the centres of mass and of the axes, in W; Bullet has them in the links' frames.
+/// Twists of all links in W, linear part at the centre of mass. Bullet has them in link frames.
 std::vector<Twist> linkTwists(const Robot& robot) {
   const btMultiBody& body = robot.multiBody();
   std::vector<btVector3> angular(static_cast<std::size_t>(body.getNumLinks() + 1));
@@ -51,6 +53,39 @@ void SceneRobot::prepareStep(double time, double time_step) {
   for (const auto& [joint, drive] : def_.motors)
     robot_.setMotor(joint, targetOf(drive, time, time_step));
   robot_.prepareStep(time_step);
+}
+
+void SceneRobot::setDrive(const std::string& joint, const JointDrive& drive) {
+  robot_.setMotor(joint, targetOf(drive, 0, 0));
+  def_.motors[joint] = drive;
+}
+
+void SceneRobot::addJointTorque(const std::string& joint, double torque) {
+  robot_.requireAxial(joint);
+  if (!std::isfinite(torque))
+    raiseInputError(robot_.model().source, "the torque of joint \"", joint, "\" is not finite");
+  robot_.multiBody().addJointTorque(robot_.jointNumber(joint), static_cast<btScalar>(torque));
+}
+
+void SceneRobot::measure(const std::string& joint) {
+  const int number = robot_.jointNumber(joint);
+  btMultiBodyJointFeedback none;
+  none.m_reactionForces.setZero();
+  robot_.multiBody().getLink(number).m_jointFeedback =
+      &measured_.try_emplace(number, none).first->second;
+}
+
+// Bullet has the wrench about the centre of mass, in the axes of its body frame.
+Wrench SceneRobot::jointWrench(const std::string& joint) const {
+  const int number = robot_.jointNumber(joint);
+  const auto found = measured_.find(number);
+  if (found == measured_.end())
+    raiseInputError(robot_.model().source, "joint \"", joint, "\" is not measured");
+  const btTransform& body = robot_.bodyTransform(number);
+  const btSpatialForceVector& wrench = found->second.m_reactionForces;
+  const Vector3 force = toVector3(body.getBasis() * wrench.m_topVec);
+  const Vector3 arm = toVector3(body.getOrigin()) - robot_.linkPose(number).translation();
+  return {toVector3(body.getBasis() * wrench.m_bottomVec) + arm.cross(force), force};
 }
 
 MotionSample SceneRobot::sample(std::size_t link) const {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "demos/simulation/motion_recorder.h"
+#include "demos/simulation/output/motion_recorder.h"
 
 namespace ambient {
 
@@ -13,24 +13,41 @@ std::vector<double> outputTimes(const Scene& scene) {
 }
 
 long long countSteps(double duration, double time_step) {
-  constexpr double kRounding = 1e-9;  // of decimal numbers
+  constexpr double kRounding = 1e-9;  // tolerance for decimal numbers in binary
   return static_cast<long long>(std::ceil(duration / time_step * (1 - kRounding)));
 }
 
+namespace {
+
+// Rows of the log for all output times that the motion has come to.
+void addLog(const FluidLog& log, const Simulation& simulation, RunRecord& record,
+            const std::vector<std::vector<MotionSample>>& motion) {
+  if (log.isEmpty()) return;
+  record.log.resize(motion.size());
+  for (std::size_t body = 0; body < motion.size(); ++body)
+    if (record.log[body].size() < motion[body].size())
+      record.log[body].resize(motion[body].size(), fluidLogRow(log, simulation, body));
+}
+
+}  // namespace
+
 RunRecord runScene(const Scene& scene, const std::vector<PreparedBody>& bodies,
-                   const RunProgress& progress) {
+                   const RunProgress& progress, const FluidLog& log) {
   using Clock = std::chrono::steady_clock;
   RunRecord record;
   record.steps = countSteps(scene.duration, scene.time_step);
   Simulation simulation(scene, bodies);
   MotionRecorder recorder(outputTimes(scene), scene.time_step);
+  for (std::size_t i = 0; log.wrench && i < bodies.size(); ++i) simulation.readWrench(i, true);
   recorder.add(simulation.sample());
+  addLog(log, simulation, record, recorder.motion());
   Clock::duration stepping{};
   for (long long i = 0; i < record.steps; ++i) {
     const auto start = Clock::now();
     simulation.step();
     stepping += Clock::now() - start;
     recorder.add(simulation.sample());
+    addLog(log, simulation, record, recorder.motion());
     if (!progress(static_cast<double>(i + 1) / static_cast<double>(record.steps)))
       throw RunStopped();
   }

@@ -8,37 +8,39 @@
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
+#include "demos/simulation/output/fluid_log.h"
 #include "demos/simulation/simulation.h"
 
 namespace ambient {
 
-/// What came of a run.
+/// Results of a run.
 struct RunRecord {
   long long steps = 0;
-  double wall_seconds = 0;                        ///< spent stepping
-  std::vector<std::vector<MotionSample>> motion;  ///< per body, one sample per output time
-  std::vector<FlightWork> work;                   ///< per body
-  std::string warning;                            ///< of the library, one sentence; mostly empty
+  double wall_seconds = 0;                        ///< wall-clock time of all steps [s]
+  std::vector<std::vector<MotionSample>> motion;  ///< [body][output time]
+  std::vector<std::vector<std::string>> log;      ///< fluidLogRow() likewise; empty: not asked for
+  std::vector<FlightWork> work;                   ///< one entry per body
+  std::string warning;                            ///< last report of the library; empty: none
 };
 
-/// Is told after every step how much is done, from 0 to 1; the run goes on if it answers true.
+/// Called after each step with the finished share of the run, 0 to 1; false stops the run.
 using RunProgress = std::function<bool(double share)>;
 
-/// A run was told to stop.
+/// Thrown if a run was told to stop.
 struct RunStopped : std::runtime_error {
   RunStopped() : std::runtime_error("interrupted") {}
 };
 
-/// The times of the rows: multiples of the output step from 0 on, and the duration.
+/// Output times [s]: multiples of the output step from 0 on, and the duration.
 std::vector<double> outputTimes(const Scene& scene);
 
-/// Steps that cover a time [s].
+/// Number of steps needed to cover a duration [s].
 long long countSteps(double duration, double time_step);
 
 /// Runs a scene. Output times between two steps are interpolated.
 /// @throws std::runtime_error naming body and time if a state is not finite; RunStopped.
 RunRecord runScene(
     const Scene& scene, const std::vector<PreparedBody>& bodies,
-    const RunProgress& progress = [](double) { return true; });
+    const RunProgress& progress = [](double) { return true; }, const FluidLog& log = {});
 
 }  // namespace ambient

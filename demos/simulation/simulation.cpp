@@ -3,14 +3,14 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "bullet_ambient/bullet/conversions.h"
-#include "bullet_ambient/bullet/world_state.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/state/world_state.h"
 #include "demos/simulation/simulation_world.h"
 
 namespace ambient {
 namespace {
 
-/// Which bytes have not, as it is a function.
+/// Sets the law of all bodies: the bytes of a state cannot hold a function.
 void setLaw(WorldState& state, const LoadLaw& law) {
   for (BodyState& body : state.bodies)
     if (body.ambient) body.ambient->def.flow.own_law = law;
@@ -20,10 +20,19 @@ void setLaw(WorldState& state, const LoadLaw& law) {
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies)
-    : world_(std::make_unique<World>(scene, bodies)) {}
+Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies,
+                       bool takes_robots)
+    : world_(std::make_unique<SimulationWorld>(scene, bodies, takes_robots)) {}
 
 Simulation::~Simulation() = default;
+
+bool Simulation::takesRobots() const { return world_->bullet.multi_body_world != nullptr; }
+
+void Simulation::addRobots(const Scene& scene, const std::vector<PreparedBody>& bodies) {
+  world_->addRobots(scene, bodies);
+}
+
+SceneRobot& Simulation::robot(std::size_t index) const { return *world_->robots.at(index); }
 
 void Simulation::step() { world_->step(); }
 
@@ -54,14 +63,28 @@ void Simulation::setMedium(std::size_t body, const Medium& medium) {
   }
 }
 
+void Simulation::readWrench(std::size_t body, bool is_read) {
+  if (const auto& immersed = world_->bodies.at(body).immersed) immersed->readWrench(is_read);
+}
+
+FluidWrench Simulation::wrench(std::size_t body) const {
+  const auto& immersed = world_->bodies.at(body).immersed;
+  return immersed ? immersed->wrench() : FluidWrench{};
+}
+
+WetState Simulation::wet(std::size_t body) const {
+  const auto& immersed = world_->bodies.at(body).immersed;
+  return immersed ? immersed->wet() : WetState{};
+}
+
 std::string Simulation::saveState() const {
   std::string bytes(sizeof world_->steps, '\0');
   std::memcpy(bytes.data(), &world_->steps, sizeof world_->steps);
-  return bytes + encodeState(ambient::saveState(*world_->bullet.world, world_->registry));
+  return bytes + encodeState(world_->fluid.save());
 }
 
 void Simulation::restoreState(std::string_view bytes) {
-  World& w = *world_;
+  SimulationWorld& w = *world_;
   const std::string source = "saved state";
   if (bytes.size() < sizeof w.steps) throw std::runtime_error(source + ": is cut short");
   long long steps = 0;
@@ -70,7 +93,7 @@ void Simulation::restoreState(std::string_view bytes) {
   const auto lookup = [&w](const std::string& name) { return w.findFluidBody(name); };
   WorldState state = decodeState(bytes.substr(sizeof steps), source, lookup);
   setLaw(state, w.own_law);
-  ambient::restoreState(state, *w.bullet.world, w.registry);
+  w.fluid.restore(state);
   w.steps = steps;
 }
 

@@ -5,11 +5,16 @@
 #include <string_view>
 #include <vector>
 
+#include "bullet_ambient/bullet/reading/fluid_wrench.h"
+#include "bullet_ambient/bullet/reading/wet_state.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
 
 namespace ambient {
+
+class SceneRobot;
+class SimulationWorld;
 
 /// Work done for one body by the fluid; zero for bodies without fluid.
 struct FlightWork {
@@ -17,57 +22,75 @@ struct FlightWork {
   long long load_evaluations = 0;
   long long guarded = 0;  ///< evaluations in which the passivity guard acted
   long long coarse = 0;   ///< steps that stayed above the integrator's tolerance
-  /// 1 where the errors of the steps add up: they are too long for the motion.
+  /// 1 if the errors of the steps add up: the time step is too long for the motion.
   long long too_long = 0;
-  long long halted = 0;       ///< steps at the surface of water that ended early
-  double energy_removed = 0;  ///< by bounds on the energy of steps [J]
+  long long halted = 0;       ///< steps at a water surface that ended early, docs/theory.md (64)
+  double energy_removed = 0;  ///< energy removed by bounds on the energy of steps [J]
 };
 
-/// A stock btDiscreteDynamicsWorld with the bodies of a scene in their fluid.
+/// Bullet world with the bodies of a scene in their fluid.
 class Simulation {
  public:
-  /// `bodies` are those of the scene, in its order.
+  /// `bodies`: results of prepareBodies() for the scene. `takes_robots`: whether addRobots() may
+  /// follow; contacts of scenes without robots then have other last bits.
   /// @throws std::invalid_argument naming the scene's file and the body if its values are not
   /// physical.
-  Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies);
+  Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies,
+             bool takes_robots = false);
   ~Simulation();
 
-  /// One step of scene.time_step.
+  /// Whether its Bullet world is one for robots.
+  bool takesRobots() const;
+  /// Adds the robots that `scene` has more than the simulation, with their links. `bodies`: results
+  /// of prepareBodies() for `scene`. @pre takesRobots(), and the rest of the scene is the same
+  void addRobots(const Scene& scene, const std::vector<PreparedBody>& bodies);
+  /// A robot, in the order of the scene.
+  SceneRobot& robot(std::size_t index) const;
+
+  /// Makes one step of scene.time_step.
   /// @throws std::runtime_error naming the scene's file, body and time if a state is not finite.
   void step();
 
-  /// Steps made so far times the step [s].
+  /// Number of steps made so far times scene.time_step [s].
   double time() const;
 
-  /// Motion of all bodies now, in the order of the scene.
+  /// Present motion of all bodies, in the order of the scene.
   std::vector<MotionSample> sample() const;
 
   FlightWork work(std::size_t body) const;
 
+  /// Whether the wrench of the fluid on a body is kept, as Immersed::readWrench(). Without effect
+  /// on a body without fluid.
+  void readWrench(std::size_t body, bool is_read);
+  /// Returns Immersed::wrench(); zero for a body without fluid.
+  /// @throws std::logic_error if it is not read.
+  FluidWrench wrench(std::size_t body) const;
+  /// Returns Immersed::wet(); nothing for a body without fluid.
+  WetState wet(std::size_t body) const;
+
   /// Adds a force [N] that acts at a point [m] during the next step; world axes.
   void applyForce(std::size_t body, const Vector3& force, const Vector3& point);
-  /// The same for a torque [N m].
+  /// Adds a torque [N m] that acts during the next step; world axes.
   void applyTorque(std::size_t body, const Vector3& torque);
 
-  /// Changes the fluid around a body, as AmbientRegistry::setMedium().
+  /// Changes the fluid around a body, as Immersed::setMedium().
   /// @throws std::invalid_argument naming the body if the fluid does not act on it or the medium is
   /// not physical.
   void setMedium(std::size_t body, const Medium& medium);
 
-  /// Everything that changes from step to step, as bytes; applied forces included.
+  /// Serialises all that changes from step to step, including applied forces.
   std::string saveState() const;
   /// Goes on from there in this simulation or another one of the same scene, bit for bit where
-  /// ambient::restoreState() does: contacts of bodies that move are those of compound shapes.
+  /// Fluid::restore() does: contacts of bodies that move are those of compound shapes.
   /// @throws std::runtime_error or std::invalid_argument, one sentence, if the bytes are damaged or
   /// of another scene; the simulation then stays as it was.
   void restoreState(std::string_view bytes);
 
-  /// What the library has reported last, one sentence; empty: nothing.
+  /// Last report of the library, one sentence; empty: none.
   const std::string& warning() const;
 
  private:
-  struct World;
-  std::unique_ptr<World> world_;
+  std::unique_ptr<SimulationWorld> world_;
 };
 
 }  // namespace ambient

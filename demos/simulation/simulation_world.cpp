@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bullet_ambient/bullet/ambient_solver.h"
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/rivals/rival_laws.h"
 #include "demos/scene/scene_water.h"
@@ -52,12 +51,12 @@ WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
   made.body = std::make_unique<btRigidBody>(info);
   made.body->setLinearVelocity(toBullet(def.linear_velocity));
   made.body->setAngularVelocity(toBullet(def.angular_velocity));
-  // A body that hovers or glides slowly must not be put to sleep.
+  // Bullet would put a body that hovers or glides slowly to sleep.
   made.body->setActivationState(DISABLE_DEACTIVATION);
   return made;
 }
 
-/// That of another model; empty: this library's own.
+/// Load law of the scene's model; empty: this library's own.
 LoadLaw loadLawOf(const Scene& scene) {
   if (scene.model == FluidModel::kIdeal)
     return [](const auto&, const auto&) { return std::shared_ptr<const SurfaceLoads>(); };
@@ -68,13 +67,9 @@ LoadLaw loadLawOf(const Scene& scene) {
 
 AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBody& prepared,
                         const Matrix3& R_SB, const LoadLaw& own_law) {
-  AttachDef attach;
+  AttachDef attach = def.attach;
   attach.fluid_body = prepared.fluid_body;
-  attach.medium = def.medium.value_or(scene.medium);
-  if (def.fluid_density) attach.medium.density = *def.fluid_density;
-  attach.flow = def.flow;
   attach.flow.own_law = own_law;
-  attach.wave_damping = def.wave_damping;
   attach.flight = scene.flight;
   attach.fluid_frame.rotation = R_SB.transpose();
   attach.fluid_frame.translation =
@@ -82,7 +77,7 @@ AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBo
   return attach;
 }
 
-/// Bullet's.
+/// Bullet's number of a link: -1 is the base.
 int linkNumber(const WorldBody& of) { return static_cast<int>(of.link->link) - 1; }
 
 WorldBody makeWorldLink(const BodyDef& def, const PreparedBody& prepared, const Robot& robot) {
@@ -95,19 +90,19 @@ WorldBody makeWorldLink(const BodyDef& def, const PreparedBody& prepared, const 
   return made;
 }
 
-BulletWorld makeBulletWorld(bool has_robots, AmbientRegistry& registry,
-                            btCollisionDispatcher& dispatcher, btBroadphaseInterface& broadphase,
+BulletWorld makeBulletWorld(bool takes_robots, btCollisionDispatcher& dispatcher,
+                            btBroadphaseInterface& broadphase,
                             btCollisionConfiguration& configuration) {
   BulletWorld made;
-  if (has_robots) {
-    auto solver = std::make_unique<AmbientSolver<btMultiBodyConstraintSolver>>(registry);
+  if (takes_robots) {
+    auto solver = std::make_unique<btMultiBodyConstraintSolver>();
     auto world = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
                                                             &configuration);
     made.multi_body_world = world.get();
     made.solver = std::move(solver);
     made.world = std::move(world);
   } else {
-    auto solver = std::make_unique<AmbientSolver<btSequentialImpulseConstraintSolver>>(registry);
+    auto solver = std::make_unique<btSequentialImpulseConstraintSolver>();
     made.world = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, solver.get(),
                                                            &configuration);
     made.solver = std::move(solver);
@@ -124,33 +119,30 @@ BulletWorld makeBulletWorld(bool has_robots, AmbientRegistry& registry,
 
 }  // namespace
 
-Simulation::World::World(const Scene& scene, const std::vector<PreparedBody>& prepared)
-    : bullet(
-          makeBulletWorld(!scene.robots.empty(), registry, dispatcher, broadphase, configuration)),
+SimulationWorld::SimulationWorld(const Scene& scene, const std::vector<PreparedBody>& prepared,
+                                 bool takes_robots)
+    : bullet(makeBulletWorld(takes_robots || !scene.robots.empty(), dispatcher, broadphase,
+                             configuration)),
+      fluid(*bullet.world),
       own_law(loadLawOf(scene)),
       time_step(scene.time_step),
       file(scene.file.string()) {
-  registry.setReport([this](const std::string& sentence) { report = sentence; });
+  fluid.setReport([this](const std::string& sentence) { report = sentence; });
   bullet.world->setGravity(toBullet(scene.gravity));
-  bullet.world->addAction(&action);
-  for (FluidRegion& region : makeRegions(scene)) registry.addRegion(std::move(region));
-  for (const RobotDef& robot : scene.robots) add(robot);
-  // A saved state finds all motors in the world.
-  for (const auto& robot : robots) robot->prepareStep(time(), time_step);
-  for (std::size_t i = 0; i < prepared.size(); ++i) add(scene, scene.bodies[i], prepared[i]);
+  for (FluidRegion& region : makeRegions(scene)) fluid.addRegion(std::move(region));
+  addRobots(scene, prepared);
   for (const JointDef& joint : scene.joints) add(joint);
 }
 
-Simulation::World::~World() {
-  bullet.world->removeAction(&action);
+SimulationWorld::~SimulationWorld() {
   for (const auto& joint : joints) bullet.world->removeConstraint(joint.get());
-  registry.clear();
+  fluid.clear();
   for (const WorldBody& body : bodies)
     if (body.body) bullet.world->removeRigidBody(body.body.get());
   robots.clear();
 }
 
-void Simulation::World::add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared) {
+void SimulationWorld::add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared) {
   if (def.link) {
     bodies.push_back(makeWorldLink(def, prepared, robots[def.link->robot]->robot()));
   } else {
@@ -166,20 +158,27 @@ void Simulation::World::add(const Scene& scene, const BodyDef& def, const Prepar
   }
 }
 
-void Simulation::World::attach(WorldBody& added, const AttachDef& def) {
-  if (added.link)
-    registry.attach(*bullet.multi_body_world, multiBodyOf(added), linkNumber(added), def);
-  else
-    registry.attach(*bullet.world, *added.body, def);
-  added.is_ambient = true;
+void SimulationWorld::attach(WorldBody& added, const AttachDef& def) {
+  added.immersed = added.link ? fluid.add(multiBodyOf(added), linkNumber(added), def)
+                              : fluid.add(*added.body, def);
 }
 
-void Simulation::World::add(const RobotDef& def) {
+// Links are the last bodies of a scene.
+void SimulationWorld::addRobots(const Scene& scene, const std::vector<PreparedBody>& prepared) {
+  const std::size_t had = robots.size();
+  for (std::size_t i = had; i < scene.robots.size(); ++i) add(scene.robots[i]);
+  // Adds all motors to the world now: restoring a saved state requires the same constraints.
+  for (std::size_t i = had; i < robots.size(); ++i) robots[i]->prepareStep(time(), time_step);
+  for (std::size_t i = bodies.size(); i < prepared.size(); ++i)
+    add(scene, scene.bodies[i], prepared[i]);
+}
+
+void SimulationWorld::add(const RobotDef& def) {
   robots.push_back(std::make_unique<SceneRobot>(def));
   robots.back()->robot().addTo(*bullet.multi_body_world);
 }
 
-void Simulation::World::add(const JointDef& def) {
+void SimulationWorld::add(const JointDef& def) {
   btRigidBody* second = def.bodies.size() > 1 ? &find(def.bodies[1]) : nullptr;
   try {
     joints.push_back(makeJoint(def, find(def.bodies[0]), second));
@@ -190,9 +189,9 @@ void Simulation::World::add(const JointDef& def) {
   bullet.world->addConstraint(joints.back().get(), kWithoutCollisions);
 }
 
-void Simulation::World::step() {
+void SimulationWorld::step() {
   for (const auto& robot : robots) robot->prepareStep(time(), time_step);
-  // No substeps: exactly one step of this length.
+  // 0 substeps: Bullet makes exactly one step of this length.
   bullet.world->stepSimulation(static_cast<btScalar>(time_step), 0);
   ++steps;
   for (const WorldBody& body : bodies)
@@ -200,24 +199,24 @@ void Simulation::World::step() {
       throwNotFinite(file, body.name, time());
 }
 
-btMultiBody& Simulation::World::multiBodyOf(const WorldBody& link) const {
+btMultiBody& SimulationWorld::multiBodyOf(const WorldBody& link) const {
   return robots[link.link->robot]->robot().multiBody();
 }
 
-btRigidBody& Simulation::World::find(const std::string& name) const {
+btRigidBody& SimulationWorld::find(const std::string& name) const {
   const auto found = std::find_if(bodies.begin(), bodies.end(),
                                   [&](const WorldBody& body) { return body.name == name; });
   return *found->body;
 }
 
-std::shared_ptr<const FluidBody> Simulation::World::findFluidBody(const std::string& name) const {
+std::shared_ptr<const FluidBody> SimulationWorld::findFluidBody(const std::string& name) const {
   const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const WorldBody& body) {
     return body.fluid_body && body.fluid_body->name == name;
   });
   return found == bodies.end() ? nullptr : found->fluid_body;
 }
 
-MotionSample Simulation::World::sample(const WorldBody& of) const {
+MotionSample SimulationWorld::sample(const WorldBody& of) const {
   if (steps == 0) return of.start;
   MotionSample now;
   if (of.link) {
@@ -232,7 +231,7 @@ MotionSample Simulation::World::sample(const WorldBody& of) const {
   return now;
 }
 
-void Simulation::World::apply(const WorldBody& to, const Wrench& wrench) {
+void SimulationWorld::apply(const WorldBody& to, const Wrench& wrench) {
   const btVector3 force = toBullet(wrench.force), torque = toBullet(wrench.torque);
   if (!to.link) {
     to.body->applyCentralForce(force);
@@ -250,16 +249,13 @@ void Simulation::World::apply(const WorldBody& to, const Wrench& wrench) {
   }
 }
 
-void Simulation::World::setMedium(const WorldBody& of, const Medium& medium) {
-  if (of.link)
-    registry.setMedium(multiBodyOf(of), linkNumber(of), medium);
-  else
-    registry.setMedium(*of.body, medium);
+void SimulationWorld::setMedium(const WorldBody& of, const Medium& medium) {
+  if (!of.immersed) throw std::invalid_argument("it is in no fluid");
+  of.immersed->setMedium(medium);
 }
 
-AmbientCounters Simulation::World::counters(const WorldBody& of) const {
-  if (!of.is_ambient) return {};
-  return of.link ? registry.counters(multiBodyOf(of), linkNumber(of)) : registry.counters(*of.body);
+AmbientCounters SimulationWorld::counters(const WorldBody& of) const {
+  return of.immersed ? of.immersed->counters() : AmbientCounters();
 }
 
 }  // namespace ambient

@@ -24,8 +24,8 @@ json toJson(const MotionSample& sample) {
           {"angular_velocity", toJson(sample.twist.angular)}};
 }
 
-/// The normal of a body at most half as thick as it is wide, in the shape's axes. Thickness and
-/// widths are the root mean square extents of a uniform body along the principal axes.
+/// Normal of a plate in the shape's axes; none if the body is more than half as thick as wide. Its
+/// thickness and width are root mean square extents of a uniform body along the principal axes.
 std::optional<Vector3> plateNormal(const FluidBody& body) {
   const PrincipalFrame frame = findPrincipalFrame(body.uniform_mass.inertia);
   const Vector3 extents_squared =

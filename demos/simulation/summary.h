@@ -9,8 +9,8 @@
 
 namespace ambient {
 
-/// The text of summary.json: the scene's numbers, the work done, and for each body where it went
-/// and, if it is flat, how it fell.
+/// Text of summary.json: numbers of the scene, computational work, and for each body its path and,
+/// if it is a plate, its falling mode.
 std::string makeSummary(const Scene& scene, const std::vector<PreparedBody>& bodies,
                         const RunRecord& record);
 

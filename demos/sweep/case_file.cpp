@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "preprocess/builder/fluid_body_builder.h"
@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-/// @throws std::runtime_error unless the case is an object of "scene" and, if at all, "set".
+/// Parses a case. @throws std::runtime_error unless its keys are "scene" and, optionally, "set".
 json parseCase(const Case& line) {
   json parsed = parseJson(line.text, line.source);
   if (!parsed.is_object()) raiseInputError(line.source, "a case must be an object");
@@ -41,13 +41,13 @@ std::vector<SceneOverride> overridesIn(const json& parsed) {
   return overrides;
 }
 
-/// The file of a scene given by name or by a path from `folder`.
+/// File of a scene, given by name or by a path relative to `folder`.
 fs::path sceneFileOf(const std::string& scene, const fs::path& folder) {
   const fs::path found = findScene(scene, sceneFolders());
   return found == scene ? folder / found : found;
 }
 
-/// 8 and 8.0 are the same number.
+/// Converts integers to floating point: 8 and 8.0 get the same key.
 void unifyNumbers(json& value) {
   if (value.is_number_integer()) value = value.get<double>();
   if (value.is_structured())

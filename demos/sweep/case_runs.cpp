@@ -6,11 +6,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/output_file.h"
-#include "demos/simulation/geometry_text.h"
-#include "demos/simulation/output_folder.h"
+#include "bullet_ambient/base/output_file.h"
+#include "demos/simulation/output/geometry_text.h"
+#include "demos/simulation/output/output_folder.h"
+#include "demos/simulation/output/trajectory_text.h"
 #include "demos/simulation/summary.h"
-#include "demos/simulation/trajectory_text.h"
 #include "demos/sweep/case_file.h"
 #include "demos/sweep/sweep.h"
 #include "preprocess/shape/json_text.h"
@@ -27,10 +27,10 @@ fs::path summaryFile(const fs::path& out, const std::string& key) {
 
 bool isDone(const fs::path& out, const std::string& key) { return resultOf(out, key).has_value(); }
 
-/// The cases that are to be run, and what is known of the others.
+/// Cases to run, and counts of all others.
 struct Pending {
   std::vector<Scene> scenes;
-  std::vector<int> indices;  ///< of their cases
+  std::vector<int> indices;  ///< index of the case of each scene
   std::vector<std::string> keys;
   CaseCounts counts;
 };
@@ -58,7 +58,7 @@ Pending findPending(const CaseSettings& settings) {
   return pending;
 }
 
-/// What a run that was killed has left in a folder.
+/// Removes the partial files of a run that was killed.
 void removePartialFiles(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".partial") fs::remove(entry.path());
@@ -134,7 +134,7 @@ CaseCounts runCases(const CaseSettings& settings) {
     try {
       writeResult(run, settings, key);
     } catch (const std::exception&) {
-      // Another shard may have run an equal case, with the same result.
+      // Ignored if another shard has meanwhile run an equal case, with the same result.
       if (!isDone(settings.out, key)) throw;
     }
   };

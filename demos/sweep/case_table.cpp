@@ -16,15 +16,15 @@ namespace {
 
 using Overrides = std::map<std::string, TableCell>;
 
-/// A case that is done.
+/// Result of a finished case.
 struct CaseResult {
   int index = 0;
   std::string key;
-  Overrides overrides;  ///< by their paths
+  Overrides overrides;  ///< values by path
   std::vector<TableRow> rows;
 };
 
-/// A number, or a word; whatever else as JSON.
+/// Converts a JSON value to a cell: number, string, or else JSON text.
 TableCell toCell(const std::string& text) {
   const auto value = nlohmann::json::parse(text);
   if (value.is_number()) return value.get<double>();
@@ -37,7 +37,7 @@ Overrides overrideCells(const Case& line) {
   return cells;
 }
 
-// None: it is not done. A case that cannot be read has failed, and runCases() says why.
+// Finds the result of a case; none if it is not done or cannot be read. runCases() reports errors.
 std::optional<CaseResult> findResult(const Case& line, const std::filesystem::path& out) {
   try {
     const std::string key = keyOf(sceneOf(line));
@@ -71,7 +71,7 @@ ResultTable collectCases(const std::filesystem::path& cases, const std::filesyst
   for (const std::string& name : resultColumns()) table.columns.push_back(name);
   for (const CaseResult& result : results) {
     Overrides overrides = result.overrides;
-    overrides.insert(absent.begin(), absent.end());  // where there is none
+    overrides.insert(absent.begin(), absent.end());  // empty cells for paths not overridden
     TableRow begin{static_cast<double>(result.index), result.key};
     for (const auto& entry : overrides) begin.push_back(entry.second);
     for (const TableRow& row : result.rows) {

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Columns and where a body of summary.json has them; of words, `is_word`.
+/// Column, and its place in a body's entry of summary.json; is_word: text instead of a number.
 struct Column {
   const char* name;
   const char* place;

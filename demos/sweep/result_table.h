@@ -6,24 +6,24 @@
 
 namespace ambient {
 
-/// A word or a number; a number that a run does not have is NaN.
+/// Word or number; NaN: the run has no such number.
 using TableCell = std::variant<std::string, double>;
 using TableRow = std::vector<TableCell>;
 
 struct ResultTable {
   std::vector<std::string> columns;
   std::vector<TableRow> rows;
-  int missing = 0;  ///< cases that are not done
+  int missing = 0;  ///< number of cases without a result
 };
 
-/// What a row of resultRows() holds.
+/// Names of the columns of resultRows(), in order.
 std::vector<std::string> resultColumns();
 
-/// One row per body of the text of a summary.json: where it was at the end, its path, its fall and
-/// the work for it. SI units, world axes; "end_orientation" is w, x, y, z.
+/// Converts the text of a summary.json to one row per body: end pose, path, fall and computational
+/// work. SI units, world axes; "end_orientation" is w, x, y, z.
 std::vector<TableRow> resultRows(const std::string& summary);
 
-/// Comma-separated, a header first; numbers have all digits.
+/// CSV text with a header; numbers have 17 significant digits.
 std::string makeTableText(const ResultTable& table);
 
 }  // namespace ambient

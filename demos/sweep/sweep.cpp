@@ -11,7 +11,7 @@
 namespace ambient {
 namespace {
 
-/// What the threads of one sweep share.
+/// State shared by the threads of one sweep.
 class RunningSweep {
  public:
   RunningSweep(const std::vector<Scene>& scenes, const SweepSettings& settings)
@@ -19,7 +19,7 @@ class RunningSweep {
         settings_(settings),
         fluid_bodies_(settings.fluid_bodies, settings.threads) {}
 
-  /// Starts the threads, watches them, and stops them whatever happens. Without any, works itself.
+  /// Starts the threads, calls watch() and joins the threads. Without threads does the work itself.
   SweepFailures run() {
     std::vector<std::thread> threads = startThreads();
     try {
@@ -42,7 +42,7 @@ class RunningSweep {
     return std::min(settings_.threads > 0 ? settings_.threads : cores, count());
   }
 
-  /// Starts as many threads as the system gives.
+  /// Starts the threads; fewer if the system refuses more.
   std::vector<std::thread> startThreads() {
     std::vector<std::thread> threads;
     try {
@@ -74,7 +74,7 @@ class RunningSweep {
     settings_.take({i, scene, bodies, record});
   }
 
-  /// One after the other: the solver has threads of its own.
+  /// Prepares the bodies of one scene at a time: the solver uses all cores itself.
   std::vector<PreparedBody> prepare(const Scene& scene) {
     const std::lock_guard<std::mutex> lock(preparing_);
     std::vector<PreparedBody> bodies = prepareBodies(scene, fluid_bodies_);
@@ -100,7 +100,7 @@ class RunningSweep {
   SceneBodyCache fluid_bodies_;
   std::atomic<int> next_{0};
   std::atomic<bool> is_stopped_{false};
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   int ended_ = 0;
   SweepFailures failures_;

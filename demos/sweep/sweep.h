@@ -12,7 +12,7 @@
 
 namespace ambient {
 
-/// One run of a sweep that has come to its end.
+/// Finished run of a sweep.
 struct SweepRun {
   int index = 0;
   const Scene& scene;
@@ -21,23 +21,23 @@ struct SweepRun {
 };
 
 struct SweepSettings {
-  int threads = 0;                     ///< that run scenes; 0: all cores
-  std::filesystem::path fluid_bodies;  ///< folder that keeps them; empty: memory only
-  /// Receives each run as it ends, on the thread that ran it: several at a time. What it throws
-  /// makes the run a failed one.
+  int threads = 0;                     ///< threads that run scenes; 0: all cores
+  std::filesystem::path fluid_bodies;  ///< folder of .ambient files to reuse; empty: memory only
+  /// Called with each run when it ends, on the thread that ran it; concurrent calls occur. A run
+  /// fails if the function throws.
   std::function<void(const SweepRun&)> take = [](const SweepRun&) {};
-  /// Is told on the calling thread, some times a second, how many runs have ended. If it answers
-  /// false, or throws, the sweep stops within a step of each run.
+  /// Called on the thread of runSweep(), some times a second, with the number of ended runs. If it
+  /// returns false, or throws, each run stops within one step.
   std::function<bool(int ended)> watch = [](int) { return true; };
 };
 
-/// Sentences about the runs that failed, by index.
+/// One sentence per failed run, by index of the scene.
 using SweepFailures = std::map<int, std::string>;
 
-/// Runs scenes on threads, each on one. A run that fails does not stop the others. Bodies of one
-/// shape share a fluid body, which is solved once, on all cores. What comes of a run does not
-/// depend on the threads or on the other runs, bit for bit.
-/// @throws RunStopped if told to stop, and what `watch` throws.
+/// Runs scenes in parallel, each on one thread. A failed run does not stop the others. Bodies of
+/// one shape share a fluid body, which is solved once, on all cores. The bits of a result do not
+/// depend on the number of threads or on other runs.
+/// @throws RunStopped if told to stop; exceptions of `watch` are passed on.
 SweepFailures runSweep(const std::vector<Scene>& scenes, const SweepSettings& settings);
 
 }  // namespace ambient

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/base/elementary.h"
 #include "preprocess/added_mass_tables/table_data.h"
 #include "preprocess/added_mass_tables/table_places.h"
 

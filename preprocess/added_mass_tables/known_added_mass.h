@@ -9,15 +9,16 @@ namespace ambient {
 
 // Added mass per unit density of simple shapes [m^3 to m^5], rotation first, about the origin of
 // the shape as JSON has it (centre of a box, half the height of a round one, whose axis is z), from
-// tables that were made by preprocess/table_generator; none outside of their range, kLargestRatio
-// and kLargestRounding. Error against the limit of fine meshes, relative to the largest entry of
-// the block: docs/accuracy.md. What symmetry forbids is exactly zero. Cost: some microseconds.
+// tables that were made by tests/preprocess/table_generator; none outside of their range,
+// kLargestRatio and kLargestRounding. Error against the limit of fine meshes, relative to the
+// largest entry of the block: docs/accuracy.md. What symmetry forbids is exactly zero. Cost: some
+// microseconds.
 // @pre sizes positive and finite
 
-/// As the provenance of a fluid body says it: "added mass tables 1".
+/// Name of the tables in the provenance of a fluid body: "added mass tables 1".
 std::string addedMassTablesName();
 
-/// Of half sizes [m].
+/// Added mass of a box of half sizes [m].
 std::optional<Matrix6> boxAddedMass(const Vector3& half_sizes);
 std::optional<Matrix6> cylinderAddedMass(double radius, double height);
 /// Height of the cylindrical part.

@@ -4,7 +4,7 @@
 
 namespace ambient {
 
-// Generated: preprocess/table_generator writes table_data.cpp.
+// Generated: tests/preprocess/table_generator writes table_data.cpp.
 
 /// Raised with every change of the tables; part of a fluid body's provenance.
 constexpr int kTableRevision = 1;

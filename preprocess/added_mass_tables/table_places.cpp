@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/spatial/elementary.h"
-#include "preprocess/potential_flow/ellipsoid_added_mass.h"
+#include "bullet_ambient/base/elementary.h"
+#include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 
 namespace ambient {
 namespace {
@@ -49,7 +49,7 @@ RoundPlace conePlace(double radius, double height, double rounding) {
   // The root, for a sharp edge is a singular limit.
   RoundPlace round{{logOfRatio(height, 2 * radius), 2 * std::sqrt(share / kLargestRounding) - 1},
                    roundScale(radius + rounding, height + 2 * rounding)};
-  // What is rounded to a ball does not turn the fluid.
+  // A body that is rounded to a ball does not turn the fluid.
   const double oblong = (radius + height) / (radius + height + rounding);
   round.scale.w_y *= oblong * oblong;
   return round;

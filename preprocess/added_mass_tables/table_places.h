@@ -11,7 +11,7 @@ constexpr double kLargestRatio = 100;
 /// Rounding of a cone over itself plus its thickness, r h / (r + h).
 constexpr double kLargestRounding = 0.9;
 
-/// Where a shape stands in its table: logarithms of its ratios, mapped to [-1, 1]^2.
+/// Place of a shape in its table: logarithms of its ratios, mapped to [-1, 1]^2.
 struct TablePlace {
   double x = 0, y = 0;
 

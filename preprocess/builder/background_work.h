@@ -17,7 +17,7 @@ class BackgroundWork {
   BackgroundWork(const BackgroundWork&) = delete;
   BackgroundWork& operator=(const BackgroundWork&) = delete;
 
-  /// Where the system gives no thread, does the task before it returns.
+  /// Adds a task. Where the system gives no thread, does it before it returns.
   /// @pre the task does not throw.
   void add(std::function<void()> task);
   /// Waits until all tasks are done.

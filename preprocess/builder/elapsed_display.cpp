@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <system_error>
 
-#include "bullet_ambient/fluid_body/plain_text.h"
+#include "bullet_ambient/base/plain_text.h"
 
 namespace ambient {
 

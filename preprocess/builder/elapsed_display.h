@@ -23,7 +23,7 @@ class ElapsedDisplay {
 
   /// Names what is done from now on; its share is 0.
   void begin(const std::string& stage);
-  /// How much of it is done, from 0 to 1.
+  /// Sets the share of the work that is done, from 0 to 1.
   void update(double share) { share_ = share; }
 
  private:

@@ -4,16 +4,18 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/invariants.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/usual_size.h"
-#include "preprocess/potential_flow/added_mass_parts.h"
-#include "preprocess/potential_flow/refined_flow.h"
-#include "preprocess/potential_flow/solver_revision.h"
-#include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/potential_flow/results/added_mass_parts.h"
+#include "preprocess/potential_flow/results/refined_flow.h"
+#include "preprocess/potential_flow/results/solver_revision.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient {
@@ -92,10 +94,18 @@ void requireWaterline(const BuildSettings& settings) {
     raiseInputError(sourceOf(settings), "a sphere needs no waterline table: all have the same one");
 }
 
+void tellStage(const BuildSettings& settings, const std::string& stage) {
+  if (settings.begin) settings.begin(stage);
+}
+
 WaterlineTable waterlineOf(const FluidBody& body, const BuildSettings& settings) {
   WaterlineSettings waterline;
   waterline.subdivisions = settings.waterline_subdivisions;
   waterline.threads = settings.flow.threads;
+  waterline.progress = [&settings](int done, int attitudes) {
+    tellStage(settings, "waterline table, " + std::to_string(done) + " of " +
+                            std::to_string(attitudes) + " attitudes");
+  };
   try {
     if (body.added_mass_parts.empty())
       throw std::runtime_error("the added mass is a sum, without parts that it could correct");
@@ -103,10 +113,6 @@ WaterlineTable waterlineOf(const FluidBody& body, const BuildSettings& settings)
   } catch (const std::runtime_error& error) {
     raiseInputError(sourceOf(settings), "waterline table: ", error.what());
   }
-}
-
-void tellStage(const BuildSettings& settings, const char* stage) {
-  if (settings.begin) settings.begin(stage);
 }
 
 }  // namespace
@@ -156,15 +162,19 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   body.volume = properties.volume;
   body.area = settings.flow.sheet ? 2 * properties.area : properties.area;
   body.origin = origin;
+  AMBIENT_ASSERT(body.volume >= 0 && body.area > 0 && origin.allFinite());
+  AMBIENT_ASSERT(isSymmetric(body.added_mass, 1e-9));
   body.uniform_mass = aboutOrigin(uniform_mass, origin);
   body.surface_mass = aboutOrigin(properties.surface, origin);
   body.centre_of_volume = properties.uniform.centre - origin;
   body.faces = facesOf(mesh, settings.flow.sheet);
   body.surface = surfaceOf(mesh);
   body.faces.sharpness = computeSharpness(body);
+  AMBIENT_ASSERT(body.faces.sharpness.size() == body.faces.size());
+  AMBIENT_ASSERT(settings.sphere_radius >= 0);
   body.sphere_radius = settings.sphere_radius;
   if (settings.waterline_subdivisions == 0) return body;
-  tellStage(settings, "making the waterline table");
+  tellStage(settings, "waterline table");
   body.waterline = waterlineOf(body, settings);
   return body;
 }

@@ -6,7 +6,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/mesh/triangle_mesh.h"
-#include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
 
 namespace ambient {
 
@@ -23,7 +23,7 @@ std::string libraryVersion();
 /// The triangles of a mesh as a fluid body holds them.
 Surface surfaceOf(const TriangleMesh& mesh);
 
-/// How a fluid body is made from a mesh.
+/// Settings for making a fluid body from a mesh.
 struct BuildSettings {
   std::string name;    ///< of the body
   std::string source;  ///< begins every message: the file it comes from; empty: the name

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 
 namespace ambient {
 

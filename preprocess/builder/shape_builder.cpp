@@ -5,16 +5,16 @@
 #include <sstream>
 #include <utility>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/fnv1a.h"
-#include "preprocess/builder/known_shape.h"
+#include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/mesh/defects/mesh_orientation.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/mesh_orientation.h"
 #include "preprocess/mesh/triangle_quality.h"
-#include "preprocess/potential_flow/ellipsoid_added_mass.h"
-#include "preprocess/potential_flow/flat_merging.h"
+#include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
+#include "preprocess/potential_flow/results/estimated_added_mass.h"
+#include "preprocess/potential_flow/surface/flat_merging.h"
 #include "preprocess/shape/json_text.h"
-#include "preprocess/shape/shape_limits.h"
+#include "preprocess/shape/shape_facts.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
@@ -34,22 +34,11 @@ double slendernessOf(const TriangleMesh& mesh) {
   return extents[1] > 0 ? extents[2] / extents[1] : 1;
 }
 
-/// Semi-axes of a sphere or an ellipsoid.
-std::optional<Eigen::Vector3d> semiAxesOf(const ShapeDescription& shape) {
-  if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry)) {
-    return Eigen::Vector3d::Constant(sphere->radius);
-  }
-  if (const auto* ellipsoid = std::get_if<EllipsoidShape>(&shape.geometry)) {
-    return ellipsoid->semi_axes;
-  }
-  return std::nullopt;
-}
-
 /// A solver that is asked for by name is used, known or not.
-std::optional<KnownShape> knownShapeFor(const ShapeDescription& shape,
-                                        const ShapeBuildSettings& settings) {
+std::optional<KnownAddedMass> knownAddedMass(const ShapeDescription& shape,
+                                             const ShapeBuildSettings& settings) {
   if (settings.flow.solver != FlowSolverKind::Automatic) return std::nullopt;
-  auto known = findKnownShape(shape, settings.scale);
+  auto known = factsOf(shape.geometry).added_mass(settings.scale);
   if (known && known->is_tabulated && !settings.tables) return std::nullopt;
   return known;
 }
@@ -94,21 +83,22 @@ void warnOfPanels(CheckedMesh& checked, const ShapeDescription& shape, int max_p
   }
 }
 
-/// In place of the triangles of the shape's file.
-std::string standInText(const ShapeDescription& shape) {
-  const auto* mesh = std::get_if<MeshShape>(&shape.geometry);
-  if (mesh == nullptr || mesh->stand_in == MeshStandIn::kNone) return {};
-  if (mesh->stand_in == MeshStandIn::kHull) return ", hull";
+/// Describes what is done to the triangles of the shape's file; empty: there is no file.
+std::string meshText(const ShapeDescription& shape) {
+  const auto* mesh = std::get_if<MeshFile>(&shape.geometry);
+  if (mesh == nullptr) return {};
   std::ostringstream text;
   text.precision(17);
-  text << ", wrap " << mesh->wrap_size;
+  if (mesh->stand_in == MeshStandIn::kHull) text << ", hull";
+  if (mesh->stand_in == MeshStandIn::kWrap) text << ", wrap " << mesh->wrap_size;
+  if (mesh->stretch != Eigen::Vector3d(1, 1, 1)) text << ", stretch " << mesh->stretch.transpose();
   return text.str();
 }
 
 std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
   std::ostringstream text;
   text.precision(17);
-  text << (isSheet(shape) ? "sheet" : "body") << standInText(shape) << ", scale " << settings.scale
+  text << (isSheet(shape) ? "sheet" : "body") << meshText(shape) << ", scale " << settings.scale
        << ", origin ";
   if (settings.origin) {
     text << settings.origin->x() << "," << settings.origin->y() << "," << settings.origin->z();
@@ -118,7 +108,7 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
   text << ", faces " << settings.least_faces;
   if (settings.waterline_subdivisions > 0)
     text << ", waterline " << settings.waterline_subdivisions;
-  if (const auto known = knownShapeFor(shape, settings)) {
+  if (const auto known = knownAddedMass(shape, settings)) {
     text << ", " << known->source;
     return text.str();
   }
@@ -130,12 +120,12 @@ std::string settingsText(const ShapeDescription& shape, const ShapeBuildSettings
 
 /// The scale in the shape's own description.
 double ownScale(const ShapeDescription& shape) {
-  if (const auto* mesh = std::get_if<MeshShape>(&shape.geometry)) return mesh->scale;
-  if (const auto* sheet = std::get_if<MeshSheetShape>(&shape.geometry)) return sheet->scale;
+  if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry)) return mesh->scale;
+  if (const auto* sheet = std::get_if<MeshSheet>(&shape.geometry)) return sheet->scale;
   return 1;
 }
 
-BuiltBody readBody(const FluidBodyShape& shape, const ShapeBuildSettings& settings) {
+BuiltBody readBody(const FluidBodyFile& shape, const ShapeBuildSettings& settings) {
   const std::string name = shape.file.string();
   if (settings.origin) raiseInputError(name, "a fluid body keeps its origin");
   if (settings.scale != 1) {
@@ -150,7 +140,7 @@ BuiltBody readBody(const FluidBodyShape& shape, const ShapeBuildSettings& settin
 }  // namespace
 
 Provenance describeShape(const ShapeDescription& shape, const ShapeBuildSettings& settings) {
-  requireUsualExtents(shape, settings.scale);
+  requireUsualExtents(shape.geometry, settings.scale, shape.source);
   const std::filesystem::path file = fileOf(shape);
   ShapeBuildSettings effective = settings;
   effective.scale *= ownScale(shape);
@@ -178,7 +168,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
     raiseInputError(shape.source, "least faces = ", settings.least_faces,
                     " is not between 0 (no division) and ", kMostDivisions);
   }
-  if (const auto* fluid_body = std::get_if<FluidBodyShape>(&shape.geometry)) {
+  if (const auto* fluid_body = std::get_if<FluidBodyFile>(&shape.geometry)) {
     return readBody(*fluid_body, settings);
   }
   if (settings.begin) settings.begin("reading and checking the mesh");
@@ -189,13 +179,14 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   build.source = shape.source;
   build.origin = settings.origin;
   build.cavities = checked.cavities;
-  if (const auto known = knownShapeFor(shape, settings)) {
+  const ShapeFacts facts = factsOf(shape.geometry);
+  if (const auto known = knownAddedMass(shape, settings)) {
     build.added_mass = known->added_mass;
     if (known->is_tabulated) {
       build.added_mass_parts = estimateParts(checked.mesh, known->added_mass);
-    } else if (!std::holds_alternative<SphereShape>(shape.geometry)) {
+    } else if (facts.sphere_radius == 0) {
       build.added_mass_parts =
-          joinPanels(ellipsoidPanels(checked.mesh, settings.scale * *semiAxesOf(shape)));
+          joinPanels(ellipsoidPanels(checked.mesh, settings.scale * facts.half_extents));
     }
   } else {
     warnOfPanels(checked, shape, settings.flow.max_panels);
@@ -205,8 +196,7 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   build.begin = settings.begin;
   build.flow = settings.flow;
   build.flow.sheet = isSheet(shape);
-  if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry))
-    build.sphere_radius = settings.scale * sphere->radius;
+  build.sphere_radius = settings.scale * facts.sphere_radius;
   build.provenance = describeShape(shape, settings);
   if (!fileOf(shape).empty())
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };

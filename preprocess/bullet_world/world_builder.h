@@ -9,7 +9,7 @@
 
 namespace ambient {
 
-/// How the fluid bodies of a world are made.
+/// Settings for making the fluid bodies of a world.
 struct WorldBuildSettings {
   bool margins = true;                                ///< as in CollisionShapeSettings
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
@@ -17,7 +17,7 @@ struct WorldBuildSettings {
   bool reuse = true;  ///< keep a file that was made from the same geometry and settings
 };
 
-/// What became of one shape.
+/// Result for one shape.
 struct WorldShapeResult {
   enum class Status { kBuilt, kKept, kFailed };
 
@@ -33,7 +33,7 @@ struct WorldShapeResult {
   double volume = 0;                  ///< [m^3]
 };
 
-/// What became of a world.
+/// Results for a world.
 struct WorldBuild {
   std::vector<WorldShapeResult> shapes;
   int lost_bodies = 0;  ///< whose shape Bullet's importer does not know

@@ -14,8 +14,7 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/shape/json_text.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 namespace {
 
 std::string fileNameOf(std::string text) {
@@ -141,5 +140,4 @@ WorldFile::WorldFile(const std::filesystem::path& file) : importer_(std::make_un
 
 WorldFile::~WorldFile() = default;
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

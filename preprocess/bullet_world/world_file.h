@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/core/precision_check.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 
 /// A collision shape of a world and the dynamic bodies that have it.
 struct WorldShape {
@@ -49,5 +48,4 @@ class WorldFile {
   int multibodies_ = 0;
 };
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

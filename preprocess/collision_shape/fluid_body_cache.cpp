@@ -9,15 +9,15 @@
 #include <unordered_set>
 #include <utility>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/builder/background_work.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shared_bodies.h"
 #include "preprocess/collision_shape/form_body.h"
+#include "preprocess/collision_shape/shape_parts.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,7 +83,7 @@ struct FluidBodyCache::Store {
     }
   }
 
-  // What the program's function throws is dropped: nobody could catch it in the background.
+  // Reports a line. Drops what the user's function throws: nobody could catch it in the background.
   void say(const std::string& text) const noexcept {
     try {
       if (settings.report) settings.report(text);
@@ -119,7 +119,7 @@ struct FluidBodyCache::Store {
     return body;
   }
 
-  // What cannot be solved stays as it was guessed.
+  // Solves a form that was guessed. A form that cannot be solved keeps its guess.
   void solveInBackground(const ShapeForm& form, const std::string& content) noexcept {
     try {
       forms.get(content, [&] { return readOrMake(form); });
@@ -182,5 +182,4 @@ FluidBodyCache::Counts FluidBodyCache::counts() const {
   return {store_->made, store_->read, store_->guessed};
 }
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

@@ -3,12 +3,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "bullet_ambient/bullet/fluid_body_source.h"
-#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/bullet/world/fluid_body_source.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 
 /// The fluid bodies of collision shapes, each made once: shapes of equal numbers are one, wherever
 /// they are in memory, and those that differ by their size alone are solved once and scaled. May be
@@ -46,7 +45,7 @@ class FluidBodyCache : public FluidBodySource {
   /// @throws std::runtime_error as makeFluidBody(), each time.
   ///
   /// Of Quality::kInstant the first answer is the guess, within milliseconds, and a thread goes on
-  /// to kStandard; later answers are that, and revision() tells. Bodies of Fluid::attachAll() then
+  /// to kStandard; later answers are that, and revision() tells. Bodies of Fluid::addAll() then
   /// get it at the end of a substep. settings.flow.threads says how many cores that may take.
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override;
   unsigned revision() const noexcept override;
@@ -65,5 +64,4 @@ class FluidBodyCache : public FluidBodySource {
   std::unique_ptr<Store> store_;
 };
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

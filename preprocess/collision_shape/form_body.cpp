@@ -6,23 +6,21 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
-#include "preprocess/builder/known_shape.h"
-#include "preprocess/collision_shape/collision_solids.h"
-#include "preprocess/collision_shape/quick_added_mass.h"
-#include "preprocess/collision_shape/shape_parts.h"
-#include "preprocess/collision_shape/solid_union.h"
+#include "preprocess/collision_shape/solids/collision_solids.h"
+#include "preprocess/collision_shape/solids/quick_added_mass.h"
+#include "preprocess/collision_shape/solids/solid_union.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
-#include "preprocess/potential_flow/potential_flow.h"
-#include "preprocess/potential_flow/refined_flow.h"
-#include "preprocess/potential_flow/shape_symmetry.h"
+#include "preprocess/potential_flow/results/estimated_added_mass.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
+#include "preprocess/potential_flow/results/refined_flow.h"
+#include "preprocess/potential_flow/surface/shape_symmetry.h"
 #include "preprocess/reduced_loads/form_levels.h"
 
 namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
 namespace {
 
 const std::string& nameOf(const ShapeForm& form, const CollisionShapeSettings& settings) {
@@ -41,26 +39,15 @@ const char* nameOf(CompoundFallback fallback) {
   return "union";
 }
 
-void requireUsable(const CollisionShapeSettings& settings, const std::string& name) {
-  const auto require = [&](const char* what, int value, int least) {
-    if (value >= least && value <= kMostDivisions) return;
-    raiseInputError(name, what, " = ", value, " is not between ", least, " and ", kMostDivisions);
-  };
-  require("faces", settings.faces, 1);
-  require("max_panels", settings.flow.max_panels, 0);
-  require("threads", settings.flow.threads, 0);
-  if (!(settings.load_error >= 0))
-    raiseInputError(name, "load_error = ", settings.load_error, " is negative");
-}
-
 bool usesTables(const CollisionShapeSettings& settings) {
   return settings.tables && settings.flow.solver == FlowSolverKind::Automatic;
 }
 
-/// Where the added mass comes from, as far as the settings and a single part decide.
-std::string sourceOf(const std::vector<ShapePart>& parts, const CollisionShapeSettings& settings) {
+/// Names the source of the added mass, for the provenance: tables, or panels and fallback.
+std::string sourceOf(const std::vector<PlacedShape>& parts,
+                     const CollisionShapeSettings& settings) {
   const bool tables = usesTables(settings);
-  if (tables && parts.size() == 1 && tabulatedAddedMass(parts.front()))
+  if (tables && parts.size() == 1 && tabulatedAddedMass(parts.front().shape))
     return addedMassTablesName();
   return "panels " + std::to_string(settings.flow.max_panels) + ", " + nameOf(settings.fallback) +
          (tables ? "" : ", no tables");
@@ -83,7 +70,7 @@ bool areMany(const std::vector<Solid>& solids, const CollisionShapeSettings& set
          static_cast<double>(kMostOfMany) * settings.faces;
 }
 
-std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
+std::vector<Solid> solidsOf(const std::vector<PlacedShape>& parts,
                             const CollisionShapeSettings& settings) {
   constexpr int kLeastInstantFaces = 60;
   const bool is_instant = settings.quality == Quality::kInstant;
@@ -96,7 +83,7 @@ std::vector<Solid> solidsOf(const std::vector<ShapePart>& parts,
   return makeSolids(parts, resolution);
 }
 
-/// What a user should know about the body, one line each.
+/// Reports warnings about the body and its solids, one line each.
 void reportSolids(const std::vector<Solid>& solids, const FluidBody& body, double size,
                   const CollisionShapeSettings& settings) {
   constexpr double kMuch = 0.1;
@@ -192,12 +179,13 @@ AddedMass coupledAddedMass(const std::vector<Solid>& solids, const CollisionShap
   return {withoutNegativePart(total), all.parts};
 }
 
-/// Of a single solid, if it is not that of its mesh, which the builder solves.
+/// Returns whether the added mass of a solid is not simply that of its mesh.
 bool hasOwnAddedMass(const Solid& solid) {
   return solid.added_mass || solid.flow.triangleCount() > 0;
 }
 
-/// Of all solids together; none: the builder solves it on their meshes.
+/// Returns the added mass of all solids together; none: the builder has to solve the flow around
+/// their meshes.
 std::optional<AddedMass> addedMassOf(const SeparateSolids& separate,
                                      const CollisionShapeSettings& settings,
                                      const std::string& name) {
@@ -243,24 +231,29 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
 
 }  // namespace
 
-ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
-  const std::string name = settings.name.empty() ? shape.getName() : settings.name;
-  requireUsable(settings, name);
-  ShapeForm form{shape.getName(), readShapeParts(shape, settings.margins, name), 1};
-  requireUsualNumbers(form.parts);
-  return form;
+void requireUsable(const CollisionShapeSettings& settings, const std::string& name) {
+  const auto require = [&](const char* what, int value, int least) {
+    if (value >= least && value <= kMostDivisions) return;
+    raiseInputError(name, what, " = ", value, " is not between ", least, " and ", kMostDivisions);
+  };
+  require("faces", settings.faces, 1);
+  require("max_panels", settings.flow.max_panels, 0);
+  require("threads", settings.flow.threads, 0);
+  if (!(settings.load_error >= 0))
+    raiseInputError(name, "load_error = ", settings.load_error, " is negative");
 }
 
 FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& wanted) {
   const CollisionShapeSettings settings = usedSettings(wanted);
   const std::string& name = nameOf(form, settings);
   const std::vector<Solid> parts = solidsOf(form.parts, settings);
-  const SeparateSolids separate = uniteSolids(parts, settings, name);
+  const UnionSettings unions{settings.faces, settings.fallback};
+  const SeparateSolids separate = uniteSolids(parts, unions, name);
   try {
     return bodyOf(separate, form, settings);
   } catch (const std::runtime_error& error) {
     if (!separate.has_unions || settings.fallback == CompoundFallback::kRefuse) throw;
-    return bodyOf(replaceUnions(parts, settings, error.what(), name), form, settings);
+    return bodyOf(replaceUnions(parts, unions, error.what(), name), form, settings);
   }
 }
 
@@ -278,5 +271,4 @@ Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& set
   return provenance;
 }
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
 }  // namespace ambient

@@ -4,14 +4,13 @@
 #include <btBulletCollisionCommon.h>
 
 #include <cmath>
-#include <utility>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "preprocess/collision_shape/form_body.h"
 #include "preprocess/collision_shape/shape_refusal.h"
 #include "preprocess/mesh/input_error.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -22,19 +21,19 @@ Matrix3 toMatrix(const btMatrix3x3& basis) {
   return matrix;
 }
 
-/// Where a shape is, and what begins messages about it.
+/// Place and scale of a shape in the frame of the outermost one, and the name that begins messages
+/// about it.
 struct Place {
   Matrix3 rotation = Matrix3::Identity();
   Vector3 translation = Vector3::Zero();
   double scale = 1;
   std::string name = {};
-  std::string part = {};  ///< "child 1: child 0" in a compound
+  bool is_child = false;  ///< of a compound
 
   Place child(int i, const btTransform& transform) const {
-    const std::string number = ": child " + std::to_string(i);
     return {rotation * toMatrix(transform.getBasis()),
-            translation + scale * rotation * toVector3(transform.getOrigin()), scale, name + number,
-            (part + number).substr(part.empty() ? 2 : 0)};
+            translation + scale * rotation * toVector3(transform.getOrigin()), scale,
+            name + ": child " + std::to_string(i), true};
   }
 };
 
@@ -45,15 +44,9 @@ Matrix3 axisAlong(int up_axis) {
   return turn;
 }
 
-ShapePart partOf(PartKind kind, std::vector<double> sizes) {
-  ShapePart part;
-  part.kind = kind;
-  part.sizes = std::move(sizes);
-  return part;
-}
-
-ShapePart alongAxis(ShapePart part, int up_axis) {
-  part.rotation = axisAlong(up_axis);
+PlacedShape alongAxis(const Shape& shape, int up_axis) {
+  PlacedShape part{shape};
+  part.pose.linear() = axisAlong(up_axis);
   return part;
 }
 
@@ -94,16 +87,16 @@ class PartCollector {
     }
   }
 
-  std::vector<ShapePart> parts() const { return parts_; }
+  std::vector<PlacedShape> parts() const { return parts_; }
 
  private:
-  void take(const ShapePart& part, const btCollisionShape& shape, const Place& place) {
-    parts_.push_back(scaled({part}, place.scale).front());
-    ShapePart& taken = parts_.back();
-    taken.rotation = place.rotation * part.rotation;
-    taken.translation = place.translation;
+  void take(const PlacedShape& part, const btCollisionShape& shape, const Place& place) {
+    parts_.push_back(scaled(part, place.scale));
+    PlacedShape& taken = parts_.back();
+    taken.pose.linear() = place.rotation * part.pose.linear();
+    taken.pose.translation() = place.translation;
     taken.name = place.name;
-    if (!place.part.empty()) taken.part = place.part + " (" + shape.getName() + ")";
+    if (place.is_child) taken.name += std::string(" (") + shape.getName() + ")";
   }
 
   void addCompound(const btCompoundShape& compound, const Place& place) {
@@ -133,52 +126,46 @@ class PartCollector {
       }
       return;
     }
-    ShapePart part = partOf(PartKind::kMesh, {});
+    TriangleSoup soup;
     if (shape.getGImpactShapeType() == CONST_GIMPACT_TRIMESH_SHAPE) {
       const auto& mesh = static_cast<const btGImpactMeshShape&>(shape);
       for (int i = 0; i < mesh.getMeshPartCount(); ++i)
-        appendCorners(*mesh.getMeshPart(i), part.points);
+        appendCorners(*mesh.getMeshPart(i), soup.corners);
     } else {
-      appendCorners(shape, part.points);
+      appendCorners(shape, soup.corners);
     }
-    take(part, shape, place);
+    take({soup}, shape, place);
   }
 
-  ShapePart readConvex(const btCollisionShape& shape, const std::string& name) const {
+  PlacedShape readConvex(const btCollisionShape& shape, const std::string& name) const {
     switch (shape.getShapeType()) {
       case SPHERE_SHAPE_PROXYTYPE:
-        return partOf(PartKind::kBall, {static_cast<const btSphereShape&>(shape).getRadius()});
-      case BOX_SHAPE_PROXYTYPE: {
-        const Vector3 half =
-            toVector3(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
-        return partOf(PartKind::kBox, {half.x(), half.y(), half.z()});
-      }
+        return {Sphere{static_cast<const btSphereShape&>(shape).getRadius()}};
+      case BOX_SHAPE_PROXYTYPE:
+        return {Box{toVector3(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin())}};
       case CYLINDER_SHAPE_PROXYTYPE: {
         const auto& cylinder = static_cast<const btCylinderShape&>(shape);
         const int axis = cylinder.getUpAxis();
         const auto half_height = static_cast<double>(cylinder.getHalfExtentsWithMargin()[axis]);
-        return alongAxis(partOf(PartKind::kCylinder, {cylinder.getRadius(), 2 * half_height}),
-                         axis);
+        return alongAxis(Cylinder{cylinder.getRadius(), 2 * half_height}, axis);
       }
       case CAPSULE_SHAPE_PROXYTYPE: {
         const auto& capsule = static_cast<const btCapsuleShape&>(shape);
         const auto half_height = static_cast<double>(capsule.getHalfHeight());
-        return alongAxis(partOf(PartKind::kCapsule, {capsule.getRadius(), 2 * half_height}),
-                         capsule.getUpAxis());
+        return alongAxis(Capsule{capsule.getRadius(), 2 * half_height}, capsule.getUpAxis());
       }
       case CONE_SHAPE_PROXYTYPE: {
         const auto& cone = static_cast<const btConeShape&>(shape);
-        ShapePart part = partOf(PartKind::kCone, {cone.getRadius(), cone.getHeight()});
-        part.margin = marginOf(shape);
-        return alongAxis(part, cone.getConeUpIndex());
+        return alongAxis(Cone{cone.getRadius(), cone.getHeight(), marginOf(shape)},
+                         cone.getConeUpIndex());
       }
       case MULTI_SPHERE_SHAPE_PROXYTYPE:
-        return readBalls(static_cast<const btMultiSphereShape&>(shape), name);
+        return {readBalls(static_cast<const btMultiSphereShape&>(shape), name)};
       case CONVEX_HULL_SHAPE_PROXYTYPE:
-        return readHull(static_cast<const btConvexHullShape&>(shape));
+        return {readHull(static_cast<const btConvexHullShape&>(shape))};
       case CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE:
       case TETRAHEDRAL_SHAPE_PROXYTYPE:
-        return readPolyhedron(static_cast<const btPolyhedralConvexShape&>(shape));
+        return {readPolyhedron(static_cast<const btPolyhedralConvexShape&>(shape))};
       default:
         refuseShape(shape, name);
     }
@@ -188,63 +175,63 @@ class PartCollector {
     return margins_ ? static_cast<double>(shape.getMargin()) : 0;
   }
 
-  static ShapePart readBalls(const btMultiSphereShape& shape, const std::string& name) {
+  static BallHull readBalls(const btMultiSphereShape& shape, const std::string& name) {
     const Vector3 scaling = toVector3(shape.getLocalScaling());
-    ShapePart part = partOf(PartKind::kBallHull, {});
+    BallHull hull;
     for (int i = 0; i < shape.getSphereCount(); ++i) {
       const auto radius = static_cast<double>(shape.getSphereRadius(i));
-      part.points.emplace_back(scaling.cwiseProduct(toVector3(shape.getSpherePosition(i))));
-      for (const double factor : scaling) part.sizes.push_back(radius * std::abs(factor));
+      hull.balls.push_back({scaling.cwiseProduct(toVector3(shape.getSpherePosition(i))),
+                            radius * scaling.cwiseAbs()});
     }
-    if (part.points.empty()) raiseInputError(name, "a multi-sphere shape without spheres is empty");
-    return part;
+    if (hull.balls.empty()) raiseInputError(name, "a multi-sphere shape without spheres is empty");
+    return hull;
   }
 
   // Scaled in double, so that scaled hulls have one form.
-  ShapePart readHull(const btConvexHullShape& shape) const {
+  Hull readHull(const btConvexHullShape& shape) const {
     const Vector3 scaling = toVector3(shape.getLocalScalingNV());
-    ShapePart part = partOf(PartKind::kHull, {});
-    part.margin = marginOf(shape);
+    Hull hull{{}, marginOf(shape)};
     for (int i = 0; i < shape.getNumPoints(); ++i) {
-      part.points.emplace_back(scaling.cwiseProduct(toVector3(shape.getUnscaledPoints()[i])));
+      hull.points.emplace_back(scaling.cwiseProduct(toVector3(shape.getUnscaledPoints()[i])));
     }
-    return part;
+    return hull;
   }
 
-  ShapePart readPolyhedron(const btPolyhedralConvexShape& shape) const {
-    ShapePart part = partOf(PartKind::kHull, {});
-    part.margin = marginOf(shape);
+  Hull readPolyhedron(const btPolyhedralConvexShape& shape) const {
+    Hull hull{{}, marginOf(shape)};
     if (shape.getShapeType() == CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE) {
-      // It knows its triangles only.
+      // This kind of shape gives triangles only, no list of points.
       CornerCollector corners;
       const btScalar far(BT_LARGE_FLOAT);
       static_cast<const btConvexTriangleMeshShape&>(shape)
           .getMeshInterface()
           ->InternalProcessAllTriangles(&corners, {-far, -far, -far}, {far, far, far});
-      part.points = corners.points;
+      hull.points = corners.points;
     }
     btVector3 vertex;
     for (int i = 0; i < shape.getNumVertices(); ++i) {
       shape.getVertex(i, vertex);
-      part.points.push_back(toVector3(vertex));
+      hull.points.push_back(toVector3(vertex));
     }
-    return part;
+    return hull;
   }
 
   bool margins_;
-  std::vector<ShapePart> parts_;
+  std::vector<PlacedShape> parts_;
 };
 
 }  // namespace
 
-std::vector<ShapePart> readShapeParts(const btCollisionShape& shape, bool margins,
-                                      const std::string& name) {
-  PartCollector collector(margins);
+ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
+  const std::string name = settings.name.empty() ? shape.getName() : settings.name;
+  requireUsable(settings, name);
+  PartCollector collector(settings.margins);
   Place place;
   place.name = name;
   collector.add(shape, place);
-  return collector.parts();
+  ShapeForm form{shape.getName(), collector.parts(), 1};
+  requireUsualNumbers(form.parts);
+  return form;
 }
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

@@ -2,8 +2,7 @@
 
 #include "preprocess/mesh/input_error.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 
 void refuseShape(const btCollisionShape& shape, const std::string& name) {
   const std::string kind = shape.getName();
@@ -28,5 +27,4 @@ void refuseShape(const btCollisionShape& shape, const std::string& name) {
   }
 }
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

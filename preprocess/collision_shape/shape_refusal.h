@@ -4,14 +4,12 @@
 
 #include <string>
 
-#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/core/precision_check.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 
 /// Says why a shape that has no solids cannot be a body in a fluid, and what to use instead.
 /// @throws std::runtime_error always, in one line that begins with `name`.
 [[noreturn]] void refuseShape(const btCollisionShape& shape, const std::string& name);
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

@@ -24,7 +24,8 @@ std::string directionText(const Vector3& v) {
   return line("%.4g, %.4g, %.4g", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
-// Of body and water without waves; infinite where nothing turns the body back.
+// Period of a mode of body and added mass, without damping by waves; "none" where nothing turns the
+// body back.
 std::string modeText(const FloatingMode& mode) {
   const std::string name = mode.is_heave ? "heave" : "turn about " + directionText(mode.turn);
   return "    period          " +

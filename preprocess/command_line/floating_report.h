@@ -7,10 +7,12 @@
 
 namespace ambient {
 
-/// How a body floats, for people: its attitudes with draught, metacentric heights and periods.
+/// Returns a text about how a body floats: its attitudes with draught, metacentric heights and
+/// periods.
 std::string floatingTable(const FloatingBody& body);
 
-/// The same as a list, one entry per attitude; empty: it sinks.
+/// Returns the facts of floatingTable() in JSON: a list with one entry per attitude, empty if the
+/// body sinks.
 nlohmann::ordered_json floatingJson(const FloatingBody& body);
 
 }  // namespace ambient

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bullet_ambient/fluid_body/plain_text.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/mesh/usual_size.h"
 
@@ -124,7 +124,7 @@ std::string reportJson(const FluidBody& body, std::optional<double> seconds) {
 }
 
 std::string reportTable(const FluidBody& body, const std::string& file) {
-  Table table(plainLine(file));
+  Table table(plainLine(file) + ": " + extentsText(extentsOf(body)));
   table.row("name", plainLine(body.name));
   table.row("source", plainLine(body.provenance.source), "  [",
             hashText(body.provenance.source_hash), "]");
@@ -132,7 +132,6 @@ std::string reportTable(const FluidBody& body, const std::string& file) {
   table.row("made by", plainLine(body.provenance.generator));
   table.row("vertices", body.surface.vertices.size() / 3);
   table.row("faces", body.surface.triangles.size() / 3, isSheet(body) ? ", a sheet" : "");
-  table.row("size", extentsText(extentsOf(body)));
   table.row("volume", body.volume, " m^3");
   table.row("area", body.area, isSheet(body) ? " m^2, both sides" : " m^2");
   table.row("origin", vectorText(body.origin), " m in the mesh's frame");

@@ -11,7 +11,7 @@ namespace ambient {
 /// `seconds` that it took to build it, if it was built just now.
 std::string reportJson(const FluidBody& body, std::optional<double> seconds);
 
-/// The same for people to read, headed by the file's name.
+/// Returns a table of the same facts for people, headed by the file's name.
 std::string reportTable(const FluidBody& body, const std::string& file);
 
 }  // namespace ambient

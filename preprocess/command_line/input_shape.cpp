@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/shape/shape_mesh.h"
@@ -18,7 +19,7 @@ void requireOne(const InputOptions& options) {
   if (options.wrap) wrapSizeOf(*options.wrap);
 }
 
-MeshShape withStandIn(MeshShape mesh, const InputOptions& options) {
+MeshFile withStandIn(MeshFile mesh, const InputOptions& options) {
   if (options.hull) mesh.stand_in = MeshStandIn::kHull;
   if (options.wrap) {
     mesh.stand_in = MeshStandIn::kWrap;
@@ -36,12 +37,24 @@ bool hasExtension(const std::filesystem::path& file, const std::string& extensio
   return own == extension;
 }
 
+void addInputOptions(CLI::App& command, InputOptions& options) {
+  addOption(command, "--scale", options.scale, "S", "Multiplies all lengths (default 1)");
+  command.add_flag("--sheet", options.sheet, "The mesh is an open surface of zero thickness");
+  command.add_flag("--hull", options.hull, "Take the convex hull of the mesh");
+  command
+      .add_option_function<std::string>(
+          "--wrap", [&options](const std::string& size) { options.wrap = size; },
+          "Take a closed surface around the mesh, which may be open, overlapping, or in parts; "
+          "gaps and details below SIZE vanish (default 1/100 of its diagonal)")
+      ->type_name("[SIZE]");
+}
+
 ShapeDescription describeInput(const std::filesystem::path& input, const InputOptions& options) {
   requireOne(options);
   if (!hasExtension(input, ".json")) {
     ShapeDescription mesh;
     if (options.sheet) {
-      mesh.geometry = MeshSheetShape{input, 1};
+      mesh.geometry = MeshSheet{input, 1};
     } else {
       mesh.geometry = withStandIn({input, 1}, options);
     }
@@ -49,13 +62,13 @@ ShapeDescription describeInput(const std::filesystem::path& input, const InputOp
     return mesh;
   }
   ShapeDescription shape = readShapeFile(input);
-  if (std::holds_alternative<FluidBodyShape>(shape.geometry)) {
+  if (std::holds_alternative<FluidBodyFile>(shape.geometry)) {
     raiseInputError(shape.source, "a shape \"fluid_body\" is built already");
   }
   if (options.sheet && !isSheet(shape)) {
     raiseInputError(shape.source, "--sheet needs a shape of type \"sheet\"");
   }
-  if (const auto* mesh = std::get_if<MeshShape>(&shape.geometry)) {
+  if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry)) {
     shape.geometry = withStandIn(*mesh, options);
   } else if (options.hull || options.wrap) {
     raiseInputError(shape.source, options.hull ? "--hull" : "--wrap",

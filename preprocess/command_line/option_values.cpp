@@ -4,10 +4,22 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/polar/polar.h"
 
 namespace ambient {
+namespace {
+
+Vector3 parseAxis(const char* option, const std::string& text) {
+  try {
+    return axisNamed(text);
+  } catch (const std::invalid_argument& error) {
+    raiseUsageError(option, error.what());
+  }
+}
+
+}  // namespace
 
 void requirePositive(const char* option, double value, const char* unit) {
   if (std::isfinite(value) && value > 0) return;
@@ -53,6 +65,12 @@ PressureLaw lawOf(const std::string& name) {
   for (const auto& [law, its_name] : kPressureLawNames)
     if (name == its_name) return law;
   raiseUsageError("--law", "\"", name, "\" is neither published nor form");
+}
+
+Matrix3 flightAxesOf(const std::string& forward, const std::string& up) {
+  const Vector3 ahead = parseAxis("--forward", forward), above = parseAxis("--up", up);
+  if (ahead.dot(above) != 0) raiseUsageError("--up", up, " is along --forward ", forward);
+  return flightAxes(ahead, above);
 }
 
 FlowSolverKind parseSolver(const std::string& name) {

@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_ambient/force/flow_settings.h"
+#include "bullet_ambient/force/law/flow_settings.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
 
 namespace ambient {
 
@@ -31,7 +31,7 @@ void requireThreads(int threads);
 /// 0 (no division) to kMostDivisions.
 void requireDivisions(const char* option, int count);
 
-/// What --wrap without a size stands for.
+/// Value of --wrap if no size is given.
 constexpr const char* kDefaultWrap = "default";
 
 /// The size of --wrap [SIZE] [m]: a number, or "default", which is 0.
@@ -39,6 +39,9 @@ double wrapSizeOf(const std::string& text);
 
 /// The angle of --separation-angle, pi/2 to pi where its few digits miss them [rad].
 double separationAngleOf(double angle);
+
+/// Forward, left and up in F as columns, by the names of --forward and --up.
+Matrix3 flightAxesOf(const std::string& forward, const std::string& up);
 
 /// The law named by --law.
 PressureLaw lawOf(const std::string& name);

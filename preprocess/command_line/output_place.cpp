@@ -5,8 +5,8 @@
 #include <string>
 #include <system_error>
 
-#include "bullet_ambient/fluid_body/fluid_body_file_header.h"
-#include "bullet_ambient/fluid_body/output_file.h"
+#include "bullet_ambient/base/output_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file_header.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/mesh/input_error.h"
 

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bullet_ambient/spatial/elementary.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/floating/floating_energy.h"
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/spatial/invariants.h"
 
 namespace ambient {
 namespace {
@@ -16,6 +18,7 @@ constexpr double kRounding = 1e-12;
 void balance(const FloatingBody& body, const PackedHull& hull, FloatingPose& pose) {
   const auto [low, high] = computeExtent(hull, pose.plane.normal);
   const double wanted = body.mass / body.density;
+  AMBIENT_ASSERT(body.mass > 0 && body.density > 0 && high > low);
   double below = low, above = high;
   pose.plane.height = (low + high) / 2;
   for (int i = 0; i < 100; ++i) {
@@ -51,10 +54,12 @@ PlaneEigen planeEigen(const Matrix3& matrix, const std::array<Vector3, 2>& axes)
 }
 
 FloatingPose floatAt(const FloatingBody& body, const PackedHull& hull, const Vector3& up) {
+  AMBIENT_ASSERT(isUnit(up));
   FloatingPose pose;
   pose.plane = {up, 0, body.density, body.gravity};
   balance(body, hull, pose);
   const double weight = body.mass * body.gravity;
+  AMBIENT_ASSERT(pose.wet.volume > 0);
   const Vector3 lever = body.centre_of_mass - pose.wet.moment / pose.wet.volume;
   const Matrix3 in_plane = projector(up);
   pose.energy = hydrostaticEnergy(pose.wet, pose.plane) +

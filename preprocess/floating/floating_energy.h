@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bullet_ambient/fluid_body/packed_hull.h"
-#include "preprocess/floating/floating_attitudes.h"
+#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "preprocess/floating/floating_body.h"
 
 namespace ambient {
 

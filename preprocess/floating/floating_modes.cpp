@@ -2,14 +2,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/force/load_tables.h"
-#include "bullet_ambient/force/wetted_inertia.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/loads/load_tables.h"
+#include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/spatial/invariants.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/floating/floating_energy.h"
+#include "preprocess/floating/restoring_stiffness.h"
 
 namespace ambient {
 namespace {
@@ -20,39 +23,35 @@ struct Floaters {
   std::array<Vector3, 2> axes;
 };
 
-// Potential energy 1/2 q.K q of small displacements q: the water rises at r by
-// -(1, e.(r x s), f.(r x s)).q, and the weight is above the centre of buoyancy.
-Eigen::Matrix3d stiffnessOf(const FloatingBody& body, const FloatingPose& pose,
-                            const Floaters& of) {
-  const Waterplane& plane = pose.wet.waterplane;
-  const Vector3 lever = body.centre_of_mass - pose.wet.moment / pose.wet.volume;
-  const Vector3 arm = plane.centroid - body.centre_of_mass;
-  Eigen::Vector3d rise(1, of.axes[0].dot(arm.cross(of.up)), of.axes[1].dot(arm.cross(of.up)));
-  Eigen::Matrix3d K = plane.area * rise * rise.transpose();
-  for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j)
-      K(i + 1, j + 1) += of.up.cross(of.axes[static_cast<std::size_t>(i)])
-                             .dot(plane.spread * of.up.cross(of.axes[static_cast<std::size_t>(j)]));
-  K *= body.density * body.gravity;
-  const double pull = body.mass * body.gravity * of.up.dot(lever);
-  K(1, 1) -= pull;
-  K(2, 2) -= pull;
-  return K;
+using Motions = Eigen::Matrix<double, 6, 3>;
+
+// Twists about the centre of mass, in columns.
+Motions motionsOf(const Floaters& of) {
+  Motions motions;
+  motions << stack(Vector3::Zero(), of.up), stack(of.axes[0], Vector3::Zero()),
+      stack(of.axes[1], Vector3::Zero());
+  return motions;
 }
 
-// Of body and water; sway, surge and yaw follow freely.
+// Potential energy 1/2 q.K q of small displacements q.
+Eigen::Matrix3d stiffnessOf(const FloatingBody& body, const FloatingPose& pose,
+                            const Motions& motions) {
+  return motions.transpose() *
+         restoringStiffness(pose.wet, pose.plane, {body.mass, body.centre_of_mass},
+                            body.centre_of_mass) *
+         motions;
+}
+
+// Returns the inertia of body and added mass against `motions`. All others follow freely.
 Eigen::Matrix3d inertiaOf(const FloatingBody& body, const PackedHull& hull,
-                          const FloatingPose& pose, const Floaters& of) {
+                          const FloatingPose& pose, const Motions& motions) {
   LoadTables tables;
-  const auto [low, high] = computeExtent(hull, of.up);
+  const auto [low, high] = computeExtent(hull, pose.plane.normal);
   const Matrix6 added =
       makeWettedInertia(body.shape, tables)->inertia({pose.plane, low, high, pose.wet});
   const FrameOffset about_mass{Matrix3::Identity(), -body.centre_of_mass};
   const Matrix6 total =
       rigidBodyInertia(body.mass, body.inertia) + body.density * about_mass.inertiaToB(added);
-  Eigen::Matrix<double, 6, 3> motions;
-  motions << stack(Vector3::Zero(), of.up), stack(of.axes[0], Vector3::Zero()),
-      stack(of.axes[1], Vector3::Zero());
   const Matrix3 response = motions.transpose() * Cholesky<6>(total).inverse() * motions;
   return Cholesky<3>(response).inverse();
 }
@@ -71,7 +70,10 @@ FloatingMode modeOf(const Eigen::Vector3d& q, double square, const Eigen::Matrix
 std::array<FloatingMode, 3> modesOf(const FloatingBody& body, const PackedHull& hull,
                                     const FloatingPose& pose) {
   const Floaters of{pose.plane.normal, planeAxes(pose.plane.normal)};
-  const Eigen::Matrix3d K = stiffnessOf(body, pose, of), M = inertiaOf(body, hull, pose, of);
+  const Motions motions = motionsOf(of);
+  const Eigen::Matrix3d K = stiffnessOf(body, pose, motions);
+  const Eigen::Matrix3d M = inertiaOf(body, hull, pose, motions);
+  AMBIENT_ASSERT(isSymmetric(K, 1e-6) && isSymmetric(M, 1e-6));
   const Matrix3 root = Cholesky<3>(M).inverseTransposed();
   const Matrix3 reduced = root.transpose() * K * root;
   const SymmetricEigen<3> eigen = symmetricEigen<3>(reduced);

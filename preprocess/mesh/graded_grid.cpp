@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/elementary.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 
 namespace ambient {
 
@@ -24,6 +24,24 @@ TriangleMesh makeTriangleMesh(const std::vector<Eigen::Vector3d>& vertices,
   mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
   for (std::size_t i = 0; i < triangles.size(); ++i) mesh.triangles.col(i) = triangles[i];
   return mesh;
+}
+
+TriangleMesh withUsedVertices(const Eigen::Matrix3Xd& vertices,
+                              const std::vector<Eigen::Vector3i>& triangles) {
+  std::vector<int> number(static_cast<std::size_t>(vertices.cols()), -1);
+  std::vector<Eigen::Vector3d> used;
+  std::vector<Eigen::Vector3i> renumbered = triangles;
+  for (Eigen::Vector3i& triangle : renumbered) {
+    for (int& v : triangle) {
+      int& own = number[static_cast<std::size_t>(v)];
+      if (own < 0) {
+        own = static_cast<int>(used.size());
+        used.emplace_back(vertices.col(v));
+      }
+      v = own;
+    }
+  }
+  return makeTriangleMesh(used, renumbered);
 }
 
 }  // namespace ambient

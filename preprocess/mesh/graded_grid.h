@@ -36,4 +36,9 @@ void appendGridTriangles(int rows, int columns, VertexAt vertex,
 TriangleMesh makeTriangleMesh(const std::vector<Eigen::Vector3d>& vertices,
                               const std::vector<Eigen::Vector3i>& triangles);
 
+/// The mesh made of these triangles and the vertices that they use, which are numbered anew as they
+/// first appear. @param vertices columns
+TriangleMesh withUsedVertices(const Eigen::Matrix3Xd& vertices,
+                              const std::vector<Eigen::Vector3i>& triangles);
+
 }  // namespace ambient

@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {
@@ -67,7 +68,8 @@ struct MassAndDistribution {
   MassDistribution distribution;
 };
 
-// Of the size of the body: what the sums over its triangles leave of what symmetry forbids.
+// Rounding error of the sums over triangles, as a fraction of the body's size. Smaller deviations
+// from a symmetric value count as 0.
 constexpr double kRounding = 1e-12;
 
 /// Exactly the origin or the middle of the body, along each axis, where rounding is all between.
@@ -120,6 +122,14 @@ MeshProperties computeMassProperties(const TriangleMesh& mesh) {
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh) {
   const MassAndDistribution sheet = distributionOf(mesh, triangleMoments);
   return {0, sheet.mass, sheet.distribution, distributionOf(mesh, barycentreMoments).distribution};
+}
+
+TriangleMesh withVolume(TriangleMesh mesh, double volume) {
+  const MeshProperties properties = computeMassProperties(mesh);
+  const double stretch = portable::cbrt(volume / properties.volume);
+  const Eigen::Vector3d centre = properties.uniform.centre;
+  mesh.vertices = ((mesh.vertices.colwise() - centre) * stretch).colwise() + centre;
+  return mesh;
 }
 
 }  // namespace ambient

@@ -5,7 +5,7 @@
 
 namespace ambient {
 
-/// What follows from the shape of a mesh alone, in the mesh's frame.
+/// Geometric properties of a mesh, in the mesh's frame.
 struct MeshProperties {
   double volume = 0;  ///< enclosed by a closed mesh [m^3]; 0 for a sheet
   double area = 0;    ///< of all triangles, each counted once [m^2]
@@ -26,9 +26,12 @@ struct MeshProperties {
 /// @pre the mesh is closed, outward oriented and encloses a volume (checkMesh()).
 MeshProperties computeMassProperties(const TriangleMesh& mesh);
 
-/// The same of an open sheet of zero thickness: exact integrals over its area. Cost O(T).
-/// Centres and moments are not finite where the area is 0, as it is by underflow on a sheet that is
-/// no usual one (requireUsualSize()).
+/// Computes the properties of an open sheet of zero thickness: exact integrals over its area. Cost
+/// O(T). Centres and moments are not finite if the area is 0, as it is by underflow on a sheet that
+/// requireUsualSize() refuses.
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh);
+
+/// Scales a closed mesh about its centre of volume, to a volume [m^3].
+TriangleMesh withVolume(TriangleMesh mesh, double volume);
 
 }  // namespace ambient

@@ -33,6 +33,15 @@ MeshEdges computeMeshEdges(const TriangleMesh& mesh) {
   return result;
 }
 
+std::vector<EdgePair> edgePairs(const MeshEdges& edges) {
+  std::vector<EdgePair> pairs;
+  for (const EdgeGroup& edge : edges.edges) {
+    if (edge.size() == 2)
+      pairs.emplace_back(edges.half_edges[edge.first], edges.half_edges[edge.first + 1]);
+  }
+  return pairs;
+}
+
 std::vector<SortedTriangle> sortedByCorners(const TriangleMesh& mesh) {
   std::vector<SortedTriangle> sorted;
   for (int t = 0; t < static_cast<int>(mesh.triangleCount()); ++t) {
@@ -75,13 +84,19 @@ void DisjointSets::join(int a, int b) {
   parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
 }
 
+void joinCorners(DisjointSets& corners, const TriangleMesh& mesh, const EdgePair& edge) {
+  const auto cornerAt = [&](const HalfEdge& side, int vertex) {
+    const bool at_start = mesh.triangles(side.side, side.triangle) == vertex;
+    return 3 * side.triangle + (at_start ? side.side : (side.side + 1) % 3);
+  };
+  for (const int vertex : {edge.first.low, edge.first.high})
+    corners.join(cornerAt(edge.first, vertex), cornerAt(edge.second, vertex));
+}
+
 MeshComponents computeMeshComponents(const TriangleMesh& mesh, const MeshEdges& edges) {
   const auto triangle_count = static_cast<std::size_t>(mesh.triangleCount());
   DisjointSets sets(triangle_count);
-  for (const EdgeGroup& edge : edges.edges) {
-    if (edge.size() != 2) continue;
-    sets.join(edges.half_edges[edge.first].triangle, edges.half_edges[edge.first + 1].triangle);
-  }
+  for (const auto& [p, q] : edgePairs(edges)) sets.join(p.triangle, q.triangle);
   MeshComponents result;
   result.component_of.resize(triangle_count);
   std::vector<int> number_of_root(triangle_count, -1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "preprocess/mesh/triangle_mesh.h"
@@ -31,6 +32,11 @@ struct MeshEdges {
 /// Cost O(T log T), independent of the order of the triangles up to their numbers.
 MeshEdges computeMeshEdges(const TriangleMesh& mesh);
 
+using EdgePair = std::pair<HalfEdge, HalfEdge>;
+
+/// The half edges of all edges that have exactly two triangles, in the order of `edges`.
+std::vector<EdgePair> edgePairs(const MeshEdges& edges);
+
 /// A triangle by its corners in the order of their numbers.
 struct SortedTriangle {
   std::array<int, 3> corners{};
@@ -56,6 +62,10 @@ class DisjointSets {
  private:
   std::vector<int> parent_;
 };
+
+/// Joins the corners of two triangles that meet at an edge, at both of its ends. Corner k of
+/// triangle t has the number 3 t + k.
+void joinCorners(DisjointSets& corners, const TriangleMesh& mesh, const EdgePair& edge);
 
 /// Triangles that hang together through edges of exactly two triangles.
 struct MeshComponents {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/base/ambient_assert.h"
 
 namespace ambient {
 namespace {
@@ -30,7 +30,7 @@ Points projected(const std::vector<Eigen::Vector3d>& corners) {
   return points;
 }
 
-/// What is left of a polygon while its ears are cut off.
+/// The remaining polygon while its ears are cut off.
 class EarClipping {
  public:
   explicit EarClipping(Points points) : points_(std::move(points)), left_(points_.size()) {

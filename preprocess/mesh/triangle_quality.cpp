@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
-#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {

@@ -7,7 +7,7 @@
 
 namespace ambient {
 
-/// How far a triangle is from an equilateral one.
+/// Deviation of a triangle from an equilateral one.
 struct TriangleQuality {
   int triangle = 0;
   double aspect = 0;          ///< longest edge over the height on it; 1.15 at best
@@ -18,7 +18,7 @@ struct TriangleQuality {
 /// The triangles of largest aspect, worst first. Cost O(T log T).
 std::vector<TriangleQuality> findWorstTriangles(const TriangleMesh& mesh, int count);
 
-/// Where a body is thinnest.
+/// The thinnest place of a body.
 struct Thickness {
   double thickness = 0;  ///< from a barycentre straight inwards to the other side [m]
   int triangle = 0;

@@ -3,14 +3,15 @@
 #include <cmath>
 #include <sstream>
 
-#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/base/elementary.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
 namespace {
 
-// As checkMesh() has it; shapes that are made need not have passed it.
+// Refuses bodies and sheets that are too narrow, with the limit of checkMesh(); generated shapes do
+// not pass through that.
 void requireUsualWidth(const MeshProperties& properties, double size, bool sheet,
                        const std::string& source) {
   constexpr double kLeastVolume = 1e-6, kLeastArea = 1e-12;
@@ -27,7 +28,7 @@ void requireUsualWidth(const MeshProperties& properties, double size, bool sheet
 }
 
 // Beyond these a file's unit is likelier to be another one than the body to be of that size.
-constexpr double kSmallestLikely = 1e-4, kLargestLikely = 100;  // [m]
+constexpr double kSmallestLikely = 1e-3, kLargestLikely = 10;  // [m]
 
 }  // namespace
 
@@ -42,8 +43,9 @@ std::string unlikelySizeWarning(const TriangleMesh& mesh, const std::string& sou
   const double size = mesh.extents().maxCoeff();
   if (size >= kSmallestLikely && size <= kLargestLikely) return {};
   return source + ": its size is " + extentsText(mesh.extents()) +
-         (size > kLargestLikely ? ": if the file is in millimetres, scale it by 0.001"
-                                : ": if the file is not in metres, scale it");
+         (size > kLargestLikely
+              ? "; lengths are metres: if the file is in millimetres, --scale 0.001"
+              : "; lengths are metres: if the file is in others, --scale FACTOR");
 }
 
 void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source) {

@@ -19,7 +19,7 @@ void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& s
 /// "1 x 2 x 3 m"
 std::string extentsText(const Eigen::Vector3d& extents);
 
-/// One line that begins with `source`, if the longest extent is above 100 m or below 0.1 mm: a
+/// One line that begins with `source`, if the longest extent is above 10 m or below 1 mm: a
 /// mesh in millimetres looks like that. Else empty.
 std::string unlikelySizeWarning(const TriangleMesh& mesh, const std::string& source);
 

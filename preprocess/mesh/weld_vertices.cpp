@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/base/ambient_assert.h"
 #include "preprocess/mesh/mesh_topology.h"
 
 namespace ambient {

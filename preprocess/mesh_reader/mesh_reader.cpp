@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/mesh/scene_triangles.h"
+#include "preprocess/mesh/import/scene_triangles.h"
 #include "preprocess/mesh_reader/assimp_reader.h"
 #include "preprocess/mesh_reader/geometry_text.h"
 #include "preprocess/mesh_reader/off_reader.h"

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bullet_ambient/spatial/single_precision.h"
+#include "bullet_ambient/base/single_precision.h"
 
 namespace ambient {
 namespace {
@@ -46,7 +46,7 @@ class Rows {
     return value;
   }
 
-  /// How many things `what` announces, of which at most `most` fit.
+  /// Reads how many things `what` announces, of which at most `most` fit.
   int count(const std::string& what, const char* things, std::size_t most) {
     const double value = number(what);
     if (!(value >= 0 && value <= static_cast<double>(most)))
@@ -65,7 +65,7 @@ class Rows {
   std::size_t next_ = 0;
 };
 
-/// What the header announces.
+/// Content of the header.
 struct OffHeader {
   bool is_homogeneous = false;  ///< vertices have a fourth coordinate, which divides the others
   int vertices = 0, faces = 0;

@@ -1,31 +1,24 @@
 #include "preprocess/mesh_report/mesh_report.h"
 
 #include <chrono>
-#include <utility>
 
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/potential_flow/flat_merging.h"
-#include "preprocess/potential_flow/refined_flow.h"
-#include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/potential_flow/results/refined_flow.h"
+#include "preprocess/potential_flow/surface/flat_merging.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient {
 namespace {
 
-struct SolvedLevel {
-  FlowLevel level;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> potential;
-};
-
 /// On the triangles of the surface.
-SolvedLevel solveLevel(const TriangleMesh& surface, const PotentialFlowSettings& settings) {
+FlowLevel solveLevel(const TriangleMesh& surface, const PotentialFlowSettings& settings) {
   PotentialFlowSettings undivided = settings;
   undivided.max_panels = 0;
   const auto start = std::chrono::steady_clock::now();
-  PotentialFlow flow = solvePotentialFlow(surface, undivided);
+  const PotentialFlow flow = solvePotentialFlow(surface, undivided);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return {{flow.panels, seconds.count(), flow.added_mass, flow.asymmetry,
-           flow.reciprocal_condition > 0 ? 1 / flow.reciprocal_condition : 0},
-          std::move(flow.potential)};
+  return {flow.panels, seconds.count(), flow.added_mass, flow.asymmetry,
+          flow.reciprocal_condition > 0 ? 1 / flow.reciprocal_condition : 0};
 }
 
 /// A solution on clearly fewer panels, or on about four times as many if there is none.
@@ -35,13 +28,13 @@ std::optional<FlowLevel> solveOther(const TriangleMesh& mesh, const FlowLevel& b
   for (const int divisor : {2, 3}) {
     const auto fewer = static_cast<int>(built.panels / divisor);
     const TriangleMesh coarser = refineSurface(mesh, settings.sheet, fewer);
-    if (5 * coarser.triangleCount() <= 4 * built.panels) return solveLevel(coarser, settings).level;
+    if (5 * coarser.triangleCount() <= 4 * built.panels) return solveLevel(coarser, settings);
   }
   const auto panels = static_cast<int>(built.panels);
   const TriangleMesh more =
       divideTriangles(refineSurface(mesh, settings.sheet, settings.max_panels), 3 * panels);
   if (more.triangleCount() > kMostPanels) return std::nullopt;
-  return solveLevel(more, settings).level;
+  return solveLevel(more, settings);
 }
 
 double blockError(const Matrix6& error, const Matrix6& value, int first) {
@@ -85,10 +78,7 @@ MeshReport makeMeshReport(const TriangleMesh& mesh, const PotentialFlowSettings&
 
   const TriangleMesh basis = mergeFlatTriangles(centred, settings.sheet, settings.max_panels);
   report.build = estimateBuild(basis, settings);
-  report.surface = refineSurface(basis, settings.sheet, settings.max_panels);
-  SolvedLevel solved = solveLevel(report.surface, settings);
-  report.built = solved.level;
-  report.potential = std::move(solved.potential);
+  report.built = solveLevel(refineSurface(basis, settings.sheet, settings.max_panels), settings);
   report.extrapolated = report.built.added_mass;
   report.other = solveOther(basis, report.built, settings);
   if (!report.other) return report;

@@ -6,7 +6,7 @@
 #include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/mesh/triangle_mesh.h"
 #include "preprocess/mesh/triangle_quality.h"
-#include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
 
 namespace ambient {
 
@@ -19,7 +19,7 @@ struct FlowLevel {
   double condition = 0;  ///< estimate of the condition number of its linear system, in the 1-norm
 };
 
-/// What a build gives, with its extrapolation and its symmetries.
+/// Estimate of the result of a build, with its extrapolation and its symmetries.
 struct BuildEstimate {
   Eigen::Index panels = 0, coarse_panels = 0;
   Matrix6 added_mass = Matrix6::Zero();  ///< per unit density, about the origin of the report
@@ -28,13 +28,10 @@ struct BuildEstimate {
   double rotation_error = 0, translation_error = 0;
 };
 
-/// What one should know about a mesh before its fluid body is trusted.
+/// Report on a mesh, to be read before its fluid body is trusted.
 struct MeshReport {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< centre of volume, of a sheet of area [m]
-  TriangleMesh surface;                              ///< the panels of `built`, about the origin
-  /// On the vertices of `surface`, as in PotentialFlow.
-  Eigen::Matrix<double, Eigen::Dynamic, 6> potential;
-  FlowLevel built;  ///< the plain solution on these panels
+  FlowLevel built;                                   ///< the plain solution on so many panels
   /// Another one on fewer or, if the mesh itself is too fine for that, on more panels.
   std::optional<FlowLevel> other;
   /// Estimated error of `built` over the largest entry of the block, from both levels, the error
@@ -42,13 +39,14 @@ struct MeshReport {
   /// body that the mesh may stand for.
   double rotation_error = 0, translation_error = 0;
   Matrix6 extrapolated = Matrix6::Zero();  ///< `built` corrected by that error
-  /// None where a build solves on the mesh's own triangles: a smooth or a fine mesh.
+  /// Estimate of a build; none where it solves on the mesh's own triangles: a smooth or a fine
+  /// mesh.
   std::optional<BuildEstimate> build;
   std::vector<TriangleQuality> worst_triangles;
   std::optional<Thickness> thinnest;  ///< of a body, not of a sheet
 };
 
-/// Of settings.max_panels, as for the fluid body. The three worst triangles are listed.
+/// Makes the report for settings.max_panels, as for the fluid body. Lists three worst triangles.
 /// Cost: that of solvePotentialFlow() on both levels, where the finer one has at most 8000 panels
 /// or those of the mesh, and of two builds.
 /// @pre the mesh passed checkMesh() as a body or as a sheet.

@@ -1,6 +1,6 @@
 #include "preprocess/polar/body_loads.h"
 
-#include "bullet_ambient/force/load_tables.h"
+#include "bullet_ambient/force/loads/load_tables.h"
 
 namespace ambient {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
 
 namespace ambient {
 

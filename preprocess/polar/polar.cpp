@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bullet_ambient/spatial/elementary.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 
 namespace ambient {
 namespace {

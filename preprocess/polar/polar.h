@@ -7,14 +7,14 @@
 
 namespace ambient {
 
-/// What coefficients are made with: C_F = F / (1/2 rho V^2 area), C_M = M / (1/2 rho V^2 area
+/// Units of coefficients: C_F = F / (1/2 rho V^2 area), C_M = M / (1/2 rho V^2 area
 /// length).
 struct PolarReference {
   double area = 0;    ///< [m^2]
   double length = 0;  ///< [m]
 };
 
-/// How a body flies through the fluid.
+/// Flight of a body through the fluid.
 struct PolarFlight {
   Matrix3 axes = Matrix3::Identity();  ///< forward, left and up as columns in F
   double density = 1;                  ///< of the fluid [kg/m^3]

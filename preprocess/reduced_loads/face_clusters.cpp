@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
+#include "bullet_ambient/base/ambient_assert.h"
 
 namespace ambient {
 namespace {

@@ -12,11 +12,11 @@ class FaceMirrors {
   /// Bit 0, 1, 2 of `axes`: the mirror that turns x, y, z round.
   explicit FaceMirrors(unsigned axes);
 
-  /// How many images a face has, itself among them: 1, 2, 4 or 8.
+  /// Number of images of a face, itself among them: 1, 2, 4 or 8.
   int images() const { return static_cast<int>(signs_.size()); }
   /// All faces on the positive sides of the mirrors: each stands there for all of its images.
   FaceTable folded(const FaceTable& faces) const;
-  /// What folded faces stand for: every face with its images, which share its area.
+  /// Unfolds faces: every face with its images, which share its area.
   FaceTable unfolded(const FaceTable& faces) const;
   /// All faces as the last of the images shows them; for a single mirror the image in it.
   FaceTable mirrored(const FaceTable& faces) const;

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/spatial/large_products.h"
 #include "preprocess/reduced_loads/centred_faces.h"
 #include "preprocess/reduced_loads/face_clusters.h"
@@ -21,8 +22,8 @@ constexpr int kErrorMotions = 1000, kFitMotions = 200, kFitTranslations = 50;
 constexpr double kTranslationWeight = 3;  // of a translation in the fit, over a motion with spin
 
 /// Pressure and friction at a Reynolds number of 1000, where the law of friction has most of it.
-Vector6 loadOn(const FaceTable& faces, const Vector6& motion) {
-  const LoadSettings settings{1, 1e-3, 0, true, PressureLaw::kForm};
+Vector6 loadOn(const FaceTable& faces, const ShapeFactors& shape, const Vector6& motion) {
+  const LoadSettings settings{1, 1e-3, 0, true, PressureLaw::kForm, &shape};
   return computeFaceLoads(faces, 1, Twist::fromVector(motion), settings).total().vector();
 }
 
@@ -42,7 +43,9 @@ Matrix6 scaleOf(const FaceTable& faces) {
 
 /// Motions, and the loads on the faces in them over their scales.
 struct LoadSamples {
-  LoadSamples(const FaceTable& faces, std::uint64_t seed, int count, int translations = 0) {
+  LoadSamples(const FaceTable& faces, const ShapeFactors& of_body, std::uint64_t seed, int count,
+              int translations = 0)
+      : shape(of_body) {
     const Matrix6 form = scaleOf(faces);
     ArbitraryNumbers numbers(seed);
     for (int i = 0; i < count; ++i) add(faces, form, sampleMotion(numbers), 1);
@@ -54,12 +57,13 @@ struct LoadSamples {
   double p99Error(const FaceTable& others) const {
     std::vector<double> errors;
     for (std::size_t i = 0; i < motions.size(); ++i)
-      errors.push_back((loadOn(others, motions[i]) / scales[i] - loads[i]).norm());
+      errors.push_back((loadOn(others, shape, motions[i]) / scales[i] - loads[i]).norm());
     const auto at = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() * 99 / 100);
     std::nth_element(errors.begin(), at, errors.end());
     return *at;
   }
 
+  ShapeFactors shape;
   std::vector<Vector6> motions, loads;
   std::vector<double> scales, weights;  ///< weights: in the fit
 
@@ -68,7 +72,7 @@ struct LoadSamples {
     motions.push_back(motion);
     weights.push_back(weight);
     scales.push_back(motion.dot(form * motion));
-    loads.push_back(loadOn(faces, motion) / scales.back());
+    loads.push_back(loadOn(faces, shape, motion) / scales.back());
   }
 };
 
@@ -111,14 +115,17 @@ void fitPositive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, std::vector
 
 class LevelMaker {
  public:
-  LevelMaker(const FluidBody& body, const FaceTable& faces)
-      : centred_(body, faces),
-        for_error_(centred_.faces, kErrorSeed, kErrorMotions),
-        for_fit_(centred_.faces, kFitSeed, kFitMotions, kFitTranslations),
+  LevelMaker(const FluidBody& body, const FormShape& shape)
+      : centred_(body, formLawFaces(body, shape)),
+        shape_(centredShape(shape)),
+        for_error_(centred_.faces, shape_, kErrorSeed, kErrorMotions),
+        for_fit_(centred_.faces, shape_, kFitSeed, kFitMotions, kFitTranslations),
         mirrors_(findMirrors()),
         folded_(mirrors_.folded(centred_.faces)) {}
 
-  /// Of a number of faces, about.
+  std::size_t size() const { return centred_.faces.size(); }
+
+  /// Makes a level of about so many faces.
   FormLevel level(int count) const {
     const int clusters = std::max(1, count / mirrors_.images());
     FaceTable folded = joined(folded_, clusterFaces(folded_, clusters));
@@ -131,7 +138,13 @@ class LevelMaker {
   }
 
  private:
-  /// Those in which the loads look the same, up to what the mesh has left.
+  /// The shape in the units of the centred faces.
+  ShapeFactors centredShape(FormShape shape) const {
+    shape.centre = (shape.centre - centred_.centre) / centred_.length;
+    return ShapeFactors(shape);
+  }
+
+  /// Finds the mirrors in which the loads look the same, up to what the mesh has left.
   FaceMirrors findMirrors() const {
     constexpr double kSame = 2e-3;
     unsigned axes = 0;
@@ -155,7 +168,7 @@ class LevelMaker {
       const FaceTable images = mirrors_.unfolded(unit);
       for (std::size_t i = 0; i < motions; ++i)
         A.block<6, 1>(static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(k)) =
-            for_fit_.weights[i] / for_fit_.scales[i] * loadOn(images, for_fit_.motions[i]);
+            for_fit_.weights[i] / for_fit_.scales[i] * loadOn(images, shape_, for_fit_.motions[i]);
     }
     fitPositive(A, b, folded.area);
   }
@@ -171,6 +184,7 @@ class LevelMaker {
   }
 
   CentredFaces centred_;
+  ShapeFactors shape_;
   LoadSamples for_error_, for_fit_;
   FaceMirrors mirrors_;
   FaceTable folded_;
@@ -181,19 +195,17 @@ class LevelMaker {
 std::vector<FormLevel> buildFormLevels(const FluidBody& body, const std::vector<int>& faces) {
   std::vector<FormLevel> levels;
   if (faces.empty()) return levels;
-  const FaceTable all = formLawFaces(body);
-  const LevelMaker maker(body, all);
+  const LevelMaker maker(body, formShapeOf(body));
   for (const int count : faces)
-    if (static_cast<std::size_t>(count) < all.size()) levels.push_back(maker.level(count));
+    if (static_cast<std::size_t>(count) < maker.size()) levels.push_back(maker.level(count));
   return levels;
 }
 
 std::optional<FormLevel> smallestFormLevel(const FluidBody& body, double p99_error) {
-  const FaceTable all = formLawFaces(body);
-  const LevelMaker maker(body, all);
+  const LevelMaker maker(body, formShapeOf(body));
   // Whole blocks of those that the loads are summed in.
   for (const std::size_t count : {16, 32, 48, 64, 96, 128, 192, 256}) {
-    if (count >= all.size()) break;
+    if (count >= maker.size()) break;
     FormLevel level = maker.level(static_cast<int>(count));
     if (level.p99_error <= p99_error) return level;
   }

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/force/skin_friction.h"
-#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/force/law/skin_friction.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
 
@@ -30,7 +31,7 @@ class Comparison {
   Comparison(const LoadLevel& level, const FaceTable& faces)
       : level_(level), faces_(faces), cosine_(separationCosine(level.separation_angle)) {}
 
-  /// Of the pressure, relative to S.
+  /// Error of the pressure, relative to S.
   double error(const Vector6& x) const {
     const LoadSettings settings{1, 0, cosine_, false};
     double scale = 0;
@@ -38,14 +39,14 @@ class Comparison {
     return ratio(difference(x, settings), 0.5 * scale);
   }
 
-  /// Of the pressure, relative to itself.
+  /// Error of the pressure, relative to itself.
   double relativeError(const Vector6& x) const {
     const LoadSettings settings{1, 0, cosine_, false};
     const FaceLoads exact = computeFaceLoads(faces_, 1, Twist::fromVector(x), settings);
     return ratio(difference(x, settings), exact.pressure.vector().norm());
   }
 
-  /// Of the friction, relative to that on all faces together.
+  /// Error of the friction, relative to that on all faces together.
   double frictionError(const Vector6& x) const {
     const LoadSettings without{1, 0, cosine_, false}, with{1, 1, cosine_, true};
     double scale = 0;
@@ -139,6 +140,7 @@ LoadLevelError measureError(const LoadLevel& level, const FaceTable& faces) {
     sample.error = comparison.frictionError(sample.motion);
   }
   error.friction = percentile99(samples);
+  AMBIENT_ASSERT(error.p99 >= 0 && error.p99 <= error.maximum && error.friction >= 0);
   return error;
 }
 

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/spatial/large_products.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/reduced_loads/motion_sampler.h"
@@ -158,6 +159,7 @@ void store(const Cluster& cluster, const Vector6& by_slip, const Vector6& by_nor
 LoadLevel fitLevel(const FaceTable& faces, const FaceClusters& face_clusters,
                    double separation_angle) {
   const double cosine = separationCosine(separation_angle);
+  AMBIENT_ASSERT(!face_clusters.empty() && cosine >= -1 && cosine <= 0);
   LoadLevel level;
   level.separation_angle = separation_angle;
   level.clusters = static_cast<int>(face_clusters.size());

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "preprocess/reduced_loads/centred_faces.h"
 #include "preprocess/reduced_loads/face_clusters.h"
 #include "preprocess/reduced_loads/level_error.h"

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/spatial/pi.h"
 
 namespace ambient {
 

@@ -3,14 +3,13 @@
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btMultiSphereShape.h>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/spatial/principal_frame.h"
+#include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/mesh_import.h"
 #include "preprocess/robot/primitive_shape.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 namespace {
 
 /// Bullet's shape of a part, in its own frame.
@@ -19,16 +18,15 @@ struct PartMaker : PrimitiveMaker {
 
   explicit PartMaker(const std::string& of) : source(of) {}
   using PrimitiveMaker::operator();
-  Made operator()(const EllipsoidShape& s) const {
+  Made operator()(const Ellipsoid& s) const {
     const btVector3 centre(0, 0, 0);
     const btScalar radius = 1;
     auto ball = std::make_unique<btMultiSphereShape>(&centre, &radius, 1);
     ball->setLocalScaling(toBullet(s.semi_axes));
     return withMargin(std::move(ball), s.semi_axes.minCoeff());
   }
-  Made operator()(const MeshHull& mesh) const {
-    const Eigen::Matrix3Xd points =
-        Eigen::Vector3d(mesh.scale).asDiagonal() * importMesh(mesh.file).mesh.vertices;
+  Made operator()(const MeshFile& mesh) const {
+    const Eigen::Matrix3Xd points = mesh.stretch.asDiagonal() * importMesh(mesh.file).mesh.vertices;
     const Eigen::Vector3d extents = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
     if (!(extents.minCoeff() > 0))
       raiseInputError(source, "the mesh ", mesh.file.string(),
@@ -40,6 +38,10 @@ struct PartMaker : PrimitiveMaker {
     hull->optimizeConvexHull();
     return withMargin(std::move(hull), extents.minCoeff() / 2);
   }
+  template <class Other>
+  Made operator()(const Other&) const {
+    raiseInputError(source, "this kind of shape cannot be a part of a link");
+  }
 };
 
 }  // namespace
@@ -48,8 +50,8 @@ LinkShape makeLinkShape(const LinkModel& link, const RigidPose& link_in_body) {
   LinkShape made;
   made.in_body = std::make_unique<btCompoundShape>();
   made.in_link = std::make_unique<btCompoundShape>();
-  for (const CollisionPart& part : link.collisions) {
-    made.parts.push_back(std::visit(PartMaker(part.source), part.shape));
+  for (const PlacedShape& part : link.collisions) {
+    made.parts.push_back(std::visit(PartMaker(part.name), part.shape));
     btCollisionShape* shape = made.parts.back().get();
     made.in_link->addChildShape(toBulletTransform(part.pose), shape);
     made.in_body->addChildShape(toBulletTransform(link_in_body * part.pose), shape);
@@ -78,5 +80,4 @@ RigidPose toPose(const btTransform& transform) {
   return pose;
 }
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

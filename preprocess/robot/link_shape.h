@@ -5,14 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/core/precision_check.h"
 #include "preprocess/robot/robot_model.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 
-/// What a link collides with. Bullet's body frame B has its origin in the centre of mass and the
-/// principal axes.
+/// Collision shapes of a link. Bullet's body frame B has its origin in the link's centre of mass
+/// and its axes along the principal axes of inertia.
 struct LinkShape {
   std::vector<std::unique_ptr<btCollisionShape>> parts;
   std::unique_ptr<btCompoundShape> in_body;  ///< in B: the shape of the link's collider
@@ -36,5 +35,4 @@ LinkMassFrame findMassFrame(const LinkModel& link);
 btTransform toBulletTransform(const RigidPose& pose);
 RigidPose toPose(const btTransform& transform);
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

@@ -10,35 +10,34 @@
 #include <memory>
 #include <utility>
 
-#include "bullet_ambient/bullet/conversions.h"
-#include "bullet_ambient/bullet/precision_check.h"
-#include "preprocess/shape/shape_description.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/core/precision_check.h"
+#include "preprocess/shape/shapes.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 
 /// Bullet's convex primitive of a shape that is one, in the shape's own frame; a visitor. Those who
 /// have other shapes too derive from it.
 struct PrimitiveMaker {
   using Made = std::unique_ptr<btConvexInternalShape>;
 
-  Made operator()(const SphereShape& s) const {
+  Made operator()(const Sphere& s) const {
     return std::make_unique<btSphereShape>(static_cast<btScalar>(s.radius));
   }
-  Made operator()(const BoxShape& s) const {
+  Made operator()(const Box& s) const {
     return withMargin(std::make_unique<btBoxShape>(toBullet(s.half_sizes)),
                       s.half_sizes.minCoeff());
   }
-  Made operator()(const CylinderShape& s) const {
+  Made operator()(const Cylinder& s) const {
     const Vector3 half_sizes(s.radius, s.radius, s.height / 2);
     return withMargin(std::make_unique<btCylinderShapeZ>(toBullet(half_sizes)),
                       half_sizes.minCoeff());
   }
-  Made operator()(const CapsuleShape& s) const {
+  Made operator()(const Capsule& s) const {
     return std::make_unique<btCapsuleShapeZ>(static_cast<btScalar>(s.radius),
                                              static_cast<btScalar>(s.height));
   }
-  Made operator()(const ConeShape& s) const {
+  Made operator()(const Cone& s) const {
     return withMargin(std::make_unique<btConeShapeZ>(static_cast<btScalar>(s.radius),
                                                      static_cast<btScalar>(s.height)),
                       std::min(s.radius, s.height / 2));
@@ -53,5 +52,4 @@ struct PrimitiveMaker {
   }
 };
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

@@ -5,12 +5,11 @@
 
 #include <cmath>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/robot/robot_joints.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 
 Robot::Robot(RobotModel model, const RobotSettings& settings) : model_(std::move(model)) {
   checkRobot(model_, settings.fixed_base);
@@ -94,7 +93,7 @@ void Robot::makeColliders() {
 
 void Robot::place(const RobotSettings& settings) {
   for (const auto& [joint, position] : settings.positions) {
-    checkAxial(joint);
+    requireAxial(joint);
     if (!std::isfinite(position))
       raiseInputError(model_.source, "the position of joint \"", joint, "\" is not finite");
     body_->setJointPos(jointNumber(joint), static_cast<btScalar>(position));
@@ -144,23 +143,28 @@ RigidPose Robot::linkPose(const std::string& name) const {
   return link(number).name == name ? pose : pose * link(number).merged.at(name);
 }
 
-void Robot::checkAxial(const std::string& joint) const {
+void Robot::requireAxial(const std::string& joint) const {
   if (!link(jointNumber(joint)).joint.isAxial())
     raiseInputError(model_.source, "joint \"", joint, "\": it must be revolute or prismatic");
 }
 
 double Robot::position(const std::string& joint) const {
-  checkAxial(joint);
+  requireAxial(joint);
   return static_cast<double>(body_->getJointPos(jointNumber(joint)));
 }
 
 double Robot::velocity(const std::string& joint) const {
-  checkAxial(joint);
+  requireAxial(joint);
   return static_cast<double>(body_->getJointVel(jointNumber(joint)));
 }
 
+double Robot::motorEffort(const std::string& joint) const {
+  requireAxial(joint);
+  return joints_->motorEffort(jointNumber(joint));
+}
+
 void Robot::setMotor(const std::string& joint, const MotorTarget& target) {
-  checkAxial(joint);
+  requireAxial(joint);
   if (!std::isfinite(target.position) || !std::isfinite(target.velocity) ||
       !std::isfinite(target.position_gain) || !std::isfinite(target.velocity_gain) ||
       !(target.effort >= 0))
@@ -172,5 +176,4 @@ void Robot::setMotor(const std::string& joint, const MotorTarget& target) {
 
 void Robot::prepareStep(double time_step) { joints_->prepareStep(time_step); }
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

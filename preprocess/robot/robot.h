@@ -6,37 +6,24 @@
 #include <memory>
 #include <string>
 
-#include "bullet_ambient/bullet/precision_check.h"
+#include "bullet_ambient/bullet/core/precision_check.h"
 #include "preprocess/robot/link_shape.h"
+#include "preprocess/robot/motor_target.h"
 #include "preprocess/robot/robot_model.h"
 
 class btMultiBodyDynamicsWorld;
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 
 class RobotJoints;
 
-/// How a robot begins.
+/// Initial state and settings of a robot.
 struct RobotSettings {
   RigidPose pose = RigidPose::Identity();  ///< of the robot's frame, the root link's, in W
   bool fixed_base = false;
   std::map<std::string, double> positions;  ///< of revolute and prismatic joints; others: 0
   bool self_collision = false;              ///< between links that no joint connects
   bool can_sleep = false;
-};
-
-/// What a motor wants of a revolute or prismatic joint. A step ends, where the effort suffices,
-/// with the velocity
-///
-///     velocity + velocity_gain * (target.velocity - velocity)
-///              + position_gain * (target.position - position) / time step
-struct MotorTarget {
-  double position = 0;  ///< [rad] or [m]
-  double velocity = 0;  ///< [rad/s] or [m/s]
-  double position_gain = 0.1;
-  double velocity_gain = 1;
-  double effort = JointModel::kUnlimited;  ///< [N m] or [N]; at most the joint's
 };
 
 /// A btMultiBody made from a model, and all that belongs to it: shapes, colliders, limits, mimics,
@@ -68,20 +55,30 @@ class Robot {
   /// Bullet's number of the link below a joint. @throws as linkNumber()
   int jointNumber(const std::string& joint) const { return model_.jointIndex(joint) - 1; }
 
-  /// Of a link by Bullet's number.
+  /// Model, collision shapes and frame of a link, by Bullet's number of it (-1: the base).
   const LinkModel& link(int number) const { return model_.links.at(indexOf(number)); }
   const LinkShape& shape(int number) const { return shapes_.at(indexOf(number)); }
   const RigidPose& linkInBody(int number) const { return frames_.at(indexOf(number)).link_in_body; }
-  /// Of Bullet's frame of the link in W, now: that of its collider, which is never a step behind.
+  /// Returns the current pose of Bullet's body frame of a link in W. It is read from the collider,
+  /// which is never a step behind.
   const btTransform& bodyTransform(int number) const;
-  /// Of its own frame in W, now.
+  /// Returns the current pose of the link's own frame in W, by Bullet's number.
   RigidPose linkPose(int number) const;
-  /// The same by name, also of a link that was merged. @throws as linkNumber()
+  /// Returns the current pose in W of a link by name, also of one that was merged into another.
+  /// @throws as linkNumber()
   RigidPose linkPose(const std::string& link) const;
 
-  /// Of a revolute or prismatic joint. @throws as linkNumber()
+  /// Position [rad] or [m] and velocity [rad/s] or [m/s] of a revolute or prismatic joint.
+  /// @throws std::runtime_error as linkNumber()
   double position(const std::string& joint) const;
   double velocity(const std::string& joint) const;
+
+  /// Torque [N m] or force [N] that the motor of a revolute or prismatic joint used in the last
+  /// step.
+  /// @throws std::runtime_error as linkNumber()
+  double motorEffort(const std::string& joint) const;
+  /// @throws std::runtime_error if a joint is not revolute or prismatic, or as linkNumber()
+  void requireAxial(const std::string& joint) const;
 
   /// Drives a revolute or prismatic joint from now on; effort 0: no longer. Mimics follow.
   /// @throws std::runtime_error for another joint or numbers that are not finite.
@@ -96,7 +93,6 @@ class Robot {
   void setUpLink(std::size_t index);
   void place(const RobotSettings& settings);
   void makeColliders();
-  void checkAxial(const std::string& joint) const;
 
   RobotModel model_;
   std::vector<LinkMassFrame> frames_;
@@ -107,5 +103,4 @@ class Robot {
   btMultiBodyDynamicsWorld* world_ = nullptr;
 };
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

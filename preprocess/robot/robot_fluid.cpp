@@ -2,11 +2,10 @@
 
 #include <stdexcept>
 
-#include "bullet_ambient/fluid_body/load_fluid_body.h"
+#include "bullet_ambient/fluid_body/file/load_fluid_body.h"
 #include "preprocess/mesh/input_error.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 namespace {
 
 AttachDef linkDef(const Robot& robot, int number, FluidBodySource& source, AttachDef def) {
@@ -28,16 +27,17 @@ bool meetsFluid(const Robot& robot, int number) {
 
 }  // namespace
 
-std::vector<std::string> attachRobot(AmbientRegistry& registry, btMultiBodyDynamicsWorld& world,
-                                     Robot& robot, FluidBodySource& source, const AttachDef& def) {
+std::vector<std::string> attachRobot(Fluid& fluid, Robot& robot, FluidBodySource& source,
+                                     const AttachDef& def) {
   btMultiBody& body = robot.multiBody();
+  std::vector<Immersed> links;
   std::vector<std::string> attached;
   for (int number = -1; number < body.getNumLinks(); ++number) {
     if (!meetsFluid(robot, number)) continue;
     try {
-      registry.attach(world, body, number, linkDef(robot, number, source, def));
+      links.push_back(fluid.add(body, number, linkDef(robot, number, source, def)));
     } catch (const std::exception& error) {
-      registry.detach(body);
+      for (Immersed& link : links) link.remove();
       raiseInputError(robot.model().source, "link \"", robot.link(number).name,
                       "\": ", error.what());
     }
@@ -51,5 +51,4 @@ FrameOffset linkFluidFrame(const Robot& robot, int number) {
   return {Matrix3(pose.linear()), Vector3(pose.translation())};
 }
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 namespace {
 
 /// Share of the error of a mimic that a step takes back.
@@ -95,7 +94,15 @@ void RobotJoints::setMotor(int number, const MotorTarget& target) {
   motor.constraint->setRhsClamp(boundedImpulse(of.velocity));
 }
 
+// A motor without effort has no row, and keeps the impulse of the last row that it had.
+double RobotJoints::motorEffort(int number) const {
+  const auto motor = motors_.find(number);
+  if (motor == motors_.end() || !(motor->second.effort > 0) || time_step_ == 0) return 0;
+  return static_cast<double>(motor->second.constraint->getAppliedImpulse(0)) / time_step_;
+}
+
 void RobotJoints::prepareStep(double time_step) {
+  time_step_ = time_step;
   for (const auto& [number, brake] : brakes_) {
     const double speed = std::abs(static_cast<double>(body_.getJointVel(number)));
     const JointModel& of = joint(number);
@@ -105,5 +112,4 @@ void RobotJoints::prepareStep(double time_step) {
     motor.constraint->setMaxAppliedImpulse(boundedImpulse(motor.effort * time_step));
 }
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

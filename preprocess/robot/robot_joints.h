@@ -6,11 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/bullet/precision_check.h"
-#include "preprocess/robot/robot.h"
+#include "bullet_ambient/bullet/core/precision_check.h"
+#include "preprocess/robot/motor_target.h"
 
-namespace ambient {
-inline namespace BULLET_AMBIENT_PRECISION_NAMESPACE {
+AMBIENT_BEGIN
 
 /// The constraints of a robot's joints: limits, mimics, brakes for friction and damping, motors.
 class RobotJoints {
@@ -21,6 +20,8 @@ class RobotJoints {
   void leaveWorld();
   void setMotor(int number, const MotorTarget& target);
   void prepareStep(double time_step);
+  /// Torque or force of a motor in the last step; 0 without one.
+  double motorEffort(int number) const;
 
  private:
   struct Motor {
@@ -40,7 +41,7 @@ class RobotJoints {
   std::map<int, std::unique_ptr<btMultiBodyJointMotor>> brakes_;  // by link
   std::map<int, Motor> motors_;
   btMultiBodyDynamicsWorld* world_ = nullptr;
+  double time_step_ = 0;  ///< of prepareStep(); 0: none yet
 };
 
-}  // namespace BULLET_AMBIENT_PRECISION_NAMESPACE
-}  // namespace ambient
+AMBIENT_END

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "bullet_ambient/spatial/principal_frame.h"
-#include "bullet_ambient/spatial/rotation.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {
@@ -60,7 +59,7 @@ void takeIn(LinkModel& into, const LinkModel& link, const RigidPose& pose) {
     into.centre_of_mass = common;
     into.mass = mass;
   }
-  for (CollisionPart part : link.collisions) {
+  for (PlacedShape part : link.collisions) {
     part.pose = pose * part.pose;
     into.collisions.push_back(std::move(part));
   }
@@ -88,14 +87,6 @@ RobotModel withoutRoot(RobotModel model) {
   base.joint = {};
   base.joint.origin = root.joint.origin * base_in_root;
   return model;
-}
-
-RigidPose motionOf(const JointModel& joint, double position) {
-  RigidPose motion = RigidPose::Identity();
-  if (joint.kind == UrdfJointKind::kRevolute)
-    motion.linear() = rotationFromVector(position * joint.axis).toRotationMatrix();
-  if (joint.kind == UrdfJointKind::kPrismatic) motion.translation() = position * joint.axis;
-  return motion;
 }
 
 }  // namespace
@@ -131,7 +122,8 @@ void checkRobot(const RobotModel& model, bool fixed_base) {
 RobotModel withoutFixedJoints(const RobotModel& model) {
   RobotModel merged = model;
   merged.links.clear();
-  // Of each link the one that holds it now, and its pose in there.
+  // For each link: the index of the link that holds it after merging, and its pose in that link's
+  // frame.
   std::vector<std::pair<int, RigidPose>> holders;
   for (const LinkModel& link : model.links) {
     const bool merges = link.parent >= 0 && link.joint.kind == UrdfJointKind::kFixed && !link.fluid;
@@ -160,7 +152,7 @@ std::vector<RigidPose> linkPoses(const RobotModel& model, const RigidPose& robot
         link.parent < 0 ? robot : poses[static_cast<std::size_t>(link.parent)];
     const auto found = positions.find(link.joint.name);
     const double position = found == positions.end() ? 0 : found->second;
-    poses.push_back(parent * link.joint.origin * motionOf(link.joint, position));
+    poses.push_back(parent * link.joint.origin * link.joint.motion(position));
   }
   return poses;
 }

@@ -9,39 +9,25 @@
 #include <variant>
 #include <vector>
 
-#include "bullet_ambient/force/flow_settings.h"
+#include "bullet_ambient/force/law/flow_settings.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
-#include "preprocess/shape/shape_description.h"
+#include "preprocess/shape/shapes.h"
 
 namespace ambient {
-
-/// p_parent = pose * p_child [m].
-using RigidPose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
-
-/// A mesh file, taken as the convex hull of its vertices.
-struct MeshHull {
-  std::filesystem::path file;
-  Vector3 scale{1, 1, 1};
-};
-
-/// A part of what a link collides with.
-struct CollisionPart {
-  std::variant<SphereShape, BoxShape, EllipsoidShape, CylinderShape, CapsuleShape, MeshHull> shape;
-  RigidPose pose = RigidPose::Identity();  ///< in the link's frame
-  std::string source;                      ///< begins every message about it: file, link and number
-};
 
 /// The types of joints that URDF files have; continuous ones are revolute without limits.
 enum class UrdfJointKind { kFixed, kRevolute, kPrismatic, kPlanar, kFloating };
 
-/// How a link moves against its parent. Forces and torques are in [N] and [N m], positions in [m]
-/// and [rad], as the joint is prismatic or revolute.
+/// Joint between a link and its parent. For prismatic joints forces are in [N] and positions in
+/// [m], for revolute ones torques are in [N m] and positions in [rad].
 struct JointModel {
   static constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
   std::string name;
   UrdfJointKind kind = UrdfJointKind::kFixed;
-  /// Of the joint's frame, which is the link's at 0, in the parent's; of the root in the robot's.
+  /// Pose of the joint's frame in the parent link's frame; of the root link: in the robot's frame.
+  /// The link's frame equals it at position 0.
   RigidPose origin = RigidPose::Identity();
   Vector3 axis{1, 0, 0};  ///< of length 1 in the joint's frame; of a plane its normal
   double lower = -kUnlimited, upper = kUnlimited;
@@ -55,12 +41,22 @@ struct JointModel {
   };
   std::optional<Mimic> mimic;  ///< position = multiplier * that of the joint + offset
 
+  /// Whether its position is one number.
   bool isAxial() const {
     return kind == UrdfJointKind::kRevolute || kind == UrdfJointKind::kPrismatic;
   }
+  bool hasAxis() const { return isAxial() || kind == UrdfJointKind::kPlanar; }
+  /// Pose of the link against its place at position 0; of a joint that is not axial: there.
+  RigidPose motion(double position) const {
+    RigidPose motion = RigidPose::Identity();
+    if (kind == UrdfJointKind::kRevolute)
+      motion.linear() = rotationFromVector(position * axis).toRotationMatrix();
+    if (kind == UrdfJointKind::kPrismatic) motion.translation() = position * axis;
+    return motion;
+  }
 };
 
-/// What <ambient .../> in a link says about its fluid.
+/// Contents of the element <ambient .../> of a link.
 struct LinkFluid {
   std::string medium;                ///< "water", "air", "none"; empty: the robot's
   std::filesystem::path fluid_body;  ///< .ambient file in the link's frame; empty: of its collision
@@ -75,7 +71,7 @@ struct LinkModel {
   double mass = 0;                                   ///< [kg]
   Vector3 centre_of_mass{0, 0, 0};                   ///< in the link's frame [m]
   Matrix3 inertia{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};  ///< about that, link's axes [kg m^2]
-  std::vector<CollisionPart> collisions;
+  std::vector<PlacedShape> collisions;
   std::optional<LinkFluid> fluid;
   /// Links that were merged into this one: their poses in its frame, by name.
   std::map<std::string, RigidPose> merged;
@@ -100,9 +96,9 @@ struct RobotModel {
 /// @throws std::runtime_error in one line that names file, link or joint, value and limit.
 void checkRobot(const RobotModel& model, bool fixed_base);
 
-/// The same robot with fewer links: what a fixed joint holds becomes part of its parent, with mass,
-/// inertia and collisions, unless it says something about its fluid; a root without mass and
-/// collisions vanishes where its only child floats.
+/// Returns the robot with fixed joints removed: a link at a fixed joint becomes part of its parent,
+/// with mass, inertia and collisions, unless it has an element `ambient`. A root without mass and
+/// collisions is removed if its only child floats.
 RobotModel withoutFixedJoints(const RobotModel& model);
 
 /// Poses of the links' frames, from that of the robot and the positions of revolute and prismatic

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <set>
 
-#include "bullet_ambient/fluid_body/plain_text.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/robot/urdf_text.h"
 #include "preprocess/shape/json_text.h"
@@ -38,8 +38,8 @@ class UrdfdomMessages : public console_bridge::OutputHandler {
   std::string text_;
 };
 
-/// @throws std::runtime_error
-/// A model of urdfdom. Its links hold those after them, so that a loop of them would never go.
+/// A model of urdfdom. Clears the links' lists of children when it is destroyed: links in a loop
+/// hold each other and would never be freed.
 struct UrdfModel {
   urdf::ModelInterfaceSharedPtr model;
 
@@ -52,10 +52,12 @@ struct UrdfModel {
   }
 };
 
+/// Parses a URDF text with urdfdom into `parsed`. `source` begins messages.
+/// @throws std::runtime_error
 void parseChecked(const std::string& urdf, const std::string& source, UrdfModel& parsed) {
   const UrdfdomMessages messages;
   try {
-    // Where it cannot read a part it says so and may leave it out.
+    // urdfdom reports parts that it cannot read as messages, and may leave them out.
     parsed.model = urdf::parseURDF(urdf);
     if (parsed.model && messages.text().empty()) return;
   } catch (const std::exception& error) {
@@ -101,7 +103,7 @@ class ModelReader {
       raiseInputError(model_.source, element, ": ", key, " is ", value, "; must be ", limit);
   }
 
-  /// What urdfdom does not look at.
+  /// Checks that urdfdom does not make.
   void checkTree(const urdf::ModelInterface& from) const {
     constexpr std::size_t kMostLinks = 2000;  // the tree is read by recursion
     if (from.links_.size() > kMostLinks)
@@ -149,7 +151,7 @@ class ModelReader {
     const std::string element = "joint \"" + joint.name + "\"";
     joint.kind = kindOf(from);
     joint.origin = toPose(from.parent_to_joint_origin_transform);
-    if (joint.isAxial() || joint.kind == UrdfJointKind::kPlanar) {
+    if (joint.hasAxis()) {
       const double length = toVector(from.axis).norm();
       require(length > 0 && std::isfinite(length), element, "the length of its axis", length,
               "> 0");
@@ -198,43 +200,43 @@ class ModelReader {
     joint.upper = limits.upper;
   }
 
-  CollisionPart readCollision(const urdf::Collision& from, const std::string& link,
-                              std::size_t number) const {
+  PlacedShape readCollision(const urdf::Collision& from, const std::string& link,
+                            std::size_t number) const {
     const std::string element = "link \"" + link + "\": <collision> " + std::to_string(number + 1);
-    CollisionPart part;
+    PlacedShape part;
     part.pose = toPose(from.origin);
-    part.source = model_.source + ": " + element;
+    part.name = model_.source + ": " + element;
     if (const std::optional<OwnGeometry>& own = text_.geometry.at(link).at(number)) {
       if (own->kind == "capsule")
-        part.shape = CapsuleShape{own->sizes.x(), own->sizes.y()};
+        part.shape = Capsule{own->sizes.x(), own->sizes.y()};
       else
-        part.shape = EllipsoidShape{own->sizes};
+        part.shape = Ellipsoid{own->sizes};
       return part;
     }
-    if (!from.geometry) raiseInputError(part.source, "has no geometry");
+    if (!from.geometry) raiseInputError(part.name, "has no geometry");
     readGeometry(*from.geometry, element, part);
     return part;
   }
 
   void readGeometry(const urdf::Geometry& from, const std::string& element,
-                    CollisionPart& part) const {
+                    PlacedShape& part) const {
     if (from.type == urdf::Geometry::SPHERE) {
-      part.shape = SphereShape{length(static_cast<const urdf::Sphere&>(from).radius, element)};
+      part.shape = Sphere{length(static_cast<const urdf::Sphere&>(from).radius, element)};
     } else if (from.type == urdf::Geometry::BOX) {
       const urdf::Vector3& size = static_cast<const urdf::Box&>(from).dim;
-      part.shape = BoxShape{Eigen::Vector3d(length(size.x, element), length(size.y, element),
-                                            length(size.z, element)) /
-                            2};
+      part.shape = Box{Eigen::Vector3d(length(size.x, element), length(size.y, element),
+                                       length(size.z, element)) /
+                       2};
     } else if (from.type == urdf::Geometry::CYLINDER) {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(from);
-      part.shape =
-          CylinderShape{length(cylinder.radius, element), length(cylinder.length, element)};
+      part.shape = Cylinder{length(cylinder.radius, element), length(cylinder.length, element)};
     } else {
       const auto& mesh = static_cast<const urdf::Mesh&>(from);
       const Vector3 scale = toVector(mesh.scale);
       require(scale.allFinite() && scale.cwiseAbs().minCoeff() > 0, element,
               "the least scale of its mesh", scale.cwiseAbs().minCoeff(), "not 0");
-      part.shape = MeshHull{resolveReference(mesh.filename, file_, packages_, part.source), scale};
+      part.shape = MeshFile{resolveReference(mesh.filename, file_, packages_, part.name), 1,
+                            MeshStandIn::kHull, 0, scale};
     }
   }
 

@@ -21,7 +21,8 @@ namespace ambient {
 /// if this library was built without liburdfdom.
 RobotModel readUrdf(const std::filesystem::path& file, const PackageFolders& packages = {});
 
-/// The same from a text; `file` stands for it in messages and is where relative paths begin.
+/// Reads a robot from a text; `file` stands for it in messages, and relative paths begin at its
+/// folder.
 RobotModel parseUrdf(const std::string& text, const std::filesystem::path& file,
                      const PackageFolders& packages = {});
 

@@ -40,7 +40,7 @@ std::string placeOf(const TiXmlElement& element, const std::string& link) {
          element.ValueStr() + ">";
 }
 
-/// As many positive numbers as there are places. @throws std::runtime_error
+/// Reads `count` positive numbers from a text. @throws std::runtime_error
 Vector3 readSizes(const std::string& text, int count, const std::string& place) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
@@ -53,7 +53,8 @@ Vector3 readSizes(const std::string& text, int count, const std::string& place) 
   return sizes;
 }
 
-/// Of a <geometry> that holds one; it then holds a sphere instead.
+/// Returns the shape of our own that a <geometry> holds and puts a sphere in its place, which
+/// urdfdom can read; none if it holds another shape.
 std::optional<OwnGeometry> takeOwnGeometry(TiXmlElement& geometry, const std::string& link,
                                            const std::string& source) {
   TiXmlElement* shape = geometry.FirstChildElement();

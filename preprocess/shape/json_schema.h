@@ -9,9 +9,10 @@ namespace ambient {
 /// data/schema/shape.schema.json as it was when the program was built.
 const nlohmann::json& shapeSchema();
 
-/// What a JSON value must be, of JSON Schema draft 7 the part that data/schema uses; other keywords
-/// are for people. "$ref" leads into the same document or to the schema of shapes; "if" compares
-/// keys with constants; "additionalProperties" is false or the schema of keys that are not listed.
+/// A schema that JSON values are checked against: the part of JSON Schema draft 7 that data/schema
+/// uses; other keywords are for people. "$ref" leads into the same document or to the schema of
+/// shapes. "if" compares keys with constants. "additionalProperties" is false or the schema of keys
+/// that are not listed.
 /// @pre the schema refers to nothing that is missing
 class JsonSchema {
  public:
@@ -22,9 +23,10 @@ class JsonSchema {
   /// value and what the schema wants.
   void check(const nlohmann::json& value, const std::string& source) const;
 
-  /// Whether the schema knows a place, such as {"bodies", "0", "mass"}, under some condition. Any
-  /// index is known in an array.
-  bool knows(const std::vector<std::string>& path) const;
+  /// Empty if the schema knows a place, such as {"bodies", "0", "mass"}, under some condition; else
+  /// a sentence about the first part that it does not know and the keys that are there. Any index
+  /// is known in an array.
+  std::string unknownKey(const std::vector<std::string>& path) const;
 
   /// "bodies[0].mass" for {"bodies", "0", "mass"}, the subject for {}.
   std::string placeName(const std::vector<std::string>& path) const;

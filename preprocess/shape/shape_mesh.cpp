@@ -2,32 +2,16 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/ambient_assert.h"
-#include "bullet_ambient/spatial/elementary.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/convex_hull.h"
+#include "bullet_ambient/base/ambient_assert.h"
+#include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_checks.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/mesh/surface_wrap.h"
+#include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/usual_size.h"
-#include "preprocess/shape/shape_limits.h"
+#include "preprocess/mesh/wrap/surface_wrap.h"
+#include "preprocess/shape/shape_facts.h"
 
 namespace ambient {
 namespace {
-
-// For cylinders and cones: lengths along the axis are exact as they are.
-TriangleMesh withVolumeAcross(TriangleMesh mesh, double volume) {
-  const double stretch = std::sqrt(volume / computeMassProperties(mesh).volume);
-  mesh.vertices.topRows<2>() *= stretch;
-  return mesh;
-}
-
-TriangleMesh withVolume(TriangleMesh mesh, double volume) {
-  mesh.vertices *= portable::cbrt(volume / computeMassProperties(mesh).volume);
-  return mesh;
-}
 
 /// checkMesh() that mentions a remedy.
 CheckedMesh checkBody(const TriangleMesh& mesh, const std::string& name) {
@@ -40,7 +24,7 @@ CheckedMesh checkBody(const TriangleMesh& mesh, const std::string& name) {
   }
 }
 
-CheckedMesh makeBody(const TriangleMesh& mesh, const MeshShape& shape) {
+CheckedMesh makeBody(const TriangleMesh& mesh, const MeshFile& shape) {
   const std::string name = shape.file.string();
   switch (shape.stand_in) {
     case MeshStandIn::kHull:
@@ -53,70 +37,25 @@ CheckedMesh makeBody(const TriangleMesh& mesh, const MeshShape& shape) {
   return checkBody(mesh, name);
 }
 
-CheckedMesh checkAs(const MeshShape& shape, const TriangleMesh& mesh) {
-  return makeBody(mesh, shape);
-}
-
-CheckedMesh checkAs(const MeshSheetShape& shape, const TriangleMesh& mesh) {
-  return checkMesh(mesh, shape.file.string(), {true});
-}
-
-/// Of a MeshShape or a MeshSheetShape.
-template <class Shape>
+/// Checks the imported mesh of a MeshFile or a MeshSheet.
 CheckedMesh checkImported(const Shape& shape, const ImportedMesh& imported) {
-  CheckedMesh checked = checkAs(shape, imported.mesh);
+  CheckedMesh checked;
+  if (const auto* file = std::get_if<MeshFile>(&shape)) {
+    TriangleMesh mesh = imported.mesh;
+    mesh.vertices = file->stretch.asDiagonal() * mesh.vertices;
+    checked = makeBody(mesh, *file);
+  } else {
+    checked = checkMesh(imported.mesh, std::get<MeshSheet>(shape).file.string(), {true});
+  }
   checked.warnings.insert(checked.warnings.begin(), imported.warnings.begin(),
                           imported.warnings.end());
   return checked;
 }
 
-/// Makes the mesh of every kind of shape with `faces` triangles.
-struct MeshMaker {
-  int faces;
-
-  CheckedMesh operator()(const SphereShape& s) const {
-    return (*this)(EllipsoidShape{Eigen::Vector3d::Constant(s.radius)});
-  }
-  CheckedMesh operator()(const EllipsoidShape& s) const {
-    const double volume = 4 * kPi / 3 * s.semi_axes.prod();
-    return {withVolume(makeEllipsoidMesh(s.semi_axes, faces), volume), {}};
-  }
-  CheckedMesh operator()(const BoxShape& s) const { return {makeBoxMesh(s.half_sizes, faces), {}}; }
-  CheckedMesh operator()(const CylinderShape& s) const {
-    const double volume = kPi * s.radius * s.radius * s.height;
-    return {withVolumeAcross(makeCylinderMesh(s.radius, s.height, faces), volume), {}};
-  }
-  CheckedMesh operator()(const CapsuleShape& s) const {
-    const double volume = kPi * s.radius * s.radius * (s.height + 4 * s.radius / 3);
-    return {withVolume(makeCapsuleMesh(s.radius, s.height, faces), volume), {}};
-  }
-  CheckedMesh operator()(const ConeShape& s) const {
-    const double volume = kPi * s.radius * s.radius * s.height / 3;
-    return {withVolumeAcross(makeConeMesh(s.radius, s.height, faces), volume), {}};
-  }
-  CheckedMesh operator()(const RectangularSheetShape& s) const {
-    return {makeRectangularSheetMesh(s.size.x(), s.size.y(), faces), {}};
-  }
-  CheckedMesh operator()(const EllipticSheetShape& s) const {
-    TriangleMesh mesh = makeEllipticSheetMesh(s.semi_axes.x(), s.semi_axes.y(), faces);
-    mesh.vertices *= std::sqrt(kPi * s.semi_axes.prod() / computeSheetMassProperties(mesh).area);
-    return {mesh, {}};
-  }
-  CheckedMesh operator()(const MeshShape& s) const {
-    return checkImported(s, importMesh(s.file, s.scale));
-  }
-  CheckedMesh operator()(const MeshSheetShape& s) const {
-    return checkImported(s, importMesh(s.file, s.scale));
-  }
-  CheckedMesh operator()(const FluidBodyShape& s) const {
-    throw std::logic_error(s.file.string() + ": a fluid body is read, not meshed");
-  }
-};
-
 struct FileFinder {
-  std::filesystem::path operator()(const MeshShape& s) const { return s.file; }
-  std::filesystem::path operator()(const MeshSheetShape& s) const { return s.file; }
-  std::filesystem::path operator()(const FluidBodyShape& s) const { return s.file; }
+  std::filesystem::path operator()(const MeshFile& s) const { return s.file; }
+  std::filesystem::path operator()(const MeshSheet& s) const { return s.file; }
+  std::filesystem::path operator()(const FluidBodyFile& s) const { return s.file; }
   template <class Other>
   std::filesystem::path operator()(const Other&) const {
     return {};
@@ -124,12 +63,16 @@ struct FileFinder {
 };
 
 CheckedMesh makeUnscaledMesh(const ShapeDescription& shape) {
+  if (const auto* mesh = std::get_if<MeshFile>(&shape.geometry))
+    return checkImported(shape.geometry, importMesh(mesh->file, mesh->scale));
+  if (const auto* sheet = std::get_if<MeshSheet>(&shape.geometry))
+    return checkImported(shape.geometry, importMesh(sheet->file, sheet->scale));
+  const ShapeFacts facts = factsOf(shape.geometry);
+  if (!facts.mesh) throw std::logic_error(shape.source + ": no mesh is made of this kind of shape");
   try {
-    return std::visit(MeshMaker{shape.faces}, shape.geometry);
+    return {facts.mesh(shape.faces), {}};
   } catch (const std::runtime_error& error) {
-    // Messages about a file begin with it already.
-    const bool names_file = !fileOf(shape).empty() || shape.source.empty();
-    if (names_file) throw;
+    if (shape.source.empty()) throw;
     raiseInputError(shape.source, error.what());
   }
 }
@@ -149,9 +92,9 @@ CheckedMesh scaled(CheckedMesh checked, const ShapeDescription& shape, double sc
 }  // namespace
 
 bool isSheet(const ShapeDescription& shape) {
-  return std::holds_alternative<RectangularSheetShape>(shape.geometry) ||
-         std::holds_alternative<EllipticSheetShape>(shape.geometry) ||
-         std::holds_alternative<MeshSheetShape>(shape.geometry);
+  return std::holds_alternative<RectangleSheet>(shape.geometry) ||
+         std::holds_alternative<EllipseSheet>(shape.geometry) ||
+         std::holds_alternative<MeshSheet>(shape.geometry);
 }
 
 std::filesystem::path fileOf(const ShapeDescription& shape) {
@@ -159,15 +102,13 @@ std::filesystem::path fileOf(const ShapeDescription& shape) {
 }
 
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale) {
-  requireUsualExtents(shape, scale);
+  requireUsualExtents(shape.geometry, scale, shape.source);
   return scaled(makeUnscaledMesh(shape), shape, scale);
 }
 
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, const ImportedMesh& imported,
                           double scale) {
-  if (const auto* mesh = std::get_if<MeshShape>(&shape.geometry))
-    return scaled(checkImported(*mesh, imported), shape, scale);
-  return scaled(checkImported(std::get<MeshSheetShape>(shape.geometry), imported), shape, scale);
+  return scaled(checkImported(shape.geometry, imported), shape, scale);
 }
 
 }  // namespace ambient

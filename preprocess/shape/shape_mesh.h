@@ -1,8 +1,8 @@
 #pragma once
 
-#include "preprocess/mesh/mesh_checks.h"
-#include "preprocess/mesh/mesh_import.h"
-#include "preprocess/shape/shape_description.h"
+#include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/import/mesh_import.h"
+#include "preprocess/shape/shapes.h"
 
 namespace ambient {
 
@@ -19,12 +19,13 @@ std::filesystem::path fileOf(const ShapeDescription& shape);
 /// Where a mesh is refused as a body that wrapSurface() would make one of, the message says so.
 /// All lengths are multiplied by `scale`; a file whose mesh is then of a size that another unit
 /// than the metre would explain is warned of.
-/// @pre the shape is not a FluidBodyShape; the scale is positive and finite
+/// @pre the shape is not a FluidBodyFile; the scale is positive and finite
 /// @throws std::runtime_error in one line that begins with the shape's source.
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale = 1);
 
-/// The same of a mesh or sheet whose file has been read, with the scale of the shape itself.
-/// @pre the shape is a MeshShape or a MeshSheetShape.
+/// Makes the mesh of a MeshFile or MeshSheet from its file's mesh, which was imported with the
+/// scale of the shape.
+/// @pre the shape is a MeshFile or a MeshSheet.
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, const ImportedMesh& imported,
                           double scale);
 

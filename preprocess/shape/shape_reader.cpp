@@ -57,20 +57,20 @@ void refuseKey(const ShapeSource& from, const std::string& key, const std::strin
 
 Geometry readBox(const ShapeSource& from) {
   if (requireOneOf(from, {"half_sizes", "size"}) == "size") {
-    return BoxShape{vectorOf<3>(from.shape["size"]) / 2};
+    return Box{vectorOf<3>(from.shape["size"]) / 2};
   }
-  return BoxShape{vectorOf<3>(from.shape["half_sizes"])};
+  return Box{vectorOf<3>(from.shape["half_sizes"])};
 }
 
 Geometry readSheet(const ShapeSource& from) {
   const std::string key = requireOneOf(from, {"size", "semi_axes", "file"});
   if (key == "file") {
     refuseKey(from, "faces", "has no meaning with \"file\": the mesh has its own");
-    return MeshSheetShape{fileOf(from), scaleOf(from)};
+    return MeshSheet{fileOf(from), scaleOf(from)};
   }
   refuseKey(from, "scale", "has no meaning without \"file\"");
-  if (key == "size") return RectangularSheetShape{vectorOf<2>(from.shape["size"])};
-  return EllipticSheetShape{vectorOf<2>(from.shape["semi_axes"])};
+  if (key == "size") return RectangleSheet{vectorOf<2>(from.shape["size"])};
+  return EllipseSheet{vectorOf<2>(from.shape["semi_axes"])};
 }
 
 // One of the round shapes with a radius and a height.
@@ -81,19 +81,17 @@ Geometry readRound(const ShapeSource& from) {
 
 Geometry readGeometry(const ShapeSource& from) {
   static const std::map<std::string, std::function<Geometry(const ShapeSource&)>> readers{
-      {"sphere",
-       [](const auto& s) { return SphereShape{s.shape["radius"].template get<double>()}; }},
+      {"sphere", [](const auto& s) { return Sphere{s.shape["radius"].template get<double>()}; }},
       {"box", readBox},
-      {"ellipsoid",
-       [](const auto& s) { return EllipsoidShape{vectorOf<3>(s.shape["semi_axes"])}; }},
-      {"cylinder", readRound<CylinderShape>},
-      {"capsule", readRound<CapsuleShape>},
-      {"cone", readRound<ConeShape>},
+      {"ellipsoid", [](const auto& s) { return Ellipsoid{vectorOf<3>(s.shape["semi_axes"])}; }},
+      {"cylinder", readRound<Cylinder>},
+      {"capsule", readRound<Capsule>},
+      {"cone", readRound<Cone>},
       {"mesh",
        [](const auto& s) {
-         return MeshShape{fileOf(s), scaleOf(s)};
+         return MeshFile{fileOf(s), scaleOf(s)};
        }},
-      {"fluid_body", [](const auto& s) { return FluidBodyShape{fileOf(s)}; }},
+      {"fluid_body", [](const auto& s) { return FluidBodyFile{fileOf(s)}; }},
       {"sheet", readSheet}};
   return readers.at(from.shape["type"].get<std::string>())(from);
 }

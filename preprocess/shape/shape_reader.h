@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "preprocess/shape/shape_description.h"
+#include "preprocess/shape/shapes.h"
 
 namespace ambient {
 

@@ -2,21 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <sstream>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/parallel_for.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
-#include "bullet_ambient/fluid_body/packed_hull.h"
-#include "bullet_ambient/fluid_body/packed_parts.h"
-#include "bullet_ambient/force/wetted_parts.h"
-#include "bullet_ambient/spatial/elementary.h"
+#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_parts.h"
+#include "bullet_ambient/force/surface/wetted_parts.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/mesh/mesh_coarsening.h"
-#include "preprocess/potential_flow/flat_merging.h"
-#include "preprocess/potential_flow/image_flow.h"
-#include "preprocess/potential_flow/parallel_for.h"
-#include "preprocess/potential_flow/potential_flow.h"
-#include "preprocess/potential_flow/shape_symmetry.h"
+#include "preprocess/mesh/wrap/mesh_coarsening.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
+#include "preprocess/potential_flow/surface/flat_merging.h"
+#include "preprocess/potential_flow/surface/shape_symmetry.h"
+#include "preprocess/waterline/image_flow.h"
 
 namespace ambient {
 namespace {
@@ -37,7 +41,7 @@ TriangleMesh surfaceOf(const FluidBody& body) {
   return mesh;
 }
 
-/// What panels are cut from.
+/// Makes the coarse surface that panels are cut from.
 TriangleMesh coarseSurfaceOf(const FluidBody& body, int panels) {
   const TriangleMesh merged = mergeFlatTriangles(surfaceOf(body), false, kMostDensePanels);
   return merged.triangleCount() > panels ? coarsened(merged, {0, panels, 0}) : merged;
@@ -55,7 +59,7 @@ std::pair<double, double> extentOf(const TriangleMesh& mesh, const Vector3& dire
   return {low, high};
 }
 
-/// Of a mesh on so many panels, over the body's added mass: the roots of the ratios of the
+/// Compares a mesh of so many panels with the body's added mass: the roots of the ratios of the
 /// diagonals, for what the panels are too coarse for. 1 where there is no added mass.
 Vector6 panelFactors(const FluidBody& body, const TriangleMesh& mesh, int panels) {
   constexpr double kFar = 100, kNothing = 1e-6;  // sizes; of the largest entry of its kind
@@ -113,7 +117,7 @@ struct Origin {
   Matrix3d turn = Matrix3d::Identity();
 };
 
-/// Those that map a direction to itself.
+/// Returns the symmetries that map a direction to itself.
 std::vector<Matrix3d> keeping(const Vector3& direction, std::vector<Matrix3d> symmetries) {
   constexpr double kOff = 1e-6;
   const auto moves = [&](const Matrix3d& turn) {
@@ -132,7 +136,7 @@ int nodeAt(const OctahedralLattice& lattice, const Vector3& direction) {
   return -1;
 }
 
-/// Of every node: itself, or another one that symmetries of the body map to it.
+/// Finds the origin of every node: itself, or one that symmetries of the body map to it.
 std::vector<Origin> findOrigins(const OctahedralLattice& lattice,
                                 const std::vector<Matrix3d>& symmetries) {
   std::vector<Origin> origins(static_cast<std::size_t>(lattice.size()));
@@ -155,6 +159,40 @@ std::vector<Origin> findOrigins(const OctahedralLattice& lattice,
   return origins;
 }
 
+/// Counts solved immersions from any thread and tells of each attitude that it completes.
+class AttitudeCount {
+ public:
+  AttitudeCount(const std::vector<Origin>& origins, const WaterlineSettings& settings)
+      : progress_(settings.progress) {
+    for (std::size_t node = 0; node < origins.size(); ++node)
+      attitudes_ += origins[node].node == static_cast<int>(node) ? 1 : 0;
+  }
+
+  void addImmersion() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++immersions_;
+    const auto count = static_cast<int>(kImmersions.size());
+    if (progress_ && immersions_ % count == 0) progress_(immersions_ / count, attitudes_);
+  }
+
+ private:
+  const std::function<void(int, int)>& progress_;
+  int attitudes_ = 0;
+  std::mutex mutex_;  // guards what follows
+  int immersions_ = 0;
+};
+
+[[noreturn]] void refuse(const FluidBody& body, const Vector3& normal, double immersion) {
+  std::ostringstream text;
+  text << "fluid body '" << body.name
+       << "': the flow at the surface of the water has no solution on "
+       << "this mesh where the body is " << immersion
+       << " of its height deep and the surface looks "
+       << "along (" << normal.x() << ", " << normal.y() << ", " << normal.z()
+       << "); build it without a waterline table, or from a mesh without slivers";
+  throw std::runtime_error(text.str());
+}
+
 }  // namespace
 
 Matrix6 solveImageFlow(const TriangleMesh& body, const SurfacePlane& plane, int panels) {
@@ -173,8 +211,10 @@ WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings
   const std::vector<Matrix3d> symmetries = findSymmetries(surfaceOf(body), Vector3::Zero());
   const std::vector<Origin> origins = findOrigins(lattice, symmetries);
   const std::size_t count = kImmersions.size();
+  AttitudeCount solved(origins, settings);
 
   WaterlineTable table{settings.subdivisions, kImmersions, {}};
+  AMBIENT_ASSERT(origins.size() == static_cast<std::size_t>(lattice.size()));
   table.corrections.resize(origins.size() * count);
   const auto correctionOf = [&](std::ptrdiff_t i) -> Matrix6& {
     return table.corrections[static_cast<std::size_t>(i)];
@@ -185,8 +225,12 @@ WaterlineTable makeWaterlineTable(const FluidBody& body, const WaterlineSettings
     const Vector3 normal = lattice.direction(node);
     correctionOf(i) =
         symmetrised(solver.correction(normal, kImmersions[i % count]), keeping(normal, symmetries));
+    solved.addImmersion();
   };
   parallelFor(threadCount(settings.threads), table.corrections.size(), solve);
+  for (std::size_t i = 0; i < table.corrections.size(); ++i)
+    if (origins[i / count].node == static_cast<int>(i / count) && !correctionOf(i).allFinite())
+      refuse(body, lattice.direction(static_cast<int>(i / count)), kImmersions[i % count]);
   for (std::size_t node = 0; node < origins.size(); ++node) {
     const Origin& origin = origins[node];
     if (origin.node == static_cast<int>(node)) continue;

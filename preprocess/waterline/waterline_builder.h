@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
+
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/force/surface_plane.h"
+#include "bullet_ambient/force/medium/surface_plane.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
 namespace ambient {
@@ -12,9 +14,12 @@ struct WaterlineSettings {
   int subdivisions = kDefaultWaterlineSubdivisions;  ///< of the lattice of attitudes
   int panels = 600;  ///< of each solution; the mesh is coarsened where it has more triangles
   int threads = 0;   ///< 0: all cores; the result does not depend on it, bit for bit
+  /// Hears how many of the attitudes to be solved are done, after each; one call at a time, from
+  /// the threads that solve. Null: nobody hears.
+  std::function<void(int done, int attitudes)> progress = nullptr;
 };
 
-/// What the parts of a body's added mass lack at the surface of still water, in attitudes all
+/// Computes what the parts of the added mass lack at the surface of still water, in attitudes all
 /// around and at ten immersions; docs/theory.md eq. (61a). Attitudes that symmetries of the body
 /// map to each other are solved once. Cost: 0.1 to 0.2 s of one core for each attitude and
 /// immersion, by default 66 times 10 of them, 15 times 10 of a body with three planes of symmetry.

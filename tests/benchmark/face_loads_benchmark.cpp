@@ -2,18 +2,18 @@
 
 #include <memory>
 
-#include "bullet_ambient/fluid_body/packed_faces.h"
-#include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/force/face_sums.h"
-#include "bullet_ambient/force/load_tables.h"
-#include "bullet_ambient/force/single_sums.h"
-#include "bullet_ambient/force/skin_friction.h"
-#include "bullet_ambient/force/sphere_loads.h"
-#include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/force/kernels/face_sums.h"
+#include "bullet_ambient/force/kernels/single_sums.h"
+#include "bullet_ambient/force/law/skin_friction.h"
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "bullet_ambient/force/loads/load_tables.h"
+#include "bullet_ambient/force/loads/sphere_loads.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
-#include "tests/support/geodesic.h"
+#include "tests/support/bodies/geodesic.h"
 
 namespace ambient {
 namespace {
@@ -50,7 +50,7 @@ void sumFacesKernel(benchmark::State& state, InstructionSet set, bool friction, 
   reportPerFace(state, faces.size());
 }
 
-/// The kernel in single precision; arguments as above.
+/// The kernel in single precision; arguments of sumFacesKernel().
 void sumBlocksKernel(benchmark::State& state, InstructionSet set, bool friction, double angle) {
   const SumBlocks sum_blocks = kSumBlocks.of(set);
   if (!sum_blocks) {
@@ -106,7 +106,8 @@ BENCHMARK_CAPTURE(faceLoads, friction, true)->DenseRange(0, 5);
 void singleLoads(benchmark::State& state, bool friction, PressureLaw law) {
   FaceTable faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
   faces.sharpness.assign(faces.size(), 0.5);
-  const PackedFaces packed(faces, law == PressureLaw::kForm);
+  const PackedFaces packed =
+      law == PressureLaw::kForm ? PackedFaces(faces, FormShape{}) : PackedFaces(faces);
   const LoadSettings settings{1.204, 1.82e-5, 0, friction, law};
   const double length = test::referenceLength(faces);
   Twist twist = someTwist();
@@ -121,7 +122,7 @@ BENCHMARK_CAPTURE(singleLoads, friction, true, PressureLaw::kPublished)->DenseRa
 BENCHMARK_CAPTURE(singleLoads, form_pressure, false, PressureLaw::kForm)->DenseRange(0, 5);
 BENCHMARK_CAPTURE(singleLoads, form_friction, true, PressureLaw::kForm)->DenseRange(0, 5);
 
-/// A box as a world has it: 1200 triangles, by the form law 96 points.
+/// A box of 1200 triangles, 96 points by the form law: typical of a world.
 void boxLoads(benchmark::State& state, bool friction, PressureLaw law) {
   BuildSettings settings;
   settings.added_mass = Matrix6::Identity();

@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_files.h"

@@ -1,5 +1,5 @@
 // Time, memory and error of the hierarchical solver against the number of panels: a table in
-// Markdown. Every line is a process of its own, so that its peak of memory is its own.
+// Markdown. Each line is a process of its own, to measure its own peak of memory.
 //   large_mesh_study [--threads N] [--most-dense FACES] [SHAPE FACES ...]
 
 #include <sys/resource.h>
@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
 
 namespace ambient {
 namespace {
@@ -23,7 +23,7 @@ struct Study {
   std::string shape = "sphere";
   std::vector<int> faces = {4000, 20000, 40000, 100000, 300000};
   int threads = 2;
-  int most_dense = 8000;  ///< faces up to which the dense solver is run for comparison
+  int most_dense = 8000;  ///< faces up to which the dense solver runs for comparison
 };
 
 TriangleMesh makeMesh(const std::string& shape, int faces) {
@@ -36,7 +36,7 @@ TriangleMesh makeMesh(const std::string& shape, int faces) {
   std::exit(2);
 }
 
-/// Largest difference over the largest entry of the block, for a block on the diagonal.
+/// Largest difference over the largest entry, for one diagonal block.
 double blockError(const Matrix6& a, const Matrix6& b, int first) {
   const auto difference = (a - b).block<3, 3>(first, first);
   return difference.cwiseAbs().maxCoeff() / b.block<3, 3>(first, first).cwiseAbs().maxCoeff();
@@ -51,7 +51,7 @@ double processorSeconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// Solves and prints all but the end of a line; of the dense solver for comparison only.
+/// Solves and prints the first columns of a line; for the dense solver its time and error only.
 void runCase(const Study& study, int faces) {
   const TriangleMesh mesh = makeMesh(study.shape, faces);
   PotentialFlowSettings settings;

@@ -1,5 +1,5 @@
-// What a step of a robot costs in a fluid, over that of stock Bullet for the same robot: least of
-// many blocks of steps, taken in turns. docs/robots.md has the table.
+// Cost of a robot's step in a fluid over that of stock Bullet: minimum of many blocks of steps,
+// taken in turns. docs/robots.md has the table.
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
-#include "tests/support/ellipsoid_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
 namespace ambient::test {
 namespace {

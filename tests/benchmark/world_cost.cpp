@@ -1,5 +1,5 @@
-// Cost of a step against stock Bullet, in one run: the two worlds are stepped in turns of a few
-// steps each, and the ratio of each pair of turns is taken, so that other work on the machine hits
+// Cost of a step over that of stock Bullet, in one run. The worlds take turns of a few
+// steps each; each pair of turns gives a ratio. So other load of the machine hits
 // both.
 
 #include <algorithm>
@@ -10,19 +10,20 @@
 #include <functional>
 #include <list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/bullet_ambient/bullet/pile/pile_scene.h"
-#include "tests/support/ellipsoid_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
 namespace ambient::test {
 namespace {
 
 using Step = std::function<void()>;
 
-// Of processor time: waiting for a core is nobody's cost.
+// Processor time of `count` steps [s]: excludes waiting for a core.
 double secondsFor(const Step& step, int count) {
   const std::clock_t begin = std::clock();
   for (int i = 0; i < count; ++i) step();
@@ -32,7 +33,7 @@ double secondsFor(const Step& step, int count) {
 struct Cost {
   double ratio;         // median
   double low, high;     // quartiles
-  double stock_micros;  // per step, smallest
+  double stock_micros;  // minimum per step
 };
 
 Cost compare(const Step& stock, const Step& ambient, int turns, int steps_per_turn) {
@@ -49,7 +50,7 @@ Cost compare(const Step& stock, const Step& ambient, int turns, int steps_per_tu
           fastest * 1e6};
 }
 
-// Turns, and which scenes: those whose name contains the text.
+// Number of turns, and a filter: scenes with a name that contains the text.
 struct Plan {
   std::string filter;
   int turns = 60;
@@ -69,11 +70,7 @@ void comparePiles(double part, const Plan& plan) {
   const std::string scene =
       "pile of 512, " + std::to_string(static_cast<int>(100 * part)) + " % in fluid";
   if (!plan.has(scene)) return;
-  btSequentialImpulseConstraintSolver stock_solver;
-  Pile stock(stock_solver, nullptr, 0, {});
-  AmbientRegistry registry;
-  AmbientSolver<> ambient_solver(registry);
-  Pile ambient(ambient_solver, &registry, part, {});
+  Pile stock, ambient(part, {});
   for (Pile* pile : {&stock, &ambient}) {
     pile->keepAwake();
     for (int i = 0; i < 480; ++i) pile->step(kStep);
@@ -81,17 +78,13 @@ void comparePiles(double part, const Plan& plan) {
   print(scene, compare([&] { stock.step(kStep); }, [&] { ambient.step(kStep); }, plan.turns, 4));
 }
 
-// Bodies that meet nothing.
+// Bodies in flight without contacts.
 class Flock {
  public:
-  Flock(btConstraintSolver& solver, AmbientRegistry* registry, const FluidBody& shape,
-        const FlowSettings& flow, int count)
-      : world_(&dispatcher_, &broadphase_, &solver, &configuration_) {
+  /// `def`: null, without fluid.
+  Flock(const AttachDef* def, int count) {
     world_.setGravity({0, 0, btScalar(-9.81)});
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(shape);
-    def.medium = air();
-    def.flow = flow;
+    if (def) fluid_.emplace(world_);
     for (int i = 0; i < count; ++i) {
       bodies_.push_back(std::make_unique<btRigidBody>(
           btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &sphere_, {0.1f, 0.2f, 0.3f})));
@@ -101,31 +94,29 @@ class Flock {
       body.setAngularVelocity({2, btScalar(i % 7), -1});
       body.setActivationState(DISABLE_DEACTIVATION);
       world_.addRigidBody(&body);
-      if (registry) registry->attach(body, def);
+      if (def) fluid_->add(body, *def);
     }
-    if (!registry) return;
-    action_ = std::make_unique<AmbientAction>(*registry);
-    world_.addAction(action_.get());
   }
   ~Flock() {
-    if (action_) world_.removeAction(action_.get());
     for (const auto& body : bodies_) world_.removeRigidBody(body.get());
   }
+  Fluid& fluid() { return *fluid_; }
   void step() { world_.stepSimulation(btScalar(kStep), 0, btScalar(kStep)); }
 
  private:
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
-  btDiscreteDynamicsWorld world_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   btSphereShape sphere_{btScalar(0.3)};
-  std::unique_ptr<AmbientAction> action_;
+  std::optional<Fluid> fluid_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
 struct FlockPlan {
   FlowSettings flow;
-  int elsewhere = 0;  ///< bodies that are attached and not in the world
+  int elsewhere = 0;  ///< attached bodies outside of the world
 };
 
 void compareFlocks(const std::string& name, const FluidBody& shape, const Plan& plan,
@@ -133,22 +124,19 @@ void compareFlocks(const std::string& name, const FluidBody& shape, const Plan& 
   const std::string scene = "100 bodies in flight, " + name;
   if (!plan.has(scene)) return;
   constexpr int kCount = 100;
-  btSequentialImpulseConstraintSolver stock_solver;
-  Flock stock(stock_solver, nullptr, shape, flock.flow, kCount);
-  AmbientRegistry registry;
-  AmbientSolver<> ambient_solver(registry);
   AttachDef def;
   def.fluid_body = std::make_shared<FluidBody>(shape);
   def.medium = air();
+  def.flow = flock.flow;
+  Flock stock(nullptr, kCount), ambient(&def, kCount);
   btSphereShape sphere(btScalar(0.3));
   std::list<btRigidBody> elsewhere;
   for (int i = 0; i < flock.elsewhere; ++i)
-    registry.attach(elsewhere.emplace_back(1, nullptr, &sphere, btVector3(1, 1, 1)), def);
-  Flock ambient(ambient_solver, &registry, shape, flock.flow, kCount);
+    ambient.fluid().add(elsewhere.emplace_back(1, nullptr, &sphere, btVector3(1, 1, 1)), def);
   print(scene, compare([&] { stock.step(); }, [&] { ambient.step(); }, plan.turns, 20));
 }
 
-// Triangles between meridians and circles of latitude: 2 meridians (bands - 1) faces.
+// Ellipsoid of triangles between meridians and latitudes: 2 meridians (bands - 1) faces.
 FluidBody latticeEllipsoid(const Vector3& semi_axes, int meridians, int bands) {
   const double pi = std::acos(-1.0);
   Triangulation mesh;
@@ -187,7 +175,7 @@ void compareReduced(FluidBody shape, const Plan& plan) {
   shape.levels = buildLoadLevels(shape, {48, 96, 144, 200, 400});
   for (const double error : {0.01, 0.02, 0.03}) {
     flow.maximum_load_error = error;
-    int clusters = 0;  // as makeSurfaceLoads() chooses
+    int clusters = 0;  // 0: chosen by makeSurfaceLoads()
     for (const LoadLevel& level : shape.levels)
       if (clusters == 0 && level.error.p99 <= error &&
           level.cost < static_cast<double>(shape.faces.size()))

@@ -12,16 +12,16 @@ constexpr btScalar kGravity = btScalar(9.81);
 constexpr int kSteps = 120;
 constexpr btScalar kTimeStep = btScalar(1) / 240;
 
-/// Height [m] that the ball has risen by after half a second.
+/// Returns the rise of the ball [m] after half a second.
 btScalar riseInWater(const char* file) {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher(&configuration);
   btDbvtBroadphase broadphase;
 
-  ambient::Fluid<> fluid;
-  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &fluid.solver(), &configuration);
-  fluid.attachTo(world);
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
   world.setGravity({0, 0, -kGravity});
+  ambient::Fluid fluid(world);
 
   const ambient::AttachDef def{ambient::loadFluidBody(file), ambient::water()};
   const btScalar mass = btScalar(0.5 * def.medium.density * def.fluid_body->volume);
@@ -48,8 +48,8 @@ int main(int argc, char** argv) try {
   const btScalar rise = riseInWater(argv[1]);
   std::printf("The ball rose by %.4f m, Bullet's numbers have %zu bytes.\n", double(rise),
               sizeof(btScalar));
-  // Buoyancy lifts it with g / 2 at first, (m_f - m) / (m + m_f / 2) with the added mass; drag
-  // takes from that. Without the added mass the bound would be g, without the fluid it would sink.
+  // Initial acceleration is g / 2, (m_f - m) / (m + m_f / 2) with the added mass; drag lowers it.
+  // Without added mass the bound would be g; without fluid the ball would sink.
   const btScalar time = kSteps * kTimeStep;
   return rise > 0 && rise < kGravity / 4 * time * time ? 0 : 1;
 } catch (const std::exception& error) {

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/demos/scene/scene_text.h"
 #include "tests/support/run_program.h"
@@ -15,7 +18,7 @@ ProgramResult demo(const Arguments& arguments) {
   return runProgram(AMBIENT_DEMO_PROGRAM, arguments);
 }
 
-/// A run that must fail with one line and leave nothing.
+/// Expects a run to fail with one line and to leave no files.
 void expectRefusal(const nlohmann::json& scene, const Arguments& more, const std::string& message) {
   const TemporaryFolder input, output;
   Arguments arguments{writeScene(input, scene.dump()), "--out", output / "a/b"};
@@ -62,6 +65,49 @@ TEST(AmbientDemo, WritesTrajectorySummaryAndFluidBodies) {
   EXPECT_TRUE(output.empty());
 }
 
+/// Cells of a line of a table.
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+TEST(AmbientDemo, LogsWhatTheFluidDoes) {
+  nlohmann::json scene = smallBall();
+  scene["water"] = {{"level", 100}};
+  const TemporaryFolder input, output, plain;
+  const auto file = writeScene(input, scene.dump());
+  const ProgramResult result =
+      demo({file, "--quiet", "--out", output.path(), "--log", "wrench,wet"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  std::istringstream stream(readText(output / "trajectory.csv"));
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(stream, line);) rows.push_back(cellsOf(line));
+  const auto valueOf = [&](const std::string& name) {
+    const auto column = std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin();
+    return std::stod(rows.back().at(static_cast<std::size_t>(column)));
+  };
+  for (const auto& row : rows) EXPECT_EQ(row.size(), 15u + 7 * 6 + 8);
+  EXPECT_NEAR(valueOf("wet_share"), 1, 1e-12);
+  EXPECT_NEAR(valueOf("buoyancy_fz"), 998 * 9.81 * valueOf("wet_volume"),
+              0.02 * valueOf("buoyancy_fz"));
+  EXPECT_EQ(valueOf("region"), 0);
+  demo({file, "--quiet", "--out", plain.path()});
+  std::istringstream without(readText(plain / "trajectory.csv"));
+  for (const auto& row : rows) {
+    std::string line;
+    std::getline(without, line);
+    EXPECT_EQ(cellsOf(line), std::vector<std::string>(row.begin(), row.begin() + 15));
+  }
+}
+
+TEST(AmbientDemo, RefusesToLogWhatThereIsNot) {
+  const ProgramResult result = demo({"sphere_fall", "--log", "wrench,colour"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_EQ(result.errors, "ambient_demo: --log: \"colour\" is none of wrench, wet\n");
+}
+
 TEST(AmbientDemo, TheSameSceneGivesTheSameBytes) {
   const TemporaryFolder input, first, second;
   const auto file = writeScene(input, smallBall().dump());
@@ -77,7 +123,8 @@ TEST(AmbientDemo, RefusesBadScenes) {
   scene["bodies"][0]["colour"] = "red";
   expectRefusal(scene, {}, "ball.json: unknown key \"colour\" in bodies[0], which has ");
   expectRefusal(smallBall(), {"--set", "medium.density=-1"}, "medium.density is -1");
-  expectRefusal(smallBall(), {"--set", "bodies.0.weight=1"}, "a scene has no such key");
+  expectRefusal(smallBall(), {"--set", "bodies.0.weight=1"},
+                "unknown key \"weight\" in bodies[0], which has angular_velocity, ");
 }
 
 TEST(AmbientDemo, RefusesAMissingMesh) {
@@ -92,7 +139,7 @@ TEST(AmbientDemo, StopsWithoutATraceWhenAStateIsNotFinite) {
 
 TEST(AmbientDemo, LeavesNothingWhenItIsInterrupted) {
   nlohmann::json scene = smallBall();
-  scene["model"] = "vacuum";  // nothing is prepared: the run begins at once
+  scene["model"] = "vacuum";  // nothing to solve: the run starts at once
   scene["duration"] = 1e7;
   const TemporaryFolder input, output;
   const ProgramResult result = interruptProgram(
@@ -104,7 +151,7 @@ TEST(AmbientDemo, LeavesNothingWhenItIsInterrupted) {
 
 TEST(AmbientDemo, ASecondSignalEndsItWithinAStepAndLeavesNothing) {
   nlohmann::json scene = smallBall();
-  // Prepared at once, for its added mass is known; then one step of a million substeps.
+  // Known added mass needs no solver; the run then is one step of a million substeps.
   scene["bodies"][0]["shape"] = {
       {"type", "ellipsoid"}, {"semi_axes", {1, 0.6, 0.3}}, {"faces", 20000}};
   scene["integrator"] = {{"method", "symplectic_euler"}, {"max_substeps", 1000000}};
@@ -169,7 +216,7 @@ TEST(AmbientDemo, ARunOfCasesThatIsInterruptedSaysSo) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.errors.find("interrupted"), std::string::npos) << result.errors;
   for (const auto& entry : std::filesystem::directory_iterator(out))
-    EXPECT_EQ(entry.path().filename(), "fluid_bodies");  // what was solved is kept
+    EXPECT_EQ(entry.path().filename(), "fluid_bodies");  // solved flows remain
 }
 
 TEST(AmbientDemo, RefusesALinearDragThatIsNotPositive) {
@@ -184,18 +231,23 @@ TEST(AmbientDemo, RefusesAnUnknownScene) {
 }
 
 TEST(AmbientDemo, BadUsageExitsWithTwo) {
-  EXPECT_EQ(demo({}).exit_code, 2);
-  EXPECT_EQ(demo({"plate_8cm", "--no-such-option"}).exit_code, 2);
-  EXPECT_EQ(demo({"plate_8cm", "--set", "duration"}).exit_code, 2);
-  EXPECT_EQ(demo({"plate_8cm", "plate_9cm"}).exit_code, 2);
-  EXPECT_EQ(demo({"--cases", "cases.jsonl"}).exit_code, 2);
-  EXPECT_EQ(demo({"--cases", "cases.jsonl", "--out", "out", "--shard", "2/2"}).exit_code, 2);
-  EXPECT_EQ(demo({"--cases", "cases.jsonl", "--out", "out", "plate_8cm"}).exit_code, 2);
-  EXPECT_EQ(demo({"plate_8cm", "--shard", "0/2"}).exit_code, 2);
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {},
+           {"plate_8cm", "--no-such-option"},
+           {"plate_8cm", "--set", "duration"},
+           {"plate_8cm", "plate_9cm"},
+           {"--cases", "cases.jsonl"},
+           {"--cases", "cases.jsonl", "--out", "out", "--shard", "2/2"},
+           {"--cases", "cases.jsonl", "--out", "out", "plate_8cm"},
+           {"plate_8cm", "--shard", "0/2"}}) {
+    const ProgramResult result = demo(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.errors.find("ambient_demo: "), 0u) << result.errors;
+  }
   EXPECT_EQ(demo({"--help"}).exit_code, 0);
 }
 
-/// Names of the files of the one case of a run.
+/// Returns the file names of a run with one case.
 std::vector<std::string> filesOfCase(const Arguments& more) {
   const TemporaryFolder folder;
   nlohmann::json scene = smallBall();

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bullet_ambient/bullet/ambient_impulse.h"
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/world/ambient_impulse.h"
 #include "tests/fuzz/fuzz_scene.h"
 
 namespace ambient::test {
@@ -18,7 +18,7 @@ Medium FuzzScene::anyMedium() {
   return medium;
 }
 
-// By the default integrator: Runge-Kutta steps are not stable at any speed and density.
+// Default integrator only: Runge-Kutta steps are unstable at some speeds and densities.
 AttachDef FuzzScene::anyDef() {
   AttachDef def;
   def.fluid_body =
@@ -52,17 +52,17 @@ void FuzzScene::addBody() {
   world_.addRigidBody(fuzz.body.get());
   bodies_.push_back(std::move(fuzz));
   if (chance(0.7)) {
-    registry_.attach(world_, *bodies_.back().body, anyDef());
+    fluid_.add(*bodies_.back().body, anyDef());
     bodies_.back().is_attached = true;
   }
 }
 
-// Half of the attached ones without a word to the registry.
+// Half of the attached ones without a word to the fluid.
 void FuzzScene::destroyBody() {
   FuzzBody* fuzz = anyBody();
   if (!fuzz) return;
   removeJointsOf(*fuzz->body);
-  if (chance(0.5)) registry_.detach(*fuzz->body);
+  if (chance(0.5) && fuzz->is_attached) fluid_.find(*fuzz->body)->remove();
   if (fuzz->is_in_world) world_.removeRigidBody(fuzz->body.get());
   std::swap(*fuzz, bodies_.back());
   bodies_.pop_back();
@@ -83,7 +83,7 @@ void FuzzScene::moveBetweenWorldAndShelf() {
 void FuzzScene::attach() {
   FuzzBody* fuzz = anyBody();
   if (!fuzz || fuzz->is_attached || fuzz->body->isStaticOrKinematicObject()) return;
-  registry_.attach(world_, *fuzz->body, anyDef());
+  fluid_.add(*fuzz->body, anyDef());
   fuzz->is_attached = true;
 }
 
@@ -105,7 +105,7 @@ void FuzzScene::attachWrongly() {
       def.medium.velocity.x() = std::nan("");
   }
   try {
-    registry_.attach(world_, *fuzz->body, def);
+    fluid_.add(*fuzz->body, def);
   } catch (const std::invalid_argument&) {
     return;
   }
@@ -114,8 +114,8 @@ void FuzzScene::attachWrongly() {
 
 void FuzzScene::detach() {
   FuzzBody* fuzz = anyBody();
-  if (!fuzz) return;
-  if (registry_.detach(*fuzz->body) != fuzz->is_attached && fuzz->is_attached) {
+  if (!fuzz || !fuzz->is_attached) return;
+  if (!fluid_.find(*fuzz->body)->remove()) {
     throw std::logic_error("an attached body could not be detached");
   }
   fuzz->is_attached = false;
@@ -123,7 +123,7 @@ void FuzzScene::detach() {
 
 void FuzzScene::changeMedium() {
   FuzzBody* fuzz = anyBody();
-  if (fuzz && fuzz->is_attached) registry_.setMedium(*fuzz->body, anyMedium());
+  if (fuzz && fuzz->is_attached) fluid_.find(*fuzz->body)->setMedium(anyMedium());
 }
 
 void FuzzScene::changeShape() {
@@ -137,10 +137,10 @@ void FuzzScene::changeShape() {
     shape = larger;
     if (fluid_bodies_.size() < 12) fluid_bodies_.push_back(larger);
   }
-  registry_.setFluidBody(*fuzz->body, shape);
+  fluid_.find(*fuzz->body)->setFluidBody(shape);
 }
 
-// To and from mass 0, too, which Bullet wants to happen outside of the world.
+// Sets a random mass, including 0. Bullet requires a change from or to 0 outside of the world.
 void FuzzScene::changeMass() {
   FuzzBody* fuzz = anyBody();
   if (!fuzz) return;
@@ -169,9 +169,9 @@ void FuzzScene::push() {
   const btVector3 impulse = strength * vector(1), place = vector(0.2);
   switch (below(5)) {
     case 0:
-      return applyAmbientImpulse(registry_, body, impulse, place);
+      return applyAmbientImpulse(fluid_, body, impulse, place);
     case 1:
-      return applyAmbientTorqueImpulse(registry_, body, btScalar(0.1) * impulse);
+      return applyAmbientTorqueImpulse(fluid_, body, btScalar(0.1) * impulse);
     case 2:
       return body.applyForce(10 * impulse, place);
     case 3:
@@ -181,16 +181,16 @@ void FuzzScene::push() {
   }
   const btVector3 n = impulse.normalized();
   // Bullet's own answer of a body with locked axes is not symmetric, and may be negative.
-  const bool is_in_fluid = fuzz->is_attached && registry_.medium(body).density > 0;
+  const bool is_in_fluid = fuzz->is_attached && fluid_.find(body)->medium().density > 0;
   if (is_in_fluid && strength > 0 &&
-      !(inverseEffectiveMass(registry_, body, place, n) > btScalar(-1e-3))) {
+      !(inverseEffectiveMass(fluid_, body, place, n) > btScalar(-1e-3))) {
     throw std::logic_error("an effective mass is negative");
   }
 }
 
-// Free or without rotation. A body that turns by much of a radian per step with some axes locked
-// gains energy, and one that moves along an axis when it is locked would have to stop at the next
-// contact by its rotation alone.
+// All axes free or no rotation. Fast spin (much of a radian per step) with some axes locked gains
+// energy. A linear axis locked while moving would leave a contact to stop this motion by rotation
+// alone.
 void FuzzScene::changeFactors() {
   FuzzBody* fuzz = anyBody();
   if (!fuzz) return;

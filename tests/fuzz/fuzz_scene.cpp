@@ -6,20 +6,20 @@
 #include <stdexcept>
 
 #include "tests/support/allocation_counter.h"
-#include "tests/support/ellipsoid_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
 namespace ambient::test {
 namespace {
 
-constexpr double kSpeedLimit = 1e5;            // [m/s], far above what the events give
-constexpr std::size_t kAllocationLimit = 500;  // per scene, whatever its length
+constexpr double kSpeedLimit = 1e5;            // [m/s], far above speeds from events
+constexpr std::size_t kAllocationLimit = 500;  // per scene of any length
 
 std::shared_ptr<const FluidBody> named(const char* name, FluidBody shape) {
   shape.name = name;
   return std::make_shared<FluidBody>(std::move(shape));
 }
 
-// A disc without volume: all of its inertia in the fluid is added mass.
+// A disc without volume: added mass is all of its fluid inertia.
 FluidBody sheet() {
   FluidBody shape = meshedEllipsoid(Vector3(0.4, 0.4, 0.02), 1);
   shape.volume = 0;
@@ -28,8 +28,8 @@ FluidBody sheet() {
 
 std::size_t g_bullet_allocations = 0;
 
-// In place of Bullet's malloc and free, which take what this gives: Bullet's step allocates, for
-// pairs, contacts and their order.
+// Replaces Bullet's malloc and free by counting ones. Bullet's own steps allocate: for pairs,
+// contacts and sorting.
 void countBulletsAllocations() {
   btAlignedAllocSetCustom(
       [](std::size_t bytes) {
@@ -64,8 +64,7 @@ FuzzScene::FuzzScene(unsigned seed) : arbitrary_(seed) {
   world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
   if (!is_repeatable_ && chance(0.5)) world_.getSolverInfo().m_solverMode |= SOLVER_RANDMIZE_ORDER;
   world_.setGravity(btVector3(0, 0, btScalar(-9.81)));
-  world_.addAction(&action_);
-  registry_.setReport([this](const std::string& sentence) {
+  fluid_.setReport([this](const std::string& sentence) {
     // True of what is thrown about here, and no fault.
     const bool is_too_fast = sentence.find("too long for the motion") != std::string::npos;
     const bool is_light = sentence.find("so that it rises") != std::string::npos;
@@ -126,15 +125,15 @@ void FuzzScene::check() {
   std::size_t attached = 0;
   for (const FuzzBody& fuzz : bodies_) {
     if (!isFinite(*fuzz.body)) throw std::logic_error("a body's state is not finite or too fast");
-    if (registry_.isAttached(*fuzz.body) != fuzz.is_attached) {
-      throw std::logic_error("the registry does not know who is attached");
+    if (fluid_.find(*fuzz.body).has_value() != fuzz.is_attached) {
+      throw std::logic_error("the fluid does not know who is in it");
     }
     attached += fuzz.is_attached;
-    if (fuzz.is_attached && !registry_.inertia(*fuzz.body).allFinite()) {
+    if (fuzz.is_attached && !fluid_.find(*fuzz.body)->inertia().allFinite()) {
       throw std::logic_error("an inertia is not finite");
     }
   }
-  if (registry_.size() < attached) throw std::logic_error("the registry has lost a body");
+  if (fluid_.size() < attached) throw std::logic_error("the fluid has lost a body");
   if (!complaint_.empty()) throw std::logic_error("reported: " + complaint_);
   if (allocations_ > kAllocationLimit) throw std::logic_error("steps go on allocating");
 }

@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/ambient_action.h"
-#include "bullet_ambient/bullet/ambient_solver.h"
-#include "bullet_ambient/bullet/conversions.h"
-#include "bullet_ambient/bullet/world_state.h"
-#include "tests/support/random_bodies.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/solver/fluid_solver.h"
+#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/bullet/world/fluid.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 
-/// A body of the scene, and what the registry must think of it.
+/// A body of the scene, and what the fluid must think of it.
 struct FuzzBody {
   std::unique_ptr<btRigidBody> body;
   btScalar mass = 1;
@@ -22,8 +22,8 @@ struct FuzzBody {
   bool is_attached = false;
 };
 
-/// A world to which anything happens that a program may do between two steps.
-/// All functions throw std::logic_error with a sentence when something is not as it must be.
+/// A world with random events, all of them allowed between two steps. All functions throw
+/// std::logic_error with one sentence if a check fails.
 class FuzzScene {
  public:
   explicit FuzzScene(unsigned seed);
@@ -31,7 +31,7 @@ class FuzzScene {
   FuzzScene(const FuzzScene&) = delete;
   FuzzScene& operator=(const FuzzScene&) = delete;
 
-  /// One random event, then some steps, each checked.
+  /// Plays one random event, then some steps, each checked.
   void play();
   long long steps() const { return steps_; }
 
@@ -78,29 +78,28 @@ class FuzzScene {
 
   Arbitrary arbitrary_;
   long long steps_ = 0;
-  std::size_t allocations_ = 0;  // within steps, besides Bullet's
+  std::size_t allocations_ = 0;  // within steps, without Bullet's
   std::string complaint_;
-  // What a saved state does not bring back to the bit is left out: bodies that sleep and rows that
-  // are shuffled, because both depend on boxes whose margins have a longer past, and shapes of
-  // several parts.
+  // True: restored worlds must repeat to the bit. Excludes what a saved state cannot restore:
+  // sleeping bodies and shuffled rows, as both depend on margins of older boxes, and compound
+  // shapes.
   bool is_repeatable_ = false;
 
   std::vector<std::shared_ptr<const FluidBody>> fluid_bodies_;
-  int scaled_count_ = 0;  ///< fluid bodies that were made by scaling; names are not used again
+  int scaled_count_ = 0;  ///< fluid bodies made by scaling; makes names unique
   btBoxShape floor_shape_{btVector3(30, 30, 1)};
   btBoxShape box_{btVector3(btScalar(0.4), btScalar(0.3), btScalar(0.2))};
   btSphereShape ball_{btScalar(0.3)};
   btCapsuleShape capsule_{btScalar(0.2), btScalar(0.5)};
   btCompoundShape pair_of_balls_;
 
-  AmbientRegistry registry_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
   // The only stock solver that is stable whatever is joined to what: conjugate gradients are not.
-  AmbientSolver<> solver_{registry_};
+  btSequentialImpulseConstraintSolver solver_;
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
-  AmbientAction action_{registry_};
+  Fluid fluid_{world_};
   std::unique_ptr<btRigidBody> floor_;
   std::vector<FuzzBody> bodies_;
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;

@@ -3,7 +3,7 @@
 namespace ambient::test {
 namespace {
 
-// Frames of a joint that fits the bodies as they are now.
+// Joint frames that fit the present poses of the bodies.
 struct JointFrames {
   btTransform in_a, in_b;
 
@@ -60,7 +60,7 @@ void FuzzScene::addJoint() {
   if (a->body->getInvMass() == 0 && other.getInvMass() == 0) return;
   const btVector3 distance = a->body->getCenterOfMassPosition() - other.getCenterOfMassPosition();
   if (distance.length() > btScalar(1.5))
-    return;  // long levers on light bodies whirl in stock Bullet
+    return;  // long levers on light bodies gain speed in stock Bullet
   joints_.push_back(makeJoint(below(6), *a->body, other));
   if (chance(0.2)) joints_.back()->setBreakingImpulseThreshold(5);
   world_.addConstraint(joints_.back().get(), chance(0.7));

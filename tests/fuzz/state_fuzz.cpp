@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "tests/fuzz/fuzz_scene.h"
 
 namespace ambient::test {
@@ -32,9 +32,9 @@ std::shared_ptr<const FluidBody> FuzzScene::findShape(const std::string& name) c
   return nullptr;
 }
 
-// Without what Bullet keeps of contacts and boxes.
+// Encodes the state without Bullet's pairs and contacts.
 std::string FuzzScene::motion() const {
-  WorldState state = saveState(world_, registry_);
+  WorldState state = fluid_.save();
   state.pairs.clear();
   state.contacts.clear();
   return encodeState(state);
@@ -42,14 +42,14 @@ std::string FuzzScene::motion() const {
 
 std::vector<int> FuzzScene::overlappingPairs() const {
   std::vector<int> objects;
-  for (const PairState& pair : saveState(world_, registry_).pairs)
+  for (const PairState& pair : fluid_.save().pairs)
     objects.insert(objects.end(), {pair.object_a, pair.object_b});
   return objects;
 }
 
-// The same steps again are the same bits.
+// Steps, restores, repeats the steps, and compares the bits.
 void FuzzScene::saveAndRestore() {
-  WorldState state = saveState(world_, registry_);
+  WorldState state = fluid_.save();
   if (chance(0.5)) {
     bool are_known = true;
     for (const BodyState& body : state.bodies) {
@@ -62,16 +62,16 @@ void FuzzScene::saveAndRestore() {
   step(count);
   const std::string expected = motion();
   const std::vector<int> pairs = overlappingPairs();
-  restoreState(state, world_, registry_);
+  fluid_.restore(state);
   step(count);
-  // Bullet drops pairs late, by boxes with margins that have a longer past: docs/bullet_step.md.
+  // Bullet drops pairs late, by margins of older boxes: docs/bullet_step.md.
   if (is_repeatable_ && motion() != expected && overlappingPairs() == pairs) {
     throw std::logic_error("a restored world went another way");
   }
 }
 
 void FuzzScene::damageBytes() {
-  std::string bytes = encodeState(saveState(world_, registry_));
+  std::string bytes = encodeState(fluid_.save());
   for (int i = below(4); i >= 0; --i) {
     bytes[static_cast<std::size_t>(below(static_cast<int>(bytes.size())))] ^=
         static_cast<char>(1 << below(8));
@@ -90,9 +90,9 @@ void FuzzScene::damageBytes() {
 void FuzzScene::draw() {
   LineCounter counter;
   world_.setDebugDrawer(&counter);
-  action_.drawing = FluidDrawing::all();
+  fluid_.drawing = FluidDrawing::all();
   world_.debugDrawWorld();
-  action_.drawing = {};
+  fluid_.drawing = {};
   world_.setDebugDrawer(nullptr);
 }
 

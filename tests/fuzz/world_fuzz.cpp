@@ -1,5 +1,5 @@
-// Random scenes until the time is over or something is not as it must be: world_fuzz [--seconds S]
-// [--seed N]
+// Plays random scenes until the time is over or a check fails: world_fuzz [--seconds S] [--seed
+// N]
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Bodies that meet a floor, each other and a multibody, under the settings of Bullet's solver.
+// Bodies in contact with a floor, each other and a multibody, by settings of Bullet's solver.
 
 #include "tests/golden/golden_world.h"
 
@@ -49,7 +49,7 @@ GoldenRecord tower(const Settings& settings) {
   return world.run(kContactSteps);
 }
 
-// A quick body that would pass through the floor, and one that turns by a radian per step.
+// Two quick bodies above the floor with continuous collision; one turns by a radian per step.
 GoldenRecord quick() {
   GoldenWorld world;
   for (int i = 0; i < 2; ++i) {
@@ -63,7 +63,7 @@ GoldenRecord quick() {
   return world.run(60);
 }
 
-// Bodies fall asleep on the floor, and another one wakes them.
+// Two bodies fall asleep on the floor; a third one wakes them.
 GoldenRecord sleep() {
   GoldenWorld world;
   for (int i = 0; i < 2; ++i) {
@@ -80,7 +80,7 @@ GoldenRecord sleep() {
   });
 }
 
-// Contacts that only push along locked axes, or nearly so.
+// Contacts whose normals are locked: a body that moves in the plane, and one on a rail.
 void addLocked(GoldenWorld& world) {
   GoldenBody lying = falling(world, 0);
   lying.position = {1.5, 0, 0.15};

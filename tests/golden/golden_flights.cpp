@@ -1,17 +1,17 @@
-// Bodies that touch nothing: loads, integrators, what acts on a body from outside.
+// Bodies without contacts: loads, integrators, forces from outside.
 
-#include "bullet_ambient/bullet/ambient_impulse.h"
-#include "bullet_ambient/force/surface_loads.h"
+#include "bullet_ambient/bullet/world/ambient_impulse.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/golden/golden_world.h"
-#include "tests/support/ellipsoid_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
 namespace ambient::test {
 namespace {
 
 constexpr int kFlightSteps = 120;
 
-// Drag and a torque that follow no law of the library.
+// Quadratic drag and a torque that the library's laws do not contain.
 class QuadraticDrag : public SurfaceLoads {
  public:
   Wrench load(const Twist& twist) const noexcept override {
@@ -36,6 +36,7 @@ AttachDef sphereInWater() {
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(sphere);
   attach.medium = water();
+  attach.flow.law = PressureLaw::kPublished;
   return attach;
 }
 
@@ -54,6 +55,7 @@ std::vector<NamedDef> loadVariants(const std::string& prefix, const AttachDef& a
   return {
       named("default", [](AttachDef&) {}),
       named("attached", [](AttachDef& a) { a.flow.separation_angle = 2.2; }),
+      named("form", [](AttachDef& a) { a.flow.law = PressureLaw::kForm; }),
       named("without_friction", [](AttachDef& a) { a.flow.skin_friction = false; }),
       named("in_air", [](AttachDef& a) { a.medium = air(); }),
       named("own_model",
@@ -111,7 +113,7 @@ std::vector<NamedDef> allVariants() {
   return all;
 }
 
-// Heavier and lighter than water, slow and fast.
+// Initial state of body `index`: heavier or lighter than water, slow or fast.
 GoldenBody flying(int index) {
   GoldenBody body;
   const double x = index;
@@ -122,7 +124,7 @@ GoldenBody flying(int index) {
   return body;
 }
 
-// Two ways through the water, and one of a body that is lighter than its added mass.
+// Three bodies of different mass and motion in water; the third is lighter than its added mass.
 GoldenRecord fly(const AttachDef& attach) {
   GoldenWorld world;
   for (int i = 0; i < 3; ++i) world.add(flying(i), attach);
@@ -146,11 +148,11 @@ GoldenRecord flyInWind() {
     medium.velocity = {3 * t, 1 - 2 * t * t, 0};
     medium.acceleration = {3, -4 * t, 0};
     if (step > 60) medium.density = 900;
-    for (int i = 0; i < 3; ++i) world.registry().setMedium(world.body(i), medium);
+    for (int i = 0; i < 3; ++i) world.fluid().find(world.body(i))->setMedium(medium);
   });
 }
 
-// Forces, impulses, damping, another mass on the way, a turn of more than Bullet's largest.
+// Forces, impulses, damping, a change of mass, and a spin above Bullet's limit.
 GoldenRecord flyPushed() {
   GoldenWorld world;
   for (int i = 0; i < 3; ++i) world.add(flying(i), bumpyInWater());
@@ -160,7 +162,7 @@ GoldenRecord flyPushed() {
     world.body(0).applyForce({bt(3), bt(-step), 5}, {bt(0.1), 0, bt(0.2)});
     world.body(1).applyTorque({bt(0.1 * step), 0, bt(-0.3)});
     if (step % 30 == 7)
-      applyAmbientImpulse(world.registry(), world.body(2), {bt(0.1), bt(0.3), 0}, {0, 0, bt(0.1)});
+      applyAmbientImpulse(world.fluid(), world.body(2), {bt(0.1), bt(0.3), 0}, {0, 0, bt(0.1)});
     if (step == 50) world.body(0).setMassProps(bt(20), {bt(0.2), bt(0.3), bt(0.4)});
   });
 }
@@ -183,7 +185,7 @@ GoldenRecord flyWithAxisFactors() {
   return world.run(kFlightSteps);
 }
 
-// Thousands of radians per step: beyond the series of the flow.
+// Thousands of radians per step: outside the series of the flow without loads.
 GoldenRecord flyWildly() {
   GoldenWorld world;
   for (int i = 0; i < 3; ++i) world.add(flying(i), bumpyInWater());

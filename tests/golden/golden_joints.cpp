@@ -1,4 +1,4 @@
-// Bodies in water held by each kind of Bullet's joints: to the world, to each other, to a dry body.
+// Bodies in water on each kind of Bullet's joints: to the world, to each other, to a dry body.
 
 #include "tests/golden/golden_world.h"
 
@@ -34,7 +34,7 @@ GoldenRecord swing(const MakeJoint& make) {
   });
 }
 
-// Frames that meet: `b` is where `a` is, seen from b.
+// Frame of a joint in b's axes that coincides with `in_a` in a's axes.
 btTransform seenFrom(const btRigidBody& b, const btRigidBody& a, const btTransform& in_a) {
   return b.getWorldTransform().inverse() * a.getWorldTransform() * in_a;
 }

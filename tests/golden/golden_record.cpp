@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
 
 namespace ambient::test {
 namespace {
@@ -33,7 +33,7 @@ GoldenRecord parseRecord(const std::string& text) {
   std::istringstream words(text);
   GoldenRecord record;
   words >> record.name >> std::hex >> record.hash;
-  std::string number;  // streams do not read hexadecimal fractions
+  std::string number;  // streams cannot read hexadecimal fractions
   for (double& value : record.sample) {
     words >> number;
     value = std::strtod(number.c_str(), nullptr);

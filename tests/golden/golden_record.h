@@ -10,11 +10,11 @@
 
 namespace ambient::test {
 
-/// What is kept of a run.
+/// Results kept from a run.
 struct GoldenRecord {
   std::string name;
-  std::uint64_t hash = 0;            ///< FNV-1a of the bytes of all that the run has computed
-  Vector6 sample = Vector6::Zero();  ///< a few of these numbers, to show how large a difference is
+  std::uint64_t hash = 0;            ///< FNV-1a of the bytes of all numbers traced
+  Vector6 sample = Vector6::Zero();  ///< some of these numbers, shows the size of a difference
 };
 
 /// Collects the numbers of a run.
@@ -33,13 +33,13 @@ class GoldenTrace {
   std::string bytes_;
 };
 
-/// A run that must give the same bits for ever.
+/// A run with results that must stay the same to the bit.
 struct GoldenRun {
   std::string name;
-  std::function<GoldenRecord()> record;  ///< its name may stay empty
+  std::function<GoldenRecord()> record;  ///< may leave the record's name empty
 };
 
-/// The runs of a program, each defines its own.
+/// Returns the runs of a program; each program defines this function.
 std::vector<GoldenRun> goldenRuns();
 
 /// A text file with a line for each run, numbers in hexadecimal.

@@ -4,7 +4,7 @@
 
 #include "bullet_ambient/fluid_body/content_hash.h"
 #include "demos/scene/scene_lookup.h"
-#include "tests/demos/simulation/run_scene.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/golden/golden_record.h"
 
 namespace ambient::test {
@@ -18,13 +18,13 @@ void add(GoldenTrace& trace, const MotionSample& sample) {
   trace.add(sample.twist.linear);
 }
 
-// Scenes, and the two runs of each, share what they have solved.
+// Caches bodies for all scenes and for both runs of each.
 std::vector<PreparedBody> prepareOnce(const Scene& scene) {
   static SceneBodyCache cache;
   return prepareBodies(scene, cache);
 }
 
-// The first second of a scene.
+// Records the first second of a scene.
 GoldenRecord recordMotion(const std::filesystem::path& file) {
   const Scene scene = readScene(file, {{"duration", "1"}});
   const RunRecord run = runPrepared(scene, prepareOnce(scene));

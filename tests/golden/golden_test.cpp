@@ -1,5 +1,5 @@
-// Runs that give the same bits as when they were recorded. With --record, the file is written anew:
-// only a change that means to change results may do that.
+// Runs that must reproduce the recorded bits. --record writes the file anew: only for a change that
+// means to change results.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -60,9 +60,9 @@ void recordAll() {
   writeGoldenFile(AMBIENT_GOLDEN_FILE, records);
 }
 
-// Bullet's own sines and cosines come from the C library, which has other variants of them, with
-// other last bits, for processors with fused multiply-add. Without these all machines agree. The
-// library chooses when a program starts: so this one starts itself anew.
+// Sines and cosines of Bullet come from the C library, whose variants with fused multiply-add
+// differ in last bits. Without these variants all machines agree. The library chooses at program
+// start: so execv() starts the program anew.
 void startWithPlainMathematics(char** argv) {
   constexpr const char* kName = "GLIBC_TUNABLES";
   constexpr const char* kPlain = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F";

@@ -5,29 +5,28 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 
 GoldenWorld::GoldenWorld(Kind kind) {
   if (kind == Kind::kMultiBodies) {
-    auto solver = std::make_unique<AmbientSolver<btMultiBodyConstraintSolver>>(registry_);
+    auto solver = std::make_unique<btMultiBodyConstraintSolver>();
     world_ = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher_, &broadphase_, solver.get(),
                                                         &configuration_);
     solver_ = std::move(solver);
   } else {
-    solver_ = std::make_unique<AmbientSolver<>>(registry_);
+    solver_ = std::make_unique<btSequentialImpulseConstraintSolver>();
     world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadphase_, solver_.get(),
                                                        &configuration_);
   }
   world_->setGravity({0, 0, bt(-9.81)});
-  world_->addAction(&action_);
-  registry_.setReport([](const std::string&) {});  // steps that are too long are meant to be
+  fluid_.emplace(*world_);
+  fluid_->setReport([](const std::string&) {});  // steps that are too long are meant to be
 }
 
 GoldenWorld::~GoldenWorld() {
-  world_->removeAction(&action_);
   for (const auto& joint : joints_) world_->removeConstraint(joint.get());
   for (const auto& body : bodies_) world_->removeRigidBody(body.get());
   for (const auto& link : links_) world_->removeCollisionObject(link.get());
@@ -52,7 +51,7 @@ btRigidBody& GoldenWorld::addDry(const GoldenBody& def) {
 
 btRigidBody& GoldenWorld::add(const GoldenBody& def, const AttachDef& attach) {
   btRigidBody& body = addDry(def);
-  registry_.attach(*world_, body, attach);
+  fluid_->add(body, attach);
   return body;
 }
 
@@ -119,6 +118,7 @@ AttachDef symmetricInWater() {
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid({0.3, 0.2, 0.1}, 2));
   attach.medium = water();
+  attach.flow.law = PressureLaw::kPublished;
   return attach;
 }
 
@@ -139,6 +139,7 @@ AttachDef bumpyInWater() {
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(body);
   attach.medium = water();
+  attach.flow.law = PressureLaw::kPublished;
   attach.fluid_frame.rotation = arbitrary.rotation();
   attach.fluid_frame.translation = {0.02, 0.01, -0.03};
   return attach;

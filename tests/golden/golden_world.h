@@ -4,14 +4,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/ambient_action.h"
-#include "bullet_ambient/bullet/ambient_solver.h"
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/world/fluid.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/motion/rigid_state.h"
+#include "bullet_ambient/motion/body/rigid_state.h"
 #include "tests/golden/golden_record.h"
 
 class btMultiBody;
@@ -25,12 +25,12 @@ inline btScalar bt(double value) { return static_cast<btScalar>(value); }
 struct GoldenBody {
   Vector3 position = Vector3::Zero();
   Twist twist{};
-  double mass = 1;  ///< [kg]; 0: static
+  double mass = 1;  ///< 0: static [kg]
   Vector3 moments{0.02, 0.03, 0.04};
-  btCollisionShape* shape = nullptr;  ///< null: meets nothing
+  btCollisionShape* shape = nullptr;  ///< null: no contacts
 };
 
-/// A world with bodies in fluids, built by what a program would use, and the trace of its run.
+/// A world with bodies in fluids, set up like a user's program, and the trace of its run.
 class GoldenWorld {
  public:
   static constexpr double kStep = 1.0 / 240;
@@ -48,27 +48,26 @@ class GoldenWorld {
   void addChain(const Vector3& top);
 
   btDiscreteDynamicsWorld& world() { return *world_; }
-  AmbientRegistry& registry() { return registry_; }
+  Fluid& fluid() { return *fluid_; }
   btRigidBody& body(int index) { return *bodies_[index]; }
   btCollisionShape& box() { return box_; }
   btCollisionShape& ball() { return ball_; }
   btCollisionShape& floor() { return floor_; }
 
-  /// `before` is called with the number of each step. Its sample: place and velocity of the first
-  /// body at the end.
+  /// Calls `before` with the number of each step. The record's sample is position and velocity of
+  /// the first body at the end.
   GoldenRecord run(
       int steps, const std::function<void(int)>& before = [](int) {});
 
  private:
   void traceStep();
 
-  AmbientRegistry registry_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
   std::unique_ptr<btConstraintSolver> solver_;
   std::unique_ptr<btDiscreteDynamicsWorld> world_;
-  AmbientAction action_{registry_};
+  std::optional<Fluid> fluid_;
   btEmptyShape no_shape_;
   btBoxShape box_{btVector3(bt(0.3), bt(0.2), bt(0.1))};
   btSphereShape ball_{bt(0.2)};
@@ -80,15 +79,15 @@ class GoldenWorld {
   GoldenTrace trace_;
 };
 
-// The worlds of the files beside this one.
+// Runs of the files beside this header.
 std::vector<GoldenRun> goldenFlights();
 std::vector<GoldenRun> goldenContacts();
 std::vector<GoldenRun> goldenJoints();
 
-/// The box of a golden world in water, three planes of symmetry; 320 faces.
+/// Box of a golden world in water, three planes of symmetry; 320 faces.
 AttachDef symmetricInWater();
-/// A bumpy body whose added mass couples all motions, its frame turned and beside the centre of
-/// mass; 320 faces.
+/// Bumpy body with all motions coupled by the added mass. Its fluid frame is turned and off the
+/// centre of mass; 320 faces.
 AttachDef bumpyInWater();
 
 }  // namespace ambient::test

@@ -4,8 +4,8 @@
 
 namespace ambient::reference {
 
-/// Added mass per unit density of a body of revolution about z, about the origin. The coupling is
-/// K[w_y, v_x] = -K[w_x, v_y]; all that is not listed is 0 or follows by symmetry.
+/// Added mass per unit density of a body of revolution about z, about the origin. Entries not
+/// listed are 0 or follow by symmetry: K[w_y, v_x] = -K[w_x, v_y].
 struct RevolutionAddedMass {
   double v_z, v_x, w_y, coupling;
 };
@@ -44,8 +44,8 @@ inline RevolutionAddedMass torusAddedMass() {
   return {1.0639074506992998 * volume, 0.3996840651707634 * volume, 60.06474834455299, 0};
 }
 
-/// K_v / volume of a cube in any direction: the polarisability of a void, Helsing and Perfekt,
-/// Applied and Computational Harmonic Analysis 34 (2013), table 1, is -(1 + this).
+/// K_v / volume of a cube in any direction, from the polarisability -(1 + K_v / volume) of a void:
+/// Helsing and Perfekt, Applied and Computational Harmonic Analysis 34 (2013), table 1.
 inline double cubeAddedMassCoefficient() { return 0.638415712936517; }
 
 /// K_w of the cube of edge 2 about an axis through its centre; uncertainty 4e-4.
@@ -55,9 +55,9 @@ inline double cubeRotationalAddedMass() { return 1.2563629570258183; }
 /// extrapolated; uncertainty 2e-5.
 inline double tetrahedronAddedMassCoefficient() { return 0.8070738790949269; }
 
-/// Ellipsoid with semi-axes 1.2, 0.6, 1.0, every cross-section turned by z radians about z: a
-/// chiral body. Diagonals of the three blocks, all else 0; method of fundamental solutions and
-/// extrapolated Galerkin solutions agree; uncertainty 3e-6.
+/// Ellipsoid with semi-axes 1.2, 0.6, 1.0, cross-sections turned by z radians about z: a chiral
+/// body. Diagonals of the three blocks, other entries 0. Fundamental solutions and extrapolated
+/// Galerkin solutions agree; uncertainty 3e-6.
 struct TwistedEllipsoidAddedMass {
   double w[3] = {0.1958336, 0.1518064, 0.2966526};
   double v[3] = {1.103731, 2.667684, 1.50394};

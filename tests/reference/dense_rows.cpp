@@ -25,7 +25,7 @@ class DenseSystem {
     }
   }
 
-  // Begins with the rows that only push or only pull at rest: two of them may say the same, as of
+  // Starts with one-sided rows at their zero bound. Two of them may be linearly dependent, as at
   // the two ends of a range, and must not be solved at once.
   DenseSolution solve() {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -59,7 +59,7 @@ class DenseSystem {
                                     : Bound::kFree;
   }
 
-  // A row that follows another one has that one's bounds, its own mean nothing.
+  // Tells if a row has this bound; the bounds of a friction row follow from its normal row.
   bool exists(int r, Bound bound) const {
     const DenseRow& row = rows_[r];
     if (bound == Bound::kFree || row.normal_row >= 0) return true;
@@ -67,7 +67,7 @@ class DenseSystem {
                                   : row.upper != DenseRow::kUnbounded;
   }
 
-  // Counts through all sets of bounds; false after the last.
+  // Steps bounds_ to the next combination of bounds; returns false after the last.
   bool advanceBounds() {
     for (int r = 0; r < static_cast<int>(rows_.size()); ++r) {
       do bounds_[r] = next(bounds_[r]);

@@ -8,7 +8,7 @@
 
 namespace ambient::reference {
 
-// Extended precision: the reference is exact to the rounding of what it is compared with.
+// Extended precision makes the rounding of the reference smaller than that of the tested code.
 using Real = long double;
 using DenseVector6 = Eigen::Matrix<Real, 6, 1>;  ///< rotation first
 using DenseMatrix6 = Eigen::Matrix<Real, 6, 6>;
@@ -21,14 +21,14 @@ struct DenseBody {
   DenseVector6 free_velocity = DenseVector6::Zero();  ///< at the end of the step, without rows
 };
 
-/// What a row sees of a body.
+/// One body's part of a row: index and jacobian.
 struct DenseSide {
   int body = 0;
   DenseVector6 jacobian = DenseVector6::Zero();
 };
 
-/// One scalar constraint J u + softness * impulse = target between two bodies or more, or, where
-/// the impulse reaches a bound, the inequality that remains.
+/// One scalar constraint J u + softness * impulse = target between two or more bodies. At a bound
+/// of the impulse an inequality remains.
 struct DenseRow {
   static constexpr Real kUnbounded = std::numeric_limits<Real>::infinity();
 
@@ -39,9 +39,9 @@ struct DenseRow {
   Real lower = -kUnbounded, upper = kUnbounded;
   int normal_row = -1;  ///< friction row: bounds are -+ friction times the impulse of that row
   Real friction = 0;
-  std::vector<DenseSide> further;  ///< of a gear, which ties two joints
+  std::vector<DenseSide> further;  ///< gear: bodies of the second joint
 
-  /// All of them; a body may occur in several.
+  /// Returns the parts of all bodies; a body may occur in several.
   std::vector<DenseSide> sides() const;
 };
 
@@ -50,22 +50,22 @@ struct DenseSolution {
   std::vector<DenseVector6> velocities;
 };
 
-/// Velocities and impulses of all bodies and rows at once: the saddle-point system
-/// [K, -J^T; J, softness] is solved for every set of bounds that Murty's principal pivoting visits,
-/// until impulses and velocities satisfy all rows. No effective masses, no iteration over rows.
+/// Solves for velocities and impulses of all bodies and rows at once: [K, -J^T; J, softness].
+/// Murty's principal pivoting changes the set of bounds until all rows are satisfied. No effective
+/// masses, no iteration over rows.
 /// @throws std::runtime_error if no set of bounds fits.
 DenseSolution solveDense(const std::vector<DenseBody>& bodies, const std::vector<DenseRow>& rows);
 
-/// The solution if exactly one set of bounds fits: with friction there may be none or several
-/// (Painleve). Tries all of them.
+/// Returns the solution if exactly one set of bounds fits, after a search of all sets. With
+/// friction there may be none or several (Painleve).
 std::optional<DenseSolution> onlySolution(const std::vector<DenseBody>& bodies,
                                           const std::vector<DenseRow>& rows);
 
 /// J K^-1 J^T of two rows: change of velocity along `row` by a unit impulse of `to`.
 Real response(const std::vector<DenseBody>& bodies, const DenseRow& row, const DenseRow& to);
 
-/// Smallest eigenvalue of the responses of all rows to each other, scaled to 1 on the diagonal: 1
-/// for rows that do not see each other, 0 for rows that say the same.
+/// Smallest eigenvalue of J K^-1 J^T of all rows, scaled to 1 on the diagonal. 1 for uncoupled
+/// rows, 0 for linearly dependent ones.
 Real independence(const std::vector<DenseBody>& bodies, const std::vector<DenseRow>& rows);
 
 /// Rate of change of the velocity of a body with the inertia K, both in world axes, by Kirchhoff's
@@ -83,7 +83,7 @@ DenseRow pointRow(const Eigen::Matrix<Real, 3, 1>& direction,
 /// Row of the relative spin about a unit direction.
 DenseRow spinRow(const Eigen::Matrix<Real, 3, 1>& direction);
 
-/// Row of the sum a + ratio * b of two velocities, with the target and bounds of a.
+/// Row of the sum a + ratio * b of two velocities; takes target and bounds of a.
 DenseRow gearRow(const DenseRow& a, Real ratio, const DenseRow& b);
 
 }  // namespace ambient::reference

@@ -5,27 +5,27 @@
 #include <vector>
 
 #include "tests/reference/ellipsoid_added_mass.h"
-#include "tests/reference/face_by_face_loads.h"
+#include "tests/reference/loads/face_by_face_loads.h"
 
 namespace ambient::reference {
 
 /// An ellipsoid, its centre of mass in its centre, in a fluid at rest; SI units.
 struct EllipsoidInFluid {
-  Eigen::Vector3d semi_axes, moments;  ///< of inertia about these axes, without the fluid
+  Eigen::Vector3d semi_axes, moments;  ///< moments of inertia about these axes, body only
   double mass = 0;
-  double density = 0, viscosity = 0;  ///< of the fluid; without friction: viscosity 0
+  double density = 0, viscosity = 0;  ///< density, viscosity of the fluid; 0: no friction
   double separation_angle = 0;
   Eigen::Vector3d gravity;
 
   double volume() const { return 4.0 / 3 * std::acos(-1.0) * semi_axes.prod(); }
 };
 
-/// Flight by Kirchhoff's equations with the published law of pressure and friction, summed over
-/// points of a smooth ellipsoid, by the classic Runge-Kutta scheme. Nothing of it is the library's:
-/// points, added mass, scheme and unknowns.
+/// Flight by Kirchhoff's equations with the published law of pressure and friction, by the classic
+/// Runge-Kutta scheme. Sums loads over points of a smooth ellipsoid. Shares no code with the
+/// library: neither points nor added mass nor scheme.
 class EllipsoidFlight {
  public:
-  /// At the origin; velocity and spin in world axes.
+  /// Starts at the origin; velocity and spin in world axes.
   EllipsoidFlight(const EllipsoidInFluid& body, const Eigen::Quaterniond& orientation,
                   const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin)
       : body_(body) {
@@ -52,8 +52,8 @@ class EllipsoidFlight {
     time_ += step;
   }
 
-  /// Where it comes down through a height, on the line between two steps; time() is then that of
-  /// the passage.
+  /// Returns the position where the body falls through a height, interpolated linearly between two
+  /// steps; time() becomes the time of the passage.
   Eigen::Vector3d passageThrough(double height, double step) {
     for (;;) {
       const Eigen::Vector3d before = position();
@@ -95,7 +95,7 @@ class EllipsoidFlight {
     for (FaceInFlow& point : points_) point.reference_length = std::sqrt(area);
   }
 
-  // Torque and force in the body's axes.
+  // Returns torque and force in the body's axes.
   Eigen::Matrix<double, 6, 1> load(const Eigen::Vector3d& w, const Eigen::Vector3d& v) {
     Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
     for (FaceInFlow& point : points_) {
@@ -125,7 +125,7 @@ class EllipsoidFlight {
 
   EllipsoidInFluid body_;
   std::vector<FaceInFlow> points_;
-  Eigen::Matrix<double, 6, 1> inertia_;  ///< of body and fluid
+  Eigen::Matrix<double, 6, 1> inertia_;  ///< body and fluid
   State state_;
   double time_ = 0;
 };

@@ -9,8 +9,8 @@ namespace ambient::reference {
 // Accelerations of a body with a full 6x6 inertia. Numbers from the tests of gz-sim,
 // src/AddedMass_TEST.cc and test/worlds/added_mass_full_matrix.sdf (Apache-2.0).
 
-/// Total inertia, body plus added mass, body frame, rotation first here (linear first there). The
-/// body itself has mass 1 and inertia identity.
+/// Total inertia, body plus added mass, body frame. Rotation first, where gz-sim has linear first.
+/// The body itself has mass 1 and inertia identity.
 inline Eigen::Matrix<double, 6, 6> fullInertia() {
   Eigen::Matrix<double, 6, 6> linear_first;
   linear_first.row(0) << 1.394967926511942, 0.046356515552357314, 0.10350947385435993,

@@ -30,8 +30,8 @@ M6 dryInertia(const JointedBody& b) {
 
 M6 totalInertia(const JointedBody& b) { return inWorld(dryInertia(b) + b.added_mass, b.rotation); }
 
-// Forces on a body less what its velocity alone makes of its momentum: d/dt of K in world axes, and
-// the moment that the momentum of the fluid has about a centre that moves.
+// Applied forces less the velocity terms: w x (J w), dK/dt x with K in world axes, and the moment
+// (v - flow) x p of the fluid's momentum p about the moving centre of mass.
 JointedVector6 freeForce(const JointedBody& b) {
   JointedVector6 f = b.applied;
   const V3 buoyancy = -b.displaced_mass * (b.gravity - b.flow_acceleration);
@@ -52,13 +52,13 @@ JointedVector6 freeForce(const JointedBody& b) {
   return f;
 }
 
-// One constraint between a body and its parent: jacobians and what the velocities make of it.
+// One constraint between a body and its parent: jacobians and velocity-dependent acceleration.
 struct Row {
   JointedVector6 parent, child;
   JointedReal bias;  // J' u
 };
 
-// d . (w_b - w_a), the direction turning with `carrier`.
+// Row of d . (w_b - w_a); the direction d turns with `carrier_spin`.
 Row spinRow(const V3& d, const V3& carrier_spin, const JointedBody& a, const JointedBody& b) {
   Row row;
   row.child << d, V3::Zero();
@@ -67,7 +67,7 @@ Row spinRow(const V3& d, const V3& carrier_spin, const JointedBody& a, const Joi
   return row;
 }
 
-// d . (velocity of b's centre as seen from a), the direction turning with a spin.
+// Row of d . (velocity of b's centre as seen from a); the direction d turns with `carrier_spin`.
 Row slideRow(const V3& d, const V3& carrier_spin, const JointedBody& a, const JointedBody& b) {
   const V3 s = b.origin - a.origin, rate = b.v - a.v;
   Row row;
@@ -77,7 +77,7 @@ Row slideRow(const V3& d, const V3& carrier_spin, const JointedBody& a, const Jo
   return row;
 }
 
-// d . (velocity of the pivot as part of b less that as part of a), direction of the world.
+// Row of d . (velocity of the pivot as part of b less the one as part of a), d fixed in the world.
 Row pivotRow(const V3& d, const JointedBody& a, const JointedBody& b) {
   const V3 r_b = -(b.rotation * b.pivot_to_body), r_a = b.origin + r_b - a.origin;
   Row row;
@@ -111,7 +111,7 @@ std::vector<Row> constraintRows(const JointedBody& a, const JointedBody& b) {
   return rows;
 }
 
-// The free directions of a joint: rows whose J u is a velocity of the joint.
+// Returns rows of the joint's free directions: J u is a velocity of the joint.
 std::vector<Row> freeRows(const JointedBody& a, const JointedBody& b) {
   std::vector<Row> rows;
   const auto axis = [&](int i) -> V3 { return b.rotation * b.axes[i]; };
@@ -167,7 +167,7 @@ System makeSystem(const std::vector<JointedBody>& bodies, bool fixed) {
   return system;
 }
 
-// Of the base, then along the free directions of all joints.
+// Stacks the base's change, then the changes along the free directions of all joints.
 JointedVector alongJoints(const std::vector<JointedBody>& bodies, const JointedVector& change,
                           bool with_bias) {
   std::vector<JointedReal> values(change.data(), change.data() + 6);
@@ -195,7 +195,7 @@ void placeBodies(std::vector<JointedBody>& bodies) {
   for (std::size_t i = 1; i < bodies.size(); ++i) {
     JointedBody& b = bodies[i];
     const JointedBody& a = bodies[b.parent];
-    const M3 zero = a.rotation * b.zero_rotation.transpose();  // axes of position zero in the world
+    const M3 zero = a.rotation * b.zero_rotation.transpose();  // axes at position 0, world
     b.rotation = zero * positionRotation(b);
     const auto& q = b.position;
     const auto& s = b.velocity;
@@ -234,7 +234,7 @@ JointedVector jointedAccelerations(const std::vector<JointedBody>& bodies, bool 
   const System system = makeSystem(bodies, fixed);
   JointedVector right(system.matrix.rows());
   for (std::size_t i = 0; i < bodies.size(); ++i) right.segment<6>(6 * i) = freeForce(bodies[i]);
-  // Joint forces act on both bodies, as constraints do.
+  // Joint forces act on both bodies with opposite signs, like constraint reactions.
   for (std::size_t i = 1; i < bodies.size(); ++i) {
     const int parent = bodies[i].parent;
     const std::vector<Row> rows = freeRows(bodies[parent], bodies[i]);

@@ -33,8 +33,8 @@ struct PlanarMotion {
   }
 };
 
-/// lambda^2 [1/s^2] of theta'' = lambda^2 theta for a small turn about the axis k of a body that
-/// moves along the axis i with speed V; j is the third axis. Munk's moment.
+/// Munk's moment: lambda^2 [1/s^2] of theta'' = lambda^2 theta for a small turn about the axis k.
+/// The body moves along the axis i with speed V; j is the third axis.
 struct TranslationAlongAxis {
   Eigen::Vector3d masses, moments;
   double speed;
@@ -46,14 +46,14 @@ struct TranslationAlongAxis {
   }
 };
 
-/// Body of revolution, axis moment I3, cross moment I1, inertia C along and A across the axis, that
-/// moves along its axis with momentum P: it is stable above this rate of spin [rad/s].
+/// Least stable spin [rad/s] of a body of revolution that moves along its axis with momentum P.
+/// Axis moment I3, cross moment I1, inertia C along and A across the axis.
 inline double leastStableSpin(double I1, double I3, double C, double A, double P) {
   return 2 * P / I3 * std::sqrt(I1 * (1 / C - 1 / A));
 }
 
-/// w = lambda p with p in the plane of the axes i and j is a steady screw motion: lambda^2 = (1/M_i
-/// - 1/M_j) / (I_i - I_j).
+/// lambda of the steady screw motion w = lambda p with p in the plane of the axes i and j: lambda^2
+/// = (1/M_i - 1/M_j) / (I_i - I_j).
 inline double permanentScrew(double M_i, double M_j, double I_i, double I_j) {
   return std::sqrt((1 / M_i - 1 / M_j) / (I_i - I_j));
 }

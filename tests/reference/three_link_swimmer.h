@@ -7,31 +7,31 @@
 
 namespace ambient::reference {
 
-/// Three equal links in a row, joined by two hinges, in a plane of ideal fluid at rest. Each link
-/// moves the fluid as if it were alone.
+/// Three equal links in a row, joined by two hinges, in a plane of ideal fluid at rest. Added mass
+/// of each link alone: no hydrodynamic interaction.
 struct ThreeLinkSwimmer {
-  double along = 0;   ///< mass of a link with fluid, along itself [kg]
-  double across = 0;  ///< and across [kg]
-  double moment = 0;  ///< of inertia with fluid, about its centre [kg m^2]
-  double arm = 0;     ///< from the centre of a link to a hinge [m]
+  double along = 0;   ///< mass of a link with fluid, along its axis [kg]
+  double across = 0;  ///< mass of a link with fluid, across its axis [kg]
+  double moment = 0;  ///< moment of inertia with fluid, about its centre [kg m^2]
+  double arm = 0;     ///< distance from the centre of a link to a hinge [m]
 };
 
-/// Angles of the links in front of the middle one and behind it, and their rates.
+/// Angles of front link and rear link relative to the middle one, and their rates.
 struct SwimmerShape {
   Eigen::Vector2d angles, rates;
 };
 
-/// The velocity of the middle link, forward, to the left and turning, that keeps the momentum of
-/// swimmer and fluid at zero: the connection of Kanso, Marsden, Rowley and Melli-Huber 2005.
+/// Velocity (forward, left, turning) of the middle link at zero momentum of swimmer and fluid: the
+/// connection of Kanso, Marsden, Rowley and Melli-Huber 2005.
 inline Eigen::Vector3d velocityWithoutMomentum(const ThreeLinkSwimmer& s,
                                                const SwimmerShape& shape) {
   Eigen::Matrix3d locked = Eigen::Vector3d(s.along, s.across, s.moment).asDiagonal();
   Eigen::Vector3d of_rates = Eigen::Vector3d::Zero();
   for (int i = 0; i < 2; ++i) {
-    const double side = i == 0 ? 1 : -1;  // the front one is at +arm
+    const double side = i == 0 ? 1 : -1;  // front link: +arm, rear link: -arm
     const double c = std::cos(shape.angles[i]), n = std::sin(shape.angles[i]);
-    // Velocity of the link's centre in its own axes, from (u, v, r) of the middle one: the hinge
-    // moves with (u, v + side arm r), the centre across with side arm (r + rate).
+    // Velocity of the link's centre in its own axes, from (u, v, r) of the middle link: the hinge
+    // moves with (u, v + side arm r); the centre adds side arm (r + rate) across the link.
     Eigen::Matrix3d J;
     J << c, n, n * side * s.arm, -n, c, c * side * s.arm + side * s.arm, 0, 0, 1;
     const Eigen::Vector3d by_rate(0, side * s.arm, 1);
@@ -40,7 +40,7 @@ inline Eigen::Vector3d velocityWithoutMomentum(const ThreeLinkSwimmer& s,
     of_rates += J.transpose() * (inertia * by_rate) * shape.rates[i];
   }
   const Eigen::Vector3d b = -of_rates;
-  // Cramer's rule: Eigen/Core alone.
+  // Cramer's rule needs Eigen/Core alone.
   const auto det = [](const Eigen::Matrix3d& m) {
     return m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1)) -
            m(0, 1) * (m(1, 0) * m(2, 2) - m(1, 2) * m(2, 0)) +
@@ -55,8 +55,8 @@ inline Eigen::Vector3d velocityWithoutMomentum(const ThreeLinkSwimmer& s,
   return x;
 }
 
-/// Place (x, y) and direction of the middle link after the time, from the origin, by the classical
-/// Runge-Kutta rule.
+/// Integrates place (x, y) and direction of the middle link from the origin, by the classical
+/// Runge-Kutta rule; returns them at the end of the time.
 inline Eigen::Vector3d swim(const ThreeLinkSwimmer& s,
                             const std::function<SwimmerShape(double)>& shape_at, double time,
                             int steps) {

@@ -10,9 +10,9 @@ namespace ambient::reference {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// int 1/|x - y| over the triangle by numerical integrals along its edges: with R the distance from
-/// x, d the height of x over the plane and P the distance of the edge's line from the foot of x,
-/// Gauss' theorem gives sum_e P_e int_e dl / (R + |d|). Each edge is cut at the point nearest to x.
+/// int 1/|x - y| over the triangle by Gauss' theorem: sum_e P_e int_e dl / (R + |d|) over its
+/// edges. R: distance from x; d: height of x over the plane; P: distance of the edge's line from
+/// the foot of x. Each edge is cut at the point nearest to x.
 inline double newtonPotential(const Triangle& triangle, const Eigen::Vector3d& x,
                               double step = 0.1) {
   const Eigen::Vector3d n =

@@ -6,29 +6,29 @@
 // Forces on bodies that enter still water at a constant speed V, without gravity: potential flow.
 namespace ambient::reference {
 
-/// Force on a sphere over 1/2 rho pi R^2 V^2, as its lowest point touches, over the root of the
-/// depth of that point in radii. Von Karman: 4/3 a^3 of a disc with a^2 = 2 R d.
+/// Slope c in F / (1/2 rho pi R^2 V^2) = c sqrt(d / R) for a sphere of radius R at small depth d of
+/// its lowest point. Von Karman: added mass 4/3 a^3 of a disc, a^2 = 2 R d.
 inline double karmanSphereSlope() { return 8 * std::sqrt(2.0) / std::acos(-1.0); }
-/// Wagner: the same with a^2 = 3 R d, where the raised water wets the sphere.
+/// Wagner's slope: disc of a^2 = 3 R d, since the raised water wets more of the sphere.
 inline double wagnerSphereSlope() { return 12 * std::sqrt(3.0) / std::acos(-1.0); }
-/// Moghisi and Squire, Journal of Fluid Mechanics 108 (1981), measured. Quoted from memory.
+/// Measured slope: Moghisi and Squire, Journal of Fluid Mechanics 108 (1981). Quoted from memory.
 inline double measuredSphereSlope() { return 5.5; }
 
-// Of a wedge with the deadrise [rad], per length: F / (rho V^3 t).
+// Forces F / (rho V^3 t) per length on a wedge that enters with the deadrise [rad].
 
-/// Von Karman: pi/2 b^2 of a plate as wide as the section in the undisturbed surface.
+/// Von Karman: added mass pi/2 b^2 of a plate; 2 b is the wedge's width at the undisturbed surface.
 inline double karmanWedgeForce(double deadrise) {
   return std::acos(-1.0) / std::pow(std::tan(deadrise), 2);
 }
-/// Wagner: the same, pi/2 times as wide.
+/// Wagner: a plate pi/2 times as wide.
 inline double wagnerWedgeForce(double deadrise) {
   return std::pow(std::acos(-1.0) / 2, 2) * karmanWedgeForce(deadrise);
 }
 
 /// Added mass of the wet wedge over rho d^2, d its draught; the potential is 0 on the undisturbed
-/// surface: half of that of a rhombus. Faltinsen, Hydrodynamics of High-Speed Marine Vehicles
-/// (2005), eq. 9.63, as cited in python-openplaning; 45 degrees are half a square, small angles the
-/// plate.
+/// surface: half the added mass of a rhombus. Faltinsen, Hydrodynamics of High-Speed Marine
+/// Vehicles (2005), eq. 9.63, as cited in python-openplaning. Checks: half a square at 45 degrees,
+/// the plate at small angles.
 inline double wedgeAddedMass(double deadrise) {
   const double pi = std::acos(-1.0), p = deadrise / pi;
   const double gammas =

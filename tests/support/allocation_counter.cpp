@@ -34,7 +34,7 @@ std::size_t allocatedBytes() { return g_bytes.load(); }
 
 #ifdef AMBIENT_SANITIZED
 
-// Sanitizers have functions of their own, and tell of each call.
+// Sanitizers replace the allocator and report each call to hooks.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(
     void (*malloc_hook)(const volatile void* memory, std::size_t bytes),
     void (*free_hook)(const volatile void* memory));
@@ -46,7 +46,7 @@ const int g_hooks = __sanitizer_install_malloc_and_free_hooks(
 
 #else
 
-// The functions of the C library, under their second names. operator new calls the first ones.
+// Second names of the C library's functions. operator new calls the first names, defined here.
 extern "C" {
 
 void* __libc_malloc(std::size_t bytes) noexcept;

@@ -4,9 +4,9 @@
 
 namespace ambient::test {
 
-// Linking ambient_allocation_counter makes a program count what it asks of the C library's
-// allocator: by malloc, calloc, realloc and their aligned forms, and so by operator new, Eigen,
-// Bullet and libraries in C.
+// Linking ambient_allocation_counter makes a program count calls of the C library's allocator.
+// Counts malloc, calloc, realloc and their aligned forms, and so operator new, Eigen, Bullet and
+// libraries in C.
 
 /// Calls so far, by all threads.
 std::size_t allocationCount();

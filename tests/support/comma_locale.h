@@ -10,8 +10,8 @@
 
 namespace ambient::test {
 
-/// While it lives, streams and the C library write a comma in numbers, as in Germany. The C
-/// library's locale is made here, so that none needs to be installed.
+/// Scope in which streams and the C library write decimal commas, as in Germany. Compiles the C
+/// library's locale here: none needs to be installed.
 class CommaLocale {
  public:
   CommaLocale() {
@@ -22,7 +22,7 @@ class CommaLocale {
     const std::string folder = folder_.path().string();
     const std::string command =
         "localedef -c -i " + folder + "/comma.txt " + folder + "/comma 2> " + folder + "/messages";
-    // localedef complains of the categories that it is not given.
+    // localedef complains of missing categories.
     static_cast<void>(std::system(command.c_str()));
     setenv("LOCPATH", folder.c_str(), 1);
     std::setlocale(LC_NUMERIC, "comma");
@@ -35,7 +35,7 @@ class CommaLocale {
   CommaLocale(const CommaLocale&) = delete;
   CommaLocale& operator=(const CommaLocale&) = delete;
 
-  /// Whether the C library obeys: not where localedef is missing.
+  /// Tells if the C library writes commas: not without localedef.
   bool rulesTheCLibrary() const { return std::strtod("0,5", nullptr) == 0.5; }
 
  private:

@@ -16,7 +16,7 @@ double rootMeanSquare(int count, const Error& error) {
   return std::sqrt(sum / count);
 }
 
-/// Errors on meshes whose edges are halved from one to the next.
+/// Errors on a sequence of meshes, each with edges half as long as those before.
 struct Convergence {
   std::vector<double> errors;
 
@@ -27,7 +27,7 @@ struct Convergence {
   }
 };
 
-/// error(level) for each level of refinement.
+/// Returns error(level) for each level of refinement.
 template <class Error>
 Convergence measureConvergence(int first_level, int last_level, const Error& error) {
   Convergence convergence;

@@ -10,7 +10,7 @@ namespace ambient::test {
 struct Extrapolation {
   double first;  ///< largest step; each further one is half of the last
   int columns;   ///< number of steps
-  int order;     ///< first power of the step in the error, and from one power to the next
+  int order;     ///< first power of the step in the error; powers differ by it
 };
 
 /// Limit of value(h) for h -> 0, by Richardson's extrapolation.

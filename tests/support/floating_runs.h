@@ -5,10 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/force/surface_loads.h"
-#include "bullet_ambient/motion/surface_flight.h"
-#include "tests/support/body_models.h"
-#include "tests/support/part_bodies.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/surface_flight.h"
+#include "tests/support/bodies/body_models.h"
+#include "tests/support/bodies/part_bodies.h"
 
 namespace ambient::test {
 
@@ -18,7 +19,7 @@ const SurfacePlane kStill{{0, 0, 1}, 0, 0, 0};
 struct FloatingDef {
   FluidBody shape;
   double specific_gravity = 0.5;
-  Vector3 gyration{0.4, 0.4, 0.4};  ///< radii about the centre of mass [m]
+  Vector3 gyration{0.4, 0.4, 0.4};  ///< radii of gyration about the centre of mass [m]
   Vector3 centre_of_mass{0, 0, 0};  ///< in F
   double gravity = 9.81;
   bool has_loads = false;
@@ -26,7 +27,7 @@ struct FloatingDef {
   Medium above{0, 0, {0, 0, 0}, {0, 0, 0}};
 };
 
-/// A body at the plane z = 0 of still water, below vacuum by default; it moves step by step.
+/// A body at the surface z = 0 of still water, below vacuum by default; advances step by step.
 class FloatingRun {
  public:
   explicit FloatingRun(const FloatingDef& def) : gravity_(0, 0, -def.gravity) {
@@ -48,6 +49,7 @@ class FloatingRun {
   FlightMemory memory;
   WaveMemory waves;
   FlightCount count;
+  Vector3 velocity_above = Vector3::Zero();
   FlightSettings settings;
 
   const SurfaceModel& model() const { return model_; }
@@ -55,14 +57,15 @@ class FloatingRun {
   double mass() const { return mass_; }
 
   void step(double duration) {
-    const SurfaceStand stand = standAtSurface(model_, plane_B());
-    const SurfaceFlightResult result =
-        flyAtSurface({model_, kStill, surroundings_, Vector3::Zero(), settings, duration, stand},
-                     state, memory, waves);
-    state = result.flight.state;
-    memory = result.flight.memory;
-    count = result.flight.count;
-    waves = result.waves;
+    SurfaceStand stand = standAtSurface(model_, plane_B());
+    FlightResult body{state, memory, {}};
+    SurfaceFlight flight{
+        {model_, kStill, surroundings_, velocity_above, settings, duration}, body, waves, stand};
+    SurfaceFlight* const flights[] = {&flight};
+    flyAtSurface(flights, 1);
+    state = body.state;
+    memory = body.memory;
+    count = body.count;
   }
   void run(double time, double duration) {
     const int steps = static_cast<int>(std::lround(time / duration));
@@ -75,17 +78,17 @@ class FloatingRun {
     const SurfacePlane plane{{0, 0, 1}, 0, model_.excess_density, -gravity_.z()};
     return seenFrom(plane, R, state.position);
   }
-  Matrix6 inertia() const { return inertiaAt(model_, immersion()).inertia; }
+  Matrix6 inertia() const { return standAtSurface(model_, plane_B()).inertia; }
   Vector3 velocity_W() const { return state.orientation * state.twist.linear; }
   Vector3 momentum_W() const {
     const Vector6 p = inertia() * state.twist.vector();
     return state.orientation * Vector3(p.tail<3>());
   }
-  /// Of body, water and waves; docs/theory.md eq. (64).
+  /// Energy of body, water and waves; docs/theory.md eq. (64).
   double energy() const {
     const Immersion at = immersion();
     const Vector6 x = state.twist.vector();
-    return 0.5 * x.dot(inertiaAt(model_, at).inertia * x) - mass_ * gravity_.dot(state.position) +
+    return 0.5 * x.dot(inertia() * x) - mass_ * gravity_.dot(state.position) +
            hydrostaticEnergy(at.wet, at.plane) + waves.energy();
   }
 
@@ -96,7 +99,7 @@ class FloatingRun {
   Surroundings surroundings_;
 };
 
-/// Extremes of a signal after its start.
+/// Extreme of a sampled signal, without its first and last sample.
 struct Extreme {
   double time, value;
 };

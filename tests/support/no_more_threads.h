@@ -4,7 +4,7 @@
 
 namespace ambient::test {
 
-/// While it lives, no thread can be started: each would have a stack larger than the address space.
+/// Scope in which no thread can start: the default stack is larger than the address space.
 class NoMoreThreads {
  public:
   NoMoreThreads() {

@@ -5,9 +5,9 @@
 
 namespace ambient {
 
-/// What a program left behind.
+/// Exit code and output of a program.
 struct ProgramResult {
-  int exit_code = -1;  ///< -1 if a signal ended it
+  int exit_code = -1;  ///< -1: ended by a signal
   std::string output;  ///< standard output
   std::string errors;  ///< standard error
 };
@@ -15,7 +15,7 @@ struct ProgramResult {
 /// Runs a program without a shell and waits for it.
 ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments);
 
-/// Starts a program, sends it SIGINT each time so many milliseconds have passed, and waits for it.
+/// Starts a program, sends SIGINT after each of the delays [ms], and waits for the program's end.
 ProgramResult interruptProgram(const std::string& program,
                                const std::vector<std::string>& arguments, int milliseconds,
                                int times = 1);

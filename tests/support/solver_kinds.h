@@ -10,13 +10,17 @@
 #include <BulletDynamics/MLCPSolvers/btSolveProjectedGaussSeidel.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "bullet_ambient/bullet/ambient_solver.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/solver/fluid_solver.h"
 
 namespace ambient::test {
+
+using Members = std::shared_ptr<AmbientBodies>;  ///< what is in a fluid
 
 // One type for each constraint solver of Bullet: `Ambient` is it with bodies in a fluid, `Stock`
 // is Bullet's own. Both are constructed the same way.
@@ -28,8 +32,8 @@ struct SolverKind {
     Base solver;
   };
   struct Ambient {
-    explicit Ambient(AmbientRegistry& registry) : solver(registry) {}
-    AmbientSolver<Base> solver;
+    explicit Ambient(const Members& members) : solver(members) {}
+    FluidSolver<Base> solver;
   };
 };
 
@@ -38,9 +42,9 @@ using ConjugateGradient = SolverKind<btNNCGConstraintSolver>;
 using Multithreaded = SolverKind<btSequentialImpulseConstraintSolverMt>;
 using MultiBody = SolverKind<btMultiBodyConstraintSolver>;
 
-/// Contacts without extrapolation. Bullet's conjugate gradients skip the friction rows of a contact
-/// whose impulse their extrapolation has made negative, and may end there: stock bodies too are
-/// then wrong by up to 500 times their velocity.
+/// Contacts without extrapolation. Extrapolation can make a normal impulse negative. Bullet's
+/// conjugate gradients then skip the contact's friction rows, and may end there. Stock bodies are
+/// then wrong, too, by up to 500 times their velocity.
 struct ConjugateGradientForJoints {
   using Base = btNNCGConstraintSolver;
   struct Stock {
@@ -48,10 +52,10 @@ struct ConjugateGradientForJoints {
     Base solver;
   };
   struct Ambient {
-    explicit Ambient(AmbientRegistry& registry) : solver(registry) {
+    explicit Ambient(const Members& members) : solver(members) {
       solver.m_onlyForNoneContact = true;
     }
-    AmbientSolver<Base> solver;
+    FluidSolver<Base> solver;
   };
 };
 
@@ -63,21 +67,21 @@ struct Complementarity {
     Base solver{&inner};
   };
   struct Ambient {
-    explicit Ambient(AmbientRegistry& registry) : solver(registry, &inner) {}
+    explicit Ambient(const Members& members) : solver(members, &inner) {}
     Inner inner;
-    AmbientSolver<Base> solver;
+    FluidSolver<Base> solver;
   };
 };
 using Dantzig = Complementarity<btDantzigSolver>;
 using ProjectedGaussSeidel = Complementarity<btSolveProjectedGaussSeidel>;
 using Lemke = Complementarity<btLemkeSolver>;
 
-/// What Bullet's solvers bound a friction impulse by, besides the coefficient of friction.
+/// Factor of the friction coefficient in the bound that Bullet's solver has for friction impulses.
 enum class FrictionBound {
   kNormalImpulse,
-  kFrictionlessNormalImpulse,  ///< the normal impulse as it would be without friction
-  kNothing,  ///< the coefficient is the bound. Bullet's Lemke solver, which moreover is wrong by
-             ///< half of the velocities where two bounds coincide: it cannot do without friction.
+  kFrictionlessNormalImpulse,  ///< normal impulse of a solution without friction
+  kNothing,  ///< no factor: the coefficient is the bound. Bullet's Lemke solver is wrong by half of
+             ///< the velocities where two bounds coincide: it needs friction.
 };
 template <class Kind>
 inline constexpr FrictionBound kFrictionBound = FrictionBound::kNormalImpulse;
@@ -106,7 +110,7 @@ struct SolverName {
   }
 };
 
-/// What a world hands to its solver.
+/// Arguments of a solver's solveGroup().
 struct SolverTask {
   std::vector<btCollisionObject*> bodies;
   std::vector<btPersistentManifold*> manifolds;
@@ -128,8 +132,8 @@ inline void solveOnce(btMultiBodyConstraintSolver& solver, SolverTask& task) {
                              0, task.info, nullptr, nullptr);
 }
 
-/// Whether a solver has found what it looked for: a complementarity solver without handing over to
-/// sequential impulses, an iterative one the residual that the settings ask for, if they do.
+/// Tells if a solver has converged. Complementarity: no fallback to sequential impulses. Iterative:
+/// residual below the threshold of the settings, if there is one.
 inline bool hasFinished(const btSequentialImpulseConstraintSolver& solver,
                         const btContactSolverInfo& info) {
   return !(info.m_leastSquaresResidualThreshold > 0) ||

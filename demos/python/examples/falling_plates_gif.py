@@ -5,9 +5,11 @@ Needs python3-pil.
 """
 
 import argparse
+from pathlib import Path
 
+import matplotlib
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFont
 
 import bullet_ambient as ba
 
@@ -16,6 +18,7 @@ DURATION, FRAMES_PER_SECOND, STEPS_PER_FRAME = 6, 20, 4  # GIF counts hundredths
 WIDTH, HEIGHT, VIEW = 230, 280, 0.6  # of a panel [pixels], [pixels], and its width [m]
 FINER = 3  # drawn larger, then made smaller, for smooth edges
 GRID = 0.1  # [m]
+INK = (60, 70, 80)
 PAPER, LINES, PATH, PLATE = (255, 255, 255), (232, 236, 240), (150, 185, 220), (180, 50, 40)
 
 
@@ -36,6 +39,16 @@ def smooth(path, width):
     return np.stack([np.convolve(column, kernel, mode="valid") for column in padded.T], axis=1)
 
 
+def draw_scale(pen, text, scale):
+    """A bar as long as the grid is wide, at the lower left, and what falls."""
+    fonts = Path(matplotlib.get_data_path()) / "fonts/ttf"
+    font = ImageFont.truetype(str(fonts / "DejaVuSans.ttf"), 13 * FINER)
+    left, bottom = 12 * FINER, (HEIGHT - 12) * FINER
+    pen.line([(left, bottom), (left + GRID * scale, bottom)], fill=INK, width=3 * FINER)
+    pen.text((left, bottom - 20 * FINER), f"{100 * GRID:.0f} cm", fill=INK, font=font)
+    pen.text((left, 8 * FINER), text, fill=INK, font=font)
+
+
 def draw_panel(fall, camera, now):
     size = np.array([WIDTH, HEIGHT]) * FINER
     scale = size[0] / VIEW
@@ -54,6 +67,7 @@ def draw_panel(fall, camera, now):
         ends = [place(position[i] + side * radius * along[i]) for side in (-1, 1)]
         pen.line(ends, fill=PATH, width=FINER + 1)
     pen.line([place(position[now] + side * radius * along[now]) for side in (-1, 1)], fill=PLATE, width=4 * FINER)
+    draw_scale(pen, f"a plate of {100 * 2 * radius:.0f} cm", scale)
     return image.resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
 
 
@@ -65,7 +79,7 @@ def main(file):
         frame = Image.new("RGB", (len(falls) * WIDTH, HEIGHT), PAPER)
         for i, (fall, camera) in enumerate(zip(falls, cameras)):
             frame.paste(draw_panel(fall, camera, now), (i * WIDTH, 0))
-        frames.append(frame.quantize(32, dither=Image.Dither.NONE))
+        frames.append(frame.quantize(64, dither=Image.Dither.NONE))
     frames[0].save(file, save_all=True, append_images=frames[1:], duration=1000 // FRAMES_PER_SECOND, loop=0, optimize=True)
 
 

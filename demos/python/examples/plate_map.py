@@ -35,16 +35,44 @@ def scene(duration):
     return {"duration": duration, "time_step": 1 / 240, "output_step": 1 / 120, "law": "form", "medium": water, "bodies": [plate]}
 
 
+class Countdown:
+    """A line that says how far a part of the work is and how long the rest will take."""
+
+    def __init__(self, what):
+        self.what, self.begin, self.before = what, time.monotonic(), None
+
+    def __call__(self, done, all_of_them):
+        """What is done at the first call was done by an earlier run, and says nothing of the speed."""
+        if self.before is None:
+            self.before = done
+        fresh = done - self.before
+        left = ""
+        if fresh > 0 and done < all_of_them:
+            seconds = (time.monotonic() - self.begin) / fresh * (all_of_them - done)
+            left = f", {seconds:.0f} s left" if seconds < 120 else f", {seconds / 60:.0f} min left"
+        print(f"\r{self.what}: {done} of {all_of_them}{left}\033[K", end="" if done < all_of_them else "\n", flush=True)
+
+
+def prepare(sizes, of_plate, cache):
+    """Makes the fluid body of each size, which the runs then find."""
+    tell = Countdown("shapes")
+    for done, size in enumerate(sizes):
+        tell(done, len(sizes))
+        ba.World(ba.Scene(of_plate, {"bodies.0.shape.size": size}), cache=cache)
+    tell(len(sizes), len(sizes))
+
+
 def run(side, duration, out):
     """The table of all plates."""
     thickness, mass = np.meshgrid(np.geomspace(*THICKNESS, side), np.geomspace(*MASS, side))
     sizes = [[WIDTH, LENGTH, t] for t in thickness.ravel()]
     out.mkdir(parents=True, exist_ok=True)
+    prepare(sizes[:side], scene(duration), out / "fluid_bodies")
     cases = out / "cases.jsonl"
     ba.write_cases(cases, scene(duration), {"bodies.0.shape.size": sizes, "bodies.0.mass": mass.ravel()})
     begin, used = time.time(), time.process_time()
-    counts = ba.run_cases(cases, out, motion=False, progress=lambda done, runs: print(f"\r{done} of {runs}", end=""))
-    print(f"\n{counts.cases} cases, {counts.done_before} done before, {len(counts.failures)} failed: ", end="")
+    counts = ba.run_cases(cases, out, motion=False, progress=Countdown("runs"))
+    print(f"{counts.cases} cases, {counts.done_before} done before, {len(counts.failures)} failed: ", end="")
     print(f"{time.time() - begin:.0f} s, of processors {time.process_time() - used:.0f} s")
     return thickness, mass, ba.collect(cases, out)
 

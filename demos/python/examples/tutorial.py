@@ -45,7 +45,7 @@ def polar_of_a_wing(axes):
         polar = wing.polar(attack, flow=ba.FlowSettings(law=law))
         (line,) = axes.plot(np.degrees(attack), polar["C_L"], label=f"lift, {law}")
         axes.plot(np.degrees(attack), polar["C_D"], "--", color=line.get_color(), label=f"drag, {law}")
-    axes.set(xlabel="angle of attack [°]", title="a wing: coefficients by both laws")
+    axes.set(xlabel="angle of attack [°]", ylabel="coefficient", title="a wing: coefficients by both laws")
     axes.legend(fontsize=7)
 
 

@@ -2,15 +2,15 @@
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/full_inertia_accelerations.h"
+#include "tests/support/bodies/free_body.h"
 #include "tests/support/extrapolation.h"
-#include "tests/support/free_body.h"
 
 namespace ambient::test {
 namespace {
 
 TEST(FreeFlight, HasTheAccelerationsOfAnotherSimulator) {
   for (const reference::AccelerationCase& c : reference::fullInertiaAccelerations()) {
-    // (u(h) - u(-h)) / 2h; going backwards in time is going forwards with the velocity reversed.
+    // (u(h) - u(-h)) / 2h; a step back in time is a step forward with the velocity reversed.
     const auto difference = [&](double h) {
       Vector6 sum = Vector6::Zero();
       for (const double sign : {1.0, -1.0}) {

@@ -18,14 +18,14 @@ AttachDef ball(const Medium& medium = air()) {
   return def;
 }
 
-// The sentence that attach() refuses with; empty if it does not.
+// Returns the sentence of attach()'s refusal; empty if accepted.
 std::string refusal(const BodyDef& body_def, const AttachDef& def) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add(body_def);
+  FluidWorld scene;
+  btRigidBody& body = scene.add(body_def);
   try {
-    fluid.registry.attach(body, def);
+    scene.fluid.add(body, def);
   } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(fluid.registry.size(), 0u);
+    EXPECT_EQ(scene.fluid.size(), 0u);
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     return error.what();
   }
@@ -69,7 +69,7 @@ TEST(Attach, RefusesChoicesThatDoNotExist) {
   expectSays(refusal({}, def), "has the load precision number 2; there are 0 to 1");
 }
 
-// Of 1 kg: neither sizes nor densities have a limit of their own, which would be one of units.
+// Bodies of 1 kg. The limit is a ratio of masses: a limit of size or density would depend on units.
 TEST(Attach, RefusesFluidsBesideWhichTheBodyIsNothing) {
   const char* const words = "at most 2^52 times its own";
   AttachDef def = ball(idealFluid(1e20));
@@ -101,19 +101,19 @@ TEST(Attach, RefusesABodyThatCannotTurn) {
   expectSays(refusal(def, ball()), "angular factor");
 }
 
-// What is said when a body is attached, twice.
+// Attaches two equal bodies; returns the reports.
 std::vector<std::string> saidAbout(const BodyDef& body_def, const AttachDef& def) {
-  FluidWorld fluid;
+  FluidWorld scene;
   std::vector<std::string> said;
-  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
-  for (int i = 0; i < 2; ++i) fluid.registry.attach(fluid.add(body_def), def);
+  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
+  for (int i = 0; i < 2; ++i) scene.fluid.add(scene.add(body_def), def);
   return said;
 }
 
 TEST(Attach, ReportsMomentsOfInertiaOfNoRigidBodyOnce) {
   AttachDef def = ball();
   BodyDef sheet;
-  sheet.mass = 4000;  // more than half of the water that it displaces
+  sheet.mass = 4000;  // heavier than half of the displaced water
   sheet.moments = {1, 2, 3};
   EXPECT_TRUE(saidAbout(sheet, def).empty());
   BodyDef odd = sheet;
@@ -129,7 +129,7 @@ TEST(Attach, ReportsAnEmptyFluidBodyOnce) {
   auto empty = std::make_shared<FluidBody>();
   empty->name = "hollow";
   def.fluid_body = empty;
-  EXPECT_TRUE(saidAbout({}, def).empty());  // in vacuum nothing is expected of it
+  EXPECT_TRUE(saidAbout({}, def).empty());  // vacuum: no added mass expected
   def.medium = air();
   const std::vector<std::string> said = saidAbout({}, def);
   ASSERT_EQ(said.size(), 1u);
@@ -139,15 +139,15 @@ TEST(Attach, ReportsAnEmptyFluidBodyOnce) {
 }
 
 TEST(Attach, RefusesTheSameBodyTwice) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add({}, meshedEllipsoid(Vector3::Ones(), 1), air());
+  FluidWorld scene;
+  btRigidBody& body = scene.add({}, meshedEllipsoid(Vector3::Ones(), 1), air());
   try {
-    fluid.registry.attach(body, ball());
+    scene.fluid.add(body, ball());
     FAIL() << "attached twice";
   } catch (const std::invalid_argument& error) {
-    expectSays(error.what(), "attached already");
+    expectSays(error.what(), "added already");
   }
-  EXPECT_EQ(fluid.registry.size(), 1u);
+  EXPECT_EQ(scene.fluid.size(), 1u);
 }
 
 TEST(Attach, RefusesAMediumThatIsNotPhysical) {
@@ -165,29 +165,23 @@ TEST(Attach, RefusesASeparationAngleOutsideOfItsRange) {
 }
 
 TEST(SetMedium, KeepsTheOldMediumWhenTheNewOneIsRefused) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add({}, meshedEllipsoid(Vector3::Ones(), 1), air());
-  EXPECT_THROW(fluid.registry.setMedium(body, {-1, 0, Vector3::Zero(), Vector3::Zero()}),
+  FluidWorld scene;
+  btRigidBody& body = scene.add({}, meshedEllipsoid(Vector3::Ones(), 1), air());
+  EXPECT_THROW(scene.of(body).setMedium({-1, 0, Vector3::Zero(), Vector3::Zero()}),
                std::invalid_argument);
-  EXPECT_EQ(fluid.registry.medium(body).density, air().density);
+  EXPECT_EQ(scene.of(body).medium().density, air().density);
 }
 
-TEST(SetMedium, RefusesABodyThatIsNotAttached) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add({});
-  EXPECT_THROW(fluid.registry.setMedium(body, air()), std::invalid_argument);
-}
-
-TEST(Registry, TotalInertiaIsThatOfBodyAndFluid) {
-  FluidWorld fluid;
+TEST(Fluid, TotalInertiaIsThatOfBodyAndFluid) {
+  FluidWorld scene;
   BodyDef def;
   def.mass = 2;
   def.moments = Vector3(0.3, 0.4, 0.5);
   const FluidBody shape = facelessEllipsoid(Vector3(1, 2, 3));
-  const btRigidBody& body = fluid.add(def, shape, water());
+  const btRigidBody& body = scene.add(def, shape, water());
   Vector6 expected = water().density * shape.added_mass.diagonal();
   expected += (Vector6() << 0.3, 0.4, 0.5, 2, 2, 2).finished();
-  const Vector6 diagonal = fluid.registry.inertia(body).diagonal();
+  const Vector6 diagonal = scene.of(body).inertia().diagonal();
   EXPECT_LT((diagonal - expected).norm(), 1e-6 * expected.norm());
 }
 

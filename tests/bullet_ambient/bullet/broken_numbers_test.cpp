@@ -8,30 +8,30 @@
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
-// What is not a number stays with the body that it was given to.
+// Numbers that are not finite must not spread to other bodies.
 namespace ambient::test {
 namespace {
 
 const auto kNan = std::numeric_limits<btScalar>::quiet_NaN();
 using Spoil = std::function<void(btRigidBody&)>;
 
-// Two bodies in air, 50 m apart or touching; one is spoilt after some steps.
+// Two bodies in air, 50 m apart or touching; `sick` gets a broken number after some steps.
 struct Pair {
-  FluidWorld fluid;
+  FluidWorld scene;
   btSphereShape ball{static_cast<btScalar>(0.3)};
   std::vector<std::string> said;
   btRigidBody* healthy = nullptr;
   btRigidBody* sick = nullptr;
 
   explicit Pair(double distance) {
-    fluid.registry.setReport([this](const std::string& text) { said.push_back(text); });
+    scene.fluid.setReport([this](const std::string& text) { said.push_back(text); });
     const FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
     BodyDef def;
     def.shape = &ball;
-    healthy = &fluid.add(def, shape, air());
+    healthy = &scene.add(def, shape, air());
     def.start.position = {distance, 0, 0};
     def.start.twist = {Vector3(1, 2, 3), Vector3(-1, 0, 0)};
-    sick = &fluid.add(def, shape, air());
+    sick = &scene.add(def, shape, air());
   }
 };
 
@@ -54,12 +54,12 @@ TEST(BrokenNumbers, InVelocityForceAndTorqueStayWithTheirBody) {
   for (const double distance : {50.0, 0.59}) {
     for (const Spoil& spoil : kSpoils) {
       Pair pair(distance);
-      pair.fluid.step(1.0 / 60, 2);
+      pair.scene.step(1.0 / 60, 2);
       spoil(*pair.sick);
-      pair.fluid.step(1.0 / 60, 30);
+      pair.scene.step(1.0 / 60, 30);
       EXPECT_TRUE(readState(*pair.healthy).isFinite()) << distance;
-      EXPECT_EQ(pair.fluid.registry.counters(*pair.healthy).rejected, 0) << distance;
-      EXPECT_GT(pair.fluid.registry.counters(*pair.sick).rejected, 0) << distance;
+      EXPECT_EQ(pair.scene.of(*pair.healthy).counters().rejected, 0) << distance;
+      EXPECT_GT(pair.scene.of(*pair.sick).counters().rejected, 0) << distance;
       ASSERT_EQ(pair.said.size(), 1u) << distance;
       EXPECT_NE(pair.said[0].find("not finite"), std::string::npos);
     }
@@ -69,42 +69,42 @@ TEST(BrokenNumbers, InVelocityForceAndTorqueStayWithTheirBody) {
 TEST(BrokenNumbers, InTheForceOfOneStepAreForgottenInTheNext) {
   Pair pair(50);
   pair.sick->applyCentralForce({0, 0, kNan});
-  pair.fluid.step(1.0 / 60);
+  pair.scene.step(1.0 / 60);
   const btVector3 before = pair.sick->getWorldTransform().getOrigin();
-  pair.fluid.step(1.0 / 60, 60);
+  pair.scene.step(1.0 / 60, 60);
   EXPECT_TRUE(readState(*pair.sick).isFinite());
   EXPECT_GT(static_cast<double>((pair.sick->getWorldTransform().getOrigin() - before).length()),
             0.5);
 }
 
-// A box at rest on a plane, under forces whose squares, or those of what they do, are not finite.
+// A box at rest on a plane under forces with overflowing squares, or overflowing velocities.
 TEST(BrokenNumbers, OfRowsAreDroppedAndReported) {
   const double largest = static_cast<double>(std::numeric_limits<btScalar>::max());
   for (const double force : {1e25, std::sqrt(largest), largest / 100, largest}) {
-    // Rows are in double: what floats can hold has a square there.
+    // Rows are in double: squares of all floats are finite in double.
     const bool is_too_large = kDouble && force >= std::sqrt(largest);
-    FluidWorld fluid;
+    FluidWorld scene;
     std::string said;
-    fluid.registry.setReport([&](const std::string& text) { said += text; });
+    scene.fluid.setReport([&](const std::string& text) { said += text; });
     btStaticPlaneShape plane({0, 0, 1}, 0);
     btRigidBody floor(0, nullptr, &plane);
-    fluid.world.addRigidBody(&floor);
+    scene.world.addRigidBody(&floor);
     btBoxShape box({bt(0.5), bt(0.5), bt(0.5)});
     BodyDef def;
     def.shape = &box;
     def.start.position = {0, 0, 0.5};
-    btRigidBody& body = fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+    btRigidBody& body = scene.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
     body.applyCentralForce({0, 0, bt(-force)});
     for (int i = 0; i < 10; ++i) {
-      fluid.step(1.0 / 60);
+      scene.step(1.0 / 60);
       EXPECT_TRUE(readState(body).isFinite()) << force << " N, step " << i;
-      fluid.world.clearForces();
+      scene.world.clearForces();
     }
     const bool is_reported = said.find("not finite") != std::string::npos;
-    const bool is_rejected = fluid.registry.counters(body).rejected > 0;
+    const bool is_rejected = scene.of(body).counters().rejected > 0;
     EXPECT_EQ(is_rejected, is_too_large) << force;
     EXPECT_EQ(is_reported, is_too_large) << force;
-    fluid.world.removeRigidBody(&floor);
+    scene.world.removeRigidBody(&floor);
   }
 }
 
@@ -117,9 +117,9 @@ TEST(BrokenNumbers, InAMediumAreRefused) {
     if (k == 1) medium.viscosity = nan;
     if (k == 2) medium.velocity.y() = nan;
     if (k == 3) medium.acceleration.z() = nan;
-    EXPECT_THROW(pair.fluid.registry.setMedium(*pair.sick, medium), std::invalid_argument) << k;
+    EXPECT_THROW(pair.scene.of(*pair.sick).setMedium(medium), std::invalid_argument) << k;
   }
-  pair.fluid.step(1.0 / 60, 10);
+  pair.scene.step(1.0 / 60, 10);
   EXPECT_TRUE(readState(*pair.sick).isFinite());
 }
 

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/support/free_body.h"
+#include "tests/support/bodies/free_body.h"
 
-// Features of Bullet that a program may use on ambient bodies as on any other.
+// Bullet's features for rigid bodies, used on ambient bodies.
 namespace ambient::test {
 namespace {
 
@@ -18,12 +18,12 @@ double placeAlongX(const btRigidBody& body) {
 
 TEST(Features, DampingIsWhatTheUserHasSet) {
   // Bullet: v (1 - d)^t.
-  FluidWorld fluid;
+  FluidWorld scene;
   BodyDef def;
   def.start.twist = {Vector3(0, 0, 2), Vector3(3, 0, 0)};
-  btRigidBody& body = fluid.add(def, shapeWithoutFaces(Matrix6::Identity(), 0), idealFluid(1));
+  btRigidBody& body = scene.add(def, shapeWithoutFaces(Matrix6::Identity(), 0), idealFluid(1));
   body.setDamping(bt(0.3), bt(0.6));
-  fluid.step(1.0 / 64, 64);
+  scene.step(1.0 / 64, 64);
   EXPECT_NEAR(speedAlongX(body), 3 * 0.7, byPrecision(1e-12, 1e-5));
   EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().z()), 2 * 0.4,
               byPrecision(1e-12, 1e-5));
@@ -33,35 +33,35 @@ TEST(Features, GravityOfASingleBodyMakesItsWeightAndBuoyancy) {
   const FluidBody shape = facelessEllipsoid(kUnequalAxes);
   const double mass = 2 * shape.volume * 1000;
   const Vector3 down(1, -2, -5);
-  FluidWorld fluid;
+  FluidWorld scene;
   BodyDef def;
   def.mass = mass;
-  btRigidBody& own = fluid.add(def, shape, idealFluid(1000));
+  btRigidBody& own = scene.add(def, shape, idealFluid(1000));
   def.start.position = {10, 0, 0};
-  const btRigidBody& other = fluid.add(def, shape, idealFluid(1000));
+  const btRigidBody& other = scene.add(def, shape, idealFluid(1000));
   own.setGravity(toBullet(down));
-  fluid.step(1.0 / 64);
+  scene.step(1.0 / 64);
   // Half of the weight is buoyancy; every axis has its own total inertia.
-  const Vector3 inertia = fluid.registry.inertia(own).diagonal().tail<3>();
+  const Vector3 inertia = scene.of(own).inertia().diagonal().tail<3>();
   const Vector3 expected = (mass / 2 * down / 64).cwiseQuotient(inertia);
   EXPECT_LT((toVector3(own.getLinearVelocity()) - expected).norm(), byPrecision(1e-4, 1e-4));
   EXPECT_TRUE(other.getLinearVelocity() == btVector3(0, 0, 0));
 }
 
 TEST(Features, ABodyThatIgnoresTheWorldsGravityIsNotLifted) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add({}, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
-  fluid.world.removeRigidBody(&body);
+  FluidWorld scene;
+  btRigidBody& body = scene.add({}, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
+  scene.world.removeRigidBody(&body);
   body.setFlags(body.getFlags() | BT_DISABLE_WORLD_GRAVITY);
-  fluid.world.setGravity({0, 0, bt(-9.81)});
-  fluid.world.addRigidBody(&body);
-  fluid.step(1.0 / 64, 10);
+  scene.world.setGravity({0, 0, bt(-9.81)});
+  scene.world.addRigidBody(&body);
+  scene.step(1.0 / 64, 10);
   EXPECT_TRUE(body.getLinearVelocity() == btVector3(0, 0, 0));
 }
 
-// Flies towards a thin wall, 2 m per step.
+// A body that flies towards a thin wall by 2 m per step.
 struct Shot {
-  FluidWorld fluid;
+  FluidWorld scene;
   btBoxShape wall{btVector3(bt(0.01), 5, 5)};
   btSphereShape ball{bt(0.1)};
   btRigidBody* body = nullptr;
@@ -72,11 +72,11 @@ struct Shot {
     def.moments.setZero();
     def.start.position = {5, 0, 0};
     def.shape = &wall;
-    fluid.add(def);
+    scene.add(def);
     def = {};
     def.start.twist = {Vector3(spin, 0, 0), Vector3(120, 0, 0)};
     def.shape = &ball;
-    body = &fluid.add(def, shapeWithoutFaces(Matrix6::Identity(), 0), idealFluid(1));
+    body = &scene.add(def, shapeWithoutFaces(Matrix6::Identity(), 0), idealFluid(1));
   }
 };
 
@@ -85,10 +85,10 @@ TEST(Features, ContinuousCollisionStopsABodyAtAWall) {
     Shot with(spin), without(spin);
     with.body->setCcdMotionThreshold(bt(0.05));
     with.body->setCcdSweptSphereRadius(bt(0.09));
-    with.fluid.step(1.0 / 60, 30);
-    without.fluid.step(1.0 / 60, 30);
+    with.scene.step(1.0 / 60, 30);
+    without.scene.step(1.0 / 60, 30);
     EXPECT_LT(placeAlongX(*with.body), 5);
-    EXPECT_GT(placeAlongX(*without.body), 6);  // it tunnels
+    EXPECT_GT(placeAlongX(*without.body), 6);  // passes through
     EXPECT_TRUE(readState(*with.body).isFinite());
   }
 }
@@ -101,23 +101,23 @@ struct Place : btMotionState {
 
 // Pose by motion state after calls of `call_step`, with fixed substeps of 1/64 s.
 btTransform motionStateAfter(double call_step, int calls) {
-  FluidWorld fluid;
+  FluidWorld scene;
   Place place;
   BodyDef def;
   def.start.twist = {Vector3(0, 0, 3), Vector3(1, 0, 0)};
-  // Curved: the added mass across is twice that along.
+  // Makes a curved path: the added mass across is twice the one along.
   Matrix6 added = Matrix6::Identity();
   added(4, 4) = 3;
-  btRigidBody& body = fluid.add(def, shapeWithoutFaces(added, 0), idealFluid(1));
+  btRigidBody& body = scene.add(def, shapeWithoutFaces(added, 0), idealFluid(1));
   body.setMotionState(&place);
-  for (int i = 0; i < calls; ++i) fluid.world.stepSimulation(bt(call_step), 10, bt(1.0 / 64));
+  for (int i = 0; i < calls; ++i) scene.world.stepSimulation(bt(call_step), 10, bt(1.0 / 64));
   body.setMotionState(nullptr);
   return place.now;
 }
 
 TEST(Features, MotionStatesAreInterpolatedBetweenSubsteps) {
-  // Bullet shows the world one substep late: after the time t + 1/64 s, where t is half way between
-  // two substeps, the pose must lie half way between theirs.
+  // Bullet interpolates one substep late, after the time t + 1/64 s. For t half way between two
+  // substeps the pose must lie half way between theirs.
   const btTransform before = motionStateAfter(1.0 / 64, 10);
   const btTransform after = motionStateAfter(1.0 / 64, 11);
   const btTransform between = motionStateAfter(1.0 / 128, 21);
@@ -133,110 +133,112 @@ TEST(Features, MotionStatesAreInterpolatedBetweenSubsteps) {
 
 TEST(Features, APushGivesItsImpulseAtOnce) {
   // applyImpulse divides by the dry mass, as documented.
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add({}, shapeWithoutFaces(Matrix6::Identity(), 0), idealFluid(1));
+  FluidWorld scene;
+  btRigidBody& body = scene.add({}, shapeWithoutFaces(Matrix6::Identity(), 0), idealFluid(1));
   body.applyCentralImpulse({3, 0, 0});
   EXPECT_NEAR(speedAlongX(body), 3, 1e-6);
-  fluid.step(1.0 / 60, 10);
+  scene.step(1.0 / 60, 10);
   EXPECT_NEAR(speedAlongX(body), 3, 1e-5);
 }
 
 TEST(Features, AForceAtAPointTurnsTheBody) {
-  FluidWorld fluid;
+  FluidWorld scene;
   Matrix6 added = Matrix6::Identity();
-  btRigidBody& body = fluid.add({}, shapeWithoutFaces(added, 0), idealFluid(1));
+  btRigidBody& body = scene.add({}, shapeWithoutFaces(added, 0), idealFluid(1));
   body.applyForce({0, 1, 0}, {bt(0.5), 0, 0});
-  fluid.step(1.0 / 64);
+  scene.step(1.0 / 64);
   EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().z()) * 64 * 2, 0.5,
               byPrecision(1e-6, 1e-5));
 }
 
 TEST(Features, ADetachedBodyFliesOnAsInAVacuum) {
-  FluidWorld fluid;
-  fluid.world.setGravity({0, 0, bt(-10)});
-  btRigidBody& body = fluid.add({}, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
-  fluid.step(1.0 / 64, 5);
+  FluidWorld scene;
+  scene.world.setGravity({0, 0, bt(-10)});
+  btRigidBody& body = scene.add({}, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
+  scene.step(1.0 / 64, 5);
   const double before = static_cast<double>(body.getLinearVelocity().z());
   EXPECT_GT(before, 0);  // it rises
-  EXPECT_TRUE(fluid.registry.detach(body));
-  fluid.step(1.0 / 64);
+  EXPECT_TRUE(scene.of(body).remove());
+  scene.step(1.0 / 64);
   EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().z()) - before, -10.0 / 64, 1e-6);
 }
 
-// The solver has already given it the mean velocity of its flight, with which Bullet has moved it.
+// Bullet has already moved the body by the mean velocity of its flight, set by the solver.
 TEST(Features, ABodyDetachedBetweenSolverAndActionKeepsTheMeanVelocityOfItsFlight) {
   struct Detach : btActionInterface {
-    AmbientRegistry* registry = nullptr;
+    Fluid* fluid = nullptr;
     btRigidBody* body = nullptr;
-    void updateAction(btCollisionWorld*, btScalar) override { registry->detach(*body); }
+    void updateAction(btCollisionWorld*, btScalar) override {
+      if (const auto found = fluid->find(*body)) found->remove();
+    }
     void debugDraw(btIDebugDraw*) override {}
   };
   const double dt = 1.0 / 64;
-  FluidWorld fluid, attached;
+  FluidWorld scene, attached;
   BodyDef def;
   def.start.twist.linear = {1, 2, 3};
-  btRigidBody& body = fluid.add(def, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
+  btRigidBody& body = scene.add(def, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
   const btRigidBody& twin = attached.add(def, facelessEllipsoid(kUnequalAxes), idealFluid(1000));
-  fluid.world.removeAction(&fluid.action);
   Detach detach;
-  detach.registry = &fluid.registry;
+  detach.fluid = &scene.fluid;
   detach.body = &body;
-  fluid.world.addAction(&detach);
-  fluid.world.addAction(&fluid.action);
+  scene.removeAction();
+  scene.world.addAction(&detach);
+  scene.addAction();
 
-  fluid.step(dt);
+  scene.step(dt);
   attached.step(dt);
-  EXPECT_EQ(fluid.registry.size(), 0u);
+  EXPECT_EQ(scene.fluid.size(), 0u);
   const Vector3 way = toVector3(body.getWorldTransform().getOrigin());
   EXPECT_EQ(way, toVector3(twin.getWorldTransform().getOrigin()));
   const Vector3 velocity = toVector3(body.getLinearVelocity());
   EXPECT_LT((velocity - way / dt).norm(), byPrecision(1e-12, 1e-5));
   EXPECT_GT((velocity - toVector3(twin.getLinearVelocity())).norm(), 0.01) << "of the flight's end";
-  fluid.step(dt, 2);
+  scene.step(dt, 2);
   EXPECT_EQ(toVector3(body.getLinearVelocity()), velocity);
-  fluid.world.removeAction(&detach);
+  scene.world.removeAction(&detach);
 }
 
 TEST(Features, ABodyMadeKinematicIsLeftToBullet) {
-  FluidWorld fluid;
+  FluidWorld scene;
   BodyDef def;
   def.start.twist.linear = {1, 0, 0};
-  btRigidBody& body = fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
-  fluid.step(1.0 / 64);
-  fluid.world.removeRigidBody(&body);
+  btRigidBody& body = scene.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+  scene.step(1.0 / 64);
+  scene.world.removeRigidBody(&body);
   body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-  fluid.world.addRigidBody(&body);
-  const long long evaluations = fluid.registry.counters(body).load_evaluations;
+  scene.world.addRigidBody(&body);
+  const long long evaluations = scene.of(body).counters().load_evaluations;
   const btVector3 place = body.getWorldTransform().getOrigin();
-  fluid.step(1.0 / 64, 5);
-  EXPECT_EQ(fluid.registry.counters(body).load_evaluations, evaluations);
+  scene.step(1.0 / 64, 5);
+  EXPECT_EQ(scene.of(body).counters().load_evaluations, evaluations);
   EXPECT_TRUE(body.getWorldTransform().getOrigin() == place);
 }
 
 TEST(Features, AMassOfZeroIsLeftToBulletUntilItIsPositiveAgain) {
-  FluidWorld fluid;
-  fluid.world.setGravity({0, 0, bt(-10)});
-  btRigidBody& body = fluid.add({}, facelessEllipsoid(kUnequalAxes), idealFluid(1));
-  fluid.step(1.0 / 64);
+  FluidWorld scene;
+  scene.world.setGravity({0, 0, bt(-10)});
+  btRigidBody& body = scene.add({}, facelessEllipsoid(kUnequalAxes), idealFluid(1));
+  scene.step(1.0 / 64);
   body.setMassProps(0, {0, 0, 0});
-  fluid.step(1.0 / 64, 3);
+  scene.step(1.0 / 64, 3);
   body.setMassProps(2, {1, 1, 1});
   body.updateInertiaTensor();
-  fluid.step(1.0 / 64);
-  EXPECT_NEAR(fluid.registry.inertia(body)(0, 0), 1, 0.1);
-  EXPECT_NEAR(fluid.registry.inertia(body)(5, 5),
-              2 + facelessEllipsoid(kUnequalAxes).added_mass(5, 5), 1e-6);
+  scene.step(1.0 / 64);
+  EXPECT_NEAR(scene.of(body).inertia()(0, 0), 1, 0.1);
+  EXPECT_NEAR(scene.of(body).inertia()(5, 5), 2 + facelessEllipsoid(kUnequalAxes).added_mass(5, 5),
+              1e-6);
 }
 
 TEST(Features, TheMediumMayChangeInEveryStep) {
-  // A gust, given anew in each step: same motion as one that is given once.
+  // Sets the same gust in each step: must move like a body with a gust set once.
   Medium wind = air();
   wind.velocity = {5, 0, 0};
   FluidWorld once, anew;
   const btRigidBody& a = once.add({}, meshedEllipsoid(kUnequalAxes, 1), wind);
   const btRigidBody& b = anew.add({}, meshedEllipsoid(kUnequalAxes, 1), wind);
   for (int i = 0; i < 60; ++i) {
-    anew.registry.setMedium(b, wind);
+    anew.of(b).setMedium(wind);
     once.step(1.0 / 60);
     anew.step(1.0 / 60);
   }
@@ -244,18 +246,18 @@ TEST(Features, TheMediumMayChangeInEveryStep) {
   EXPECT_TRUE(a.getWorldTransform() == b.getWorldTransform());
   EXPECT_TRUE(a.getLinearVelocity() == b.getLinearVelocity());
   // The history of the loads is kept: no extra evaluation in each step.
-  EXPECT_EQ(anew.registry.counters(b).load_evaluations, once.registry.counters(a).load_evaluations);
+  EXPECT_EQ(anew.of(b).counters().load_evaluations, once.of(a).counters().load_evaluations);
 }
 
 TEST(Features, TwoRunsGiveTheSameBits) {
   btTransform end[2];
   for (btTransform& pose : end) {
-    FluidWorld fluid;
-    fluid.world.setGravity({0, 0, bt(-9.81)});
+    FluidWorld scene;
+    scene.world.setGravity({0, 0, bt(-9.81)});
     BodyDef def;
     def.start.twist = {Vector3(1, 2, 3), Vector3(3, 2, 1)};
-    const btRigidBody& body = fluid.add(def, meshedEllipsoid(kUnequalAxes, 2), water());
-    fluid.step(1.0 / 60, 120);
+    const btRigidBody& body = scene.add(def, meshedEllipsoid(kUnequalAxes, 2), water());
+    scene.step(1.0 / 60, 120);
     pose = body.getWorldTransform();
   }
   EXPECT_TRUE(end[0] == end[1]);

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/sphere_fall.h"
 
-// Stiff and extreme cases, each with what is right for it.
+// Stiff and extreme cases, each against an exact solution or a bound.
 namespace ambient::test {
 namespace {
 
@@ -25,37 +25,37 @@ BodyDef sphere(double mass, double radius) {
   return {mass, Vector3::Constant(0.4 * mass * radius * radius), {}, nullptr};
 }
 
-void setGravity(FluidWorld& fluid, double gravity) {
-  fluid.world.setGravity({0, 0, static_cast<btScalar>(-gravity)});
+void setGravity(FluidWorld& scene, double gravity) {
+  scene.world.setGravity({0, 0, static_cast<btScalar>(-gravity)});
 }
 
 double speedOf(const btRigidBody& body) {
   return static_cast<double>(body.getLinearVelocity().length());
 }
 
-/// Speed of a sphere after a time without gravity: K dv/dt = -c v^2.
+/// Speed of a sphere at a time without gravity: K dv/dt = -c v^2.
 double coastingSpeed(const reference::SphereFall& s, double start, double time) {
   const double c = s.density * kPi * s.radius * s.radius * s.drag_coefficient / 2;
   return start / (1 + c / s.effectiveMass() * start * time);
 }
 
 TEST(ExtremeCase, AFeatherAt300MetresPerSecondIsSlowedAsItsDragSays) {
-  // 0.2 g of 4 cm radius: it loses nine tenths of its speed within the first step.
+  // 0.2 g, 4 cm radius: loses nine tenths of its speed within the first step.
   const reference::SphereFall exact{2e-4, 0.04, air().density, 0};
   for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
-    FluidWorld fluid;
+    FluidWorld scene;
     BodyDef def = sphere(exact.mass, exact.radius);
     def.start.twist.linear = {0, 0, 300};
-    btRigidBody& feather = fluid.add(def);
+    btRigidBody& feather = scene.add(def);
     AttachDef attach;
     attach.fluid_body = std::make_shared<FluidBody>(gaussSphere(exact.radius));
     attach.medium = inviscid(air());
-    // No face meets the rim of the sphere, so that what rounding moves it sideways grows as it
-    // slows down, in their product constant: with loads in single precision by 5e-6.
+    // No face lies at the rim of the sphere. So sideways drift by rounding grows while the sphere
+    // slows down, their product constant: 5e-6 with loads in single precision.
     attach.flow.precision = LoadPrecision::kDouble;
-    fluid.registry.attach(feather, attach);
+    scene.fluid.add(feather, attach);
     for (int i = 1; i <= 30; ++i) {
-      fluid.step(step);
+      scene.step(step);
       EXPECT_NEAR(speedOf(feather) / coastingSpeed(exact, 300, i * step), 1,
                   byPrecision(1e-12, 2e-5))
           << "step " << i << " of " << step;
@@ -67,38 +67,38 @@ TEST(ExtremeCase, ATumblingFeatherAt300MetresPerSecondOnlyLosesEnergy) {
   const Vector3 semi_axes(0.05, 0.05, 0.01);
   BodyDef def{2e-4, ellipsoidMoments(semi_axes, 2e-4), {}, nullptr};
   def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};
-  FluidWorld fluid;
+  FluidWorld scene;
   std::vector<std::string> said;
-  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
-  const btRigidBody& feather = fluid.add(def, meshedEllipsoid(semi_axes, 2), air());
-  double energy = kineticEnergy(fluid, feather);
+  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
+  const btRigidBody& feather = scene.add(def, meshedEllipsoid(semi_axes, 2), air());
+  double energy = kineticEnergy(scene, feather);
   for (int i = 0; i < 240; ++i) {
-    fluid.step(1.0 / 60);
-    const double now = kineticEnergy(fluid, feather);
+    scene.step(1.0 / 60);
+    const double now = kineticEnergy(scene, feather);
     ASSERT_LE(now, energy * (1 + byPrecision(1e-12, 1e-5))) << i;
     energy = now;
   }
   EXPECT_LT(speedOf(feather), 3);
   // Its first steps are too long for the paths that they stand for, and the user is told, once.
-  EXPECT_GT(fluid.registry.counters(feather).coarse, 0);
+  EXPECT_GT(scene.of(feather).counters().coarse, 0);
   ASSERT_EQ(said.size(), 1U);
   EXPECT_NE(said[0].find("too long for the motion"), std::string::npos);
 }
 
 TEST(ExtremeCase, AFastModeThatWasAskedForIsNotComplainedAbout) {
-  FluidWorld fluid;
+  FluidWorld scene;
   std::vector<std::string> said;
-  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.05, 0.05, 0.01), 1));
   attach.medium = air();
   attach.flight.max_substeps = 1;
   BodyDef def{2e-4, ellipsoidMoments(Vector3(0.05, 0.05, 0.01), 2e-4), {}, nullptr};
   def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};
-  btRigidBody& feather = fluid.add(def);
-  fluid.registry.attach(feather, attach);
-  fluid.step(1.0 / 60, 60);
-  const AmbientCounters counters = fluid.registry.counters(feather);
+  btRigidBody& feather = scene.add(def);
+  scene.fluid.add(feather, attach);
+  scene.step(1.0 / 60, 60);
+  const AmbientCounters counters = scene.of(feather).counters();
   EXPECT_GT(counters.coarse, 0);
   EXPECT_EQ(counters.substeps, 60);
   EXPECT_LE(counters.load_evaluations, 61);
@@ -106,19 +106,19 @@ TEST(ExtremeCase, AFastModeThatWasAskedForIsNotComplainedAbout) {
 }
 
 TEST(ExtremeCase, ASoapBubbleSettlesToItsTerminalSpeedAndDriftsWithTheWind) {
-  // A film of a micrometre around air: 5 per cent heavier than the air it displaces.
+  // A film of a micrometre around air: 5 per cent heavier than the displaced air.
   constexpr double kRadius = 0.05;
   const double film = 4 * kPi * kRadius * kRadius * 1e-6 * 1000;
   reference::SphereFall exact{0, kRadius, air().density, kEarthGravity};
   exact.mass = film + exact.displacedMass();
   Medium wind = inviscid(air());
   wind.velocity = {3, 0, 0};
-  FluidWorld fluid;
-  setGravity(fluid, kEarthGravity);
+  FluidWorld scene;
+  setGravity(scene, kEarthGravity);
   BodyDef def = sphere(exact.mass, kRadius);
   def.start.twist.linear = {0, 20, 0};
-  const btRigidBody& bubble = fluid.add(def, gaussSphere(kRadius), wind);
-  fluid.step(1.0 / 60, 60 * 60);
+  const btRigidBody& bubble = scene.add(def, gaussSphere(kRadius), wind);
+  scene.step(1.0 / 60, 60 * 60);
   const btVector3 v = bubble.getLinearVelocity();
   EXPECT_NEAR(static_cast<double>(v.x()), 3, 0.02);
   EXPECT_NEAR(static_cast<double>(v.y()), 0, 0.02);
@@ -128,12 +128,12 @@ TEST(ExtremeCase, ASoapBubbleSettlesToItsTerminalSpeedAndDriftsWithTheWind) {
 TEST(ExtremeCase, ABalloonReleasedUnderWaterRisesByItsClosedForm) {
   const reference::SphereFall exact{0.005, 0.15, water().density, kEarthGravity};
   EXPECT_LT(exact.firstAcceleration(), -1.99 * kEarthGravity);  // upwards
-  FluidWorld fluid;
-  setGravity(fluid, kEarthGravity);
+  FluidWorld scene;
+  setGravity(scene, kEarthGravity);
   const btRigidBody& balloon =
-      fluid.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(water()));
+      scene.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(water()));
   for (int i = 1; i <= 60; ++i) {
-    fluid.step(1.0 / 60);
+    scene.step(1.0 / 60);
     EXPECT_NEAR(static_cast<double>(-balloon.getLinearVelocity().z()) / exact.velocity(i / 60.0), 1,
                 5e-3)
         << i;
@@ -142,19 +142,19 @@ TEST(ExtremeCase, ABalloonReleasedUnderWaterRisesByItsClosedForm) {
 
 struct SpunCoin {
   double spin;                  // [rad/s]
-  double spin_axis, coin_axis;  // cosines to where they pointed at first
+  double spin_axis, coin_axis;  // cosines to initial directions
 };
 
-// A coin of 5.7 g after two seconds.
+// Spins a coin of 5.7 g for two seconds.
 SpunCoin spinCoin(const FluidBody& shape, double step) {
   const Vector3 semi_axes(0.012, 0.012, 0.001);
   BodyDef def{0.0057, ellipsoidMoments(semi_axes, 0.0057), {}, nullptr};
   def.start.orientation = Quaternion(Eigen::AngleAxisd(0.5, Vector3::UnitX()));
   const Vector3 axis = def.start.orientation * Vector3::UnitZ();
   def.start.twist.angular = 1e4 * axis;
-  FluidWorld fluid;
-  const btRigidBody& coin = fluid.add(def, shape, inviscid(air()));
-  fluid.step(step, static_cast<int>(std::lround(2 / step)));
+  FluidWorld scene;
+  const btRigidBody& coin = scene.add(def, shape, inviscid(air()));
+  scene.step(step, static_cast<int>(std::lround(2 / step)));
   const Vector3 spin = toVector3(coin.getAngularVelocity());
   return {spin.norm(), spin.normalized().dot(axis),
           (readState(coin).orientation * Vector3::UnitZ()).dot(axis)};
@@ -170,7 +170,7 @@ TEST(ExtremeCase, ASmoothCoinSpunAtTenThousandRadiansPerSecondKeepsAxisAndSpin) 
 }
 
 TEST(ExtremeCase, AFacetedCoinSpunAtTenThousandRadiansPerSecondIsSlowedByItsFacetsAlone) {
-  // Facets that turn about the axis meet the fluid: measured 2 and 7 per cent in two seconds.
+  // Facets turning about the axis brake the spin: measured 2 and 7 per cent in two seconds.
   for (const double step : {1.0 / 30, 1.0 / 240}) {
     const SpunCoin end = spinCoin(meshedEllipsoid(Vector3(0.012, 0.012, 0.001), 2), step);
     EXPECT_LT(end.spin, 1e4);
@@ -184,20 +184,20 @@ TEST(ExtremeCase, ABodyFiredOutOfContactFliesByItsClosedForm) {
   constexpr double kRadius = 0.1, kSpeed = 100;
   btBoxShape floor_shape(btVector3(5, 5, 1));
   btSphereShape ball_shape(static_cast<btScalar>(kRadius));
-  FluidWorld fluid;
-  setGravity(fluid, kEarthGravity);
+  FluidWorld scene;
+  setGravity(scene, kEarthGravity);
   BodyDef floor_def{0, Vector3::Zero(), {}, &floor_shape};
   floor_def.start.position = {0, 0, -1};
-  fluid.add(floor_def);
+  scene.add(floor_def);
   BodyDef def = sphere(0.5, kRadius);
   def.start.position = {0, 0, kRadius};
   def.shape = &ball_shape;
-  btRigidBody& ball = fluid.add(def, gaussSphere(kRadius), inviscid(water()));
+  btRigidBody& ball = scene.add(def, gaussSphere(kRadius), inviscid(water()));
   ball.setMassProps(static_cast<btScalar>(8), toBullet(Vector3::Constant(0.032)));
-  fluid.step(1.0 / 240, 240);
+  scene.step(1.0 / 240, 240);
   ASSERT_NEAR(speedOf(ball), 0, 1e-3);  // rests on the floor
   ball.setLinearVelocity({0, 0, static_cast<btScalar>(kSpeed)});
-  fluid.step(1.0 / 240, 24);
+  scene.step(1.0 / 240, 24);
   // K dv/dt = -c v^2 - (m - m_f) g: v = v_t tan(atan(v_0 / v_t) - t / T).
   const reference::SphereFall exact{8, kRadius, water().density, kEarthGravity};
   const double v = exact.terminalSpeed() *
@@ -207,13 +207,13 @@ TEST(ExtremeCase, ABodyFiredOutOfContactFliesByItsClosedForm) {
 
 TEST(ExtremeCase, AStepOfAQuarterOfASecondAfterAStallChangesLittle) {
   const reference::SphereFall exact{0.62, 0.12, air().density, kEarthGravity};
-  FluidWorld fluid;
-  setGravity(fluid, kEarthGravity);
+  FluidWorld scene;
+  setGravity(scene, kEarthGravity);
   const btRigidBody& ball =
-      fluid.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(air()));
-  fluid.step(1.0 / 60, 30);
-  fluid.step(0.25);
-  fluid.step(1.0 / 60, 15);
+      scene.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(air()));
+  scene.step(1.0 / 60, 30);
+  scene.step(0.25);
+  scene.step(1.0 / 60, 15);
   EXPECT_NEAR(static_cast<double>(-ball.getLinearVelocity().z()) / exact.velocity(1), 1, 2e-3);
   EXPECT_NEAR(static_cast<double>(-ball.getWorldTransform().getOrigin().z()) / exact.distance(1), 1,
               5e-3);
@@ -222,11 +222,11 @@ TEST(ExtremeCase, AStepOfAQuarterOfASecondAfterAStallChangesLittle) {
 TEST(ExtremeCase, TerminalSpeedFollowsAGravityOf1000AndNothingMovesWithoutAny) {
   for (const double gravity : {0.0, 1000.0}) {
     const reference::SphereFall exact{0.62, 0.12, air().density, gravity};
-    FluidWorld fluid;
-    setGravity(fluid, gravity);
+    FluidWorld scene;
+    setGravity(scene, gravity);
     const btRigidBody& ball =
-        fluid.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(air()));
-    fluid.step(1.0 / 60, 300);
+        scene.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(air()));
+    scene.step(1.0 / 60, 300);
     EXPECT_NEAR(speedOf(ball), exact.terminalSpeed(), 5e-3 * exact.terminalSpeed());
   }
 }
@@ -235,14 +235,14 @@ TEST(ExtremeCase, AMediumThatJumpsBetweenAirAndWaterNeverSpeedsABodyUp) {
   const Vector3 semi_axes(0.2, 0.15, 0.05);
   BodyDef def{1, ellipsoidMoments(semi_axes, 1), {}, nullptr};
   def.start.twist = {Vector3(3, 9, 4), Vector3(10, 3, 5)};
-  FluidWorld fluid;
-  const btRigidBody& body = fluid.add(def, meshedEllipsoid(semi_axes, 2), air());
+  FluidWorld scene;
+  const btRigidBody& body = scene.add(def, meshedEllipsoid(semi_axes, 2), air());
   for (int i = 0; i < 240; ++i) {
-    const double before = kineticEnergy(fluid, body);
-    fluid.step(1.0 / 60);
-    ASSERT_LE(kineticEnergy(fluid, body), before * (1 + byPrecision(1e-12, 1e-5))) << i;
+    const double before = kineticEnergy(scene, body);
+    scene.step(1.0 / 60);
+    ASSERT_LE(kineticEnergy(scene, body), before * (1 + byPrecision(1e-12, 1e-5))) << i;
     const RigidState state = readState(body);
-    fluid.registry.setMedium(body, i % 2 ? air() : water());
+    scene.of(body).setMedium(i % 2 ? air() : water());
     ASSERT_EQ(readState(body).twist.vector(), state.twist.vector());
   }
   EXPECT_LT(speedOf(body), 1);
@@ -252,23 +252,23 @@ TEST(ExtremeCase, ABodyAMillionTimesHeavierKicksItsNeighbourAway) {
   constexpr double kRadius = 0.1;
   const Medium medium = inviscid(air());
   btSphereShape ball_shape(static_cast<btScalar>(kRadius));
-  FluidWorld fluid;
+  FluidWorld scene;
   BodyDef heavy_def = sphere(1000, kRadius);
   heavy_def.shape = &ball_shape;
   heavy_def.start.twist.linear = {5, 0, 0};
-  btRigidBody& heavy = fluid.add(heavy_def, facelessEllipsoid(Vector3::Constant(kRadius)), medium);
+  btRigidBody& heavy = scene.add(heavy_def, facelessEllipsoid(Vector3::Constant(kRadius)), medium);
   BodyDef light_def = sphere(1e-3, kRadius);
   light_def.shape = &ball_shape;
-  // Touching: Bullet spreads an impact from a distance over two steps.
+  // Initial contact: Bullet spreads an impact from a distance over two steps.
   light_def.start.position = {2 * kRadius, 0, 0};
-  btRigidBody& light = fluid.add(light_def, facelessEllipsoid(Vector3::Constant(kRadius)), medium);
+  btRigidBody& light = scene.add(light_def, facelessEllipsoid(Vector3::Constant(kRadius)), medium);
   for (btRigidBody* body : {&heavy, &light}) {
     body->setRestitution(1);
     body->setFriction(0);
   }
-  fluid.step(1.0 / 240, 24);
+  scene.step(1.0 / 240, 24);
   // Elastic, head on: v = 2 K1 / (K1 + K2) of the approach, with added masses.
-  const double k1 = fluid.registry.inertia(heavy)(3, 3), k2 = fluid.registry.inertia(light)(3, 3);
+  const double k1 = scene.of(heavy).inertia()(3, 3), k2 = scene.of(light).inertia()(3, 3);
   EXPECT_NEAR(static_cast<double>(light.getLinearVelocity().x()) / (2 * k1 / (k1 + k2) * 5), 1,
               byPrecision(1e-9, 1e-4));
   EXPECT_NEAR(static_cast<double>(heavy.getLinearVelocity().x()) / 5, (k1 - k2) / (k1 + k2),

@@ -5,16 +5,15 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/bullet/ambient_action.h"
-#include "bullet_ambient/bullet/ambient_body.h"
-#include "bullet_ambient/bullet/ambient_solver.h"
-#include "tests/support/ellipsoid_body.h"
+#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/immersed/ambient_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
 namespace ambient::test {
 
 constexpr bool kDouble = sizeof(btScalar) == sizeof(double);
 
-/// The tolerance of the precision that the test is compiled for.
+/// Selects the tolerance of the compiled precision.
 constexpr double byPrecision(double in_double, double in_float) {
   return kDouble ? in_double : in_float;
 }
@@ -24,11 +23,11 @@ inline btScalar bt(double value) { return static_cast<btScalar>(value); }
 constexpr double kWorldStep = 1.0 / 120;  // [s]
 
 inline const Vector3 kUnequalAxes(0.3, 0.25,
-                                  0.1);  // of an ellipsoid without symmetry of revolution
+                                  0.1);  // ellipsoid, not of revolution
 
 inline Medium idealFluid(double density) { return {density, 0, Vector3::Zero(), Vector3::Zero()}; }
 
-/// A dynamic body for the tests: mass properties and where it starts. Body axes are principal.
+/// Dynamic body of a test: mass properties and initial state. Body axes are principal.
 struct BodyDef {
   double mass = 1;
   Vector3 moments = Vector3::Ones();
@@ -36,7 +35,17 @@ struct BodyDef {
   btCollisionShape* shape = nullptr;
 };
 
-/// A stock world with an ambient solver and its action, gravity 0.
+/// Remembers the action that it was given first: that of its fluid.
+struct ActionWorld : btDiscreteDynamicsWorld {
+  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+  void addAction(btActionInterface* action) override {
+    if (!first_action) first_action = action;
+    btDiscreteDynamicsWorld::addAction(action);
+  }
+  btActionInterface* first_action = nullptr;
+};
+
+/// A world with a fluid, gravity 0.
 class FluidWorld {
  public:
   FluidWorld() { world.setGravity({0, 0, 0}); }
@@ -57,31 +66,34 @@ class FluidWorld {
     world.addRigidBody(&body);
     return body;
   }
-  btRigidBody& add(const BodyDef& def, const FluidBody& fluid_body, const Medium& medium) {
+  btRigidBody& add(const BodyDef& def, const FluidBody& fluid_body, const Medium& medium,
+                   PressureLaw law = PressureLaw::kForm) {
     btRigidBody& body = add(def);
     AttachDef attach;
     attach.fluid_body = std::make_shared<FluidBody>(fluid_body);
     attach.medium = medium;
-    registry.attach(body, attach);
+    attach.flow.law = law;
+    fluid.add(body, attach);
     return body;
   }
+  /// Takes the fluid's action out of the world, and gives it back, after other actions.
+  void removeAction() { world.removeAction(world.first_action); }
+  void addAction() { world.addAction(world.first_action); }
+  /// A body that is in the fluid.
+  Immersed of(const btRigidBody& body) const { return fluid.find(body).value(); }
   void step(double duration, int count = 1) {
     const auto dt = static_cast<btScalar>(duration);
     for (int i = 0; i < count; ++i) world.stepSimulation(dt, 0, dt);
   }
 
-  AmbientRegistry registry;
-  AmbientSolver<> solver{registry};
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
-  AmbientAction action{registry};
+  btSequentialImpulseConstraintSolver solver;  ///< in whose place the fluid has its own
+  ActionWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  Fluid fluid{world};
 
  private:
-  struct AddAction {
-    AddAction(btDiscreteDynamicsWorld& w, AmbientAction& a) { w.addAction(&a); }
-  } add_action_{world, action};
   btEmptyShape no_shape_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };

@@ -3,27 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/kirchhoff_integration.h"
 #include "tests/reference/kirchhoff_motion.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
-// Exact solutions without loads through stepSimulation: point by point, at any step and any spin.
+// Exact solutions without loads by stepSimulation(): accurate at any step and any spin.
 namespace ambient::test {
 namespace {
 
 constexpr int kBodies = 9;
 
-// `start`'s twist in body axes here.
+// Adds a body; `start` has its twist in body axes here.
 btRigidBody& addTo(FluidWorld& world, BodyDef def, const FluidBody& shape, double density) {
   const Quaternion& q = def.start.orientation;
   def.start.twist = {q * def.start.twist.angular, q * def.start.twist.linear};
   return world.add(def, shape, idealFluid(density));
 }
 
-// Arbitrary coupled added mass, pose and axis of the spin.
+// Adds a body of random coupled added mass, pose and spin axis.
 btRigidBody& addCoupledBody(FluidWorld& world, unsigned seed, double spin) {
   Arbitrary arbitrary(seed);
   const Matrix6 added_mass = 0.3 * arbitrary.positiveDefinite();
@@ -35,10 +35,10 @@ btRigidBody& addCoupledBody(FluidWorld& world, unsigned seed, double spin) {
   return addTo(world, def, shapeWithoutFaces(added_mass, 0), 1);
 }
 
-// [s], 120 rad at most: beyond, motions are chaotic.
+// Duration [s] of at most 120 rad: longer motions are chaotic.
 double durationOf(double spin) { return std::min(2.0, 120 / spin); }
 
-// Pose after the duration by an independent integrator, from the state that Bullet has stored.
+// Pose after the duration by an independent integrator, from the state stored by Bullet.
 reference::KirchhoffState exactEnd(const btRigidBody& body, const Matrix6& total, double spin) {
   const RigidState start = readState(body);
   const Eigen::Matrix<double, 6, 6> inertia = total;
@@ -48,13 +48,13 @@ reference::KirchhoffState exactEnd(const btRigidBody& body, const Matrix6& total
                               std::max(60, static_cast<int>(spin * 20)));
 }
 
-// Sorted, after the duration.
+// Sorted errors of the rotation after the duration.
 std::vector<double> rotationErrors(double spin, double step) {
   std::vector<double> errors;
   for (unsigned seed = 0; seed < kBodies; ++seed) {
     FluidWorld world;
     const btRigidBody& body = addCoupledBody(world, seed, spin);
-    const auto end = exactEnd(body, world.registry.inertia(body), spin);
+    const auto end = exactEnd(body, world.of(body).inertia(), spin);
     world.step(step, static_cast<int>(std::lround(durationOf(spin) / step)));
     errors.push_back(angleBetween(readState(body).orientation, reference::orientationOf(end)));
   }
@@ -64,12 +64,12 @@ std::vector<double> rotationErrors(double spin, double step) {
 
 struct SpinAccuracy {
   double spin;              // [rad/s]
-  double float64, float32;  // [rad] of the median body
+  double float64, float32;  // median body [rad]
 };
 
-// The flow without loads is exact, so that the step does not matter. Measured: float64 5e-13, 5e-12
-// and 3e-11, the rounding of 120 to 480 steps; float32 7e-6, 2e-5 and 6e-5, where every step stores
-// the velocity to 6e-8. 60 rad/s at 60 Hz is more than the pi/4 that Bullet would turn in one step.
+// The flow without loads is exact at any step. Measured: float64 5e-13, 5e-12 and 3e-11, rounding
+// of 120 to 480 steps. float32 7e-6, 2e-5 and 6e-5: steps store velocities to 6e-8. 60 rad/s at 60
+// Hz exceeds Bullet's limit of pi/4 per step.
 constexpr SpinAccuracy kAccuracies[] = {
     {6, 1e-11, 5e-5}, {20, 1e-10, 1e-4}, {60, 1e-9, 5e-4}, {200, 1e-9, 5e-4}};
 
@@ -79,7 +79,7 @@ TEST(FreeFlight, FollowsKirchhoffsEquationsAtAnyStep) {
       const std::vector<double> errors = rotationErrors(accuracy.spin, step);
       EXPECT_LT(errors[kBodies / 2], byPrecision(accuracy.float64, accuracy.float32))
           << accuracy.spin << " rad/s at " << step;
-      // Motions differ in how they stretch errors.
+      // Motions amplify errors differently.
       EXPECT_LT(errors.back(), 10 * byPrecision(accuracy.float64, accuracy.float32))
           << accuracy.spin << " rad/s at " << step;
     }
@@ -90,7 +90,7 @@ TEST(FreeFlight, KeepsWorldMomentumAndEnergy) {
   for (unsigned seed = 0; seed < kBodies; ++seed) {
     FluidWorld world;
     const btRigidBody& body = addCoupledBody(world, seed, 10);
-    const Matrix6 K = world.registry.inertia(body);
+    const Matrix6 K = world.of(body).inertia();
     const auto conserved = [&] {
       const RigidState s = readState(body);
       const Momentum m = Momentum::fromVector(K * s.twist.vector());
@@ -106,8 +106,8 @@ TEST(FreeFlight, KeepsWorldMomentumAndEnergy) {
   }
 }
 
-// About the axis of the least inertia any error of the pose adds energy. The turn of a step by
-// which Bullet moves a body is the small rest of that of the spin, with the rounding of all of it.
+// Spin about the axis of least inertia: any error of the pose adds energy. Bullet turns bodies by
+// the small remainder of full turns, with the rounding of the full spin.
 TEST(FreeFlight, NeverGainsEnergyHoweverFarAStepTurns) {
   for (const double rounds : {2, 1600, 16000}) {
     const double turn = 2 * kPi * rounds + 0.4;  // 13, 1e4 and 1e5 rad
@@ -117,7 +117,7 @@ TEST(FreeFlight, NeverGainsEnergyHoweverFarAStepTurns) {
     def.start.orientation = Quaternion(Arbitrary(1).rotation());
     def.start.twist.angular = {60 * turn, 0, 0};
     const btRigidBody& body = addTo(world, def, shapeWithoutFaces(Matrix6::Identity(), 0), 0.1);
-    const Matrix6 K = world.registry.inertia(body);
+    const Matrix6 K = world.of(body).inertia();
     const auto energy = [&] {
       const Vector6 x = readState(body).twist.vector();
       return x.dot(K * x);
@@ -133,7 +133,7 @@ TEST(FreeFlight, NeverGainsEnergyHoweverFarAStepTurns) {
 }
 
 TEST(FreeFlight, TurnsByAnyAngleInOneStep) {
-  // A spinning ball: 1, 5 and 50 rad per step.
+  // Balls with 1, 5 and 50 rad per step.
   for (const double spin : {60.0, 300.0, 3000.0}) {
     FluidWorld world;
     BodyDef def;
@@ -144,7 +144,7 @@ TEST(FreeFlight, TurnsByAnyAngleInOneStep) {
     world.step(kStep, kSteps);
     const double angle = std::remainder(spin * kStep * kSteps, 2 * kPi);
     const Quaternion expected(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
-    // float32 rounds the orientation in every step; float64 knows 1500 rad to that much.
+    // float32 rounds the orientation in each step; float64 has 1e-9 at 1500 rad.
     EXPECT_LT(angleBetween(readState(body).orientation, expected), byPrecision(1e-9, 2e-5));
     EXPECT_NEAR(double(body.getWorldTransform().getOrigin().x()), kStep * kSteps,
                 byPrecision(1e-10, 1e-6));
@@ -170,7 +170,7 @@ struct Ellipsoid {
   reference::PlanarMotion planarMotion() const {
     return reference::PlanarMotion::of(total_masses, total_moments.z(), 2 * mass);
   }
-  // Without spin, y axis at `angle` from the momentum 2 m along the world's y axis.
+  // State without spin; y axis at `angle` from the momentum 2 m along the world's y axis.
   RigidState released(double angle) const {
     RigidState state;
     state.orientation = Quaternion(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
@@ -240,7 +240,7 @@ TEST(FreeFlight, GrowsAndSwingsWithMunksRates) {
   for (const Growth& growth : kGrowths) {
     EXPECT_NEAR(translation.growth(growth.moving_axis, growth.turning_axis), growth.rate_sq, 1e-9);
     FluidWorld world;
-    // Small against 1 and large against rounding.
+    // Turn small against 1 and large against rounding.
     const double kTurn = byPrecision(1e-5, 1e-2);
     RigidState state;
     state.orientation =

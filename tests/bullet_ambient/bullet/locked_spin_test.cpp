@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 namespace {
@@ -33,7 +33,7 @@ class PlanarBody {
   void step(double duration) { scene_.step(duration); }
   double energy() const {
     const Vector6 x = readState(*body_).twist.vector();
-    return x.dot(scene_.registry.inertia(*body_) * x) / 2;
+    return x.dot(scene_.of(*body_).inertia() * x) / 2;
   }
   bool isInPlane() const {
     return body_->getLinearVelocity().z() == 0 && body_->getAngularVelocity().x() == 0 &&
@@ -46,10 +46,10 @@ class PlanarBody {
 };
 
 struct EnergyRange {
-  double lowest = 1, highest = 1, mean_end = 0;  ///< over that at the start
+  double lowest = 1, highest = 1, mean_end = 0;  ///< over the initial energy
 };
 
-// Of twenty bodies.
+// Energy range of twenty random bodies.
 EnergyRange energyRange(double spin, double step, double duration) {
   constexpr unsigned kBodies = 20;
   EnergyRange range;
@@ -72,7 +72,7 @@ TEST(LockedSpin, GainsNoEnergyBeyondARadianPerStep) {
     EXPECT_LE(energyRange(spin, 1.0 / 60, 10).highest, 1 + byPrecision(1e-12, 1e-5)) << spin;
 }
 
-// The work of the locks is that of the pose at the start of a step: one way and back in each turn.
+// Locks do work, by their directions at the start of a step; it alternates within each turn.
 TEST(LockedSpin, KeepsEnergyToFirstOrderOfTheStep) {
   for (const double spin : {1, 3}) {
     const EnergyRange coarse = energyRange(spin, 1.0 / 60, 2),
@@ -82,8 +82,8 @@ TEST(LockedSpin, KeepsEnergyToFirstOrderOfTheStep) {
   }
 }
 
-// A tenth to half a radian per step. Single bodies gain 9 % in 10 s at 10 rad/s before they lose
-// it.
+// 0.1 to 0.5 radian per step. Single bodies gain 9 % in 10 s at 10 rad/s before they lose
+// energy.
 TEST(LockedSpin, LosesEnergyOnAverageWhereStepsAreCoarse) {
   for (const double spin : {10, 30}) {
     const EnergyRange range = energyRange(spin, 1.0 / 60, 10);

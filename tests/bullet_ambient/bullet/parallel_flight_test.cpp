@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_ambient/bullet/bullet_task_runner.h"
-#include "bullet_ambient/tasks/thread_pool.h"
+#include "bullet_ambient/base/thread_pool.h"
+#include "bullet_ambient/bullet/world/bullet_task_runner.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {
@@ -15,28 +15,28 @@ struct Poses {
   AmbientCounters counters;
 };
 
-// Bodies that fly, some that collide, and one that hangs on a joint.
+// Poses after steps with flying, colliding and hinged bodies.
 Poses flyBodies(TaskRunner* runner) {
   constexpr int kBodies = 40;
   btBoxShape box(btVector3(btScalar(0.3), btScalar(0.25), btScalar(0.1)));
-  FluidWorld fluid;
-  fluid.registry.setTaskRunner(runner);
-  fluid.world.setGravity({0, 0, btScalar(-9.81)});
+  FluidWorld scene;
+  scene.fluid.setTaskRunner(runner);
+  scene.world.setGravity({0, 0, btScalar(-9.81)});
   const FluidBody shape = meshedEllipsoid(Vector3(0.3, 0.25, 0.1), 1);
   BodyDef def{1, Vector3(0.02, 0.03, 0.04), {}, &box};
   std::vector<btRigidBody*> bodies;
   for (int i = 0; i < kBodies; ++i) {
     def.start.position = {0.7 * (i % 8), 0.6 * std::floor(i / 8.0), 0.02 * i};
     def.start.twist = {Vector3(0.1 * i, 2, 1), Vector3(1, 0.2 * i, 0)};
-    bodies.push_back(&fluid.add(def, shape, i % 2 ? air() : water()));
+    bodies.push_back(&scene.add(def, shape, i % 2 ? air() : water()));
   }
   btPoint2PointConstraint joint(*bodies[3], btVector3(0, 0, btScalar(0.5)));
-  fluid.world.addConstraint(&joint);
-  fluid.step(1.0 / 60, 90);
+  scene.world.addConstraint(&joint);
+  scene.step(1.0 / 60, 90);
   Poses end;
   for (const btRigidBody* body : bodies) end.poses.push_back(body->getWorldTransform());
-  end.counters = fluid.registry.counters();
-  fluid.world.removeConstraint(&joint);
+  end.counters = scene.fluid.counters();
+  scene.world.removeConstraint(&joint);
   return end;
 }
 
@@ -65,15 +65,15 @@ TEST(ParallelFlight, IsHandedAllFreeBodiesAtOnce) {
    public:
     void runAll(const Task& task, int count) noexcept override {
       counts.push_back(count);
-      for (int i = count; i-- > 0;) task.run(i);  // any order will do
+      for (int i = count; i-- > 0;) task.run(i);  // reversed order
     }
     std::vector<int> counts;
   } recorder;
-  FluidWorld fluid;
-  fluid.registry.setTaskRunner(&recorder);
+  FluidWorld scene;
+  scene.fluid.setTaskRunner(&recorder);
   const FluidBody shape = meshedEllipsoid(Vector3(0.3, 0.25, 0.1), 0);
-  for (int i = 0; i < 10; ++i) fluid.add({}, shape, air());
-  fluid.step(1.0 / 60);
+  for (int i = 0; i < 10; ++i) scene.add({}, shape, air());
+  scene.step(1.0 / 60);
   EXPECT_EQ(recorder.counts, std::vector<int>{10});
 }
 

@@ -5,19 +5,19 @@
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
-// Bullet puts slow bodies to sleep after two seconds, and what sleeps must wake up again.
+// Bullet puts slow bodies to sleep after two seconds; sleeping bodies must wake up again.
 namespace ambient::test {
 namespace {
 
-const Vector3 kBallAxes = Vector3::Constant(0.2);  // a sphere: no way to move is unstable
+const Vector3 kBallAxes = Vector3::Constant(0.2);  // sphere: no unstable motion
 
-btRigidBody& addSleepy(FluidWorld& fluid, const Twist& twist, const Medium& medium) {
+btRigidBody& addSleepy(FluidWorld& scene, const Twist& twist, const Medium& medium) {
   const FluidBody shape = facelessEllipsoid(kBallAxes);
   BodyDef def;
   def.mass = 1000 * shape.volume;
   def.moments = ellipsoidMoments(kBallAxes, def.mass);
   def.start.twist = twist;
-  btRigidBody& body = fluid.add(def, shape, medium);
+  btRigidBody& body = scene.add(def, shape, medium);
   body.forceActivationState(ACTIVE_TAG);
   return body;
 }
@@ -26,11 +26,11 @@ Medium stillWater() { return {1000, 0, Vector3::Zero(), Vector3::Zero()}; }
 
 TEST(Sleeping, DoesNotFreezeADriftingBody) {
   for (const double speed : {0.01, 0.1, 0.5}) {
-    FluidWorld fluid;
-    fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+    FluidWorld scene;
+    scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
     const btRigidBody& body =
-        addSleepy(fluid, {Vector3::Zero(), Vector3(speed, 0, 0)}, stillWater());
-    fluid.step(1.0 / 60, 900);
+        addSleepy(scene, {Vector3::Zero(), Vector3(speed, 0, 0)}, stillWater());
+    scene.step(1.0 / 60, 900);
     EXPECT_TRUE(body.isActive()) << speed;
     EXPECT_NEAR(static_cast<double>(body.getWorldTransform().getOrigin().x()), 15 * speed,
                 byPrecision(1e-9, 1e-3) * speed);
@@ -39,104 +39,104 @@ TEST(Sleeping, DoesNotFreezeADriftingBody) {
 
 TEST(Sleeping, DoesNotFreezeATurningBody) {
   for (const double rate : {0.05, 0.5}) {
-    FluidWorld fluid;
+    FluidWorld scene;
     const btRigidBody& body =
-        addSleepy(fluid, {Vector3(0, 0, rate), Vector3::Zero()}, stillWater());
-    fluid.step(1.0 / 60, 600);
+        addSleepy(scene, {Vector3(0, 0, rate), Vector3::Zero()}, stillWater());
+    scene.step(1.0 / 60, 600);
     EXPECT_TRUE(body.isActive()) << rate;
     EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().z()), rate, 1e-5);
   }
 }
 
 TEST(Sleeping, TakesABodyAtRestInStillWater) {
-  FluidWorld fluid;
-  fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
-  const btRigidBody& body = addSleepy(fluid, {}, stillWater());
-  fluid.step(1.0 / 60, 300);
+  FluidWorld scene;
+  scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+  const btRigidBody& body = addSleepy(scene, {}, stillWater());
+  scene.step(1.0 / 60, 300);
   EXPECT_FALSE(body.isActive());
 }
 
 TEST(Sleeping, IsNotMistakenForAMissingSolver) {
-  FluidWorld fluid;
+  FluidWorld scene;
   std::vector<std::string> said;
-  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
-  btRigidBody& body = addSleepy(fluid, {}, stillWater());
-  fluid.step(1.0 / 60, 300);
+  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
+  btRigidBody& body = addSleepy(scene, {}, stillWater());
+  scene.step(1.0 / 60, 300);
   ASSERT_FALSE(body.isActive());
   EXPECT_TRUE(said.empty());
-  // Woken between solver and action, by another action: the solver had no reason to look at it.
+  // Another action wakes the body between solver and action: the solver has skipped it.
   struct Wake : btActionInterface {
     btRigidBody* body = nullptr;
     void updateAction(btCollisionWorld*, btScalar) override { body->activate(); }
     void debugDraw(btIDebugDraw*) override {}
   };
-  fluid.world.removeAction(&fluid.action);
+  scene.removeAction();
   Wake wake;
   wake.body = &body;
-  fluid.world.addAction(&wake);
-  fluid.world.addAction(&fluid.action);
-  fluid.step(1.0 / 60, 3);
+  scene.world.addAction(&wake);
+  scene.addAction();
+  scene.step(1.0 / 60, 3);
   EXPECT_TRUE(said.empty()) << said[0];
-  fluid.world.removeAction(&wake);
+  scene.world.removeAction(&wake);
 }
 
 TEST(Sleeping, EndsWhenTheMediumChanges) {
-  FluidWorld fluid;
-  fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
-  const btRigidBody& body = addSleepy(fluid, {}, stillWater());
-  fluid.step(1.0 / 60, 300);
+  FluidWorld scene;
+  scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+  const btRigidBody& body = addSleepy(scene, {}, stillWater());
+  scene.step(1.0 / 60, 300);
   ASSERT_FALSE(body.isActive());
   Medium brine = stillWater();
   brine.density = 1200;
-  fluid.registry.setMedium(body, brine);
-  fluid.step(1.0 / 60, 10);
+  scene.of(body).setMedium(brine);
+  scene.step(1.0 / 60, 10);
   EXPECT_GT(static_cast<double>(body.getLinearVelocity().z()), 0.1);
 }
 
 TEST(Sleeping, GoesOnWhenTheMediumStaysTheSame) {
-  FluidWorld fluid;
-  const btRigidBody& body = addSleepy(fluid, {}, stillWater());
-  fluid.step(1.0 / 60, 300);
+  FluidWorld scene;
+  const btRigidBody& body = addSleepy(scene, {}, stillWater());
+  scene.step(1.0 / 60, 300);
   ASSERT_FALSE(body.isActive());
-  fluid.registry.setMedium(body, stillWater());
+  scene.of(body).setMedium(stillWater());
   EXPECT_FALSE(body.isActive());
 }
 
 TEST(Sleeping, EndsWhenABodyIsAttached) {
-  FluidWorld fluid;
-  fluid.world.setGravity({0, 0, 0});
+  FluidWorld scene;
+  scene.world.setGravity({0, 0, 0});
   BodyDef def;
-  btRigidBody& body = fluid.add(def);
+  btRigidBody& body = scene.add(def);
   body.forceActivationState(ISLAND_SLEEPING);
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kBallAxes));
   attach.medium = stillWater();
-  fluid.registry.attach(body, attach);
+  scene.fluid.add(body, attach);
   EXPECT_TRUE(body.isActive());
 }
 
 TEST(Sleeping, EndsWhenACurrentSetsIn) {
-  FluidWorld fluid;
-  fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+  FluidWorld scene;
+  scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
   BodyDef def;
   const FluidBody shape = meshedEllipsoid(kBallAxes, 2);
   def.mass = 1000 * shape.volume;
   def.moments = ellipsoidMoments(kBallAxes, def.mass);
-  btRigidBody& body = fluid.add(def, shape, stillWater());
+  btRigidBody& body = scene.add(def, shape, stillWater());
   body.forceActivationState(ACTIVE_TAG);
-  fluid.step(1.0 / 60, 300);
+  scene.step(1.0 / 60, 300);
   ASSERT_FALSE(body.isActive());
   Medium current = stillWater();
   current.velocity = Vector3(0.5, 0, 0);
-  fluid.registry.setMedium(body, current);
-  fluid.step(1.0 / 60, 300);
+  scene.of(body).setMedium(current);
+  scene.step(1.0 / 60, 300);
   EXPECT_TRUE(body.isActive());
   EXPECT_GT(static_cast<double>(body.getLinearVelocity().x()), 0.25);
 }
 
-// A box on the floor that a ball comes to hit.
+// A box on the floor and a ball that will hit it.
 struct Floor {
-  FluidWorld fluid;
+  FluidWorld scene;
   btBoxShape ground{btVector3(20, 20, 1)};
   btBoxShape cube{btVector3(static_cast<btScalar>(0.3), static_cast<btScalar>(0.3),
                             static_cast<btScalar>(0.3))};
@@ -145,32 +145,32 @@ struct Floor {
   btRigidBody* ball = nullptr;
 
   explicit Floor(bool in_water) {
-    fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+    scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
     BodyDef def{0, Vector3::Zero(), {}, &ground};
     def.start.position = {0, 0, -1};
-    fluid.add(def);
+    scene.add(def);
     def = {400, Vector3::Constant(400 * 0.06), {}, &cube};
     def.start.position = {0, 0, 0.3};
-    box = &fluid.add(def);
+    box = &scene.add(def);
     if (in_water) {
       AttachDef attach;
       attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Constant(0.3), 1));
       attach.medium = stillWater();
       attach.fluid_frame.translation = Vector3(0.02, 0.01, 0);
-      fluid.registry.attach(*box, attach);
+      scene.fluid.add(*box, attach);
     }
     box->forceActivationState(ACTIVE_TAG);
     def = {5, Vector3::Constant(0.1), {}, &sphere};
     def.start.position = {-12, 0, 0.3};
     def.start.twist.linear = {3, 0, 0};
-    ball = &fluid.add(def);
+    ball = &scene.add(def);
     ball->setGravity({0, 0, 0});
   }
-  // Steps until the box is awake or not, 1000 at most.
+  // Steps until the box is awake or asleep, 1000 at most.
   int stepsUntil(bool is_awake) {
     for (int i = 0; i < 1000; ++i) {
       if (box->isActive() == is_awake) return i;
-      fluid.step(1.0 / 60);
+      scene.step(1.0 / 60);
     }
     return 1000;
   }

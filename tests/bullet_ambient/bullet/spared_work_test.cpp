@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/bullet/ambient_bodies.h"
-#include "bullet_ambient/force/water_surface.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/force/medium/water_surface.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/part_bodies.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/part_bodies.h"
 
-// What a scene does not need is not computed, by the counters of the registry.
+// What a scene does not need is not computed, by the counters of the fluid.
 namespace ambient::test {
 namespace {
 
@@ -20,10 +20,10 @@ BodyDef bodyAt(double height) {
 }
 
 // The counts of the next step alone.
-AmbientCounters countStep(FluidWorld& fluid) {
-  const AmbientCounters before = fluid.registry.counters();
-  fluid.step(kStep);
-  const AmbientCounters after = fluid.registry.counters();
+AmbientCounters countStep(FluidWorld& scene) {
+  const AmbientCounters before = scene.fluid.counters();
+  scene.step(kStep);
+  const AmbientCounters after = scene.fluid.counters();
   AmbientCounters step;
   step.substeps = after.substeps - before.substeps;
   step.load_evaluations = after.load_evaluations - before.load_evaluations;
@@ -40,32 +40,32 @@ void expectNothing(const AmbientCounters& step) {
 }
 
 TEST(SparedWork, ADensityOfZeroCostsNothing) {
-  FluidWorld fluid;
-  fluid.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), Medium{});
-  expectNothing(countStep(fluid));
+  FluidWorld scene;
+  scene.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), Medium{});
+  expectNothing(countStep(scene));
 }
 
 TEST(SparedWork, ASleepingBodyCostsNothing) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), air());
-  EXPECT_GT(countStep(fluid).load_evaluations, 0);
+  FluidWorld scene;
+  btRigidBody& body = scene.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), air());
+  EXPECT_GT(countStep(scene).load_evaluations, 0);
   body.forceActivationState(ISLAND_SLEEPING);
-  expectNothing(countStep(fluid));
+  expectNothing(countStep(scene));
 }
 
 TEST(SparedWork, ABodyWithoutFacesHasNoLoadsToEvaluate) {
-  FluidWorld fluid;
-  fluid.add(bodyAt(0), facelessEllipsoid(kUnequalAxes), water());
-  const AmbientCounters step = countStep(fluid);
+  FluidWorld scene;
+  scene.add(bodyAt(0), facelessEllipsoid(kUnequalAxes), water());
+  const AmbientCounters step = countStep(scene);
   EXPECT_GT(step.substeps, 0);
   EXPECT_EQ(step.load_evaluations, 0);
 }
 
 TEST(SparedWork, EveryEvaluationSumsEveryFaceButOfASphereNone) {
-  FluidWorld fluid;
+  FluidWorld scene;
   FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
-  fluid.add(bodyAt(0), shape, air());
-  const AmbientCounters by_faces = countStep(fluid);
+  scene.add(bodyAt(0), shape, air());
+  const AmbientCounters by_faces = countStep(scene);
   EXPECT_GT(by_faces.load_evaluations, 0);
   EXPECT_EQ(by_faces.faces, by_faces.load_evaluations * static_cast<long long>(shape.faces.size()));
   FluidWorld other;
@@ -77,30 +77,30 @@ TEST(SparedWork, EveryEvaluationSumsEveryFaceButOfASphereNone) {
 }
 
 TEST(SparedWork, AFreeBodyHasNoRowsToRewrite) {
-  FluidWorld fluid;
-  fluid.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), air());
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(countStep(fluid).rows, 0);
+  FluidWorld scene;
+  scene.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), air());
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(countStep(scene).rows, 0);
 }
 
 TEST(SparedWork, ABodyThatIsOnlyNearAnotherIsNotRewritten) {
-  // Their boxes overlap in the broadphase, they do not touch.
+  // Boxes overlap in the broadphase; spheres do not touch.
   btSphereShape ball(btScalar(0.1));
-  FluidWorld fluid;
+  FluidWorld scene;
   BodyDef def = bodyAt(0);
   def.shape = &ball;
   def.start.twist = {};
-  fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+  scene.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
   def.start.position = {0.15, 0.15, 0};
-  fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
-  fluid.step(kStep);
-  ASSERT_EQ(fluid.dispatcher.getNumManifolds(), 1);
-  EXPECT_EQ(countStep(fluid).rows, 0);
+  scene.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+  scene.step(kStep);
+  ASSERT_EQ(scene.dispatcher.getNumManifolds(), 1);
+  EXPECT_EQ(countStep(scene).rows, 0);
 }
 
 // Tells how many bodies the last group of Bullet's solver had.
-class WatchedSolver : public AmbientSolver<> {
+class WatchedSolver : public FluidSolver<> {
  public:
-  using AmbientSolver<>::AmbientSolver;
+  using FluidSolver<>::FluidSolver;
   int bodies = -1;
 
  protected:
@@ -110,64 +110,64 @@ class WatchedSolver : public AmbientSolver<> {
                                              const btContactSolverInfo& info,
                                              btIDebugDraw* drawer) override {
     bodies = m_tmpSolverBodyPool.size();
-    return AmbientSolver<>::solveGroupCacheFriendlyIterations(objects, object_count, manifolds,
-                                                              manifold_count, constraints,
-                                                              constraint_count, info, drawer);
+    return FluidSolver<>::solveGroupCacheFriendlyIterations(objects, object_count, manifolds,
+                                                            manifold_count, constraints,
+                                                            constraint_count, info, drawer);
   }
 };
 
 TEST(SparedWork, TheSolverDoesNotKnowABodyThatFloatsAlone) {
   btSphereShape ball(btScalar(0.1));
-  FluidWorld fluid;
-  WatchedSolver solver(fluid.registry);
-  fluid.world.setConstraintSolver(&solver);
+  FluidWorld scene;
+  WatchedSolver solver(membersOf(scene.fluid).shared_from_this());
+  scene.world.setConstraintSolver(&solver);
   BodyDef def = bodyAt(0);
   def.shape = &ball;
   def.start.twist = {};
-  btRigidBody& in_fluid = fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
-  fluid.step(kStep);
+  btRigidBody& in_fluid = scene.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+  scene.step(kStep);
   EXPECT_EQ(solver.bodies, 0);
-  EXPECT_EQ(fluid.registry.counters(in_fluid).substeps, 1);
+  EXPECT_EQ(scene.of(in_fluid).counters().substeps, 1);
   def.start.position = {10, 0, 0};
-  fluid.add(def);
-  fluid.step(kStep);
+  scene.add(def);
+  scene.step(kStep);
   EXPECT_EQ(solver.bodies, 1) << "of a body without a fluid";
   def.start.position = {0.15, 0.15, 0};
-  fluid.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
-  fluid.step(kStep);
+  scene.add(def, meshedEllipsoid(kUnequalAxes, 1), water());
+  scene.step(kStep);
   EXPECT_EQ(solver.bodies, 3) << "of two whose bounds overlap";
 }
 
 TEST(SparedWork, ALargeSlowBodyNeedsOneEvaluationPerStep) {
   const Vector3 semi_axes(5, 3, 2);
-  FluidWorld fluid;
+  FluidWorld scene;
   BodyDef def{1e5, ellipsoidMoments(semi_axes, 1e5), {}, nullptr};
   def.start.twist = {Vector3(0, 0.01, 0), Vector3(0.3, 0, 0.1)};
-  fluid.add(def, meshedEllipsoid(semi_axes, 1), water());
-  fluid.step(kStep, 2);
+  scene.add(def, meshedEllipsoid(semi_axes, 1), water());
+  scene.step(kStep, 2);
   for (int i = 0; i < 20; ++i) {
-    const AmbientCounters step = countStep(fluid);
+    const AmbientCounters step = countStep(scene);
     EXPECT_EQ(step.substeps, 1);
     EXPECT_EQ(step.load_evaluations, 1);
   }
 }
 
 TEST(SparedWork, ADetachedBodyCostsNothing) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), air());
-  fluid.add(bodyAt(10), meshedEllipsoid(kUnequalAxes, 1), Medium{});
-  fluid.step(kStep);
-  fluid.registry.detach(body);
-  expectNothing(countStep(fluid));
+  FluidWorld scene;
+  btRigidBody& body = scene.add(bodyAt(0), meshedEllipsoid(kUnequalAxes, 1), air());
+  scene.add(bodyAt(10), meshedEllipsoid(kUnequalAxes, 1), Medium{});
+  scene.step(kStep);
+  scene.of(body).remove();
+  expectNothing(countStep(scene));
 }
 
 TEST(SparedWork, BodiesOfOneShapeShareItsData) {
-  FluidWorld fluid;
+  FluidWorld scene;
   FluidRegion sea;
   sea.below = water();
   sea.above = air();
   sea.surface = std::make_shared<StillWater>(-50, Vector3::UnitZ());
-  fluid.registry.addRegion(sea);
+  scene.fluid.addRegion(sea);
   for (const PressureLaw law : {PressureLaw::kPublished, PressureLaw::kForm}) {
     AttachDef def;
     def.fluid_body = std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2));
@@ -175,9 +175,9 @@ TEST(SparedWork, BodiesOfOneShapeShareItsData) {
     def.flow.law = law;
     const AmbientBody* bodies[2] = {};
     for (const AmbientBody*& ambient : bodies) {
-      btRigidBody& body = fluid.add(bodyAt(2));
-      fluid.registry.attach(body, def);
-      ambient = bodiesOf(fluid.registry).find(&body);
+      btRigidBody& body = scene.add(bodyAt(2));
+      scene.fluid.add(body, def);
+      ambient = membersOf(scene.fluid).find(&body);
     }
     EXPECT_EQ(bodies[0]->media[0].loads, bodies[1]->media[0].loads);
     EXPECT_EQ(bodies[0]->media[1].loads, bodies[1]->media[1].loads);
@@ -185,7 +185,7 @@ TEST(SparedWork, BodiesOfOneShapeShareItsData) {
     EXPECT_EQ(a.loads_below.loads, b.loads_below.loads);
     EXPECT_EQ(a.wetted, b.wetted);
     EXPECT_EQ(a.hull, b.hull);
-    EXPECT_NE(bodies[0]->surfaces[0].loads, bodies[1]->surfaces[0].loads);  // each has its part
+    EXPECT_NE(bodies[0]->surfaces[0].loads, bodies[1]->surfaces[0].loads);  // one per part
   }
 }
 

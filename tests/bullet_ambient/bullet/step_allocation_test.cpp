@@ -1,26 +1,26 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/force/airy_waves.h"
+#include "bullet_ambient/force/medium/airy_waves.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/part_bodies.h"
+#include "tests/support/bodies/part_bodies.h"
 
 namespace ambient::test {
 namespace {
 
 // Two that fall into the sea far away, one upon the other.
-void addFloatingBodies(FluidWorld& fluid, BodyDef def) {
+void addFloatingBodies(FluidWorld& scene, BodyDef def) {
   FluidRegion sea;
   sea.bounds = RegionBounds{{900, -100, -100}, {1100, 100, 100}};
   sea.below = water();
   sea.surface =
       std::make_shared<AiryWaves>(CalmSea{}, std::vector<WaveComponent>{{0.1, 3, {1, 0, 0}, 0}});
-  fluid.registry.addRegion(sea);
+  scene.fluid.addRegion(sea);
   FluidBody shape = floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2);
   def.mass = 15;
   for (const double height : {1.0, 2.0}) {
     def.start.position = Vector3(1000, 0, height);
-    fluid.add(def, shape, Medium{});
+    scene.add(def, shape, Medium{});
   }
 }
 
@@ -30,19 +30,19 @@ FluidBody formShape() {
   return shape;
 }
 
-// What docs/bullet_step.md says of it, by the form law with nothing that reduces it.
+// Memory per body as in docs/bullet_step.md, by the form law without its reductions.
 TEST(Attachment, OfAnEqualBodyTakesSomeKilobytes) {
   const auto shape = std::make_shared<const FluidBody>(formShape());
   for (const bool has_surface : {false, true}) {
-    FluidWorld fluid;
+    FluidWorld scene;
     FluidRegion sea;
     sea.below = water();
     sea.above = air();
     if (has_surface) sea.surface = std::make_shared<StillWater>(0, Vector3::UnitZ());
-    fluid.registry.addRegion(sea);
+    scene.fluid.addRegion(sea);
     constexpr std::size_t kBodies = 64;
     std::vector<btRigidBody*> bodies;
-    for (std::size_t i = 0; i <= kBodies; ++i) bodies.push_back(&fluid.add(BodyDef{}));
+    for (std::size_t i = 0; i <= kBodies; ++i) bodies.push_back(&scene.add(BodyDef{}));
     std::size_t before = 0;
     for (std::size_t i = 0; i <= kBodies; ++i) {
       if (i == 1) before = allocatedBytes();
@@ -50,23 +50,23 @@ TEST(Attachment, OfAnEqualBodyTakesSomeKilobytes) {
       def.fluid_body = shape;
       def.medium = water();
       def.flow.law = PressureLaw::kForm;
-      fluid.registry.attach(*bodies[i], def);
+      scene.fluid.add(*bodies[i], def);
     }
     EXPECT_LT((allocatedBytes() - before) / kBodies, has_surface ? 12000U : 5000U);
   }
 }
 
-// Neither does it grow with the number of regions, nor do bodies that know the fluid count.
+// Memory per region must depend neither on the number of regions nor on attached bodies.
 TEST(Attachment, OfARegionToManyTakesSomeHundredBytes) {
-  FluidWorld fluid;
-  for (int i = 0; i < 10; ++i) fluid.add(BodyDef{}, formShape(), air());
+  FluidWorld scene;
+  for (int i = 0; i < 10; ++i) scene.add(BodyDef{}, formShape(), air());
   const auto add = [&](int from, int to) {
     const std::size_t before = allocatedBytes();
     for (int i = from; i < to; ++i) {
       FluidRegion zone;
       zone.below = air();
       zone.bounds = RegionBounds{{1.0 * i, 0, 0}, {i + 1.0, 1, 1}};
-      fluid.registry.addRegion(zone);
+      scene.fluid.addRegion(zone);
     }
     return static_cast<double>(allocatedBytes() - before) / (to - from);
   };
@@ -79,58 +79,57 @@ struct NoShapes : FluidBodySource {
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape&) override { return nullptr; }
 };
 
-// After the first steps have sized every buffer: free bodies, some of which go from region to
-// region, a body at rest on the floor and a pendulum with feedback, in a world that is watched for
-// bodies that come later.
+// First steps size every buffer. Scene: free bodies, some crossing regions, a body at
+// rest on the floor, a pendulum with feedback. attachAll() watches the world for later
+// bodies.
 TEST(Step, AllocatesNothing) {
   btBoxShape floor_shape(btVector3(20, 20, 1));
   btSphereShape ball_shape(static_cast<btScalar>(0.3));
-  FluidWorld fluid;
-  fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+  FluidWorld scene;
+  scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
   const FluidBody shape = floatingEllipsoid(Vector3(0.3, 0.25, 0.1), 2);
   BodyDef def{1, Vector3(0.02, 0.03, 0.04), {}, &floor_shape};
   BodyDef floor_def = def;
   floor_def.mass = 0;
   floor_def.start.position = Vector3(0, 0, -1.3);
-  fluid.add(floor_def);
+  scene.add(floor_def);
   def.shape = &ball_shape;
-  fluid.add(def, shape, air());
+  scene.add(def, shape, air());
   for (int i = 1; i < 5; ++i) {
     def.start.position = Vector3(2.0 * i, 0, 500);
     def.start.twist.angular = Vector3(1, 2, 5.0 * i);
-    fluid.add(def, shape, i % 2 ? air() : water());
+    scene.add(def, shape, i % 2 ? air() : water());
   }
   def.start.position = Vector3(0, 5, 3);
-  btRigidBody& bob = fluid.add(def, shape, water());
+  btRigidBody& bob = scene.add(def, shape, water());
   btPoint2PointConstraint joint(bob, btVector3(0, 0, 1));
   btJointFeedback feedback;
   joint.setJointFeedback(&feedback);
-  fluid.world.addConstraint(&joint);
-  addFloatingBodies(fluid, def);
+  scene.world.addConstraint(&joint);
+  addFloatingBodies(scene, def);
   for (int layer = 0; layer < 20; ++layer) {
     FluidRegion region;
     region.below = layer % 2 ? air() : Medium{};
     region.bounds = RegionBounds{{-100, -100, 400.0 + 5 * layer}, {100, 100, 405.0 + 5 * layer}};
-    fluid.registry.addRegion(region);
+    scene.fluid.addRegion(region);
   }
 
   NoShapes no_shapes;
   AttachSettings settings;
   settings.later_bodies = true;
-  fluid.action.follow(
-      std::make_unique<WorldAttachment>(fluid.registry, no_shapes, water(), settings));
+  scene.fluid.addAll(no_shapes, water(), settings);
 
-  fluid.step(1.0 / 60, 60);
+  scene.step(1.0 / 60, 60);
   const std::size_t before = allocationCount();
-  const long long evaluations = fluid.registry.counters().load_evaluations;
-  const long long changes = fluid.registry.counters().medium_changes;
-  const long long rows = fluid.registry.counters().rows;
-  fluid.step(1.0 / 60, 120);
+  const long long evaluations = scene.fluid.counters().load_evaluations;
+  const long long changes = scene.fluid.counters().medium_changes;
+  const long long rows = scene.fluid.counters().rows;
+  scene.step(1.0 / 60, 120);
   EXPECT_EQ(allocationCount(), before);
-  EXPECT_GT(fluid.registry.counters().load_evaluations, evaluations + 120 * 3);
-  EXPECT_GT(fluid.registry.counters().medium_changes, changes + 4);
-  EXPECT_GT(fluid.registry.counters().rows, rows + 120);
-  fluid.world.removeConstraint(&joint);
+  EXPECT_GT(scene.fluid.counters().load_evaluations, evaluations + 120 * 3);
+  EXPECT_GT(scene.fluid.counters().medium_changes, changes + 4);
+  EXPECT_GT(scene.fluid.counters().rows, rows + 120);
+  scene.world.removeConstraint(&joint);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "bullet_ambient/bullet/step_errors.h"
+#include "bullet_ambient/immersed/step_errors.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace ambient::test {
 namespace {
 
-/// How many of some steps of one error are within what is allowed.
+/// Number of steps of equal error, `most` at most, before add() reports a large sum.
 int stepsBeforeLarge(double error, int most) {
   StepErrors errors;
   for (int i = 0; i < most; ++i)
@@ -23,7 +23,7 @@ TEST(StepErrors, OneLargeStepIsTooMuch) {
   EXPECT_EQ(stepsBeforeLarge(0.99 * StepErrors::kLargest, 10), 1);
 }
 
-// They tend to the square root of 64 times one of them.
+// Sum of equal errors tends to sqrt(64) times one error.
 TEST(StepErrors, SmallOnesAddUpToEightTimesOne) {
   EXPECT_LT(stepsBeforeLarge(1.01 / 8 * StepErrors::kLargest, 10000), 500);
   EXPECT_EQ(stepsBeforeLarge(0.99 / 8 * StepErrors::kLargest, 10000), 10000);
@@ -44,24 +44,24 @@ TEST(StepErrors, AreToldOnce) {
 }
 
 TEST(StepErrors, AreReportedOfOneBodyAndCountedOfAll) {
-  FluidWorld fluid;
+  FluidWorld scene;
   std::vector<std::string> said;
-  fluid.registry.setReport([&](const std::string& text) { said.push_back(text); });
+  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
   const Vector3 semi_axes(0.05, 0.05, 0.01);
   BodyDef def{2e-4, ellipsoidMoments(semi_axes, 2e-4), {}, nullptr};
   def.start.twist = {Vector3(100, 50, 20), Vector3(300, 0, 200)};
   FluidBody shape = meshedEllipsoid(semi_axes, 2);
   for (const char* name : {"feather", "flake"}) {
     shape.name = name;
-    fluid.add(def, shape, air());
+    scene.add(def, shape, air());
   }
-  fluid.step(1.0 / 60, 60);
+  scene.step(1.0 / 60, 60);
   ASSERT_EQ(said.size(), 1u);
   const bool names_one = said[0].find("'feather'") != std::string::npos ||
                          said[0].find("'flake'") != std::string::npos;
   EXPECT_TRUE(names_one) << said[0];
   EXPECT_NE(said[0].find("take shorter steps"), std::string::npos) << said[0];
-  EXPECT_EQ(fluid.registry.counters().too_long, 2);
+  EXPECT_EQ(scene.fluid.counters().too_long, 2);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Numbers so small that Bullet would compute on subnormal ones.
+// Velocities so small that Bullet would compute with subnormal numbers.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr double kTinyStep = 1.0 / 60;
 constexpr double kBallRadius = 0.1;
 
-// Its square is the smallest number that is not subnormal.
+// Number with the smallest square that is not subnormal.
 const double kTiny = std::sqrt(static_cast<double>(std::numeric_limits<btScalar>::min()));
 
 bool isTiny(const btVector3& v) {
@@ -35,13 +35,13 @@ BodyDef ballOf(double mass, double radius) {
   return {mass, ellipsoidMoments(Vector3::Constant(radius), mass), {}, nullptr};
 }
 
-// Rounding of friction and pressure spins it by 1e-22 rad/s: subnormal where it is squared.
+// Rounding of friction and pressure spins the ball by 1e-22 rad/s: its square is subnormal.
 TEST(TinyVelocity, ABallThatFallsInWaterDoesNotSpinByRounding) {
-  FluidWorld fluid;
-  fluid.world.setGravity({0, bt(-9.81), 0});
-  const btRigidBody& body = fluid.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
+  FluidWorld scene;
+  scene.world.setGravity({0, bt(-9.81), 0});
+  const btRigidBody& body = scene.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
   for (int i = 0; i < 600; ++i) {
-    fluid.step(kTinyStep);
+    scene.step(kTinyStep);
     ASSERT_FALSE(isTiny(body.getAngularVelocity())) << i;
     ASSERT_FALSE(isTiny(body.getLinearVelocity())) << i;
   }
@@ -49,44 +49,44 @@ TEST(TinyVelocity, ABallThatFallsInWaterDoesNotSpinByRounding) {
 }
 
 TEST(TinyVelocity, BuoyancyBesideTheCentreOfMassByATraceTurnsNothing) {
-  FluidWorld fluid;
-  fluid.world.setGravity({0, bt(-9.81), 0});
+  FluidWorld scene;
+  scene.world.setGravity({0, bt(-9.81), 0});
   FluidBody shape = facelessEllipsoid(Vector3::Constant(kBallRadius));
   shape.centre_of_volume = {kTiny * 1e-6, 0, 2e-6 * kTiny};
-  const btRigidBody& body = fluid.add(ballOf(5, kBallRadius), shape, water());
+  const btRigidBody& body = scene.add(ballOf(5, kBallRadius), shape, water());
   for (int i = 0; i < 600; ++i) {
-    fluid.step(kTinyStep);
+    scene.step(kTinyStep);
     ASSERT_FALSE(moves(body.getAngularVelocity())) << i;
   }
 }
 
 TEST(TinyVelocity, ATorqueOfATraceDoesNotTurnABodyWithRows) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
+  FluidWorld scene;
+  btRigidBody& body = scene.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
   btPoint2PointConstraint joint(body, btVector3(0, 0, 0));
-  fluid.world.addConstraint(&joint);
+  scene.world.addConstraint(&joint);
   for (int i = 0; i < 10; ++i) {
     body.applyTorque({bt(kTiny * 1e-6), 0, 0});
-    fluid.step(kTinyStep);
+    scene.step(kTinyStep);
     EXPECT_FALSE(moves(body.getAngularVelocity())) << i;
   }
-  fluid.world.removeConstraint(&joint);
+  scene.world.removeConstraint(&joint);
 }
 
 TEST(TinyVelocity, WhatCountsIsNotTouched) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
+  FluidWorld scene;
+  btRigidBody& body = scene.add(ballOf(5, kBallRadius), ball(kBallRadius), water());
   const double spin = 1e6 * kTiny;
   body.setAngularVelocity({bt(spin), 0, 0});
-  fluid.step(kTinyStep, 10);
+  scene.step(kTinyStep, 10);
   EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().x()) / spin, 1, 1e-3);
 }
 
-// Newton's cradle in air: five steel balls side by side, the first is let go from 40 degrees.
+// Newton's cradle in air: five steel balls side by side, the first released from 40 degrees.
 TEST(TinyVelocity, NewtonsCradleHasNone) {
   constexpr double kBall = 0.05, kLength = 1, kAngle = 0.7;
-  FluidWorld fluid;
-  fluid.world.setGravity({0, bt(-9.81), 0});
+  FluidWorld scene;
+  scene.world.setGravity({0, bt(-9.81), 0});
   btSphereShape shape(bt(kBall));
   std::vector<btRigidBody*> balls;
   std::vector<std::unique_ptr<btPoint2PointConstraint>> strings;
@@ -96,20 +96,20 @@ TEST(TinyVelocity, NewtonsCradleHasNone) {
     BodyDef def = ballOf(4, kBall);
     def.shape = &shape;
     def.start.position = Vector3(2 * kBall * i, 0, 0) - kLength * rod;
-    balls.push_back(&fluid.add(def, ball(kBall), air()));
+    balls.push_back(&scene.add(def, ball(kBall), air()));
     balls.back()->setRestitution(1);
     strings.push_back(
         std::make_unique<btPoint2PointConstraint>(*balls.back(), toBullet(kLength * rod)));
-    fluid.world.addConstraint(strings.back().get());
+    scene.world.addConstraint(strings.back().get());
   }
   for (int i = 0; i < 600; ++i) {
-    fluid.step(kTinyStep);
+    scene.step(kTinyStep);
     for (const btRigidBody* body : balls) {
       ASSERT_FALSE(isTiny(body->getAngularVelocity())) << i;
       ASSERT_FALSE(isTiny(body->getLinearVelocity())) << i;
     }
   }
-  for (const auto& string : strings) fluid.world.removeConstraint(string.get());
+  for (const auto& string : strings) scene.world.removeConstraint(string.get());
 }
 
 }  // namespace

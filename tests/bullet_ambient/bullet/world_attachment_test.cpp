@@ -1,4 +1,4 @@
-#include "bullet_ambient/bullet/world_attachment.h"
+#include "bullet_ambient/bullet/world/world_attachment.h"
 
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
-#include "tests/support/ellipsoid_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
 namespace ambient::test {
 namespace {
 
-// Balls of 4.19 m^3; no other shapes.
+// Source of fluid bodies for balls of 4.19 m^3; refuses other shapes.
 class BallTable : public FluidBodySource {
  public:
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override {
@@ -44,7 +44,7 @@ class BallTable : public FluidBodySource {
 class WorldInFluid : public testing::Test {
  protected:
   WorldInFluid() {
-    fluid.registry().setReport([this](const std::string& sentence) { said.push_back(sentence); });
+    fluid.setReport([this](const std::string& sentence) { said.push_back(sentence); });
   }
   ~WorldInFluid() override {
     for (const auto& body : bodies) world.removeRigidBody(body.get());
@@ -62,14 +62,14 @@ class WorldInFluid : public testing::Test {
     const btScalar time_step = btScalar(1) / 60;
     world.stepSimulation(time_step, 0, time_step);
   }
-  bool isAttached(const btRigidBody& body) const { return fluid.registry().isAttached(body); }
+  bool isAttached(const btRigidBody& body) const { return fluid.find(body).has_value(); }
 
   static constexpr double kHeavy = 9000;  // water: 4180 kg
-  Fluid<> fluid;
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, nullptr, &configuration};
+  Fluid fluid{world};
   btSphereShape sphere{1};
   btBoxShape box{btVector3(1, 1, 1)};
   BallTable shapes;
@@ -82,7 +82,7 @@ TEST_F(WorldInFluid, TakesEveryDynamicBodyAndSaysWhy) {
   btRigidBody& first = add(kHeavy, sphere);
   btRigidBody& crate = add(kHeavy, box);
   btRigidBody& second = add(2 * kHeavy, sphere);
-  const AttachReport report = fluid.attachAll(world, shapes, water());
+  const AttachReport report = fluid.addAll(shapes, water());
   EXPECT_EQ(report.attached, 2);
   EXPECT_EQ(report.fluid_bodies, 1);
   EXPECT_TRUE(report.light.empty());
@@ -96,7 +96,7 @@ TEST_F(WorldInFluid, TakesEveryDynamicBodyAndSaysWhy) {
   EXPECT_FALSE(isAttached(floor) || isAttached(crate));
   first.setLinearVelocity({1, 0, 0});
   step();
-  EXPECT_GE(fluid.registry().counters(first).substeps, 1);  // solver and action are in the world
+  EXPECT_GE(fluid.find(first)->counters().substeps, 1);  // solver and action are in the world
 }
 
 TEST_F(WorldInFluid, LeavesWhatIsAttachedAndWhatTheFilterDoesNotWant) {
@@ -106,15 +106,15 @@ TEST_F(WorldInFluid, LeavesWhatIsAttachedAndWhatTheFilterDoesNotWant) {
   fluid.add(own, {shapes.ball, air()});
   AttachSettings settings;
   settings.filter = [&](const btRigidBody& body) { return &body != &right; };
-  const AttachReport report = fluid.attachAll(world, shapes, water(), settings);
+  const AttachReport report = fluid.addAll(shapes, water(), settings);
   EXPECT_EQ(report.attached, 1);
   EXPECT_EQ(report.attached_before, 1);
   EXPECT_TRUE(isAttached(left));
   EXPECT_FALSE(isAttached(right));
-  EXPECT_EQ(fluid.registry().medium(own).density, air().density);
-  fluid.attachAll(world, shapes, air());  // the rest
-  EXPECT_EQ(fluid.registry().medium(left).density, water().density);
-  EXPECT_EQ(fluid.registry().medium(right).density, air().density);
+  EXPECT_EQ(fluid.find(own)->medium().density, air().density);
+  fluid.addAll(shapes, air());  // the rest
+  EXPECT_EQ(fluid.find(left)->medium().density, water().density);
+  EXPECT_EQ(fluid.find(right)->medium().density, air().density);
 }
 
 TEST_F(WorldInFluid, GivesEachBodyWhatAFunctionSays) {
@@ -128,9 +128,9 @@ TEST_F(WorldInFluid, GivesEachBodyWhatAFunctionSays) {
     if (&body == &second) def.medium = air();
     if (&body == &third) def.fluid_body = nullptr;
   };
-  EXPECT_EQ(fluid.attachAll(world, shapes, water(), settings).attached, 2);
-  EXPECT_EQ(fluid.registry().medium(first).density, water().density);
-  EXPECT_EQ(fluid.registry().medium(second).density, air().density);
+  EXPECT_EQ(fluid.addAll(shapes, water(), settings).attached, 2);
+  EXPECT_EQ(fluid.find(first)->medium().density, water().density);
+  EXPECT_EQ(fluid.find(second)->medium().density, air().density);
   EXPECT_FALSE(isAttached(third));
 }
 
@@ -142,9 +142,9 @@ TEST_F(WorldInFluid, NamesWhatIsNoMassAndGoesOn) {
   settings.adjust = [&](const btRigidBody& body, AttachDef& def) {
     if (&body == bodies[0].get()) def.flight.max_substeps = -1;
   };
-  const AttachReport report = fluid.attachAll(world, shapes, water(), settings);
+  const AttachReport report = fluid.addAll(shapes, water(), settings);
   ASSERT_GE(report.refused.size(), 1u);
-  EXPECT_NE(report.refused[0].reason.find("body 0 (SPHERE): attach: body with fluid body "
+  EXPECT_NE(report.refused[0].reason.find("body 0 (SPHERE): add: body with fluid body "
                                           "'ellipsoid' has max_substeps of -1"),
             std::string::npos)
       << report.refused[0].reason;
@@ -152,11 +152,11 @@ TEST_F(WorldInFluid, NamesWhatIsNoMassAndGoesOn) {
 }
 
 TEST_F(WorldInFluid, SaysOnceWhichBodiesAreLight) {
-  add(3000, sphere);  // floats, as wood does
+  add(3000, sphere);  // floats like wood
   add(2000, sphere);
   add(10, sphere);
   add(1000, sphere);
-  const AttachReport report = fluid.attachAll(world, shapes, water());
+  const AttachReport report = fluid.addAll(shapes, water());
   ASSERT_EQ(report.light.size(), 4u);
   EXPECT_EQ(report.light[2].body, 2);
   EXPECT_NEAR(report.light[2].mass, 10, 1e-5);
@@ -171,7 +171,7 @@ TEST_F(WorldInFluid, SaysOnceWhichBodiesAreLight) {
 }
 
 TEST_F(WorldInFluid, OneLightBodyIsSaidWithBothMasses) {
-  const AttachDef def{shapes.ball, air()};  // 5.04 kg
+  const AttachDef def{shapes.ball, air()};  // displaces 5.04 kg
   fluid.add(add(2.6, sphere), def);
   EXPECT_TRUE(said.empty());
   fluid.add(add(2.4, sphere), def);
@@ -184,14 +184,14 @@ TEST_F(WorldInFluid, TakesBodiesThatComeLater) {
   AttachSettings settings;
   settings.later_bodies = true;
   add(kHeavy, sphere);
-  fluid.attachAll(world, shapes, water(), settings);
+  fluid.addAll(shapes, water(), settings);
   step();
   btRigidBody& later = add(kHeavy, sphere);
   EXPECT_FALSE(isAttached(later));
   step();
   EXPECT_TRUE(isAttached(later));
   // What was detached on purpose stays so, and nobody is asked again.
-  fluid.remove(later);
+  fluid.find(later)->remove();
   const int asked = shapes.asked;
   step();
   EXPECT_FALSE(isAttached(later));
@@ -205,20 +205,20 @@ TEST_F(WorldInFluid, TakesBodiesThatComeLater) {
 
 TEST_F(WorldInFluid, WithoutTheFlagLaterBodiesStayDry) {
   add(kHeavy, sphere);
-  fluid.attachAll(world, shapes, water());
+  fluid.addAll(shapes, water());
   btRigidBody& later = add(kHeavy, sphere);
   step();
   step();
   EXPECT_FALSE(isAttached(later));
 }
 
-// At the same place of the array, and as a rule at the same address.
+// Replaces a body at its place in the array, usually at its address.
 TEST_F(WorldInFluid, TellsABodyFromADestroyedOneInItsPlace) {
   AttachSettings settings;
   settings.later_bodies = true;
   add(kHeavy, sphere);
   add(kHeavy, sphere);
-  fluid.attachAll(world, shapes, water(), settings);
+  fluid.addAll(shapes, water(), settings);
   for (int i = 0; i < 20; ++i) {
     world.removeRigidBody(bodies.back().get());
     bodies.pop_back();
@@ -233,36 +233,36 @@ TEST_F(WorldInFluid, ReplacesFluidBodiesWhenTheSourceKnowsBetter) {
   btRigidBody& first = add(kHeavy, sphere);
   btRigidBody& second = add(kHeavy, sphere);
   btRigidBody& own = add(kHeavy, sphere);
-  fluid.attachAll(world, shapes, water());
-  const double before = fluid.registry().inertia(first)(3, 3);
+  fluid.addAll(shapes, water());
+  const double before = fluid.find(first)->inertia()(3, 3);
   const auto mine = std::make_shared<FluidBody>(facelessEllipsoid(Vector3(1, 1, 2)));
-  fluid.registry().setFluidBody(own, mine);
-  const double kept = fluid.registry().inertia(own)(3, 3);
+  fluid.find(own)->setFluidBody(mine);
+  const double kept = fluid.find(own)->inertia()(3, 3);
   first.setLinearVelocity({1, 2, 3});
   shapes.improve(std::make_shared<FluidBody>(scaled(*shapes.ball, 1.1)));
-  EXPECT_EQ(fluid.registry().inertia(first)(3, 3), before);
+  EXPECT_EQ(fluid.find(first)->inertia()(3, 3), before);
   step();
   const double wet = before - kHeavy;
-  EXPECT_NEAR(fluid.registry().inertia(first)(3, 3) - kHeavy, wet * 1.331, 1e-6 * before);
-  EXPECT_EQ(fluid.registry().inertia(second)(3, 3), fluid.registry().inertia(first)(3, 3));
-  EXPECT_EQ(fluid.registry().inertia(own)(3, 3), kept);
+  EXPECT_NEAR(fluid.find(first)->inertia()(3, 3) - kHeavy, wet * 1.331, 1e-6 * before);
+  EXPECT_EQ(fluid.find(second)->inertia()(3, 3), fluid.find(first)->inertia()(3, 3));
+  EXPECT_EQ(fluid.find(own)->inertia()(3, 3), kept);
   const int asked = shapes.asked;
   step();
   EXPECT_EQ(shapes.asked, asked);
 }
 
-// Each refusal is told, to a report that throws each time.
+// Reports each refusal to a function that throws each time.
 TEST_F(WorldInFluid, AReportThatThrowsLosesNoReplacement) {
   btRigidBody& refused = add(kHeavy, sphere);
   btRigidBody& last = add(kHeavy, sphere);
   AttachSettings settings;
   settings.later_bodies = true;
-  fluid.attachAll(world, shapes, water(), settings);
-  fluid.registry().setReport([this](const std::string& sentence) {
+  fluid.addAll(shapes, water(), settings);
+  fluid.setReport([this](const std::string& sentence) {
     said.push_back(sentence);
     throw std::runtime_error("no terminal");
   });
-  const double before = fluid.registry().inertia(last)(3, 3);
+  const double before = fluid.find(last)->inertia()(3, 3);
   refused.setMassProps(kHeavy, btVector3(0, 0, 0));
   shapes.improve(std::make_shared<FluidBody>(scaled(*shapes.ball, 1.1)));
   add(kHeavy, box);
@@ -272,20 +272,19 @@ TEST_F(WorldInFluid, AReportThatThrowsLosesNoReplacement) {
     return sentence.rfind("bullet_ambient: body ", 0) == 0;
   });
   EXPECT_EQ(refusals, 3);
-  EXPECT_NEAR(fluid.registry().inertia(last)(3, 3) - kHeavy, (before - kHeavy) * 1.331,
-              1e-6 * before);
+  EXPECT_NEAR(fluid.find(last)->inertia()(3, 3) - kHeavy, (before - kHeavy) * 1.331, 1e-6 * before);
 }
 
 TEST_F(WorldInFluid, ASourceThatFailsOnceLosesOneReplacement) {
   const btRigidBody& first = add(kHeavy, sphere);
   const btRigidBody& last = add(kHeavy, sphere);
-  fluid.attachAll(world, shapes, water());
-  const double before = fluid.registry().inertia(first)(3, 3);
+  fluid.addAll(shapes, water());
+  const double before = fluid.find(first)->inertia()(3, 3);
   shapes.throws_once = true;
   shapes.improve(std::make_shared<FluidBody>(scaled(*shapes.ball, 1.1)));
   step();
-  EXPECT_EQ(fluid.registry().inertia(first)(3, 3), before);
-  EXPECT_GT(fluid.registry().inertia(last)(3, 3), before);
+  EXPECT_EQ(fluid.find(first)->inertia()(3, 3), before);
+  EXPECT_GT(fluid.find(last)->inertia()(3, 3), before);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_EQ(said[0], "bullet_ambient: body 0 (SPHERE): something unknown was thrown");
 }
@@ -294,11 +293,11 @@ TEST_F(WorldInFluid, NamesTheFunctionThatThrew) {
   add(kHeavy, sphere);
   AttachSettings settings;
   settings.adjust = [](const btRigidBody&, AttachDef&) { throw std::runtime_error("no table"); };
-  const AttachReport adjusted = fluid.attachAll(world, shapes, water(), settings);
+  const AttachReport adjusted = fluid.addAll(shapes, water(), settings);
   ASSERT_EQ(adjusted.refused.size(), 1u);
   EXPECT_EQ(adjusted.refused[0].reason, "body 0 (SPHERE): adjust threw: no table");
   settings.filter = [](const btRigidBody&) -> bool { throw 1; };
-  const AttachReport filtered = fluid.attachAll(world, shapes, water(), settings);
+  const AttachReport filtered = fluid.addAll(shapes, water(), settings);
   ASSERT_EQ(filtered.refused.size(), 1u);
   EXPECT_EQ(filtered.refused[0].reason, "body 0 (SPHERE): filter threw something unknown");
 }
@@ -307,12 +306,12 @@ TEST_F(WorldInFluid, ClearFollowsNothing) {
   AttachSettings settings;
   settings.later_bodies = true;
   add(kHeavy, sphere);
-  fluid.attachAll(world, shapes, water(), settings);
+  fluid.addAll(shapes, water(), settings);
   fluid.clear();
   btRigidBody& later = add(kHeavy, sphere);
   step();
   EXPECT_FALSE(isAttached(later));
-  EXPECT_EQ(fluid.registry().size(), 0u);
+  EXPECT_EQ(fluid.size(), 0u);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <limits>
 #include <random>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/fluid_body_file_header.h"
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file_header.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/temporary_folder.h"
@@ -14,13 +14,13 @@
 namespace ambient {
 namespace {
 
-/// Puts a header in front that vouches for any payload, as an attacker would.
+/// Adds a header that matches any payload, as an attacker could.
 std::string withMatchingHeader(const std::string& payload) {
   return encodeFileHeader({kFormatVersion, payload.size(), fnv1a64(payload)}) + payload;
 }
 
-/// Reads whatever these bytes are: a valid body or a sentence, and no more memory than a few
-/// copies. Returns whether they were read.
+/// Reads arbitrary bytes; returns true if accepted. Expects a valid body or a sentence, and memory
+/// of a few copies at most.
 bool survives(const std::string& bytes) {
   const std::size_t before = test::allocatedBytes();
   bool read = true;
@@ -33,7 +33,7 @@ bool survives(const std::string& bytes) {
     EXPECT_EQ(message.rfind("f.ambient: ", 0), 0u) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
-  // At most nine arrays and four texts, each of which could claim the whole payload.
+  // Nine arrays and four texts at most; each could claim the size of the whole payload.
   EXPECT_LT(test::allocatedBytes() - before, 20 * bytes.size() + 16384);
   if (read) {
     EXPECT_NO_THROW(checkFluidBody(body, "f.ambient"));
@@ -67,7 +67,7 @@ TEST(DamagedFile, ChangedWithAMatchingChecksumNeverCrashes) {
   std::mt19937 engine(1);
   int refused = 0;
   constexpr int kFiles = 20000;
-  // Sizes and offsets that tend to break readers, besides arbitrary ones.
+  // Sizes and offsets that tend to break readers, in addition to random ones.
   const std::uint32_t nasty[] = {0, 1, 0x7fffffff, 0x80000000, 0xffffffff, 0xfffffff8, 0x10000000};
   for (int i = 0; i < kFiles; ++i) {
     std::string bytes = payload;
@@ -83,11 +83,11 @@ TEST(DamagedFile, ChangedWithAMatchingChecksumNeverCrashes) {
     }
     refused += !survives(withMatchingHeader(bytes));
   }
-  EXPECT_GT(refused, kFiles / 2);  // most changes meet a number that is checked, or a table
+  EXPECT_GT(refused, kFiles / 2);  // most changes hit a checked number or a table
 }
 
 TEST(DamagedFile, ChangedInItsTablesWithAMatchingChecksumNeverCrashes) {
-  // Every 32-bit word once each: sizes, offsets and vtables are words.
+  // Changes every 32-bit word once: sizes, offsets and vtables are words.
   const std::string payload = encodeFluidBody(test::exampleBody(0), "x").substr(kFileHeaderSize);
   for (const std::uint32_t word : {0u, 1u, 0x7fffffffu, 0xffffffffu, 0x00010001u})
     for (std::size_t at = 0; at + 4 <= payload.size(); at += 4) {
@@ -122,7 +122,7 @@ TEST(DamagedFile, ThatAnnouncesAHugePayloadAllocatesNothingForIt) {
 }
 
 TEST(DamagedFile, OfGreatSizeIsRefusedBeforeItIsRead) {
-  // Sparse: takes no room on the disk.
+  // Sparse file: uses no disk space.
   const TemporaryFolder folder;
   const auto file = folder / "large.ambient";
   writeText(file, "no mark");

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "tests/support/geodesic.h"
+#include "tests/support/bodies/geodesic.h"
 
 namespace ambient::test {
 
-/// A fluid body in which every field has a value of its own. Valid, though not of any real shape.
+/// A valid fluid body with a different value in each field; no real shape has these values.
 inline FluidBody exampleBody(int level = 1) {
   const Triangulation mesh = geodesicEllipsoid({1, 0.5, 0.25}, level);
   FluidBody body;
@@ -17,7 +17,7 @@ inline FluidBody exampleBody(int level = 1) {
   for (int row = 0; row < 6; ++row)
     for (int col = 0; col < 6; ++col)
       body.added_mass(row, col) = row == col ? 1 + row : 0.01 * (row + col);
-  body.added_mass(1, 4) += 1e-12;  // rounding, which must survive at its place
+  body.added_mass(1, 4) += 1e-12;  // rounding, must survive in its entry
   body.asymmetry = 1.25e-9;
   body.volume = 0.5;
   body.area = 2.75;
@@ -34,7 +34,7 @@ inline FluidBody exampleBody(int level = 1) {
   return body;
 }
 
-/// What readFluidBody() and its like say when they refuse; empty if they do not.
+/// Returns the sentence of a refusal by readFluidBody() or a similar action; empty if accepted.
 template <class Action>
 std::string refusalOf(const Action& action) {
   try {

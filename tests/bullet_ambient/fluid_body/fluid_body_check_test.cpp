@@ -3,7 +3,7 @@
 #include <functional>
 #include <limits>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 
 namespace ambient {
@@ -12,7 +12,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What checkFluidBody() says about the example after a change.
+/// Returns the sentence of checkFluidBody() for the example after a change.
 template <class Change>
 std::string refusalAfter(const Change& change) {
   FluidBody body = test::exampleBody();
@@ -148,7 +148,7 @@ TEST(FluidBodyCheck, AllowsForTheRoundingOfBodiesOfAnySize) {
     FluidBody body = test::exampleBody();
     Vector6 scales;
     scales << s, s, s, 1, 1, 1;
-    // Singular to rounding in its translation: a body of revolution of no thickness, say.
+    // Translation is singular to rounding, as for a body of revolution without thickness.
     Vector6 diagonal;
     diagonal << 1, 1, -1e-16, 1, 1, -1e-16;
     body.added_mass =

@@ -1,4 +1,4 @@
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -226,7 +226,7 @@ TEST(FluidBodyFile, SaysWhyItCannotBeWritten) {
   EXPECT_EQ(refusalOf([&] { writeFluidBody(test::exampleBody(), pipe); }),
             pipe.string() + ": is not a regular file");
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
-  EXPECT_EQ(entriesOf(folder), 2);  // nothing half-written stays
+  EXPECT_EQ(entriesOf(folder), 2);  // no partial file remains
 }
 
 TEST(FluidBodyFile, SaysThatItIsMissingOrNoFile) {

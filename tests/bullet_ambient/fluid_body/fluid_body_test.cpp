@@ -5,7 +5,7 @@
 #include "bullet_ambient/fluid_body/content_hash.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -48,7 +48,7 @@ TEST(SlipMatrix, GivesTheTangentialVelocityOfTheFluidAtEveryFace) {
 
 TEST(SlipMatrix, OfNoFacesIsEmpty) { EXPECT_EQ(computeSlipMatrix(FaceTable{}).rows(), 0); }
 
-// Saved states of one do not fit the other.
+// Saved states of a body with the table must not fit a body without.
 TEST(FluidBody, AWaterlineTableIsPartOfItsContent) {
   FluidBody body = test::exampleBody();
   const std::uint64_t without = contentHash(body);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -31,7 +31,7 @@ TEST(OctahedralLattice, HasEveryDirectionOnceAndFindsItAgain) {
   }
 }
 
-// A function that is linear on the octahedron comes back exactly, in each of the eight faces.
+// Interpolation must reproduce linear functions exactly, on each of the eight faces.
 TEST(OctahedralLattice, SharesAreLinearOnTheOctahedron) {
   test::Arbitrary arbitrary(1);
   for (const int subdivisions : {1, 4, 5}) {

@@ -1,18 +1,18 @@
-#include "bullet_ambient/fluid_body/packed_faces.h"
+#include "bullet_ambient/fluid_body/packed/packed_faces.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "tests/support/geodesic.h"
+#include "tests/support/bodies/geodesic.h"
 
 namespace ambient {
 namespace {
 
 FaceTable someFaces(int level = 1) { return test::faceTableOf(test::geodesicSphere(level)); }
 
-// Block and lane of the only face that has an area, in the unit of areas.
+// Block and lane of the only face with an area, in units of the area.
 std::pair<const FaceBlock*, int> placeOf(const PackedFaces& packed, float area) {
   std::pair<const FaceBlock*, int> place(nullptr, 0);
   const FaceBlocks faces = packed.blocks();
@@ -74,7 +74,7 @@ TEST(PackedFaces, LieWithinTheBoundsOfTheirBlock) {
       EXPECT_LT(middle - reach, *low);
       EXPECT_GT(middle + reach, *high);
       EXPECT_LT(2 * reach, *high - *low + 1e-5f);
-      EXPECT_LT(reach, 0.3f);  // of 1280 faces 16 alike
+      EXPECT_LT(reach, 0.3f);  // 16 similar faces of 1280
     }
   }
 }

@@ -1,19 +1,19 @@
-#include "bullet_ambient/fluid_body/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_hull.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/hull_bodies.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/hull_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
 
 using test::Arbitrary;
 
-/// A closed surface without a flat side of two triangles.
+/// A closed surface without coplanar triangles.
 FluidBody bumpyBody(int level) {
   Arbitrary arbitrary(1);
   test::Triangulation mesh = test::geodesicSphere(level);

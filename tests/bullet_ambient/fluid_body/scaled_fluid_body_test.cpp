@@ -4,7 +4,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
-#include "tests/support/ellipsoid_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
 namespace ambient::test {
 namespace {

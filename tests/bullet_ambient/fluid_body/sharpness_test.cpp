@@ -7,7 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "tests/support/geodesic.h"
+#include "bullet_ambient/fluid_body/form_shape.h"
+#include "tests/support/bodies/geodesic.h"
 
 namespace ambient {
 namespace {
@@ -29,7 +30,7 @@ TEST(Sharpness, OfASphereIsZeroForEveryTriangulation) {
   for (const int level : {1, 2, 3}) {
     const std::vector<double> s = computeSharpness(bodyOf(test::geodesicSphere(level)));
     const double largest = *std::max_element(s.begin(), s.end());
-    EXPECT_LT(largest, before / 8) << level;  // the area of the mesh is a little less
+    EXPECT_LT(largest, before / 8) << level;  // area of the mesh slightly too small
     before = largest;
   }
   EXPECT_LT(before, 1e-5);
@@ -80,6 +81,12 @@ TEST(Sharpness, IsOneOnTheHollowSideOfASheet) {
   EXPECT_EQ(*std::min_element(s.begin() + static_cast<std::ptrdiff_t>(count), s.end()), 1);
 }
 
+TEST(Sharpness, IsOneOfFacesWithoutASurface) {
+  FluidBody body = bodyOf(test::geodesicSphere(0));
+  body.surface = {};
+  EXPECT_EQ(computeSharpness(body), std::vector<double>(20, 1));
+}
+
 TEST(Sharpness, NeedsTheTrianglesOfTheFaces) {
   FluidBody body = bodyOf(test::geodesicSphere(0));
   body.surface.triangles.resize(27);
@@ -97,7 +104,7 @@ TEST(FormLawFaces, TakeAKnownSharpnessWithoutASurface) {
   FluidBody body = bodyOf(test::geodesicSphere(1));
   body.faces.sharpness.assign(body.faces.size(), 0.25);
   body.surface = {};
-  EXPECT_EQ(formLawFaces(body).sharpness, body.faces.sharpness);
+  EXPECT_EQ(formLawFaces(body, {}).sharpness, body.faces.sharpness);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/reference/spheroid_loads.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "tests/reference/loads/spheroid_loads.h"
+#include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/random_bodies.h"
 #include "tests/support/convergence.h"
-#include "tests/support/geodesic.h"
-#include "tests/support/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -17,7 +17,7 @@ Wrench pressureOn(const FaceTable& faces, const Vector3& velocity, double angle_
   return computeFaceLoads(faces, 1, {Vector3::Zero(), velocity}, settings).pressure;
 }
 
-/// Root mean square over triangulations of a geodesic ellipsoid of error(face table).
+/// Root mean square of error(face table) over triangulations of a geodesic ellipsoid.
 template <class Error>
 double meanError(const Vector3& semi_axes, int level, const Error& error) {
   test::Arbitrary arbitrary(5);
@@ -27,7 +27,7 @@ double meanError(const Vector3& semi_axes, int level, const Error& error) {
   });
 }
 
-/// Drag coefficient along the axis z on the frontal area, of a spheroid (b, b, a).
+/// Drag coefficient of a spheroid (b, b, a) along its axis z, on the frontal area.
 test::Convergence axialDragConvergence(double a, double b) {
   return test::measureConvergence(1, 4, [=](int level) {
     return meanError({b, b, a}, level, [=](const FaceTable& faces) {
@@ -55,7 +55,7 @@ TEST(SpheroidPressure, ProlateTwoToOneConvergesToTheClosedForm) {
   EXPECT_LT(c.finest(), 1.2e-3);    // measured 8.5e-4
 }
 
-/// Force and torque at density 2 of an ellipsoid moving at unit speed along (cos i, 0, -sin i).
+/// Force and torque at density 2 on an ellipsoid at unit speed along (cos i, 0, -sin i).
 struct EllipsoidAtIncidence {
   Vector3 semi_axes;
   double angle;      ///< separation angle over pi/2
@@ -82,8 +82,8 @@ TEST_P(EllipsoidPressure, ConvergesToTheSmoothEllipsoid) {
   EXPECT_LT(c.finest(), 2e-3 * area);
 }
 
-// Limb-aligned Gauss quadrature (alpha = pi/2, uncertainty 1e-8) and Fibonacci points (3e-5) on the
-// smooth bodies.
+// Results of limb-aligned Gauss quadrature (alpha = pi/2, uncertainty 1e-8) and Fibonacci points
+// (3e-5) on smooth bodies.
 INSTANTIATE_TEST_SUITE_P(
     References, EllipsoidPressure,
     testing::Values(

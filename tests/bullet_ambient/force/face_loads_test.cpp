@@ -1,15 +1,15 @@
-#include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <new>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/reference/face_by_face_loads.h"
+#include "bullet_ambient/base/pi.h"
+#include "tests/reference/loads/face_by_face_loads.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/geodesic.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "bullet_ambient/force/skin_friction.h"
-#include "tests/support/random_bodies.h"
+#include "bullet_ambient/force/law/skin_friction.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {

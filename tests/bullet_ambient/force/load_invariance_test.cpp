@@ -1,14 +1,14 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "tests/support/geodesic.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
 
-// Some hundred terms are added; the sum may be a tenth of them.
+// Rounding of a sum of some hundred terms; the sum may be a tenth of them.
 constexpr double kRounding = 1e-12;
 
 class LoadInvariance : public testing::TestWithParam<double> {
@@ -46,7 +46,7 @@ TEST_P(LoadInvariance, TurnsWithTheBody) {
 }
 
 TEST_P(LoadInvariance, DoesNotDependOnTheOriginAndAxesOfTheFrame) {
-  // x_ is the motion in frame F; B is any other frame.
+  // x_ is the motion in frame F; frame B is random.
   const FrameOffset offset{arbitrary_.rotation(), arbitrary_.vector()};
   const Twist x_B{offset.rotation * x_.angular,
                   offset.rotation * x_.at(-offset.rotation.transpose() * offset.translation)};
@@ -61,8 +61,8 @@ TEST_P(LoadInvariance, DoesNotDependOnTheOriginAndAxesOfTheFrame) {
 }
 
 TEST_P(LoadInvariance, IsMirroredWithTheBodyBitForBit) {
-  const Vector3 mirror(-1, 1, 1);          // of vectors
-  const Vector3 pseudo_mirror(1, -1, -1);  // of angular velocities and torques
+  const Vector3 mirror(-1, 1, 1);          // vectors
+  const Vector3 pseudo_mirror(1, -1, -1);  // angular velocities and torques
   const FaceTable mirrored = mapped(body_, [&](FaceTable& to, std::size_t i) {
     to.add(mirror.cwiseProduct(body_.normal(i)), mirror.cwiseProduct(body_.centroid(i)),
            body_.area[i]);
@@ -78,7 +78,7 @@ TEST_P(LoadInvariance, IsMirroredWithTheBodyBitForBit) {
 TEST_P(LoadInvariance, PressureIsHomogeneousOfDegreeTwoInTheMotion) {
   for (const double factor : {0.5, 8.0, 0x1p-200}) {
     const FaceLoads loads = loadsOn(body_, {factor * x_.angular, factor * x_.linear});
-    // A power of 2 changes no rounding.
+    // A factor of a power of 2 must not change any rounding.
     EXPECT_EQ(loads.pressure.vector(), factor * factor * loads_.pressure.vector()) << factor;
   }
   const FaceLoads loads = loadsOn(body_, {1.7 * x_.angular, 1.7 * x_.linear});
@@ -90,11 +90,11 @@ TEST_P(LoadInvariance, ScalesWithTheSizeOfTheBody) {
   const FaceTable scaled = mapped(body_, [&](FaceTable& to, std::size_t i) {
     to.add(body_.normal(i), s * body_.centroid(i), s * s * body_.area[i]);
   });
-  // The same speeds at all points: w / s.
+  // Spin w / s keeps the speed at all points.
   const FaceLoads loads = loadsOn(scaled, {x_.angular / s, x_.linear}, s);
   EXPECT_EQ(loads.pressure.force, s * s * loads_.pressure.force);
   EXPECT_EQ(loads.pressure.torque, s * s * s * loads_.pressure.torque);
-  const double friction_scale = s * s * std::pow(s, -0.2);  // its Reynolds number grows by s
+  const double friction_scale = s * s * std::pow(s, -0.2);  // Reynolds number grows by s
   expectClose({loads.friction.torque / s, loads.friction.force}, friction_scale * loads_.friction);
 }
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/force/face_loads.h"
-#include "tests/reference/face_by_face_loads.h"
-#include "tests/support/geodesic.h"
-#include "tests/support/random_bodies.h"
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "tests/reference/loads/face_by_face_loads.h"
+#include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -18,7 +18,7 @@ FaceTable oneFace(const FaceTable& faces, std::size_t i) {
   return single;
 }
 
-/// What the power of a wrench on a twist is rounded against: the sum of its terms' sizes.
+/// Scale of the rounding of the power of a wrench on a twist: sum of absolute terms.
 double sizeOfPower(const Wrench& f, const Twist& x) {
   return f.torque.norm() * x.angular.norm() + f.force.norm() * x.linear.norm();
 }
@@ -44,7 +44,7 @@ TEST(LoadPower, OfAWholeBodyIsNeverPositiveAtARightAngle) {
     for (int i = 0; i < 200; ++i) {
       const Twist x = arbitrary.twist(arbitrary.between(0, 5), arbitrary.between(0, 5));
       const FaceLoads loads = computeFaceLoads(body, 1, x, kRightAngle);
-      // A closed body of 80 faces meets the flow with some of them: no cancellation to round.
+      // A closed body of 80 faces always has windward faces: power is a sum of equal signs.
       ASSERT_LT(power(loads.pressure, x), 0);
       ASSERT_LT(power(loads.friction, x), 0);
     }
@@ -63,9 +63,9 @@ TEST(LoadPower, OfFrictionIsNeverPositiveAtAnyAngle) {
 }
 
 TEST(LoadPower, OfAConeMovingBaseFirstIsPositiveBeyondTheRightAngle) {
-  // A weakness of the model that the passivity guard is there for; docs/theory.md eq. (20). The
-  // mantle of half angle b stays attached for sin(b) < -cos(alpha) and pushes forward with
-  // 1/2 rho V^2 cos^2(b) pi R^2; the base has no slip.
+  // Weakness of the model, cured by the passivity guard; docs/theory.md eq. (20). The mantle of
+  // half angle b stays attached for sin(b) < -cos(alpha), and pushes forward with 1/2 rho V^2
+  // cos^2(b) pi R^2; the base has no slip.
   const double pi = std::acos(-1.0);
   const double half_angle = pi / 12;
   const double V = 3;

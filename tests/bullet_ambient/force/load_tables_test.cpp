@@ -1,10 +1,10 @@
-#include "bullet_ambient/force/load_tables.h"
+#include "bullet_ambient/force/loads/load_tables.h"
 
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/force/surface_loads.h"
-#include "tests/support/geodesic.h"
-#include "tests/support/hull_bodies.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/hull_bodies.h"
 
 namespace ambient {
 namespace {
@@ -21,7 +21,7 @@ std::shared_ptr<const FluidBody> closedSphere() {
 
 std::shared_ptr<const PackedFaces> packed(LoadTables& tables,
                                           const std::shared_ptr<const FluidBody>& body) {
-  return tables.packedFaces({body, &body->faces}, PressureLaw::kPublished);
+  return tables.packedFaces({body, &body->faces}, nullptr);
 }
 
 TEST(LoadTables, HaveOneTablePerFluidBody) {
@@ -53,7 +53,7 @@ TEST(LoadTables, KeepNoFacesThatNobodyUses) {
   EXPECT_TRUE(faces.expired());
 }
 
-// For further media and settings of the shape.
+// Later media and settings of the shape reuse the faces.
 TEST(LoadTables, KeepTheFacesOfTheFormLawAsLongAsLoadsAreUsed) {
   LoadTables tables;
   const auto body = closedSphere();
@@ -80,7 +80,7 @@ TEST(LoadTables, HaveOneSetOfLoadsPerShapeFluidAndSettings) {
   others[1].skin_friction = false;
   others[2].precision = LoadPrecision::kDouble;
   others[3].maximum_load_error = 0;
-  others[4].law = PressureLaw::kForm;
+  others[4].law = PressureLaw::kPublished;
   others[5].stall_lag = 1;
   others[6].own_law = [](const auto& shape, const LoadSettings&) {
     LoadTables own;
@@ -97,8 +97,9 @@ TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
   FluidBody body = *sphere();
   body.faces.sharpness.assign(body.faces.size(), 0.5);
   const auto sharp = std::make_shared<const FaceTable>(body.faces);
-  EXPECT_EQ(tables.packedFaces(sharp, PressureLaw::kPublished)->blocks().form, nullptr);
-  EXPECT_NE(tables.packedFaces(sharp, PressureLaw::kForm)->blocks().form, nullptr);
+  const ShapeFactors block{FormShape{}};
+  EXPECT_EQ(tables.packedFaces(sharp, nullptr)->blocks().form, nullptr);
+  EXPECT_NE(tables.packedFaces(sharp, &block)->blocks().form, nullptr);
 }
 
 TEST(LoadTables, KeepAnUnusedSphereTableUntilTheNext) {

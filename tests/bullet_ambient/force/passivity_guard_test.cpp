@@ -1,10 +1,10 @@
-#include "bullet_ambient/force/passivity_guard.h"
+#include "bullet_ambient/force/law/passivity_guard.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::passivity_guard {
 namespace {
@@ -47,7 +47,7 @@ TEST(PassivityGuard, TakesTheLoadAwayAlongTheMomentumOnly) {
   const Wrench f = Wrench::fromVector(K * x.vector() + arbitrary.twist(0.1, 0.1).vector());
   const SurfaceLoad guarded = removePositivePower(f, x, K);
   ASSERT_TRUE(guarded.guarded);
-  // Hence the acceleration changes along the motion: K^-1 K x = x.
+  // Expects an acceleration along the motion: K^-1 K x = x.
   const Vector6 change = guarded.wrench.vector() - f.vector();
   const Vector6 direction = (K * x.vector()).normalized();
   EXPECT_LT((change - direction * direction.dot(change)).norm(), kRounding * f.vector().norm());

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/reference/plate_loads.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "tests/reference/loads/plate_loads.h"
 
 namespace ambient::plate {
 namespace {
 
-// A few hundred terms of one size are added.
+// Rounding of a sum of a few hundred terms of similar size.
 constexpr double kRounding = 1e-13;
 constexpr double kDensity = 1.3;
 constexpr double kSpeed = 4;
@@ -39,7 +39,7 @@ FaceTable diskFaces(double a) {
       const double inner = a * ring / kRings;
       const double outer = a * (ring + 1) / kRings;
       const double area = half_angle * (outer * outer - inner * inner);
-      // Exact barycentre of a piece of a ring.
+      // Exact barycentre of a sector of a ring.
       const double distance =
           2.0 / 3 * std::sin(half_angle) * (outer * outer * outer - inner * inner * inner) / area;
       const double angle = (2 * sector + 1) * half_angle;
@@ -70,7 +70,7 @@ TEST(PlatePressure, FollowsTheClosedFormsOfLiftAndDragAtEveryIncidence) {
     EXPECT_NEAR(f.force.z() / unit, -expected.normal, kRounding) << degrees;
     EXPECT_NEAR(-f.force.dot(along) / unit, expected.drag, kRounding) << degrees;
     EXPECT_NEAR(f.force.dot(across) / unit, expected.lift, kRounding) << degrees;
-    EXPECT_LT(f.torque.norm() / unit, kRounding) << degrees;  // it acts at the centroid
+    EXPECT_LT(f.torque.norm() / unit, kRounding) << degrees;  // pressure acts at the centroid
   }
 }
 
@@ -103,10 +103,10 @@ TEST(DiskPressure, BrakesARotationAboutADiameterWhateverItsRate) {
   constexpr double kRadius = 0.8;
   const FaceTable disk = diskFaces(kRadius);
   const double expected = reference::slidingDiskDamping(kDensity, kSpeed, kRadius);
-  // About y while it slides along x: the diameter is a boundary of faces, so that the sum is exact.
+  // Turns about y while sliding along x: faces end at this diameter, so that the sum is exact.
   for (const double rate : {1e-6, 0.1, -0.1, -3.0}) {
     const Wrench f = pressureOn(disk, {{0, rate, 0}, {kSpeed, 0, 0}}, kPi / 2);
-    // The rotation tilts no velocity out of the plane's normal: |u_s| = V everywhere.
+    // Rotation only adds velocity along the plane's normal: |u_s| = V everywhere.
     EXPECT_NEAR(f.torque.y(), -std::copysign(expected, rate), kRounding * expected) << rate;
   }
 }

@@ -4,14 +4,14 @@
 #include <limits>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/packed_faces.h"
-#include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/force/single_sums.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/force/kernels/single_sums.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bits_of.h"
-#include "tests/support/geodesic.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -68,7 +68,7 @@ TEST(SingleSums, LeaveOutNoFaceThatTheFlowIsAttachedTo) {
     }
     const LoadSums some = sumBlocksBaseline(faces, motion);
     const LoadSums all = sumBlocksBaseline({faces.blocks, wide.data(), faces.count}, motion);
-    // Runs end after other blocks: other roundings.
+    // Sums without the skipped blocks have other runs, hence other roundings.
     double largest = 0;
     for (const double value : all.wrench) largest = std::max(largest, std::abs(value));
     for (int row = 0; row < 6; ++row)
@@ -78,7 +78,7 @@ TEST(SingleSums, LeaveOutNoFaceThatTheFlowIsAttachedTo) {
   EXPECT_GT(left_out, 100);
 }
 
-// The scale of rounding errors: sum A |u_s| |u|, of torques times the size of the body, 1.
+// Scale of rounding errors: sum A |u_s| |u|; for torques times the body's size, 1.
 double errorScale(const FaceTable& faces, const Twist& x, double density) {
   double scale = 0;
   for (std::size_t i = 0; i < faces.size(); ++i) {

@@ -1,16 +1,16 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/reference/sphere_loads.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "tests/reference/loads/sphere_loads.h"
+#include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/random_bodies.h"
 #include "tests/support/convergence.h"
-#include "tests/support/geodesic.h"
-#include "tests/support/random_bodies.h"
 
 namespace ambient::skin_friction {
 namespace {
 
-// A golf ball in air at its launch speed and spin.
+// Golf ball in air; its launch speed and spin.
 const reference::SphereInFluid kBall{0.02135, 1.204, 1.82e-5};
 constexpr double kSpeed = 53;
 const double kSpin = 42 * 2 * std::acos(-1.0);

@@ -1,4 +1,4 @@
-#include "bullet_ambient/force/sphere_loads.h"
+#include "bullet_ambient/force/loads/sphere_loads.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "bullet_ambient/force/load_tables.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/reference/sphere_loads.h"
-#include "tests/support/random_bodies.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/loads/load_tables.h"
+#include "tests/reference/loads/sphere_loads.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::sphere_loads {
 namespace {
@@ -40,7 +40,7 @@ class Sphere {
   std::shared_ptr<const SphereTable> table_;
 };
 
-// A smooth sphere as points of equal area on a spiral.
+// A smooth sphere as points of equal area along a spiral.
 FaceTable spiralOfPoints(int points) {
   FaceTable faces;
   const double golden = kPi * (3 - std::sqrt(5.0));
@@ -52,7 +52,7 @@ FaceTable spiralOfPoints(int points) {
   return faces;
 }
 
-// The speeds of centre and equator add up to kSpeed.
+// Random twist: the speeds of centre and equator add up to kSpeed.
 Twist arbitraryTwist(test::Arbitrary& arbitrary) {
   const double share = arbitrary.between(0, 1);
   const Vector3 spin = arbitrary.vector().normalized() * (share * kSpeed / kRadius);
@@ -75,7 +75,7 @@ TEST(SphereLoads, AreThoseOfManyFacesForAnySpinAndAngle) {
       const FaceLoads found = sphere.loads(twist), expected = sphere.loadsOf(points, twist);
       const double pressure = distance(found.pressure, expected.pressure) / kPressureUnit;
       const double friction = distance(found.friction, expected.friction) / kFrictionUnit;
-      // The points' own: at pi/2, where the pressure is exact, 1e-3.
+      // Discretisation by points: 1e-3 at pi/2, where the pressure has no jump.
       EXPECT_LT(std::max(pressure, friction), 8e-3) << angle;
       pressure_sq += pressure * pressure / kMotions;
       friction_sq += friction * friction / kMotions;

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/reference/sphere_loads.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "tests/reference/loads/sphere_loads.h"
+#include "tests/support/bodies/geodesic.h"
+#include "tests/support/bodies/random_bodies.h"
 #include "tests/support/convergence.h"
-#include "tests/support/geodesic.h"
-#include "tests/support/random_bodies.h"
 
 namespace ambient::sphere_pressure {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kDensity = 1.7;
 constexpr double kSpeed = 3.5;
 constexpr double kRadius = 0.6;
 
-/// Of a geodesic sphere spinning about z while it moves along x, both turned by `turn`.
+/// Coefficients of a geodesic sphere with spin about z and velocity along x, both turned by `turn`.
 struct Coefficients {
   double drag, lift, side, torque;
 };
@@ -37,7 +37,7 @@ FaceTable sphereFaces(int level) {
   return test::faceTableOf(test::geodesicEllipsoid(Vector3::Constant(kRadius), level));
 }
 
-/// Root mean square over directions of the difference of one coefficient to `expected`.
+/// Root mean square over directions of one coefficient's difference from `expected`.
 double errorOf(double Coefficients::*coefficient, double expected, const FaceTable& sphere,
                double angle, double S) {
   test::Arbitrary arbitrary(11);
@@ -57,7 +57,7 @@ TEST(SpherePressure, HasDragOneEighthAtThreeQuartersOfPi) {
   const test::Convergence c = test::measureConvergence(1, 5, [](int level) {
     return errorOf(&Coefficients::drag, 0.125, sphereFaces(level), 1.5, 0);
   });
-  // The load jumps at the separation line, which cuts faces: between first and second order.
+  // The load jumps at the separation line, which cuts faces: order between one and two.
   EXPECT_GT(c.order(), 1.3);    // measured 1.5
   EXPECT_LT(c.finest(), 4e-4);  // measured 2.2e-4
 }
@@ -84,7 +84,7 @@ TEST(SpherePressure, LiftGrowsFromNoSpinWithTheSlopeOfTheClosedForm) {
   constexpr double kSmallSpin = 0.05;
   for (const double angle : {1.0, 1.2, 1.5, 1.8}) {
     test::Arbitrary arbitrary(11);
-    // Differences of opposite spins: the noise of the separation line largely cancels.
+    // Opposite spins: their difference largely cancels the noise of the separation line.
     const double error = test::rootMeanSquare(kDirections, [&](int) {
       const Matrix3 turn = arbitrary.rotation();
       const double slope = (coefficientsOf(sphere, angle, kSmallSpin, turn).lift -

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/motion/row_velocity.h"
+#include "bullet_ambient/motion/flight/row_velocity.h"
 #include "tests/reference/full_inertia_accelerations.h"
+#include "tests/support/bodies/free_body.h"
 #include "tests/support/extrapolation.h"
-#include "tests/support/free_body.h"
 
 namespace ambient {
 namespace {
@@ -35,7 +35,7 @@ TEST(RowVelocity, HasTheAccelerationsOfAnotherSimulator) {
     constexpr double kStep = 1.0 / 1024;
     const RowVelocity row =
         computeRowVelocity({body.model(), body.surroundings, body.settings, kStep}, body.state);
-    // Rows see half of the turning part.
+    // Rows use half of the turning part.
     const Vector6 whole = row.change_W.vector() + row.turning_W.vector();
     const Vector6 error = whole / kStep - expectedAcceleration(c);
     EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12);  // uncertainty of the reference
@@ -46,7 +46,7 @@ TEST(Leapfrog, HasTheAccelerationsOfAnotherSimulator) {
   for (const AccelerationCase& c : reference::fullInertiaAccelerations()) {
     const auto central_difference = [&](double h) {
       FreeBody forwards = bodyOf(c);
-      FreeBody backwards = bodyOf(c);  // the same motion with time reversed
+      FreeBody backwards = bodyOf(c);  // time reversed
       backwards.state.twist = Twist::fromVector(-backwards.state.twist.vector());
       forwards.advance(h);
       backwards.advance(h);
@@ -68,7 +68,7 @@ TEST(RungeKutta, HasTheAccelerationsOfAnotherSimulator) {
       return Vector6((worldVelocity(body) - start) / h);
     };
     const Vector6 error = test::limitAtZero(difference, {0.1, 8, 1}) - expectedAcceleration(c);
-    // Rounding of the velocities over the smallest of the steps, 0.8 ms.
+    // Rounding of velocities over the smallest step, 0.8 ms.
     EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-11);
   }
 }

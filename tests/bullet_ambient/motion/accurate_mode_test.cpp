@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -34,7 +34,7 @@ TEST(DormandPrince, ErrorFollowsTheToleranceWhereTheLoadsAreSmooth) {
   const RigidState exact = exactEnd(glidingDisc, 8000);
   for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
     const FreeBody disc = fliesWith(glidingDisc, accurate(tolerance));
-    // 24 steps, and the disc's glide is unstable: errors grow fivefold. Its length is 0.24 m.
+    // 24 steps; unstable glide amplifies errors fivefold. The disc's length is 0.24 m.
     constexpr double kGrowth = 24 * 5;
     EXPECT_LT(distance(disc.state, exact), kGrowth * tolerance * 0.24) << tolerance;
     EXPECT_LT(angleBetween(disc.state.orientation, exact.orientation), kGrowth * tolerance);
@@ -42,7 +42,7 @@ TEST(DormandPrince, ErrorFollowsTheToleranceWhereTheLoadsAreSmooth) {
 }
 
 TEST(DormandPrince, WorkGrowsWithTheFifthRootOfTheTolerance) {
-  // Over one long step: what a step of the world cuts off would hide it.
+  // One long step: steps of the world would cut substeps and hide the order.
   const auto work = [](double tolerance) {
     FreeBody disc = glidingDisc(accurate(tolerance));
     disc.advance(kDuration);
@@ -79,8 +79,8 @@ TEST(DormandPrince, AgreesWithTheLeapfrogWhoseFlowIsExactWithoutLoads) {
   }
 }
 
-/// A wooden cube in water: it rises and chatters about the attitude in which a side meets the flow
-/// squarely, where its pressure jumps.
+/// A wooden cube in water: rises and chatters about the attitude with a side square to the flow,
+/// where this side's pressure jumps.
 FreeBody risingCube(const FlightSettings& settings) {
   constexpr double kSide = 0.2, kDensity = 998;
   const double volume = kSide * kSide * kSide, displaced = kDensity * volume;
@@ -113,7 +113,7 @@ FreeBody risingCube(const FlightSettings& settings) {
 TEST(DormandPrince, NoBodyRisesFasterThanWithoutLoads) {
   for (const double tolerance : {1e-3, 1e-4}) {
     FreeBody cube = risingCube(accurate(tolerance));
-    // Buoyancy over the mass of body and fluid; the cube is alike in all directions.
+    // Buoyancy over the mass of body and fluid; the cube's inertia is isotropic.
     const double mass = cube.model().inertia(5, 5);
     const double acceleration = 9.81 * (cube.model().displaced_mass - cube.model().mass) / mass;
     for (int i = 1; i <= 90; ++i) {
@@ -133,7 +133,7 @@ TEST(DormandPrince, IsMoreAccurateThanTheLeapfrogWhereFacesSwitch) {
 }
 
 TEST(DormandPrince, HandsOverToTheLeapfrogWhenItsAttemptsAreSpent) {
-  // A light plate at 300 m/s: explicit steps of this length leave the region of stability.
+  // A light plate at 300 m/s: explicit steps of this length are unstable.
   FreeBody plate = tumblingEllipsoid(accurate(1e-8, 5));
   plate.state.twist = {{100, 50, 20}, {300, 0, 300}};
   plate.setGravity(Vector3::Zero());

@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/body_model.h"
+#include "bullet_ambient/motion/body/body_model.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -53,7 +53,7 @@ TEST(BodyModel, PutsTheCentreOfVolumeIntoBodyAxes) {
 
 struct BadInput {
   std::function<void(Input&)> spoil;
-  std::string what, limit;  // both must be named
+  std::string what, limit;  // message must contain both
 };
 
 TEST(BodyModel, RejectsInputThatIsNotPhysicalInOneSentence) {
@@ -131,7 +131,7 @@ TEST(BodyModel, WithoutFluidIsTheRigidBody) {
 }
 
 TEST(SurfaceLoad, OnAConeMovingBaseFirstHasNoPositivePower) {
-  // Above pi/2 the flanks of a tapered body push: the guard acts.
+  // Above pi/2 the flanks of a tapered body push forward: the guard acts.
   Input input;
   input.shape.faces = {};
   input.shape.faces.add({0, 0, 1}, {0, 0, 0.1}, 0.01);

@@ -55,7 +55,7 @@ TEST(SymplecticEuler, TakesAsManySubstepsAsItIsTold) {
 }
 
 TEST(Integrators, ConvergeToTheSameMotionWhereFacesSwitch) {
-  // The switching leaves order 1, with a small constant: measured 4e-4 (leapfrog) and 1e-4 m
+  // Switching faces leave order 1 with a small constant. Measured 4e-4 (leapfrog) and 1e-4 m
   // (Runge-Kutta) at 60 Hz, 2e-6 and 3e-6 m at 960 Hz.
   const RigidState exact = exactEnd(tumblingEllipsoid, 8000);
   for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kRungeKutta4}) {
@@ -77,7 +77,7 @@ TEST(Leapfrog, SubstepsAreChosenByTheTolerance) {
   EXPECT_GT(tight.count.substeps, 3 * loose.count.substeps);
   EXPECT_LT((tight.state.position - exact.position).norm(),
             (loose.state.position - exact.position).norm());
-  // One evaluation per substep but for the first, and the repeated steps.
+  // One evaluation per substep, except for the first one and repeated steps.
   EXPECT_LE(loose.count.load_evaluations, loose.count.substeps + 3);
 }
 
@@ -92,8 +92,8 @@ TEST(Leapfrog, ReportsAStepThatStaysAboveTheTolerance) {
       fly({plate.model(), plate.surroundings, easy, 1.0 / 60}, plate.state, {}).count.coarse);
 }
 
-// Where a face switches the error falls with the first power of the step: two retries, which count
-// on the second, do not reach the tolerance, and the most substeps are far.
+// A switching face makes the error first order in the step. Two retries, which assume order 2, miss
+// the tolerance far below max_substeps.
 TEST(Leapfrog, ReportsAStepThatRetriesLeaveAboveTheTolerance) {
   FreeBody plate = tumblingEllipsoid({});
   const FlightSettings strict{Integrator::kPassiveLeapfrog, 1e-6, 1000000};
@@ -108,7 +108,7 @@ TEST(RungeKutta, TurnsByLessThanSixDegreesPerSubstep) {
   FreeBody plate = tumblingEllipsoid({Integrator::kRungeKutta4, 1e-3, 0});
   plate.state.twist.angular = {0, 0, 100};
   plate.advance(1.0 / 60);
-  // 100 / 60 rad over 5.7 degrees.
+  // 100 / 60 rad in parts of 5.7 degrees.
   EXPECT_EQ(plate.count.substeps, 17);
   EXPECT_EQ(plate.count.load_evaluations, 4 * 17);
 }

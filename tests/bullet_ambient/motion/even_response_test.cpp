@@ -1,15 +1,15 @@
-#include "bullet_ambient/motion/even_response.h"
+#include "bullet_ambient/motion/body/even_response.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "bullet_ambient/motion/row_velocity.h"
+#include "bullet_ambient/motion/flight/row_velocity.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -44,7 +44,7 @@ TEST(EvenResponse, IsThatOfTheDryBodyInAVacuumAndOfAnyEvenInertia) {
   }
 }
 
-// K^-1 K' has eigenvalues between 0 and 2, so that slip dies out: docs/theory.md, section 7.
+// K^-1 K' has eigenvalues between 0 and 2: slip decays; docs/theory.md, section 7.
 TEST(EvenResponse, LetsTheSlipDieOutHoweverUneven) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     Arbitrary arbitrary(seed);
@@ -58,7 +58,7 @@ TEST(EvenResponse, LetsTheSlipDieOutHoweverUneven) {
   }
 }
 
-// k' is along the force, however K turns k aside.
+// k' is along the force, although K turns k aside.
 TEST(EvenResponse, PutsThePushOfRowsAlongTheForce) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     Arbitrary arbitrary(seed);
@@ -69,7 +69,7 @@ TEST(EvenResponse, PutsThePushOfRowsAlongTheForce) {
     constexpr double kStep = 0.01;
     const RowVelocity row =
         computeRowVelocity({body.model(), body.surroundings, body.settings, kStep}, body.state);
-    const Vector6 push = row.change_W.vector() + row.aside_W.vector();
+    const Vector6 push = row.change_W.vector() + row.isotropic_excess_W.vector();
     const Vector3 force = body.surroundings.applied.force;
     const double mass = kStep * force.norm() / push.tail<3>().norm();
     EXPECT_LT((mass * push.tail<3>() - kStep * force).norm(), 1e-12 * kStep * force.norm());

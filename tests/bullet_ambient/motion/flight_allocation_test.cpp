@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/motion/row_velocity.h"
+#include "bullet_ambient/motion/flight/row_velocity.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
 
 namespace ambient {
 namespace {

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <vector>
 
-#include "bullet_ambient/motion/flight_group.h"
+#include "bullet_ambient/motion/flight/flight_group.h"
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -24,7 +24,7 @@ FreeBody movingBody(unsigned seed) {
   return body;
 }
 
-// Different bodies in arbitrary motion, under arbitrary loads, for kicks and flows of up to `time`.
+// Different bodies in random motion under random loads, for kicks and flows up to `time`.
 FlightLanes arbitraryLanes(unsigned seed, double time) {
   FlightLanes lanes{};
   lanes.has_loads = true;
@@ -53,14 +53,14 @@ FlightLanes arbitraryLanes(unsigned seed, double time) {
 void substep(const FlightKernel& kernel, FlightLanes& lanes) {
   kernel.measure(lanes);
   kernel.flow(lanes);
-  kernel.fall(lanes);
+  kernel.applyGravity(lanes);
   kernel.sample(lanes);
   kernel.kick(lanes);
   kernel.flow(lanes);
   kernel.bound(lanes);
 }
 
-// Of a body: pose, motion, last load.
+// Pose, motion and last load of a body.
 std::vector<double> motion(const FlightLanes& lanes, int body) {
   std::vector<double> values;
   const auto add = [&](const FlightLane* from, int count) {
@@ -74,7 +74,7 @@ std::vector<double> motion(const FlightLanes& lanes, int body) {
   return values;
 }
 
-// The same and what a substep finds of an active body: all that it changes.
+// Results of motion(), and all else that a substep changes of an active body.
 std::vector<double> lane(const FlightLanes& lanes, int body) {
   std::vector<double> values = motion(lanes, body);
   values.insert(values.end(),
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(All, FlightKernels,
                          ::testing::Values(InstructionSet::kBaseline, InstructionSet::kAvx2,
                                            InstructionSet::kAvx512));
 
-// Slow and fast ones, with loads and without, by several integrators, in a current or at rest.
+// Body `i` of many that differ in speed, loads, integrator and current.
 FreeBody oneOfMany(unsigned i) {
   FlightSettings settings;
   if (i % 7 == 5) settings.integrator = Integrator::kRungeKutta4;
@@ -189,7 +189,7 @@ TEST(FlyTogether, HasTheBitsOfEachFlightAlone) {
       most_substeps = std::max(most_substeps, together.count.substeps);
     }
   }
-  EXPECT_GT(most_substeps, 4);  // they do differ
+  EXPECT_GT(most_substeps, 4);  // bodies differ
 }
 
 TEST(FlowWithoutLoads, CountsTurnsThatAreTooLongAsCoarse) {
@@ -209,7 +209,7 @@ TEST(FlowWithoutLoads, IsAsPreciseAsAskedAndNeverGainsEnergy) {
       EXPECT_LT(std::sqrt(inertiaNormSquared(body.model(), error) / (2 * before)), precision)
           << seed;
       EXPECT_LT(angleBetween(body.state.orientation, exact.orientation), precision) << seed;
-      // Up to the rounding of the scaling: each component, and the factor.
+      // Rounding of the scaling: of each component, and of the factor.
       EXPECT_LE(body.kineticEnergy(), before * (1 + 1e-15)) << seed;
     }
   }

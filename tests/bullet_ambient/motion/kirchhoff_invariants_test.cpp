@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "tests/reference/kirchhoff_integration.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -30,7 +30,7 @@ void setInMotion(FreeBody& body, unsigned seed, double spin) {
                       spin * 0.3 * arbitrary.vector().normalized()};
 }
 
-// Largest relative change over a flight, of quantities that stay constant without loads.
+// Largest relative changes during a flight of quantities conserved without loads.
 struct Drift {
   double energy = 0, body_momentum = 0, helicity = 0, world_momentum = 0, angular_momentum = 0;
 };
@@ -60,7 +60,7 @@ Drift measureDrift(FreeBody& body, double step) {
   return drift;
 }
 
-// Rounding of some thousand steps; measured at most 6e-13.
+// Tolerance: rounding of some thousand steps; measured 6e-13 at most.
 constexpr double kRounding = 2e-12;
 
 TEST(Leapfrog, KeepsEnergyMomentaAndHelicityWithoutLoads) {
@@ -88,13 +88,13 @@ TEST(RungeKutta, KeepsMomentaAndHelicityWithoutLoads) {
     EXPECT_LT(drift.helicity, kRounding) << seed;
     EXPECT_LT(drift.world_momentum, kRounding) << seed;
     EXPECT_LT(drift.angular_momentum, kRounding) << seed;
-    // Fourth order, not conserved: measured 5e-8 at most.
+    // Scheme of fourth order without conservation: measured 5e-8 at most.
     EXPECT_LT(drift.energy, 2e-7) << seed;
   }
 }
 
-// Rotation error [rad] after kSpinDuration against an integrator of order 16 in other unknowns, of
-// the median body: single bodies are chaotic and double an initial rounding error many times.
+// Rotation error [rad] after kSpinDuration against an integrator of order 16 in other unknowns;
+// median body. Single bodies are chaotic and double initial rounding errors many times.
 double medianRotationError(double spin, double step, Integrator integrator) {
   std::vector<double> errors;
   for (unsigned seed = 0; seed < kBodies; ++seed) {
@@ -114,7 +114,7 @@ double medianRotationError(double spin, double step, Integrator integrator) {
 }
 
 TEST(Leapfrog, FollowsAnIndependentIntegrator) {
-  // Rounding, amplified by the motion itself: the same for every step.
+  // Motion amplifies rounding, equally at every step length.
   for (const double step : {1.0 / 60, 1.0 / 240}) {
     EXPECT_LT(medianRotationError(6, step, Integrator::kPassiveLeapfrog), 1e-11) << step;
     EXPECT_LT(medianRotationError(20, step, Integrator::kPassiveLeapfrog), 1e-10) << step;
@@ -143,13 +143,13 @@ TEST(FlowWithoutLoads, OfTwoHalvesIsTheFlowOfTheWhole) {
 }
 
 TEST(FlowWithoutLoads, KeepsWorldMomentumThroughManyTurns) {
-  // A spinning sphere's velocity turns in body axes, thousands of times within one flow.
+  // Velocity of a spinning sphere turns in body axes, thousands of times within one flow.
   Matrix6 inertia = Matrix6::Zero();
   inertia.bottomRightCorner<3, 3>().setIdentity();
   FreeBody ball({test::shapeWithoutFaces(inertia)});
   ball.state.twist = {{0, 0, 1e6}, {1, 2, 3}};
   const RigidState end = flowWithoutLoads(ball, 0.1).state;
-  // Rounding is relative to the whole motion, of size 1e6, and adds up over a thousand series.
+  // Rounding is relative to the whole motion, 1e6, and accumulates over a thousand series.
   EXPECT_LT((end.orientation * end.twist.linear - Vector3(1, 2, 3)).norm(), 1e6 * 1e-14);
   EXPECT_LT((end.position - Vector3(0.1, 0.2, 0.3)).norm(), 1e5 * 1e-14);
 }

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "tests/reference/kirchhoff_motion.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
 
 namespace ambient {
 namespace {
@@ -37,14 +37,14 @@ Quaternion turnedAbout(int axis, double angle) {
   return Quaternion(Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)));
 }
 
-// Released without spin, the body's y axis at `angle` from a momentum P along the world's y axis.
+// Releases a body without spin; y axis at `angle` from the momentum P along the world's y axis.
 void release(FreeBody& body, double angle, double momentum) {
   body.state.orientation = turnedAbout(2, angle);
   const Vector3 p = body.state.orientation.conjugate() * Vector3(0, momentum, 0);
   body.state.twist.linear = p.cwiseQuotient(body.model().inertia.diagonal().tail<3>());
 }
 
-// Angle of the body's y axis from the world's, about z.
+// Angle about z from the world's y axis to the body's.
 double planarAngle(const RigidState& state) {
   const Vector3 y = state.orientation * Vector3(0, 1, 0);
   return std::atan2(-y.x(), y.y());
@@ -99,7 +99,7 @@ TEST(RungeKutta, RocksLikeTheEllipticFunction) {
   release(body, 1.0, momentum);
   for (int i = 1; i <= 240; ++i) {
     body.advance(1.0 / 60);
-    // Fourth order; measured 9e-6.
+    // Scheme of fourth order; measured 9e-6.
     EXPECT_NEAR(planarAngle(body.state), motion.rockingAngle(1.0, i / 60.0), 3e-5) << i;
   }
 }
@@ -114,7 +114,7 @@ TEST(Leapfrog, TumblesByHalfATurnInTheReferenceTime) {
     body.state.twist.angular = {0, 0, rate};
     constexpr int kSteps = 64;
     body.advance(motion.tumblingHalfTurn(rate) / kSteps, kSteps);
-    // Close to the separatrix (4.011 rad/s) the motion itself amplifies rounding.
+    // Motion close to the separatrix (4.011 rad/s) amplifies rounding.
     EXPECT_NEAR(std::abs(planarAngle(body.state)), kPi, 1e-10) << rate;
     EXPECT_NEAR(body.state.twist.angular.z(), rate, 1e-9) << rate;
   }
@@ -137,7 +137,7 @@ TEST(Leapfrog, GrowsAndSwingsWithMunksRates) {
     SCOPED_TRACE(growth.reference);
     EXPECT_NEAR(along.growth(growth.moving_axis, growth.turning_axis), growth.reference, 1e-8);
     FreeBody body = ellipsoid.body();
-    constexpr double kTurn = 1e-6;  // [rad], so that sin(theta) = theta to 1e-12
+    constexpr double kTurn = 1e-6;  // [rad]: sin(theta) = theta to 1e-12
     const Vector3 P = ellipsoid.total_masses[growth.moving_axis] *
                       Vector3(Eigen::Vector3d::Unit(growth.moving_axis));
     body.state.orientation = turnedAbout(growth.turning_axis, kTurn);
@@ -162,11 +162,11 @@ TEST(Leapfrog, KeepsAPermanentScrew) {
   body.state.twist = {lambda * p, p.cwiseQuotient(M)};
   const Vector6 twist = body.state.twist.vector();
   body.advance(1.0 / 60, 60);
-  // The screw is unstable: rounding grows. Measured 2e-14 of |w| = 9.8 rad/s.
+  // Screw motion is unstable: rounding grows. Measured 2e-14 of |w| = 9.8 rad/s.
   EXPECT_LT((body.state.twist.vector() - twist).norm(), 1e-11);
 }
 
-// Largest angle between axis and momentum within 20 s, released 1e-6 rad off.
+// Largest angle between axis and momentum within 20 s after a release 1e-6 rad off.
 double largestDeviation(double spin) {
   // Reference numbers "gyroscopic stability threshold": totals of a body of revolution about z.
   constexpr double I1 = 2, I3 = 1, C = 3, A = 5, P = 4;
@@ -188,9 +188,9 @@ double largestDeviation(double spin) {
 
 TEST(Leapfrog, IsStableAboveTheLeastSpinOnly) {
   const double least = reference::leastStableSpin(2, 1, 3, 5, 4);
-  EXPECT_NEAR(least, 4.131182235954578, 1e-12);  // the reference number
-  // Linear theory: amplitude 1e-6 / sqrt(1 - (n_c / n)^2) above; 1e-6 e^(sigma t) below, with sigma
-  // = sqrt(n_c^2 - n^2) I3 / (2 I1) = 0.25 / s.
+  EXPECT_NEAR(least, 4.131182235954578, 1e-12);  // reference number
+  // Linear theory, released 1e-6 off: amplitude 1e-6 / sqrt(1 - (n_c / n)^2) above n_c, 1e-6
+  // e^(sigma t) below; sigma = sqrt(n_c^2 - n^2) I3 / (2 I1) = 0.25 / s.
   EXPECT_LT(largestDeviation(1.03 * least), 5e-6);
   EXPECT_GT(largestDeviation(0.97 * least), 3e-5);
 }

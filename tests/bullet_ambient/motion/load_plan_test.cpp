@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/fluid_body/packed_faces.h"
-#include "bullet_ambient/force/face_loads.h"
-#include "tests/support/body_models.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/random_bodies.h"
+#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "tests/support/bodies/body_models.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
-// How the loads on a body are evaluated, decided once when they are made.
+// Choice of the evaluation of a body's loads, made once with the loads.
 namespace ambient::test {
 namespace {
 
@@ -27,7 +27,7 @@ std::shared_ptr<const SurfaceLoads> loadsOn(const FluidBody& body, const Medium&
 const Twist kTwist{{3, -2, 5}, {4, 1, -2}};
 
 FlowSettings withAngle(double angle) {
-  FlowSettings flow;
+  FlowSettings flow = publishedFlow();
   flow.separation_angle = angle;
   return flow;
 }
@@ -50,6 +50,7 @@ TEST(LoadPlan, FacesAreSummedInThePrecisionOfTheSettings) {
   const FluidBody body = ball(0);
   const double length = std::sqrt(body.area);
   FlowSettings flow;
+  flow.law = PressureLaw::kPublished;
   const auto single = loadsOn(body, air(), flow);
   flow.precision = LoadPrecision::kDouble;
   const auto both = loadsOn(body, air(), flow);
@@ -106,7 +107,7 @@ TEST(LoadPlan, ASphereAwayFromTheCentreOfMassIsLoadedAsItsMesh) {
       const Wrench found = computeSurfaceLoad(of_sphere, twist).wrench;
       const double scale = 1.2 * kRadius * kRadius *
                            (twist.linear.squaredNorm() + twist.angular.squaredNorm() * 0.09);
-      EXPECT_LT((found.force - expected.force).norm(), 0.02 * scale);  // of the mesh
+      EXPECT_LT((found.force - expected.force).norm(), 0.02 * scale);  // error of the mesh
       EXPECT_LT((found.torque - expected.torque).norm(), 0.02 * kRadius * scale);
     }
   }

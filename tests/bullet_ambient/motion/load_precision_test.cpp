@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/motion/flight.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/support/body_models.h"
-#include "tests/support/ellipsoid_body.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/motion/flight/flight.h"
+#include "tests/support/bodies/body_models.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
 namespace ambient {
 namespace {
@@ -46,14 +46,14 @@ void expectLessThanTheMesh(const Launch& launch, double part) {
   EXPECT_LT(by_precision, part * by_mesh);
 }
 
-// Released nearly edge-on: it flutters. Measured: 0.8 mm by the mesh, 4 um by the precision.
+// Plate released nearly edge-on: flutters. Measured: 0.8 mm by mesh, 4 um by precision.
 TEST(LoadPrecision, MovesAPlateByFarLessThanItsMeshDoes) {
   Launch plate{{0.05, 0.05, 0.01}, 2e-4, kPi / 2, {}, 1};
   plate.start.orientation = Quaternion(Eigen::AngleAxisd(85 * kPi / 180, Vector3::UnitY()));
   expectLessThanTheMesh(plate, 0.02);
 }
 
-// Measured: 0.34 m by the mesh, 0.2 mm by the precision.
+// Measured: 0.34 m by mesh, 0.2 mm by precision.
 TEST(LoadPrecision, MovesAGolfBallByFarLessThanItsMeshDoes) {
   Launch golf{Vector3::Constant(0.02135), 0.045, 1.5 * kPi / 2, {}, 3};
   const double angle = 10 * kPi / 180;

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
 
 namespace ambient::test {
 
-/// A disc that glides at an incidence and turns slowly: every face stays on its side of the flow,
-/// so that the loads are a smooth function of the motion.
+/// A disc that glides at an incidence and turns slowly. No face changes between windward and lee,
+/// so that loads are smooth functions of the motion.
 inline FreeBody glidingDisc(const FlightSettings& settings) {
   FluidBody shape;
   shape.name = "disc";
@@ -30,7 +30,7 @@ inline FreeBody glidingDisc(const FlightSettings& settings) {
   return disc;
 }
 
-/// A faceted ellipsoid that tumbles: faces switch all the time.
+/// A faceted ellipsoid that tumbles: faces often change between windward and lee.
 inline FreeBody tumblingEllipsoid(const FlightSettings& settings) {
   const Vector3 semi_axes(0.05, 0.05, 0.01);
   const FluidBody shape = meshedEllipsoid(semi_axes, 2);
@@ -42,11 +42,11 @@ inline FreeBody tumblingEllipsoid(const FlightSettings& settings) {
   return plate;
 }
 
-constexpr double kDuration = 0.4;  // of their flights [s]
+constexpr double kDuration = 0.4;  // duration of the flights [s]
 
 using MakeBody = FreeBody (*)(const FlightSettings&);
 
-/// Where such a flight ends, to rounding, if `steps` are many.
+/// End of such a flight, to rounding for a large number of `steps`.
 inline RigidState exactEnd(MakeBody make, int steps) {
   FreeBody body = make({Integrator::kRungeKutta4, 1e-3, 1});
   body.advance(kDuration / steps, steps);

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/motion/row_velocity.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -13,7 +13,7 @@ using test::FreeBody;
 
 constexpr double kWaterDensity = 1000;  // [kg/m^3]
 
-// A faceted ellipsoid whose mass is off its centre: all terms of the equations are at work.
+// A faceted ellipsoid with its mass off centre: no term of the equations vanishes.
 FreeBody loadedBody(Integrator integrator) {
   const Vector3 semi_axes(0.3, 0.2, 0.1);
   const FluidBody shape = test::meshedEllipsoid(semi_axes, 1);
@@ -46,7 +46,7 @@ TEST(MovingFluid, ASteadyCurrentIsStillWaterSeenFromAMovingFrame) {
     still.advance(kStep, kDriftSteps);
     carried.advance(kStep, kDriftSteps);
     const Vector3 way = kDriftSteps * kStep * current;
-    // Rounding of adding and taking away the current, amplified by the switching of the faces.
+    // Rounding of current added and subtracted, amplified by switching faces.
     EXPECT_LT((carried.state.position - still.state.position - way).norm(), 1e-12);
     EXPECT_LT(angleBetween(carried.state.orientation, still.state.orientation), 1e-11);
     const Vector3 relative =
@@ -95,7 +95,7 @@ TEST(MovingFluid, CarriesANeutrallyBuoyantSphereAlong) {
 }
 
 TEST(MovingFluid, ChangesTheRowVelocityLikeFreeFlight) {
-  // Over a short step both are the acceleration times the step, but for half of the turning part.
+  // Over a short step both equal acceleration times step, except half of the turning part.
   FreeBody body = loadedBody(Integrator::kRungeKutta4);
   body.surroundings.ambient_velocity = {0.7, -0.4, 0.2};
   body.surroundings.ambient_acceleration = {1, -2, 0.5};

@@ -1,12 +1,12 @@
-#include "bullet_ambient/motion/passive_kick.h"
+#include "bullet_ambient/motion/body/passive_kick.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -18,7 +18,7 @@ FreeBody bodyWithCoupledInertia(Arbitrary& arbitrary) {
   return FreeBody({test::shapeWithoutFaces(arbitrary.positiveDefinite())});
 }
 
-// A twist and a wrench as the kick takes them.
+// Applies a kick; `x`, wrench and sampled twist as vectors.
 Vector6 kicked(const FreeBody& body, const Vector6& x, const Vector6& sampled_twist,
                const Vector6& wrench, double duration) {
   const LoadSample sample{pairOfTwist(body.model(), sampled_twist),
@@ -48,11 +48,11 @@ TEST(PassiveKick, IsTheLoadTimesTheTimeAtFirst) {
     const FreeBody body = bodyWithCoupledInertia(arbitrary);
     const Vector6 x = arbitrary.twist().vector();
     Vector6 F = arbitrary.twist().vector();
-    if (F.dot(x) > 0) F = -F;  // a load that brakes
+    if (F.dot(x) > 0) F = -F;  // braking load
     constexpr double kTime = 1e-6;
     const Vector6 change = kicked(body, x, x, F, kTime) - x;
     const Vector6 expected = kTime * (body.model().inverse_inertia * F);
-    // Second order in the time; rates are of the order of |K^-1 F| / |x|, up to some hundred here.
+    // Error of second order in time; rates are about |K^-1 F| / |x|, up to some hundred here.
     EXPECT_LT((change - expected).norm(), 1e-3 * expected.norm());
   }
 }
@@ -63,7 +63,7 @@ TEST(PassiveKick, IsTheExactQuadraticDecayForDragAlone) {
   const FreeBody body = bodyWithCoupledInertia(arbitrary);
   const Vector6 x = arbitrary.twist().vector();
   const double speed = std::sqrt(inertiaNormSquared(body.model(), x));
-  const Vector6 along = 0.7 * x;  // sampled at another speed
+  const Vector6 along = 0.7 * x;  // other sampled speed
   const double sampled_speed = 0.7 * speed;
   constexpr double c = 0.3;
   const Vector6 drag = -c * sampled_speed * (body.model().inertia * along);
@@ -74,7 +74,7 @@ TEST(PassiveKick, IsTheExactQuadraticDecayForDragAlone) {
 }
 
 TEST(PassiveKick, TurnsWithoutLossUnderLiftAlone) {
-  // |x| constant, x turns in the plane of the sample and the lift at the rate |a| / |x|.
+  // |x| stays constant; x turns in the plane of sample and lift at the rate |a| / |x|.
   Arbitrary arbitrary(4);
   const FreeBody body = bodyWithCoupledInertia(arbitrary);
   const Matrix6& K = body.model().inertia;
@@ -90,7 +90,7 @@ TEST(PassiveKick, TurnsWithoutLossUnderLiftAlone) {
 }
 
 TEST(PassiveKick, OfTwoHalvesIsTheKickOfTheWhole) {
-  // Drag and lift together, sampled at the present motion each time: the rule is exact.
+  // Drag and lift, sampled at the present motion in each step: the rule is exact.
   Arbitrary arbitrary(5);
   const FreeBody body = bodyWithCoupledInertia(arbitrary);
   const Matrix6& K = body.model().inertia;

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "bullet_ambient/base/pi.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -15,8 +15,8 @@ using test::FreeBody;
 
 constexpr int kRandomBodies = 1200;
 
-// Any shape from needle to plate, mass anywhere inside, density 1e-3 to 1e4 of the fluid's, up to
-// 300 m/s and 1000 rad/s.
+// Random body from needle to plate, mass centre anywhere inside, density 1e-3 to 1e4 of the
+// fluid's, up to 300 m/s and 1000 rad/s.
 FreeBody wildBody(Arbitrary& arbitrary) {
   const auto power = [&](double low, double high) {
     return std::pow(10.0, arbitrary.between(low, high));
@@ -58,11 +58,11 @@ TEST(Leapfrog, NeverGainsEnergyInAStillFluid) {
     finite += body.state.isFinite();
   }
   EXPECT_EQ(finite, kRandomBodies);
-  // Rounding only: kicks and flows are passive one by one. Measured 6e-13.
+  // Tolerance is rounding: each kick and each flow is passive. Measured 6e-13.
   EXPECT_LT(largest_growth, 1e-11);
 }
 
-// Eq. (25a). Without it, 343 of these 6000 steps gain some.
+// Eq. (25a) forbids gains; 343 of these 6000 steps would gain without it.
 TEST(Leapfrog, NeverGainsEnergyInGravity) {
   Arbitrary arbitrary(3);
   int falls = 0;
@@ -79,7 +79,7 @@ TEST(Leapfrog, NeverGainsEnergyInGravity) {
       const double weight = body.model().mass * 9.81;
       const double moved = kinetic + body.kineticEnergy() +
                            weight * (body.state.position - from).norm() + std::abs(before);
-      // The rest is the rounding of the energy itself.
+      // Tolerance: rounding of the energy.
       EXPECT_LE(body.totalEnergy() - before, 1e-13 * moved) << i << " step " << n;
       falls += kinetic > 0;
     }
@@ -87,7 +87,7 @@ TEST(Leapfrog, NeverGainsEnergyInGravity) {
   EXPECT_EQ(falls, 20 * (kRandomBodies / 2));
 }
 
-// Loads that are none: all that the flight of such a body loses is by eq. (25a).
+// Zero loads: eq. (25a) causes all losses of energy.
 class NoLoads final : public SurfaceLoads {
  public:
   Wrench load(const Twist&) const noexcept override { return {}; }
@@ -137,8 +137,8 @@ TEST(Leapfrog, TotalEnergyOfATumblingBodyUnderGravityNeverRises) {
   }
 }
 
-// Largest relative change of the energy of a body without faces that swings about its centre of
-// volume, in the first and in the last tenth of a minute.
+// Largest relative change of energy of a swing, in the first and last tenth of a minute. The body
+// has no faces and swings about its centre of volume.
 struct EnergySwing {
   double early = 0, late = 0;
 };
@@ -152,7 +152,7 @@ EnergySwing measureEnergySwing(double step) {
                  {1000, 0, Vector3::Zero(), Vector3::Zero()},
                  {},
                  frame});
-  // Pulled down as hard as it is lifted: it swings but does not rise.
+  // Weight equals lift: the body swings without rising.
   const double lift = 9.81 * body.model().displaced_mass;
   body.surroundings.gravity = {0, 0, -9.81};
   body.surroundings.applied.force = {0, 0, -lift};

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <limits>
 
-#include "bullet_ambient/motion/flight_group.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/spatial/rotation.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -22,7 +22,7 @@ class PoseKernels : public ::testing::TestWithParam<InstructionSet> {
     if (!kernel_) GTEST_SKIP() << "this processor does not have the instructions";
   }
 
-  // The mean twist from one orientation to another over a second.
+  // Mean twist over a second from one orientation to another.
   Vector3 rotationVector(const Quaternion& from, const Quaternion& to) const {
     ArrivalLanes lanes{};
     lanes.duration = 1;
@@ -42,7 +42,7 @@ TEST_P(PoseKernels, ReadEveryOrientationOfAMatrix) {
     Matrix3 rotations[kFlightLanes];
     Twist twists[kFlightLanes];
     for (int i = 0; i < kFlightLanes; ++i) {
-      // Half turns and what is next to them, and quarter turns, where several entries are equal.
+      // Half turns and turns close to them; quarter turns, which have several equal entries.
       Vector3 axis = arbitrary.vector().normalized();
       if (round % 4 < 3) axis = Matrix3::Identity().col(round % 4);
       const double angle = i < 2 ? kPi : i < 4 ? kPi * (1 - 1e-9) : i * kPi / 6;
@@ -70,7 +70,7 @@ TEST_P(PoseKernels, FindTheRotationVectorOfEveryAngle) {
   for (const double angle : {0.0, 1e-300, 1e-20, 1e-8, 0.01, 0.1, 0.34, 0.35, 1.0, 3.1, kPi}) {
     const Vector3 r = angle * arbitrary.vector().normalized();
     const Vector3 back = rotationVector(Quaternion::Identity(), rotationFromVector(r));
-    // At pi both signs of the axis are the same turn.
+    // At pi both signs of the axis give equal turns.
     const double error = std::min((back - r).norm(), angle > 3.14 ? (back + r).norm() : 1.0);
     EXPECT_LE(error, 6e-16 * angle) << angle;
     const Quaternion start(arbitrary.rotation());

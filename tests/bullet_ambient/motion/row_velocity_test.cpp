@@ -1,12 +1,12 @@
-#include "bullet_ambient/motion/row_velocity.h"
+#include "bullet_ambient/motion/flight/row_velocity.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -56,7 +56,7 @@ TEST(RowVelocity, HasHalfOfTheTurnUntilItFadesOut) {
 }
 
 TEST(RowVelocity, OfAFastSpinStaysBounded) {
-  // The acceleration times the step would be |w| dt times the velocity: 17, 170 and 1700.
+  // Acceleration times step would be |w| dt times the velocity: 17, 170 and 1700.
   for (const double spin : {1e3, 1e4, 1e5}) {
     for (unsigned seed = 0; seed < 10; ++seed) {
       const FreeBody body = spinningBody(seed, spin);

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
 
 namespace ambient {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kGravity = 9.81;
 
 FreeBody sphereOf(const SphereFall& fall) {
   FlowSettings flow;
-  flow.precision = LoadPrecision::kDouble;  // orders of convergence down to 1e-9
+  flow.precision = LoadPrecision::kDouble;  // convergence down to 1e-9
   FreeBody sphere(
       {test::gaussSphere(fall.radius),
        {fall.mass, test::ellipsoidMoments(Vector3::Constant(fall.radius), fall.mass).asDiagonal()},
@@ -35,7 +35,7 @@ TEST(SphereFall, HasTheReferenceNumbers) {
   EXPECT_NEAR(kBasketball.distance(7.540285264082085), 126.5, 1e-8);
 }
 
-// Largest error of the velocity, relative to the terminal speed, within the settling time.
+// Largest velocity error over the terminal speed, within the settling time.
 double largestError(const SphereFall& fall, const FlightSettings& settings, int steps) {
   FreeBody sphere = sphereOf(fall);
   sphere.settings = settings;
@@ -73,7 +73,7 @@ TEST(Leapfrog, ReachesTheGroundInTheReferenceTime) {
   FreeBody ball = sphereOf(kBasketball);
   constexpr int kSteps = 452;  // at 60 Hz
   ball.advance(7.540285264082085 / kSteps, kSteps);
-  // Discretisation of second order: measured 1.5e-4 m with one substep.
+  // Order 2: measured 1.5e-4 m with one substep.
   EXPECT_NEAR(-ball.state.position.z(), 126.5, 1e-3);
   EXPECT_LT(ball.state.position.head<2>().norm(), 0.1);  // lateral force of the faces
 }
@@ -89,8 +89,8 @@ TEST(Leapfrog, StartsWithTheAccelerationOfBodyAndAddedMass) {
 }
 
 TEST(Leapfrog, HasATerminalSpeedWithStepsOfAnyLength) {
-  // The decay 1/v_2 - 1/v_1 = h / (V_t tau) between two halves of gravity's kick has the fixed
-  // point v^2 = V_t^2 + (g_eff h / 2)^2.
+  // Decay 1/v_2 - 1/v_1 = h / (V_t tau) between two halves of gravity's kick. Fixed point: v^2 =
+  // V_t^2 + (g_eff h / 2)^2.
   for (const double ratio : {0.01, 0.1, 1.0, 5.0}) {
     FreeBody ball = sphereOf(kBasketball);
     ball.settings.max_substeps = 1;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -15,7 +15,7 @@ auto arbitraryInertia(test::Arbitrary& arbitrary) {
   return (A * A.transpose() + 0.1 * Cholesky<N>::Matrix::Identity()).eval();
 }
 
-// Condition numbers are below 200, so that rounding stays below 1e-13.
+// Random matrices with condition numbers below 200: rounding stays below 1e-13.
 template <int N>
 void expectThatItFactorises() {
   using Matrix = typename Cholesky<N>::Matrix;

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/spatial/inertia.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
 
-// A few dozen rounded operations on numbers of order 1 to 10.
+// Rounding of a few dozen operations on numbers of order 1 to 10.
 constexpr double kShiftRounding = 1e-13;
 
 class FrameOffsetTest : public testing::Test {

@@ -2,19 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
 
-// A few dozen rounded operations on numbers of order 1 to 10.
+// Rounding of a few dozen operations on numbers of order 1 to 10.
 constexpr double kRounding = 1e-13;
 
 double kineticEnergy(const Matrix6& K, const Twist& x) {
   return x.vector().dot(K * x.vector()) / 2;
 }
 
-/// Point masses that fill no symmetry.
+/// Point masses without symmetry.
 struct PointMass {
   double mass;
   Vector3 position;
@@ -22,7 +22,7 @@ struct PointMass {
 const std::vector<PointMass> kPoints = {
     {2, {1, 0.5, -1}}, {0.5, {-2, 1, 0.25}}, {1.5, {0, -1, 2}}, {3, {0.5, 0.5, -0.5}}};
 
-/// Its 6x6 inertia about `origin`, from the definition: sum m J^T J, J x = v + w x r.
+/// 6x6 inertia of the points about `origin`, by definition: sum m J^T J, J x = v + w x r.
 Matrix6 inertiaOfPoints(const Vector3& origin) {
   Matrix6 K = Matrix6::Zero();
   for (const PointMass& point : kPoints) {
@@ -53,7 +53,7 @@ TEST(ShiftOrigin, KeepsTheKineticEnergyOfAMotion) {
     const Twist x = arbitrary.twist();
     const Twist x_at_new_origin{x.angular, x.at(d)};
     const double energy = kineticEnergy(K, x);
-    // The size of the terms that cancel grows with |d|^2.
+    // Cancelling terms grow with |d|^2.
     EXPECT_NEAR(kineticEnergy(shiftOrigin(K, d), x_at_new_origin), energy,
                 kRounding * (1 + d.squaredNorm()) * x.vector().squaredNorm() * K.norm());
   }
@@ -67,8 +67,8 @@ TEST(ShiftOrigin, BackAndForthChangesNothing) {
 }
 
 TEST(ShiftOrigin, MovesTheHemisphereFromItsSphereCentreToItsCentroid) {
-  // Added mass of the hemisphere R = 1 with its flat face in z = 0, per unit density, from an
-  // axisymmetric Nystroem solution with uncertainty 2e-9; both origins were solved for.
+  // Added mass of the hemisphere R = 1 with flat face in z = 0, per unit density. Axisymmetric
+  // Nystroem solution for both origins, uncertainty 2e-9.
   const double volume = 2 * std::acos(-1.0) / 3;
   Matrix6 K = Matrix6::Zero();
   K(0, 0) = K(1, 1) = 0.2314263542669546;

@@ -29,7 +29,7 @@ TEST(Wrench, OfAForceDoesThePowerOfThatForceOnItsPoint) {
   const Vector3 force(1.5, -2, 0.25);
   const Vector3 position(0.5, 3, -1);
   const Twist x{{0.5, -1.5, 2}, {4, 0.25, -3}};
-  // All numbers are short in binary: exact.
+  // Numbers short in binary: no rounding.
   EXPECT_EQ(power(Wrench::ofForceAt(force, position), x), force.dot(x.at(position)));
 }
 

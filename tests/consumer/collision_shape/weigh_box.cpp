@@ -1,10 +1,10 @@
-// Tells the added mass of a cube of 2 m in water along x: weigh_box
+// Prints the added mass of a cube of 2 m in water along x: weigh_box
 #include <btBulletCollisionCommon.h>
 
 #include <cstdio>
 #include <exception>
 
-#include "preprocess/collision_shape/collision_shape_body.h"
+#include "preprocess/collision_shape.h"
 
 int main() try {
   const btBoxShape cube(btVector3(1, 1, 1));

@@ -1,5 +1,5 @@
-// An ordinary Bullet scene, as docs/tutorial.md finds it: 27 wooden crates in a stack, and a heavy
-// ball that falls on it.
+// An ordinary Bullet scene, the start of docs/tutorial.md: 27 wooden crates in a stack, and a heavy
+// ball that falls onto them.
 #include <btBulletDynamicsCommon.h>
 
 #include <cstdio>

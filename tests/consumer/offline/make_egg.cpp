@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/primitives.h"
+#include "bullet_ambient/fluid_body.h"
+#include "preprocess/build.h"
+#include "preprocess/mesh.h"
 
 int main(int argc, char** argv) try {
   if (argc != 2) {

@@ -1,5 +1,5 @@
-// Two balls of half the density of water on a bar that lets them turn, released at rest deep under
-// its surface: dumbbell FILE.urdf
+// Two balls of half the density of water on a bar with a joint, released at rest deep under water:
+// dumbbell FILE.urdf
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
@@ -8,9 +8,8 @@
 #include <exception>
 
 #include "bullet_ambient/ambient.h"
-#include "preprocess/collision_shape/fluid_body_cache.h"
-#include "preprocess/robot/robot_fluid.h"
-#include "preprocess/robot/urdf_reader.h"
+#include "preprocess/collision_shape.h"
+#include "preprocess/robot.h"
 
 namespace {
 
@@ -18,23 +17,23 @@ constexpr btScalar kGravity = btScalar(9.81);
 constexpr int kSteps = 120;
 constexpr double kTimeStep = 1.0 / 240;
 
-/// Height [m] that the right ball has risen by after half a second.
+/// Returns the rise of the right ball [m] after half a second.
 double riseInWater(const char* file) {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher(&configuration);
   btDbvtBroadphase broadphase;
 
-  ambient::Fluid<btMultiBodyConstraintSolver> fluid;
-  btMultiBodyDynamicsWorld world(&dispatcher, &broadphase, &fluid.solver(), &configuration);
-  fluid.attachTo(world);
+  btMultiBodyConstraintSolver solver;
+  btMultiBodyDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
   world.setGravity({0, 0, -kGravity});
+  ambient::Fluid fluid(world);
 
   ambient::Robot robot(ambient::readUrdf(file));
   robot.addTo(world);
   ambient::FluidBodyCache shapes;
   ambient::AttachDef def;
   def.medium = ambient::water();
-  ambient::attachRobot(fluid.registry(), world, robot, shapes, def);
+  ambient::attachRobot(fluid, robot, shapes, def);
 
   for (int step = 0; step < kSteps; ++step) {
     robot.prepareStep(kTimeStep);
@@ -53,8 +52,8 @@ int main(int argc, char** argv) try {
   }
   const double rise = riseInWater(argv[1]);
   std::printf("It rose by %.4f m, Bullet's numbers have %zu bytes.\n", rise, sizeof(btScalar));
-  // Buoyancy lifts it with g / 2 at first, (m_f - m) / (m + m_f / 2) with the added mass; drag
-  // takes from that. Without the added mass the bound would be g, without the fluid it would sink.
+  // Initial acceleration is g / 2, (m_f - m) / (m + m_f / 2) with the added mass; drag lowers it.
+  // Without added mass the bound would be g; without fluid the ball would sink.
   const double time = kSteps * kTimeStep;
   return rise > 0 && rise < kGravity / 4 * time * time ? 0 : 1;
 } catch (const std::exception& error) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 
 namespace ambient {
 namespace {
@@ -127,7 +127,7 @@ TEST(FallingMode, SpeedsAreThoseOfTheSecondHalf) {
 }
 
 TEST(FallingMode, DoesNotDependOnDirectionsInTheWorld) {
-  // The same fall with gravity along -x and the plate's normal along its y axis.
+  // Turns the fall: gravity along -x and the plate's normal along its y axis.
   const Quaternion turn(
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()));
   const Quaternion normal_to_z(

@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/demos/scene/scene_text.h"
-#include "tests/demos/simulation/run_scene.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 
 namespace ambient {
 namespace {
 
 using nlohmann::json;
 
-/// A coarse ball over a floor; without mass it stands.
+/// Run of a coarse ball above a floor; a mass of 0 makes the ball static.
 struct BallRun {
   Scene scene;
   std::vector<PreparedBody> bodies;

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {
 
-/// Turns evenly about a slanted axis while it moves evenly.
+/// Sample of a motion with constant spin about a slanted axis and constant velocity.
 MotionSample spinningAt(double time, double spin) {
   const Vector3 axis = Vector3(1, 2, -2) / 3;
   MotionSample sample;
@@ -34,7 +34,7 @@ TEST(MotionKeys, FollowASpinOfManyTurnsPerSample) {
   const std::vector<MotionSample> keys = keysOf(spin, 0.01, 3);
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const MotionSample exact = spinningAt(keys[k].time, spin);
-    // 150 rad of turn have an error of 150 * 2.2e-16 each time that they are rounded.
+    // 150 rad of turn: each rounding has an error of 150 * 2.2e-16.
     EXPECT_LT(angleBetween(keys[k].orientation, exact.orientation), 1e-12);
     EXPECT_LT((keys[k].position - exact.position).norm(), 1e-15);
     if (k == 0) continue;

@@ -27,8 +27,8 @@ SWITCHES = """--headless --no-sandbox --disable-gpu --use-gl=angle --use-angle=s
 DEMO = None  # the program ambient_demo
 
 
-def run_scene(folder, scene, *changes):
-    settings = [word for change in changes for word in ("--set", change)]
+def run_scene(folder, scene, *changes, log=()):
+    settings = [word for change in changes for word in ("--set", change)] + [word for name in log for word in ("--log", name)]
     subprocess.run([DEMO, ROOT / f"data/scenes/{scene}.json", "--quiet", "--out", folder, *settings], check=True)
 
 
@@ -71,7 +71,9 @@ class PageTest(unittest.TestCase):
             run_scene(cls.out / f"golf_dimpled_spin-{model}", "golf_dimpled_spin", f"model={model}", *golf)
         run_scene(cls.out / "ball_on_bottom", "ball_on_bottom", "duration=0.5")
         run_scene(cls.out / "flap_in_current", "flap_in_current", "duration=0.3")
-        run_scene(cls.out / "duck_dive", "duck_dive", "duration=0.5", "water.waves=[{\"amplitude\": 0.1, \"period\": 2}]")
+        run_scene(cls.out / "duck_dive", "duck_dive", "duration=0.5", "water.waves=[{\"amplitude\": 0.05, \"period\": 2}]")
+        run_scene(cls.out / "floating_cube", "floating_cube", "duration=1", log=["wrench"])
+        run_scene(cls.out / "pool", "pool", "duration=1", "output_step=0.1")
         cls.page = cls.out / "page.html"
         make_page(cls.page, *sorted(cls.out.iterdir()), "--tables", ROOT / "docs/experiments.md")
         cls.browser = start_browser(cls.out / "profile")
@@ -161,17 +163,113 @@ class PageTest(unittest.TestCase):
             normals = normals @ to_world.T
             slip = velocity - np.sum(velocity * normals, axis=1)[:, None] * normals
             largest.append(np.linalg.norm(slip, axis=1).max())
-        shown = self.browser.execute_script("return player.view.moveTo(0.3)")
+        self.browser.execute_script("player.view.moveTo(0.3)")
+        shown = self.browser.execute_script("return Math.max(...player.view.bodies.map((view) => view.largest))")
         self.assertAlmostEqual(shown, max(largest), delta=1e-4 * max(largest))
 
     def test_water_has_its_waves(self):
         self.choose("duck dive")
         height = "return player.view.water.height(arguments[0], 0, arguments[1])"
         length = 9.81 * 2**2 / (2 * np.pi)
-        for x, time, expected in ((0, 0, 0.1), (length / 2, 0, -0.1), (0, 1, -0.1), (length / 2, 1, 0.1)):
+        for x, time, expected in ((0, 0, 0.05), (length / 2, 0, -0.05), (0, 1, -0.05), (length / 2, 1, 0.05)):
             self.assertAlmostEqual(self.browser.execute_script(height, x, time), expected, places=5)
         self.choose("golf dimpled spin")
         self.assertIsNone(self.browser.execute_script("return player.view.water"))
+
+    def set_visible(self, parts, visible):
+        """Parts of the picture, an expression of `view` in JavaScript."""
+        change = "const { view } = player; for (const part of %s) part.visible = arguments[0]; player.changed = true"
+        self.browser.execute_script(change % parts, visible)
+
+    def changed_by(self, parts):
+        """Which pixels change if parts are hidden."""
+        shown = self.pixels()
+        self.set_visible(parts, False)
+        hidden = self.pixels()
+        self.set_visible(parts, True)
+        return np.abs(shown - hidden).max(axis=2) > 0.02
+
+    def test_the_surface_cuts_bodies(self):
+        self.choose("floating cube")
+        self.browser.execute_script("player.view.lookAt(player.view.bodies[0], 1)")
+        self.scrub(1)
+        self.set_visible("[view.water.group]", False)
+        body = self.changed_by("[view.bodies[0].mesh]")
+        self.set_visible("[view.water.group]", True)
+        tinted = self.changed_by("[view.water.group]") & body
+        share = tinted.sum() / body.sum()
+        self.assertGreater(body.sum(), 1000)
+        self.assertTrue(0.03 < share < 0.5, share)  # a tenth of the cube is in the water
+        rows = [np.nonzero(mask.any(axis=1))[0] for mask in (tinted, body & ~tinted)]
+        self.assertGreater(np.median(rows[0]), np.median(rows[1]))
+
+    def test_forces_are_arrows_that_can_be_switched_on(self):
+        switch = self.browser.find_element(By.ID, "show-forces")
+        self.assertFalse(switch.is_displayed())  # golf has no log of forces
+        self.choose("floating cube")
+        self.scrub(0.5)
+        self.assertTrue(switch.is_displayed())
+        without = self.pixels()
+        switch.click()
+        changed = np.abs(self.pixels() - without).max(axis=2) > 0.1
+        self.assertGreater(changed.sum(), 100)
+        with open(self.out / "floating_cube" / "trajectory.csv", newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        buoyancy = [np.linalg.norm([float(row[f"buoyancy_f{axis}"]) for axis in "xyz"]) for row in rows]
+        shown = self.browser.execute_script(
+            "const { forces, motion } = player.view.bodies[0], part = forces.parts.indexOf('buoyancy');"
+            "const arrow = forces.arrows[part], sample = motion.indexBefore(player.time);"
+            "return [motion.timeOf(sample), forces.force(sample, part).length(),"
+            " arrow.line.scale.y + arrow.cone.scale.y, forces.metresPerNewton];")
+        row = np.argmin([abs(float(row["time"]) - shown[0]) for row in rows])
+        self.assertAlmostEqual(shown[1], buoyancy[row], delta=1e-3 * buoyancy[row])
+        self.assertAlmostEqual(shown[2] / (shown[1] * shown[3]), 1, delta=0.01)
+        switch.click()
+        self.assertLess((np.abs(self.pixels() - without).max(axis=2) > 0.1).sum(), 5)
+
+    def test_waves_of_ten_centimetres_are_seen(self):
+        self.choose("duck dive")
+        self.scrub(0)
+        self.set_visible("[view.water.net]", False)
+        water = self.changed_by("[view.water.mesh]")
+        lightness = self.pixels()[water].mean(axis=1)
+        self.set_visible("[view.water.net]", True)
+        self.assertGreater(np.percentile(lightness, 90) - np.percentile(lightness, 10), 0.1)
+        self.assertGreater(self.changed_by("[view.water.net]").sum(), 1000)
+
+    def test_bodies_are_seen_through_the_walls_of_a_pool(self):
+        self.choose("pool")
+        self.scrub(1)
+        boxes, walls = (f"view.bodies.filter((one) => {sign}one.isStatic).map((one) => one.mesh)" for sign in "! ".split(" "))
+        seen = self.changed_by(boxes).sum()
+        self.set_visible(walls, False)
+        without_walls = self.changed_by(boxes).sum()
+        self.set_visible(walls, True)
+        self.assertGreater(without_walls, 1000)
+        self.assertGreater(seen, 0.9 * without_walls)
+
+    def test_the_status_line_names_the_chosen_body(self):
+        numbers = lambda: self.browser.find_element(By.ID, "numbers").text
+        self.pixels()
+        self.assertRegex(numbers(), "^ball: speed")
+        self.choose("floating cube")
+        for index, name in ((0, "cube 0.1"), (3, "cube 0.75")):
+            self.browser.execute_script(
+                "const view = document.getElementById('view'); view.value = arguments[0];"
+                "view.dispatchEvent(new Event('change'));", index)
+            self.pixels()
+            self.assertTrue(numbers().startswith(f"{name}: speed"), numbers())
+
+    def test_fits_a_window_without_scrolling(self):
+        make_page(self.out / "all.html", self.out / "golf_dimpled_spin", self.out / "pool")
+        size = self.browser.get_window_size()
+        self.addCleanup(self.browser.get, self.page.as_uri())
+        self.addCleanup(self.browser.set_window_size, size["width"], size["height"])
+        self.browser.set_window_size(1400, 900)
+        self.browser.get((self.out / "all.html").as_uri())
+        excess = """const { scrollWidth, scrollHeight } = document.documentElement;
+            return [scrollWidth - innerWidth, scrollHeight - innerHeight]"""
+        self.assertEqual(self.browser.execute_script(excess), [0, 0])
 
     def test_rivals_can_be_hidden(self):
         def orange(picture):

@@ -9,13 +9,19 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-DEMOS = Path(__file__).resolve().parents[3] / "demos"
-sys.path += [str(DEMOS / "plot"), str(DEMOS / "page")]
+ROOT = Path(__file__).resolve().parents[3]
+FOLDERS = ("demos/plot", "demos/page", "tests/study/reality", "tests/study/precision")
+sys.path += [str(ROOT / folder) for folder in FOLDERS]
 
 from experiments import Page, add_studies
 
-RUNS = ("plot/plot_runs.py", "page/make_page.py")
-TABLES = [f"plot/plot_{name}.py" for name in ("atlas", "work_precision", "polar", "added_mass_cost")]
+RUNS = ("demos/plot/plot_runs.py", "demos/page/make_page.py")
+TABLES = (
+    "demos/plot/plot_polar.py",
+    "tests/study/precision/plot_added_mass_cost.py",
+    "tests/study/precision/plot_work_precision.py",
+    "tests/study/stability/plot_atlas.py",
+)
 WORK_PRECISION = "case,method,microseconds_per_second,position_error\nplate,fast,10,0.1\n"
 
 
@@ -28,7 +34,7 @@ class ScriptsTest(unittest.TestCase):
     def refusal(self, script, *arguments):
         """What a script that is run with these arguments ends with."""
         with mock.patch.object(sys, "argv", [script, *map(str, arguments)]), self.assertRaises(SystemExit) as end:
-            runpy.run_path(str(DEMOS / script), run_name="__main__")
+            runpy.run_path(str(ROOT / script), run_name="__main__")
         self.assertNotIn("\n", end.exception.code)
         return end.exception.code
 
@@ -60,21 +66,21 @@ class ScriptsTest(unittest.TestCase):
             self.assertEqual(text, f"{self.folder / 'run'}: is not a folder of results of ambient_demo")
 
     def test_missing_measurements_and_results_are_named(self):
-        measurements = DEMOS.parent / "data/reality/measurements.json"
+        measurements = ROOT / "data/reality/measurements.json"
         for arguments, missing in (
             ((self.folder / "nosuch", self.folder), self.folder / "nosuch"),
             ((measurements, self.folder), self.folder / "coefficients.csv"),
         ):
-            text = self.refusal("plot/plot_reality.py", *arguments, "-o", self.folder)
+            text = self.refusal("tests/study/reality/plot_reality.py", *arguments, "-o", self.folder)
             self.assertEqual(text, f"{missing}: No such file or directory")
 
     def test_unwritable_pictures_are_named(self):
         table = self.write("table.csv", WORK_PRECISION)
         picture = self.folder / "nosuch" / "out.png"
-        text = self.refusal("plot/plot_work_precision.py", table, "-o", picture)
+        text = self.refusal("tests/study/precision/plot_work_precision.py", table, "-o", picture)
         self.assertEqual(text, f"{picture}: cannot be written: No such file or directory")
         picture = self.folder / "out.nokind"
-        text = self.refusal("plot/plot_work_precision.py", table, "-o", picture)
+        text = self.refusal("tests/study/precision/plot_work_precision.py", table, "-o", picture)
         self.assertRegex(text, f"^{picture}: cannot be written: ")
 
     def test_sections_without_new_data_stay(self):

@@ -1,8 +1,11 @@
 #!/usr/bin/python3
 """Runs the examples in the docstrings of the module, and checks that everything public has a docstring."""
 
+import contextlib
 import doctest
+import os
 import re
+import tempfile
 import tomllib
 import unittest
 from pathlib import Path
@@ -10,6 +13,8 @@ from pathlib import Path
 import numpy as np
 
 import bullet_ambient as ba
+
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def documented():
@@ -32,15 +37,16 @@ class DocstringsTest(unittest.TestCase):
                 self.assertTrue(text and len(text.split()) > 0, name)
 
     def test_a_wheel_has_the_version_of_the_library(self):
-        root = Path(__file__).resolve().parents[3]
-        settings = tomllib.loads((root / "demos/python/pyproject.toml").read_text())["tool"]["scikit-build"]
-        version = re.search(settings["metadata"]["version"]["regex"], (root / "CMakeLists.txt").read_text())["value"]
+        settings = tomllib.loads((ROOT / "demos/python/pyproject.toml").read_text())["tool"]["scikit-build"]
+        version = re.search(settings["metadata"]["version"]["regex"], (ROOT / "CMakeLists.txt").read_text())["value"]
         self.assertEqual(version, ba.__version__)
 
     def test_examples_are_true(self):
         runner, parser = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS), doctest.DocTestParser()
-        for name, text in documented():
-            runner.run(parser.get_doctest(text or "", {**vars(ba), "np": np}, name, None, 0))
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            os.symlink(ROOT / "data", "data")
+            for name, text in documented():
+                runner.run(parser.get_doctest(text or "", {**vars(ba), "np": np}, name, None, 0))
         self.assertEqual(runner.failures, 0)
         self.assertGreaterEqual(runner.tries, 8)
 

@@ -63,7 +63,7 @@ class SettingsTest(unittest.TestCase):
             ba.Medium(densty=1)
         with self.assertRaisesRegex(TypeError, r"Medium.velocity cannot be \(1, 2\)"):
             ba.Medium(velocity=(1, 2))
-        with self.assertRaisesRegex(ValueError, 'law is "mine"; must be published or form'):
+        with self.assertRaisesRegex(ValueError, 'law is "mine"; must be form or published'):
             ba.FlowSettings(law="mine")
         self.assertEqual(ba.FlowSettings(law="form").law, "form")
 
@@ -117,8 +117,8 @@ class FluidBodyTest(Temporary):
         self.assertLess((wrenches * twists).sum(axis=1).max(), 0)  # the fluid only takes energy
         double = body.loads(2 * twists, ba.Medium(density=1))
         np.testing.assert_allclose(double, 4 * body.loads(twists, ba.Medium(density=1)), rtol=1e-12)
-        form = body.loads(twists, ba.water(), ba.FlowSettings(law="form"))
-        self.assertGreater(abs(form - wrenches).max(), 0)
+        published = body.loads(twists, ba.water(), ba.FlowSettings(law="published"))
+        self.assertGreater(abs(published - wrenches).max(), 0)
         with self.assertRaisesRegex(ValueError, r"must be of shape \(N, 6\) or \(6,\), not \(2, 3\)"):
             body.loads(np.zeros((2, 3)), ba.water())
 
@@ -176,6 +176,8 @@ class FluidBodyTest(Temporary):
             body.polar(0, forward="w")
         with self.assertRaisesRegex(TypeError, "unknown keyword velocity"):
             body.polar(0, velocity=3)
+        with self.assertRaisesRegex(TypeError, r"^Medium\(\): takes keywords alone: density, viscosity, velocity, acceleration$"):
+            ba.Medium(1.2, 1e-5)
 
     def test_files_and_pickles_are_the_same_body(self):
         body = ba.FluidBody.from_shape({"type": "sphere", "radius": 1, "faces": 80}, name="ball")
@@ -220,6 +222,32 @@ class FluidBodyTest(Temporary):
             ba.FluidBody.read(self.folder / "bad.ambient")
         with self.assertRaises(OSError):
             ba.FluidBody.from_shape({"type": "sphere", "radius": 1}).write(self.folder / "no" / "ball.ambient")
+
+    def test_bodies_are_handed_over_as_by_the_program(self):
+        ball = ba.FluidBody.from_shape({"type": "sphere", "radius": 0.5}, name="ball")
+        ball.write(self.folder / "ball.ambient")
+        options = {"mass": 300.0, "draught": 0.6, "forward": "-x", "up": "y", "gravity": 9.8}
+        words = [text for key, value in options.items() for text in (f"--{key}", str(value))]
+        for name in "sdf", "mjcf", "fossen":
+            command = [PREPROCESS, "export", self.folder / "ball.ambient", "--format", name, *words]
+            shown = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+            self.assertEqual(ball.export(name, self.folder / "out", **options), shown)
+            self.assertEqual((self.folder / "out").read_text(), shown)
+        matrices = json.loads(ball.export("fossen", medium=ba.Medium(density=1000), centre_of_mass=[0, 0.1, 0], speed=2))
+        mass = 2 / 3 * np.pi * 0.5**3 * 1000
+        np.testing.assert_allclose(np.diag(matrices["M_A"])[:3], mass, rtol=1e-12)
+        self.assertEqual(matrices["centre_of_gravity"], [0, -0.1, 0])
+        self.assertLess(matrices["tau"][0], 0)
+
+    def test_bad_exports_are_refused(self):
+        ball = ba.FluidBody.from_shape({"type": "sphere", "radius": 0.5}, name="ball")
+        with self.assertRaisesRegex(ValueError, '"urdf" is none of sdf, mjcf, fossen, bemio'):
+            ball.export("urdf")
+        with self.assertRaisesRegex(ValueError, r"fluid body 'ball': draught \[m\] is -1, must be positive and finite"):
+            ball.export("sdf", draught=-1)
+        with self.assertRaisesRegex(OSError, "cannot be written"):
+            ball.export("sdf", self.folder / "no" / "ball.sdf")
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_doubts_are_warnings(self):
         vertices, faces = box([1, 1, 1])
@@ -290,6 +318,26 @@ class WorldTest(Temporary):
         self.assertLess(world.twist[0, 3], 0.95)
         with self.assertRaisesRegex(ValueError, 'body "ball": .*density'):
             world.bodies["ball"].set_medium(ba.Medium(density=-1))
+
+    def test_the_wrench_of_the_fluid_is_the_change_of_momentum(self):
+        scene = ba.Scene(STILL, {"gravity": [0, 0, -9.81], "water": {"level": 100}, "bodies.0.linear_velocity": [1, 0, 0]})
+        world = ba.World(scene)
+        ball = world.bodies["ball"]
+        with self.assertRaisesRegex(RuntimeError, "readWrench"):
+            ball.wrench
+        ball.read_wrench()
+        before = world.twist[0, 3:]
+        world.step()
+        wrench = ball.wrench
+        self.assertEqual(list(wrench), ["pressure", "friction", "buoyancy", "waves", "wind", "added_mass", "constraints"])
+        change = scene.document["bodies"][0]["mass"] * (world.twist[0, 3:] - before) / scene.time_step
+        weight = np.array(scene.document.get("gravity", [0, 0, 0])) * scene.document["bodies"][0]["mass"]
+        np.testing.assert_allclose(sum(part[3:] for part in wrench.values()), change - weight, rtol=1e-9, atol=1e-9)
+        self.assertLess(wrench["pressure"][3], 0)
+        wet = ball.wet
+        self.assertAlmostEqual(wet["share"], 1, places=12)
+        self.assertEqual(wet["region"], 0)
+        np.testing.assert_allclose(wet["centre_of_buoyancy"], world.position[0], atol=1e-9)
 
     def test_a_raft_floats_and_goes_on_from_a_state(self):
         raft = {"name": "raft", "mass": 998 * 0.4 * 0.3 * 0.1 / 2, "shape": {"type": "box", "size": [0.4, 0.3, 0.1]}}
@@ -390,6 +438,114 @@ class WorldTest(Temporary):
         self.assertEqual(len(ticks), 1)
         self.assertEqual(kinds, ["the world is in use by another thread"])
         world.step()  # and is free again
+
+
+class RobotTest(Temporary):
+    ARM = Path(__file__).resolve().parents[3] / "data/robots/underwater_arm.urdf"
+    FALLING = {"duration": 1, "time_step": 0.01, "medium": {"density": 0}, "bodies": [dict(BALL, position=[5, 0, 0])]}
+    WEIGHT = 6.663 * 9.81  # of an upper arm or forearm, whose middle is 0.3 m from its joint
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.cache = folder.name
+
+    def arm(self, **settings):
+        self.world = ba.World(ba.Scene(self.FALLING), robots=True, cache=self.cache)
+        self.world.step(3)
+        return self.world.load_urdf(self.ARM, name="arm", fixed_base=True, **settings)
+
+    def test_robots_join_a_world_that_moves(self):
+        arm = self.arm(joint_positions={"elbow": -0.8})
+        self.assertEqual((arm.name, arm.joints), ("arm", ["yaw", "shoulder", "elbow"]))
+        np.testing.assert_array_equal(arm.joint_positions, [0, 0, -0.8])
+        self.assertEqual(list(self.world.bodies), ["ball", "arm/turntable", "arm/upper_arm", "arm/forearm"])
+        self.assertEqual(self.world.position.shape, (4, 3))
+        cosine, sine = np.cos(0.8), np.sin(0.8)
+        pose = [[cosine, 0, sine, 0.6], [0, 1, 0, 0], [-sine, 0, cosine, 0.2], [0, 0, 0, 1]]
+        np.testing.assert_allclose(arm.pose("forearm"), pose, atol=1e-12)
+        other = self.world.load_urdf(self.ARM, name="other", fixed_base=True, position=[0, 3, 0])
+        np.testing.assert_allclose(other.pose("turntable")[:3, 3], [0, 3, 0], atol=1e-12)
+        self.assertEqual(list(self.world.robots), ["arm", "other"])
+        self.world.step(20)
+        again = ba.World(self.world.scene, cache=self.cache)  # the robots are in its scene
+        self.assertEqual(again.bodies.keys(), self.world.bodies.keys())
+
+    def test_a_world_with_room_for_robots_moves_as_others(self):
+        free = [ba.World(ba.Scene("plate_9cm"), robots=robots).run(0.2).position for robots in (False, True)]
+        self.assertSameBits(*free)
+
+    def test_motors_hold_weights_and_sensors_say_so(self):
+        arm = self.arm()
+        for joint in arm.joints:
+            arm.set_motor(joint, position=0.3)
+        arm.measure("shoulder")
+        self.world.step(400)
+        np.testing.assert_allclose(arm.joint_positions, 0.3, atol=0.01)  # ten iterations let the elbow sag
+        np.testing.assert_allclose(arm.joint_velocities, 0, atol=1e-3)
+        _, lift, bend = arm.joint_positions
+        elbow = self.WEIGHT * 0.3 * np.cos(lift + bend)
+        shoulder = self.WEIGHT * 0.9 * np.cos(lift) + elbow
+        np.testing.assert_allclose(arm.motor_efforts[1:], [shoulder + 0.2, elbow + 0.2], atol=0.02)  # the joints' brakes: 0.2 N m
+        np.testing.assert_allclose(arm.joint_wrench("shoulder"), [0, 0, 0, 0, 0, 2 * self.WEIGHT], atol=0.01 * self.WEIGHT)
+        arm.set_motor("elbow", velocity=0.5)
+        self.world.step(50)
+        self.assertAlmostEqual(arm.joint_velocities[2], 0.5, delta=0.05)  # ten iterations again
+        arm.set_motor("elbow", velocity=0, effort=0)
+        self.world.step()
+        self.assertEqual(arm.motor_efforts[2], 0)
+
+    def test_torques_act_for_one_step(self):
+        arm = self.arm()
+        for joint in arm.joints[1:]:
+            arm.set_motor(joint, position=0)
+        self.world.step(100)
+        arm.apply_torque("yaw", 50)
+        self.world.step()
+        # Both arms and the turntable about the axis, a brake of 0.2 N m.
+        moment = 0.04 + 2 * 0.1832814926 + 6.663 * (0.3**2 + 0.9**2)
+        self.assertAlmostEqual(arm.joint_velocities[0], 0.01 * 49.8 / moment, delta=1e-3)
+        before = arm.joint_velocities[0]
+        self.world.step()
+        self.assertLessEqual(arm.joint_velocities[0], before)
+
+    def test_a_torque_moves_the_fluid_too(self):
+        speeds = []
+        for density in (0, 1000):
+            scene = ba.Scene("underwater_arm", {"medium": {"density": density}, "gravity": [0, 0, 0]})
+            with ba.World(scene, cache=self.cache) as world:
+                arm = world.robots["arm"]
+                for joint in arm.joints:
+                    arm.set_motor(joint, velocity=0, effort=0)
+                arm.apply_torque("yaw", 50)
+                world.step()
+                speeds.append(arm.joint_velocities[0])
+        self.assertGreater(speeds[0], 1.5 * speeds[1])
+        self.assertGreater(speeds[1], 0)
+
+    def test_what_does_not_fit_is_refused(self):
+        with self.assertRaisesRegex(ValueError, r"needs World\(scene, robots=True\)"):
+            ba.World(ba.Scene(STILL)).load_urdf(self.ARM)
+        arm = self.arm()
+        state = self.world.state()
+        for error, text, call in (
+            (FileNotFoundError, "gone.urdf", lambda: self.world.load_urdf("gone.urdf")),
+            (ValueError, 'unknown key "pose"', lambda: self.world.load_urdf(self.ARM, pose=1)),
+            (ValueError, "its mass is 0 kg", lambda: self.world.load_urdf(self.ARM)),
+            (ValueError, "arm", lambda: self.world.load_urdf(self.ARM, name="arm", fixed_base=True)),
+            (ValueError, 'joint "wrist" is not known; known are: yaw, shoulder, elbow', lambda: arm.set_motor("wrist", 1)),
+            (ValueError, "a position or a velocity", lambda: arm.set_motor("yaw", 1, 2)),
+            (ValueError, "must be finite", lambda: arm.set_motor("yaw", float("nan"))),
+            (ValueError, "the torque of joint \"yaw\" is not finite", lambda: arm.apply_torque("yaw", float("nan"))),
+            (ValueError, 'joint "yaw" is not measured', lambda: arm.joint_wrench("yaw")),
+        ):
+            with self.assertRaisesRegex(error, text):
+                call()
+        self.assertEqual(list(self.world.robots), ["arm"])
+        self.world.load_urdf(self.ARM, name="other", fixed_base=True, position=[0, 3, 0])
+        with self.assertRaises(ValueError):
+            self.world.restore(state)  # of a world with one robot
 
 
 class RolloutTest(Temporary):

@@ -1,4 +1,4 @@
-// The laws of the models that the demos compare with, on a sphere.
+// Load laws of the models compared in the demos, on a sphere.
 
 #include "demos/rivals/rival_laws.h"
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bullet_ambient/force/surface_loads.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/support/ellipsoid_body.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
 namespace ambient {
 namespace {

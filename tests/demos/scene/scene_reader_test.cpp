@@ -26,7 +26,7 @@ std::string complaintAboutText(const std::string& text) {
   return "";
 }
 
-/// The complaint after one change to the scene, e.g. {"bodies", 0, "mass"} := -1.
+/// Returns the complaint after one change to the scene, e.g. {"bodies", 0, "mass"} := -1.
 std::string complaintAfter(const char* pointer, const json& value) {
   json scene = ballScene();
   scene[json::json_pointer(pointer)] = value;
@@ -59,7 +59,7 @@ TEST(SceneReader, TakesEveryValueOver) {
   EXPECT_EQ(scene.flight.tolerance, 1e-4);
   EXPECT_EQ(scene.flight.max_substeps, 7);
   ASSERT_EQ(scene.bodies.size(), 1u);
-  EXPECT_EQ(scene.bodies[0].wave_damping, 0.5);
+  EXPECT_EQ(scene.bodies[0].attach.wave_damping, 0.5);
   const BodyDef& ball = scene.bodies[0];
   EXPECT_EQ(ball.name, "ball");
   EXPECT_EQ(ball.mass, 0.43);
@@ -71,10 +71,10 @@ TEST(SceneReader, TakesEveryValueOver) {
   EXPECT_EQ(ball.orientation.coeffs(), Quaternion(0.5, -0.5, 0.5, 0.5).coeffs());
   EXPECT_EQ(ball.linear_velocity, Vector3(30, 0, 0));
   EXPECT_EQ(ball.angular_velocity, Vector3(0, 0, 60));
-  EXPECT_EQ(ball.flow.separation_angle, 2.0);
-  EXPECT_FALSE(ball.flow.skin_friction);
-  EXPECT_EQ(ball.flow.maximum_load_error, 0.02);
-  EXPECT_EQ(*ball.fluid_density, 998);
+  EXPECT_EQ(ball.attach.flow.separation_angle, 2.0);
+  EXPECT_FALSE(ball.attach.flow.skin_friction);
+  EXPECT_EQ(ball.attach.flow.maximum_load_error, 0.02);
+  EXPECT_EQ(ball.attach.medium.density, 998);
 }
 
 TEST(SceneReader, FillsInWhatMayBeLeftOut) {
@@ -85,9 +85,9 @@ TEST(SceneReader, FillsInWhatMayBeLeftOut) {
   EXPECT_EQ(scene.medium.density, air().density);
   EXPECT_EQ(scene.model, FluidModel::kAmbient);
   EXPECT_EQ(scene.bodies[0].name, "body_0");
-  EXPECT_EQ(scene.bodies[0].flow.separation_angle, std::acos(-1.0) / 2);
-  EXPECT_TRUE(scene.bodies[0].flow.skin_friction);
-  EXPECT_EQ(scene.bodies[0].flow.maximum_load_error, FlowSettings{}.maximum_load_error);
+  EXPECT_EQ(scene.bodies[0].attach.flow.separation_angle, std::acos(-1.0) / 2);
+  EXPECT_TRUE(scene.bodies[0].attach.flow.skin_friction);
+  EXPECT_EQ(scene.bodies[0].attach.flow.maximum_load_error, FlowSettings{}.maximum_load_error);
   EXPECT_FALSE(scene.bodies[0].inertia);
 }
 
@@ -131,7 +131,7 @@ TEST(SceneReader, RejectsIntegersThatNoIntHolds) {
             std::string::npos);
 }
 
-/// Places of the integers in a schema that have no bounds.
+/// Lists the places of integers without bounds in a schema.
 std::string unboundedIntegers(const json& schema, const std::string& place) {
   std::string found;
   if (schema.is_object() && schema.value("type", json()) == "integer" &&
@@ -172,7 +172,7 @@ TEST(SceneReader, RejectsAnUnknownModel) {
             "[\"ambient\",\"ideal\",\"vacuum\",\"uwrbd\",\"gwtf\"]");
 }
 
-/// A ball that hangs from the world, and a static one.
+/// A ball on a joint to the world, and a static ball.
 json jointScene() {
   json scene = ballScene();
   scene["bodies"].push_back(
@@ -292,7 +292,7 @@ TEST(SceneReader, RejectsASeparationAngleOutsideItsRange) {
 TEST(SceneReader, TakesPrintedDigitsOfARightAngleForOne) {
   json scene = ballScene();
   scene["bodies"][0]["separation_angle"] = 1.570796;
-  EXPECT_EQ(readText(scene).bodies[0].flow.separation_angle, 1.5707963267948966);
+  EXPECT_EQ(readText(scene).bodies[0].attach.flow.separation_angle, 1.5707963267948966);
 }
 
 TEST(SceneReader, RejectsTwoBodiesOfOneName) {
@@ -333,15 +333,29 @@ TEST(SceneReader, NamesAMissingFile) {
       std::exception);
 }
 
+// The schema names them too, for editors.
+TEST(SceneReader, KnowsEveryIntegratorAndLaw) {
+  nlohmann::json scene = ballScene();
+  for (const auto& [integrator, name] : kIntegratorNames) {
+    scene["integrator"]["method"] = name;
+    EXPECT_EQ(sceneFrom(scene).flight.integrator, integrator);
+  }
+  for (const auto& [law, name] : kPressureLawNames) {
+    scene["law"] = scene["bodies"][0]["law"] = name;
+    EXPECT_EQ(sceneFrom(scene).law, law);
+    EXPECT_EQ(sceneFrom(scene).bodies[0].attach.flow.law, law);
+  }
+}
+
 TEST(SceneReader, TakesTheLawOfTheSceneUnlessABodyNamesItsOwn) {
   nlohmann::json scene = ballScene();
-  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.law, PressureLaw::kPublished);
-  scene["law"] = "form";
+  EXPECT_EQ(sceneFrom(scene).bodies[0].attach.flow.law, PressureLaw::kForm);
+  scene["law"] = "published";
+  EXPECT_EQ(sceneFrom(scene).bodies[0].attach.flow.law, PressureLaw::kPublished);
+  scene["bodies"][0]["law"] = "form";
   scene["bodies"][0]["stall_lag"] = 0;
-  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.law, PressureLaw::kForm);
-  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.stall_lag, 0);
-  scene["bodies"][0]["law"] = "published";
-  EXPECT_EQ(sceneFrom(scene).bodies[0].flow.law, PressureLaw::kPublished);
+  EXPECT_EQ(sceneFrom(scene).bodies[0].attach.flow.law, PressureLaw::kForm);
+  EXPECT_EQ(sceneFrom(scene).bodies[0].attach.flow.stall_lag, 0);
   scene["bodies"][0]["law"] = "newton";
   EXPECT_NE(complaintAbout(scene).find("bodies[0].law"), std::string::npos)
       << complaintAbout(scene);

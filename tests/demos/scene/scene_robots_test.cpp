@@ -62,14 +62,14 @@ TEST(SceneRobots, LinksThatCollideAreBodies) {
   EXPECT_EQ(hull.name, "rover/hull");
   EXPECT_EQ(arm.name, "rover/arm");
   EXPECT_EQ(hull.mass, 2);
-  // A quarter turn about z; its centre of mass is half a metre above its origin.
+  // A quarter turn about z; the hull's centre of mass is half a metre above its origin.
   EXPECT_LT((hull.position - Vector3(0, 0, 3.5)).norm(), 1e-15);
   EXPECT_LT((arm.position - Vector3(0, 1, 3)).norm(), 1e-15);
-  EXPECT_EQ(hull.medium->density, 1000);
-  EXPECT_EQ(arm.medium->density, air().density);
-  EXPECT_EQ(hull.flow.law, PressureLaw::kPublished);
-  EXPECT_EQ(arm.flow.law, PressureLaw::kForm);
-  EXPECT_EQ(hull.flow.separation_angle, 2);
+  EXPECT_EQ(hull.attach.medium.density, 1000);
+  EXPECT_EQ(arm.attach.medium.density, air().density);
+  EXPECT_EQ(hull.attach.flow.law, PressureLaw::kForm);
+  EXPECT_EQ(arm.attach.flow.law, PressureLaw::kForm);
+  EXPECT_EQ(hull.attach.flow.separation_angle, 2);
 }
 
 TEST(SceneRobots, MotorsFollowASine) {
@@ -79,7 +79,7 @@ TEST(SceneRobots, MotorsFollowASine) {
   EXPECT_NEAR(drive.positionAt(0.3), 0.1 + 0.5 * std::sin(0.3 * rate + 1), 1e-15);
   EXPECT_NEAR(drive.velocityAt(0.3), 0.5 * rate * std::cos(0.3 * rate + 1), 1e-15);
   EXPECT_EQ(scene.robots[0].joint_positions.at("shoulder"), drive.positionAt(0));
-  // The arm begins where its motor wants it.
+  // The arm starts at its motor's target.
   const double turn =
       2 * std::atan2(scene.bodies[1].orientation.z(), scene.bodies[1].orientation.w());
   EXPECT_NEAR(turn, std::acos(-1.0) / 2 + drive.positionAt(0), 1e-14);

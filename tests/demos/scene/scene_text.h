@@ -10,7 +10,7 @@
 
 namespace ambient {
 
-/// A small scene without errors: one ball in air.
+/// A small valid scene: one ball in air.
 inline nlohmann::json ballScene() {
   return nlohmann::json::parse(R"({
     "duration": 2, "time_step": 0.01, "output_step": 0.05, "gravity": [0, 0, -9.81],
@@ -34,7 +34,7 @@ inline Scene sceneFrom(const nlohmann::json& text) {
   return readScene(writeScene(folder, text.dump()));
 }
 
-/// What reading the scene complains about, without the file's name; "" if it does not.
+/// Returns the complaint of reading the scene, without the file's name; "" if there is none.
 inline std::string complaintAbout(const nlohmann::json& scene,
                                   const std::vector<SceneOverride>& overrides = {}) {
   const TemporaryFolder folder;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "bullet_ambient/force/wave_spectrum.h"
+#include "bullet_ambient/force/medium/wave_spectrum.h"
 #include "tests/demos/scene/scene_text.h"
 
 namespace ambient {
@@ -48,9 +48,9 @@ TEST(SceneWater, MakesRegionsOfWaterFirst) {
   const std::vector<FluidRegion> regions = makeRegions(sceneFrom(text));
   ASSERT_EQ(regions.size(), 3u);
   EXPECT_EQ(regions[0].below.density, 1025);
-  EXPECT_EQ(regions[0].above.density, 1.204);
+  EXPECT_EQ(regions[0].above.value().density, 1.204);
   EXPECT_FALSE(regions[0].surface->isStill());
-  // Under water: that the waves run on it, once.
+  // Deep water has the current of the waves, added once.
   EXPECT_NEAR(sampleRegion(regions[0], {0, -40, 0}, 0).here().velocity.x(), 1, 1e-12);
   EXPECT_EQ(regions[1].below.velocity.x(), 3);
   EXPECT_EQ(regions[1].priority, 4);

@@ -1,16 +1,16 @@
-#include "demos/simulation/geometry_text.h"
+#include "demos/simulation/output/geometry_text.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/demos/scene/scene_text.h"
-#include "tests/demos/simulation/run_scene.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 
 namespace ambient {
 namespace {
 
 using nlohmann::json;
 
-/// A coarse ball whose centre of mass is off its centre, over a floor, hung from a hinge.
+/// A coarse ball on a hinge above a floor; centre of mass off the centre.
 json hungBall() {
   json scene = ballScene();
   scene["bodies"][0]["shape"]["faces"] = 80;
@@ -28,7 +28,7 @@ json geometryOf(const json& text) {
   return json::parse(makeGeometryText(scene, prepare(scene)));
 }
 
-/// Bounds of the vertices of a body.
+/// Bounding box of a body's vertices.
 struct Box {
   Vector3 low = Vector3::Constant(1e300), high = Vector3::Constant(-1e300);
 };
@@ -50,7 +50,7 @@ TEST(GeometryText, PlacesVerticesAboutTheCentreOfMass) {
   EXPECT_EQ(ball["triangles"].size(), 3u * 80);
   const Box box = boxOf(ball);
   const Vector3 centre = 0.5 * (box.low + box.high);
-  // A float has seven digits, of lengths of some centimetres.
+  // Float has seven digits for lengths of some centimetres.
   EXPECT_LT((centre - Vector3(-0.001, 0, 0.002)).norm(), 1e-8);
 }
 

@@ -1,4 +1,4 @@
-#include "demos/simulation/motion_interpolation.h"
+#include "demos/simulation/output/motion_interpolation.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace ambient {
 namespace {
 
-/// A body that coasts on a curved path and turns about an axis that itself turns: q = Rz(a t) Rx(b
+/// Sample of a body on a curved path that turns about a turning axis: q = Rz(a t) Rx(b
 /// t).
 MotionSample motionAt(double t) {
   const double a = 3, b = 20;
@@ -52,7 +52,7 @@ TEST(MotionInterpolation, EndsAreTheSamplesThemselves) {
 }
 
 TEST(MotionInterpolation, AnEvenSpinOfMoreThanHalfATurnPerStepGoesAllTheWay) {
-  const double spin = 264;  // a golf ball's, rad/s
+  const double spin = 264;  // golf ball [rad/s]
   for (const double step : {0.005, 0.015, 0.03}) {
     MotionSample from, to;
     from.twist.angular = to.twist.angular = Vector3(0, spin, 0);

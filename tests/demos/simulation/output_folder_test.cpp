@@ -1,10 +1,10 @@
-#include "demos/simulation/output_folder.h"
+#include "demos/simulation/output/output_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "demos/simulation/trajectory_text.h"
+#include "demos/simulation/output/trajectory_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "demos/analysis/falling_mode.h"
-#include "tests/demos/simulation/run_scene.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 
 namespace ambient {
 namespace {
@@ -15,7 +15,7 @@ struct PlateCase {
   FallingMode mode;
 };
 
-/// How the motion is stepped.
+/// Integrator and step of the motion.
 struct Stepping {
   Integrator integrator = Integrator::kPassiveLeapfrog;
   double time_step = 1.0 / 240;
@@ -23,7 +23,7 @@ struct Stepping {
 
 class PlateModes : public testing::TestWithParam<PlateCase> {
  protected:
-  // The boundary elements are solved once per plate.
+  // Solves the flow once per plate.
   void SetUp() override {
     scene_ = readNamedScene(GetParam().scene);
     bodies_ = prepare(scene_);
@@ -54,9 +54,9 @@ TEST_P(PlateModes, HalvingTheStepKeepsTheFall) {
   const Fall whole = fallWith({Integrator::kPassiveLeapfrog, 1.0 / 240});
   const Fall half = fallWith({Integrator::kPassiveLeapfrog, 1.0 / 480});
   EXPECT_EQ(whole.mode, half.mode);
-  // Without chaos every event stays. Of the 9 cm plate's 14 events one may go the other way: late
-  // ones hang on differences of 1e-3 m: 1e-7 of its mass changes its mean speed by up to 9 %.
-  // Speeds of the others differed by 0.4 %.
+  // Without chaos both runs have equal events. The 9 cm plate may differ in one of 14 events: late
+  // ones depend on 1e-3 m, and 1e-7 of the mass changes the mean speed by up to 9 %. Speeds of the
+  // other plates differed by 0.4 %.
   const int spread = GetParam().mode == FallingMode::kMixed ? 2 : 0;
   EXPECT_NEAR(whole.overturns, half.overturns, spread);
   EXPECT_NEAR(whole.swings, half.swings, spread);
@@ -73,7 +73,7 @@ TEST(PlateModes, WithoutAirThePlateNeitherSwingsNorTurns) {
   const Scene scene = readNamedScene("plate_8cm", {{"model", "vacuum"}, {"duration", "1"}});
   const Fall fall = analyseFall(run(scene).motion[0], Vector3::UnitZ(), scene.gravity);
   EXPECT_EQ(fall.mode, FallingMode::kSteady);
-  // From 0.5 s to 1 s of free fall.
+  // Mean speed of free fall from 0.5 s to 1 s.
   EXPECT_NEAR(fall.descent_speed, 9.81 * 0.75, 9.81 / 240);
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "demos/analysis/falling_mode.h"
-#include "tests/demos/simulation/run_scene.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 
 namespace ambient {
 namespace {
@@ -28,7 +28,7 @@ class PlateSweep : public testing::Test {
     return record_.motion[bodyOfMass(mass)];
   }
 
-  /// Largest angle between the plate's normal and the vertical within a span of time [degrees].
+  /// Largest angle between the plate's normal and the vertical from time `from` to `to` [degrees].
   static double largestTilt(double mass, double from, double to) {
     double largest = 0;
     for (const MotionSample& sample : motionOfMass(mass)) {
@@ -39,7 +39,7 @@ class PlateSweep : public testing::Test {
     return largest;
   }
 
-  /// How far the plate stays behind one in a vacuum after one second [m].
+  /// Distance behind a plate in a vacuum after one second [m].
   static double lagAfterOneSecond(double mass) {
     for (const MotionSample& sample : motionOfMass(mass))
       if (std::abs(sample.time - 1) < 1e-9) return 9.81 / 2 + sample.position.z();

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/demos/scene/scene_text.h"
 

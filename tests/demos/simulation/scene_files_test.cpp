@@ -2,7 +2,7 @@
 
 #include "demos/scene/scene_lookup.h"
 #include "preprocess/shape/shape_mesh.h"
-#include "tests/demos/simulation/run_scene.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 
 namespace ambient {
 namespace {

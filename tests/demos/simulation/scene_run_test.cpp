@@ -5,12 +5,12 @@
 #include <cmath>
 #include <sstream>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "demos/simulation/output/trajectory_text.h"
 #include "demos/simulation/summary.h"
-#include "demos/simulation/trajectory_text.h"
 #include "preprocess/builder/shape_builder.h"
 #include "tests/demos/scene/scene_text.h"
-#include "tests/demos/simulation/run_scene.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 
 namespace ambient {
 namespace {
@@ -42,7 +42,7 @@ TEST(SceneRun, WritesOneRowPerBodyAndOutputTime) {
   std::istringstream stream(makeTrajectoryText(scene, run(scene).motion));
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  // At 0, 0.05, 0.1 and the end, 0.12 s.
+  // Rows at 0, 0.05, 0.1 and 0.12 s, the end.
   ASSERT_EQ(lines.size(), 1u + 2 * 4);
   EXPECT_EQ(lines[0], kTrajectoryHeader);
   EXPECT_EQ(lines[1], "0,ball,0,0,1,1,0,0,0,0,0,60,30,0,0");
@@ -65,14 +65,14 @@ TEST(SceneRun, OutputTimesIncludeBothEnds) {
 }
 
 TEST(SceneRun, RowsBetweenStepsLieOnTheMotion) {
-  // Bullet moves a body in free fall by v dt with the new v: y = y0 + v0 t - g t (t + dt) / 2.
+  // Bullet moves a body by v dt with the new v: y = y0 + v0 t - g t (t + dt) / 2.
   json text = vacuumBall();
   text["output_step"] = 0.013;
   const std::vector<MotionSample> motion = run(sceneFrom(text)).motion[0];
   for (const MotionSample& sample : motion) {
     const double t = sample.time;
     EXPECT_NEAR(sample.position.x(), 30 * t, 1e-12);
-    // Hermite between two steps does not know the kink that the stepped motion has there.
+    // Hermite interpolation between two steps smooths the kink of the stepped motion.
     EXPECT_NEAR(sample.position.z(), 1 - 9.81 / 2 * t * (t + 0.01), 9.81 * 1e-4 / 2);
   }
 }
@@ -88,7 +88,7 @@ TEST(SceneRun, TheOutputStepDoesNotChangeTheMotion) {
 }
 
 TEST(SceneRun, LogsTheAxesOfTheShapeWhateverThePrincipalAxes) {
-  // The same body described twice: its inertia in its own axes, and in axes turned by R.
+  // Describes one body twice: inertia in its own axes, and in axes turned by R.
   const Quaternion turn(Eigen::Quaterniond(0.4, -0.2, 0.7, 0.5).normalized());
   const Matrix3 R = turn.toRotationMatrix();
   const Matrix3 moments = Vector3(0.002, 0.003, 0.004).asDiagonal();
@@ -121,11 +121,11 @@ TEST(SceneRun, AFluidBodyFileMovesAsTheMeshItWasMadeFrom) {
   const json shape = {{"type", "fluid_body"}, {"file", (folder / "plate.ambient").string()}};
   const Scene file =
       readNamedScene("plate_9cm", {{"duration", "1"}, {"bodies.0.shape", shape.dump()}});
-  // The file's frame has its origin at the centre of volume, which is 0 but for rounding.
+  // The file's origin is the centre of volume, 0 to rounding.
   EXPECT_LE(largestDistance(run(mesh).motion[0], run(file).motion[0]), 1e-9);
 }
 
-/// A plate's mesh file with all vertices moved.
+/// Writes a plate's mesh file with all vertices moved.
 void writeMovedMesh(const std::filesystem::path& file, const Vector3& offset) {
   std::ifstream from(std::filesystem::path(AMBIENT_DATA) / "meshes/plate_10cm.obj");
   std::ofstream to(file);
@@ -147,7 +147,7 @@ TEST(SceneRun, TheOriginOfAMeshFileDoesNotMatter) {
   const TemporaryFolder folder;
   const Vector3 offset(0.5, -0.25, 0.125);
   writeMovedMesh(folder / "moved.obj", offset);
-  // The centre of mass is off the centre of volume, so that every lever counts.
+  // A centre of mass off the centre of volume gives every force a lever.
   const Vector3 centre(0.01, 0.004, 0);
   Scene plain = readNamedScene("plate_10cm", {{"duration", "0.5"}});
   plain.bodies[0].centre_of_mass = centre;
@@ -192,12 +192,12 @@ TEST(SceneRun, AMassOffCentreTurnsABallDown) {
   const Vector3 torque = r.cross(Vector3(0, 0, mass * 9.81));
   const Vector3 expected = scene.duration * Eigen::Matrix3d(inertia).inverse() * torque;
   const Vector3 spin = run(scene).motion[0].back().twist.angular;
-  // Added mass of the mesh: 0.1 %, of which a tenth acts here.
+  // Added mass of the mesh has an error of 0.1 %; a tenth of it acts here.
   EXPECT_LE((spin - expected).norm(), 1e-3 * expected.norm());
 }
 
 TEST(SceneRun, PrincipalAxesChosenByRoundingDoNotChangeTheMotionInFluid) {
-  // All axes of the inertia are principal, until a product of inertia picks some at 45 degrees.
+  // All axes are principal for the sphere; a product of inertia selects axes at 45 degrees.
   Scene plain = sceneFrom(
       waterBody({{"type", "ellipsoid"}, {"semi_axes", {0.12, 0.08, 0.05}}, {"faces", 320}}, 3));
   plain.bodies[0].linear_velocity = Vector3(1, 0.5, 0.2);
@@ -214,7 +214,7 @@ TEST(SceneRun, PrincipalAxesChosenByRoundingDoNotChangeTheMotionInFluid) {
 TEST(SceneRun, AFallingSphereFollowsItsClosedForm) {
   const Scene scene = readNamedScene("sphere_fall");
   const BodyDef& ball = scene.bodies[0];
-  const double radius = std::get<SphereShape>(ball.shape.geometry).radius;
+  const double radius = std::get<Sphere>(ball.shape.geometry).radius;
   const double pi = std::acos(-1.0), g = 9.81, rho = scene.medium.density;
   const double displaced = rho * 4 / 3 * pi * std::pow(radius, 3);
   // C_D = 1/2 at pi/2; v = V tanh(t / tau).
@@ -223,12 +223,12 @@ TEST(SceneRun, AFallingSphereFollowsItsClosedForm) {
   const RunRecord record = run(scene);
   for (const MotionSample& sample : record.motion[0]) {
     const double exact = V * tau * std::log(std::cosh(sample.time / tau));
-    // 0.02 % was measured: the drag of 1280 flat faces, and the step in the first hundredths.
+    // Measured 0.02 %: the drag of 1280 flat faces, and the step in the first hundredths.
     EXPECT_NEAR(-sample.position.z(), exact, 5e-4 * exact + 1e-5) << "t = " << sample.time;
   }
 }
 
-/// A body without motion at a height above the origin.
+/// A body at rest at a position.
 json restingBody(const char* name, const json& shape, const json& position) {
   return {{"name", name}, {"mass", 1}, {"shape", shape}, {"position", position}};
 }
@@ -254,15 +254,15 @@ TEST(SceneRun, BodiesComeToRestOnAStaticOne) {
   const RunRecord record = run(sceneFrom(text));
   const auto height = [&](int body) { return record.motion[body].back().position.z(); };
   EXPECT_EQ(height(0), -0.5);
-  // Overlaps of 1e-12 m to 6e-8 m were measured: Bullet's position correction has converged.
+  // Measured overlaps of 1e-12 m to 6e-8 m: Bullet's position correction has converged.
   EXPECT_NEAR(height(1), 0.1 / 2 - 0.02, 1e-5);
   EXPECT_NEAR(height(2), 0.11, 1e-5);
   EXPECT_NEAR(height(3), 0.16 / 2, 1e-5);
-  // Cone and hull have a margin of 1 % of their size; a cone's centre of mass is at a quarter.
+  // Cone and hull have a margin of 1 % of their size; the cone's centre is at a quarter height.
   EXPECT_NEAR(height(4), 0.12 / 4, 1e-3);
   EXPECT_NEAR(height(5), 0.02, 1e-3);
-  // The way of the last half second. The velocity of a single step says less: where Bullet drops
-  // and finds a contact of the cone it jumps for a step, at times that rounding decides.
+  // Distance moved in the last half second. Velocities of single steps jump: Bullet loses and finds
+  // a contact of the cone at times that depend on rounding.
   for (std::size_t i = 1; i < record.motion.size(); ++i) {
     const std::vector<MotionSample>& motion = record.motion[i];
     std::size_t before = motion.size() - 1;

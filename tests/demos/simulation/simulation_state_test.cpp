@@ -2,7 +2,7 @@
 
 #include "demos/simulation/simulation.h"
 #include "tests/demos/scene/scene_text.h"
-#include "tests/demos/simulation/run_scene.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 
 namespace ambient {
 namespace {
@@ -27,7 +27,7 @@ TEST(SimulationForces, ActForOneStepAtTheirPoint) {
   simulation.applyForce(0, Vector3(1, 0, 0), Vector3(0, 0.3, 1));  // the ball is at 0, 0, 1
   simulation.applyTorque(0, Vector3(0.2, 0, 0));
   for (int i = 0; i < 3; ++i) simulation.step();
-  // F h / m, and (r x F) h / I; Bullet turns the spin by less than 1e-4 in three steps.
+  // F h / m, and (r x F) h / I; spin turns by less than 1e-4 in three steps.
   const Twist twist = simulation.sample()[0].twist;
   EXPECT_NEAR((twist.linear - Vector3(0.01 / 0.43, 0, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR((twist.angular - Vector3(0.01, 0, -0.0075)).norm(), 0, 1e-5);

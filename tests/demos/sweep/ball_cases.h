@@ -4,7 +4,7 @@
 
 namespace ambient {
 
-/// A small ball that flies for a tenth of a second; quick to prepare and to run.
+/// A small ball in flight for a tenth of a second; quick to prepare and to run.
 inline nlohmann::json shortFlight() {
   nlohmann::json scene = ballScene();
   scene["bodies"][0]["shape"]["faces"] = 80;
@@ -16,7 +16,7 @@ inline std::string caseLine(const nlohmann::json& scene, const nlohmann::json& s
   return nlohmann::json{{"scene", scene}, {"set", set}}.dump() + "\n";
 }
 
-/// Cases of balls of several masses [kg].
+/// Writes cases with balls of several masses [kg].
 inline std::filesystem::path writeMasses(const TemporaryFolder& folder,
                                          const std::vector<double>& masses) {
   std::string text;

@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The first case of a file of one line.
+/// Returns the first case of a one-line file.
 Case caseIn(const TemporaryFolder& folder, const std::string& text) {
   writeText(folder / "cases.jsonl", text);
   return readCases(folder / "cases.jsonl").at(0);
@@ -76,7 +76,7 @@ TEST(CaseFile, RefusesWhatIsNoCase) {
 TEST(CaseKey, IsOfWhatTheRunDependsOn) {
   const std::string key = keyWith(json::object());
   EXPECT_EQ(key.size(), 16u);
-  EXPECT_EQ(keyWith({{"bodies.0.mass", 0.43}}), key);  // as it is anyway
+  EXPECT_EQ(keyWith({{"bodies.0.mass", 0.43}}), key);  // equals the default
   EXPECT_EQ(keyWith({{"description", "a ball"}, {"threads", 3}}), key);
   EXPECT_EQ(keyWith({{"bodies.0.position", {0.0, 0.0, 1.0}}}), key);
   EXPECT_NE(keyWith({{"bodies.0.mass", 0.44}}), key);

@@ -19,7 +19,7 @@ CaseSettings settingsOf(const fs::path& cases, const fs::path& out, Shard shard 
   return settings;
 }
 
-/// Contents of all files of results but the time that a run took, by their paths.
+/// Contents of all result files by path, without run times.
 std::map<std::string, std::string> resultsIn(const fs::path& out) {
   std::map<std::string, std::string> results;
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
@@ -60,7 +60,7 @@ TEST(CaseRuns, WhatIsDoneIsNotRunAgain) {
   const TemporaryFolder folder;
   const fs::path cases = writeMasses(folder, {0.1, 0.2, 0.2});
   EXPECT_EQ(runCases(settingsOf(cases, folder / "out")).done_before, 0);
-  // Equal cases have one result.
+  // Equal cases share one result.
   EXPECT_EQ(resultsIn(folder / "out").size(), 2u * 3);
   CaseSettings again = settingsOf(cases, folder / "out");
   int runs = -1;
@@ -157,7 +157,7 @@ TEST(CaseTable, HasTheOrderOfTheFileAndTheOverrides) {
   EXPECT_EQ(std::get<double>(table.rows[1][5]), 1);
   EXPECT_EQ(std::get<std::string>(table.rows[1][3]), "vacuum");
   EXPECT_TRUE(std::isnan(std::get<double>(table.rows[0][3])));
-  // In a vacuum nothing slows it: x = 30 t.
+  // Vacuum: constant velocity, x = 30 t.
   EXPECT_NEAR(std::get<double>(table.rows[1][7]), 3, 1e-12);
 }
 

@@ -20,7 +20,7 @@ TEST(ResultTable, HasAPlaceForEveryColumnOfASummary) {
   ASSERT_EQ(rows[0].size(), columns.size());
   std::map<std::string, TableCell> row;
   for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = rows[0][i];
-  EXPECT_EQ(row.size(), columns.size());  // no name twice
+  EXPECT_EQ(row.size(), columns.size());  // names are unique
   EXPECT_EQ(row["body"], TableCell("plate"));
   EXPECT_EQ(row["end_position_z"], TableCell(3.0));
   EXPECT_EQ(row["end_angular_velocity_x"], TableCell(7.0));

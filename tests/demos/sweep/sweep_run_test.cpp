@@ -2,7 +2,7 @@
 
 #include <mutex>
 
-#include "demos/simulation/trajectory_text.h"
+#include "demos/simulation/output/trajectory_text.h"
 #include "demos/sweep/sweep.h"
 #include "tests/demos/sweep/ball_cases.h"
 #include "tests/support/no_more_threads.h"
@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Balls of several masses; the one of mass `bad` leaves what numbers can hold.
+/// Scenes of balls with several masses; ball `bad` overflows during its flight.
 std::vector<Scene> balls(int count, int bad = -1) {
   std::vector<Scene> scenes;
   for (int i = 0; i < count; ++i) {
@@ -93,7 +93,7 @@ TEST(Sweep, TellsHowManyHaveEnded) {
 TEST(Sweep, StopsWithinAStepWhenTold) {
   std::vector<Scene> scenes = balls(4);
   for (Scene& scene : scenes) {
-    scene.duration = 1e9;  // for ever
+    scene.duration = 1e9;  // endless run
     scene.output_step = 1e9;
   }
   SweepSettings settings;

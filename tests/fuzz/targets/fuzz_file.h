@@ -11,12 +11,12 @@
 
 namespace ambient::test {
 
-/// The bytes as they are handed to a fuzzer.
+/// View of a fuzzer's bytes as text.
 inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Calls a reader; what it refuses in the way that is promised is no finding.
+/// Calls a reader; a std::runtime_error of one line is a refusal, not a finding.
 template <class Reader>
 void mayRefuse(const Reader& reader) {
   try {
@@ -29,7 +29,7 @@ void mayRefuse(const Reader& reader) {
   }
 }
 
-/// A file for readers that take no bytes, the same at every call; gone at the end of the program.
+/// A file for readers of files; one name per process, deleted at exit.
 class FuzzFile {
  public:
   explicit FuzzFile(const std::string& extension)

@@ -1,12 +1,12 @@
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/fluid_body_file_header.h"
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file_header.h"
 #include "tests/fuzz/targets/fuzz_file.h"
 
 namespace ambient::test {
 namespace {
 
-// What is accepted can be written, and comes back the same.
+// Reads; an accepted body must survive writing and reading unchanged.
 void readAndWrite(std::string_view bytes) {
   mayRefuse([&] {
     const FluidBody body = decodeFluidBody(bytes, "fuzz");
@@ -17,7 +17,7 @@ void readAndWrite(std::string_view bytes) {
   });
 }
 
-// Behind a header that fits, for the checksum keeps nearly every mutation out.
+// Adds a header with a valid checksum, which nearly every mutation would fail.
 void readAsPayload(std::string_view bytes) {
   if (bytes.size() < kFileHeaderSize) return;
   const std::string_view payload = bytes.substr(kFileHeaderSize);

@@ -1,8 +1,8 @@
 #include <array>
 #include <memory>
 
-#include "preprocess/mesh/mesh_checks.h"
-#include "preprocess/mesh/mesh_import.h"
+#include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/import/mesh_import.h"
 #include "tests/fuzz/targets/fuzz_file.h"
 
 namespace ambient::test {

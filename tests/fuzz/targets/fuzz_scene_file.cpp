@@ -4,7 +4,7 @@
 namespace ambient::test {
 namespace {
 
-// A first line "PATH=VALUE" stands for --set, as far as it is one.
+// Reads a scene; a first line "PATH=VALUE" becomes an argument of --set.
 void readWithOverride(std::string_view bytes) {
   static FuzzFile file(".json");
   const std::string_view line = bytes.substr(0, bytes.find('\n'));

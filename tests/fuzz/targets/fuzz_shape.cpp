@@ -8,7 +8,7 @@
 namespace ambient::test {
 namespace {
 
-// Finer meshes are made by the same code and take long.
+// Limit of faces: finer meshes run the same code and take long.
 constexpr int kMostFaces = 500;
 
 void readAndMesh(std::string_view bytes) {

@@ -5,7 +5,7 @@
 namespace ambient::test {
 namespace {
 
-// A robot that can move stays one when fixed joints go.
+// Merges fixed joints; a valid robot must stay valid.
 void readAndMerge(std::string_view text) {
   mayRefuse([&] {
     const RobotModel model = parseUrdf(std::string(text), "fuzz.urdf");

@@ -1,7 +1,7 @@
 #include <memory>
 
-#include "bullet_ambient/bullet/world_state.h"
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/bullet/state/world_state.h"
 #include "tests/fuzz/targets/fuzz_file.h"
 #include "tests/fuzz/targets/seed_bodies.h"
 
@@ -16,7 +16,7 @@ std::shared_ptr<const FluidBody> find(const std::string& name) {
   return name == body->name ? body : nullptr;
 }
 
-// What is accepted comes back byte for byte.
+// Reads; an accepted state must encode to the same bytes.
 void readAndWrite(const std::string& bytes) {
   mayRefuse([&] {
     if (encodeState(decodeState(bytes, "fuzz", find)) != bytes) {
@@ -25,7 +25,7 @@ void readAndWrite(const std::string& bytes) {
   });
 }
 
-// With a checksum that fits, for it keeps nearly every mutation out.
+// Corrects the checksum, which nearly every mutation would fail.
 void readAsPayload(std::string bytes) {
   if (bytes.size() < kHeaderSize) return;
   const std::uint64_t checksum = fnv1a64(std::string_view(bytes).substr(kHeaderSize));

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "bullet_ambient/bullet/world_state.h"
+#include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
 
 namespace ambient::test {
 
-/// A small fluid body with something in every field; what it describes exists nowhere.
+/// A small fluid body with something in every field; no real body has these values.
 inline FluidBody seedFluidBody() {
   FluidBody body;
   body.name = "seed";
@@ -28,7 +28,7 @@ inline MultiBodyState seedMultiBody(const AmbientState& ambient) {
   body.links.resize(2);
   for (MultiBodyLinkState& link : body.links) link.mass = 1;
   body.links[1].collider.emplace();
-  body.fluids.push_back({0, Vector3::UnitX(), ambient});
+  body.fluids.push_back({0, ambient});
   body.fluids[0].ambient.met_B = SurfacePlane{};
   return body;
 }

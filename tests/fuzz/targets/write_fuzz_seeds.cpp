@@ -4,12 +4,12 @@
 #include <fstream>
 #include <string>
 
-#include "bullet_ambient/bullet/world_state.h"
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "tests/fuzz/targets/seed_bodies.h"
 
-// write_fuzz_seeds DIR: what the fuzzers begin with, a folder DIR/<fuzzer> for each. Texts are here
-// in full; .ci/check_fuzz adds scenes of data/.
+// write_fuzz_seeds DIR: writes the fuzzers' first inputs, a folder DIR/<fuzzer> for each. Texts are
+// in this file; .ci/check_fuzz adds scenes of data/.
 namespace ambient::test {
 namespace {
 
@@ -47,7 +47,7 @@ std::string objText() {
   return text;
 }
 
-// The rest of an OFF and of a PLY file is the same.
+// Vertex and face lines, common to OFF and PLY files.
 std::string listText() {
   std::string text;
   for (int v = 0; v < 4; ++v) text += cornerText(v).substr(1) + "\n";
@@ -92,7 +92,7 @@ std::string gltfBuffer() {
   return bytes;
 }
 
-// `uri` of the buffer; empty inside a .glb file.
+// Text of a glTF file; `uri` of the buffer: empty inside a .glb file.
 std::string gltfText(const std::string& uri) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
          R"("meshes":[{"primitives":[{"attributes":{"POSITION":1},"indices":0}]}],)"
@@ -129,7 +129,7 @@ std::string glbBytes() {
   return bytes;
 }
 
-// The first byte is the number of the format, as in fuzz_mesh.cpp.
+// Writes one mesh per format; the first byte is the format's number in fuzz_mesh.cpp.
 void writeMeshes(const fs::path& folder) {
   write(folder / "obj", '\0' + objText());
   write(folder / "stl", '\1' + stlText());

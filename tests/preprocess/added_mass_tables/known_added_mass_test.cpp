@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/added_mass_tables/table_places.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/sheet_added_mass.h"
@@ -22,7 +22,7 @@ Matrix6 matrixOf(const reference::RevolutionAddedMass& K) {
   return RevolutionInertia{K.v_z, K.v_x, K.w_y, K.coupling}.matrix();
 }
 
-/// Relative to the largest entry of each block; docs/accuracy.md says what to expect.
+/// Compares relative to the largest entry of each block; tolerances from docs/accuracy.md.
 void expectClose(const Matrix6& K, const Matrix6& exact, double tolerance = 3e-3) {
   for (const int block : {0, 3}) {
     const Matrix3 expected = exact.block<3, 3>(block, block);
@@ -44,8 +44,8 @@ TEST(KnownAddedMass, RoundBodies) {
   expectClose(*capsuleAddedMass(1, 2), matrixOf(reference::capsuleAddedMass()), 2e-4);
 }
 
-// What a thickness t adds is about linear, with a logarithm: 2 K(t) - K(2t) leaves up to 1.6 t over
-// the width.
+// Added mass grows about linearly with the thickness t, with a logarithm: 2 K(t) - K(2t) has an
+// error up to 1.6 t over the width.
 TEST(KnownAddedMass, ThinPlatesAreSheets) {
   const auto plate = [](double length) {
     return [length](double t) { return boxOf(length / 2, 0.5, t / 2).diagonal().eval(); };
@@ -61,8 +61,8 @@ TEST(KnownAddedMass, ThinPlatesAreSheets) {
   }
 }
 
-// In plane flow, a square of side 1 has 2 pi c^2 - 1, with its conformal radius c by Schwarz and
-// Christoffel's map; a circle its area. In the difference of two rods the ends do not count.
+// Plane flow: 2 pi c^2 - 1 for a square of side 1, c its conformal radius (Schwarz-Christoffel); a
+// circle has its area. The difference between two rods eliminates the ends.
 TEST(KnownAddedMass, LongRodsHaveTheAddedMassOfTheirSection) {
   const double c = std::pow(std::tgamma(0.25), 2) / (4 * std::pow(kPi, 1.5));
   const double square = (boxOf(100, 1, 1)(4, 4) - boxOf(60, 1, 1)(4, 4)) / 80;
@@ -98,7 +98,7 @@ TEST(KnownAddedMass, WhatSymmetryForbidsIsZero) {
   EXPECT_EQ(cone(1, 3), -cone(0, 4));
   EXPECT_EQ(cone(0, 0), cone(1, 1));
   EXPECT_EQ(cone(3, 3), cone(4, 4));
-  // Its wide end, below, carries more: pushed in x at the centre, it lags behind there.
+  // The wide lower end carries more: under a push along x at the centre, this end lags behind.
   EXPECT_LT(cone(1, 3), 0);
   EXPECT_EQ(cone.row(2), cone.row(2) * 0);
   cone(1, 3) = cone(3, 1) = cone(0, 4) = cone(4, 0) = 0;
@@ -124,7 +124,7 @@ TEST(KnownAddedMass, EndsWhereTheTablesEnd) {
   EXPECT_FALSE(coneAddedMass(1, 200.01) || coneAddedMass(1, 0.0199) || coneAddedMass(1, 2, 6.1));
 }
 
-// A ball has V/2 in translation and nothing in rotation: Lamb, art. 92.
+// Ball: V/2 in translation and 0 in rotation: Lamb, art. 92.
 TEST(KnownAddedMass, ShortCapsulesAreBalls) {
   const Vector6 K = capsuleAddedMass(1, 1e-3)->diagonal();
   for (int k = 3; k < 6; ++k) EXPECT_NEAR(K[k] / (2 * kPi / 3), 1, 2e-3);
@@ -149,8 +149,8 @@ TEST(KnownAddedMass, IsPositiveAllOverTheTables) {
   }
 }
 
-/// Half sizes of a box, or radius, height and rounding; the diagonal of a box, of others v_z, v_x,
-/// w_y and the coupling. By preprocess/table_generator's solvers, which other tests check.
+/// Sizes: half sizes of a box; else radius, height and rounding. Added mass: diagonal of a box;
+/// else v_z, v_x, w_y and the coupling. Solved by tests/preprocess/table_generator.
 struct SolvedShape {
   Vector3 sizes;
   std::array<double, 6> entries;

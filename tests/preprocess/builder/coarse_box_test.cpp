@@ -2,15 +2,15 @@
 
 #include <cmath>
 
-#include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/reference/body_added_mass.h"
 
 namespace ambient {
 namespace {
 
-/// A box of 12 triangles, two per side, as any modelling program makes it.
+/// A box of 12 triangles, two per side, the usual mesh of modelling programs.
 TriangleMesh plainBox(const Eigen::Vector3d& half_sizes) { return makeBoxMesh(half_sizes, 12); }
 
 Vector6 diagonalOf(const FluidBody& body) { return body.added_mass.diagonal(); }
@@ -21,14 +21,14 @@ double blockError(const Vector6& value, const Vector6& reference, int first) {
          reference.segment<3>(first).maxCoeff();
 }
 
-/// Largest entry off the diagonal, over the largest of its block; lengths in half sizes.
+/// Largest off-diagonal entry over the largest of its block; lengths in half sizes.
 double couplingOf(const Matrix6& K) {
   Matrix6 off = K;
   off.diagonal().setZero();
   return off.cwiseAbs().maxCoeff() / K.cwiseAbs().maxCoeff();
 }
 
-/// What the default settings make of a plain box, against the diagonal of the added mass.
+/// Compares the diagonal of a plain box's added mass at default settings with `reference`.
 void expectBox(const Eigen::Vector3d& half_sizes, const Vector6& reference, double rotation,
                double translation, double coupling = 1e-4) {
   const FluidBody body = makeFluidBody(plainBox(half_sizes), {});
@@ -54,8 +54,8 @@ TEST(CoarseBox, HalfCubeIsRightAtDefaultSettings) {
   expectBox({1, 1, 0.5}, reference, 8e-3, 2e-3);
 }
 
-// The references of the 1:20 boxes are extrapolated (order 2.6) from edge-graded meshes of about
-// 1900 and 7500 triangles, every triangle a panel; uncertainty 1e-3.
+// References for the 1:20 boxes: extrapolated (order 2.6) from edge-graded meshes of about 1900 and
+// 7500 triangles, each a panel; uncertainty 1e-3.
 TEST(CoarseBox, SquarePlateOneToTwentyIsRightAtDefaultSettings) {
   Vector6 reference;
   reference << 0.71769, 0.71769, 0.015407, 0.033299, 0.033299, 4.00323;
@@ -65,7 +65,7 @@ TEST(CoarseBox, SquarePlateOneToTwentyIsRightAtDefaultSettings) {
 TEST(CoarseBox, SquareRodOneToTwentyIsRightAtDefaultSettings) {
   Vector6 reference;
   reference << 9.022e-6, 0.0070706, 0.0070706, 0.00071851, 0.022873, 0.022873;
-  // The pattern of the long thin triangles is not symmetric; measured 1.6e-4 off the diagonal.
+  // Long thin triangles break the symmetry; measured 1.6e-4 off the diagonal.
   expectBox({1, 0.05, 0.05}, reference, 6e-3, 4e-3, 2e-4);
 }
 
@@ -76,8 +76,8 @@ TEST(CoarseBox, WithoutMorePanelsItIsWrongByTensOfPercent) {
   EXPECT_GT(std::abs(K[3] / (8 * reference::cubeAddedMassCoefficient()) - 1), 0.1);
 }
 
-// Each of the four sides that a spinning cube drives ahead is half windward: int x^3 over half a
-// side, 4 x 2 x 1/4.
+// Half of each of the four moving sides of a spinning cube is windward: int x^3 over half a side, 4
+// x 2 x 1/4.
 TEST(CoarseBox, SpinIsDampedRightOnceTheFacesAreDivided) {
   const auto dampingOf = [](int least_faces) -> Vector6 {
     BuildSettings settings;

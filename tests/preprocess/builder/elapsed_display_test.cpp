@@ -10,7 +10,7 @@
 namespace ambient {
 namespace {
 
-/// What a display writes to standard error, which is no terminal while it is captured.
+/// Captures the display's output on standard error, which is then not a terminal.
 std::string shown(const std::function<void(ElapsedDisplay&)>& work, bool quiet = false) {
   ::testing::internal::CaptureStderr();
   {

@@ -8,13 +8,13 @@
 
 namespace ambient::test {
 
-/// A free decay: its first extremes over the start, and its period [s].
+/// First extremes of a free decay over the initial value, and the period [s].
 struct Swing {
   double extremes[4];
   double period;
 };
 
-/// Of a value over the start, with steps of 1/240 s.
+/// Swing of a value over its initial value, in steps of 1/240 s.
 template <class Value>
 Swing swingOf(FloatingRun& run, double time, const Value& value) {
   constexpr double kStep = 1 / 240.0;
@@ -38,7 +38,7 @@ inline void expectSwing(const Swing& swing, const Swing& theory, double period_e
       << swing.period / theory.period;
 }
 
-/// Gyration 0.4 of the widths B_i = sqrt(12 I_i / A_w), centre of mass in the waterline.
+/// Gyration of 0.4 of the widths B_i = sqrt(12 I_i / A_w), centre of mass in the waterline.
 inline FloatingDef floatingDef(const FluidBody& body, double length, double breadth) {
   FloatingDef def;
   def.shape = body;

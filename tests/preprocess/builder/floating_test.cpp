@@ -24,7 +24,7 @@ FluidBody bodyOf(const std::string& shape) {
 FluidBody barge() { return bodyOf(R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})"); }
 FluidBody cube() { return bodyOf(R"({"type": "box", "size": [1, 1, 1], "faces": 300})"); }
 
-/// Added mass of a body half in the water, its z axis up.
+/// Added mass of a half-submerged body, z axis up.
 Matrix6 halfSubmerged(const FluidBody& body) {
   FloatingDef def;
   def.shape = body;
@@ -33,7 +33,7 @@ Matrix6 halfSubmerged(const FluidBody& body) {
 }
 
 TEST(Floating, AddedMassIsThatOfImageBoundaryElementsAndItsKnownError) {
-  // Heave and surge at infinite frequency by Capytaine 3.0, and the error that eq. (60) has of
+  // Heave and surge at infinite frequency by Capytaine 3.0, and the error of eq. (60) relative to
   // them.
   struct Case {
     const char* shape;
@@ -50,7 +50,7 @@ TEST(Floating, AddedMassIsThatOfImageBoundaryElementsAndItsKnownError) {
     const Matrix6 K = halfSubmerged(body);
     EXPECT_NEAR(K(5, 5), (1 + c.heave_error) * c.heave, 0.03 * c.heave) << c.shape;
     EXPECT_NEAR(K(3, 3), (1 + c.surge_error) * c.surge, 0.03 * c.surge) << c.shape;
-    // Without the weights it would be half of that of the body in unbounded water.
+    // Without weights K would be half of the unbounded body's.
     EXPECT_NEAR(K(5, 5) / (0.5 * body.added_mass(5, 5)), 0.88, 0.05);
   }
 }

@@ -5,13 +5,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/fnv1a.h"
+#include "bullet_ambient/base/fnv1a.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/builder/shape_builder.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/ellipsoid_added_mass.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/preprocess/mesh/mesh_files.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
@@ -21,7 +21,7 @@
 namespace ambient {
 namespace {
 
-// Lengths in units of the body, so that all entries of K are comparable.
+// Relative error with lengths in units of the body: all entries of K are comparable.
 double relativeError(const Matrix6& a, const Matrix6& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
@@ -49,7 +49,7 @@ TEST(FluidBodyBuilder, OriginIsTheCentreOfVolumeByDefault) {
   const FluidBody body = build(moved(cone(), far));
   EXPECT_EQ(body.centre_of_volume, Vector3::Zero());
   EXPECT_EQ(body.uniform_mass.centre, Vector3::Zero());
-  // A quarter of the height above the base at -0.6, but for the facets.
+  // Centre of volume: a quarter of the height above the base at -0.6, up to the facets.
   EXPECT_NEAR(body.origin.z(), 5 - 0.6 + 0.3, 2e-3);
   const Vector3 apex = far + Vector3(0, 0, 0.6) - body.origin;
   EXPECT_LT(
@@ -75,7 +75,7 @@ TEST(FluidBodyBuilder, AnotherOriginShiftsEverything) {
 TEST(FluidBodyBuilder, PlaceOfTheMeshDoesNotMatter) {
   const FluidBody here = build(cone());
   const FluidBody there = build(moved(cone(), {100, -200, 300}));
-  // The coordinates keep 1e-14 of their own size.
+  // Coordinates keep 1e-14 of their own size.
   EXPECT_LT(relativeError(there.added_mass, here.added_mass), 1e-10);
   EXPECT_LT((there.origin - here.origin - Vector3(100, -200, 300)).norm(), 1e-12);
 }
@@ -110,7 +110,7 @@ TEST(FluidBodyBuilder, TwoTrianglesAreASheet) {
   // Measured 6e-4 and 3e-4.
   EXPECT_NEAR(sheet.added_mass(0, 0) / exact.w_x, 1, 1e-3);
   EXPECT_NEAR(sheet.added_mass(5, 5) / exact.v_z, 1, 5e-4);
-  settings.flow.max_panels = 32;  // the coarser division has no vertex inside
+  settings.flow.max_panels = 32;  // coarser: no interior vertex
   EXPECT_NEAR(makeFluidBody(square, settings).added_mass(5, 5) / exact.v_z, 1, 0.2);
   settings.flow.max_panels = 0;
   EXPECT_EQ(messageOf([&] { makeFluidBody(square, settings); }),
@@ -131,7 +131,7 @@ TEST(FluidBodyBuilder, SheetsHaveTwoSidesAndNoVolume) {
   EXPECT_EQ(sheet.faces.normal(0), Vector3(0, 0, 1));
   EXPECT_EQ(sheet.faces.normal(count), Vector3(0, 0, -1));
   EXPECT_EQ(sheet.faces.centroid(count + 5), sheet.faces.centroid(5));
-  // No motion within its plane moves any fluid.
+  // Motions within the sheet's plane move no fluid.
   EXPECT_LT(sheet.added_mass.block(2, 2, 3, 3).norm(), 1e-14 * sheet.added_mass(5, 5));
 }
 
@@ -192,7 +192,7 @@ TEST(ShapeBuilder, EllipsoidsHaveTheirClosedFormWhereverTheOriginIs) {
   checkFluidBody(body, "ellipsoid");
 }
 
-// The fluid outside does not see a cavity; the uniform mass does.
+// A cavity does not change the flow outside, only the uniform mass.
 TEST(FluidBodyBuilder, CavitiesMatterToTheUniformMassOnly) {
   const TriangleMesh outside = makeBoxMesh({1, 2, 3}, 200);
   const TriangleMesh hole = moved(makeBoxMesh({0.5, 0.5, 0.5}, 48), {0.2, 0, 0});
@@ -205,7 +205,7 @@ TEST(FluidBodyBuilder, CavitiesMatterToTheUniformMassOnly) {
   EXPECT_EQ(hollow.faces.size(), solid.faces.size());
   EXPECT_EQ(hollow.centre_of_volume, solid.centre_of_volume);
   EXPECT_EQ(hollow.surface_mass.inertia, solid.surface_mass.inertia);
-  // 48 less 1 at 0.2 along x.
+  // Mass 48, less 1 at 0.2 along x.
   EXPECT_NEAR(hollow.uniform_mass.centre.x(), -0.2 / 47, 1e-12);
   const double inertia = (48 * (4 + 9) / 3.0 - (0.25 + 0.25) / 3) / 47;
   EXPECT_NEAR(hollow.uniform_mass.inertia(0, 0), inertia, 1e-12);
@@ -243,7 +243,7 @@ TEST(ShapeBuilder, ProvenanceNamesTheFileAndHashesItsBytes) {
   const std::string text = objText(cone());
   writeText(folder / "c.obj", text);
   ShapeDescription shape;
-  shape.geometry = MeshShape{folder / "c.obj", 1};
+  shape.geometry = MeshFile{folder / "c.obj", 1};
   shape.source = "c.obj";
   ShapeBuildSettings settings;
   settings.name = "c";
@@ -270,7 +270,7 @@ TEST(ShapeBuilder, CoarseMeshesAreWarnedAbout) {
 TEST(ShapeBuilder, SkinnyTrianglesOfFilesAreWarnedAbout) {
   const TemporaryFolder folder;
   ShapeDescription shape;
-  shape.geometry = MeshShape{folder.path() / "box.obj"};
+  shape.geometry = MeshFile{folder.path() / "box.obj"};
   shape.source = "box.obj";
   ShapeBuildSettings settings;
   settings.flow.max_panels = 0;
@@ -289,7 +289,7 @@ TEST(ShapeBuilder, FluidBodiesAreReadAsTheyAre) {
   const FluidBody body = build(cone());
   writeFluidBody(body, folder / "c.ambient");
   ShapeDescription shape;
-  shape.geometry = FluidBodyShape{folder / "c.ambient"};
+  shape.geometry = FluidBodyFile{folder / "c.ambient"};
   EXPECT_EQ(encodeFluidBody(buildShape(shape, {}).body, "read"), encodeFluidBody(body, "built"));
   ShapeBuildSettings settings;
   settings.scale = 2;

@@ -1,5 +1,5 @@
-// Closed forms of the form law, docs/theory.md section 11, on bodies as the preprocessor makes
-// them.
+// Closed forms of the form law, docs/theory.md section 11, on bodies made by the
+// preprocessor.
 
 #include <gtest/gtest.h>
 
@@ -7,20 +7,21 @@
 #include <memory>
 #include <random>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/force/load_tables.h"
-#include "bullet_ambient/force/surface_loads.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/force/loads/load_tables.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 
 namespace ambient {
 namespace {
 
 constexpr double kBroadside = 1.17;  // c
 
-/// Drag coefficient of a rectangle broadside, by its aspect ratio: 1.98 of one without end.
+/// Drag coefficient of a rectangle broadside by aspect ratio; infinite: 1.98.
 double broadsideOf(double aspect) {
   const double x = aspect + 1 / aspect - 2;
   return kBroadside + (1.98 - kBroadside) * x / (x + 40);
@@ -56,7 +57,7 @@ Wrench loadInTranslation(const FluidBody& body, const Vector3& velocity) {
   return loadOn(body, {Vector3::Zero(), velocity});
 }
 
-/// C_D on a frontal area.
+/// Drag coefficient C_D on the frontal area `area`.
 double dragCoefficient(const FluidBody& body, const Vector3& velocity, double area) {
   return -loadInTranslation(body, velocity).force.dot(velocity.normalized()) /
          (0.5 * velocity.squaredNorm() * area);
@@ -108,7 +109,7 @@ TEST(FormLaw, PressesAPlateAtIncidenceAtItsCentroid) {
   }
 }
 
-/// The same on the triangles themselves.
+/// Pressure on the triangles themselves, without Gauss points or levels.
 Wrench pressureOnTriangles(const FluidBody& body, const Twist& x) {
   return computeFaceLoads(body.faces, 1, x, {1, 0, 0, false, PressureLaw::kForm}).pressure;
 }
@@ -133,7 +134,7 @@ TEST(FormLaw, BrakesACubeThatSpins) {
 }
 
 TEST(FormLaw, KeepsTheDragOfARoundBody) {
-  // A mesh of a sphere that does not say that it is one.
+  // Mesh of a sphere with sphere_radius 0.
   const FluidBody coarse = bodyOf(makeEllipsoidMesh({1, 1, 1}, 320));
   const FluidBody fine = bodyOf(makeEllipsoidMesh({1, 1, 1}, 5120));
   const double coarse_drag = dragCoefficient(coarse, {0.6, 0, 0.8}, kPi);
@@ -148,7 +149,7 @@ TEST(FormLaw, LiftsASpinningRoundBody) {
   const double spin = 0.3;
   const Wrench load = loadOn(ball, {{0, 0, spin}, {1, 0, 0}});
   EXPECT_NEAR(load.force.y() / (0.5 * kPi), 4.0 / 3 * spin, 2e-3);  // along w x v
-  EXPECT_NEAR(load.force.x() / (0.5 * kPi), -0.5, 2e-3);            // no S^2
+  EXPECT_NEAR(load.force.x() / (0.5 * kPi), -0.5, 2e-3);            // without S^2
   EXPECT_NEAR(load.torque.norm(), 0, 2e-3);
 }
 
@@ -168,22 +169,24 @@ TEST(FormLaw, LiftsAPlateThatTurnsByItsAddedMass) {
   const Twist turning{{0, 1, 0}, {0, 0, 1}};
   const Wrench load = loadOn(disc(), turning);
   const Wrench still = loadOn(disc(), {{0, 1, 0}, {0, 0, -1}});
-  // B w x v = 8/3 (1, 0, 0); the stall takes D v x w = -8/3 (1, 0, 0) times its share, even in v.
+  // B w x v = 8/3 (1, 0, 0). Stall removes a share of D v x w = -8/3 (1, 0, 0), even in v.
   EXPECT_NEAR(load.force.x(), -still.force.x(), 1e-9);
   EXPECT_GT(load.force.x(), 0);
 }
 
-/// The moment of a disc of radius 1 in a unit fluid at 30 degrees, about its centre; stall_lag.
+/// Stall moment on a disc of radius 1 at 30 degrees, unit fluid, about its centre; has stall_lag. A
+/// block, as thick as it is wide.
 Wrench discAtThirty(double spin) {
   const Twist x{{0, spin, 0}, {std::cos(kPi / 6), 0, std::sin(kPi / 6)}};
-  const FluidBody body = disc(20000);
+  FluidBody body = disc(20000);
+  body.volume = 8.0 / 3;
   FluidBody faces_alone = body;
   faces_alone.added_mass.setZero();
   return loadOn(body, x) + -1.0 * loadOn(faces_alone, x);
 }
 
 TEST(FormLaw, TakesTheSeparatedShareOfMunksMoment) {
-  // Moments about y. Munk's own, of K x, is in Kirchhoff's equations: here is what is lost of it.
+  // Moments about y. Kirchhoff's equations contain Munk's moment of K x; loads contain its loss.
   const double munk = 8.0 / 3 * std::cos(kPi / 6) * std::sin(kPi / 6);
   EXPECT_NEAR(munk, 1.15470, 1e-5);
   const double lost = std::abs(discAtThirty(0).torque.y());
@@ -191,6 +194,22 @@ TEST(FormLaw, TakesTheSeparatedShareOfMunksMoment) {
   EXPECT_NEAR(discAtThirty(0).force.norm(), 0, 1e-12);
   EXPECT_NEAR(discAtThirty(-1).torque.y(), -1.15163, 2e-3);
   EXPECT_NEAR(munk - std::abs(discAtThirty(1).torque.y()), 0.99698 * munk, 2e-3);
+}
+
+TEST(FormLaw, LeavesAWingOfMunksMomentWhatPutsTheLiftAtAQuarterOfTheChord) {
+  // (47a) and (49a) of a disc of radius 1: L = 1, c_w = sqrt(3), l = 8 (8/3)/(pi 2 pi).
+  const double slope = 2 * kPi / (2 + std::sqrt(5.0));
+  const double length = 8 * (8.0 / 3) / (2 * kPi * kPi);
+  const double f_0 = slope * std::sqrt(3.0) / (2 * kPi * length);
+  EXPECT_NEAR(f_0, 0.378, 1e-3);
+  const FluidBody wing = disc(20000);
+  for (const double degrees : {1.0, 10.0, 30.0, 60.0}) {
+    const double i = degrees * kPi / 180, sine = std::sin(i), cosine = std::cos(i);
+    const Twist x{Vector3::Zero(), {cosine, 0, sine}};
+    const double r = sine * sine / 0.5;
+    const double lost = 1 - f_0 / (1 + r * r);
+    EXPECT_NEAR(loadOn(wing, x).torque.y(), -lost * 8.0 / 3 * sine * cosine, 1e-3) << degrees;
+  }
 }
 
 TEST(FormLaw, HasNoStallWhereTheAddedMassHasNoDirection) {
@@ -289,7 +308,7 @@ TEST(MeasuredDrag, TakesEnergyInEveryMotion) {
   for (int i = 0; i < 10000; ++i) {
     const Twist x{vector(), vector()};
     EXPECT_LT(power(loads->load(x), x), 0);
-    const Twist twice{2 * x.angular, 2 * x.linear};  // of degree 2
+    const Twist twice{2 * x.angular, 2 * x.linear};  // degree 2
     EXPECT_LE((loads->load(twice).vector() - 4 * loads->load(x).vector()).norm(),
               1e-12 * loads->load(twice).vector().norm());
   }
@@ -307,7 +326,7 @@ TEST(MeasuredDrag, IsRefusedIfNotPositive) {
 
 TEST(FormLawFaces, OfABoxAreGaussPoints) {
   const FluidBody box = bodyOf(makeBoxMesh({0.5, 0.25, 0.125}, 1200));
-  const FaceTable faces = formLawFaces(box);
+  const FaceTable faces = formLawFaces(box, {});
   EXPECT_EQ(faces.size(), 6 * 16u);
   double area = 0;
   Vector3 closed = Vector3::Zero();
@@ -323,21 +342,21 @@ TEST(FormLawFaces, OfABoxAreGaussPoints) {
 
 TEST(FormLawFaces, OfASphereAreItsTriangles) {
   const FluidBody ball = bodyOf(makeEllipsoidMesh({1, 1, 1}, 320));
-  EXPECT_EQ(formLawFaces(ball).size(), ball.faces.size());
+  EXPECT_EQ(formLawFaces(ball, {}).size(), ball.faces.size());
 }
 
 TEST(FormLawFaces, AreTheSameForFilesWithoutSharpness) {
   FluidBody old = bodyOf(makeConeMesh(1, 2, 400));
-  const FaceTable now = formLawFaces(old);
+  const FaceTable now = formLawFaces(old, {});
   old.faces.sharpness.clear();
-  EXPECT_EQ(formLawFaces(old).sharpness, now.sharpness);
+  EXPECT_EQ(formLawFaces(old, {}).sharpness, now.sharpness);
 }
 
 TEST(FormLawFaces, DoBetterThanTwiceAsManyTriangles) {
-  // The wrench on a box in random motions, against very fine triangles.
+  // Wrench on a box in random motions against the one on very fine triangles.
   const auto boxOf = [](int faces) { return bodyOf(makeBoxMesh({0.5, 0.25, 0.125}, faces)); };
   const FluidBody fine = boxOf(60000), coarse = boxOf(400);
-  FaceTable points = formLawFaces(fine);
+  FaceTable points = formLawFaces(fine, {});
   points.sharpness.assign(points.size(), 1);
   EXPECT_GE(coarse.faces.size(), 2 * points.size());
   std::mt19937 generator(3);

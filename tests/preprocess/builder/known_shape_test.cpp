@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
 #include "preprocess/builder/shape_builder.h"
@@ -34,16 +34,16 @@ TEST(KnownShape, SimpleShapesAreBuiltWithoutASolver) {
   ShapeBuildSettings settings = withoutMemory();
   settings.scale = 0.5;
   const auto built = [&](auto geometry) { return buildShape(describe(geometry), settings).body; };
-  EXPECT_EQ(built(BoxShape{{2, 3, 4}}).added_mass, boxAddedMass({1, 1.5, 2}).value());
-  EXPECT_EQ(built(CylinderShape{2, 6}).added_mass, cylinderAddedMass(1, 3).value());
-  EXPECT_EQ(built(CapsuleShape{2, 6}).added_mass, capsuleAddedMass(1, 3).value());
-  const FluidBody cone = built(ConeShape{2, 6});
+  EXPECT_EQ(built(Box{{2, 3, 4}}).added_mass, boxAddedMass({1, 1.5, 2}).value());
+  EXPECT_EQ(built(Cylinder{2, 6}).added_mass, cylinderAddedMass(1, 3).value());
+  EXPECT_EQ(built(Capsule{2, 6}).added_mass, capsuleAddedMass(1, 3).value());
+  const FluidBody cone = built(Cone{2, 6});
   // About the centre of volume, a quarter of the height above the base.
   EXPECT_NEAR(cone.origin.z(), -0.75, 1e-3);
   EXPECT_EQ(cone.added_mass, shiftOrigin(*coneAddedMass(1, 3), cone.origin));
   EXPECT_EQ(cone.added_mass, cone.added_mass.transpose());
   EXPECT_EQ(cone.added_mass(0, 3), 0);
-  for (const FluidBody& body : {built(BoxShape{{2, 3, 4}}), cone}) {
+  for (const FluidBody& body : {built(Box{{2, 3, 4}}), cone}) {
     EXPECT_EQ(lastSetting(body.provenance), "added mass tables 1");
     checkFluidBody(body, "known");
   }
@@ -52,14 +52,14 @@ TEST(KnownShape, SimpleShapesAreBuiltWithoutASolver) {
 TEST(KnownShape, AnOriginShiftsTheAddedMass) {
   ShapeBuildSettings settings = withoutMemory();
   settings.origin = Vector3(0.3, -0.2, 0.1);
-  const FluidBody body = buildShape(describe(ConeShape{1, 3}), settings).body;
+  const FluidBody body = buildShape(describe(Cone{1, 3}), settings).body;
   EXPECT_EQ(body.added_mass, shiftOrigin(*coneAddedMass(1, 3), *settings.origin));
 }
 
 TEST(KnownShape, TheSolverGivesTheSame) {
   ShapeBuildSettings settings;
   settings.flow.max_panels = 2000;
-  const ShapeDescription box = describe(BoxShape{{1, 0.6, 0.3}});
+  const ShapeDescription box = describe(Box{{1, 0.6, 0.3}});
   const FluidBody known = buildShape(box, settings).body;
   settings.tables = false;
   const FluidBody solved = buildShape(box, settings).body;
@@ -72,22 +72,22 @@ TEST(KnownShape, TheSolverGivesTheSame) {
 }
 
 TEST(KnownShape, ProvenanceTellsTablesFromPanels) {
-  const ShapeDescription box = describe(BoxShape{{1, 2, 3}});
+  const ShapeDescription box = describe(Box{{1, 2, 3}});
   ShapeBuildSettings settings;
   EXPECT_EQ(lastSetting(describeShape(box, settings)), "added mass tables 1");
   EXPECT_EQ(describeShape(box, settings).settings,
             buildShape(box, settings).body.provenance.settings);
-  EXPECT_EQ(lastSetting(describeShape(describe(BoxShape{{1, 2, 0.019}}), settings)), "panels 4200");
+  EXPECT_EQ(lastSetting(describeShape(describe(Box{{1, 2, 0.019}}), settings)), "panels 4200");
   settings.flow.solver = FlowSolverKind::Dense;
   EXPECT_EQ(lastSetting(describeShape(box, settings)), "dense");
   settings.flow.solver = FlowSolverKind::Automatic;
   settings.tables = false;
   EXPECT_EQ(lastSetting(describeShape(box, settings)), "panels 4200");
-  EXPECT_EQ(lastSetting(describeShape(describe(SphereShape{1}), settings)), "closed form");
+  EXPECT_EQ(lastSetting(describeShape(describe(Sphere{1}), settings)), "closed form");
 }
 
 TEST(KnownShape, BeyondTheTablesTheSolverIsAsked) {
-  EXPECT_THROW(buildShape(describe(BoxShape{{1, 2, 0.019}}), withoutMemory()), std::runtime_error);
+  EXPECT_THROW(buildShape(describe(Box{{1, 2, 0.019}}), withoutMemory()), std::runtime_error);
 }
 
 }  // namespace

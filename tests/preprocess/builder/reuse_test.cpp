@@ -5,10 +5,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/builder/shape_builder.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/solver_revision.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/results/solver_revision.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/preprocess/mesh/mesh_files.h"
 #include "tests/support/temporary_folder.h"
@@ -88,7 +88,7 @@ TEST_F(Reuse, AnotherRevisionOfTheSolverIsNot) {
   generator.replace(at, revision.size(), "solver revision " + std::to_string(kSolverRevision - 1));
   writeFluidBody(body, file_);
   EXPECT_FALSE(isSame(shape(), quick()));
-  generator.erase(at - 2);  // as programs wrote it before there were revisions
+  generator.erase(at - 2);  // format before revisions existed
   writeFluidBody(body, file_);
   EXPECT_FALSE(isSame(shape(), quick()));
 }

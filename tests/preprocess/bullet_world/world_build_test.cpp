@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_files.h"
@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A Bullet world that is only filled and saved.
+/// A Bullet world, filled and saved without steps.
 class SavedWorld {
  public:
   btRigidBody& add(btCollisionShape& shape, btScalar mass, const char* name) {
@@ -107,7 +107,7 @@ TEST_F(WorldBuild, EveryShapeOfADynamicBodyGetsItsFile) {
   ASSERT_EQ(json::parse(result.output)["shapes"].size(), 3u) << result.output;
   EXPECT_EQ(shapeOf(result, "crate")["bodies"], json({"crate 1", "crate 2"}));
   EXPECT_EQ(shapeOf(result, "crate")["status"], "built");
-  // The importer hands the shape over in single precision.
+  // The importer passes shapes in single precision.
   EXPECT_NEAR(shapeOf(result, "crate")["size"][1].get<double>(), 0.5, 1e-6);
   EXPECT_NEAR(shapeOf(result, "crate")["size"][2].get<double>(), 2, 1e-6);
   EXPECT_NEAR(readFluidBody(path("out/crate.ambient")).volume, 1, 1e-6);
@@ -244,7 +244,7 @@ class DamagedWorld : public WorldBuild {
     good_ = readText(path("w.bullet"));
   }
 
-  // One line that names the file, after its name.
+  // Returns the refusal, one line, without the file's name in front.
   std::string refusal(const std::string& bytes) const {
     writeText(path("w.bullet"), bytes);
     const ProgramResult result = build();
@@ -263,7 +263,7 @@ class DamagedWorld : public WorldBuild {
   std::string good_;
 };
 
-// Header: 12 bytes. Head of a chunk: code, length, pointer of 8 bytes, structure, count.
+// Header: 12 bytes. Chunk head: code, length, pointer of 8 bytes, structure, count.
 TEST_F(DamagedWorld, IsRefusedBeforeBulletSeesIt) {
   ASSERT_EQ(build().exit_code, 0);
   const std::string all_ones(4, '\xff'), huge("\xff\xff\xff\x7f", 4);

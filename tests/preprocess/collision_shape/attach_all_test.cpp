@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
-#include "bullet_ambient/bullet/world_state.h"
+#include "bullet_ambient/bullet/state/world_state.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 
 namespace ambient {
 namespace {
 
-// A scene as programs have them: a floor, and crates and barrels with shapes of their own.
+// Typical scene: a floor, and crates and barrels, each with a shape of its own.
 class CrateScene {
  public:
   CrateScene() {
@@ -38,28 +38,28 @@ class CrateScene {
     shapes.push_back(std::move(shape));
   }
 
-  Fluid<> fluid;
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, nullptr, &configuration};
+  Fluid fluid{world};
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
   std::vector<std::unique_ptr<btRigidBody>> bodies;
 };
 
-// Two sizes of one kind of shape are two fluid bodies; another program finds both by their names.
+// Two sizes of one shape give two fluid bodies; their names identify them in another program.
 TEST(AttachAll, LeavesWorldsWhoseStateCanBeSaved) {
   CrateScene scene, other;
   FluidBodyCache shapes(test::coarse()), others(test::coarse());
-  scene.fluid.attachAll(scene.world, shapes, water());
-  other.fluid.attachAll(other.world, others, air());
+  scene.fluid.addAll(shapes, water());
+  other.fluid.addAll(others, air());
   scene.world.stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60);
-  const std::string bytes = encodeState(saveState(scene.world, scene.fluid.registry()));
+  const std::string bytes = encodeState(scene.fluid.save());
   const auto lookup = [&](const std::string& name) { return others.find(name); };
-  restoreState(decodeState(bytes, "state", lookup), other.world, other.fluid.registry());
+  other.fluid.restore(decodeState(bytes, "state", lookup));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     EXPECT_EQ(other.bodies[i]->getWorldTransform(), scene.bodies[i]->getWorldTransform());
-  EXPECT_EQ(other.fluid.registry().medium(*other.bodies[1]).density, water().density);
+  EXPECT_EQ(other.fluid.find(*other.bodies[1])->medium().density, water().density);
 }
 
 TEST(AttachAll, SaysWhatHasNoShape) {
@@ -71,7 +71,7 @@ TEST(AttachAll, SaysWhatHasNoShape) {
     if (&body == scene.bodies[2].get()) throw 42;
     return true;
   };
-  const AttachReport report = scene.fluid.attachAll(scene.world, shapes, water(), settings);
+  const AttachReport report = scene.fluid.addAll(shapes, water(), settings);
   EXPECT_EQ(report.attached, 6);
   ASSERT_EQ(report.refused.size(), 2u);
   EXPECT_EQ(report.refused[0].reason, "body 1: it has no collision shape");
@@ -82,14 +82,14 @@ TEST(AttachAll, SaysWhatHasNoShape) {
 TEST(AttachAll, PutsAWorldIntoWaterInOneCall) {
   CrateScene scene;
   FluidBodyCache shapes(test::coarse());
-  const AttachReport report = scene.fluid.attachAll(scene.world, shapes, water());
+  const AttachReport report = scene.fluid.addAll(shapes, water());
   EXPECT_EQ(report.attached, 8);
   EXPECT_EQ(report.fluid_bodies, 4);
   EXPECT_TRUE(report.refused.empty());
-  EXPECT_EQ(shapes.counts().made, 3);           // cubes of two sizes are one form
+  EXPECT_EQ(shapes.counts().made, 3);           // two sizes of cubes share one form
   const btRigidBody& crate = *scene.bodies[1];  // 1000 kg in 998 kg of water
   for (int i = 0; i < 60; ++i) scene.world.stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60);
-  // It sinks by (1 - 0.998) g / (1 + C) at most, where in air it would have hit the floor.
+  // Sinking at (1 - 0.998) g / (1 + C) at most; in air the crate would have hit the floor.
   EXPECT_GT(crate.getWorldTransform().getOrigin().z(), 4.9);
 }
 

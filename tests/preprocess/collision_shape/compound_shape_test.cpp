@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/pi.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -33,8 +33,8 @@ TEST(CompoundShape, OneChildIsTheChildInItsPlace) {
   compound.addChildShape(somewhere(), &capsule);
   const FluidBody child = makeFluidBody(capsule, coarse());
   const FluidBody body = makeFluidBody(compound, coarse());
-  // In its own frame the capsule's planes of symmetry are found and what they forbid, 1e-9, is
-  // removed; about an oblique axis there is no telling which planes to look for.
+  // On its own axes the capsule's planes of symmetry are found, and forbidden entries, 1e-9, are
+  // removed. About an oblique axis the search does not find these planes.
   const double tolerance = 20 * kScalarRounding + 5e-9;
   EXPECT_LT(differenceOf(body.added_mass, transformed(child.added_mass, somewhere())), tolerance);
   EXPECT_LT((body.centre_of_volume - toVector3(somewhere().getOrigin())).norm(), 1e-6);
@@ -71,7 +71,7 @@ TEST(CompoundShape, FarAwayChildrenAddUp) {
   const FluidBody body = makeFluidBody(compound, coarse());
   const double volume = 8 * kPi / 3;
   EXPECT_NEAR(body.volume / volume, 1, 1e-12);
-  // Each feels the other's dipole: 1 + 3 (R/d)^3 along the line, 1 - 3/2 (R/d)^3 across.
+  // Dipole interaction: 1 - 3 (R/d)^3 along the line of centres, 1 + 3/2 (R/d)^3 across.
   const double dipole = std::pow(1.0 / 20, 3);
   EXPECT_NEAR(body.added_mass(3, 3) / (volume / 2), 1 - 3 * dipole, 3e-4);
   EXPECT_NEAR(body.added_mass(4, 4) / (volume / 2), 1 + 1.5 * dipole, 3e-4);
@@ -79,7 +79,7 @@ TEST(CompoundShape, FarAwayChildrenAddUp) {
   checkFluidBody(body, "dumbbell");
 }
 
-// Ten sizes apart they hardly feel each other, (1/20)^3 of the added mass from each neighbour.
+// Interaction at a distance of ten sizes: (1/20)^3 of the added mass from each neighbour.
 TEST(CompoundShape, ManyChildrenApartShareFaces) {
   btBoxShape box(btVector3(btScalar(0.5), btScalar(0.4), btScalar(0.3)));
   btCompoundShape compound;
@@ -94,8 +94,8 @@ TEST(CompoundShape, ManyChildrenApartShareFaces) {
   checkFluidBody(body, "swarm");
 }
 
-// Bodies that meet feel the others' dipoles, however few faces each of many has: the same as two
-// rows of few, which are solved on all of theirs.
+// Close bodies interact by dipoles, even with few faces each. Three rows of balls must agree with
+// one row, which is solved on all its faces.
 TEST(CompoundShape, ManyChildrenApartFeelEachOther) {
   btSphereShape ball(1);
   btCompoundShape few, many;
@@ -106,7 +106,7 @@ TEST(CompoundShape, ManyChildrenApartFeelEachOther) {
   const Matrix6 row = makeFluidBody(few, settings).added_mass;
   const Matrix6 rows = makeFluidBody(many, settings).added_mass;
   const double alone = 8 * 2 * kPi / 3;
-  EXPECT_LT(row(3, 3) / alone, 0.8);  // in each other's lee
+  EXPECT_LT(row(3, 3) / alone, 0.8);  // sheltered by neighbours
   EXPECT_GT(row(4, 4) / alone, 1.05);
   for (int k = 3; k < 6; ++k) EXPECT_NEAR(rows(k, k) / (3 * row(k, k)), 1, 1e-2) << k;
 }

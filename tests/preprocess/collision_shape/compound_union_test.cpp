@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/primitives.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 
 namespace ambient {
@@ -20,7 +20,7 @@ using test::kScalarRounding;
 using test::rotationError;
 using test::translationError;
 
-// A compound that owns its children.
+// A compound that owns its child shapes.
 class Pieces {
  public:
   explicit Pieces(std::unique_ptr<btCollisionShape> first) { with(std::move(first), {0, 0, 0}); }
@@ -58,7 +58,7 @@ void expectSurface(const FluidBody& body, double volume, double area) {
   EXPECT_NEAR(body.area / area, 1, tolerance);
 }
 
-// The union of two boxes that is a box: the flow is that around the box, cut otherwise.
+// Two boxes with a box as union: its flow, on a different mesh.
 TEST(CompoundUnion, BoxesThatMakeABoxAreThatBox) {
   CollisionShapeSettings settings = coarse();
   settings.flow.max_panels = 1200;
@@ -73,7 +73,7 @@ TEST(CompoundUnion, BoxesThatMakeABoxAreThatBox) {
                                     .body(settings.flow.max_panels);
   expectSurface(overlapping, 2, 10);
   for (const FluidBody* body : {&touching, &overlapping}) {
-    // Both are moved by half a side, which leaves translation as it is.
+    // Both bodies are shifted by half a side: translation entries are unaffected.
     EXPECT_LT(translationError(body->added_mass, box.added_mass), 2e-3);
     EXPECT_NEAR(body->added_mass(0, 0) / box.added_mass(0, 0), 1, 1e-2);
     EXPECT_NEAR(body->centre_of_volume.x(), 0.5, 1e-6);
@@ -120,14 +120,14 @@ TEST(CompoundUnion, SurfacesAreThoseOfTheUnion) {
 TEST(CompoundUnion, ObliqueBoxesKeepWhatLiesOutside) {
   const double turn = 0.5, c = std::cos(turn), s = std::sin(turn);
   const FluidBody body = Pieces(block(1, 1, 0.5)).with(block(1, 1, 0.5), {0, 0, 0}, turn).body();
-  // Each corner that sticks out is a right triangle of height h = (c + s) - 1 over its longest side
-  // on the other square, with legs h / c and h / s.
+  // Each protruding corner is a right triangle with legs h / c and h / s; its height over the
+  // longest side, on the other square, is h = (c + s) - 1.
   const double h = c + s - 1, triangle = h / c * h / s / 2;
   EXPECT_NEAR(body.volume, 4 + 4 * triangle, 1e-5);
 }
 
-// Moving along the line of their centres, in potential flow by successive images of dipoles, whose
-// strengths are those of the spheres times 1, -1/8, 1/27, ...: their sum is eta(3).
+// Motion along the line of centres, by successive images of dipoles. Their strengths are those of
+// the spheres times 1, -1/8, 1/27, ...: the sum is eta(3).
 TEST(CompoundUnion, SpheresThatTouchHaveTheAddedMassOfTheirImages) {
   constexpr double kEta3 = 0.9015426773696957;
   CollisionShapeSettings settings = coarse();
@@ -169,7 +169,7 @@ TEST(CompoundUnion, DumbbellsAndChassisJustWork) {
     }
   }
   const FluidBody chassis = car.body();
-  // Wheels are half above the lower side of the chassis, and a quarter of their width inside it.
+  // Wheels: half above the lower side of the chassis, a quarter of their width inside.
   const double wheel = kPi * 0.04 * 0.2;
   EXPECT_NEAR(chassis.volume, 0.8 + 4 * wheel * (1 - 0.25 / 2), 0.02);
 }
@@ -177,11 +177,11 @@ TEST(CompoundUnion, DumbbellsAndChassisJustWork) {
 TEST(CompoundUnion, EdgesCornersAndNarrowGapsAreClosed) {
   for (const Vector3& place : {Vector3(1, 1, 0), Vector3(1, 1, 1), Vector3(1.0005, 0, 0)}) {
     const FluidBody body = Pieces(block(0.5, 0.5, 0.5)).with(block(0.5, 0.5, 0.5), place).body();
-    EXPECT_NEAR(body.volume, 2, 2 * 4e-3);  // each blown up by 0.12 % at most
+    EXPECT_NEAR(body.volume, 2, 2 * 4e-3);  // each enlarged by 0.12 % at most
   }
 }
 
-// An L, and the box that fills it.
+// Union of an L and the box that completes it.
 TEST(CompoundUnion, MeshesAreUnitedToo) {
   const std::vector<Eigen::Vector2d> outline{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
   btTriangleMesh triangles;

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/pi.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"
@@ -16,7 +16,7 @@ using test::kScalarRounding;
 using test::rotationError;
 using test::translationError;
 
-/// Body of revolution about an axis, without coupling.
+/// Added mass of a body of revolution about an axis, without coupling.
 Matrix6 alongAxis(const RevolutionAddedMass& about_z, int axis) {
   Vector6 diagonal;
   diagonal << Vector3::Constant(about_z.w_y), Vector3::Constant(about_z.v_x);
@@ -50,7 +50,7 @@ TEST(ConvexShape, CubeIsWithinItsTolerance) {
   Vector6 exact;
   exact << Vector3::Constant(reference::cubeRotationalAddedMass()),
       Vector3::Constant(8 * reference::cubeAddedMassCoefficient());
-  // The reference is uncertain by 4e-4.
+  // Uncertainty of the reference: 4e-4.
   EXPECT_LT(rotationError(cube.added_mass, exact.asDiagonal()), 1e-3);
   EXPECT_LT(translationError(cube.added_mass, exact.asDiagonal()), 2e-4);
 }
@@ -86,7 +86,7 @@ TEST(ConvexShape, WithoutTablesTheSolverIsWithinItsTolerance) {
   EXPECT_LT(translationError(capsule.added_mass, smooth), 5e-5);
 }
 
-// A solver would need more memory than that; the tables need none.
+// Memory too small for any solver; tables need none.
 TEST(ConvexShape, SimpleShapesNeedNoSolver) {
   CollisionShapeSettings settings = coarse();
   settings.flow.max_panels = 100000;
@@ -109,7 +109,7 @@ TEST(ConvexShape, SimpleShapesNeedNoSolver) {
             "with margins, faces 350, load error 0.01, panels 100000, hull, no tables");
 }
 
-// What mirrors forbid is zero to the last bit: the step has a shorter way for diagonal inertia.
+// Entries forbidden by mirrors are exactly 0: steps have a shorter path for diagonal inertia.
 TEST(ConvexShape, SymmetricShapesHaveDiagonalAddedMassAndExactCentres) {
   CollisionShapeSettings settings = coarse();
   settings.flow.max_panels = 700;
@@ -160,7 +160,7 @@ TEST(ConvexShape, TwoEqualSpheresOfAMultiSphereAreACapsule) {
   EXPECT_LT(translationError(capsule.added_mass, exact), 5e-4);
 }
 
-/// K of a shape about axis x or y is that about z, its axes turned in a circle.
+/// Checks that K of a shape about axis x or y is K about z with permuted axes.
 template <class AlongX, class AlongY, class AlongZ>
 void expectSameAlongAllAxes(const AlongX& x, const AlongY& y, const AlongZ& z) {
   Matrix3 z_to_x = Matrix3::Zero(), z_to_y = Matrix3::Zero();
@@ -195,10 +195,10 @@ TEST(ConvexShape, ConeHasItsApexUpAndItsMarginOnTop) {
   bare.margins = false;
   const FluidBody sharp = makeFluidBody(cone, bare);
   EXPECT_NEAR(sharp.volume / (2 * kPi / 3), 1, 1e-12);
-  // A quarter of the height above the base, but for the facets.
+  // Centre: a quarter of the height above the base, up to the facets.
   EXPECT_NEAR(sharp.centre_of_volume.z(), -0.5, 1e-2);
-  // Steiner: V + m A + m^2 M + 4/3 pi m^3, M = half the integral of the curvatures: the rim turns
-  // by pi - atan(h / r), the side by pi/2 - atan(r / h) about the axis.
+  // Steiner: V + m A + m^2 M + 4/3 pi m^3, M = half the integral of the curvatures. Turn at the
+  // rim: pi - atan(h / r); of the side about the axis: pi/2 - atan(r / h).
   const double slant = std::sqrt(5.0), m = 0.1;
   const double area = kPi * (1 + slant);
   const double curvature = kPi * (kPi - std::atan2(2.0, 1.0)) + kPi * 2;
@@ -217,7 +217,7 @@ TEST(ConvexShape, RoundedConeIsWithinHalfAPercentOfFinerOnes) {
   const Matrix6 K = makeFluidBody(cone, settings).added_mass;
   EXPECT_LT(rotationError(K, exact), 3e-3);
   EXPECT_LT(translationError(K, exact), 2e-3);
-  // The meshes have three rows around the rim, however fine they are: measured 1.4e-2 and 8e-3.
+  // All meshes have three rows of triangles around the rim: measured 1.4e-2 and 8e-3.
   const Matrix6 tabulated = makeFluidBody(cone).added_mass;
   EXPECT_LT(rotationError(K, tabulated), 2e-2);
   EXPECT_LT(translationError(K, tabulated), 1e-2);

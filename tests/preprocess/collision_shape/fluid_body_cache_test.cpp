@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
@@ -30,7 +30,7 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
   return files;
 }
 
-// The corners of a wedge.
+// Corners of a wedge.
 const std::vector<btVector3> kWedge{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}, {3, 0, 1}};
 
 std::unique_ptr<btConvexHullShape> wedge(double factor = 1, double margin = 0.04) {
@@ -52,7 +52,7 @@ TEST(FluidBodyCache, EqualShapesAreOneWhereverTheyAre) {
   EXPECT_EQ(cache.counts().made, 4);
 }
 
-// Sizes scale the table as they scale the added mass; spheres have none of their own.
+// Tables scale with size like the added mass; spheres use a built-in table.
 TEST(FluidBodyCache, MakesWaterlineTablesOfAllButSpheres) {
   const TemporaryFolder folder;
   CollisionShapeSettings settings = coarse();
@@ -65,7 +65,7 @@ TEST(FluidBodyCache, MakesWaterlineTablesOfAllButSpheres) {
   EXPECT_EQ(cache.counts().made, 1);
   EXPECT_NEAR(large->waterline.corrections[0](3, 3) / box->waterline.corrections[0](3, 3), 8, 1e-5);
   EXPECT_TRUE(cache.fluidBody(btSphereShape(1))->waterline.empty());
-  // What is kept without a table is another file.
+  // Bodies without a table have a separate file.
   EXPECT_TRUE(FluidBodyCache(coarse(), folder.path())
                   .fluidBody(btBoxShape(sizes(1, 1, 1)))
                   ->waterline.empty());
@@ -76,7 +76,7 @@ TEST(FluidBodyCache, MakesWaterlineTablesOfAllButSpheres) {
             std::string::npos);
 }
 
-// As makeFluidBody() makes it, but for numbers that are rounded to a millionth.
+// Compares with makeFluidBody(); the cache rounds proportions to a millionth.
 TEST(FluidBodyCache, GivesWhatTheShapeIs) {
   FluidBodyCache cache(coarse());
   btBoxShape box(sizes(0.15, 0.21, 0.33));
@@ -235,7 +235,7 @@ TEST(FluidBodyCache, WarnsOfVolumesAtTheirSize) {
   makeFluidBody(*wedge(0.1), settings);
   cache.fluidBody(*wedge(0.1));
   ASSERT_EQ(said.size(), 2u);
-  EXPECT_EQ(said[0], said[1]);  // to the four digits that are said
+  EXPECT_EQ(said[0], said[1]);  // four digits
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/reference/body_added_mass.h"
 
@@ -90,7 +90,7 @@ TEST(HullShape, MarginsThatAddMoreThanATenthAreReported) {
   EXPECT_EQ(reports.size(), 2u);
 }
 
-// Converging to about 1.18 and 5.04 from below, as the panels get more.
+// Values rise towards about 1.18 and 5.04 with the number of panels.
 TEST(HullShape, RoundedCubeIsWithinThreePercentInRotation) {
   btConvexHullShape hull;
   addCube(hull, btScalar(0.96));
@@ -100,7 +100,7 @@ TEST(HullShape, RoundedCubeIsWithinThreePercentInRotation) {
   EXPECT_NEAR(K(3, 3) / 5.04, 1, 5e-3);
 }
 
-// The surface as Bullet's own support function has it.
+// Compares the surface with Bullet's own support function.
 TEST(HullShape, FacesLieOnTheSurfaceThatBulletCollidesWith) {
   btConvexHullShape hull;
   addCube(hull, btScalar(0.5));

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "bullet_ambient/ambient.h"
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 
@@ -68,7 +68,7 @@ TEST(InstantBody, OfADumbbellIsNearItsParts) {
   EXPECT_LT(rotationError(guess.added_mass, solved.added_mass), 0.25);
 }
 
-// Children share the faces: uniting them takes the product of theirs.
+// Children share the number of faces: a union takes time with the product of their faces.
 TEST(InstantBody, OfManyChildrenHasNoMoreFaces) {
   btSphereShape ball(btScalar(0.3));
   btCompoundShape beads;
@@ -133,7 +133,7 @@ TEST(InstantCache, MayBeDestroyedWhileItWorks) {
   }
 }
 
-// A body in a world has the guess until it is asked, and the solution one substep later.
+// Body in a world keeps the guess until the cache has finished and one more substep has passed.
 TEST(InstantCache, WorldsGetTheSolutionBetweenTwoSteps) {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher(&configuration);
@@ -141,19 +141,19 @@ TEST(InstantCache, WorldsGetTheSolutionBetweenTwoSteps) {
   const auto hull = pebble();
   btRigidBody body(3000, nullptr, hull.get(), btVector3(1000, 1000, 1000));
   FluidBodyCache cache(instant(), {}, FluidBodyCache::Replacement::kWhenAsked);
-  Fluid<> fluid;
   btDiscreteDynamicsWorld world(&dispatcher, &broadphase, nullptr, &configuration);
+  Fluid fluid(world);
   world.addRigidBody(&body);
-  EXPECT_EQ(fluid.attachAll(world, cache, water()).attached, 1);
+  EXPECT_EQ(fluid.addAll(cache, water()).attached, 1);
   const auto step = [&] { world.stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60); };
-  const Matrix6 guessed = fluid.registry().inertia(body);
+  const Matrix6 guessed = fluid.find(body)->inertia();
   for (int i = 0; i < 5; ++i) step();
-  EXPECT_EQ(fluid.registry().inertia(body), guessed);
+  EXPECT_EQ(fluid.find(body)->inertia(), guessed);
   cache.finish();
   step();
   const Matrix6 wet = 998 * cache.fluidBody(*hull)->added_mass;
-  EXPECT_NE(fluid.registry().inertia(body), guessed);
-  EXPECT_NEAR(fluid.registry().inertia(body)(3, 3), 3000 + wet(3, 3), 1e-3);
+  EXPECT_NE(fluid.find(body)->inertia(), guessed);
+  EXPECT_NEAR(fluid.find(body)->inertia()(3, 3), 3000 + wet(3, 3), 1e-3);
   world.removeRigidBody(&body);
 }
 

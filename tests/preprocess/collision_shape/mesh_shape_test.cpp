@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -54,7 +54,7 @@ TEST(MeshShape, CavitiesDoNotDisplace) {
   const FluidBody body = makeFluidBody(shape, coarse());
   EXPECT_NEAR(body.volume, 8, 8 * kScalarRounding);
   EXPECT_EQ(body.faces.size(), static_cast<std::size_t>(outside.triangleCount()));
-  // The tetrahedron's 1/6, its centre at 0.05.
+  // Tetrahedral cavity: volume 1/6, centre at 0.05.
   EXPECT_NEAR(body.uniform_mass.centre.x(), -0.05 / 6 / (8 - 1.0 / 6), 1e-6);
 }
 

@@ -66,12 +66,13 @@ TEST(RefusedShape, EmptyAndFlatHulls) {
 
 TEST(RefusedShape, EmptyCompoundsAndFlatBoxes) {
   EXPECT_EQ(refusalOf(btCompoundShape()), "thing: a compound shape without children is empty");
-  EXPECT_EQ(refusalOf(btSphereShape(0)), "thing: the radius = 0 m must be positive and finite");
+  EXPECT_EQ(refusalOf(btSphereShape(0)),
+            "thing: its half extents are 0 x 0 x 0 m; each must be 1e-09 m to 1e+09 m");
   const std::string flat = refusalOf(btBox2dShape(btVector3(1, 1, 0)));
   EXPECT_NE(flat.find("is not supported"), std::string::npos) << flat;
 }
 
-// Of a compound the child is named, by itself and by a cache, which solves all at size 1.
+// Refusal names the child of a compound, also from a cache, which solves shapes at size 1.
 TEST(RefusedShape, SizesBeyondTheUsualAreNamedWithTheLimit) {
   const auto both = [](const btCollisionShape& shape) {
     CollisionShapeSettings settings = coarse();
@@ -88,7 +89,7 @@ TEST(RefusedShape, SizesBeyondTheUsualAreNamedWithTheLimit) {
   btCompoundShape compound;
   btTransform place = btTransform::getIdentity();
   compound.addChildShape(place, &huge);
-  EXPECT_EQ(both(compound).find("thing: child 0: its largest size or place is 1"), 0u);
+  EXPECT_EQ(both(compound).find("thing: child 0 (SPHERE): its largest size or place is 1"), 0u);
   EXPECT_NE(refusalOf(btCapsuleShape(btScalar(1e-9), 2))
                 .find("the longest must be at most 1000000 times the shortest"),
             std::string::npos);

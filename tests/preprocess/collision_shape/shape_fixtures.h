@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 
 namespace ambient::test {
 
-/// Sizes of shapes in float carry its rounding into everything that follows from them.
+/// Rounding of sizes stored in btScalar; all derived numbers inherit it.
 constexpr double kScalarRounding = sizeof(btScalar) == sizeof(float) ? 4e-7 : 1e-13;
 
-/// Settings for what does not depend on accuracy: seconds become milliseconds.
+/// Settings for tests that do not need accuracy: milliseconds instead of seconds.
 inline CollisionShapeSettings coarse() {
   CollisionShapeSettings settings;
   settings.faces = 350;
@@ -21,7 +21,7 @@ inline CollisionShapeSettings coarse() {
   return settings;
 }
 
-/// Largest difference of two 3x3 blocks over the largest entry of the reference's.
+/// Largest difference of two 3x3 blocks over the largest entry of the reference block.
 inline double blockError(const Matrix3& block, const Matrix3& reference) {
   return (block - reference).cwiseAbs().maxCoeff() / reference.cwiseAbs().maxCoeff();
 }
@@ -34,8 +34,8 @@ inline double translationError(const Matrix6& K, const Matrix6& reference) {
   return blockError(K.bottomRightCorner<3, 3>(), reference.bottomRightCorner<3, 3>());
 }
 
-/// Largest difference of two matrices over the largest entry of the reference, which must have
-/// lengths of about 1.
+/// Largest difference of two matrices over the largest entry of the reference. Lengths must be
+/// about 1.
 inline double differenceOf(const Matrix6& K, const Matrix6& reference) {
   return (K - reference).cwiseAbs().maxCoeff() / reference.cwiseAbs().maxCoeff();
 }

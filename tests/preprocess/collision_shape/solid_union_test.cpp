@@ -1,4 +1,4 @@
-#include "preprocess/collision_shape/solid_union.h"
+#include "preprocess/collision_shape/solids/solid_union.h"
 
 #include <gtest/gtest.h>
 
@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/mesh/crack_mending.h"
+#include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mend/crack_mending.h"
 #include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/mesh/solid_tree.h"
-#include "preprocess/mesh/topology_defects.h"
-#include "preprocess/potential_flow/potential_flow.h"
-#include "tests/preprocess/collision_shape/shape_fixtures.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/mesh/union/solid_tree.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {
@@ -51,7 +50,7 @@ TEST(SolidTree, TakesOffWhatIsInside) {
 
 TEST(SolidTree, DecidesOnItsSurfaceByTheNormal) {
   const SolidTree cube(makeBoxMesh({1, 1, 1}, 200), 1e-9);
-  // The other solid above touches; below, it is flush, and one of the two keeps what is.
+  // The solid above touches; the one below is flush, and one of the two keeps the common face.
   for (const bool keep : {false, true}) {
     EXPECT_NEAR(areaOf(cube.cutOff(squareAt(1, 2, false), keep)), 12, 1e-12);
     EXPECT_NEAR(areaOf(cube.cutOff(squareAt(1, 2, true), keep)), keep ? 16 : 12, 1e-12);
@@ -61,7 +60,7 @@ TEST(SolidTree, DecidesOnItsSurfaceByTheNormal) {
 }
 
 TEST(Cracks, AreClosedWhereAVertexLiesOnAnEdge) {
-  // A tetrahedron, one of whose triangles is cut in two at the middle of an edge.
+  // A tetrahedron with one triangle cut in two at the middle of an edge.
   const TriangleMesh mesh = meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 1e-9, 0}},
                                    {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
   EXPECT_FALSE(isClosed(computeMeshEdges(mesh)));
@@ -72,11 +71,11 @@ TEST(Cracks, AreClosedWhereAVertexLiesOnAnEdge) {
 Solid cubeSolid(double x, const char* part) {
   Solid solid;
   solid.mesh = moved(makeBoxMesh({0.5, 0.5, 0.5}, 48), {x, 0, 0});
-  solid.part = part;
+  solid.name = part;
   return solid;
 }
 
-// Two cubes that overlap by half, one of them turned by so little that their sides cross in
+// Two cubes that overlap by half. A tiny turn of one makes their sides cross in
 // slivers.
 std::vector<Solid> nearlyFlushPair() {
   std::vector<Solid> solids{cubeSolid(0, "child 0 (Box)"), cubeSolid(0, "child 1 (Box)")};
@@ -87,7 +86,7 @@ std::vector<Solid> nearlyFlushPair() {
   return solids;
 }
 
-// A gap of half a thousandth of their size, which blowing them up leaves open.
+// A gap of half a thousandth of the plates' size, too wide for the enlargement to close.
 std::vector<Solid> platesAlongANarrowGap() {
   std::vector<Solid> solids{cubeSolid(0, "child 0 (Box)"), cubeSolid(0, "child 1 (Box)")};
   for (Solid& solid : solids) solid.mesh.vertices.row(2) *= 0.02;
@@ -95,11 +94,7 @@ std::vector<Solid> platesAlongANarrowGap() {
   return solids;
 }
 
-CollisionShapeSettings fallingBackTo(CompoundFallback fallback) {
-  CollisionShapeSettings settings = test::coarse();
-  settings.fallback = fallback;
-  return settings;
-}
+UnionSettings fallingBackTo(CompoundFallback fallback) { return {350, fallback}; }
 
 TEST(SolidUnion, UnitesBoxesThatLieNearlyFlush) {
   const SeparateSolids separate =
@@ -110,8 +105,9 @@ TEST(SolidUnion, UnitesBoxesThatLieNearlyFlush) {
 }
 
 TEST(SolidUnion, LeavesSolidsWithGapsAlone) {
-  const SeparateSolids separate = uniteSolids(
-      {cubeSolid(0, "a"), cubeSolid(2, "b"), cubeSolid(2.5, "c")}, test::coarse(), "it");
+  const SeparateSolids separate =
+      uniteSolids({cubeSolid(0, "a"), cubeSolid(2, "b"), cubeSolid(2.5, "c")},
+                  fallingBackTo(CompoundFallback::kHull), "it");
   ASSERT_EQ(separate.solids.size(), 2u);
   EXPECT_FALSE(separate.is_sum);
   EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume, 1, 1e-12);
@@ -130,7 +126,7 @@ TEST(SolidUnion, FallsBackToTheHullWithItsCost) {
       << warning;
 }
 
-// Hulls that barely overlap leave points that differ by little more than rounding.
+// Hulls that barely overlap: some points differ by little more than rounding.
 TEST(SolidUnion, HullsOfPointsSideBySideHaveNoFlatTriangles) {
   std::vector<Solid> solids{cubeSolid(0, "a"), cubeSolid(0, "b")};
   for (Eigen::Index v = 0; v < solids[1].mesh.vertexCount(); ++v)
@@ -167,10 +163,10 @@ TEST(SolidUnion, RefusesIfToldTo) {
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 
-// A union whose flow cannot be solved.
+// Replaces a union after its flow has failed.
 TEST(SolidUnion, IsReplacedByWhatStandsForIt) {
   const std::vector<Solid> solids{cubeSolid(0, "a"), cubeSolid(0.5, "b"), cubeSolid(3, "c")};
-  EXPECT_TRUE(uniteSolids(solids, test::coarse(), "it").has_unions);
+  EXPECT_TRUE(uniteSolids(solids, fallingBackTo(CompoundFallback::kHull), "it").has_unions);
   const SeparateSolids hull =
       replaceUnions(solids, fallingBackTo(CompoundFallback::kHull), "no flow", "it");
   ASSERT_EQ(hull.solids.size(), 2u);

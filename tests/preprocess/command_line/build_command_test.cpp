@@ -3,8 +3,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "preprocess/mesh/primitives.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/command_line/command_line.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -80,28 +80,32 @@ TEST_F(CommandLine, BuildOptionsScaleShiftAndLimitThreads) {
 }
 
 TEST_F(CommandLine, MeshesInMillimetresAreWarnedOfAndSizesShown) {
-  const std::string mesh = write("box.obj", objText(makeBoxMesh({100, 50, 20}, 200)));
+  const std::string mesh = write("box.obj", objText(makeBoxMesh({40, 25, 10}, 200)));
   const Arguments build{"build", mesh, "-o", path("box.ambient"), "--panels", "0"};
   const std::string warning = "warning: " + mesh +
-                              ": its size is 200 x 100 x 40 m: if the file is in millimetres, "
-                              "scale it by 0.001\n";
+                              ": its size is 80 x 50 x 20 m; lengths are metres: if the file is in "
+                              "millimetres, --scale 0.001\n";
   const ProgramResult built = run(build);
   EXPECT_EQ(built.exit_code, 0);
   EXPECT_EQ(built.errors, warning);
-  EXPECT_NE(built.output.find("\n  size              200 x 100 x 40 m\n"), std::string::npos);
+  EXPECT_EQ(built.output.substr(0, built.output.find('\n')),
+            path("box.ambient") + ": 80 x 50 x 20 m");
   const ProgramResult report = run({"report", mesh, "--panels", "0"});
   EXPECT_EQ(report.errors, warning);
-  EXPECT_NE(report.output.find(" faces, 200 x 100 x 40 m\n"), std::string::npos);
+  EXPECT_NE(report.output.find(" faces, 80 x 50 x 20 m\n"), std::string::npos);
   Arguments scaled = build;
   scaled.insert(scaled.end(), {"--scale", "0.001", "--json"});
   const json size = resultOf(scaled)["size"];
-  EXPECT_NEAR(size[0].get<double>(), 0.2, 1e-7);
-  EXPECT_NEAR(size[1].get<double>(), 0.1, 1e-7);
-  EXPECT_NEAR(size[2].get<double>(), 0.04, 1e-7);
+  EXPECT_NEAR(size[0].get<double>(), 0.08, 1e-7);
+  EXPECT_NEAR(size[1].get<double>(), 0.05, 1e-7);
+  EXPECT_NEAR(size[2].get<double>(), 0.02, 1e-7);
+  scaled[scaled.size() - 2] = "1e-5";
+  EXPECT_NE(run(scaled).errors.find("; lengths are metres: if the file is in others"),
+            std::string::npos);
   scaled[scaled.size() - 2] = "1e-7";
   EXPECT_EQ(run(scaled).errors, "warning: " + mesh +
-                                    ": its size is 2e-05 x 1e-05 x 4e-06 m: if the file is not in "
-                                    "metres, scale it\n");
+                                    ": its size is 8e-06 x 5e-06 x 2e-06 m; lengths are metres: "
+                                    "if the file is in others, --scale FACTOR\n");
 }
 
 TEST_F(CommandLine, SlenderShapesAreWarnedOf) {
@@ -114,7 +118,7 @@ TEST_F(CommandLine, SlenderShapesAreWarnedOf) {
   EXPECT_EQ(warningsOf(R"({"type":"sheet","size":[0.01,1],"faces":400})"), "");
 }
 
-// A cylinder as CAD programs cut it: strips from rim to rim and caps like fans.
+// OBJ text of a cylinder in a CAD program's style: strips from rim to rim, caps as fans.
 std::string cylinderOfStrips(int strips) {
   std::string vertices, triangles;
   const auto add = [](std::string& to, const char* key, const auto& a, const auto& b,
@@ -153,7 +157,7 @@ TEST_F(CommandLine, LongTrianglesGetMorePanelsOrAWarning) {
   const std::string few = errorsOf("few.obj", cylinderOfStrips(12), "600");
   EXPECT_EQ(few.find("long triangles"), std::string::npos) << few;
   const FluidBody body = readFluidBody(path("few.obj.ambient"));
-  // A solution on 17 000 panels; 600 alone are 9 % off.
+  // Solved on 17 000 panels; 600 panels alone are 9 % off.
   EXPECT_NEAR(body.added_mass(0, 0), 0.023918, 0.02 * 0.023918);
 }
 
@@ -186,13 +190,13 @@ TEST_F(CommandLine, HollowMeshesDisplaceWhatTheirOutsideEncloses) {
   EXPECT_EQ(built.exit_code, 0);
   EXPECT_EQ(built.errors.find("warning: " + mesh + ": 1 cavity of 12.5 % of the volume: "), 0u);
   EXPECT_NEAR(json::parse(built.output)["volume"].get<double>(), 8, 1e-5);
-  // A full cube would have 2/3.
+  // Uniform mass of the hollow cube; a full cube would have 2/3.
   const FluidBody body = readFluidBody(path("hollow.ambient"));
   EXPECT_NEAR(body.uniform_mass.inertia(0, 0), (8 * 2.0 / 3 - 1 / 6.0) / 7, 1e-5);
 }
 
 TEST_F(CommandLine, InterruptedBuildsLeaveNothing) {
-  // Some seconds of work, interrupted early and late.
+  // Work of some seconds, interrupted early and late.
   const std::string input = write("ball.json", R"({"type":"sphere","radius":1,"faces":5000})");
   for (const int milliseconds : {5, 150}) {
     const ProgramResult result = interruptProgram(
@@ -239,7 +243,7 @@ TEST_F(CommandLine, LevelsAreThoseAskedForWithTheirErrors) {
   EXPECT_EQ(wetted["levels"][0]["separation_angle"], 2.2);
 }
 
-// Tables and panels agree within what docs/accuracy.md has of boxes, and are not one number.
+// Tables and panels must agree to the errors of docs/accuracy.md for boxes, but must differ.
 TEST_F(CommandLine, WithoutTablesTheFlowAroundABoxIsSolved) {
   const std::string box = write("box.json", R"({"type": "box", "size": [1, 2, 3]})");
   const auto built = [&](const Arguments& more) {

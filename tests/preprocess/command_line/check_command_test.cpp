@@ -1,4 +1,4 @@
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/command_line/command_line.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -9,7 +9,7 @@ using nlohmann::json;
 
 TriangleMesh box() { return makeBoxMesh({1, 1, 1}, 12); }
 
-/// A box whose lid is missing, and a sheet that stands in it.
+/// A box without its lid, and a sheet inside.
 TriangleMesh openBox() { return withoutTriangle(withoutTriangle(box(), 11), 10); }
 
 TEST_F(CommandLine, CheckSaysThatAMeshIsRight) {

@@ -16,7 +16,7 @@ namespace ambient {
 
 using Arguments = std::vector<std::string>;
 
-/// Runs ambient_preprocess in a folder of its own.
+/// Runs ambient_preprocess in a temporary folder.
 class CommandLine : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -47,13 +47,13 @@ class CommandLine : public ::testing::Test {
     return nlohmann::json::parse(result.output);
   }
 
-  /// Bad input: exit code 1, nothing on standard output, one line on standard error.
+  /// Runs bad input; expects exit code 1, one line on standard error, nothing on standard output.
   static std::string refusal(const Arguments& arguments) { return lineOf(arguments, 1); }
 
-  /// A value that an option cannot have: the same with exit code 2.
+  /// Runs an option with a bad value; expects refusal()'s output with exit code 2.
   static std::string usageRefusal(const Arguments& arguments) { return lineOf(arguments, 2); }
 
-  /// build of bad input, which must leave nothing behind.
+  /// Runs build on bad input; expects no file left behind.
   std::string buildRefusal(const std::string& input, const Arguments& more = {}) const {
     return withoutTrace(refusal, input, more);
   }
@@ -85,7 +85,7 @@ class CommandLine : public ::testing::Test {
   }
 };
 
-/// A sphere that is quick to solve.
+/// Text of a sphere, quick to solve.
 inline std::string sphereText() { return R"({"type":"sphere","radius":0.5,"faces":320})"; }
 
 }  // namespace ambient

@@ -18,13 +18,13 @@ class FloatingCommand : public CommandLine {
   }
 };
 
-// A box of half the water's density and low weight: T = 0.25, GM = B^2 / 12 T - KG + KB.
+// Barge of half the water's density, low weight: T = 0.25, GM = B^2 / 12 T - KG + KB.
 TEST_F(FloatingCommand, InspectTellsHowABargeFloats) {
   const std::string file = barge();
   const Arguments floating{"inspect",          file, "--mass", "500",   "--density", "1000",
                            "--centre-of-mass", "0",  "0",      "-0.24", "--json"};
   json report = resultOf(floating);
-  ASSERT_GE(report["floating"].size(), 1u);  // upright, and maybe on its side
+  ASSERT_GE(report["floating"].size(), 1u);  // upright, possibly also on its side
   const json& upright = report["floating"][0];
   EXPECT_NEAR(upright["draught"].get<double>(), 0.25, 1e-9);
   EXPECT_NEAR(upright["up"][2].get<double>(), 1, 1e-9);
@@ -52,7 +52,7 @@ TEST_F(FloatingCommand, InspectSaysWhatIsWrong) {
             std::string::npos);
 }
 
-// Of body and water without waves: a period is 2 pi sqrt(inertia / (density gravity geometry)).
+// Periods of body and water without waves: 2 pi sqrt(inertia / (density gravity geometry)).
 TEST_F(FloatingCommand, InspectHasThePeriodsOfTheGravityThatIsGiven) {
   const std::string file = barge();
   const auto upright = [&](const char* gravity) {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/force/face_loads.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "tests/preprocess/command_line/command_line.h"
 
 namespace ambient {
@@ -14,9 +14,9 @@ using nlohmann::json;
 TEST_F(CommandLine, LoadsAreThoseOfTheForceModel) {
   const std::string box = write("box.json", R"({"type":"box","half_sizes":[1,2,3],"faces":300})");
   resultOf({"build", box, "-o", path("b.ambient"), "--panels", "0", "--json"});
-  const json loads =
-      resultOf({"loads", path("b.ambient"), "--twist", "0.1", "-2", ".3", "-1e-1", "-.5", "6",
-                "--density", "1.2", "--viscosity", "1.8e-5", "--separation-angle", "2", "--json"});
+  const json loads = resultOf({"loads", path("b.ambient"), "--twist", "0.1", "-2", ".3", "-1e-1",
+                               "-.5", "6", "--density", "1.2", "--viscosity", "1.8e-5",
+                               "--separation-angle", "2", "--law", "published", "--json"});
   const FluidBody body = readFluidBody(path("b.ambient"));
   LoadSettings settings;
   settings.density = 1.2;
@@ -39,7 +39,7 @@ TEST_F(CommandLine, LoadsSeparateAtARightAngleByDefault) {
   const Arguments motion{"loads", path("b.ambient"), "--twist", "0",     "0", "0", "0", "0",
                          "2",     "--density",       "3",       "--json"};
   const json loads = resultOf(motion);
-  // C_D = 1/2 on pi R^2 (sin^4(alpha) / 2, integrated), the facets play no part.
+  // C_D = 1/2 on pi R^2, the integral of sin^4(alpha) / 2; facets have no influence.
   const double drag = 0.5 * 3 * 2 * 2 * 0.5 * 3.14159265358979324 * 0.25;
   EXPECT_NEAR(loads["pressure"][5].get<double>(), -drag, 1e-12 * drag);
   EXPECT_EQ(loads["friction"][5].get<double>(), 0) << "no viscosity, no friction";
@@ -59,7 +59,7 @@ TEST_F(CommandLine, LoadsOnASphereAboutAnotherOriginAreThoseAtItsCentre) {
     return resultOf({"loads", path(file), "--twist", "0", "3", "1", vx, "0", "5", "--density", "2",
                      "--viscosity", "1e-3", "--separation-angle", "2.2", "--json"})["total"];
   };
-  // The centre is at (0, 0, 2): it moves with v + w x r, 6 m/s more along x.
+  // Centre at (0, 0, 2): its velocity is v + w x r, 6 m/s more along x.
   const json centred = loadsOf("b.ambient", "7"), off = loadsOf("off.ambient", "1");
   const auto at = [](const json& loads, int i) { return loads[i].get<double>(); };
   for (int i = 3; i < 6; ++i) EXPECT_NEAR(at(off, i), at(centred, i), 1e-12) << i;
@@ -74,12 +74,14 @@ TEST_F(CommandLine, LoadsOfTheFormLawPressOnAFlatFace) {
   resultOf({"build", box, "-o", path("b.ambient"), "--panels", "0", "--json"});
   const Arguments motion{"loads", path("b.ambient"), "--twist", "0",     "0", "0", "0", "0",
                          "2",     "--density",       "3",       "--json"};
-  EXPECT_EQ(resultOf(motion)["total"][5].get<double>(), 0) << "published is the default";
-  Arguments form = motion;
-  form.insert(form.end(), {"--law", "form"});
-  EXPECT_NEAR(resultOf(form)["total"][5].get<double>(), -1.17 * 0.5 * 3 * 2 * 2, 1e-12);
-  form.back() = "newton";
-  const ProgramResult refused = run(form);
+  EXPECT_NEAR(resultOf(motion)["total"][5].get<double>(), -1.17 * 0.5 * 3 * 2 * 2, 1e-12);
+  Arguments by_law = motion;
+  by_law.insert(by_law.end(), {"--law", "form"});
+  EXPECT_EQ(resultOf(by_law), resultOf(motion)) << "form is the default";
+  by_law.back() = "published";
+  EXPECT_EQ(resultOf(by_law)["total"][5].get<double>(), 0);
+  by_law.back() = "newton";
+  const ProgramResult refused = run(by_law);
   EXPECT_NE(refused.exit_code, 0);
   EXPECT_NE(refused.errors.find("--law: \"newton\" is neither published nor form"),
             std::string::npos)

@@ -1,7 +1,7 @@
-// Where results are written, and what may stand there.
+// Output files: places, links, names, and existing files there.
 #include <sys/resource.h>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "tests/preprocess/command_line/command_line.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -31,7 +31,7 @@ TEST_F(CommandLine, WhatIsNoFluidBodyIsNotReplaced) {
                 "replaced");
   EXPECT_EQ(bytesOfFile("other.obj"), mesh);
   write("ball.body", "");
-  for (const char* const scale : {"1", "2"})  // what is empty, and a fluid body of another name
+  for (const char* const scale : {"1", "2"})  // an empty file, then another name
     resultOf({"build", input, "-o", path("ball.body"), "--json", "--scale", scale});
 }
 
@@ -40,7 +40,7 @@ TEST_F(CommandLine, SymbolicLinksAreWrittenThrough) {
   fs::create_directory(path("inner"));
   fs::create_symlink("inner/first", path("out.ambient"));
   fs::create_symlink(path("inner/ball.ambient"), path("inner/first"));
-  for (const char* const scale : {"1", "2"}) {  // to a file that is not there, and to one that is
+  for (const char* const scale : {"1", "2"}) {  // missing target, then existing target
     const Arguments build{"build", input, "-o", path("out.ambient"), "--json", "--scale", scale};
     const double volume = resultOf(build)["volume"].get<double>();
     EXPECT_TRUE(fs::is_symlink(path("out.ambient")) && fs::is_symlink(path("inner/first")));
@@ -61,7 +61,7 @@ TEST_F(CommandLine, NamesMayBeAsLongAsTheSystemHasThem) {
   EXPECT_EQ(fileCount(), 2u);
 }
 
-/// While it lives, files of the programs that are started may not grow beyond so many bytes.
+/// Scope in which files of started programs are limited to a number of bytes.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -93,7 +93,7 @@ TEST_F(CommandLine, EscapesInNamesDoNotReachTheTerminal) {
   const std::string ambient = path(escape + ".ambient");
   for (const Arguments& arguments :
        {Arguments{"build", mesh, "-o", ambient, "--panels", "100"},
-        Arguments{"build", mesh, "-o", ambient, "--panels", "100"},  // is kept
+        Arguments{"build", mesh, "-o", ambient, "--panels", "100"},  // keeps the file
         Arguments{"inspect", ambient}, Arguments{"report", mesh, "--panels", "100"},
         Arguments{"inspect", path(escape)}, Arguments{escape}, Arguments{"inspect", "--" + escape},
         Arguments{"build", path(escape + ".bullet"), "-o", path("folder")}}) {

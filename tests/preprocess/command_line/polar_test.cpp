@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -19,7 +19,7 @@
 namespace ambient {
 namespace {
 
-/// One row of the CSV.
+/// Columns of one CSV row.
 using Row = std::array<double, 8>;
 enum Column { kAttack, kSideSlip, kLift, kDrag, kSide, kRoll, kPitch, kYaw };
 
@@ -64,10 +64,10 @@ class Polar : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-// The slip velocity on the windward side is V cos a: C_N = cos^2 a.
+// Slip velocity on the windward side is V cos a: C_N = cos^2 a.
 TEST_F(Polar, FlatPlateHasItsClosedForm) {
   const std::string plate = write(makeRectangularSheetMesh(2, 3, 200), true);
-  const std::vector<Row> rows = polar(plate, {"--attack", "-30:60:30"});
+  const std::vector<Row> rows = polar(plate, {"--attack", "-30:60:30", "--law", "published"});
   ASSERT_EQ(rows.size(), 4u);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double a = rows[i][kAttack] * kPi / 180, c = std::cos(a);
@@ -79,15 +79,15 @@ TEST_F(Polar, FlatPlateHasItsClosedForm) {
   }
 }
 
-// Surface integrals of the model over the smooth body: F / (rho/2) and T / (rho/2) at V = 1.
+// Surface integrals of the model over the smooth body: F / (rho/2), T / (rho/2) at V = 1.
 TEST_F(Polar, ObliqueSpheroidAgreesWithQuadrature) {
   const std::string disc = write(makeEllipsoidMesh({1, 1, 0.2}, 5000));
-  const Row row =
-      polar(disc, {"--attack", "30", "--reference-area", "1", "--reference-length", "1"})[0];
+  const Row row = polar(disc, {"--attack", "30", "--reference-area", "1", "--reference-length", "1",
+                               "--law", "published"})[0];
   const double force_x = -0.03831223759085936, force_z = 2.1569881366057917,
                torque_y = 0.22698823654312306;
   const double c = std::cos(kPi / 6), s = 0.5;
-  // The facets of 5000 triangles; measured 3.9e-3.
+  // Error of the facets of 5000 triangles; measured 3.9e-3.
   EXPECT_NEAR(row[kLift], force_x * s + force_z * c, 5e-3);
   EXPECT_NEAR(row[kDrag], -force_x * c + force_z * s, 5e-3);
   EXPECT_NEAR(row[kPitch], -torque_y, 5e-3);
@@ -110,7 +110,7 @@ TEST_F(Polar, SideSlipAndOtherAxesAreTheSameBodyTurned) {
   const TriangleMesh wing = moved(makeBoxMesh({1, 3, 0.2}, 800), {0.3, 0.4, 0.5});
   const std::vector<std::string> angles{"--attack", "20", "--side-slip", "-15"};
   const Row row = polar(write(wing), angles)[0];
-  // Forward x becomes z, up z becomes -y.
+  // Maps forward x to z, up z to -y.
   Eigen::Matrix3d turn;
   turn << 0, -1, 0, 0, 0, -1, 1, 0, 0;
   std::vector<std::string> turned = angles;
@@ -124,8 +124,8 @@ TEST_F(Polar, WindFromTheRightPushesToTheLeft) {
   const std::string ball = write(makeEllipsoidMesh({1, 1, 1}, 1280));
   const std::vector<Row> rows = polar(ball, {"--attack", "0", "--side-slip", "0:40:40"});
   for (const Row& row : rows) {
-    // The drag of a ball turns with the flow: 1/2 of its silhouette.
-    // What remains across the flow is that of the facets, measured 6e-3.
+    // Drag of a ball turns with the flow: 1/2 of its silhouette.
+    // Force across the flow comes from the facets, measured 6e-3.
     EXPECT_NEAR(row[kDrag], 0.5, 5e-3);
     EXPECT_NEAR(row[kSide], 0, 1e-2);
   }

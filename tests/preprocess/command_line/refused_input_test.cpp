@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/command_line/command_line.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 

@@ -7,15 +7,15 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/support/hull_bodies.h"
+#include "bullet_ambient/base/pi.h"
+#include "tests/support/bodies/hull_bodies.h"
 
 namespace ambient::test {
 namespace {
 
 constexpr double kWater = 1000, kFloatGravity = 9.81;
 
-// A homogeneous box of the specific gravity, without added mass.
+// A homogeneous box of given specific gravity, without added mass.
 FloatingBody floatingBox(const Vector3& size, double specific_gravity) {
   FloatingBody body;
   body.shape = std::make_shared<FluidBody>(boxBody(size));
@@ -33,27 +33,27 @@ Vector3 sortedSizes(const Vector3& v) {
   return sizes;
 }
 
-// The attitude that most descents come to.
+// Attitude that most descents reach.
 FloatingAttitude mainAttitude(const FloatingBody& body) {
   return findFloatingAttitudes(body).at(0);
 }
 
-// Between flat and on its corner, a cube turns about the vertical without a force.
+// Neutral attitudes between flat and corner up: a cube turns about the vertical without moment.
 TEST(FloatingAttitudes, ATiltedCubeIsNeutral) {
   const FloatingAttitude tilted = mainAttitude(floatingBox({1, 1, 1}, 0.225));
   EXPECT_NEAR(tilted.metacentres[0].height, 0, 1e-9);
   EXPECT_GT(tilted.metacentres[1].height, 0.01);
 }
 
-// 6 s (1 - s) < 1: the metacentre of a cube that floats flat is above its centre.
+// 6 s (1 - s) < 1: the metacentre of a flat cube is above its centre of mass.
 TEST(FloatingAttitudes, ACubeIsFlatTiltedOrOnACorner) {
   const double kFlatBelow = 0.5 - std::sqrt(1.0 / 12);  // 0.2113
   for (const double s : {0.05, 0.2, kFlatBelow - 0.002, 1 - kFlatBelow + 0.002, 0.9}) {
     const FloatingAttitude flat = mainAttitude(floatingBox({1, 1, 1}, s));
     EXPECT_NEAR(sortedSizes(flat.up)[2], 1, 1e-6) << s;
-    EXPECT_NEAR(flat.draught, s, 1e-6) << s;  // a little tilted, where it hardly matters
+    EXPECT_NEAR(flat.draught, s, 1e-6) << s;  // slight tilt has little effect on the draught
     EXPECT_EQ(flat.alike, 6) << s;
-    EXPECT_GT(flat.share, 0.75) << s;  // near the limits, on its corner as well
+    EXPECT_GT(flat.share, 0.75) << s;  // near the limits also corner up
     // GM = B^2 / 12 T - (B - T) / 2
     for (const Metacentre& metacentre : flat.metacentres)
       EXPECT_NEAR(metacentre.height, 1 / (12 * s) - (1 - s) / 2, 1e-6) << s;
@@ -129,7 +129,7 @@ TEST(FloatingAttitudes, AddedMassMakesPeriodsLonger) {
   FloatingBody body = floatingBox({4, 2, 1}, 0.4);
   const double dry = withUp(findFloatingAttitudes(body), Vector3::UnitZ())->modes[0].period;
   FluidBody heavy = *body.shape;
-  // Without parts, the added mass times the wet share.
+  // Body without parts: added mass times the wet share.
   heavy.added_mass = 3 * heavy.volume * Matrix6::Identity();
   body.shape = std::make_shared<FluidBody>(heavy);
   const auto all = findFloatingAttitudes(body);
@@ -140,7 +140,7 @@ TEST(FloatingAttitudes, AddedMassMakesPeriodsLonger) {
   EXPECT_GT(withUp(all, Vector3::UnitZ())->modes[0].period, dry);
 }
 
-// A mass near the bottom: one attitude alone, whatever the shape.
+// Mass near the bottom: a single attitude for any shape.
 TEST(FloatingAttitudes, ALowCentreOfMassSettlesIt) {
   FloatingBody body = floatingBox({1, 1, 1}, 0.5);
   body.centre_of_mass = {0, 0, -0.45};

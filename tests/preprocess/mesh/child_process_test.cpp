@@ -1,4 +1,4 @@
-#include "preprocess/mesh/child_process.h"
+#include "preprocess/mesh/import/child_process.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ ChildResult runShell(const std::string& text) { return runChild({"sh", "-c", tex
 
 TEST(ChildProcess, ReturnsWhatTheProgramWrites) {
   EXPECT_EQ(runShell("exit 0").output, "");
-  const std::string zeros = runShell("head -c 3000000 /dev/zero").output;  // more than a pipe holds
+  const std::string zeros = runShell("head -c 3000000 /dev/zero").output;  // exceeds a pipe
   EXPECT_EQ(zeros, std::string(3'000'000, '\0'));
 }
 

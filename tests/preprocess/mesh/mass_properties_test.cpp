@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/primitives.h"
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {
 namespace {
 
-constexpr double kRounding = 1e-14;  // of some hundred additions
+constexpr double kRounding = 1e-14;  // some hundred additions
 
 double relativeError(const Matrix3& a, const Matrix3& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
@@ -130,16 +130,16 @@ TEST(MeshProperties, ScaleWithTheMesh) {
   EXPECT_LT(relativeError(after.uniform.inertia, s * s * before.uniform.inertia), kRounding);
 }
 
-// Coordinates 10^6 sizes away keep 10 digits of the shape; nothing more may be lost.
+// Coordinates 10^6 sizes away keep 10 digits of the shape; further loss is an error.
 TEST(MeshProperties, FarOffOriginCostsOnlyTheDigitsOfTheCoordinates) {
   const Eigen::Vector3d far(1e6, -2e6, 3e6);
   const TriangleMesh mesh = moved(makeBoxMesh({0.5, 0.3, 0.2}, 300), far);
-  const TriangleMesh as_rounded = moved(mesh, -far);  // exact: what the coordinates still hold
+  const TriangleMesh as_rounded = moved(mesh, -far);  // exact; keeps the coordinates' rounding
   const MeshProperties there = computeMassProperties(mesh);
   const MeshProperties here = computeMassProperties(as_rounded);
   EXPECT_NEAR(there.volume, here.volume, kRounding);
   EXPECT_LT((there.uniform.centre - far - here.uniform.centre).norm(), 1e-9);
-  // The centre is a coordinate too: rounded to 2^-31 there, which enters the inertia squared.
+  // Coordinates of the centre are rounded to 2^-31, an error that enters inertia squared.
   EXPECT_LT(relativeError(there.uniform.inertia, here.uniform.inertia), kRounding);
   EXPECT_LT(relativeError(there.surface.inertia, here.surface.inertia), kRounding);
 }

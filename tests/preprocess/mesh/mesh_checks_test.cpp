@@ -1,4 +1,4 @@
-#include "preprocess/mesh/mesh_checks.h"
+#include "preprocess/mesh/check/mesh_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/check/mesh_diagnosis.h"
+#include "preprocess/mesh/defects/closed_mesh.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_diagnosis.h"
 #include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/weld_vertices.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -48,7 +49,7 @@ TEST(MeshChecks, SoundMeshesPassUnchanged) {
   EXPECT_TRUE(areEqual(checkMesh(sheet, "sheet.obj", {true}).mesh, sheet));
 }
 
-// No absolute limits: the same verdict from nanometres to gigametres.
+// Limits are relative: equal verdicts from nanometres to gigametres.
 TEST(MeshChecks, VerdictsDoNotDependOnTheUnit) {
   for (const double unit : {1e-60, 1e-9, 1.0, 1e9, 1e60}) {
     EXPECT_EQ(refusal(scaled(makeBoxMesh({1, 1, 1e-4}, 300), unit)), "no error") << unit;
@@ -106,7 +107,7 @@ TEST(MeshChecks, OpenMeshesAreRefusedWithTheNumberOfBoundaryEdgesAndAnExample) {
 }
 
 TEST(MeshChecks, EdgesOfMoreThanTwoTrianglesAreRefused) {
-  // A fin that stands on the edge from vertex 0 to vertex 1.
+  // A fin on the edge from vertex 0 to vertex 1.
   TriangleMesh mesh = unitTetrahedron();
   mesh.vertices.conservativeResize(3, 5);
   mesh.vertices.col(4) << 0.5, -1, -1;
@@ -178,7 +179,7 @@ TEST(MeshChecks, CavitiesAreTakenOutWithAWarning) {
   EXPECT_NEAR(computeMassProperties(joined(nested.mesh, nested.cavities)).volume, 57, 1e-12);
 }
 
-/// The volume of what checkMesh() makes of a mesh of parts, which it must say.
+/// Volume of parts united by checkMesh(); expects the warning of a union.
 double unitedVolume(const TriangleMesh& mesh) {
   const CheckedMesh united = checkMesh(mesh, "thing.obj");
   EXPECT_FALSE(united.warnings.empty());
@@ -211,7 +212,7 @@ TEST(MeshChecks, PartsThatOverlapOrTouchAreUnited) {
   EXPECT_EQ(refusal(joined(box, moved(box, {2.001, 0.3, 0.2}))), "no error");
 }
 
-// As files have it whose vertices were welded across parts: the side between them twice.
+// Files with vertices welded across parts contain the common side twice.
 TEST(MeshChecks, PartsWithASideInCommonAreUnited) {
   const TriangleMesh row = weldVertices(
       joined(joined(cube(1), moved(cube(1), {2, 0, 0})), moved(cube(1), {4, 0, 0})), 0);
@@ -219,7 +220,7 @@ TEST(MeshChecks, PartsWithASideInCommonAreUnited) {
   EXPECT_NEAR(unitedVolume(row), 24, 1e-6);
 }
 
-// A sample of points would miss so little.
+// Overlaps so small that a sample of points would miss them.
 TEST(MeshChecks, SmallOverlapsOfLargePartsAreFound) {
   const TriangleMesh ball = makeEllipsoidMesh({1, 1, 1}, 20000);
   EXPECT_EQ(refusal(joined(ball, moved(ball, {2.001, 0, 0}))), "no error");
@@ -228,7 +229,7 @@ TEST(MeshChecks, SmallOverlapsOfLargePartsAreFound) {
 }
 
 TEST(MeshChecks, SurfacesThatCrossThemselvesAreWarnedOf) {
-  // One corner of a cube is pulled through the opposite side.
+  // Pulls one corner of a cube through the opposite side.
   TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 1200);
   Eigen::Index corner = 0;
   mesh.vertices.colwise().sum().maxCoeff(&corner);
@@ -239,8 +240,8 @@ TEST(MeshChecks, SurfacesThatCrossThemselvesAreWarnedOf) {
       << checked.warnings[0];
 }
 
-/// A tube of radius 0.15 along a figure of eight, whose branches pass each other at a distance: the
-/// surface encloses the body twice where they overlap.
+/// A tube of radius 0.15 along a figure of eight; its branches cross at a distance. Overlapping
+/// branches enclose the body twice.
 TriangleMesh figureOfEight(double distance, int sides) {
   const int rings = 6 * sides;
   std::vector<Eigen::Vector3d> vertices;
@@ -280,7 +281,7 @@ TEST(MeshChecks, SurfacesThatEncloseTheBodyTwiceAreJudgedByTheirShareOfTheArea) 
   }
 }
 
-// The side 0 1 2 of a tetrahedron is divided, its neighbour is not.
+// Divides the edge of one triangle of a tetrahedron, but not of its neighbour.
 TriangleMesh tetrahedronWithTJunction(double off_edge) {
   return meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, off_edge, 0}},
                 {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
@@ -306,7 +307,7 @@ TEST(MeshChecks, WhatIsOpenOtherwiseIsNotDivided) {
 }
 
 TEST(MeshChecks, SurfacesThatEncloseNothingAreRefused) {
-  // Two sheets back to back on one boundary: closed, manifold, oriented, and flat.
+  // Two sheets back to back with a common boundary: closed, manifold, oriented, and flat.
   const TriangleMesh top = makeRectangularSheetMesh(1, 1, 100);
   TriangleMesh pillow = joined(top, insideOut(top));
   pillow = weldVertices(pillow, 0);
@@ -320,7 +321,7 @@ TEST(MeshChecks, SurfacesThatEncloseNothingAreRefused) {
 }
 
 TEST(MeshChecks, OneSidedSurfacesAreRefused) {
-  // A strip of ten triangles, its ends joined with a half turn.
+  // A strip of ten triangles with ends joined after a half turn.
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
   const int n = 10;

@@ -1,19 +1,19 @@
-#include "preprocess/mesh/mesh_coarsening.h"
+#include "preprocess/mesh/wrap/mesh_coarsening.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/compact_surface.h"
+#include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/mesh/wrap/compact_surface.h"
 
 namespace ambient {
 namespace {
 
-/// A unit ball by meridians and parallels: around the poles its triangles are slivers, `meridians`
-/// / 2 pi times as long as wide.
+/// A unit ball by meridians and parallels. Triangles at the poles are slivers, `meridians` / 2 pi
+/// times as long as wide.
 TriangleMesh ballOfMeridians(int meridians, int parallels) {
   const int south = 1 + (parallels - 1) * meridians;
   const auto vertex = [&](int parallel, int meridian) {
@@ -40,7 +40,7 @@ TriangleMesh ballOfMeridians(int meridians, int parallels) {
   return mesh;
 }
 
-// Where slivers cannot be contracted, 4734 triangles of 27 % more area are left.
+// Without contraction of slivers 4734 triangles with 27 % more area would remain.
 TEST(MeshCoarsening, ContractsTheSliversAroundPoles) {
   const TriangleMesh mesh = ballOfMeridians(360, 60);
   const auto fewer = inFewerTriangles(mesh, 1500);

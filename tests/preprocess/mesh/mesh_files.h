@@ -36,14 +36,14 @@ inline std::string asciiStlText(const TriangleMesh& mesh) {
   return text.str();
 }
 
-/// Bytes of a little-endian float32 or integer, as the machine has them.
+/// Little-endian bytes of a float32 or integer.
 template <class Number>
 std::string bytesOf(Number number) {
   return {reinterpret_cast<const char*>(&number), sizeof number};
 }
 
 inline std::string binaryStlText(const TriangleMesh& mesh) {
-  // A header that begins with "solid", as some exporters write it.
+  // A header with the word "solid", written by some exporters.
   std::string text = "solid but binary";
   text.resize(80, ' ');
   text += bytesOf(static_cast<std::uint32_t>(mesh.triangleCount()));
@@ -71,7 +71,7 @@ inline std::string plyText(const TriangleMesh& mesh) {
   return text.str();
 }
 
-/// A glTF file beside its buffer: `nodes` is the JSON of the nodes, which place mesh 0.
+/// Writes a glTF file and its buffer; `nodes` is the JSON of the nodes with mesh 0.
 inline void writeGltf(const std::filesystem::path& file, const TriangleMesh& mesh,
                       const std::string& nodes) {
   std::string buffer;

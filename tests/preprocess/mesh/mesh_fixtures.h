@@ -10,7 +10,7 @@
 
 namespace ambient {
 
-/// A mesh from literal rows.
+/// Mesh from literal vertices and triangles.
 inline TriangleMesh meshOf(const std::vector<Eigen::Vector3d>& vertices,
                            const std::vector<Eigen::Vector3i>& triangles) {
   TriangleMesh mesh;
@@ -21,7 +21,7 @@ inline TriangleMesh meshOf(const std::vector<Eigen::Vector3d>& vertices,
   return mesh;
 }
 
-/// Corners at the origin and at 1 on each axis; volume 1/6.
+/// Tetrahedron with corners at the origin and at 1 on each axis; volume 1/6.
 inline TriangleMesh unitTetrahedron() {
   return meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                 {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
@@ -47,7 +47,7 @@ inline TriangleMesh insideOut(TriangleMesh mesh) {
   return mesh;
 }
 
-/// Both meshes in one, nothing shared.
+/// Joins two meshes without shared vertices.
 inline TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
   TriangleMesh both;
   both.vertices.resize(3, a.vertexCount() + b.vertexCount());
@@ -65,12 +65,12 @@ inline TriangleMesh withoutTriangle(const TriangleMesh& mesh, Eigen::Index trian
   return result;
 }
 
-/// An arbitrary rotation, no axis special.
+/// Fixed rotation about an oblique axis.
 inline Eigen::Matrix3d someRotation() {
   return Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
 }
 
-/// what() of the std::runtime_error that `action` throws.
+/// Returns what() of the std::runtime_error thrown by `action`.
 inline std::string messageOf(const std::function<void()>& action) {
   try {
     action();

@@ -1,7 +1,7 @@
-// What single formats allow and their readers make of it.
+// Features of single file formats, and the meshes read from them.
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "tests/preprocess/mesh/mesh_import_fixture.h"
 
 namespace ambient {
@@ -9,7 +9,7 @@ namespace {
 
 const std::string kUnreadable = "cannot be read as a mesh: ";
 
-/// A tetrahedron of volume 1/6 and of different extents along x, y and z, as COLLADA.
+/// COLLADA text of a tetrahedron of volume 1/6 with different extents along x, y and z.
 std::string colladaText(const std::string& up_axis, const std::string& libraries) {
   return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -57,7 +57,7 @@ std::string dxfText(const TriangleMesh& mesh) {
   text << "0\nSECTION\n2\nENTITIES\n";
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
     text << "0\n3DFACE\n8\nlayer\n";
-    for (int k = 0; k < 4; ++k) {  // the fourth corner is the third one again
+    for (int k = 0; k < 4; ++k) {  // repeats the third corner
       const Eigen::Vector3d p = mesh.corner(t, std::min(k, 2));
       for (int c = 0; c < 3; ++c) text << 10 * (c + 1) + k << "\n" << p[c] << "\n";
     }
@@ -89,7 +89,7 @@ TEST_F(MeshImport, ObjFacesNeedNotHaveWhatTheyReferTo) {
   }
 }
 
-// The unit cube. `more` stands behind the coordinates of each vertex.
+// OFF text of the unit cube. `more` follows the coordinates of each vertex.
 std::string offText(const std::string& mark, const std::string& more = "") {
   std::string text = mark + "\n# a cube\n8 6 12\n\n";
   for (const char* const vertex :
@@ -108,7 +108,7 @@ TEST_F(MeshImport, OffFacesHaveAnyNumberOfCorners) {
   }
   const int count = 12;  // corners of a prism of radius 1 and height 1
   std::ostringstream prism;
-  prism << 2 * count << " " << count + 2 << "\n";  // without a mark
+  prism << 2 * count << " " << count + 2 << "\n";  // no mark
   for (int i = 0; i < 2 * count; ++i) {
     const double angle = 2 * kPi * i / count;
     prism << std::cos(angle) << " " << std::sin(angle) << " " << i / count << "\n";
@@ -121,7 +121,7 @@ TEST_F(MeshImport, OffFacesHaveAnyNumberOfCorners) {
     const int next = (i + 1) % count;
     prism << "\n4 " << i << " " << next << " " << count + next << " " << count + i;
   }
-  // Twelve triangles of sides 1 and 1 with 30 degrees between them.
+  // Twelve triangles with sides 1 and 1 at 30 degrees.
   EXPECT_NEAR(propertiesOf(write("prism.off", prism.str())).volume, count * 0.25, 1e-5);
 }
 

@@ -2,16 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/import/mesh_import.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_checks.h"
-#include "preprocess/mesh/mesh_import.h"
 #include "tests/preprocess/mesh/mesh_files.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {
 
-/// Writes small files and reads them.
+/// Writes small mesh files and reads them.
 class MeshImport : public ::testing::Test {
  protected:
   std::filesystem::path write(const std::string& name, const std::string& text) const {

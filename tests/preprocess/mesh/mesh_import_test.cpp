@@ -1,16 +1,16 @@
-#include "preprocess/mesh/mesh_import.h"
+#include "preprocess/mesh/import/mesh_import.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/mesh/mesh_import_fixture.h"
 
 namespace ambient {
 namespace {
 
-constexpr double kSingle = std::numeric_limits<float>::epsilon();  // of coordinates in assimp
+constexpr double kSingle = std::numeric_limits<float>::epsilon();  // rounding in assimp
 
 TEST_F(MeshImport, ReadsTheCommonFormatsAlike) {
   const TriangleMesh cone = makeConeMesh(0.3, 0.7, 200);
@@ -36,7 +36,7 @@ TEST_F(MeshImport, ScalesInDouble) {
 
 TEST_F(MeshImport, NodesPlaceTheirMeshes) {
   const auto file = folder_ / "scene with nodes.gltf";
-  // The child is moved by 10 along z and doubled by its parent, which also holds the mesh itself.
+  // The parent doubles its child, which is moved by 10 along z; both hold the mesh.
   writeGltf(file, unitTetrahedron(),
             R"([{"mesh":0,"children":[1],"scale":[2,2,2]},{"mesh":0,"translation":[0,0,10]}])");
   const MeshProperties both = propertiesOf(file);
@@ -53,7 +53,7 @@ TEST_F(MeshImport, MirroringNodesKeepNormalsOutward) {
 }
 
 TEST_F(MeshImport, SubMeshesAreWelded) {
-  // A cube in two objects and two materials, its seam written twice, with quads and a pentagon.
+  // A cube of two objects and two materials with a doubled seam, quads and a pentagon.
   const auto file = write("cube.obj",
                           "o bottom\nusemtl a\n"
                           "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
@@ -73,7 +73,7 @@ TEST_F(MeshImport, VerticesAreWeldedWithinAMillionthOfTheSize) {
     const std::string text = asciiStlText(mesh);
     mesh.vertices(0, 0) -= gap;
     const std::string other = asciiStlText(mesh);
-    // The first facet from the mesh with a moved corner, the others from the original.
+    // Takes the first facet from a mesh with a moved corner, the others from the original.
     const std::string mark = "endfacet\n";
     return other.substr(0, other.find(mark)) + text.substr(text.find(mark));
   };
@@ -108,7 +108,7 @@ TEST_F(MeshImport, TrianglesThatVanishAreLeftOutWithAWarning) {
   mesh.vertices.conservativeResize(3, 5);
   mesh.vertices.col(4) << 1e-8, 0, 0;
   mesh.triangles.conservativeResize(3, 6);
-  mesh.triangles.col(0) << 4, 2, 1;  // the face 0 2 1, with a sliver along its side 0 2
+  mesh.triangles.col(0) << 4, 2, 1;  // face 0 2 1, with a sliver along its side 0 2
   mesh.triangles.col(4) << 0, 2, 4;
   mesh.triangles.col(5) << 0, 4, 1;
   const auto file = write("sliver.obj", objText(mesh));
@@ -149,7 +149,7 @@ TEST_F(MeshImport, MissingAndForeignFilesAreRefused) {
   }
 }
 
-// Each of these ended or stopped the program, for assimp 5.2 crashes or never returns.
+// Files that crash assimp 5.2 or keep it from returning.
 TEST_F(MeshImport, DamagedFilesThatBringDownTheirReaderAreRefused) {
   const std::string whole = plyText(unitTetrahedron());
   const std::size_t end = whole.find("end_header");

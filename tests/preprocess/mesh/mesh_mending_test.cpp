@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_checks.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/mesh/weld_vertices.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
@@ -28,12 +28,12 @@ TEST(MeshMending, OneCopyIsKeptWhereEveryTriangleStandsTwice) {
   EXPECT_EQ(checked.mesh.triangles, sheet.triangles);
 }
 
-/// A cube whose upper side meets the edge of its front one in points that the front one lacks: flat
-/// triangles lie between them.
+/// A cube with extra points on an edge of the upper side that the front side lacks. Flat triangles
+/// fill the difference.
 TriangleMesh cubeWithFlatTriangles(int points, bool is_nested) {
   TriangleMesh mesh = makeBoxMesh({1, 1, 1}, 12);
   const int before = static_cast<int>(mesh.vertexCount());
-  // The side from corner 0 to 1 of triangle 0 is divided; its neighbour is not.
+  // Divides the side from corner 0 to 1 of triangle 0, but not its neighbour's.
   const int a = mesh.triangles(0, 0), b = mesh.triangles(1, 0), c = mesh.triangles(2, 0);
   mesh.vertices.conservativeResize(3, before + points);
   std::vector<int> row{a};
@@ -49,7 +49,7 @@ TriangleMesh cubeWithFlatTriangles(int points, bool is_nested) {
   mesh.triangles.col(0) << row[0], row[1], c;
   for (int i = 0; i < points; ++i) {
     mesh.triangles.col(triangles + i) << row[i + 1], row[i + 2], c;
-    // A fan from a, or a chain that halves the row again and again.
+    // Fan from a, or a chain of nested triangles to b.
     if (is_nested) {
       mesh.triangles.col(triangles + points + i) << row[i], b, row[i + 1];
     } else {

@@ -1,4 +1,4 @@
-#include "preprocess/mesh/mesh_union.h"
+#include "preprocess/mesh/union/mesh_union.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/mesh/convex_hull.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/convex_hull.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {
@@ -26,8 +26,8 @@ class MeshUnion : public ::testing::Test {
     return 2 * Eigen::Vector3d(x, y, z) - Eigen::Vector3d::Ones();
   }
 
-  // Two hulls on both sides of a plane, whose corners there are the same but for `apart` and, as
-  // files have them, single precision: a convex decomposition.
+  // Two hulls on both sides of a plane, as in a convex decomposition. Corners on the plane differ
+  // by `apart` and by the single precision of files.
   std::vector<TriangleMesh> hullsSideBySide(double apart) {
     constexpr int kCommon = 12, kOwn = 20;
     const Eigen::Vector3d normal = randomVector().normalized();
@@ -55,7 +55,7 @@ class MeshUnion : public ::testing::Test {
 
 double volumeOf(const TriangleMesh& mesh) { return computeMassProperties(mesh).volume; }
 
-// Their sides cross at angles of some 1e-4 or lie as far apart: slivers of that width.
+// Sides cross at angles of some 1e-4, or lie as far apart: slivers of this width.
 TEST_F(MeshUnion, NineOfTenPairsOfHullsNearlyFlushAreUnited) {
   constexpr int kPairs = 30;
   for (const double apart : {3e-5, 1e-4, 3e-4}) {

@@ -21,8 +21,8 @@ Eigen::Vector3d areaVector(const Polygon& polygon) {
   return sum;
 }
 
-// Sum of the areas of the triangles, negative where one turns against the polygon: equal to the
-// polygon's area only if they cover it without overlap.
+// Compares the signed area of the triangles with the polygon's. Equality means cover without
+// overlap: a triangle of the other orientation counts negative.
 void expectCovered(const Polygon& polygon, const std::string& what) {
   const auto triangles = dividePolygon(polygon);
   ASSERT_EQ(triangles.size(), polygon.size() - 2) << what;

@@ -1,4 +1,4 @@
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_checks.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {
@@ -65,7 +65,7 @@ double leastArea(const TriangleMesh& mesh) {
   return least;
 }
 
-// Every triangle of the mesh mirrored at one coordinate plane is a triangle of the mesh.
+// Tells if the mirror image of each triangle at a coordinate plane is in the mesh.
 bool isMirrorSymmetric(const TriangleMesh& mesh, int axis) {
   using Point = std::array<long long, 3>;
   const auto key = [&](int v, double sign) {
@@ -97,7 +97,7 @@ TEST(Primitives, ClosedMeshesHaveEveryEdgeOnceInEachDirection) {
         ASSERT_EQ(count, 1) << name;
         ASSERT_EQ(edges.count({edge.second, edge.first}), 1u) << name;
       }
-      // Euler's formula of one sphere-like component: every vertex is used, none is doubled.
+      // Euler's formula for one component: uses every vertex, none doubled.
       EXPECT_EQ(mesh.vertexCount(), 2 + mesh.triangleCount() / 2) << name;
       EXPECT_GT(signedVolume(mesh), 0) << name;
       EXPECT_GT(leastArea(mesh), 0) << name;
@@ -217,7 +217,7 @@ TEST(Primitives, ImpossibleSizesAreRefusedByName) {
             "box: faces = 1000000000 is above the largest number 1000000");
 }
 
-// Steiner's formula: V + m A + m^2 M + 4/3 pi m^3 with the integral M of the mean curvature.
+// Steiner's formula: V + m A + m^2 M + 4/3 pi m^3, M the integral of mean curvature.
 TEST(RoundedCone, HasTheVolumeWithinItsRounding) {
   const double radius = 0.7, height = 1.1;
   const double slant = std::hypot(radius, height);

@@ -1,12 +1,12 @@
-#include "preprocess/mesh/surface_wrap.h"
+#include "preprocess/mesh/wrap/surface_wrap.h"
 
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/compact_surface.h"
+#include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_topology.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/mesh/wrap/compact_surface.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {
@@ -14,7 +14,7 @@ namespace {
 
 TriangleMesh boxOf12(const Eigen::Vector3d& half_sizes) { return makeBoxMesh(half_sizes, 12); }
 
-/// Of the closed surface around a mesh.
+/// Properties of the closed surface around a mesh.
 MeshProperties wrappedProperties(const TriangleMesh& mesh, double size) {
   const TriangleMesh surface = wrapSurface(mesh, size, "thing.obj").mesh;
   EXPECT_TRUE(isClosed(computeMeshEdges(surface)));
@@ -39,7 +39,7 @@ TEST(SurfaceWrap, KeepsSharpBoxesInAnyAttitude) {
   }
 }
 
-// Without a size it is a hundredth of the diagonal; whichever way round the triangles are. Coarser
+// Default size: a hundredth of the diagonal; triangles of mixed orientation. The wrap's coarser
 // triangles cut off up to a tenth of the size.
 TEST(SurfaceWrap, KeepsBalls) {
   TriangleMesh ball = makeEllipsoidMesh({1, 1, 1}, 5000);
@@ -59,7 +59,7 @@ TEST(SurfaceWrap, UnitesPartsAndFillsWhatIsInside) {
   EXPECT_NEAR(wrappedProperties(joined(box, moved(box, {3, 0, 0})), 0.05).volume, 16, 0.02);
 }
 
-/// The six sides of a cube of side 2, with gaps of `gap` between them.
+/// Six sides of a cube of side 2 with gaps of `gap` between them.
 TriangleMesh cubeOfPlates(double gap) {
   const TriangleMesh cube = boxOf12({1, 1, 1});
   TriangleMesh plates;
@@ -81,7 +81,7 @@ TEST(SurfaceWrap, ClosesGaps) {
   EXPECT_NEAR(wrappedProperties(cubeOfPlates(0.04), 0.06).volume, 8, 0.05);
 }
 
-// Cubes of 0.04 pass gaps of 0.14. What is suggested is found to do.
+// Cells of 0.04 pass through gaps of 0.14. The suggested size must work.
 TEST(SurfaceWrap, RefusesAShellWhereItsTrianglesSurroundABody) {
   const TriangleMesh plates = cubeOfPlates(0.1);
   const std::string refusal = wrapRefusal(plates, 0.04);
@@ -90,7 +90,7 @@ TEST(SurfaceWrap, RefusesAShellWhereItsTrianglesSurroundABody) {
   EXPECT_GT(wrappedProperties(plates, 0.08).volume, 0.9 * 8);
 }
 
-// Twelve of the holes are side by side, others lie alone; what fills them is flat.
+// Holes: twelve adjacent ones, the others isolated; flat triangles fill them.
 TEST(SurfaceWrap, FillsHolesBeforeItWraps) {
   const TriangleMesh whole = makeEllipsoidMesh({1, 0.7, 0.4}, 1280);
   const double volume = computeMassProperties(whole).volume;
@@ -112,7 +112,7 @@ TEST(SurfaceWrap, FillsAMissingSide) {
   EXPECT_NEAR(wrappedProperties(box, 0.05).volume, 8, 0.02);
 }
 
-// A rounded slab, thickness 1.5 sizes, over a square of side 2.
+// Reference: a rounded slab over a square of side 2, thickness 1.5 sizes.
 TEST(SurfaceWrap, GivesSheetsAThickness) {
   const double size = 0.05, reach = 0.75 * size;
   const auto found = wrappedProperties(makeRectangularSheetMesh(2, 2, 8), size);

@@ -24,7 +24,7 @@ TEST(WeldVertices, JoinsWhatIsCloserThanTheToleranceAndNothingElse) {
 }
 
 TEST(WeldVertices, FindsNeighboursAcrossCells) {
-  // 1000 vertices, each doubled at 0.9 of the tolerance in a direction of its own.
+  // 1000 vertices, each with a copy at 0.9 of the tolerance in a random direction.
   std::vector<Eigen::Vector3d> vertices;
   for (int i = 0; i < 1000; ++i) {
     const int row = i / 10, layer = i / 100;

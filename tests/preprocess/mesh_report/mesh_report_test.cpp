@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/potential_flow.h"
-#include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/reference/body_added_mass.h"
 
@@ -39,7 +39,7 @@ class CubeReport : public ::testing::Test {
 TEST_F(CubeReport, EstimateIsWithinAFactorOfTwo) {
   const Matrix6& K = report_.built.added_mass;
   EXPECT_LT(report_.other->panels, report_.built.panels);
-  // Measured 4.5e-3 against 6.0e-3, 5.9e-2 against 3.8e-2.
+  // Estimate and error, measured: 4.5e-3 and 6.0e-3, 5.9e-2 and 3.8e-2.
   EXPECT_LT(std::abs(std::log2(report_.translation_error / translationErrorOf(K))), 1);
   EXPECT_LT(std::abs(std::log2(report_.rotation_error / rotationErrorOf(K))), 1);
   EXPECT_LT(translationErrorOf(report_.extrapolated), translationErrorOf(K) / 3);
@@ -50,7 +50,7 @@ TEST_F(CubeReport, EstimateOfABuildIsAboveItsError) {
   ASSERT_TRUE(report_.build);
   EXPECT_LT(report_.build->coarse_panels, report_.build->panels);
   const Matrix6& K = report_.build->added_mass;
-  // Measured 1.0e-1 against 1.5e-3, 9.1e-3 against 2.0e-3.
+  // Estimate and error, measured: 1.0e-1 and 1.5e-3, 9.1e-3 and 2.0e-3.
   EXPECT_GT(report_.build->rotation_error, rotationErrorOf(K));
   EXPECT_GT(report_.build->translation_error, translationErrorOf(K));
   EXPECT_LT(report_.build->translation_error, 2e-2);
@@ -70,7 +70,7 @@ TEST(MeshReport, FineMeshesAreComparedWithMorePanels) {
   EXPECT_EQ(report.built.panels, 320);
   ASSERT_TRUE(report.other);
   EXPECT_GT(report.other->panels, 960);
-  // It must foresee what still more panels on the same facets give.
+  // Extrapolation must predict the result of many more panels on these facets.
   PotentialFlowSettings settings;
   const Matrix6 limit = solvePotentialFlow(divideTriangles(egg, 4000), settings).added_mass;
   const double error = std::abs(report.built.added_mass(5, 5) / limit(5, 5) - 1);

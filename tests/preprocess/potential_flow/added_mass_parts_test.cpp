@@ -1,11 +1,11 @@
-#include "preprocess/potential_flow/added_mass_parts.h"
+#include "preprocess/potential_flow/results/added_mass_parts.h"
 
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/ellipsoid_added_mass.h"
-#include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {
@@ -20,8 +20,8 @@ Matrix6 sumOfParts(const std::vector<AddedMassPart>& parts) {
 double largestEntry(const Matrix6& K) { return K.cwiseAbs().maxCoeff(); }
 
 TEST(AddedMassParts, SumUpToTheAddedMassAboutAnyOrigin) {
-  // Translation comes from the energy, the parts from the potential: they differ by the
-  // discretisation, 2 % here.
+  // Energy gives the translation, the potential gives the parts: they differ by the discretisation,
+  // 2 % here.
   const TriangleMesh box = moved(makeBoxMesh({0.5, 0.4, 0.3}, 600), {0.1, 0.7, -0.4});
   const PotentialFlow flow = solvePotentialFlow(box);
   EXPECT_LT(largestEntry(sumOfParts(flow.parts) - flow.added_mass),
@@ -48,7 +48,7 @@ TEST(AddedMassParts, OfAnEllipsoidFollowFromItsClosedForm) {
 }
 
 TEST(AddedMassParts, KnowWhereTheyAre) {
-  // Panels at one place are one part: a mean over the area.
+  // Panels at one place make one part: a mean weighted by area.
   PanelInertia a, b;
   a.normal = b.normal = Vector3(0, 0, 1);
   a.centroid = b.centroid = Vector3(1, 2, 0);
@@ -83,7 +83,7 @@ TEST(AddedMassParts, OfABoxDoNotReachAroundItsEdges) {
   const Vector3 half(0.5, 0.4, 0.3);
   for (const AddedMassPart& part : solvePotentialFlow(makeBoxMesh(half, 600)).parts) {
     const double off = ((part.centre.cwiseAbs() - half).cwiseAbs()).minCoeff();
-    EXPECT_LT(off, 1e-6);                                // in a side
+    EXPECT_LT(off, 1e-6);                                // within a side
     EXPECT_LT(part.spread.head<3>().minCoeff(), 1e-12);  // flat
   }
 }

@@ -4,12 +4,12 @@
 #include <random>
 #include <vector>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/pi.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
-#include "tests/support/graded_meshes.h"
+#include "tests/support/bodies/graded_meshes.h"
 
 namespace ambient {
 namespace {
@@ -42,7 +42,7 @@ TEST(AddedMass, IsSymmetricPositiveSemiDefiniteForAllBodies) {
   for (const TriangleMesh& mesh : meshes) {
     const PotentialFlow flow = solvePotentialFlow(mesh);
     EXPECT_EQ(flow.added_mass, flow.added_mass.transpose());
-    // Rounding of the eigenvalues.
+    // Tolerance: rounding of eigenvalues.
     EXPECT_GE(lowestEigenvalue(flow.added_mass), -1e-15);
     EXPECT_LE(flow.removed_eigenvalue, 0);
     EXPECT_GE(flow.removed_eigenvalue, -1e-3);
@@ -51,7 +51,7 @@ TEST(AddedMass, IsSymmetricPositiveSemiDefiniteForAllBodies) {
 }
 
 TEST(AddedMass, NegativeEigenvaluesAreRemovedAndReported) {
-  // A plate of 12 triangles, aspect 1000: edgewise inertia is below what they resolve.
+  // A plate of 12 triangles, aspect 1000: edgewise inertia is below the resolution.
   const PotentialFlow flow = solvePotentialFlow(makeBoxMesh({1, 1, 1e-3}, 12));
   EXPECT_LT(flow.removed_eigenvalue, -1e-6);
   EXPECT_GT(flow.removed_eigenvalue, -1e-3);
@@ -60,7 +60,7 @@ TEST(AddedMass, NegativeEigenvaluesAreRemovedAndReported) {
 }
 
 TEST(AddedMass, SatisfiesReciprocityBeforeSymmetrisingUpToDiscretisation) {
-  // Without symmetry no entry agrees by accident; the asymmetry falls with the mesh.
+  // A body without symmetry: no entry agrees by accident. The asymmetry falls with refinement.
   const double coarse = solvePotentialFlow(skewBody(makeBoxMesh({0.5, 0.35, 0.6}, 300))).asymmetry;
   const double fine = solvePotentialFlow(skewBody(makeBoxMesh({0.5, 0.35, 0.6}, 1200))).asymmetry;
   // Measured 1.2e-3 and 7.6e-5.
@@ -75,17 +75,17 @@ TEST(AddedMass, OfTwoSpheresFarApartIsTheirSum) {
   const Vector3d here(-100, 0, 0), there(150, 40, -30);
   const Matrix6 pair = addedMassOf(joined(moved(sphere, here), moved(small, there)));
   const Matrix6 sum = addedMassOf(moved(sphere, here)) + addedMassOf(moved(small, there));
-  // Their dipoles interact with (R / distance)^3 = 6e-8, times a few.
+  // Interaction of the dipoles: a multiple of (R / distance)^3 = 6e-8.
   EXPECT_LT(Matrix3((pair - sum).bottomRightCorner<3, 3>()).norm(), 1e-6);
-  // Rotation about a distant origin is translation, but integrated by (11) instead of (10): the
-  // quadrature differs by 1e-5.
+  // Rotation about a distant origin is a translation, integrated by (11) instead of (10):
+  // quadratures differ by 1e-5.
   EXPECT_LT(differenceOf(pair, sum, 150), 2e-5);
 }
 
 TEST(AddedMass, OfTwoSpheresNearbyHasTheFirstOrderOfTheirInteraction) {
-  // Each dipole meets the other's flow: K = 2 (2/3 pi R^3) (1 - 3 R^3 / c^3 + ...) along the line
-  // of centres, 1 + 3/2 R^3 / c^3 + ... across (Lamb, art. 138). R^3 is that of the facetted
-  // spheres.
+  // Dipole interaction (Lamb, art. 138), R^3 from the facetted spheres' volume. Along the line of
+  // centres K = 2 (2/3 pi R^3) (1 - 3 R^3 / c^3 + ...); across the factor is 1 + 3/2 R^3 / c^3 +
+  // ....
   const TriangleMesh sphere = makeEllipsoidMesh({1, 1, 1}, 320);
   const double c = 6, one = addedMassOf(sphere)(3, 3);
   const double ratio = one / (2.0 / 3.0 * kPi) / (c * c * c);
@@ -96,14 +96,14 @@ TEST(AddedMass, OfTwoSpheresNearbyHasTheFirstOrderOfTheirInteraction) {
 }
 
 TEST(AddedMass, OfAHollowBodyIncludesTheFluidInside) {
-  // Fluid in a cavity moves with the walls in translation: its whole mass, and its first moments.
+  // Fluid in a cavity translates with the walls: K holds its mass and first moments.
   const TriangleMesh outside = makeEllipsoidMesh({1, 0.8, 0.6}, 500);
   const Vector3d centre(0.2, 0.1, 0);
   const TriangleMesh cavity = moved(makeEllipsoidMesh({0.4, 0.3, 0.3}, 180), centre);
   const Matrix6 filled = addedMassOf(joined(outside, insideOut(cavity))) - addedMassOf(outside);
   const double volume = test::volumeOf(cavity);
   const Matrix3 mass = filled.bottomRightCorner<3, 3>(), coupling = filled.topRightCorner<3, 3>();
-  // Linear potentials are exact in hat functions: quadrature only; measured 1.4e-9 and 4e-6.
+  // Hat functions contain linear potentials: quadrature error only; measured 1.4e-9, 4e-6.
   EXPECT_LT((mass - volume * Matrix3::Identity()).norm(), 1e-7 * volume);
   EXPECT_LT((coupling - volume * crossMatrix(centre)).norm(), 1e-5 * volume);
 }

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/parallel_for.h"
+#include "bullet_ambient/base/parallel_for.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 
 namespace ambient {
@@ -61,7 +61,7 @@ TEST(PotentialFlowInput, SheetNeedsAVertexInside) {
 }
 
 TEST(PotentialFlowInput, SidesTooCloseForTheTrianglesAreRefused) {
-  // A tetrahedron flattened until front and back, of different triangles, all but coincide.
+  // A flattened tetrahedron: front and back have different triangles and nearly coincide.
   TriangleMesh mesh = unitTetrahedron();
   mesh.vertices =
       meshOf({{1, 1, 1e-4}, {1, -1, -1e-4}, {-1, 1, -1e-4}, {-1, -1, 1e-4}}, {}).vertices;
@@ -89,7 +89,7 @@ TEST(ParallelFor, VisitsEveryIndexOnce) {
   }
 }
 
-// Under the address sanitizer a program needs more memory than such a limit leaves.
+// The address sanitizer needs more memory than the limit allows.
 #if defined(__has_feature)
 #define AMBIENT_HAS_ADDRESS_SANITIZER __has_feature(address_sanitizer)
 #else
@@ -99,7 +99,7 @@ TEST(ParallelFor, VisitsEveryIndexOnce) {
 TEST(ParallelFor, DoesItAllWhereNoThreadCanBeStarted) {
   const auto countWithoutThreads = [] {
     std::vector<int> visits(100, 0);
-    const rlimit no_more_memory{1, 1};  // [bytes]: none for the stack of a thread
+    const rlimit no_more_memory{1, 1};  // [bytes], too few for a thread's stack
     setrlimit(RLIMIT_AS, &no_more_memory);
     parallelFor(8, 100, [&](std::ptrdiff_t i) { ++visits[i]; });
     std::_Exit(std::count(visits.begin(), visits.end(), 1) == 100 ? 0 : 1);

@@ -1,4 +1,4 @@
-#include "preprocess/potential_flow/block_product.h"
+#include "preprocess/potential_flow/solvers/block_product.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ TEST(BlockProduct, AddsTheBlockAndItsTransposeForAllFieldsAndSizes) {
   for (const int rows : {1, 3, 8, 13})
     for (const int columns : {1, 5, 16})
       for (const int fields : {8, 24}) {
-        // Small integers: every sum is exact.
+        // Small integers make exact sums.
         const auto numbers = [](Eigen::Index i, Eigen::Index j) {
           return static_cast<float>((7 * i + 5 * j) % 11 - 5);
         };

@@ -1,17 +1,17 @@
-#include "preprocess/potential_flow/ellipsoid_added_mass.h"
+#include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/primitives.h"
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 
 namespace ambient {
 namespace {
 
-// Lamb's formulae with Carlson's integrals of another library, checked against quadrature.
+// Lamb's formulae with Carlson's integrals from another library, checked by quadrature.
 TEST(EllipsoidAddedMass, AgreesWithPublishedNumbers) {
   Vector6 three_axes, flat, long_one;
   three_axes << 9.632557631369707, 35.599830507687976, 3.914191474995723, 4.6560012697568816,
@@ -34,7 +34,7 @@ TEST(EllipsoidAddedMass, BallHasHalfItsVolume) {
 TEST(EllipsoidAddedMass, AlmostABallHasAlmostNoRotation) {
   const double e = 1e-6, volume = 4 * kPi / 3;
   const Vector6 K = ellipsoidAddedMass({1, 1, 1 + e});
-  // With alpha_0 - gamma_0 = 4/5 e: V/5 (2 e)^2 / 3. The next order is e times that.
+  // Limit for alpha_0 - gamma_0 = 4/5 e: V/5 (2 e)^2 / 3. The next term is smaller by e.
   EXPECT_NEAR(K[0] / (4.0 / 15 * volume * e * e), 1, 1e-5);
   EXPECT_EQ(K[2], 0);
 }

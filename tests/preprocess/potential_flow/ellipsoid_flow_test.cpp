@@ -3,12 +3,12 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/primitives.h"
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/ellipsoid_added_mass.h"
+#include "tests/support/bodies/graded_meshes.h"
 #include "tests/support/convergence.h"
-#include "tests/support/graded_meshes.h"
 
 namespace ambient {
 namespace {
@@ -19,8 +19,8 @@ using test::relativeError;
 
 double volumeOf(const Vector3d& semi_axes) { return 4.0 / 3.0 * kPi * semi_axes.prod(); }
 
-/// Largest relative error of translation (block 1) or rotation (block 0); entries that vanish by
-/// symmetry count against the largest of their block.
+/// Largest relative error of translation (block 1) or rotation (block 0). Entries that vanish by
+/// symmetry are relative to the largest of their block.
 double blockError(const Matrix6& K, const Vector3d& semi_axes, int block) {
   const Vector3d reference = reference::ellipsoidAddedMass(semi_axes).segment<3>(3 * block);
   double worst = 0;
@@ -47,7 +47,7 @@ struct SmoothBody {
   double translation, rotation;  ///< errors measured after volume correction, rounded up
 };
 
-// 3:2:1, 5:5:1, ... : error with the volume of the smooth body given.
+// 3:2:1, 5:5:1, ...: errors with the mesh scaled to the smooth body's volume.
 const std::vector<SmoothBody> kBodies = {{{1, 1, 1}, 1.2e-5, 0},      {{3, 2, 1}, 2e-4, 6e-4},
                                          {{5, 5, 1}, 3e-4, 8e-4},     {{1, 1, 0.2}, 3e-4, 8e-4},
                                          {{1, 1, 0.1}, 5e-4, 1.1e-3}, {{2, 1, 1}, 1e-4, 7e-4},
@@ -55,7 +55,7 @@ const std::vector<SmoothBody> kBodies = {{{1, 1, 1}, 1.2e-5, 0},      {{3, 2, 1}
 
 TEST(EllipsoidFlow, Of1280TrianglesIsWithin1Point5PercentOfTheSmoothBody) {
   for (const SmoothBody& body : kBodies) {
-    // Facets cut 0.86 % of the volume: 0.86 % in translation, 5/3 of that in rotation.
+    // Facets cut off 0.86 % of the volume: 0.86 % in translation, 5/3 of this in rotation.
     const Matrix6 K = addedMassOf(makeEllipsoidMesh(body.semi_axes, 1300));
     const double limit = body.semi_axes.z() < 0.05 ? 0.016 : 0.015;
     EXPECT_LT(blockError(K, body.semi_axes, 1), 0.0095) << body.semi_axes.transpose();
@@ -89,7 +89,7 @@ TEST(EllipsoidFlow, ConvergesWithSecondOrder) {
 }
 
 TEST(SphereFlow, HasAlmostNoRotationalInertia) {
-  // Exactly none on the smooth sphere; what the facets leave falls with the fourth power of their
+  // Rotation of a smooth sphere has no added mass. The facets' falls with the fourth power of their
   // size.
   const double coarse = addedMassOf(makeEllipsoidMesh({1, 1, 1}, 320))(0, 0);
   const double fine = addedMassOf(makeEllipsoidMesh({1, 1, 1}, 1280))(0, 0);
@@ -99,11 +99,10 @@ TEST(SphereFlow, HasAlmostNoRotationalInertia) {
 
 TEST(SphereFlow, PotentialIsHalfTheNormalVelocity) {
   const double R = 0.4;
-  const TriangleMesh mesh =
-      test::withVolume(makeEllipsoidMesh({R, R, R}, 1300), volumeOf({R, R, R}));
+  const TriangleMesh mesh = withVolume(makeEllipsoidMesh({R, R, R}, 1300), volumeOf({R, R, R}));
   const PotentialFlow flow = solvePotentialFlow(mesh);
   ASSERT_EQ(flow.potential.rows(), mesh.vertexCount());
-  // phi = -R/2 cos(theta) for translation, 0 for rotation. Facets; measured 9e-4 R.
+  // phi = -R/2 cos(theta) for translation, 0 for rotation. Error of the facets: measured 9e-4 R.
   const Eigen::Matrix3Xd expected = -mesh.vertices / 2;
   EXPECT_LT((flow.potential.rightCols<3>().transpose() - expected).cwiseAbs().maxCoeff(), 2e-3 * R);
   EXPECT_LT(flow.potential.leftCols<3>().cwiseAbs().maxCoeff(), 2e-3 * R * R);

@@ -4,19 +4,10 @@
 #include <cmath>
 
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/potential_flow/potential_flow.h"
+#include "preprocess/potential_flow/results/potential_flow.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient::test {
-
-/// The mesh scaled about its centre of volume to the volume of the body that it stands for.
-inline TriangleMesh withVolume(TriangleMesh mesh, double volume) {
-  const MeshProperties properties = computeMassProperties(mesh);
-  const Eigen::Vector3d centre = properties.uniform.centre;
-  const double stretch = std::cbrt(volume / properties.volume);
-  mesh.vertices = ((mesh.vertices.colwise() - centre) * stretch).colwise() + centre;
-  return mesh;
-}
 
 inline Matrix6 addedMassOf(const TriangleMesh& mesh) { return solvePotentialFlow(mesh).added_mass; }
 
@@ -44,7 +35,7 @@ inline double differenceOf(const Matrix6& a, const Matrix6& b, double length = 1
   return (scaled(a) - scaled(b)).cwiseAbs().maxCoeff() / scaled(b).cwiseAbs().maxCoeff();
 }
 
-/// A skew closed body without any symmetry: a bent, tapered, twisted box.
+/// A closed body without symmetry: a bent, tapered, twisted box.
 inline TriangleMesh skewBody(TriangleMesh box) {
   for (Eigen::Index v = 0; v < box.vertexCount(); ++v) {
     const Eigen::Vector3d p = box.vertices.col(v);

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
-#include "tests/support/graded_meshes.h"
+#include "tests/support/bodies/graded_meshes.h"
 
 namespace ambient {
 namespace {
@@ -16,12 +16,12 @@ using test::differenceOf;
 using test::sheetAddedMassOf;
 using test::skewBody;
 
-// Rounding through the factorisation; discretisation must not enter.
+// Tolerance: rounding of the factorisation, without discretisation error.
 constexpr double kIdentity = 1e-10;
 
 TriangleMesh skewBox() { return skewBody(makeBoxMesh({0.5, 0.35, 0.6}, 300)); }
 
-/// A sheet without symmetry, not flat.
+/// A curved sheet without symmetry.
 TriangleMesh skewSheet() { return skewBody(makeRectangularSheetMesh(1.2, 0.8, 200)); }
 
 TEST(FlowInvariance, RotatedMeshGivesRotatedInertia) {
@@ -34,7 +34,7 @@ TEST(FlowInvariance, RotatedMeshGivesRotatedInertia) {
 }
 
 TEST(FlowInvariance, RotationHoldsForRegularMeshesFullOfEqualDistances) {
-  // No pair of panels may change its quadrature by rounding.
+  // Rounding must not change the quadrature of any pair of panels.
   const Eigen::Matrix3d R = someRotation();
   for (const TriangleMesh& mesh :
        {makeBoxMesh({1, 1, 1}, 432), makeEllipsoidMesh({1, 1, 1}, 320)}) {
@@ -57,7 +57,7 @@ TEST(FlowInvariance, OriginFarAwayCostsOnlyTheDigitsOfTheCoordinates) {
   const Vector3d d(1000, -2000, 3000);
   const Matrix6 near = addedMassOf(skewBox());
   const Matrix6 back = shiftOrigin(addedMassOf(moved(skewBox(), d)), d);
-  // Coordinates of 3000 keep 5e-13; shifting back multiplies by 3000 twice.
+  // Coordinates of 3000 keep 5e-13; the shift back multiplies by 3000 twice.
   EXPECT_LT(differenceOf(addedMassOf(moved(skewBox(), d)), shiftOrigin(near, -d), 3000), kIdentity);
   EXPECT_LT(Matrix3((back - near).bottomRightCorner<3, 3>()).norm(), 1e-9 * near.norm());
 }
@@ -74,7 +74,7 @@ TEST(FlowInvariance, SizeDoesNotMatter) {
 }
 
 TEST(FlowInvariance, MirroredMeshGivesMirroredInertia) {
-  // Under x -> -x velocities keep their vector rule, rotations (axial) gain the sign of the
+  // Mirror x -> -x: velocities transform as vectors, rotations (axial) also change sign with the
   // determinant.
   Vector6 signs;
   signs << 1, -1, -1, -1, 1, 1;

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 
 namespace ambient {
@@ -22,8 +22,8 @@ PotentialFlow solveWith(FlowSolverKind solver, const TriangleMesh& mesh, bool sh
   return solvePotentialFlow(mesh, settings);
 }
 
-/// Largest difference of a block over its largest entry; for a coupling that symmetry makes 0, over
-/// the geometric mean of its neighbours.
+/// Largest difference of a block over its largest entry. A coupling that vanishes by symmetry is
+/// relative to the geometric mean of its neighbours.
 double blockError(const Matrix6& a, const Matrix6& b, int row, int column) {
   const auto largest = [&](int i, int j) { return b.block<3, 3>(i, j).cwiseAbs().maxCoeff(); };
   double scale = largest(row, column);
@@ -78,12 +78,12 @@ TEST_P(HierarchicalFlow, AgreesWithTheDenseSolver) {
   const PotentialFlow dense = solveWith(FlowSolverKind::Dense, mesh, GetParam().sheet);
   EXPECT_GT(flow.iterations, 0);
   EXPECT_EQ(dense.iterations, 0);
-  // Issue: 1e-3; measured at most 3e-5 at these sizes.
+  // Requirement: 1e-3; measured 3e-5 at most for these sizes.
   for (const int row : {0, 3})
     for (const int column : {0, 3})
       EXPECT_LT(blockError(flow.added_mass, dense.added_mass, row, column), 1e-4)
           << row << " " << column;
-  // Measured at most 2.5e-5; a far field that is off by 5 % shows here first.
+  // Measured 2.5e-5 at most; a far field with an error of 5 % fails here first.
   EXPECT_LT((flow.potential - dense.potential).norm(), 1e-4 * dense.potential.norm());
 }
 
@@ -102,10 +102,10 @@ TEST(HierarchicalSolver, ThreadsDoNotChangeABit) {
 TEST(HierarchicalSolver, TakesOverAboveALimit) {
   const double volume = 4.0 / 3 * std::acos(-1.0);
   const PotentialFlow flow =
-      solvePotentialFlow(test::withVolume(makeEllipsoidMesh({1, 1, 1}, 4500), volume));
+      solvePotentialFlow(withVolume(makeEllipsoidMesh({1, 1, 1}, 4500), volume));
   ASSERT_GT(flow.panels, kMostDensePanels);
   EXPECT_GT(flow.iterations, 0);
-  // The facets, measured 4e-6.
+  // Error of the facets, measured 4e-6.
   for (int k = 3; k < 6; ++k) EXPECT_LT(relativeError(flow.added_mass(k, k), volume / 2), 2e-5);
 }
 

@@ -3,11 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/double_layer.h"
-#include "preprocess/potential_flow/hypersingular.h"
-#include "preprocess/potential_flow/vertex_projection.h"
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/operators/double_layer.h"
+#include "preprocess/potential_flow/operators/hypersingular.h"
+#include "preprocess/potential_flow/results/vertex_projection.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/reference/triangle_potentials.h"
 
@@ -25,7 +25,7 @@ PanelSurface twoTetrahedra(const Vector3d& distance = {2.5, 1, -0.5}) {
   return makePanelSurface(joined(one, moved(scaled(other, 0.7), distance)), false);
 }
 
-/// Any numbers.
+/// Fixed values without structure.
 MatrixX6 someValues(Index rows) {
   MatrixX6 values(rows, 6);
   for (Index i = 0; i < values.size(); ++i)
@@ -37,7 +37,7 @@ double hat(const Panel& p, int a, const Vector3d& x) {
   return 1 + p.hatGradient(a).dot(x - p.corner[a]);
 }
 
-/// int_T f(x) int_S h_b(y) dG/dn_y, the outer integral by brute force.
+/// int_T f(x) int_S h_b(y) dG/dn_y; outer integral by fine subdivision.
 template <typename Function>
 double layerIntegral(const Panel& t, const Panel& s, int b, const Function& f) {
   return reference::integrateOverTriangle(
@@ -82,7 +82,7 @@ TEST(Hypersingular, EqualsTheSumOfReferencePairIntegrals) {
           reference(surface.triangles(a, t), surface.triangles(b, s)) +=
               p.normal.cross(p.hatGradient(a)).dot(q.normal.cross(q.hatGradient(b))) * integral;
     }
-  // The quadrature of the pairs; measured 6.5e-6.
+  // Error of the pairs' quadrature; measured 6.5e-6.
   EXPECT_LT((fullHypersingular(surface) - reference).norm(), 1e-5 * reference.norm());
 }
 
@@ -108,7 +108,7 @@ TEST(NormalVelocity, OfAClosedSurfaceSumsToZeroAndMeasuresTheVolume) {
   const PanelSurface surface = makePanelSurface(moved(unitTetrahedron(), {3, 2, 1}), false);
   const MatrixX6 B = assembleNormalVelocity(surface, numberUnknowns(surface));
   EXPECT_LT(B.colwise().sum().norm(), 1e-15);
-  // int z_i n_j = volume delta_ij, with the linear function z exact in hat functions.
+  // int z_i n_j = volume delta_ij; hat functions contain the linear function z exactly.
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
   for (Index t = 0; t < surface.panelCount(); ++t)
     for (int a = 0; a < 3; ++a) {
@@ -146,14 +146,14 @@ TEST(ExteriorMoments, EqualReferenceIntegralsOverBothPanels) {
   const PanelMoments moments = momentsOf(surface, jump);
   for (Index t : {1, 6}) {
     const auto reference = referenceMoments(surface, jump, t);
-    // 16 points next to edges; measured 1e-3.
+    // Quadrature of 16 points next to edges; measured 1e-3.
     EXPECT_LT((moments[t] - reference).norm(), 1.5e-3 * reference.norm()) << t;
   }
 }
 
 TEST(ExteriorMoments, OfDistantPanelsEqualReferenceIntegrals) {
-  // Jumps on the other body only, so that nothing near hides the error of the far field; it is as
-  // close as the far field gets, and most of its moments cancel. Measured 5.7e-3.
+  // Jumps on the other body only: no near pairs hide the far field's error. The distance is the
+  // least for far pairs, and most moments cancel. Measured 5.7e-3.
   const PanelSurface surface = twoTetrahedra({3.5, 3, -2.5});
   for (Index s = 4; s < 8; ++s) ASSERT_EQ(classifyPair(surface, 1, s), PairKind::Far);
   MatrixX6 jump = someValues(surface.vertexCount());
@@ -169,15 +169,15 @@ TEST(ExteriorMoments, OfAConstantJumpVanish) {
 }
 
 TEST(ExteriorMoments, OfALinearJumpOnTheSphereAreThoseOfAThirdOfIt) {
-  // Green's formula for the potential z inside: its double layer is, outside, the single layer of
-  // n, which is n / 3 on the unit sphere.
+  // Green's formula for the potential z inside. Outside, its double layer equals the single layer
+  // of n: n / 3 on the unit sphere.
   const PanelSurface surface = makePanelSurface(makeEllipsoidMesh({1, 1, 1}, 1280), false);
   MatrixX6 jump = MatrixX6::Zero(surface.vertexCount(), 6);
   for (Index t = 0; t < surface.panelCount(); ++t)
     for (int a = 0; a < 3; ++a)
       jump.row(surface.triangles(a, t)).head<3>() = surface.panels[t].corner[a].transpose();
   const MatrixX6 potential = projectOnVertices(surface, momentsOf(surface, jump));
-  // Facets instead of the sphere; measured 5e-4.
+  // Error of facets instead of the sphere; measured 5e-4.
   EXPECT_LT((potential.leftCols<3>() - jump.leftCols<3>() / 3).cwiseAbs().maxCoeff(), 1e-3);
 }
 

@@ -1,13 +1,13 @@
-#include "preprocess/potential_flow/panel_tree.h"
+#include "preprocess/potential_flow/operators/panel_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/pair_integrals.h"
-#include "preprocess/potential_flow/tree_double_layer.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/operators/tree_double_layer.h"
+#include "preprocess/potential_flow/solvers/pair_integrals.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {

@@ -1,20 +1,20 @@
-#include "preprocess/potential_flow/refined_flow.h"
+#include "preprocess/potential_flow/results/refined_flow.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/curvature_correction.h"
-#include "preprocess/potential_flow/ellipsoid_added_mass.h"
-#include "preprocess/potential_flow/face_bulges.h"
-#include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/results/curvature_correction.h"
+#include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
+#include "preprocess/potential_flow/surface/face_bulges.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/body_added_mass.h"
-#include "tests/support/graded_meshes.h"
+#include "tests/support/bodies/graded_meshes.h"
 
 namespace ambient {
 namespace {
@@ -28,11 +28,6 @@ PotentialFlowSettings withPanels(int panels) {
   return settings;
 }
 
-TriangleMesh withVolume(TriangleMesh mesh, double volume) {
-  mesh.vertices *= std::cbrt(volume / test::volumeOf(mesh));
-  return mesh;
-}
-
 TEST(FaceBulges, ReachFromTheTrianglesToTheirSphere) {
   const TriangleMesh mesh = makeEllipsoidMesh({1, 1, 1}, 320);  // vertices on the sphere
   const std::vector<FaceBulge> bulges = estimateBulges(mesh);
@@ -40,7 +35,7 @@ TEST(FaceBulges, ReachFromTheTrianglesToTheirSphere) {
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d middle = (mesh.corner(t, k) + mesh.corner(t, (k + 1) % 3)) / 2;
-      EXPECT_NEAR(bulges[t][k] / (1 - middle.norm()), 1, 0.06);  // the next order
+      EXPECT_NEAR(bulges[t][k] / (1 - middle.norm()), 1, 0.06);  // error: next order
     }
 }
 
@@ -55,7 +50,7 @@ TEST(FaceBulges, DentsAreNegative) {
       lowest = std::min(lowest, bulges[t][k]);
       highest = std::max(highest, bulges[t][k]);
     }
-  // The hole is a saddle: round it chords lie in the fluid, along the tube in the body.
+  // Chords around the hole run through the fluid, along the tube through the body: a saddle.
   const double turn = 2 * kPi / 24;
   EXPECT_NEAR(lowest, -turn * turn / 8, 0.2 * turn * turn / 8);
   EXPECT_NEAR(highest, turn * turn / 8, 0.2 * turn * turn / 8);
@@ -170,10 +165,10 @@ TEST(RefinedFlow, RodsOf1000DiametersFollowStripTheory) {
       EXPECT_LT(relativeError(K(k + 3, k + 3), per_length * 2 * half), tolerance);
     }
   };
-  // A square of half width 1: 4.754 (Newman 1977). Measured 6.6e-3, and 1.6e-3 with 4200 panels;
-  // its 1296 triangles themselves: 2.4e-2.
+  // A square of half width 1: 4.754 (Newman 1977). Measured 6.6e-3, and 1.6e-3 with 4200 panels.
+  // With its 1296 triangles as panels: 2.4e-2.
   expectStrips(makeBoxMesh({1, 1, half}, 1300), 4.754, 8e-3);
-  // 16 sides; with 8, which had sharp edges, 9e-2 in rotation. Measured 2.4e-3.
+  // 16 sides, measured 2.4e-3; 8 sides, which have sharp edges: 9e-2 in rotation.
   expectStrips(withVolume(makeCapsuleMesh(1, 2 * half, 1300), kPi * 2 * half), kPi, 3e-3);
 }
 

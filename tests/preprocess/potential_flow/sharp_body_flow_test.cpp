@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/primitives.h"
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/body_added_mass.h"
-#include "tests/support/graded_meshes.h"
+#include "tests/support/bodies/graded_meshes.h"
 
 namespace ambient {
 namespace {
@@ -73,7 +73,7 @@ TEST(SharpBodyFlow, HemisphereHasNoOtherCoupling) {
 }
 
 TEST(SharpBodyFlow, CylindersAreWithinTheirFacets) {
-  // Polygons instead of circles; measured 7e-3 and 4.5e-3.
+  // Error of polygons instead of circles; measured 7e-3 and 4.5e-3.
   EXPECT_LT(
       revolutionError(addedMassOf(makeCylinderMesh(1, 2, 2400)), reference::cylinderAddedMass()),
       8e-3);

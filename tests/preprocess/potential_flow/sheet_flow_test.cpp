@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 #include "tests/reference/sheet_added_mass.h"
 
@@ -76,7 +76,7 @@ TEST(SheetFlow, PotentialJumpOfADiskIsAnEllipse) {
 }
 
 TEST(SheetFlow, IsTheLimitOfThinPlates) {
-  // Rotational and broadside inertia of a plate exceed the sheet's by an amount proportional to the
+  // A plate exceeds the sheet in rotational and broadside inertia by an amount proportional to its
   // thickness (with a logarithm).
   const SheetAddedMass exact = reference::rectangleAddedMass(2);
   double previous = 1;
@@ -91,7 +91,7 @@ TEST(SheetFlow, IsTheLimitOfThinPlates) {
 }
 
 TEST(SheetFlow, EdgewiseInertiaOfAThinPlateFallsWithTheSquareOfTheThickness) {
-  // Edge strips of width h and length L: of the order of L h^2.
+  // Edge strips of width h and length L add about L h^2.
   for (double thickness : {0.01, 0.001}) {
     const Matrix6 K = test::addedMassOf(makeBoxMesh({1, 0.5, thickness / 2}, 1200));
     for (int k : {3, 4}) {

@@ -1,4 +1,4 @@
-#include "preprocess/potential_flow/solid_harmonics.h"
+#include "preprocess/potential_flow/operators/solid_harmonics.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST(SolidHarmonics, ExpandTheInverseDistance) {
       const double value =
           regularAt(harmonics, a).transpose() * transfer.cast<double>() * regularAt(harmonics, b);
       const double distance = (offset + target_scale * a - source_scale * b).norm();
-      // The first term that is left out is at most of this order; then single precision.
+      // Bound of the first omitted term; then single precision.
       const double ratio = (target_scale + source_scale) / offset.norm();
       EXPECT_LT(std::abs(value * distance - 1), 2 * std::pow(ratio, degree + 1) + 1e-6)
           << degree << " " << k;

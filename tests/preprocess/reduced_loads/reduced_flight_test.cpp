@@ -1,16 +1,16 @@
 #include <gtest/gtest.h>
 
 #include "preprocess/reduced_loads/reduced_loads.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
 
 const double kRightAngle = std::acos(0.0);
 
-// Made once per program.
+// Plate with levels, built once per program.
 const FluidBody& plateWithLevels() {
   static const FluidBody plate = [] {
     FluidBody body = test::meshedEllipsoid({0.05, 0.05, 0.01}, 3);
@@ -22,6 +22,7 @@ const FluidBody& plateWithLevels() {
 
 BodyModel modelWith(const FluidBody& body, double error, double angle = kRightAngle) {
   FlowSettings flow;
+  flow.law = PressureLaw::kPublished;  // its levels are clusters
   flow.maximum_load_error = error;
   flow.separation_angle = angle;
   return test::modelOf({body, {1, Matrix3::Identity()}, air(), flow});
@@ -47,6 +48,7 @@ TEST(ReducedFlight, TakesTheCheapestLevelThatKeepsTheError) {
 TEST(ReducedFlight, OfAFlutteringPlateStaysNearTheOneOnAllFaces) {
   const auto end = [](double error) {
     FlowSettings flow;
+    flow.law = PressureLaw::kPublished;
     flow.maximum_load_error = error;
     const double mass = 2e-4;
     test::FreeBody plate({plateWithLevels(),

@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_ambient/fluid_body/fluid_body_file.h"
-#include "bullet_ambient/force/face_loads.h"
-#include "bullet_ambient/force/level_sums.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/random_bodies.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/force/kernels/level_sums.h"
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
 namespace {
@@ -21,7 +21,7 @@ const LoadSettings kAir{1.2, 0, 0, false};
 
 FluidBody oblate(int level = 2) { return test::meshedEllipsoid({0.5, 0.5, 0.1}, level); }
 
-// The same about another origin.
+// Moves the body to another origin.
 FluidBody shifted(FluidBody body, const Vector3& by) {
   for (std::size_t i = 0; i < body.faces.size(); ++i) {
     body.faces.centroid_x[i] += by.x();
@@ -47,7 +47,7 @@ double slipScale(const FluidBody& body, const Twist& x) {
   return 0.5 * kAir.density * scale;
 }
 
-class ReducedLoadsAtAngle : public testing::TestWithParam<double> {};  // over pi/2
+class ReducedLoadsAtAngle : public testing::TestWithParam<double> {};  // angle over pi/2
 
 TEST_P(ReducedLoadsAtAngle, HaveTheErrorThatTheyState) {
   const FluidBody body = oblate(3);
@@ -60,7 +60,7 @@ TEST_P(ReducedLoadsAtAngle, HaveTheErrorThatTheyState) {
   EXPECT_LT(level.error.p99, level.error.maximum);
   EXPECT_LT(level.error.rms, level.error.p99);
   EXPECT_LT(level.error.friction, GetParam() == 1 ? 0.05 : 0.1);  // measured 0.084 at most
-  test::Arbitrary arbitrary(61);  // another sampler, of the same kind
+  test::Arbitrary arbitrary(61);  // different samples of equal distribution
   std::vector<double> errors;
   for (int i = 0; i < 1000; ++i) {
     const double angle = arbitrary.between(0, std::acos(0.0));
@@ -88,7 +88,7 @@ TEST(ReducedLoads, AreExactWhereAllFacesAreAttached) {
     const Twist x = arbitrary.twist();
     const Vector6 error = computeLevelLoad(level, 1, x, settings).vector() -
                           computeFaceLoads(body.faces, 1, x, settings).pressure.vector();
-    EXPECT_LT(error.norm(), 1e-3 * slipScale(body, x));  // faces that move along their normals
+    EXPECT_LT(error.norm(), 1e-3 * slipScale(body, x));  // error: faces moving along their normals
   }
 }
 
@@ -114,7 +114,7 @@ TEST(ReducedLoads, AreExactForAFlatPlateThatDoesNotTurn) {
   for (const double incidence : {1.0, 0.1, 1e-2, 1e-3}) {
     const Twist x{Vector3::Zero(), {std::sin(incidence), 0, std::cos(incidence)}};
     const Vector6 exact = allFaces(plate, x);
-    // Single precision loses the slip in the velocity.
+    // Single precision loses the small slip velocity beside the normal one.
     EXPECT_LT((reduced(level, x) - exact).norm(), 0.02 * exact.norm()) << incidence;
   }
 }

@@ -13,16 +13,13 @@
 namespace ambient {
 namespace {
 
-using TreeFluid = Fluid<btMultiBodyConstraintSolver>;
-
 struct FluidRobotWorld {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  TreeFluid fluid;
-  btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &fluid.solver(), &configuration};
-
-  FluidRobotWorld() { fluid.attachTo(world); }
+  btMultiBodyConstraintSolver solver;
+  btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  Fluid fluid{world};
 };
 
 std::string ellipsoidLink(const std::string& name, const std::string& more = "") {
@@ -41,12 +38,11 @@ TEST(RobotFluid, LinksGetTheAddedMassOfTheirShapes) {
   FluidBodyCache shapes;
   AttachDef def;
   def.medium = water();
-  EXPECT_EQ(attachRobot(in.fluid.registry(), in.world, robot, shapes, def),
-            (std::vector<std::string>{"a", "b"}));
-  const Matrix6 K = in.fluid.registry().inertia(robot.multiBody(), robot.linkNumber("b"));
+  EXPECT_EQ(attachRobot(in.fluid, robot, shapes, def), (std::vector<std::string>{"a", "b"}));
+  const Matrix6 K = in.fluid.find(robot.multiBody(), robot.linkNumber("b"))->inertia();
   const auto added = reference::ellipsoidAddedMass({0.1, 0.2, 0.3});
-  // The principal axes of the mass are the link's, in the same order; linear parts do not depend on
-  // the origin.
+  // Principal axes of the mass are the link's, in equal order. Linear parts are independent of the
+  // origin.
   for (int k = 0; k < 3; ++k)
     EXPECT_NEAR(K(3 + k, 3 + k), 2 + water().density * added[3 + k], 1e-4) << k;
   in.world.stepSimulation(btScalar(0.01), 0);
@@ -64,13 +60,13 @@ TEST(RobotFluid, RefusalNamesTheLinkAndLeavesNothing) {
   AttachDef def;
   def.medium = water();
   try {
-    attachRobot(in.fluid.registry(), in.world, robot, shapes, def);
+    attachRobot(in.fluid, robot, shapes, def);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(std::string(error.what()).find("r.urdf: link \"b\": no/such.ambient"), 0u)
         << error.what();
   }
-  EXPECT_FALSE(in.fluid.registry().isAttached(robot.multiBody(), -1));
+  EXPECT_FALSE(in.fluid.find(robot.multiBody(), -1));
 }
 
 }  // namespace

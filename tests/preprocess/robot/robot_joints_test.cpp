@@ -39,7 +39,7 @@ TEST(RobotJoints, DampingDecaysAndNeverTurnsRound) {
   robot.addTo(in.world);
   robot.multiBody().setJointVel(0, 4);
   in.step(robot, 0.001, 1000);
-  // Steps of first order: (1 - h d / I)^n.
+  // First-order steps: (1 - h d / I)^n.
   EXPECT_NEAR(robot.velocity("ab"), 4 * std::pow(1 - 0.001 * 0.5 / kWheelMoment, 1000),
               1000 * rounding());
   in.step(robot, 10, 1);
@@ -66,6 +66,30 @@ TEST(RobotJoints, EffortIsLimitedByTheJointAndTheTarget) {
   EXPECT_NEAR(robot.velocity("ab"), 3, 10 * rounding());
 }
 
+TEST(RobotJoints, TellWhatAMotorUsed) {
+  RobotWorld in;
+  Robot robot(wheelOnBase(R"(<limit effort="2" velocity="3"/>)"), fixedBase());
+  robot.addTo(in.world);
+  EXPECT_EQ(robot.motorEffort("ab"), 0);
+  MotorTarget target;
+  target.velocity = 1;
+  target.position_gain = 0;
+  robot.setMotor("ab", target);
+  in.step(robot, 0.01, 1);
+  EXPECT_NEAR(robot.motorEffort("ab"), 2, 10 * rounding());
+  in.step(robot, 0.01, 100);
+  EXPECT_NEAR(robot.motorEffort("ab"), 0, 1000 * rounding());  // it turns as it should
+  target.velocity = -1;
+  target.effort = 0.5;
+  robot.setMotor("ab", target);
+  in.step(robot, 0.01, 1);
+  EXPECT_NEAR(robot.motorEffort("ab"), -0.5, 10 * rounding());
+  target.effort = 0;
+  robot.setMotor("ab", target);
+  in.step(robot, 0.01, 1);
+  EXPECT_EQ(robot.motorEffort("ab"), 0);
+}
+
 TEST(RobotJoints, PositionMotorFollowsASine) {
   RobotWorld in;
   Robot robot(wheelOnBase(""), fixedBase());
@@ -82,7 +106,7 @@ TEST(RobotJoints, PositionMotorFollowsASine) {
     if (i > 100)
       largest = std::max(largest, std::abs(robot.position("ab") - std::sin(3 * (t + h))));
   }
-  // Euler's error of a step, h^2 9 / 2, over what the gain of 0.1 takes back of it.
+  // Euler's error per step, h^2 9 / 2, over the part corrected per step, the gain of 0.1.
   EXPECT_LT(largest, 1.05 * h * h * 9 / 2 / 0.1);
   EXPECT_GT(largest, 0.5 * h * h * 9 / 2 / 0.1);
 }
@@ -97,7 +121,7 @@ TEST(RobotJoints, LimitHoldsAPendulum) {
     Robot robot(model, fixedBase());
     robot.addTo(in.world);
     robot.multiBody().setJointVel(0, static_cast<btScalar>(way));
-    // Bullet notices a limit when it is passed, and moves back a fifth of that in a step.
+    // Bullet acts on a limit after it is passed; corrects a fifth per step.
     double furthest = 0;
     for (int i = 0; i < 1000; ++i) {
       in.step(robot, 0.001);
@@ -127,7 +151,7 @@ TEST(RobotJoints, MimicFollows) {
   EXPECT_NEAR(robot.position("ac"), -2 * robot.position("ab") + 0.3, 2e-3);
 }
 
-// Each step makes good the gain's share of what the velocity lacks.
+// Each step changes the velocity by the gain times the difference to the target.
 TEST(RobotJoints, VelocityGainIsTheShareOfAStep) {
   for (const double gain : {0.1, 0.25, 1.0}) {
     RobotWorld in;

@@ -19,7 +19,7 @@ std::string complaintOf(const std::string& content, bool fixed_base = false) {
 }
 
 TEST(RobotModel, FixedLinksBecomePartOfTheirParent) {
-  // Two links of 2 kg, the second 1 m above the first and a quarter turn about z.
+  // Two links of 2 kg; the second one is 1 m above the first, with a quarter turn about z.
   const RobotModel robot = withoutFixedJoints(parseRobot(
       massiveLink("a") +
       massiveLink("b", "<collision><geometry><sphere radius=\"1\"/></geometry></collision>") +
@@ -30,7 +30,7 @@ TEST(RobotModel, FixedLinksBecomePartOfTheirParent) {
   const LinkModel& a = robot.links[0];
   EXPECT_EQ(a.mass, 4);
   EXPECT_LT((a.centre_of_mass - Vector3(0, 0, 0.5)).norm(), 1e-15);
-  // Steiner: 2 kg (0.5 m)^2 each; the second has x and y exchanged.
+  // Steiner: 2 kg (0.5 m)^2 each; a quarter turn exchanges x and y of the second link.
   EXPECT_NEAR(a.inertia(0, 0), 0.1 + 0.2 + 2 * 2 * 0.25, 1e-14);
   EXPECT_NEAR(a.inertia(1, 1), 0.2 + 0.1 + 2 * 2 * 0.25, 1e-14);
   EXPECT_NEAR(a.inertia(2, 2), 0.5, 1e-14);
@@ -63,7 +63,7 @@ TEST(RobotModel, AnEmptyRootLetsItsChildFloat) {
 }
 
 TEST(RobotModel, PosesOfTwoArms) {
-  // Two bars of 1 m in a plane: the end of the second lies at (cos a + cos(a + b), ...).
+  // Two bars of 1 m in a plane: the second one ends at (cos a + cos(a + b), ...).
   const RobotModel robot = parseRobot(
       massiveLink("a") + massiveLink("b") + massiveLink("c") + massiveLink("d") +
       joint("ab", "continuous", "a", "b", R"(<axis xyz="0 0 1"/>)") +

@@ -10,7 +10,7 @@
 namespace ambient {
 namespace {
 
-/// 3 kg with a full tensor about a centre of mass that is not the link's origin.
+/// A link of 3 kg with a full tensor about a centre of mass off its origin.
 std::string skewLink(const std::string& name) {
   return "<link name=\"" + name + R"("><inertial><origin xyz="0.3 -0.2 0.1" rpy="0.3 0.5 -0.7"/>
       <mass value="3"/><inertia ixx="0.5" iyy="0.6" izz="0.7" ixy="0.05" ixz="-0.1" iyz="0.07"/>
@@ -64,7 +64,7 @@ TEST(Robot, MassPropertiesAreThoseOfTheModel) {
   EXPECT_LT((robot.linkInBody(0) * link.centre_of_mass).norm(), rounding());
 }
 
-// One step of a compound pendulum from rest: h a.(r x m g) / a.(I + m (r^2 - r r^T)) a.
+// First step of a compound pendulum from rest: h a.(r x m g) / a.(I + m (r^2 - r r^T)) a.
 TEST(Robot, PendulumBeginsToFallAsItsFullInertiaSays) {
   const RobotModel model =
       parseRobot("<link name=\"a\"/>" + skewLink("b") +
@@ -102,7 +102,7 @@ TEST(Robot, SliderFallsAlongItsAxis) {
   EXPECT_NEAR(robot.velocity("ab"), 1e-3 * axis.dot(Vector3(0, 0, -10)), rounding());
 }
 
-// Bullet's cached transforms of links are those of the step before.
+// Bullet's cached transforms of links lag by one step.
 TEST(Robot, PosesOfLinksAreThoseOfTheEndOfAStep) {
   const RobotModel model = skewRobot();
   RobotWorld in({0, 0, -10});
@@ -177,7 +177,7 @@ TEST(Robot, RefusesBadSettings) {
   EXPECT_THROW(Robot(missing, {}), std::runtime_error);
 }
 
-// Two arms of one base that overlap by 0.05 m: a joint connects neither with the other.
+// Two arms of one base that overlap by 0.05 m, without a joint between the arms.
 RobotModel crossedArms() {
   const std::string ball = "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision>";
   const std::string slides = R"(<axis xyz="1 0 0"/>)" + std::string(kWideLimit);
@@ -204,7 +204,7 @@ TEST(Robot, LinksPushEachOtherApartWithSelfCollisionOnly) {
   }
 }
 
-// Bullet puts to sleep what has been slow for two seconds.
+// Bullet puts a multibody to sleep after two seconds of slow motion.
 TEST(Robot, AtRestItSleepsIfItCan) {
   for (const bool can_sleep : {false, true}) {
     RobotSettings settings;

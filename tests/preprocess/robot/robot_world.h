@@ -33,7 +33,7 @@ struct RobotWorld {
   btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
 };
 
-/// Of btScalar: double or float.
+/// Tolerance of rounding for btScalar: double or float.
 inline double rounding() { return sizeof(btScalar) == 8 ? 1e-12 : 2e-5; }
 
 }  // namespace ambient

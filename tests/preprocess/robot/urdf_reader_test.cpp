@@ -40,7 +40,7 @@ TEST(UrdfReader, ReadsLinksAndJoints) {
   EXPECT_EQ(shoulder.velocity, 4);
   EXPECT_EQ(shoulder.damping, 0.7);
   EXPECT_EQ(shoulder.friction, 0.2);
-  // A quarter turn about z takes x to y.
+  // A quarter turn about z maps x to y.
   EXPECT_LT((shoulder.origin * Vector3(1, 0, 0) - Vector3(1, 3, 3)).norm(), 1e-15);
 }
 
@@ -67,15 +67,15 @@ TEST(UrdfReader, ReadsCollisionsAndOwnElements) {
          <collision><geometry><cylinder radius="2" length="4"/></geometry></collision>
          <collision><geometry><mesh filename="m/b.obj" scale="1 2 -3"/></geometry></collision>
          </link><gazebo><plugin/></gazebo>)");
-  const std::vector<CollisionPart>& parts = robot.links[0].collisions;
+  const std::vector<PlacedShape>& parts = robot.links[0].collisions;
   ASSERT_EQ(parts.size(), 5u);
-  EXPECT_EQ(std::get<BoxShape>(parts[0].shape).half_sizes, Eigen::Vector3d(0.5, 1, 1.5));
-  EXPECT_EQ(std::get<CapsuleShape>(parts[1].shape).height, 2);
-  EXPECT_EQ(std::get<EllipsoidShape>(parts[2].shape).semi_axes, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<Box>(parts[0].shape).half_sizes, Eigen::Vector3d(0.5, 1, 1.5));
+  EXPECT_EQ(std::get<Capsule>(parts[1].shape).height, 2);
+  EXPECT_EQ(std::get<Ellipsoid>(parts[2].shape).semi_axes, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(parts[2].pose.translation().z(), 7);
-  EXPECT_EQ(std::get<CylinderShape>(parts[3].shape).height, 4);
-  EXPECT_EQ(std::get<MeshHull>(parts[4].shape).file, "m/b.obj");
-  EXPECT_EQ(std::get<MeshHull>(parts[4].shape).scale, Vector3(1, 2, -3));
+  EXPECT_EQ(std::get<Cylinder>(parts[3].shape).height, 4);
+  EXPECT_EQ(std::get<MeshFile>(parts[4].shape).file, "m/b.obj");
+  EXPECT_EQ(std::get<MeshFile>(parts[4].shape).stretch, Vector3(1, 2, -3));
   ASSERT_TRUE(robot.links[0].fluid);
   EXPECT_EQ(robot.links[0].fluid->medium, "water");
   EXPECT_EQ(robot.links[0].fluid->law, PressureLaw::kForm);
@@ -177,7 +177,7 @@ TEST(UrdfReader, ResultDoesNotDependOnTheLocale) {
   ASSERT_EQ(half.str(), "0,5");
   const RobotModel robot = parseRobot(massiveLink("a", R"(<collision><geometry>
       <capsule radius="0.5" length="2.25"/></geometry></collision>)"));
-  EXPECT_EQ(std::get<CapsuleShape>(robot.links[0].collisions[0].shape).height, 2.25);
+  EXPECT_EQ(std::get<Capsule>(robot.links[0].collisions[0].shape).height, 2.25);
   EXPECT_EQ(robot.links[0].inertia(0, 0), 0.1);
 }
 

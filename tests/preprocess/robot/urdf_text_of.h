@@ -10,7 +10,7 @@ inline std::string inRobot(const std::string& content) {
   return "<robot name=\"r\">" + content + "</robot>";
 }
 
-/// A link of 2 kg; its moments of inertia are 0.1, 0.2 and 0.25 kg m^2 along its own axes.
+/// Text of a link of 2 kg; moments of inertia 0.1, 0.2 and 0.25 kg m^2 along its own axes.
 inline std::string massiveLink(const std::string& name, const std::string& more = "") {
   return "<link name=\"" + name + "\"><inertial><mass value=\"2\"/>" +
          R"(<inertia ixx="0.1" iyy="0.2" izz="0.25" ixy="0" ixz="0" iyz="0"/></inertial>)" + more +

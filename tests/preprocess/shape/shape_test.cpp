@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/mass_properties.h"
-#include "preprocess/mesh/mesh_checks.h"
 #include "preprocess/shape/json_schema.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "preprocess/shape/shape_reader.h"
@@ -165,7 +165,7 @@ TEST(Shape, FilesThatAreNotJsonAreRefused) {
             (folder / "no.json").string() + ": no such file");
 }
 
-// What JsonSchema does not know, it would not check.
+// JsonSchema ignores unknown keywords: the schema must contain none.
 TEST(Shape, TheSchemasUseKnownKeywordsOnly) {
   const std::set<std::string> known{"$schema",
                                     "$id",
@@ -201,7 +201,7 @@ TEST(Shape, TheSchemasUseKnownKeywordsOnly) {
     visit(nlohmann::json::parse(readText(std::filesystem::path(AMBIENT_SCHEMAS) / name)));
 }
 
-// Every type that the schema lists has a definition, and nothing else is defined as a shape.
+// Types listed in the schema and definitions of shapes must be equal sets.
 TEST(Shape, TheSchemaDefinesTheTypesItLists) {
   for (const auto& type : shapeSchema()["properties"]["type"]["enum"]) {
     const auto& definition = shapeSchema()["definitions"][type.get<std::string>()];

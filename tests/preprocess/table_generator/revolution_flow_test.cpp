@@ -1,16 +1,16 @@
-#include "preprocess/table_generator/revolution_flow.h"
+#include "tests/preprocess/table_generator/revolution_flow.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "tests/reference/body_added_mass.h"
 
 namespace ambient {
 namespace {
 
-// The trapezoidal rule converges exponentially on a periodic function.
+// Trapezoidal rule: exponential convergence for periodic functions.
 TEST(RingKernel, IsTheIntegralAroundTheRing) {
   const MeridianPoint target(0.8, 0.1), source(1.1, -0.3);
   const Eigen::Vector2d normal = Eigen::Vector2d(0.6, -0.8);
@@ -33,7 +33,7 @@ TEST(RingKernel, IsTheIntegralAroundTheRing) {
   }
 }
 
-// Arc and line, a sharp edge, all entries.
+// Half a ball: arc, line and sharp edge; all entries.
 TEST(RevolutionFlow, OfHalfABallIsKnown) {
   const MeridianPiece dome{{0, 1}, {1, 0}, true, {0, 0}}, base{{1, 0}, {0, 0}};
   const RevolutionInertia K = solveRevolutionFlow({dome, base});
@@ -54,7 +54,7 @@ TEST(Meridian, PiecesMeetAndLookOutwards) {
       const MeridianPoint before = i > 0 ? meridian[i - 1].end : piece.begin;
       EXPECT_EQ((piece.begin - before).norm(), 0);
       EXPECT_NEAR((piece.at(1) - piece.end).norm(), 0, 1e-15);
-      // All of these bodies are convex and hold their centre.
+      // Convex bodies around their origin: normals point away from it.
       EXPECT_GT(piece.normalAt(0.3).dot(piece.at(0.3)), 0);
     }
   }

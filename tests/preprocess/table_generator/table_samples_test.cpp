@@ -1,4 +1,4 @@
-#include "preprocess/table_generator/table_samples.h"
+#include "tests/preprocess/table_generator/table_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "preprocess/added_mass_tables/known_added_mass.h"
 #include "preprocess/added_mass_tables/revolution_inertia.h"
-#include "preprocess/table_generator/table_fit.h"
+#include "tests/preprocess/table_generator/table_fit.h"
 
 namespace ambient {
 namespace {
@@ -19,7 +19,7 @@ Matrix6 tabulated(const TableShape& shape) {
   return coneAddedMass(s[0], s[1], s[2]).value();
 }
 
-// The edges of the range are among the samples; rounding may lay them outside.
+// Moves edges of the range inside; rounding may put these samples outside.
 TableShape justInside(TableShape shape) {
   const double ratio = shape.sizes[1] / shape.sizes[0];
   if (shape.kind == TableShape::kBox) {
@@ -55,7 +55,7 @@ TEST(TableFit, HasMoreSamplesThanTermsAndSmallResiduals) {
   for (const auto kind : kTableKinds) {
     for (const FittedSeries& series : fitTable(kind, samples)) {
       EXPECT_EQ(series.coefficients.size(), static_cast<std::size_t>(series.rows * series.columns));
-      // The solver's noise in the smallest entry of long boxes.
+      // Noise of the solver in the smallest entry of long boxes.
       EXPECT_LT(series.largest_residual, 1.2e-3) << series.name;
     }
   }

@@ -24,7 +24,7 @@ FluidBody bodyOf(const std::string& shape, int subdivisions) {
 constexpr const char* kCube = R"({"type": "box", "size": [1, 1, 1], "faces": 300})";
 constexpr const char* kBarge = R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})";
 
-/// Added mass of a body half in the water, its z axis up.
+/// Added mass of a half-submerged body, z axis up.
 Matrix6 halfSubmerged(const FluidBody& body) {
   test::FloatingDef def;
   def.shape = body;
@@ -32,7 +32,7 @@ Matrix6 halfSubmerged(const FluidBody& body) {
   return run.model().wetted->inertia(run.immersion());
 }
 
-// By Capytaine 3.0 at infinite frequency, its finer meshes: heave, roll, sway and surge.
+// Heave, roll, sway and surge by Capytaine 3.0 at infinite frequency, finer meshes.
 TEST(Waterline, AddedMassIsThatOfAnotherBoundaryElementMethod) {
   const auto halfSubmergedWithTable = [](const char* shape, int panels) {
     FluidBody body = bodyOf(shape, 0);
@@ -50,8 +50,8 @@ TEST(Waterline, AddedMassIsThatOfAnotherBoundaryElementMethod) {
   EXPECT_NEAR(barge(4, 4), 0.0958, 0.05 * 0.0958);
 }
 
-// Cummins' equation with Capytaine's coefficients, as in floating_test.cpp, where periods are
-// within 4 %.
+// Cummins' equation with Capytaine's coefficients, taken from floating_test.cpp, where periods
+// agree within 4 %.
 TEST(Waterline, PeriodsAreThoseOfLinearTheory) {
   FluidBody body = bodyOf(kBarge, 0);
   body.waterline = makeWaterlineTable(body, {2, 350, 0});
@@ -72,7 +72,7 @@ TEST(Waterline, PeriodsAreThoseOfLinearTheory) {
                     {{-0.97, 0.90, -0.83, 0.77}, 4.75 * root}, 0.02);
 }
 
-// Dropped on an edge and pushed up from the depth, turning, in long steps and short ones.
+// Bodies dropped on an edge, and released at depth with spin, in long and short steps.
 TEST(Waterline, ABodyWithATableGainsNoEnergy) {
   FluidBody body = bodyOf(kBarge, 0);
   body.waterline = makeWaterlineTable(body, {1, 100, 0});
@@ -102,6 +102,16 @@ TEST(Waterline, TheTableIsTheSameOnAnyNumberOfThreads) {
   const WaterlineTable one = makeWaterlineTable(body, settings);
   settings.threads = 3;
   EXPECT_EQ(makeWaterlineTable(body, settings).corrections, one.corrections);
+}
+
+TEST(Waterline, TellsOfEachAttitudeThatIsDone) {
+  WaterlineSettings settings{1, 100, 2};
+  std::vector<std::pair<int, int>> told;
+  settings.progress = [&](int done, int attitudes) { told.emplace_back(done, attitudes); };
+  makeWaterlineTable(bodyOf(kBarge, 0), settings);
+  // Of the six directions of an octahedron, three are left to solve by the planes of symmetry.
+  const std::vector<std::pair<int, int>> expected{{1, 3}, {2, 3}, {3, 3}};
+  EXPECT_EQ(told, expected);
 }
 
 TEST(Waterline, SymmetriesOfTheBodyAreThoseOfTheTable) {

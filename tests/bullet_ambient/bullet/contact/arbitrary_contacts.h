@@ -6,8 +6,8 @@
 
 namespace ambient::test {
 
-// Contacts of an ambient body with coupled inertia, K_fluid from 1e-3 to 1e4 times K_body, with
-// everything that it may meet.
+// Contacts of an ambient body of coupled inertia, K_fluid from 1e-3 to 1e4 times K_body, with a
+// fixed, an ordinary or an ambient body.
 
 enum class Other { kPlane, kOrdinary, kAmbient };
 constexpr Other kOthers[] = {Other::kPlane, Other::kOrdinary, Other::kAmbient};
@@ -17,11 +17,11 @@ double arbitraryRatio(Arbitrary& arbitrary);
 /// Two bodies that approach each other.
 ContactPair arbitraryPair(Arbitrary& arbitrary, Other other);
 
-/// Largest duration over which the gyroscopic terms of both change their velocities by `part`.
+/// Largest duration for which gyroscopic terms of both bodies change their velocities by `part`.
 double gyroscopicTime(const ContactPair& pair, double part);
 
-/// Forces and torques that change the velocities by about 5 % during dt. No torques on bodies
-/// without fluid: stock friction rows do not see them.
+/// Applies forces and torques that change the velocities by about 5 % during dt. No torques on
+/// bodies without fluid: Bullet's stock friction rows ignore them.
 void pushAtRandom(Arbitrary& arbitrary, const ContactPair& pair, double dt);
 
 /// Velocities of a pair before a step.
@@ -36,18 +36,18 @@ double worstError(const ContactPair& pair, const reference::DenseSolution& expec
 
 using Rows = std::vector<reference::DenseRow>;
 
-/// plainSettings() with which iterative solvers work until nothing changes by more than rounding.
+/// plainSettings() with iterations until changes are below rounding.
 btContactSolverInfo convergingSettings(double dt);
 
-/// Rows of less independence() say nearly the same: they converge slowly, and rounding decides
-/// between their impulses.
+/// Least independence() compared. Below it rows are nearly dependent: iterations converge slowly,
+/// and rounding decides the split between impulses.
 constexpr Real kIndependent = 0.05L;
 
-/// Whether a row pushes. Bodies that no row pushes fly freely, which is not the dense solution's
-/// business.
+/// Tells if a row pushes. Bodies without any impulse fly freely, which the dense solution does not
+/// contain.
 bool touch(const reference::DenseSolution& solution);
 
-/// Writes a measured error into the log of the test run, as evidence.
+/// Records a measured error in the log of the test run.
 void report(const std::string& name, double error);
 
 }  // namespace ambient::test

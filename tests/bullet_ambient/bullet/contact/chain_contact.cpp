@@ -65,16 +65,16 @@ std::vector<reference::DenseBody> ChainTask::dense(Real dt) const {
 }
 
 bool ChainTask::solve(const btContactSolverInfo& info, btMultiBodyConstraint* joint) {
-  AmbientRegistry registry;
-  body_.attachTo(registry);
-  MultiBody::Ambient ambient(registry);
+  const auto members = std::make_shared<AmbientBodies>();
+  body_.attachTo(*members);
+  MultiBody::Ambient ambient(members);
   std::vector<btCollisionObject*> bodies = {&body_.body()};
   for (int i = 0; i < LinkChain::kBodies; ++i) bodies.push_back(&chain_.collider(i));
   btPersistentManifold* manifolds[] = {manifold_.get()};
   ambient.solver.solveMultiBodyGroup(bodies.data(), static_cast<int>(bodies.size()), manifolds,
                                      manifold_ ? 1 : 0, nullptr, 0, joint ? &joint : nullptr,
                                      joint ? 1 : 0, info, nullptr, nullptr);
-  chain_.multibody().processDeltaVeeMultiDof2();  // what the world does afterwards
+  chain_.multibody().processDeltaVeeMultiDof2();  // the world's next call
   return hasFinished(ambient.solver, info);
 }
 

@@ -5,25 +5,25 @@
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/contact/arbitrary_contacts.h"
-#include "tests/bullet_ambient/bullet/contact/link_chain.h"
+#include "tests/bullet_ambient/bullet/contact/joints/link_chain.h"
 
 class btMultiBodyConstraint;
 
 namespace ambient::test {
 
-/// An ambient body, or an ordinary one, that meets a chain of links, handed to a solver for
-/// multibodies without a world. Body 0 of the reference, the chain follows.
+/// An ambient or ordinary body that touches a chain of links; calls a solver for multibodies
+/// without a world. The reference has the body as number 0, then the chain.
 class ChainTask {
  public:
-  /// The body is moved to where its own surface point is that of the chain's `link_body`.
+  /// Moves the body so that its surface point meets the surface point of the chain's `link_body`.
   ChainTask(Arbitrary& arbitrary, CoupledBody body, LinkChain chain, int link_body);
 
   const CoupledBody& body() const { return body_; }
   const LinkChain& chain() const { return chain_; }
   int linkBody() const { return link_body_; }
-  Vector3r point() const { return point_; }  ///< where they meet, world
+  Vector3r point() const { return point_; }  ///< contact point, world
 
-  /// Contact with the body as A, or as B. The normal is drawn so that they approach.
+  /// Adds a contact with the body as A, or as B; random normal along which the bodies approach.
   void touch(Arbitrary& arbitrary, bool body_is_a) {
     touchAlong(toBt(arbitrary.vector()).normalized(), body_is_a);
   }
@@ -31,13 +31,13 @@ class ChainTask {
   btManifoldPoint& contact() { return manifold_->getContactPoint(0); }
   Real approach() const;
 
-  /// Row along a direction at the contact, in the orientation of Bullet's rows.
+  /// Row along a direction at the contact, with the signs of Bullet's rows.
   reference::DenseRow row(const Vector3r& direction) const;
   reference::DenseRow spinRow(const Vector3r& direction) const;
   /// Reference bodies before a step of dt.
   std::vector<reference::DenseBody> dense(Real dt) const;
 
-  /// False if the iterations have not reached the residual of the settings.
+  /// Returns false if the residual stays above the threshold of the settings.
   bool solve(const btContactSolverInfo& info, btMultiBodyConstraint* joint = nullptr);
 
  private:
@@ -60,17 +60,17 @@ struct BeforeChain {
   std::array<DenseVector6, LinkChain::kBodies> chain;
 };
 
-/// An ambient body and a chain with a free or fixed base that meets it with its body `link_body`,
-/// or with an arbitrary one that can move.
+/// Makes an ambient body and a chain with a free or fixed base. The body touches `link_body`, or a
+/// random movable one.
 ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base, int link_body);
 ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base);
 
-/// Step over which the gyroscopic terms of the body change its velocity by 5 %, forces and torques
-/// likewise.
+/// Applies random forces and torques. Returns the step for which they and the gyroscopic terms
+/// change the body's velocity by 5 %.
 double pushedTime(Arbitrary& arbitrary, const ChainTask& task);
 
-/// convergingSettings() that give up after 300 iterations: rows that need more say nearly the same,
-/// and rounding decides between their impulses.
+/// convergingSettings() with 300 iterations at most: rows that need more are nearly dependent, and
+/// rounding decides the split between impulses.
 btContactSolverInfo chainSettings(double dt);
 
 }  // namespace ambient::test

@@ -27,7 +27,7 @@ void ContactPair::addPointAt(const btVector3& at, const btVector3& normal) {
                         b_.body().getWorldTransform().inverse() * at, normal, 0);
   point.m_positionWorldOnA = at;
   point.m_positionWorldOnB = at;
-  // Fixed directions, so that the reference knows them.
+  // Fixes the friction directions, so that the reference can use them.
   point.m_contactPointFlags = BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
   btPlaneSpace1(normal, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
   manifold_.addManifoldPoint(point);

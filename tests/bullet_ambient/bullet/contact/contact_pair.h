@@ -7,21 +7,21 @@
 
 namespace ambient::test {
 
-/// Two bodies that touch in one point, handed to a solver without a world.
+/// Two bodies with a contact point; calls a solver without a world.
 class ContactPair {
  public:
-  /// The second body is moved to where the first one's surface point is its own, both points
-  /// within twice the size of their body; the normal points from b to a.
+  /// Moves b so that its surface point meets a's; both points lie within twice the size of their
+  /// body. The normal points from b to a.
   ContactPair(Arbitrary& arbitrary, CoupledBody a, CoupledBody b);
 
-  /// A further contact at another place with another normal.
+  /// Adds a contact at another place with another normal.
   void addPoint(Arbitrary& arbitrary);
   int points() const { return manifold_.getNumContacts(); }
 
-  /// Turns both velocities around if the points move apart, so that the bodies meet.
+  /// Reverses both velocities if the points move apart.
   void makeApproaching();
   void setVelocities(const DenseVector6& u_a, const DenseVector6& u_b);
-  /// Velocity of a's point minus that of b's along a direction.
+  /// Returns velocity of a's point minus velocity of b's point along a direction.
   Real approach(const Vector3r& direction, const DenseVector6& u_a, const DenseVector6& u_b,
                 int at = 0) const;
 
@@ -33,22 +33,22 @@ class ContactPair {
   Vector3r fromA(int at = 0) const;  ///< from a's centre of mass to the contact
   Vector3r fromB(int at = 0) const;
   reference::DenseRow row(const Vector3r& direction, int at = 0) const;
-  /// Normal row of the first point that ends with `normal_velocity`, and two friction rows with the
-  /// coefficient of the point, as a step of dt begins.
+  /// Rows of the first point at the start of a step of dt: the normal row, which ends with
+  /// `normal_velocity`, and two friction rows with the point's coefficient.
   std::vector<reference::DenseRow> frictionRows(Real normal_velocity, FrictionBound bound, Real dt);
-  /// Bodies for the dense solver, before the step.
+  /// Bodies for the dense solver, at the start of a step of dt.
   std::vector<reference::DenseBody> dense(Real dt) const { return {a_.dense(dt), b_.dense(dt)}; }
 
-  /// Attaches what is ambient and solves once with a new solver. False if a complementarity solver
-  /// gave up and handed over to sequential impulses, or, where the settings ask for a residual, if
-  /// iterations have not reached it.
-  /// With a joint, the bodies do not touch.
+  /// Attaches the ambient bodies and solves once with a new solver. Returns false
+  /// if a complementarity solver fell back to sequential impulses, or if an
+  /// iterative solver missed the residual of the settings. A joint replaces the
+  /// contacts.
   template <class Kind>
   bool solve(const btContactSolverInfo& info, btTypedConstraint* joint = nullptr) {
-    AmbientRegistry registry;
-    a_.attachTo(registry);
-    b_.attachTo(registry);
-    typename Kind::Ambient ambient(registry);
+    const auto members = std::make_shared<AmbientBodies>();
+    a_.attachTo(*members);
+    b_.attachTo(*members);
+    typename Kind::Ambient ambient(members);
     SolverTask task;
     task.bodies.push_back(&a_.body());
     if (!b_.isFixed()) task.bodies.push_back(&b_.body());
@@ -69,8 +69,8 @@ class ContactPair {
   btPersistentManifold manifold_;
 };
 
-/// Settings without any of Bullet's position terms, thresholds and defaults that a test did not
-/// ask for.
+/// Settings without position correction, thresholds and other defaults of Bullet. Tests enable the
+/// terms they need.
 btContactSolverInfo plainSettings(double dt);
 
 }  // namespace ambient::test

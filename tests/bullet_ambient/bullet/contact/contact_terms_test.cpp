@@ -6,15 +6,15 @@
 namespace ambient::test {
 namespace {
 
-// What Bullet puts into the normal rows of contacts besides velocities: position errors, softness,
-// warm starts and pushes; against the dense solution.
+// Normal rows of contacts with Bullet's further terms, against the dense solution: position errors,
+// softness, warm starts and split impulses.
 
-// Without friction, but for the solver that cannot do without: there the coefficient is the bound.
+// Least friction of a contact: 0, except for Lemke's solver, which needs bounds of friction.
 template <class Kind>
 constexpr double kLeastFriction = kFrictionBound<Kind> == FrictionBound::kNothing ? 0.3 : 0;
 
-// One contact with three rows or two with one each: the three rows of two points are dependent,
-// since the distance of two points of a rigid body does not change.
+// One contact with three rows, or two contacts with one row each. Three rows each would be
+// dependent: the distance of two points of a rigid body is constant.
 template <class Kind>
 ContactPair pairWithContacts(Arbitrary& arbitrary, Other other) {
   ContactPair pair = arbitraryPair(arbitrary, other);
@@ -24,14 +24,14 @@ ContactPair pairWithContacts(Arbitrary& arbitrary, Other other) {
   return pair;
 }
 
-// What a normal row aims at: separation is closed at most within the step, penetration opened by
-// the part `erp` of it.
+// Target velocity of a normal row: closes a gap within the step, or opens a penetration by its part
+// `erp`.
 Real positionTarget(const btManifoldPoint& point, const btContactSolverInfo& info, Real erp) {
   const Real distance = Real(point.getDistance()) + info.m_linearSlop;
   return distance > 0 ? -distance / info.m_timeStep : -distance * erp / info.m_timeStep;
 }
 
-// Rows of all points; `targets` of the normal ones. Friction stays below the constant `friction`.
+// Rows of all points with `targets` for the normal rows; friction impulses within -+ `friction`.
 Rows rowsOf(ContactPair& pair, const std::vector<Real>& targets, Real friction) {
   Rows rows;
   for (int i = 0; i < pair.points(); ++i) {
@@ -64,8 +64,8 @@ struct PosesBefore {
   explicit PosesBefore(const ContactPair& pair)
       : a(pair.a().body().getWorldTransform()), b(pair.b().body().getWorldTransform()) {}
 
-  // Of the displacement by push velocities, in lengths of the body or of its distance from the
-  // world's origin, whose rounding its position has.
+  // Returns the error of the displacement by push velocities. Unit: the body's size, or its
+  // distance from the world's origin, which determines rounding.
   double error(const ContactPair& pair, const reference::DenseSolution& pushed,
                const btContactSolverInfo& info) const {
     const auto of_one = [&](const CoupledBody& body, const btTransform& start,
@@ -73,7 +73,7 @@ struct PosesBefore {
       const btTransform& end = body.body().getWorldTransform();
       const Vector3r origin = exact(start.getOrigin());
       const Vector3r at = origin + info.m_timeStep * push.tail<3>();
-      // Bullet turns by no more than a quarter of pi.
+      // Bullet limits the turn of a step to a quarter of pi.
       Vector3r turn = info.m_timeStep * info.m_splitImpulseTurnErp * push.head<3>();
       turn *= std::min<Real>(1, std::acos(Real(-1)) / 4 / std::max<Real>(turn.norm(), 1e-30L));
       const Matrix3r turned = rotation(turn) * exact(start.getBasis());
@@ -130,7 +130,7 @@ TYPED_TEST(ContactTerms, PositionErrorsSoftnessAndRelaxationEqualTheDenseSolutio
   report("soft_contacts", worst);
 }
 
-// The second solve begins with the impulses of the first, which another velocity needs.
+// The second solve starts from impulses of the first one, at a different velocity.
 TYPED_TEST(ContactTerms, WarmStartsChangeNothingButTheWay) {
   Arbitrary arbitrary(42);
   double worst = 0;
@@ -166,7 +166,7 @@ using IteratingSolvers =
     ::testing::Types<SequentialImpulse, ConjugateGradient, Multithreaded, MultiBody>;
 TYPED_TEST_SUITE(IteratedContactTerms, IteratingSolvers, SolverName);
 
-// Without warm starting one iteration over two contacts leaves some of them open.
+// Without warm starting, one iteration over two contacts leaves gaps open.
 TYPED_TEST(IteratedContactTerms, AWarmStartFromTheSolutionNeedsOneIteration) {
   Arbitrary arbitrary(43);
   double worst = 0;
@@ -194,7 +194,7 @@ TYPED_TEST(IteratedContactTerms, AWarmStartFromTheSolutionNeedsOneIteration) {
   report("one_iteration", worst);
 }
 
-// Positions are corrected by velocities of their own, which change the pose alone.
+// Push velocities correct the position, without a change of the velocities.
 TYPED_TEST(ContactTerms, SplitImpulsesPushAsTheDenseSolution) {
   Arbitrary arbitrary(44);
   double worst = 0, worst_pose = 0;

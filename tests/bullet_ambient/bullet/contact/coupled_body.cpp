@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/bullet/members/attach_body.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient::test {
@@ -17,7 +18,7 @@ btTransform arbitraryPose(Arbitrary& arbitrary) {
   return pose;
 }
 
-// Coupled, its largest eigenvalue `largest` in units of mass and size.
+// Coupled added mass with the largest eigenvalue `largest` in units of mass and size.
 Matrix6 arbitraryAddedMass(Arbitrary& arbitrary, double largest, double size) {
   const Matrix6 shape = arbitrary.positiveDefinite();
   const double top = symmetricEigen<6>(shape).values[5];
@@ -45,7 +46,7 @@ CoupledBody CoupledBody::random(Arbitrary& arbitrary, double fluid_ratio) {
   btRigidBody::btRigidBodyConstructionInfo info(btScalar(mass), nullptr, nullptr, toBt(moments));
   info.m_startWorldTransform = arbitraryPose(arbitrary);
   result.body_ = std::make_unique<btRigidBody>(info);
-  result.body_->setFlags(0);  // Bullet's own gyroscopic torque is not part of the reference
+  result.body_->setFlags(0);  // removes Bullet's gyroscopic torque, absent in the reference
   result.body_->setLinearVelocity(toBt(arbitrary.vector()));
   result.body_->setAngularVelocity(toBt(arbitrary.vector(1 / result.size_)));
   if (fluid_ratio > 0) {
@@ -61,7 +62,7 @@ CoupledBody CoupledBody::fixed() {
   return result;
 }
 
-void CoupledBody::attachTo(AmbientRegistry& registry) const {
+void CoupledBody::attachTo(AmbientBodies& members) const {
   if (!isAmbient()) return;
   auto fluid_body = std::make_shared<FluidBody>();
   fluid_body->name = "coupled";
@@ -69,7 +70,7 @@ void CoupledBody::attachTo(AmbientRegistry& registry) const {
   AttachDef def;
   def.fluid_body = fluid_body;
   def.medium.density = 1;
-  registry.attach(*body_, def);
+  attachBody(members, *body_, def);
 }
 
 DenseVector6 CoupledBody::velocity() const {
@@ -99,7 +100,7 @@ reference::DenseBody CoupledBody::dense(Real dt) const {
   DenseVector6 wrench;
   wrench << exact(body_->getTotalTorque()), exact(body_->getTotalForce());
   result.free_velocity = velocity() + dt * result.inertia.inverse() * wrench;
-  // Rows see the middle of the turn.
+  // Rows use the velocity at half of the turning part, eq. (28).
   if (isAmbient())
     result.free_velocity += dt / 2 * reference::turningRate(result.inertia, velocity());
   return result;

@@ -7,7 +7,7 @@
 namespace ambient::test {
 namespace {
 
-// Friction that moves, holds, yields, rolls and spins; against the dense solution.
+// Moving, anchored, soft, rolling and spinning friction, against the dense solution.
 
 template <class Kind>
 constexpr bool kIsComplementarity = std::is_same_v<typename Kind::Base, btMLCPSolver>;
@@ -18,9 +18,9 @@ using FrictionSolvers = ::testing::Types<SequentialImpulse, ConjugateGradientFor
                                          ProjectedGaussSeidel, Lemke, Multithreaded, MultiBody>;
 TYPED_TEST_SUITE(FrictionTerms, FrictionSolvers, SolverName);
 
-// A belt that moves under the contact, an anchor that holds it, and friction that yields. Bullet's
-// softness of friction is a multiple of the response of the row, and complementarity solvers
-// ignore it.
+// A belt's surface velocity, an anchor with position error, and soft friction. Bullet's
+// softness of friction is a multiple of the row's response. Complementarity solvers ignore this
+// softness.
 TYPED_TEST(FrictionTerms, MovingAndAnchoredEqualTheDenseSolution) {
   Arbitrary arbitrary(45);
   double worst = 0;
@@ -67,8 +67,8 @@ using TorsionalSolvers =
     ::testing::Types<SequentialImpulse, ConjugateGradientForJoints, Multithreaded, MultiBody>;
 TYPED_TEST_SUITE(TorsionalFriction, TorsionalSolvers, SolverName);
 
-// Bullet bounds them by min(coefficient, coefficient times normal impulse). Complementarity solvers
-// leave them out.
+// Adds rolling and spinning rows. Bullet's bound is min(coefficient, coefficient times normal
+// impulse). Complementarity solvers have no such rows.
 Rows withTorsionalRows(ContactPair& pair, Rows rows) {
   const btManifoldPoint& point = pair.point();
   btVector3 axis[2];
@@ -83,7 +83,7 @@ Rows withTorsionalRows(ContactPair& pair, Rows rows) {
   return rows;
 }
 
-// The only solution for either of the two bounds, if just one of them fits.
+// Returns the solution if exactly one of the two bounds gives a valid one.
 std::optional<reference::DenseSolution> torsionalSolution(
     const std::vector<reference::DenseBody>& bodies, const Rows& rows, int first_torsional) {
   Rows at_most = rows;
@@ -111,7 +111,7 @@ TYPED_TEST(TorsionalFriction, RollingAndSpinningEqualTheDenseSolution) {
     btManifoldPoint& point = pair.point();
     point.m_combinedSpinningFriction = btScalar(arbitrary.between(0, 0.5) * pair.a().size());
     point.m_combinedRollingFriction = btScalar(arbitrary.between(0.01, 0.5) * pair.a().size());
-    // With lateral friction in some only: the reference tries all combinations.
+    // Lateral friction for some pairs only: the reference tries all combinations of bounds.
     const bool with_lateral = i % 20 < 3;
     if (with_lateral) point.m_combinedFriction = btScalar(arbitrary.between(0.05, 0.4));
     const Before before(pair);

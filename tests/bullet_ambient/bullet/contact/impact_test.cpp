@@ -7,13 +7,13 @@
 namespace ambient::test {
 namespace {
 
-// Impacts of an ambient body against everything that it may meet. The reference is exact; the
+// Impacts of an ambient body on a plane, an ordinary and an ambient body. The reference is exact;
 // tolerances are rounding.
 
 constexpr double kRestitutions[] = {0, 0.5, 1};
 constexpr int kImpactsEach = 250;  // 3 others, 3 restitutions: 2250 in all
 
-// Momentum about the world's origin, and energy, of both.
+// Momentum of both bodies about the world's origin, and their energy.
 struct Totals {
   explicit Totals(const ContactPair& pair) {
     for (const CoupledBody* body : {&pair.a(), &pair.b()}) {
@@ -35,8 +35,8 @@ template <class Kind>
 class FrictionlessImpact : public ::testing::Test {};
 TYPED_TEST_SUITE(FrictionlessImpact, SolversWithoutFriction, SolverName);
 
-// The gyroscopic terms change the velocity by 5 %: restitution goes by the velocities before the
-// step, the rows act on those after the forces.
+// Gyroscopic terms change the velocity by 5 %. Restitution uses velocities before the step; rows
+// act on velocities after the forces.
 TYPED_TEST(Impact, EqualsTheDenseSolution) {
   constexpr FrictionBound kBound = kFrictionBound<TypeParam>;
   Arbitrary arbitrary(31);
@@ -53,7 +53,7 @@ TYPED_TEST(Impact, EqualsTheDenseSolution) {
     const Real rebound = -restitution * pair.approach(pair.normal(), before.a, before.b);
     const auto expected = reference::solveDense(
         pair.dense(info.m_timeStep), pair.frictionRows(rebound, kBound, info.m_timeStep));
-    if (!(expected.impulses[0] > 0)) continue;  // the forces have kept them apart
+    if (!(expected.impulses[0] > 0)) continue;  // forces have separated the bodies
     if (!pair.template solve<TypeParam>(info)) continue;
     ++impacts;
     worst = std::max(worst, worstError(pair, expected, before));
@@ -63,8 +63,8 @@ TYPED_TEST(Impact, EqualsTheDenseSolution) {
   report("impacts", worst);
 }
 
-// So short a step that forces and gyroscopic terms do nothing: K_a u_a + K_b u_b about one point
-// stays, and an impact with restitution 1 is a reflection in the metric of K.
+// Step so short that forces and gyroscopic terms vanish. K_a u_a + K_b u_b about one point is
+// conserved; restitution 1 makes a reflection in the metric of K.
 TYPED_TEST(FrictionlessImpact, ConservesMomentumAndAtRestitutionOneEnergy) {
   Arbitrary arbitrary(32);
   double worst_momentum = 0, worst_energy = 0;
@@ -92,7 +92,7 @@ TYPED_TEST(FrictionlessImpact, ConservesMomentumAndAtRestitutionOneEnergy) {
   report("energy", worst_energy);
 }
 
-// Sticking in both, one or none of the two directions, as the dense solution finds it.
+// Friction sticks in both, one or none of the two directions, depending on the pair.
 TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
   Arbitrary arbitrary(33);
   double worst = 0, worst_point_force = 0;
@@ -115,8 +115,8 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
     }
     worst = std::max(worst, worstError(pair, *expected, before));
 
-    // The wrench that has changed the velocity is that of one force through the contact point: what
-    // its torque is off would move the body by this much.
+    // The wrench of the velocity change must act through the contact point. Its residual torque, as
+    // a velocity of the body, is the error.
     const DenseVector6 wrench = bodies[0].inertia * (pair.a().velocity() - bodies[0].free_velocity);
     DenseVector6 of_force = wrench;
     of_force.head<3>() = pair.fromA().cross(Vector3r(wrench.tail<3>()));
@@ -126,9 +126,9 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
   }
   EXPECT_GT(sticking, 200);
   EXPECT_GT(sliding, 200);
-  // Solvers that are not iterative find the solution of these rows to 2e-6 in float, and so do the
-  // others but for one pair, where they converge slowly: 2.5e-5, probably the rounding of thousands
-  // of iterations.
+  // Direct solvers reach 2e-6 in float. Iterative ones do, too, except for one
+  // pair of slow convergence: 2.5e-5, probably rounding of thousands of
+  // iterations.
   constexpr bool kIterates = !std::is_same_v<typename TypeParam::Base, btMLCPSolver>;
   EXPECT_LT(worst, kIterates && sizeof(btScalar) == 4 ? 3 * kTolerance : kTolerance);
   EXPECT_LT(worst_point_force, kTolerance);

@@ -8,13 +8,13 @@
 namespace ambient::test {
 namespace {
 
-// Contacts of an ambient body with a link of a btMultiBody. The reference has the links as bodies
-// of their own, held together by rows.
+// Contacts of an ambient body with a link of a btMultiBody. The reference has links as separate
+// bodies with joint rows.
 
 Rows chainRows(const ChainTask& task) { return task.chain().jointRows(1); }
 
-// Velocity along the row under the forces on the body as Bullet has them for this contact: without
-// fluid. Its restitution goes by that.
+// Velocity along the row by Bullet's forces of the dry body, without fluid. Bullet's restitution of
+// this contact uses it.
 Real dryApproach(const ChainTask& task, const reference::DenseRow& normal, Real dt) {
   const btRigidBody& body = task.body().body();
   DenseVector6 change;
@@ -100,7 +100,7 @@ TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
   report("link_friction", worst);
 }
 
-// Rows that hold the locked axes of body 0 at rest against the last body, which is fixed.
+// Rows that fix the locked axes of body 0 against the last body, an immovable one.
 Rows planeRows(int fixed_body) {
   Rows rows;
   for (int axis : {0, 1, 5}) {
@@ -112,8 +112,8 @@ Rows planeRows(int fixed_body) {
   return rows;
 }
 
-// A body of a 2D scene on a multibody, also on one that does not move: as a ground loaded from a
-// file is. One direction of friction acts on locked axes alone there.
+// A 2D body on a moving or static multibody; grounds loaded from files are static multibodies.
+// There one friction direction acts along locked axes alone.
 TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
   Arbitrary arbitrary(57);
   double worst = 0;
@@ -129,7 +129,7 @@ TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
     const btVector3 direction(btScalar(arbitrary.between(-1, 1)),
                               btScalar(arbitrary.between(-1, 1)), 0);
     task.touchAlong(direction.normalized(), i / 2 % 2 == 0);
-    // So short that forces and gyroscopic terms do nothing.
+    // Step so short that forces and gyroscopic terms vanish.
     btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(1e-18));
     info.m_solverMode |= SOLVER_DISABLE_IMPLICIT_CONE_FRICTION;
     btManifoldPoint& contact = task.contact();
@@ -166,8 +166,8 @@ TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
   report("link_locked_axes", worst);
 }
 
-// Coefficients so large that nothing slides, rolls or spins: all of Bullet's rows of a contact
-// between a link and a body hold, in its default mode with cones of friction.
+// Large coefficients: contacts between a link and a body neither slide nor roll nor spin. All rows
+// of the contact act, in Bullet's default mode with cones of friction.
 TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
   Arbitrary arbitrary(53);
   double worst = 0;
@@ -193,8 +193,8 @@ TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
     const auto expected = reference::solveDense(bodies, rows);
     if (!(expected.impulses[normal] > 1e-3L)) continue;
     if (!task.solve(info)) continue;
-    // Bullet keeps the rolling and spinning impulses of a contact whose own impulse becomes 0 on
-    // the way, and may end there; with ordinary bodies as well.
+    // Bullet keeps rolling and spinning impulses of a contact with an impulse that became 0 during
+    // iterations. Ordinary bodies show it, too; skipped.
     if (contact.m_appliedImpulse == 0) continue;
     ++solved;
     worst = std::max(worst, before.error(task, expected));
@@ -204,7 +204,7 @@ TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
   report("link_sticking", worst);
 }
 
-// The second solve begins with the impulses of the first, which other velocities need.
+// The second solve starts from impulses of the first one, at different velocities.
 TEST(MultiBodyImpact, WarmStartsChangeNothingButTheWay) {
   Arbitrary arbitrary(55);
   double worst = 0;

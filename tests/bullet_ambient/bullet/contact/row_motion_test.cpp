@@ -9,7 +9,7 @@
 
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 
-// What the action does to a body that rows have moved, and what it leaves alone.
+// Corrections by the fluid's action after rows have moved a body, and motions without any.
 namespace ambient::test {
 namespace {
 
@@ -23,7 +23,7 @@ class OtherAction : public btActionInterface {
   std::function<void()> act_;
 };
 
-// A body on a ball joint, with an action that acts before the fluid's or after it.
+// A body on a ball joint, with another action before or after the fluid's.
 class Held {
  public:
   explicit Held(double spin) {
@@ -37,12 +37,12 @@ class Held {
   }
   ~Held() { scene.world.removeConstraint(joint.get()); }
 
-  /// Velocities after one step in which an action acts as well.
+  /// Velocities after one step with the other action `act`.
   Vector6 after(std::function<void()> act, bool is_first) {
     OtherAction other(std::move(act));
-    if (is_first) scene.world.removeAction(&scene.action);
+    if (is_first) scene.removeAction();
     scene.world.addAction(&other);
-    if (is_first) scene.world.addAction(&scene.action);
+    if (is_first) scene.addAction();
     scene.step(1.0 / 60);
     scene.world.removeAction(&other);
     return stack(toVector3(body->getAngularVelocity()), toVector3(body->getLinearVelocity()));
@@ -72,19 +72,19 @@ Vector6 turnedBy(const Quaternion& q, const Vector6& x) {
   return stack(q * Vector3(x.head<3>()), q * Vector3(x.tail<3>()));
 }
 
-// In turns of more than 0.5 rad rows do not know the turning part: the momentum is that of the
-// velocity by which the body is moved, eq. (31), and may have more energy in the next pose than eq.
-// (31a) allows.
+// Above turns of 0.5 rad rows ignore the turning part. The momentum follows from the
+// velocity of Bullet's move, eq. (31). Its energy in the next pose may exceed eq.
+// (31a).
 TEST(RowMotion, CountsTheEnergyThatItsBoundRemoves) {
   constexpr double kStep = 1.0 / 60;
   int bounded = 0;
   for (const double spin : {40, 60, 100, 200}) {
     Held held(spin);
-    const AmbientRegistry& registry = held.scene.registry;
-    const Matrix6 K = registry.inertia(*held.body);
+    const Fluid& fluid = held.scene.fluid;
+    const Matrix6 K = fluid.find(*held.body)->inertia();
     for (int step = 0; step < 20; ++step) {
       const Quaternion from = readState(*held.body).orientation;
-      const double removed_before = registry.counters(*held.body).energy_removed;
+      const double removed_before = fluid.find(*held.body)->counters().energy_removed;
       Vector6 moved_W, by_momentum;  // the latter in B
       held.after(
           [&] {
@@ -99,7 +99,7 @@ TEST(RowMotion, CountsTheEnergyThatItsBoundRemoves) {
       if (kStep * moved_W.head<3>().norm() < 0.5) break;
       const Vector6 end = readState(*held.body).twist.vector();
       const double has = end.dot(K * end) / 2, gain = by_momentum.dot(K * by_momentum) / 2 - has;
-      const double removed = registry.counters(*held.body).energy_removed - removed_before;
+      const double removed = fluid.find(*held.body)->counters().energy_removed - removed_before;
       EXPECT_NEAR(removed, std::max(0.0, gain), byPrecision(1e-12, 1e-4) * has)
           << spin << " rad/s, step " << step;
       bounded += gain > 0.01 * has;
@@ -111,7 +111,7 @@ TEST(RowMotion, CountsTheEnergyThatItsBoundRemoves) {
 TEST(RowMotion, IsNotBoundedInSmallTurns) {
   Held held(1);
   for (int step = 0; step < 20; ++step) held.after([] {}, true);
-  EXPECT_EQ(held.scene.registry.counters(*held.body).energy_removed, 0);
+  EXPECT_EQ(held.scene.of(*held.body).counters().energy_removed, 0);
 }
 
 TEST(RowMotion, LeavesABodyAloneThatAnActionHasPutElsewhere) {
@@ -133,8 +133,8 @@ TEST(RowMotion, LeavesABodyAloneThatAnActionHasPutElsewhere) {
   }
 }
 
-// A motor drives a ball against a thin wall within one step, in which a continuous collision stops
-// it: what changes its momentum about a place that is fixed is the impulse of the rail alone.
+// A motor drives a ball on a rail against a thin wall; continuous collision stops it within the
+// step. The rail's impulse alone changes the momentum about a fixed place.
 TEST(RowMotion, KeepsTheMomentumOfABodyThatIsStoppedOnItsWay) {
   constexpr double kLong = 1.0 / 60, kSpeed = -3, kGap = 0.03;
   Arbitrary arbitrary(5);
@@ -167,7 +167,7 @@ TEST(RowMotion, KeepsTheMomentumOfABodyThatIsStoppedOnItsWay) {
   const auto way = static_cast<double>(body.getWorldTransform().getOrigin().x());
   EXPECT_GT(way, 0.2 * kGap);
   EXPECT_LT(way, kGap);
-  // It started at the origin.
+  // Starting point: the origin.
   const Vector3 torque = kLong * toVector3(feedback.m_appliedTorqueBodyB);
   const Vector3 force = kLong * toVector3(feedback.m_appliedForceBodyB);
   const double tolerance = byPrecision(1e-12, 1e-5) * force.norm();

@@ -7,15 +7,15 @@
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 
 // Bodies at rest on a slope, kept awake, in Bullet's default mode of one friction row per contact.
-// What pushes an uneven body along a face does not make it slip the same way.
+// An uneven body slips in another direction than the push.
 namespace ambient::test {
 namespace {
 
 constexpr double kSlope = 0.25, kFriction = 0.8, kStep = 1.0 / 60;
-// A body little denser than water takes seconds until it has rolled to rest.
+// Settling time: bodies little denser than water roll for seconds.
 constexpr int kSettling = 600, kSteps = 540;
 
-// The slope is level and gravity oblique.
+// A slope by oblique gravity on a level floor.
 struct Slope : FluidWorld {
   explicit Slope(double angle = kSlope) {
     world.setGravity({bt(9.81 * std::sin(angle)), 0, bt(-9.81 * std::cos(angle))});
@@ -28,7 +28,7 @@ struct Slope : FluidWorld {
     body.setGravity(world.getGravity());
     body.setFriction(bt(kFriction));
   }
-  /// How far a body moves once it has settled [m].
+  /// Distance moved after settling [m].
   double creep(const btRigidBody& body) {
     step(kStep, kSettling);
     const Vector3 start = readState(body).position;
@@ -36,7 +36,7 @@ struct Slope : FluidWorld {
     return (readState(body).position - start).norm();
   }
 
-  btCompoundShape tilted;  // for one body
+  btCompoundShape tilted;  // shape of one body
   btConvexHullShape hull;
   btStaticPlaneShape plane{{0, 0, 1}, 0};
   btRigidBody floor{0, nullptr, &plane};
@@ -46,7 +46,7 @@ struct Worst {
   double ambient = 0, stock = 0;
 };
 
-// Of many bodies; `add` puts one into a world, with its fluid or without.
+// Largest creep of `count` bodies with fluid and without; `add` puts one into a world.
 template <class Add>
 Worst worstCreep(int count, const Add& add, int stock_mode = 0) {
   Worst worst;
@@ -77,8 +77,8 @@ TEST(Slope, HoldsBoxesOfCoupledInertiaAsWellAsDryOnes) {
   EXPECT_LT(worst.ambient, worst.stock);
 }
 
-// K is diagonal, but not along the normal of the face that they stand on. Against stock Bullet with
-// two rows, too: with one, dry boxes of equal moments stand still to 0.01 mm, with two to 0.3.
+// K is diagonal, oblique to the normal of the lower face. Stock Bullet has two friction rows here:
+// dry boxes of equal moments creep by 0.3 mm, with one row by 0.01 mm.
 TEST(Slope, HoldsBodiesThatStandOnATiltedFace) {
   btBoxShape box({bt(0.5), bt(0.4), bt(0.3)});
   const Worst worst = worstCreep(
@@ -100,7 +100,7 @@ TEST(Slope, HoldsBodiesThatStandOnATiltedFace) {
   EXPECT_LT(worst.ambient, worst.stock);
 }
 
-// An irregular body in water; its points are those of the seed.
+// Adds an irregular body to the slope; its points are random.
 btRigidBody& addHull(Slope& slope, Arbitrary& arbitrary, double density_ratio, bool in_fluid) {
   const Vector3 axes(0.3, 0.25, 0.15);
   for (int i = 0; i < 20; ++i)
@@ -116,7 +116,7 @@ btRigidBody& addHull(Slope& slope, Arbitrary& arbitrary, double density_ratio, b
   attach.fluid_frame.rotation =
       Quaternion(Eigen::AngleAxisd(0.3, arbitrary.vector().normalized())).toRotationMatrix();
   attach.fluid_frame.translation = arbitrary.vector(0.01);
-  slope.registry.attach(body, attach);
+  slope.fluid.add(body, attach);
   return body;
 }
 
@@ -137,7 +137,7 @@ int contactsOf(btDispatcher& dispatcher) {
   return count;
 }
 
-// Of one step, for a box that stands on the slope.
+// Rows per contact in the first step of a box on the slope.
 double rowsPerContact(double angle, const FluidBody& shape) {
   Slope slope(angle);
   btBoxShape box({bt(0.5), bt(0.4), bt(0.3)});
@@ -146,7 +146,7 @@ double rowsPerContact(double angle, const FluidBody& shape) {
   btRigidBody& body = slope.add(def, shape, idealFluid(1));
   slope.place(body);
   slope.step(kStep);
-  const double rows = static_cast<double>(slope.registry.counters(body).rows);
+  const double rows = static_cast<double>(slope.of(body).counters().rows);
   const int contacts = contactsOf(*slope.world.getDispatcher());
   EXPECT_GT(contacts, 0);
   slope.world.removeRigidBody(&body);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 namespace {
@@ -20,7 +20,7 @@ FluidBody pileFluidBody(PileFluid fluid) {
   const double size = Pile::kHalfEdge;
   Vector6 diagonal;
   diagonal << 0.1 * largest * size * size * Vector3(1, 0.6, 0.8), largest * Vector3(1, 0.5, 0.7);
-  // A frame beside the centre of mass couples the blocks.
+  // A fluid frame off the centre of mass couples the blocks of K.
   FluidBody shape;
   shape.name = "box of the pile";
   shape.added_mass = shiftOrigin(diagonal.asDiagonal(), {0.3 * size, -0.2 * size, 0.1 * size});
@@ -29,16 +29,15 @@ FluidBody pileFluidBody(PileFluid fluid) {
   return shape;
 }
 
-Pile::Pile(btConstraintSolver& solver, AmbientRegistry* registry, double ambient_part,
-           PileFluid fluid, PileDef pile)
-    : world_(&dispatcher_, &broadphase_, &solver, &configuration_),
-      box_shape_(cubeVector(kHalfEdge)) {
+Pile::Pile(const PileDef& pile) : box_shape_(cubeVector(kHalfEdge)) {
   world_.setGravity({0, 0, btScalar(-9.81)});
   addWalls(pile.edge);
   addBoxes(pile);
-  if (!registry) return;
-  action_ = std::make_unique<AmbientAction>(*registry);
-  world_.addAction(action_.get());
+}
+
+Pile::Pile(double ambient_part, PileFluid fluid, const PileDef& pile) : Pile(pile) {
+  fluid_def_ = fluid;
+  fluid_.emplace(world_);
   AttachDef def;
   def.fluid_body = std::make_shared<FluidBody>(pileFluidBody(fluid));
   def.medium.density = 1;
@@ -46,12 +45,11 @@ Pile::Pile(btConstraintSolver& solver, AmbientRegistry* registry, double ambient
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const bool is_ambient = std::floor(ambient_part * static_cast<double>(i + 1)) >
                             std::floor(ambient_part * static_cast<double>(i));
-    if (is_ambient) registry->attach(*boxes_[i], def);
+    if (is_ambient) fluid_->add(*boxes_[i], def);
   }
 }
 
 Pile::~Pile() {
-  if (action_) world_.removeAction(action_.get());
   for (const auto& box : boxes_) world_.removeRigidBody(box.get());
   for (const auto& wall : walls_) world_.removeRigidBody(wall.get());
 }
@@ -112,16 +110,16 @@ bool Pile::isAsleep() const {
   return true;
 }
 
-double Pile::energy(const AmbientRegistry* registry, PileFluid fluid) const {
+double Pile::energy() const {
   double sum = 0;
   for (const auto& box : boxes_) {
     const RigidState state = readState(*box);
-    const bool is_ambient = registry && registry->isAttached(*box);
-    const double weight = 9.81 * kMass * (is_ambient ? 1 - fluid.buoyancy : 1);
+    const bool is_ambient = fluid_ && fluid_->find(*box);
+    const double weight = 9.81 * kMass * (is_ambient ? 1 - fluid_def_.buoyancy : 1);
     sum += weight * state.position.z();
     Matrix6 inertia = Matrix6::Zero();
     if (is_ambient) {
-      inertia = registry->inertia(*box);
+      inertia = fluid_->find(*box)->inertia();
     } else {
       inertia.diagonal() << toVector3(box->getInvInertiaDiagLocal()).cwiseInverse(),
           Vector3::Constant(kMass);

@@ -12,18 +12,18 @@ namespace {
 constexpr double kStep = 1.0 / 120;
 constexpr int kMinute = 60 * 120;  // steps
 
-// No box leaves its place. By how much one slips is chance: 0.016 to 0.05 m in stock piles that
-// differ in their seeds alone.
+// Limit of slip: every box keeps its place. Slip is random: 0.016 to 0.05 m in stock piles of
+// different seeds.
 constexpr double kPlace = 2 * Pile::kHalfEdge;
 
-// What one pile does in a minute.
+// Results of one pile after a minute.
 struct Minute {
   double first_energy = 0, last_energy = 0;
   double highest_energy = 0;
-  double largest_rise = 0;   ///< of the energy above any earlier value
+  double largest_rise = 0;   ///< rise of energy above any earlier value
   double asleep_after = -1;  ///< [s]; -1: never
-  double largest_shift = 0;  ///< of a box from its place in the cube [m]
-  bool has_stirred = false;  ///< a box moved after all were asleep
+  double largest_shift = 0;  ///< box to its place in the cube [m]
+  bool has_stirred = false;  ///< true: a box moved after all slept
 };
 
 std::vector<btVector3> places(const Pile& pile) {
@@ -38,16 +38,16 @@ double largestShift(const std::vector<btVector3>& a, const std::vector<btVector3
   return static_cast<double>(largest);
 }
 
-Minute observe(Pile& pile, const AmbientRegistry* registry, PileFluid fluid) {
+Minute observe(Pile& pile) {
   Minute minute;
-  minute.first_energy = minute.highest_energy = pile.energy(registry, fluid);
+  minute.first_energy = minute.highest_energy = pile.energy();
   double lowest = minute.first_energy;
   const std::vector<btVector3> start = places(pile);
   std::vector<btVector3> at_rest;
   for (int i = 0; i < kMinute; ++i) {
     pile.step(kStep);
     if (minute.asleep_after < 0) {
-      const double energy = pile.energy(registry, fluid);
+      const double energy = pile.energy();
       minute.highest_energy = std::max(minute.highest_energy, energy);
       minute.largest_rise = std::max(minute.largest_rise, energy - lowest);
       lowest = std::min(lowest, energy);
@@ -57,29 +57,26 @@ Minute observe(Pile& pile, const AmbientRegistry* registry, PileFluid fluid) {
       }
     }
   }
-  minute.last_energy = pile.energy(registry, fluid);
+  minute.last_energy = pile.energy();
   minute.largest_shift = largestShift(places(pile), start);
   minute.has_stirred = at_rest.empty() || largestShift(places(pile), at_rest) > 0;
   return minute;
 }
 
 Minute stockMinute() {
-  btSequentialImpulseConstraintSolver solver;
-  Pile pile(solver, nullptr, 0, {});
-  return observe(pile, nullptr, {});
+  Pile pile;
+  return observe(pile);
 }
 
 Minute ambientMinute(PileFluid fluid) {
-  AmbientRegistry registry;
-  AmbientSolver<> solver(registry);
-  Pile pile(solver, &registry, 1, fluid);
-  return observe(pile, &registry, fluid);
+  Pile pile(1, fluid);
+  return observe(pile);
 }
 
 class PileOfCoupledBoxes : public ::testing::TestWithParam<PileFluid> {};
 
-// Bullet pushes bodies that overlap apart, which lifts a pile a little when it lands: the rise of
-// the energy is compared with that in stock Bullet.
+// Bullet pushes overlapping bodies apart, which lifts a landing pile slightly. So the test compares
+// the rise of energy with stock Bullet's.
 TEST_P(PileOfCoupledBoxes, RestsAndSleepsAsStillAsInStockBullet) {
   const Minute stock = stockMinute();
   const Minute ambient = ambientMinute(GetParam());
@@ -100,8 +97,8 @@ INSTANTIATE_TEST_SUITE_P(Fluids, PileOfCoupledBoxes,
                          ::testing::Values(PileFluid{0.01, 0}, PileFluid{0.5, 0.2},
                                            PileFluid{10, 0.5}));
 
-// Bullet's iterations leave the friction of a contact as it is once the contact lets go, and may
-// push a body along with it.
+// Tells if friction remains on an open contact. Bullet's iterations keep friction of contacts that
+// have opened, and may push a body by it.
 bool hasFrictionWithoutContact(btDiscreteDynamicsWorld& world) {
   btDispatcher& dispatcher = *world.getDispatcher();
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
@@ -114,29 +111,27 @@ bool hasFrictionWithoutContact(btDiscreteDynamicsWorld& world) {
   return false;
 }
 
-// Largest rise of the energy above any earlier value, relative to the first, of boxes that tumble
-// on a plane until they rest, without Bullet's pushing apart.
+// Largest relative rise of energy above any earlier value. Boxes tumble on a plane until they rest;
+// no position correction.
 double largestRiseOfTumblingBoxes(double step) {
   const PileFluid fluid{2, 0.3};
   double largest = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    AmbientRegistry registry;
-    AmbientSolver<> solver(registry);
     PileDef def;
     def.edge = 1;
     def.tilt = 1.5;
     def.height = 0.3;
     def.seed = seed;
-    Pile pile(solver, &registry, 1, fluid, def);
+    Pile pile(1, fluid, def);
     btContactSolverInfo& settings = pile.world().getSolverInfo();
     settings.m_erp = settings.m_erp2 = 0;
     settings.m_numIterations = 200;
     pile.keepAwake();
-    const double first = pile.energy(&registry, fluid);
+    const double first = pile.energy();
     double lowest = first, rise = 0;
     for (double time = 0; time < 5; time += step) {
       pile.step(step);
-      const double energy = pile.energy(&registry, fluid);
+      const double energy = pile.energy();
       if (hasFrictionWithoutContact(pile.world())) lowest = energy;
       rise = std::max(rise, energy - lowest);
       lowest = std::min(lowest, energy);
@@ -147,8 +142,8 @@ double largestRiseOfTumblingBoxes(double step) {
   return largest;
 }
 
-// Rows hold the velocity while the pose, and with it K in world axes, turns: energy may rise by
-// what is of second order in the step.
+// Rows fix the velocity while the pose turns, and K in world axes with it: energy may rise at
+// second order in the step.
 TEST(TumblingCoupledBox, GainsNoMoreEnergyThanTheStepErrorOfSecondOrder) {
   const double coarse = largestRiseOfTumblingBoxes(1.0 / 120);
   const double fine = largestRiseOfTumblingBoxes(1.0 / 480);

@@ -6,14 +6,14 @@
 
 #include "tests/bullet_ambient/bullet/robots/link_contacts.h"
 
-// Friction of links in fluid, and links that are driven, against one dense system of all links,
-// joints and rows.
+// Friction of links in fluid, and kinematic links, against one dense system of all links, joints
+// and rows.
 namespace ambient::test {
 namespace {
 
 constexpr double kFriction = 0.4;
 
-// Against the velocity of a link, and askew.
+// Normal that opposes the velocity of a link, obliquely.
 btVector3 slopeBelow(const DenseVector6& twist) {
   const btVector3 velocity(bt(double(twist[3])), bt(double(twist[4])), bt(double(twist[5])));
   btVector3 across, other;
@@ -22,12 +22,12 @@ btVector3 slopeBelow(const DenseVector6& twist) {
 }
 
 struct Frictions {
-  double worst = 0;  // error of the twists
+  double worst = 0;  // error of twists
   int robots = 0, stick = 0, slip = 0;
 };
 
-// Bullet updates friction only while the contact pushes: if that ends in the course of its
-// iterations, the friction of before remains. That is not compared.
+// Tells if the solution has an open contact. Bullet stops updating friction when a contact opens
+// during its iterations, and keeps the last value; not compared.
 bool hasOpenContact(const DenseRobot& robot, const reference::DenseSolution& solution) {
   for (const reference::DenseRow& row : robot.rows)
     if (row.normal_row >= 0 && !(solution.impulses[row.normal_row] > 0)) return true;
@@ -50,7 +50,7 @@ void rub(unsigned seed, const RobotDef& def, int directions, Frictions& friction
   RobotWorld world;
   btMultiBody& body = world.add(arbitrary, def);
   putIntoFluid(arbitrary, world, body, 5);
-  // One direction, or two that know nothing of each other.
+  // One friction direction, or two independent ones.
   int& mode = world.world.getSolverInfo().m_solverMode;
   mode |= SOLVER_DISABLE_IMPLICIT_CONE_FRICTION;
   if (directions == 1) mode &= ~SOLVER_USE_2_FRICTION_DIRECTIONS;
@@ -59,10 +59,10 @@ void rub(unsigned seed, const RobotDef& def, int directions, Frictions& friction
   body.getBaseCollider()->setFriction(bt(kFriction));
   for (int i = 0; i < body.getNumLinks(); ++i) body.getLinkCollider(i)->setFriction(bt(kFriction));
   addFloor(world, body, link, slopeBelow(before[link + 1]), 0.5).setFriction(1);
-  DenseRobot robot = denseRobot(body, world.fluid.registry());
+  DenseRobot robot = denseRobot(body, world.fluid);
   world.step(kMoment);
   addContacts(world, body, before, {0.5, double(bt(kFriction)), directions}, robot);
-  // With friction there may be several, one for each contact that opens or slides.
+  // Friction may allow several solutions: one per contact that opens or slides.
   const auto expected = reference::onlySolution(robot.bodies, robot.rows);
   if (!expected) return;
   if (hasOpenContact(robot, *expected)) return;
@@ -98,7 +98,7 @@ TEST(FrictionRows, AFixedBaseEqualsTheDenseSolution) {
   expectFriction(def, 1);
 }
 
-// A base and a first link that keep their motion, and a tip that hits a floor.
+// Kinematic base and first link, and a tip that hits a floor.
 TEST(FrictionRows, KinematicLinksEqualTheDenseSolution) {
   double worst = 0;
   RobotDef def;
@@ -111,14 +111,14 @@ TEST(FrictionRows, KinematicLinksEqualTheDenseSolution) {
     for (int link : {0, 1, 2}) world.fluid.add(body, link, coupledFluid(arbitrary, body, link, 5));
     const std::vector<DenseVector6> before = twistsOf(body);
     addFloor(world, body, 2, slopeBelow(before[3]), 0.5);
-    DenseRobot robot = denseRobot(body, world.fluid.registry());
+    DenseRobot robot = denseRobot(body, world.fluid);
     driveBase(body, robot);
     robot.rows.push_back(rateRow(body, 0));
     robot.rows.back().target = body.getJointVel(0);
     world.step(kMoment);
     addContacts(world, body, before, ContactLaw{0.5}, robot);
     const auto expected = reference::solveDense(robot.bodies, robot.rows);
-    EXPECT_GT(twistError(body, before, before), 1e-3);  // it has hit
+    EXPECT_GT(twistError(body, before, before), 1e-3);  // the tip has hit
     worst = std::max(worst, twistError(body, expected.velocities, before));
   }
   EXPECT_LT(worst, kRowTolerance);

@@ -23,8 +23,8 @@ RobotDef treeOfSmoothJoints(bool has_fixed_base) {
   return def;
 }
 
-// `addRows(world, body, robot)` adds constraints to the world, and the same rows to the robot.
-// Even seeds have floating bases, odd ones fixed ones.
+// Largest error of 12 robots. `addRows(world, body, robot)` adds constraints to the world, and
+// equal rows to the robot. Even seeds: floating base, odd: fixed.
 template <class AddRows>
 double worstError(const AddRows& addRows) {
   double worst = 0;
@@ -34,12 +34,12 @@ double worstError(const AddRows& addRows) {
     btMultiBody& body = world.add(arbitrary, treeOfSmoothJoints(seed % 2 == 1));
     putIntoFluid(arbitrary, world, body, 5);
     world.world.getSolverInfo().m_erp = 1;
-    DenseRobot robot = denseRobot(body, world.fluid.registry());
+    DenseRobot robot = denseRobot(body, world.fluid);
     const std::vector<DenseVector6> before = twistsOf(body);
     addRows(world, body, robot);
     const auto expected = reference::solveDense(robot.bodies, robot.rows);
     world.step(kMoment);
-    EXPECT_GT(twistError(body, before, before), 1e-3);  // something happened
+    EXPECT_GT(twistError(body, before, before), 1e-3);  // the rows act
     worst = std::max(worst, twistError(body, expected.velocities, before));
   }
   return worst;
@@ -60,7 +60,7 @@ void addGear(RobotWorld& world, btMultiBody& body, int link_a, int link_b, doubl
   world.take(std::move(gear));
 }
 
-// Links 0 and 4 turn, 1 and 5 slide: from one branch to another.
+// Gears between branches. Links 0 and 4 turn, 1 and 5 slide.
 TEST(JointRows, GearsEqualTheDenseSolution) {
   const double worst = worstError([](RobotWorld& world, btMultiBody& body, DenseRobot& robot) {
     for (const auto& [a, b] : {std::pair{0, 4}, std::pair{5, 1}}) {
@@ -71,7 +71,7 @@ TEST(JointRows, GearsEqualTheDenseSolution) {
   EXPECT_LT(worst, kRowTolerance);
 }
 
-// As of a differential: the rate of a third joint is added, and some of the error made good.
+// Gear of a differential: adds the rate of a third joint, and corrects a part of the error.
 TEST(JointRows, AGearWithAThirdJointEqualsTheDenseSolution) {
   const double worst = worstError([](RobotWorld& world, btMultiBody& body, DenseRobot& robot) {
     addGear(world, body, 4, 1, kMoment, 0);
@@ -87,7 +87,7 @@ TEST(JointRows, AGearWithAThirdJointEqualsTheDenseSolution) {
 constexpr int kBall = 2;
 const btQuaternion kAim(btVector3(bt(0.6), 0, bt(0.8)), bt(0.5));
 
-// What the motor takes for the way from its position to kAim, about the link's axes.
+// Bullet's Euler angles of the turn from the joint's position to kAim, about the link's axes.
 btVector3 wayToAim(const btMultiBody& body) {
   const btScalar* q = body.getJointPosMultiDof(kBall);
   btVector3 angles;

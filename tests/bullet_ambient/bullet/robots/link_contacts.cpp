@@ -9,7 +9,7 @@ namespace {
 
 void addPoint(const btMultiBody& body, const btManifoldPoint& point, bool is_first, int link,
               const DenseVector6& before, const ContactLaw& law, DenseRobot& robot) {
-  if (point.getDistance() > 0) return;  // too far to touch in so short a step
+  if (point.getDistance() > 0) return;  // gap too wide for so short a step
   const btVector3 place = is_first ? point.getPositionWorldOnA() : point.getPositionWorldOnB();
   const btScalar sign = bt(is_first ? 1 : -1);
   reference::DenseRow row = groundRow(body, link, place, sign * point.m_normalWorldOnB);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "bullet_ambient/bullet/conversions.h"
-#include "bullet_ambient/bullet/tree_state.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
 
 namespace ambient::test {
 namespace {
@@ -23,18 +23,18 @@ DenseVector3 placeOf(const btMultiBody& body, int link) {
   return real(poseOf(body, link).getOrigin());
 }
 
-reference::DenseBody bodyOf(const btMultiBody& body, int link, const AmbientRegistry& registry) {
+reference::DenseBody bodyOf(const btMultiBody& body, int link, const Fluid& fluid) {
   reference::DenseMatrix6 K = reference::DenseMatrix6::Zero();
   K.topLeftCorner<3, 3>() =
       real(link < 0 ? body.getBaseInertia() : body.getLinkInertia(link)).asDiagonal();
   K.bottomRightCorner<3, 3>() =
       DenseMatrix3::Identity() * Real(link < 0 ? body.getBaseMass() : body.getLinkMass(link));
-  if (registry.isAttached(body, link)) K = registry.inertia(body, link).cast<Real>();
+  if (fluid.find(body, link)) K = fluid.find(body, link)->inertia().cast<Real>();
   return {link < 0 && body.hasFixedBase(), reference::turned(K, axesOf(body, link)),
           DenseVector6::Zero()};
 }
 
-// Two directions across an axis.
+// Two unit directions across an axis.
 std::vector<DenseVector3> across(const DenseVector3& axis) {
   const DenseVector3 one = axis.unitOrthogonal();
   return {one, axis.cross(one)};
@@ -57,7 +57,7 @@ JointFrame frameOf(const btMultiBody& body, int link) {
   return frame;
 }
 
-// A row between a link and its parent.
+// Completes a row between a link and its parent.
 reference::DenseRow atJoint(const btMultiBody& body, int link, reference::DenseRow row) {
   row.body_a = link + 1;
   row.body_b = body.getLink(link).m_parent + 1;
@@ -112,11 +112,11 @@ std::vector<DenseVector6> twistsOf(const btMultiBody& body) {
   return twists;
 }
 
-DenseRobot denseRobot(const btMultiBody& body, const AmbientRegistry& registry) {
+DenseRobot denseRobot(const btMultiBody& body, const Fluid& fluid) {
   DenseRobot robot;
   const std::vector<DenseVector6> twists = twistsOf(body);
   for (int link = -1; link < body.getNumLinks(); ++link) {
-    robot.bodies.push_back(bodyOf(body, link, registry));
+    robot.bodies.push_back(bodyOf(body, link, fluid));
     robot.bodies.back().free_velocity = twists[link + 1];
     if (link < 0) continue;
     for (const reference::DenseRow& row : rowsOfJoint(body, link)) robot.rows.push_back(row);

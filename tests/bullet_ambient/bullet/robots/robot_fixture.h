@@ -10,11 +10,11 @@
 
 namespace ambient::test {
 
-/// A world for robots in fluid, and what the registry says of them.
+/// A world for robots in fluid, and what the fluid says of them.
 class Robots : public testing::Test {
  protected:
   Robots() {
-    world.fluid.registry().setReport([this](const std::string& text) { heard.push_back(text); });
+    world.fluid.setReport([this](const std::string& text) { heard.push_back(text); });
   }
   btMultiBody& add(const RobotDef& def = {}) { return world.add(arbitrary, def); }
   AttachDef fluidOf(const btMultiBody& body, int link) {

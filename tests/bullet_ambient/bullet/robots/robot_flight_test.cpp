@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/multibody_dynamics.h"
-#include "bullet_ambient/bullet/tree_state.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/bullet/world/multibody_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/free_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/free_body.h"
 
-// Energy of robots in an ideal fluid at rest, which no step should make and few should lose.
+// Energy of robots in an ideal fluid at rest: steps must not add energy and should rarely lose it.
 namespace ambient::test {
 namespace {
 
@@ -24,18 +24,18 @@ void record(const char* what, double hertz, double value) {
 }
 
 struct EnergyRange {
-  double lowest = 1, highest = 1, last = 1;  // over the start
+  double lowest = 1, highest = 1, last = 1;  // over initial energy
 
   double deviation() const { return std::max(highest - 1, 1 - lowest); }
 };
 
 EnergyRange watch(RobotWorld& world, const btMultiBody& body, double hertz, double seconds) {
-  const AmbientRegistry& registry = world.fluid.registry();
-  const double start = kineticEnergy(registry, body);
+  const Fluid& fluid = world.fluid;
+  const double start = kineticEnergy(fluid, body);
   EnergyRange range;
   for (int i = 0; i < std::lround(seconds * hertz); ++i) {
     world.step(1 / hertz);
-    range.last = kineticEnergy(registry, body) / start;
+    range.last = kineticEnergy(fluid, body) / start;
     if (!std::isfinite(range.last)) return {-1e300, 1e300, range.last};
     range.lowest = std::min(range.lowest, range.last);
     range.highest = std::max(range.highest, range.last);
@@ -43,7 +43,7 @@ EnergyRange watch(RobotWorld& world, const btMultiBody& body, double hertz, doub
   return range;
 }
 
-// In an ideal fluid, with some five times its mass of added mass.
+// Adds a robot in an ideal fluid; added mass some five times its mass.
 btMultiBody& addInFluid(RobotWorld& world, unsigned seed, const RobotDef& def) {
   Arbitrary arbitrary(seed);
   btMultiBody& body = world.add(arbitrary, def);
@@ -61,14 +61,14 @@ double deviationInFlight(Joints joints, double hertz) {
   return watch(world, body, hertz, 10).deviation();
 }
 
-// Float: rounding of 600 steps.
+// Float: tolerance of rounding in 600 steps.
 TEST(RobotFlight, KeepsItsEnergy) {
   EXPECT_LT(deviationInFlight(Joints::kRevolute, 60), kDouble ? 1e-11 : 1e-4);
   EXPECT_LT(deviationInFlight(Joints::kSmooth, 60), kDouble ? 1e-11 : 1e-4);
   EXPECT_LT(deviationInFlight(Joints::kAll, 60), kDouble ? 1e-11 : 1e-4);
 }
 
-// As PyBullet gives them to every joint: rows in every step.
+// Adds weak motors to all joints, like PyBullet: rows in every step.
 void addIdleMotors(RobotWorld& world, btMultiBody& body) {
   for (int i = 0; i < body.getNumLinks(); ++i)
     world.take(std::make_unique<btMultiBodyJointMotor>(&body, i, bt(0.1), bt(1e-12)));
@@ -92,16 +92,16 @@ TEST(RobotFlight, KeepsItsEnergyUnderIdleMotors) {
   EXPECT_LT(deviationWithMotors(60), kDouble ? 1e-10 : 1e-4);
 }
 
-// Of robot and fluid: about the origin of the world, rotation first.
+// Momentum of robot and fluid about the origin of the world, rotation first.
 Vector6 momentumOf(RobotWorld& world, const btMultiBody& body) {
   Coordinates u(body.getNumDofs() + 6);
   readVelocity(body, u);
-  Vector6 momentum = (ambientMassMatrix(world.fluid.registry(), body) * u).head<6>();
+  Vector6 momentum = (ambientMassMatrix(world.fluid, body) * u).head<6>();
   momentum.head<3>() += toVector3(body.getBasePos()).cross(momentum.tail<3>());
   return momentum;
 }
 
-// Which reverse the joints four times a second, at once.
+// Motors reverse all joints at once, four times a second.
 TEST(RobotFlight, KeepsItsMomentumUnderStrongMotors) {
   RobotWorld world;
   btMultiBody& body = addInFluid(world, 12, flyingRobot());
@@ -122,7 +122,7 @@ TEST(RobotFlight, KeepsItsMomentumUnderStrongMotors) {
   }
 }
 
-// Thin plates: added mass of ten thousand times their own across them, none along.
+// Attaches thin plates: added mass ten thousand times their own across, none along.
 void putPlatesIntoFluid(RobotWorld& world, btMultiBody& body) {
   for (int link = -1; link < body.getNumLinks(); ++link) {
     const double mass = static_cast<double>(link < 0 ? body.getBaseMass() : body.getLinkMass(link));
@@ -182,7 +182,7 @@ void holdTip(RobotWorld& world, btMultiBody& body) {
   world.take(std::move(joint));
 }
 
-// Tip on a ball joint to the world.
+// Energy range of a robot with its tip on a ball joint to the world.
 EnergyRange tether(unsigned seed, double hertz) {
   Arbitrary arbitrary(seed);
   RobotWorld world;
@@ -212,12 +212,12 @@ TEST(RobotFlight, OnATetherNeverGainsEnergy) {
     }
     record("tether_highest", hertz, highest);
     record("tether_mean", hertz, mean);
-    EXPECT_LT(highest, 1.01);  // the correction of gaps does work
+    EXPECT_LT(highest, 1.01);  // correction of gaps does work
     EXPECT_GT(mean, hertz < 100 ? 0.65 : 0.9);
   }
 }
 
-// Eq. (31a): what turns after rows lose beyond its reserve.
+// Energy removed by the bound (31a): losses of turns after rows, less the reserve.
 TEST(RobotFlight, OnATetherCountsTheEnergyThatItsBoundRemoves) {
   Arbitrary arbitrary(1);
   RobotWorld world;
@@ -227,12 +227,12 @@ TEST(RobotFlight, OnATetherCountsTheEnergyThatItsBoundRemoves) {
   btMultiBody& body = world.add(arbitrary, def);
   putIntoFluid(arbitrary, world, body, 5);
   holdTip(world, body);
-  const AmbientRegistry& registry = world.fluid.registry();
-  const double start = kineticEnergy(registry, body);
+  const Fluid& fluid = world.fluid;
+  const double start = kineticEnergy(fluid, body);
   world.step(1.0 / 60, 30);
-  const double removed = registry.counters(body, -1).energy_removed;
+  const double removed = fluid.find(body, -1)->counters().energy_removed;
   EXPECT_GT(removed, 0.01 * start);
-  EXPECT_EQ(registry.counters().energy_removed, removed);
+  EXPECT_EQ(fluid.counters().energy_removed, removed);
 }
 
 EnergyRange inBox(unsigned seed, double hertz) {
@@ -269,7 +269,7 @@ TEST(RobotFlight, ThrownIntoABoxNeverGainsEnergy) {
   }
 }
 
-// Loads of water on fast robots at steps that are too long for them.
+// Loads of water on fast robots at steps that are too long for accuracy.
 TEST(RobotFlight, InWaterSlowsDownAtLongSteps) {
   const auto shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.08, 0.05), 1));
   for (unsigned seed = 0; seed < 60; ++seed) {

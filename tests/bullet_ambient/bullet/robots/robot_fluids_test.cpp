@@ -1,9 +1,9 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
-#include "bullet_ambient/bullet/multibody_dynamics.h"
+#include "bullet_ambient/bullet/world/multibody_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
-#include "tests/support/ellipsoid_body.h"
-#include "tests/support/part_bodies.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/part_bodies.h"
 
 // Which fluid is around the links of a robot, and what it does in it in the long run.
 namespace ambient::test {
@@ -11,21 +11,21 @@ namespace {
 
 TEST_F(Robots, KnowTheirFluids) {
   btMultiBody& body = add();
-  AmbientRegistry& registry = world.fluid.registry();
+  Fluid& fluid = world.fluid;
   const AttachDef def = fluidOf(body, 1);
-  world.fluid.add(body, 1, def);
-  EXPECT_TRUE(registry.isAttached(body, 1));
-  EXPECT_FALSE(registry.isAttached(body, 0));
+  const Immersed link = fluid.add(body, 1, def);
+  EXPECT_TRUE(fluid.find(body, 1));
+  EXPECT_FALSE(fluid.find(body, 0));
   Matrix6 expected = def.fluid_body->added_mass;
   expected.diagonal().head<3>() += toVector3(body.getLinkInertia(1));
   expected.diagonal().tail<3>().array() += static_cast<double>(body.getLinkMass(1));
-  EXPECT_LT((registry.inertia(body, 1) - expected).norm(), 1e-6 * expected.norm());
-  registry.setMedium(body, 1, idealFluid(3));
-  EXPECT_EQ(registry.medium(body, 1).density, 3);
-  EXPECT_THROW(registry.setMedium(body, 0, idealFluid(3)), std::invalid_argument);
-  EXPECT_TRUE(world.fluid.remove(body, 1));
-  EXPECT_FALSE(world.fluid.remove(body, 1));
-  EXPECT_FALSE(world.fluid.remove(body));
+  EXPECT_LT((link.inertia() - expected).norm(), 1e-6 * expected.norm());
+  fluid.find(body, 1)->setMedium(idealFluid(3));
+  EXPECT_EQ(fluid.find(body, 1)->medium().density, 3);
+  EXPECT_EQ(link.medium().density, 3);
+  EXPECT_TRUE(link.remove());
+  EXPECT_FALSE(link.remove());
+  EXPECT_FALSE(fluid.find(body, 1));
 }
 
 class OneShape : public FluidBodySource {
@@ -46,15 +46,15 @@ TEST_F(Robots, AreAttachedWithTheWorld) {
   settings.adjust_link = [&](const btMultiBody& body, int link, AttachDef& attach) {
     if (&body == &fixed && link == 2) attach.fluid_body = nullptr;
   };
-  const AttachReport report = world.fluid.attachAll(world.world, shapes, water(), settings);
+  const AttachReport report = world.fluid.addAll(shapes, water(), settings);
   EXPECT_EQ(report.attached, 6);
   EXPECT_TRUE(report.refused.empty()) << report.text();
-  const AmbientRegistry& registry = world.fluid.registry();
-  EXPECT_TRUE(registry.isAttached(floating, -1));
-  EXPECT_TRUE(registry.isAttached(fixed, 1));
-  EXPECT_FALSE(registry.isAttached(fixed, 2));
-  EXPECT_FALSE(registry.isAttached(fixed, -1));
-  EXPECT_EQ(world.fluid.attachAll(world.world, shapes, water(), settings).attached_before, 6);
+  const Fluid& fluid = world.fluid;
+  EXPECT_TRUE(fluid.find(floating, -1));
+  EXPECT_TRUE(fluid.find(fixed, 1));
+  EXPECT_FALSE(fluid.find(fixed, 2));
+  EXPECT_FALSE(fluid.find(fixed, -1));
+  EXPECT_EQ(world.fluid.addAll(shapes, water(), settings).attached_before, 6);
 }
 
 TEST_F(Robots, OfTheWorldAreAttachedByTheFilterOfLinks) {
@@ -67,12 +67,11 @@ TEST_F(Robots, OfTheWorldAreAttachedByTheFilterOfLinks) {
   settings.filter_link = [&](const btMultiBody& body, int link) {
     return &body == &floating && link != 1;
   };
-  EXPECT_EQ(world.fluid.attachAll(world.world, shapes, water(), settings).attached,
-            floating.getNumLinks());
-  const AmbientRegistry& registry = world.fluid.registry();
+  EXPECT_EQ(world.fluid.addAll(shapes, water(), settings).attached, floating.getNumLinks());
+  const Fluid& fluid = world.fluid;
   for (int link = -1; link < floating.getNumLinks(); ++link) {
-    EXPECT_EQ(registry.isAttached(floating, link), link != 1) << link;
-    EXPECT_FALSE(registry.isAttached(other, link)) << link;
+    EXPECT_EQ(fluid.find(floating, link).has_value(), link != 1) << link;
+    EXPECT_FALSE(fluid.find(other, link)) << link;
   }
 }
 
@@ -83,8 +82,8 @@ TEST_F(Robots, SwimInRegions) {
   region.below = idealFluid(7);
   const RegionId id = world.fluid.addRegion(region);
   world.step(1e-3);
-  EXPECT_EQ(world.fluid.registry().region(body, 2), id);
-  EXPECT_EQ(world.fluid.registry().medium(body, -1).density, 7);
+  EXPECT_EQ(world.fluid.find(body, 2)->region(), id);
+  EXPECT_EQ(world.fluid.find(body, -1)->medium().density, 7);
 }
 
 // The loads of water on links that motors keep at rest, or not, as PyBullet's.
@@ -100,12 +99,12 @@ TEST_F(Robots, StayBoundedUnderMotorsInWater) {
   for (int link = -1; link < 4; ++link) world.fluid.add(body, link, attach);
   for (int i = 0; i < 4; ++i)
     world.take(std::make_unique<btMultiBodyJointMotor>(&body, i, bt(0), bt(1e-3)));
-  const AmbientRegistry& registry = world.fluid.registry();
-  double last = kineticEnergy(registry, body);
+  const Fluid& fluid = world.fluid;
+  double last = kineticEnergy(fluid, body);
   const double start = last;
   for (int i = 0; i < 3600; ++i) {
     world.step(1 / 60.0);
-    const double now = kineticEnergy(registry, body);
+    const double now = kineticEnergy(fluid, body);
     ASSERT_LT(now, 1.001 * last + 1e-9 * start) << "step " << i;
     last = now;
   }
@@ -121,7 +120,7 @@ class FloatingLink {
     sea.below = water();
     sea.below.viscosity = 0;
     sea.above = air();
-    sea.above.velocity = wind;
+    sea.above->velocity = wind;
     sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
     world.fluid.addRegion(sea);
     body.setLinearDamping(bt(0.5));
@@ -137,7 +136,7 @@ class FloatingLink {
   ~FloatingLink() { world.world.removeMultiBody(&body); }
 
   double height() const { return static_cast<double>(body.getBasePos().z()); }
-  AmbientCounters counters() const { return world.fluid.registry().counters(body, -1); }
+  AmbientCounters counters() const { return world.fluid.find(body, -1)->counters(); }
 
   const FluidBody box = floatingBox({0.4, 0.4, 0.2});
   const double mass = 0.5 * water().density * box.volume;
@@ -152,15 +151,13 @@ TEST_F(Robots, FloatAtASurface) {
   EXPECT_NEAR(link.height(), 0, 5e-3);
 }
 
-// Links feel no wind: its loads are not computed.
-TEST_F(Robots, DoNotPayForWindThatTheyDoNotFeel) {
+// Wind takes one evaluation of the loads on the dry part in each step; without wind there is none.
+TEST_F(Robots, PayForWindWhereItBlows) {
   FloatingLink calm({0, 0, 0}), windy({10, 0, 0});
   calm.world.step(1 / 240.0, 60);
   windy.world.step(1 / 240.0, 60);
-  ASSERT_EQ(windy.height(), calm.height());
   EXPECT_GT(calm.counters().load_evaluations, 60);
-  EXPECT_EQ(windy.counters().load_evaluations, calm.counters().load_evaluations);
-  EXPECT_EQ(windy.counters().faces, calm.counters().faces);
+  EXPECT_GT(windy.counters().load_evaluations, calm.counters().load_evaluations + 60);
 }
 
 }  // namespace

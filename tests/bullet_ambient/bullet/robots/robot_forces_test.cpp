@@ -1,11 +1,11 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
-#include "bullet_ambient/bullet/multibody_dynamics.h"
+#include "bullet_ambient/bullet/world/multibody_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
-#include "tests/support/ellipsoid_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
-// Forces in joints and of accelerations, with the fluid in them.
+// Joint forces, and forces for accelerations, including the fluid's.
 namespace ambient::test {
 namespace {
 
@@ -13,25 +13,25 @@ TEST_F(Robots, TellTheMassMatrixAndTheForcesOfAnAcceleration) {
   btMultiBody& body = add();
   putIntoFluid(arbitrary, world, body, 2);
   world.world.setGravity({0, 0, bt(-9.81)});
-  const AmbientRegistry& registry = world.fluid.registry();
-  const Eigen::MatrixXd H = ambientMassMatrix(registry, body);
+  const Fluid& fluid = world.fluid;
+  const Eigen::MatrixXd H = ambientMassMatrix(fluid, body);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(9), some = Eigen::VectorXd::Random(9);
   const Eigen::VectorXd change =
-      ambientInverseDynamics(registry, body, some) - ambientInverseDynamics(registry, body, none);
+      ambientInverseDynamics(fluid, body, some) - ambientInverseDynamics(fluid, body, none);
   EXPECT_LT(relativeError(change, H * some), 1e-12);
   const Eigen::VectorXd u = velocityOf(body);
-  EXPECT_NEAR(kineticEnergy(registry, body), u.dot(H * u) / 2, 1e-12 * u.dot(H * u));
-  EXPECT_THROW(ambientInverseDynamics(registry, body, Eigen::VectorXd::Zero(8)),
+  EXPECT_NEAR(kineticEnergy(fluid, body), u.dot(H * u) / 2, 1e-12 * u.dot(H * u));
+  EXPECT_THROW(ambientInverseDynamics(fluid, body, Eigen::VectorXd::Zero(8)),
                std::invalid_argument);
   // What it does without any force, for a moment.
-  const Eigen::VectorXd rate = H.ldlt().solve(-ambientInverseDynamics(registry, body, none));
+  const Eigen::VectorXd rate = H.ldlt().solve(-ambientInverseDynamics(fluid, body, none));
   const double moment = byPrecision(1e-7, 1e-3);
   world.step(moment);
   const Eigen::VectorXd after = (velocityOf(body) - u) / moment;
   EXPECT_LT(relativeError(after, rate), byPrecision(1e-5, 1e-2));
 }
 
-// A link of volume V that a fixed joint holds: weight and buoyancy.
+// A link of volume V on a fixed joint: weight and buoyancy.
 TEST_F(Robots, FeelBuoyancyInTheirJoints) {
   btMultiBody body(1, 1, btVector3(1, 1, 1), true, false);
   body.setupFixed(0, bt(2), btVector3(bt(0.1), bt(0.1), bt(0.1)), -1, btQuaternion::getIdentity(),
@@ -55,11 +55,13 @@ TEST_F(Robots, FeelBuoyancyInTheirJoints) {
   world.world.removeMultiBody(&body);
 }
 
-// Joint forces of an arm with a motor: without fluid, or in next to none. It begins at rest: Bullet
-// counts what is due to velocities once for forces and once more for rows.
+// Joint forces of an arm with a motor, without fluid or in a very thin one. Starts at rest: Bullet
+// counts velocity terms twice, in forces and in rows.
 std::vector<btSpatialForceVector> jointForces(bool is_in_fluid, bool in_world, bool in_joint) {
   Arbitrary arbitrary(9);
-  RobotWorld world(is_in_fluid ? nullptr : std::make_unique<btMultiBodyConstraintSolver>());
+  RobotWorld world;
+  btMultiBodyConstraintSolver stock;
+  if (!is_in_fluid) world.world.setMultiBodyConstraintSolver(&stock);
   world.world.setGravity({0, 0, bt(-9.81)});
   world.world.getSolverInfo().m_jointFeedbackInWorldSpace = in_world;
   world.world.getSolverInfo().m_jointFeedbackInJointFrame = in_joint;

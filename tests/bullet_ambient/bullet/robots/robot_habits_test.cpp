@@ -4,7 +4,7 @@
 
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 
-// What a program may do with robots in a fluid, besides moving them.
+// Calls of a program for robots in a fluid, apart from motion.
 namespace ambient::test {
 namespace {
 
@@ -16,24 +16,25 @@ TEST_F(Robots, RefuseWhatCannotBeInAFluid) {
   EXPECT_NE(refusal(body, 0, {}).find("fluid body is null"), std::string::npos);
   EXPECT_NE(refusal(add(fixed), -1, fluidOf(body, 0)).find("static"), std::string::npos);
   EXPECT_EQ(refusal(body, 0, fluidOf(body, 0)), "");
-  EXPECT_NE(refusal(body, 0, fluidOf(body, 0)).find("attached already"), std::string::npos);
+  EXPECT_NE(refusal(body, 0, fluidOf(body, 0)).find("added already"), std::string::npos);
   body.useRK4Integration(true);
   EXPECT_NE(refusal(body, 1, fluidOf(body, 1)).find("RK4"), std::string::npos);
   btMultiBody& dummy = add();
   dummy.getLink(1).m_mass = 0;
   EXPECT_NE(refusal(dummy, 1, fluidOf(body, 1)).find("mass of 0"), std::string::npos);
-  RobotWorld other;
-  EXPECT_THROW(world.fluid.registry().attach(other.world, body, 1, fluidOf(body, 1)),
-               std::invalid_argument);
-  Fluid<btMultiBodyConstraintSolver> untied;
-  EXPECT_THROW(untied.add(body, 1, fluidOf(body, 1)), std::invalid_argument);
+  btDiscreteDynamicsWorld rigid(&world.dispatcher, &world.broadphase, nullptr,
+                                &world.configuration);
+  Fluid without(rigid);
+  EXPECT_THROW(without.add(body, 1, fluidOf(body, 1)), std::invalid_argument);
 }
 
 // Contacts, motors and friction in worlds with the solver of Bullet, and with ours.
-std::vector<btScalar> moveInAir(std::unique_ptr<btMultiBodyConstraintSolver> stock,
-                                bool has_empty_fluid) {
+enum class Kind { kStock, kFluid, kFluidOfNoDensity };
+std::vector<btScalar> moveInAir(Kind kind) {
   Arbitrary arbitrary(7);
-  RobotWorld world(std::move(stock));
+  RobotWorld world;
+  btMultiBodyConstraintSolver stock;
+  if (kind == Kind::kStock) world.world.setMultiBodyConstraintSolver(&stock);
   world.world.setGravity({0, 0, bt(-9.81)});
   world.world.getSolverInfo().m_numIterations = 10;
   RobotDef def;
@@ -45,7 +46,7 @@ std::vector<btScalar> moveInAir(std::unique_ptr<btMultiBodyConstraintSolver> sto
       .addFixed(std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), bt(-1)),
                 btTransform::getIdentity())
       .setFriction(1);
-  if (has_empty_fluid) {
+  if (kind == Kind::kFluidOfNoDensity) {
     for (int link = -1; link < 3; ++link) {
       AttachDef nothing = coupledFluid(arbitrary, *robots[1], link, 2);
       nothing.medium = {};
@@ -60,9 +61,9 @@ std::vector<btScalar> moveInAir(std::unique_ptr<btMultiBodyConstraintSolver> sto
 }
 
 TEST_F(Robots, WithoutFluidMoveAsInBulletBitForBit) {
-  const auto stock = moveInAir(std::make_unique<btMultiBodyConstraintSolver>(), false);
-  EXPECT_EQ(moveInAir(nullptr, false), stock);
-  EXPECT_EQ(moveInAir(nullptr, true), stock);
+  const auto stock = moveInAir(Kind::kStock);
+  EXPECT_EQ(moveInAir(Kind::kFluid), stock);
+  EXPECT_EQ(moveInAir(Kind::kFluidOfNoDensity), stock);
 }
 
 TEST_F(Robots, OfOneBodyMoveAsTheSameRigidBody) {
@@ -111,32 +112,31 @@ TEST_F(Robots, TellThatTheirSolverIsNotAsked) {
   EXPECT_NE(heard[0].find("setMultiBodyConstraintSolver"), std::string::npos);
 }
 
-// The islands keep the solver of the constructor.
+// Bullet's islands keep the solver of the world's constructor.
 TEST_F(Robots, TellThatSetConstraintSolverDoesNotReachThem) {
-  Fluid<btMultiBodyConstraintSolver> fluid;
-  std::vector<std::string> reports;
-  fluid.registry().setReport([&reports](const std::string& text) { reports.push_back(text); });
-  RobotWorld stock(std::make_unique<btMultiBodyConstraintSolver>());
-  btMultiBody& body = stock.add(arbitrary, {});
-  stock.world.setConstraintSolver(&fluid.solver());
-  stock.world.addAction(&fluid.action());
-  fluid.registry().attach(stock.world, body, 1, fluidOf(body, 1));
-  stock.step(1e-3, 2);
-  ASSERT_FALSE(reports.empty());
-  EXPECT_NE(reports[0].find("setMultiBodyConstraintSolver"), std::string::npos);
+  btMultiBody& body = add();
+  world.fluid.add(body, 1, fluidOf(body, 1));
+  btMultiBodyConstraintSolver stock;
+  world.world.setMultiBodyConstraintSolver(&stock);
+  const auto solver = makeSolver<btMultiBodyConstraintSolver>(world.fluid);
+  world.world.btDiscreteDynamicsWorld::setConstraintSolver(solver.get());
+  world.step(1e-3, 2);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_NE(heard[0].find("setMultiBodyConstraintSolver"), std::string::npos);
 }
 
 TEST_F(Robots, MayLeaveTheWorldAndBeDestroyed) {
   btMultiBody& body = add();
-  world.fluid.add(body, 1, fluidOf(body, 1));
+  Immersed link = world.fluid.add(body, 1, fluidOf(body, 1));
   world.step(1e-3);
   world.remove(body);
   world.step(1e-3, 3);
   EXPECT_TRUE(heard.empty());
-  world.fluid.remove(body);  // by its address alone
+  EXPECT_TRUE(link.remove());  // by its address alone
+  EXPECT_FALSE(link.remove());
 }
 
-// Of other links, at the address of one that was destroyed.
+// Constructs another robot at the address of a destroyed one.
 TEST_F(Robots, AreNotTakenForOthersAtTheirAddress) {
   alignas(btMultiBody) unsigned char place[sizeof(btMultiBody)];
   const auto make = [&place](int links) {
@@ -156,11 +156,54 @@ TEST_F(Robots, AreNotTakenForOthersAtTheirAddress) {
   btMultiBody* second = make(3);
   world.world.addMultiBody(second);
   world.step(1e-3);
-  EXPECT_FALSE(world.fluid.registry().isAttached(*second, 1));
+  EXPECT_FALSE(world.fluid.find(*second, 1));
   ASSERT_EQ(heard.size(), 1u);
   EXPECT_NE(heard[0].find("other links"), std::string::npos);
   world.world.removeMultiBody(second);
   second->~btMultiBody();
+}
+
+// Of the same links, at the address of one that was destroyed and whose memory it may have.
+TEST_F(Robots, OfTheSameLinksAreNotTakenForDestroyedOnes) {
+  alignas(btMultiBody) unsigned char place[sizeof(btMultiBody)];
+  const auto make = [&place] {
+    auto* body = new (place) btMultiBody(1, 1, btVector3(1, 1, 1), false, false);
+    body->setupRevolute(0, 1, btVector3(1, 1, 1), -1, btQuaternion::getIdentity(),
+                        btVector3(0, 0, 1), btVector3(1, 0, 0), btVector3(1, 0, 0));
+    body->finalizeMultiDof();
+    return body;
+  };
+  btMultiBody* first = make();
+  world.world.addMultiBody(first);
+  const Immersed old = world.fluid.add(*first, 0, fluidOf(*first, 0));
+  first->finalizeMultiDof();  // again, which changes nothing
+  world.step(1e-3);
+  EXPECT_TRUE(world.fluid.find(*first, 0));
+  world.world.removeMultiBody(first);
+  first->~btMultiBody();
+  btMultiBody* second = make();
+  world.world.addMultiBody(second);
+  EXPECT_FALSE(world.fluid.find(*second, 0));
+  world.step(1e-3);
+  EXPECT_FALSE(old.isValid());
+  EXPECT_EQ(world.fluid.size(), 0u);
+  const Immersed added = world.fluid.add(*second, 0, fluidOf(*second, 0));
+  world.step(1e-3);
+  EXPECT_TRUE(added.isValid());
+  world.world.removeMultiBody(second);
+  second->~btMultiBody();
+}
+
+// What is known of one that left the world and came back is its own.
+TEST_F(Robots, MayLeaveTheWorldAndComeBack) {
+  btMultiBody& body = add();
+  const Immersed link = world.fluid.add(body, 1, fluidOf(body, 1));
+  world.world.removeMultiBody(&body);
+  world.step(1e-3);
+  world.world.addMultiBody(&body);
+  world.step(1e-3);
+  EXPECT_TRUE(link.isValid());
+  EXPECT_TRUE(heard.empty());
 }
 
 TEST_F(Robots, SleepAtRestAndNotWhileTheyDrift) {
@@ -177,7 +220,7 @@ TEST_F(Robots, SleepAtRestAndNotWhileTheyDrift) {
   world.step(1 / 60.0, 200);
   EXPECT_FALSE(resting.isAwake());
   EXPECT_TRUE(drifting.isAwake());
-  world.fluid.registry().setMedium(resting, 0, idealFluid(2));
+  world.fluid.find(resting, 0)->setMedium(idealFluid(2));
   EXPECT_TRUE(resting.isAwake());
 }
 

@@ -28,7 +28,7 @@ Impact hit(unsigned seed, const RobotDef& def, double restitution, int floors) {
   if (!def.has_fixed_base) addFloor(world, body, -1, down, restitution);
   if (def.has_fixed_base || floors > 1)
     addFloor(world, body, tip, btVector3(0, bt(0.6), bt(0.8)), restitution);
-  DenseRobot robot = denseRobot(body, world.fluid.registry());
+  DenseRobot robot = denseRobot(body, world.fluid);
   const std::vector<DenseVector6> before = twistsOf(body);
   world.step(kMoment);
   const auto rows_of_joints = robot.rows.size();
@@ -69,20 +69,20 @@ TEST(RobotRows, AFixedBaseEqualsTheDenseSolution) {
   expectImpacts(def, 0.5, 1);
 }
 
-// Bullet has no articulated inertia for it.
+// Bullet has no articulated inertia for a base without links.
 TEST(RobotRows, ABaseAloneEqualsTheDenseSolution) {
   RobotDef def;
   def.links = 0;
   expectImpacts(def, 0.5, 1);
 }
 
-Eigen::VectorXd velocityAfterHit(unsigned seed, RobotWorld& world, AmbientRegistry& registry) {
+Eigen::VectorXd velocityAfterHit(unsigned seed, RobotWorld& world) {
   Arbitrary arbitrary(seed);
   RobotDef def;
   def.collider_radius = kSphereRadius;
   btMultiBody& body = world.add(arbitrary, def);
   for (int link = -1; link < 3; ++link)
-    registry.attach(world.world, body, link, coupledFluid(arbitrary, body, link, 5));
+    world.fluid.add(body, link, coupledFluid(arbitrary, body, link, 5));
   addFloor(world, body, -1, -body.getBaseVel().normalized(), 0.5);
   world.step(kMoment);
   return velocityOf(body);
@@ -91,21 +91,18 @@ Eigen::VectorXd velocityAfterHit(unsigned seed, RobotWorld& world, AmbientRegist
 TEST(RobotRows, AComplementaritySolverFindsTheSame) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     RobotWorld by_iterations;
-    const Eigen::VectorXd expected =
-        velocityAfterHit(seed, by_iterations, by_iterations.fluid.registry());
-    AmbientRegistry registry;
-    AmbientAction action(registry);
+    const Eigen::VectorXd expected = velocityAfterHit(seed, by_iterations);
     btDantzigSolver inner;
-    RobotWorld world(
-        std::make_unique<AmbientSolver<btMultiBodyMLCPConstraintSolver>>(registry, &inner));
-    world.world.addAction(&action);
-    const Eigen::VectorXd u = velocityAfterHit(seed, world, registry);
+    RobotWorld world;
+    const auto solver = makeSolver<btMultiBodyMLCPConstraintSolver>(world.fluid, &inner);
+    world.world.setMultiBodyConstraintSolver(solver.get());
+    const Eigen::VectorXd u = velocityAfterHit(seed, world);
     EXPECT_LT(relativeError(u, expected), byPrecision(1e-8, 1e-4));
-    EXPECT_GT(registry.counters().rows, 0);
+    EXPECT_GT(world.fluid.counters().rows, 0);
   }
 }
 
-// Impulses of the last step, which Bullet applies with the dry response, are applied again.
+// Warm starts repeat impulses of the last step, applied by Bullet with the dry response.
 TEST(RobotRows, WarmStartsChangeNothingButTheWay) {
   Eigen::VectorXd ends[2];
   for (const int mode : {0, int(SOLVER_USE_ARTICULATED_WARMSTARTING)}) {
@@ -141,7 +138,7 @@ TEST(RobotRows, AMotorAndALimitEqualTheDenseSolution) {
                                                                    body.getJointPos(0) + 3);
     limit->setMaxAppliedImpulse(bt(1e9));
     world.take(std::move(limit));
-    DenseRobot robot = denseRobot(body, world.fluid.registry());
+    DenseRobot robot = denseRobot(body, world.fluid);
     const std::vector<DenseVector6> before = twistsOf(body);
     robot.rows.push_back(rateRow(body, 1));
     robot.rows.back().target = 3;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "bullet_ambient/bullet/tree_state.h"
-#include "tests/support/free_body.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
+#include "tests/support/bodies/free_body.h"
 
 namespace ambient::test {
 namespace {
@@ -64,12 +64,8 @@ void startJoint(Arbitrary& arbitrary, btMultiBody& body, int link, double speed)
 
 }  // namespace
 
-RobotWorld::RobotWorld(std::unique_ptr<btMultiBodyConstraintSolver> stock)
-    : stock_solver(std::move(stock)),
-      world(&dispatcher, &broadphase, stock_solver ? stock_solver.get() : &fluid.solver(),
-            &configuration) {
+RobotWorld::RobotWorld() {
   world.setGravity({0, 0, 0});
-  if (!stock_solver) fluid.attachTo(world);
   btContactSolverInfo& info = world.getSolverInfo();
   info.m_erp = info.m_erp2 = info.m_linearSlop = 0;
   info.m_numIterations = 400;

@@ -8,48 +8,48 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/bullet/fluid.h"
+#include "bullet_ambient/bullet/world/fluid.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 
-/// Which joints the links of an arbitrary robot have.
+/// Joints of a random robot's links.
 enum class Joints {
   kRevolute,  ///< in one chain
-  kSmooth,    ///< revolute, prismatic, spherical and fixed ones in turn, in a tree
-  kAll,       ///< planar ones too
+  kSmooth,    ///< tree: revolute, prismatic, spherical, fixed in turn
+  kAll,       ///< kSmooth's, and planar
 };
 
 struct RobotDef {
   int links = 3;
   Joints joints = Joints::kRevolute;
   bool has_fixed_base = false;
-  double speed = 1;            ///< joints at up to twice this [rad/s, m/s]
-  double collider_radius = 0;  ///< a sphere at each centre of mass; 0: none has a collider
+  double speed = 1;            ///< joint speeds up to twice this [rad/s, m/s]
+  double collider_radius = 0;  ///< sphere at each centre of mass; 0: no colliders
 };
 
 /// A multibody world with a fluid, gravity 0, without position correction, softness and damping.
 class RobotWorld {
  public:
-  explicit RobotWorld(std::unique_ptr<btMultiBodyConstraintSolver> stock = nullptr);
+  RobotWorld();
   ~RobotWorld();
 
-  /// Links of 0.3 kg to 1.3 kg, 0.3 m apart, at an arbitrary pose and motion, in the world.
+  /// Adds a robot to the world: links of 0.3 kg to 1.3 kg, 0.3 m apart, random pose and motion.
   btMultiBody& add(Arbitrary& arbitrary, const RobotDef& def);
   void take(std::unique_ptr<btMultiBodyConstraint> constraint);
   void remove(btMultiBody& body);
   btCollisionObject& addFixed(std::unique_ptr<btCollisionShape> shape, const btTransform& place);
-  /// Contact and joint places as they are at the start of a step.
+  /// Updates contact and joint places to the start of a step.
   static void moveColliders(btMultiBody& body);
   void step(double duration, int count = 1);
 
-  Fluid<btMultiBodyConstraintSolver> fluid;
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  std::unique_ptr<btMultiBodyConstraintSolver> stock_solver;  ///< in place of the fluid's
-  btMultiBodyDynamicsWorld world;
+  btMultiBodyConstraintSolver stock_solver;  ///< in whose place the fluid has its own
+  btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &stock_solver, &configuration};
+  Fluid fluid{world};
 
  private:
   void addCollider(btMultiBody& body, int link, double radius);
@@ -60,11 +60,11 @@ class RobotWorld {
   std::vector<std::unique_ptr<btCollisionObject>> objects_;
 };
 
-/// A fluid of density 1 around a link, of arbitrary coupled added mass, `ratio` times its mass.
+/// Fluid of density 1 around a link, random coupled added mass of `ratio` times the link's mass.
 AttachDef coupledFluid(Arbitrary& arbitrary, const btMultiBody& body, int link, double ratio);
 
-/// Puts all links of a robot, its base among them, into coupledFluid() of their own. A fixed base
-/// has none.
+/// Puts all links and a free base of a robot into separate coupledFluid(). A fixed base stays
+/// dry.
 void putIntoFluid(Arbitrary& arbitrary, RobotWorld& world, btMultiBody& body, double ratio);
 
 Eigen::VectorXd velocityOf(const btMultiBody& body);

@@ -1,13 +1,13 @@
-#include "bullet_ambient/bullet/tree_state.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "bullet_ambient/motion/link_dynamics.h"
+#include "bullet_ambient/motion/links/link_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 
-// What is read of a btMultiBody makes its motion without fluid that of Bullet.
+// Flight with data read from a btMultiBody must move like Bullet without fluid.
 namespace ambient::test {
 namespace {
 

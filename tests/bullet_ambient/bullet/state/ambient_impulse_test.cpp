@@ -1,13 +1,14 @@
-#include "bullet_ambient/bullet/ambient_impulse.h"
+#include "bullet_ambient/bullet/world/ambient_impulse.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
-#include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/attach_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 namespace {
@@ -19,9 +20,9 @@ const double kTolerance = byPrecision(1e-13, 2e-6);
 
 const Medium kFluid{2, 0, Vector3::Zero(), Vector3::Zero()};
 
-// A body of any pose, velocity and coupled inertia in a fluid, and its K, assembled independently.
+// A body of random pose, velocity and coupled inertia in a fluid, and its K, assembled separately.
 struct CoupledBody {
-  FluidWorld fluid;
+  FluidWorld scene;
   btRigidBody* body = nullptr;
   Dense6 K_W;
   Vector3 point;
@@ -33,7 +34,7 @@ struct CoupledBody {
     def.moments = Vector3(arbitrary.between(0.5, 1), arbitrary.between(0.5, 1), 0.9);
     def.start.orientation = Quaternion(arbitrary.rotation());
     def.start.twist = arbitrary.twist();
-    body = &fluid.add(def, shapeWithoutFaces(added_mass), kFluid);
+    body = &scene.add(def, shapeWithoutFaces(added_mass), kFluid);
     Dense6 K = kFluid.density * added_mass;
     K.diagonal() += stack(def.moments, Vector3::Constant(def.mass));
     Dense6 turn = Dense6::Zero();
@@ -47,7 +48,7 @@ struct CoupledBody {
   }
 };
 
-// The columns of K that belong to free axes solved alone, the rest zero.
+// Solution of K's block of free axes alone, zero along locked axes.
 Vector6 lockedResponse(const Dense6& K, const Vector6& free, const Vector6& wrench) {
   Dense6 reduced = free.asDiagonal() * K * free.asDiagonal();
   reduced.diagonal() += Vector6(Vector6::Ones() - free);
@@ -60,7 +61,7 @@ TEST(AmbientImpulse, ChangesTheMomentumOfBodyAndFluidByTheImpulse) {
     CoupledBody coupled(arbitrary);
     const Vector3 impulse = arbitrary.vector();
     const Vector6 before = coupled.velocity();
-    applyAmbientImpulse(coupled.fluid.registry, *coupled.body, toBullet(impulse),
+    applyAmbientImpulse(coupled.scene.fluid, *coupled.body, toBullet(impulse),
                         toBullet(coupled.point));
     const Vector6 wrench = stack(coupled.point.cross(impulse), impulse);
     const Vector6 expected = before + coupled.K_W.fullPivLu().solve(wrench);
@@ -78,7 +79,7 @@ TEST(AmbientImpulse, ATorqueImpulseIsAnsweredByTheWholeTensor) {
     CoupledBody coupled(arbitrary);
     const Vector3 torque = arbitrary.vector();
     const Vector6 before = coupled.velocity();
-    applyAmbientTorqueImpulse(coupled.fluid.registry, *coupled.body, toBullet(torque));
+    applyAmbientTorqueImpulse(coupled.scene.fluid, *coupled.body, toBullet(torque));
     const Vector6 wrench = stack(torque, Vector3::Zero());
     const Vector6 expected = before + coupled.K_W.fullPivLu().solve(wrench);
     EXPECT_LT((coupled.velocity() - expected).norm(),
@@ -96,7 +97,7 @@ TEST(AmbientImpulse, LockedAxesStayAndTheOthersAnswerWithTheirPartOfK) {
     free << 0, 1, 0, 1, 0, 1;
     const Vector3 impulse = arbitrary.vector();
     const Vector6 before = coupled.velocity();
-    applyAmbientImpulse(coupled.fluid.registry, *coupled.body, toBullet(impulse),
+    applyAmbientImpulse(coupled.scene.fluid, *coupled.body, toBullet(impulse),
                         toBullet(coupled.point));
     const Vector6 change = coupled.velocity() - before;
     const Vector6 expected =
@@ -111,19 +112,19 @@ TEST(InverseEffectiveMass, IsTheChangeOfThePointsVelocityPerImpulse) {
   for (int i = 0; i < kBodies; ++i) {
     CoupledBody coupled(arbitrary);
     if (i % 2) coupled.body->setLinearFactor(btVector3(1, 1, 0));
-    AmbientRegistry& registry = coupled.fluid.registry;
+    Fluid& fluid = coupled.scene.fluid;
     const btVector3 point = toBullet(coupled.point);
     const btVector3 impulse = toBullet(arbitrary.vector());
-    const btMatrix3x3 inverse_mass = inverseEffectiveMass(registry, *coupled.body, point);
+    const btMatrix3x3 inverse_mass = inverseEffectiveMass(fluid, *coupled.body, point);
     const btVector3 before = coupled.body->getVelocityInLocalPoint(point);
-    applyAmbientImpulse(registry, *coupled.body, impulse, point);
+    applyAmbientImpulse(fluid, *coupled.body, impulse, point);
     const btVector3 change = coupled.body->getVelocityInLocalPoint(point) - before;
     const double scale = static_cast<double>(change.length() + before.length());
     EXPECT_LT(static_cast<double>((inverse_mass * impulse - change).length()),
               20 * kTolerance * scale);
     EXPECT_EQ(inverse_mass[0][1], inverse_mass[1][0]);
     const btVector3 n = impulse.normalized();
-    EXPECT_EQ(inverseEffectiveMass(registry, *coupled.body, point, n), n.dot(inverse_mass * n));
+    EXPECT_EQ(inverseEffectiveMass(fluid, *coupled.body, point, n), n.dot(inverse_mass * n));
   }
 }
 
@@ -131,26 +132,26 @@ TEST(AmbientImpulse, WithoutAFluidIsThatOfStockBullet) {
   Arbitrary arbitrary(5);
   for (int i = 0; i < kBodies; ++i) {
     CoupledBody coupled(arbitrary);
-    AmbientRegistry& registry = coupled.fluid.registry;
+    Fluid& fluid = coupled.scene.fluid;
     btRigidBody& body = *coupled.body;
     if (i % 2) {
-      registry.detach(body);
+      fluid.find(body)->remove();
     } else {
-      registry.setMedium(body, Medium{});
+      fluid.find(body)->setMedium(Medium{});
     }
     btRigidBody stock(body);
     const btVector3 point = toBullet(coupled.point);
     const btVector3 impulse = toBullet(arbitrary.vector());
     stock.applyImpulse(impulse, point);
     stock.applyTorqueImpulse(impulse);
-    applyAmbientImpulse(registry, body, impulse, point);
-    applyAmbientTorqueImpulse(registry, body, impulse);
+    applyAmbientImpulse(fluid, body, impulse, point);
+    applyAmbientTorqueImpulse(fluid, body, impulse);
     EXPECT_TRUE(body.getLinearVelocity() == stock.getLinearVelocity());
     EXPECT_TRUE(body.getAngularVelocity() == stock.getAngularVelocity());
     const btVector3 n = impulse.normalized();
     const btScalar expected =
         stock.computeImpulseDenominator(stock.getCenterOfMassPosition() + point, n);
-    EXPECT_NEAR(inverseEffectiveMass(registry, body, point, n), expected,
+    EXPECT_NEAR(inverseEffectiveMass(fluid, body, point, n), expected,
                 10 * kTolerance * static_cast<double>(expected));
   }
 }
@@ -159,8 +160,7 @@ TEST(AmbientImpulse, WakesABodyInAFluid) {
   Arbitrary arbitrary(6);
   CoupledBody coupled(arbitrary);
   coupled.body->forceActivationState(ISLAND_SLEEPING);
-  applyAmbientImpulse(coupled.fluid.registry, *coupled.body, btVector3(1, 0, 0),
-                      btVector3(0, 0, 0));
+  applyAmbientImpulse(coupled.scene.fluid, *coupled.body, btVector3(1, 0, 0), btVector3(0, 0, 0));
   EXPECT_TRUE(coupled.body->isActive());
 }
 
@@ -169,41 +169,44 @@ TEST(AmbientImpulse, SeesNewMassProperties) {
   CoupledBody coupled(arbitrary);
   const btVector3 origin(0, 0, 0);
   coupled.body->setMassProps(btScalar(1e8), btVector3(1, 1, 1) * btScalar(1e8));
-  const btMatrix3x3 heavy = inverseEffectiveMass(coupled.fluid.registry, *coupled.body, origin);
+  const btMatrix3x3 heavy = inverseEffectiveMass(coupled.scene.fluid, *coupled.body, origin);
   EXPECT_NEAR(heavy[0][0], 1e-8, 1e-14);
 }
 
-// An ordinary ball hits a resting ambient body off its centre. What the solver did to the ambient
-// body is what applyAmbientImpulse() does with the same impulses.
+// An ordinary ball hits a resting ambient body off its centre. The solver's velocity change must
+// equal applyAmbientImpulse() with these impulses.
 TEST(AmbientImpulse, IsThatOfAContact) {
   for (const double friction : {0.0, 0.7}) {
     Arbitrary arbitrary(8);
     btSphereShape ball_shape(btScalar(0.2));
     btBoxShape box(btVector3(1, btScalar(0.5), btScalar(0.3)));
-    FluidWorld fluid;
+    FluidWorld scene;
     BodyDef def;
     def.mass = 3;
     def.moments = Vector3(0.6, 0.8, 0.9);
     def.shape = &box;
-    btRigidBody& body = fluid.add(def, shapeWithoutFaces(arbitrary.positiveDefinite()), kFluid);
+    btRigidBody& body = scene.add(def, shapeWithoutFaces(arbitrary.positiveDefinite()), kFluid);
     BodyDef ball_def;
     ball_def.mass = 1;
     ball_def.moments = Vector3::Constant(0.016);
     ball_def.start.position = {0.6, 0.3, 0.495};
     ball_def.start.twist.linear = {1, 0.5, -4};
     ball_def.shape = &ball_shape;
-    btRigidBody& ball = fluid.add(ball_def);
+    btRigidBody& ball = scene.add(ball_def);
     for (btRigidBody* b : {&body, &ball}) b->setFriction(static_cast<btScalar>(friction));
 
     btRigidBody struck(body);
-    AmbientRegistry registry;
-    AttachDef attach = bodiesOf(fluid.registry).find(&body)->def;
-    registry.attach(struck, attach);
-    fluid.world.removeAction(&fluid.action);  // the turn within the step is not the contact's
-    fluid.step(1e-4);
+    AttachDef attach = membersOf(scene.fluid).find(&body)->def;
+    scene.fluid.add(struck, attach);
+    // A solver without an action: the turn within the step is not the contact's.
+    const auto members = std::make_shared<AmbientBodies>();
+    attachBody(*members, body, attach);
+    FluidSolver<> solver(members);
+    scene.world.setConstraintSolver(&solver);
+    scene.step(1e-4);
 
-    ASSERT_EQ(fluid.dispatcher.getNumManifolds(), 1);
-    const btPersistentManifold& manifold = *fluid.dispatcher.getManifoldByIndexInternal(0);
+    ASSERT_EQ(scene.dispatcher.getNumManifolds(), 1);
+    const btPersistentManifold& manifold = *scene.dispatcher.getManifoldByIndexInternal(0);
     ASSERT_EQ(manifold.getNumContacts(), 1);
     const btManifoldPoint& contact = manifold.getContactPoint(0);
     ASSERT_GT(contact.m_appliedImpulse, 0);
@@ -214,7 +217,7 @@ TEST(AmbientImpulse, IsThatOfAContact) {
         sign * (contact.m_normalWorldOnB * contact.m_appliedImpulse +
                 contact.m_lateralFrictionDir1 * contact.m_appliedImpulseLateral1 +
                 contact.m_lateralFrictionDir2 * contact.m_appliedImpulseLateral2);
-    applyAmbientImpulse(registry, struck, impulse,
+    applyAmbientImpulse(scene.fluid, struck, impulse,
                         is_second ? contact.m_positionWorldOnB : contact.m_positionWorldOnA);
     EXPECT_LT((struck.getLinearVelocity() - body.getLinearVelocity()).length(),
               10 * kTolerance * static_cast<double>(body.getLinearVelocity().length()));

@@ -3,39 +3,39 @@
 
 #include <stdexcept>
 
-#include "bullet_ambient/bullet/ambient_serializer.h"
+#include "bullet_ambient/bullet/world/ambient_serializer.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
 
 namespace ambient::test {
 namespace {
 
-// The broadphase of the loaded world has the same pairs for as long as the motions are compared.
+// Steps before and after loading; pairs of the loaded broadphase stay equal during kAfter.
 constexpr int kBefore = 60, kAfter = 120;
 
 std::string save(StateScene& scene) {
-  AmbientSerializer serializer(scene.fluid.world, scene.fluid.registry);
-  scene.fluid.world.serialize(&serializer);
+  AmbientSerializer serializer(scene.scene.fluid);
+  scene.scene.world.serialize(&serializer);
   return {reinterpret_cast<const char*>(serializer.getBufferPointer()),
           static_cast<std::size_t>(serializer.getCurrentBufferSize())};
 }
 
-// A world that knows nothing but the file, and where to find fluid bodies.
+// A world with no input but the file and a lookup of fluid bodies.
 struct LoadedWorld {
-  FluidWorld fluid;
-  btBulletWorldImporter importer{&fluid.world};
+  FluidWorld scene;
+  btBulletWorldImporter importer{&scene.world};
 
   LoadedWorld(std::string file, const FluidBodyLookup& lookup) {
-    fluid.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
     const WorldState state = readAmbientChunk(file, "pile.bullet", lookup);
     if (!importer.loadFileFromMemory(file.data(), static_cast<int>(file.size()))) {
       throw std::runtime_error("Bullet does not load the file");
     }
-    restoreState(state, fluid.world, fluid.registry);
+    scene.fluid.restore(state);
   }
   ~LoadedWorld() { importer.deleteAllData(); }
 
   std::string motion() const {
-    WorldState state = saveState(fluid.world, fluid.registry);
+    WorldState state = scene.fluid.save();
     state.pairs.clear();
     state.contacts.clear();
     return encodeState(state);
@@ -46,19 +46,19 @@ TEST(BulletFile, BringsBackBodiesInTheirFluids) {
   StateScene scene;
   scene.step(kBefore);
   const LoadedWorld loaded(save(scene), scene.lookup());
-  EXPECT_EQ(loaded.fluid.registry.size(), scene.fluid.registry.size());
+  EXPECT_EQ(loaded.scene.fluid.size(), scene.scene.fluid.size());
   EXPECT_EQ(loaded.motion() == scene.motion(), true);
 }
 
-// The shapes' sizes and margins and the joints' frames survive a .bullet file here, so that
-// contacts are the same bits, too.
+// Sizes, margins and joint frames survive a .bullet file exactly in this scene, so that contacts
+// have equal bits, too.
 TEST(BulletFile, ALoadedWorldGoesOnBitForBit) {
   StateScene scene;
   scene.step(kBefore);
   LoadedWorld loaded(save(scene), scene.lookup());
   for (int i = 0; i < kAfter; ++i) {
     scene.step(1);
-    loaded.fluid.step(kSceneStep, 1);
+    loaded.scene.step(kSceneStep, 1);
     ASSERT_EQ(loaded.motion() == scene.motion(), true) << "bits differ after step " << i + 1;
   }
 }
@@ -68,8 +68,8 @@ TEST(BulletFile, StockLoadersPassTheChunkBy) {
   std::string file = save(scene);
   btBulletWorldImporter importer(nullptr);
   ASSERT_TRUE(importer.loadFileFromMemory(file.data(), static_cast<int>(file.size())));
-  EXPECT_EQ(importer.getNumRigidBodies(), scene.fluid.world.getNumCollisionObjects());
-  EXPECT_EQ(importer.getNumConstraints(), scene.fluid.world.getNumConstraints());
+  EXPECT_EQ(importer.getNumRigidBodies(), scene.scene.world.getNumCollisionObjects());
+  EXPECT_EQ(importer.getNumConstraints(), scene.scene.world.getNumConstraints());
   importer.deleteAllData();
 }
 
@@ -86,7 +86,7 @@ TEST(BulletFile, SaysWhatIsWrongWithIt) {
   StateScene scene;
   const std::string file = save(scene);
   btDefaultSerializer stock;
-  scene.fluid.world.serialize(&stock);
+  scene.scene.world.serialize(&stock);
   const std::string without(reinterpret_cast<const char*>(stock.getBufferPointer()),
                             static_cast<std::size_t>(stock.getCurrentBufferSize()));
   EXPECT_EQ(refusal(without, scene.lookup()),

@@ -1,12 +1,14 @@
-#include "bullet_ambient/bullet/fluid_drawing.h"
+#include "bullet_ambient/bullet/world/fluid_drawing.h"
 
 #include <LinearMath/btIDebugDraw.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "bullet_ambient/bullet/ambient_bodies.h"
-#include "bullet_ambient/force/water_surface.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/fluid_body/sharpness.h"
+#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/medium/water_surface.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
@@ -49,17 +51,18 @@ class Recorder : public btIDebugDraw {
   std::vector<Line> lines_;
 };
 
-// A turning body in oblique flow, its fluid frame shifted and turned.
+// A turning body in oblique flow, with its fluid frame shifted and turned.
 class Drawing : public testing::Test {
  protected:
   Drawing() {
-    fluid.world.setDebugDrawer(&recorder);
+    scene.world.setDebugDrawer(&recorder);
     AttachDef attach;
     auto shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.5, 0.3, 0.2), 2));
     shape->centre_of_volume = Vector3(0.05, 0, 0.1);
     attach.fluid_body = shape;
     attach.medium = {900, 1e-3, Vector3(0.3, 0.1, 0), Vector3(0, 0.5, 0)};
     attach.flow.separation_angle = 1.7;
+    attach.flow.law = PressureLaw::kPublished;
     attach.fluid_frame = {rotationFromVector(Vector3(0.4, 0.1, -0.3)).toRotationMatrix(),
                           Vector3(0.02, 0.01, 0.03)};
     BodyDef def;
@@ -67,33 +70,33 @@ class Drawing : public testing::Test {
     def.moments = Vector3(5, 8, 9);
     def.start.orientation = rotationFromVector(Vector3(0.1, 0.8, 0.2));
     def.start.twist = {Vector3(1, -1, 2), Vector3(2, 1, -1)};
-    body = &fluid.add(def);
+    body = &scene.add(def);
     body->setGravity(btVector3(0, 0, btScalar(-kGravity)));
-    fluid.registry.attach(*body, attach);
-    fluid.step(1e-3);
-    fluid.action.drawing.length_per_face_force = 1;
-    fluid.action.drawing.length_per_force = 1;
-    fluid.action.drawing.length_per_torque = 1;
-    fluid.action.drawing.length_per_velocity = 1;
+    scene.fluid.add(*body, attach);
+    scene.step(1e-3);
+    scene.fluid.drawing.length_per_face_force = 1;
+    scene.fluid.drawing.length_per_force = 1;
+    scene.fluid.drawing.length_per_torque = 1;
+    scene.fluid.drawing.length_per_velocity = 1;
     recorder.clear();
   }
-  ~Drawing() override { fluid.world.setDebugDrawer(nullptr); }
+  ~Drawing() override { scene.world.setDebugDrawer(nullptr); }
 
-  // The drawing has lines of these switches alone.
+  // Draws lines of these switches alone.
   void draw(const FluidDrawing& what) {
-    fluid.action.drawing = what;
+    scene.fluid.drawing = what;
     for (const bool is_drawn : {false, true}) {
       recorder.clear();
-      if (!is_drawn) fluid.world.removeAction(&fluid.action);
-      fluid.world.debugDrawWorld();
+      if (!is_drawn) scene.removeAction();
+      scene.world.debugDrawWorld();
       if (!is_drawn) {
         lines_of_stock_ = recorder.count();
-        fluid.world.addAction(&fluid.action);
+        scene.addAction();
       }
     }
   }
   std::size_t lines() const { return recorder.count() - lines_of_stock_; }
-  const AmbientBody& ambient() { return *bodiesOf(fluid.registry).find(body); }
+  const AmbientBody& ambient() { return *membersOf(scene.fluid).find(body); }
   Twist relativeTwist() {
     Twist relative = readState(*body).twist;
     relative.linear -= readState(*body).orientation.conjugate() * ambient().def.medium.velocity;
@@ -101,9 +104,13 @@ class Drawing : public testing::Test {
   }
   FaceLoads loads() {
     const AttachDef& def = ambient().def;
-    return computeFaceLoads(def.fluid_body->faces, ambient().model.reference_length,
-                            def.fluid_frame.toF(relativeTwist()),
-                            loadSettings(def.medium, def.flow));
+    LoadSettings settings = loadSettings(def.medium, def.flow);
+    const ShapeFactors factors(formShapeOf(*def.fluid_body));
+    const bool is_form = settings.law == PressureLaw::kForm;
+    if (is_form) settings.shape = &factors;
+    return computeFaceLoads(
+        is_form ? formLawFaces(*def.fluid_body, factors.shape) : def.fluid_body->faces,
+        ambient().model.reference_length, def.fluid_frame.toF(relativeTwist()), settings);
   }
   Vector3 fromFluidFrame(const Vector3& vector_F) {
     return readState(*body).orientation * (ambient().def.fluid_frame.rotation * vector_F);
@@ -118,7 +125,7 @@ class Drawing : public testing::Test {
 
   const double tolerance = byPrecision(1e-12, 1e-5);
   Recorder recorder;
-  FluidWorld fluid;
+  FluidWorld scene;
   btRigidBody* body = nullptr;
 
  private:
@@ -140,7 +147,7 @@ TEST_F(Drawing, NormalsShowWhereTheFlowIsAttached) {
   EXPECT_GT(attached.size(), faceCount() / 4);
   EXPECT_GT(separated.size(), faceCount() / 4);
   EXPECT_EQ(attached.size() + separated.size(), faceCount());
-  // Attached: normal and velocity of the face within the separation angle.
+  // Attached flow: angle between normal and velocity of the face below the separation angle.
   for (const Line& line : attached) {
     const btVector3 n = (line.to - line.from).normalized();
     const btVector3 u = body->getVelocityInLocalPoint(line.from - body->getCenterOfMassPosition()) -
@@ -194,8 +201,8 @@ TEST_F(Drawing, PressureOfTheFormLawIsDrawnInTheLeeAsWell) {
   shape->faces.sharpness.assign(shape->faces.size(), 0.5);
   def.fluid_body = shape;
   def.flow.law = PressureLaw::kForm;
-  fluid.registry.detach(*body);
-  fluid.registry.attach(*body, def);
+  scene.of(*body).remove();
+  scene.fluid.add(*body, def);
   FluidDrawing what = unitLengths();
   what.pressure = true;
   draw(what);
@@ -234,7 +241,7 @@ TEST_F(Drawing, BuoyancyActsAtTheCentreOfVolume) {
   const auto drawn = recorder.linesOf(fluid_colours::kBuoyancy);
   const RigidState state = readState(*body);
   const Vector3 centre = state.position + state.orientation * ambient().model.centre_of_volume;
-  const Vector3 up(0, 0.5, kGravity);  // gravity less the acceleration of the medium, turned over
+  const Vector3 up(0, 0.5, kGravity);  // acceleration of the medium less gravity
   const Vector3 expected = 900 * ambient().def.fluid_body->volume * up;
   EXPECT_LT((toVector3(drawn[0].to - drawn[0].from) - expected).norm(),
             tolerance * expected.norm());
@@ -263,31 +270,31 @@ TEST_F(Drawing, TheTotalIsTheWrenchThatTheFlightSees) {
 TEST_F(Drawing, LeavesOutBodiesWithoutAFluidAndRemovedOnes) {
   draw(FluidDrawing::all());
   EXPECT_GT(lines(), 2 * faceCount());
-  fluid.registry.setMedium(*body, Medium{});
+  scene.of(*body).setMedium(Medium{});
   draw(FluidDrawing::all());
   EXPECT_EQ(lines(), 0u);
-  fluid.registry.setMedium(*body, water());
-  fluid.world.removeRigidBody(body);
+  scene.of(*body).setMedium(water());
+  scene.world.removeRigidBody(body);
   draw(FluidDrawing::all());
   EXPECT_EQ(lines(), 0u);
 }
 
 TEST(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
   Recorder recorder;
-  FluidWorld fluid;
-  fluid.world.setDebugDrawer(&recorder);
-  fluid.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
+  FluidWorld scene;
+  scene.world.setDebugDrawer(&recorder);
+  scene.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
   FluidRegion pool;
   pool.bounds = RegionBounds{{-1, -2, -3}, {1, 2, 3}};
   pool.below = water();
   pool.surface = std::make_shared<WaterSurfaceFunction>([](const Vector3& at, double time) {
     return WaterSample{0.5 + 0.1 * at.x() + time - at.z(), {0, 0, 0}, {0, 0, 0}};
   });
-  fluid.registry.addRegion(pool);
-  fluid.step(0.25);
-  fluid.action.drawing.water_surface = true;
+  scene.fluid.addRegion(pool);
+  scene.step(0.25);
+  scene.fluid.drawing.water_surface = true;
   recorder.clear();
-  fluid.world.debugDrawWorld();
+  scene.world.debugDrawWorld();
   const auto lines = recorder.linesOf(fluid_colours::kWater);
   EXPECT_EQ(lines.size(), 2U * 17 * 16);
   for (const Line& line : lines) {
@@ -296,24 +303,24 @@ TEST(DrawingOfWater, IsANetOnTheSurfaceWithinTheBounds) {
     EXPECT_LE(std::abs(from.x()), 1 + 1e-6);
     EXPECT_LE(std::abs(from.y()), 2 + 1e-6);
   }
-  fluid.world.setDebugDrawer(nullptr);
+  scene.world.setDebugDrawer(nullptr);
 }
 
 TEST(DrawingOfWater, WithoutBoundsReachesAsFarAsAskedFor) {
   Recorder recorder;
-  FluidWorld fluid;
-  fluid.world.setDebugDrawer(&recorder);
-  fluid.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
+  FluidWorld scene;
+  scene.world.setDebugDrawer(&recorder);
+  scene.world.setGravity(btVector3(0, 0, btScalar(-kGravity)));
   FluidRegion sea;
   sea.below = water();
   sea.surface = std::make_shared<StillWater>(0.5, Vector3(0, 0, 1));
-  fluid.registry.addRegion(sea);
-  fluid.step(1e-3);
-  fluid.action.drawing.water_surface = true;
+  scene.fluid.addRegion(sea);
+  scene.step(1e-3);
+  scene.fluid.drawing.water_surface = true;
   for (const double extent : {10.0, 3.0}) {
-    fluid.action.drawing.surface_extent = extent;
+    scene.fluid.drawing.surface_extent = extent;
     recorder.clear();
-    fluid.world.debugDrawWorld();
+    scene.world.debugDrawWorld();
     Vector3 lowest = Vector3::Zero(), highest = Vector3::Zero();
     for (const Line& line : recorder.linesOf(fluid_colours::kWater)) {
       lowest = lowest.cwiseMin(toVector3(line.from));
@@ -322,7 +329,7 @@ TEST(DrawingOfWater, WithoutBoundsReachesAsFarAsAskedFor) {
     EXPECT_LT((lowest - Vector3(-extent, -extent, 0)).norm(), 1e-6 * extent) << extent;
     EXPECT_LT((highest - Vector3(extent, extent, 0.5)).norm(), 1e-6 * extent) << extent;
   }
-  fluid.world.setDebugDrawer(nullptr);
+  scene.world.setDebugDrawer(nullptr);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
@@ -10,14 +10,14 @@ namespace {
 constexpr double kShortStep = 1.0 / 120;
 constexpr double kScale = 2.5;
 
-// A flat ellipsoid whose fluid frame is shifted and turned, so that everything couples.
+// A flat ellipsoid, its fluid frame shifted and turned: all motions couple.
 AttachDef plate() {
   AttachDef def;
   auto shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.3, 0.25, 0.1), 2));
   shape->centre_of_volume = Vector3(0.02, -0.01, 0.005);
   def.fluid_body = shape;
   def.medium = {500, 0.2, Vector3(0.1, 0.2, 0), Vector3::Zero()};
-  def.flow.precision = LoadPrecision::kDouble;  // 2.5 is no power of two
+  def.flow.precision = LoadPrecision::kDouble;  // 2.5 is not a power of two
   def.fluid_frame.rotation = rotationFromVector(Vector3(0.3, 0.2, 0.5)).toRotationMatrix();
   def.fluid_frame.translation = Vector3(0.05, 0.02, -0.03);
   return def;
@@ -31,7 +31,7 @@ BodyDef plateBody(double s) {
   return def;
 }
 
-// Lengths s, times 1: Reynolds and Froude numbers stay with viscosity s^2 and gravity s.
+// Medium for lengths s and times 1: viscosity s^2 and gravity s keep Reynolds and Froude numbers.
 Medium scaledMedium(Medium medium, double s) {
   medium.viscosity *= s * s;
   medium.velocity *= s;
@@ -47,20 +47,20 @@ Motion motionOf(const btRigidBody& body) {
           toVector3(body.getAngularVelocity())};
 }
 
-void fly(FluidWorld& fluid, btRigidBody& body, double s) {
+void fly(FluidWorld& scene, btRigidBody& body, double s) {
   body.setGravity(btVector3(0, 0, static_cast<btScalar>(-9.81 * s)));
-  fluid.step(kShortStep, 60);
+  scene.step(kShortStep, 60);
 }
 
 Motion flightOfScale(double s) {
-  FluidWorld fluid;
+  FluidWorld scene;
   AttachDef def = plate();
   def.medium = scaledMedium(def.medium, s);
   def.fluid_body = std::make_shared<FluidBody>(scaled(*def.fluid_body, s));
   def.fluid_frame.translation *= s;
-  btRigidBody& body = fluid.add(plateBody(s));
-  fluid.registry.attach(body, def);
-  fly(fluid, body, s);
+  btRigidBody& body = scene.add(plateBody(s));
+  scene.fluid.add(body, def);
+  fly(scene, body, s);
   return motionOf(body);
 }
 
@@ -79,37 +79,36 @@ TEST(ShapeScaling, AScaledBodyFliesTheScaledPath) {
 }
 
 TEST(ShapeScaling, AnAttachedBodyCanBeRescaled) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add(plateBody(kScale));
+  FluidWorld scene;
+  btRigidBody& body = scene.add(plateBody(kScale));
   const BodyDef unit = plateBody(1);
   body.setMassProps(static_cast<btScalar>(unit.mass), toBullet(unit.moments));
   AttachDef def = plate();
-  fluid.registry.attach(body, def);
+  scene.fluid.add(body, def);
 
   const BodyDef large = plateBody(kScale);
   body.setMassProps(static_cast<btScalar>(large.mass), toBullet(large.moments));
   FrameOffset frame = def.fluid_frame;
   frame.translation *= kScale;
-  fluid.registry.setFluidBody(body, std::make_shared<FluidBody>(scaled(*def.fluid_body, kScale)),
-                              frame);
-  fluid.registry.setMedium(body, scaledMedium(def.medium, kScale));
-  fly(fluid, body, kScale);
+  scene.of(body).setFluidBody(std::make_shared<FluidBody>(scaled(*def.fluid_body, kScale)), frame);
+  scene.of(body).setMedium(scaledMedium(def.medium, kScale));
+  fly(scene, body, kScale);
   expectScaled(motionOf(body), flightOfScale(1));
 }
 
 TEST(ShapeScaling, ARefusedFluidBodyLeavesTheOldOne) {
-  FluidWorld fluid;
-  btRigidBody& body = fluid.add(plateBody(1));
-  fluid.registry.attach(body, plate());
-  const Matrix6 before = fluid.registry.inertia(body);
-  const auto loads = bodiesOf(fluid.registry).find(&body)->model.loads;
-  EXPECT_THROW(fluid.registry.setFluidBody(body, nullptr), std::invalid_argument);
+  FluidWorld scene;
+  btRigidBody& body = scene.add(plateBody(1));
+  scene.fluid.add(body, plate());
+  const Matrix6 before = scene.of(body).inertia();
+  const auto loads = membersOf(scene.fluid).find(&body)->model.loads;
+  EXPECT_THROW(scene.of(body).setFluidBody(nullptr), std::invalid_argument);
   auto broken = std::make_shared<FluidBody>(*plate().fluid_body);
   broken->added_mass(3, 3) = -1e6;
-  EXPECT_THROW(fluid.registry.setFluidBody(body, broken), std::invalid_argument);
-  EXPECT_EQ(fluid.registry.inertia(body), before);
-  EXPECT_EQ(bodiesOf(fluid.registry).find(&body)->model.loads, loads);
-  fluid.step(kShortStep);
+  EXPECT_THROW(scene.of(body).setFluidBody(broken), std::invalid_argument);
+  EXPECT_EQ(scene.of(body).inertia(), before);
+  EXPECT_EQ(membersOf(scene.fluid).find(&body)->model.loads, loads);
+  scene.step(kShortStep);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace ambient::test {
 namespace {
 
-// What decodeState() says when it refuses; empty if it does not.
+// Returns the sentence of decodeState()'s refusal; empty if accepted.
 std::string refusal(const std::string& bytes, const FluidBodyLookup& lookup) {
   try {
     decodeState(bytes, "quick.save", lookup);
@@ -33,7 +33,7 @@ class StateBytes : public testing::Test {
  protected:
   StateBytes() {
     scene.step(80);
-    state = saveState(scene.fluid.world, scene.fluid.registry);
+    state = scene.scene.fluid.save();
     bytes = encodeState(state);
   }
   void expectSays(const std::string& refused, const char* words) {
@@ -50,7 +50,7 @@ TEST_F(StateBytes, CarryTheStateBitForBit) {
   const WorldState decoded = decodeState(bytes, "quick.save", scene.lookup());
   EXPECT_EQ(encodeState(decoded) == bytes, true);
   StateScene other;
-  restoreState(decoded, other.fluid.world, other.fluid.registry);
+  other.scene.fluid.restore(decoded);
   scene.step(60);
   other.step(60);
   EXPECT_EQ(scene.motion() == other.motion(), true);
@@ -134,7 +134,7 @@ TEST_F(StateBytes, NameTheFluidBodyThatIsMissingOrAnother) {
             std::string::npos);
 }
 
-// Checksums are no defence: whoever writes bytes can compute them.
+// Checksums give no protection: writers of bytes can compute them.
 TEST_F(StateBytes, WithARightChecksumButWrongContentAreRefused) {
   WorldState wrong = state;
   wrong.bodies[1].activation_state = 77;
@@ -159,7 +159,7 @@ TEST_F(StateBytes, WithARightChecksumButWrongContentAreRefused) {
   expectSays(encodeState(wrong), "not finite");
 }
 
-// Each of them would spread through the world in the next step.
+// Any of these numbers would spread through the world in the next step.
 TEST_F(StateBytes, WithNumbersThatNoWorldCanHaveAreRefusedHoweverTheyCome) {
   constexpr auto kNaN = std::numeric_limits<btScalar>::quiet_NaN();
   constexpr auto kInfinity = std::numeric_limits<btScalar>::infinity();
@@ -203,13 +203,13 @@ TEST_F(StateBytes, WithNumbersThatNoWorldCanHaveAreRefusedHoweverTheyCome) {
     forgery.forge(wrong);
     expectSays(encodeState(wrong), forgery.words);
     try {
-      restoreState(wrong, scene.fluid.world, scene.fluid.registry);
+      scene.scene.fluid.restore(wrong);
       ADD_FAILURE() << forgery.words;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(forgery.words), std::string::npos) << error.what();
     }
   }
-  WorldState now = saveState(scene.fluid.world, scene.fluid.registry);
+  WorldState now = scene.scene.fluid.save();
   EXPECT_EQ(encodeState(now), bytes);
 }
 

@@ -4,24 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/world_state.h"
+#include "bullet_ambient/bullet/state/world_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {
 
 constexpr double kSceneStep = 1.0 / 60;
 
-/// Numbers that .bullet files keep in float, shapes' sizes and margins among them, are exact here.
+/// Rounds to float: .bullet files store numbers in float, for example sizes and margins of shapes.
 inline btScalar exactly(double value) { return static_cast<btScalar>(static_cast<float>(value)); }
 
-/// A floor, a pile of boxes and balls in water on it, a hinged chain that swings into the pile, a
-/// plate that flutters down beside it, and an ordinary ball. Each instance is built in the same
+/// Scene: a floor, a pile of boxes and balls in water, a hinged chain that swings into the pile.
+/// Beside it a plate that flutters down, and an ordinary ball. Each instance is built in the same
 /// way.
 class StateScene {
  public:
   StateScene() {
-    fluid.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
-    fluid.world.setGravity(btVector3(0, 0, btScalar(-9.81)));
+    scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    scene.world.setGravity(btVector3(0, 0, btScalar(-9.81)));
     for (btConvexInternalShape* shape :
          std::initializer_list<btConvexInternalShape*>{&floor_shape, &box_shape, &plate_shape}) {
       shape->setMargin(exactly(0.03125));
@@ -31,25 +31,25 @@ class StateScene {
     floor.moments.setZero();
     floor.start.position = {0, 0, -1};
     floor.shape = &floor_shape;
-    fluid.add(floor);
+    scene.add(floor);
     addPile();
     addChain();
     addPlate();
     BodyDef stone{0.7, Vector3::Constant(0.02), {}, &ball_shape};
     stone.start.position = {0.1, 0.15, 2.5};
-    fluid.add(stone);
+    scene.add(stone);
   }
   ~StateScene() {
-    for (const auto& joint : joints) fluid.world.removeConstraint(joint.get());
+    for (const auto& joint : joints) scene.world.removeConstraint(joint.get());
   }
 
-  void step(int count) { fluid.step(kSceneStep, count); }
+  void step(int count) { scene.step(kSceneStep, count); }
   btRigidBody& body(int i) {
-    return *btRigidBody::upcast(fluid.world.getCollisionObjectArray()[i]);
+    return *btRigidBody::upcast(scene.world.getCollisionObjectArray()[i]);
   }
-  /// Of all bodies, bit for bit; without what Bullet keeps of contacts.
+  /// Bytes of all bodies; without Bullet's contacts.
   std::string motion() const {
-    WorldState state = saveState(fluid.world, fluid.registry);
+    WorldState state = scene.fluid.save();
     state.pairs.clear();
     state.contacts.clear();
     return encodeState(state);
@@ -71,7 +71,7 @@ class StateScene {
   std::shared_ptr<FluidBody> box_fluid = named("box", Vector3(0.3, 0.22, 0.15));
   std::shared_ptr<FluidBody> ball_fluid = named("ball", Vector3::Constant(0.1875));
   std::shared_ptr<FluidBody> plate_fluid = named("plate", Vector3(0.28, 0.28, 0.04));
-  FluidWorld fluid;
+  FluidWorld scene;
   std::vector<std::unique_ptr<btTypedConstraint>> joints;
 
  private:
@@ -84,15 +84,16 @@ class StateScene {
     const double relative_density = def.mass;
     def.mass = relative_density * medium.density * shape->volume;
     def.moments = def.mass * Vector3(0.021, 0.03, 0.035);
-    btRigidBody& body = fluid.add(def);
+    btRigidBody& body = scene.add(def);
     body.forceActivationState(ACTIVE_TAG);
     body.setRestitution(btScalar(0.2));
     AttachDef attach;
     attach.fluid_body = shape;
     attach.medium = medium;
+    attach.flow.law = PressureLaw::kPublished;
     attach.flow.separation_angle = 1.8;
     attach.fluid_frame.translation = Vector3(0.01, 0.02, -0.015);
-    fluid.registry.attach(fluid.world, body, attach);
+    scene.fluid.add(body, attach);
     return body;
   }
   void addPile() {
@@ -114,11 +115,11 @@ class StateScene {
       def.start.position = {2.5 - 0.5 * i, 0, 2};
       btRigidBody& link = add(def, ball_fluid, water());
       const btVector3 axis(0, 1, 0), right(btScalar(0.25), 0, 0);
-      // A joint to no second body would lose its place in a .bullet file.
+      // A joint with one body would lose its place in a .bullet file.
       btRigidBody& other = last ? *last : body(0);
       const btVector3 place = last ? btVector3(-right) : btVector3(btScalar(2.75), 0, 3);
       auto joint = std::make_unique<btHingeConstraint>(link, other, right, place, axis, axis);
-      fluid.world.addConstraint(joint.get());
+      scene.world.addConstraint(joint.get());
       joints.push_back(std::move(joint));
       last = &link;
     }

@@ -1,4 +1,4 @@
-#include "bullet_ambient/bullet/world_state.h"
+#include "bullet_ambient/bullet/state/world_state.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@ constexpr int kBefore = 75, kAfter = 120;
 
 int contactPoints(StateScene& scene) {
   int count = 0;
-  for (int i = 0; i < scene.fluid.dispatcher.getNumManifolds(); ++i) {
-    count += scene.fluid.dispatcher.getManifoldByIndexInternal(i)->getNumContacts();
+  for (int i = 0; i < scene.scene.dispatcher.getNumManifolds(); ++i) {
+    count += scene.scene.dispatcher.getManifoldByIndexInternal(i)->getNumContacts();
   }
   return count;
 }
@@ -33,7 +33,7 @@ void expectSame(const std::vector<std::string>& a, const std::vector<std::string
   }
 }
 
-// When a body falls asleep, and wakes others, depends on a longer past.
+// Disables sleep: times of falling asleep and waking depend on a longer past.
 struct NobodySleeps {
   NobodySleeps() { gDisableDeactivation = true; }
   ~NobodySleeps() { gDisableDeactivation = false; }
@@ -47,7 +47,7 @@ struct Recording {
 
   explicit Recording(int before = kBefore) {
     scene.step(before);
-    state = saveState(scene.fluid.world, scene.fluid.registry);
+    state = scene.scene.fluid.save();
     motions = record(scene, kAfter);
   }
 };
@@ -55,19 +55,19 @@ struct Recording {
 TEST(WorldState, SavingChangesNothing) {
   StateScene saved, other;
   for (int i = 0; i < 50; ++i) {
-    saveState(saved.fluid.world, saved.fluid.registry);
+    saved.scene.fluid.save();
     saved.step(1);
     other.step(1);
   }
   EXPECT_EQ(saved.motion() == other.motion(), true);
 }
 
-// With contacts that come and go between saving and restoring, in several phases of the pile.
+// Saves and restores in several phases of the pile; contacts begin and end in between.
 TEST(WorldState, TheSameWorldGoesOnBitForBit) {
   for (const int before : {1, 30, 60, 75, 100, 240}) {
     SCOPED_TRACE(before);
     Recording run(before);
-    restoreState(run.state, run.scene.fluid.world, run.scene.fluid.registry);
+    run.scene.scene.fluid.restore(run.state);
     expectSame(run.motions, record(run.scene, kAfter));
   }
 }
@@ -77,7 +77,7 @@ TEST(WorldState, AWorldBuiltByTheSameCodeGoesOnBitForBit) {
     SCOPED_TRACE(before);
     const Recording run(before);
     StateScene other;
-    restoreState(run.state, other.fluid.world, other.fluid.registry);
+    other.scene.fluid.restore(run.state);
     EXPECT_EQ(contactPoints(other) > 5, before >= 30);
     expectSame(run.motions, record(other, kAfter));
   }
@@ -86,10 +86,10 @@ TEST(WorldState, AWorldBuiltByTheSameCodeGoesOnBitForBit) {
 TEST(WorldState, ChangesOfBodiesFluidsAndJointsAreTakenBack) {
   Recording run;
   StateScene& scene = run.scene;
-  AmbientRegistry& registry = scene.fluid.registry;
-  registry.detach(scene.body(1));
-  registry.setMedium(scene.body(2), air());
-  registry.setFluidBody(scene.body(3), std::make_shared<FluidBody>(scaled(*scene.box_fluid, 2)));
+  Fluid& fluid = scene.scene.fluid;
+  fluid.find(scene.body(1))->remove();
+  fluid.find(scene.body(2))->setMedium(air());
+  fluid.find(scene.body(3))->setFluidBody(std::make_shared<FluidBody>(scaled(*scene.box_fluid, 2)));
   scene.body(4).setMassProps(99, btVector3(3, 4, 5));
   scene.body(5).setLinearFactor(btVector3(1, 0, 1));
   scene.body(6).applyCentralForce(btVector3(100, 0, 0));
@@ -98,14 +98,14 @@ TEST(WorldState, ChangesOfBodiesFluidsAndJointsAreTakenBack) {
   AttachDef stone;
   stone.fluid_body = scene.ball_fluid;
   stone.medium = water();
-  registry.attach(scene.body(scene.fluid.world.getNumCollisionObjects() - 1), stone);
-  restoreState(run.state, scene.fluid.world, registry);
-  EXPECT_EQ(registry.size(), 12u);
-  EXPECT_EQ(registry.medium(scene.body(2)).density, water().density);
+  fluid.add(scene.body(scene.scene.world.getNumCollisionObjects() - 1), stone);
+  scene.scene.fluid.restore(run.state);
+  EXPECT_EQ(fluid.size(), 12u);
+  EXPECT_EQ(fluid.find(scene.body(2))->medium().density, water().density);
   expectSame(run.motions, record(scene, kAfter));
 }
 
-// What the leapfrog and the contacts remember cannot be left out.
+// Leapfrog memory and contact caches: omission of either must change the motion.
 TEST(WorldState, TheCachesMatter) {
   for (const bool without_flight : {false, true}) {
     Recording run(kBefore);
@@ -115,19 +115,19 @@ TEST(WorldState, TheCachesMatter) {
     if (!without_flight) {
       for (ContactState& contact : run.state.contacts) contact.points.clear();
     }
-    restoreState(run.state, run.scene.fluid.world, run.scene.fluid.registry);
+    run.scene.scene.fluid.restore(run.state);
     run.scene.step(1);
     EXPECT_NE(run.motions[0] == run.scene.motion(), true);
   }
 }
 
-// A body that lands later beside a sleeping one may wake it sooner or later than before: that
-// depends on margins of btDbvtBroadphase, which have a longer past.
+// A body that lands beside a sleeping one may wake it at another time: btDbvtBroadphase's margins
+// depend on a longer past.
 TEST(WorldState, SleepingBodiesSleepOnAndAreWokenAsBefore) {
   StateScene scene;
   scene.step(1500);
   ASSERT_EQ(scene.body(1).getActivationState(), ISLAND_SLEEPING);
-  const WorldState state = saveState(scene.fluid.world, scene.fluid.registry);
+  const WorldState state = scene.scene.fluid.save();
   const auto wake = [](StateScene& s) {
     s.step(5);
     s.body(3).activate();
@@ -135,23 +135,23 @@ TEST(WorldState, SleepingBodiesSleepOnAndAreWokenAsBefore) {
     return record(s, 8);
   };
   const auto motions = wake(scene);
-  restoreState(state, scene.fluid.world, scene.fluid.registry);
+  scene.scene.fluid.restore(state);
   EXPECT_EQ(scene.body(1).getActivationState(), ISLAND_SLEEPING);
   expectSame(motions, wake(scene));
   StateScene other;
-  restoreState(state, other.fluid.world, other.fluid.registry);
+  other.scene.fluid.restore(state);
   expectSame(motions, wake(other));
 }
 
-// Two dynamic bodies that touch; their collision is switched off by the joint, which leaves their
-// last contact points in force.
+// Two touching dynamic bodies. Their joint disables collision, but the last contact points stay
+// active.
 TEST(WorldState, BodiesThatWereJoinedInContactGoOnBitForBit) {
   const NobodySleeps meanwhile;
   StateScene scene;
   scene.step(75);
   btRigidBody *a = nullptr, *b = nullptr;
-  for (int i = 0; i < scene.fluid.dispatcher.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *scene.fluid.dispatcher.getManifoldByIndexInternal(i);
+  for (int i = 0; i < scene.scene.dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *scene.scene.dispatcher.getManifoldByIndexInternal(i);
     if (manifold.getNumContacts() == 0) continue;
     if (manifold.getBody0()->isStaticObject() || manifold.getBody1()->isStaticObject()) continue;
     a = &scene.body(manifold.getBody0()->getWorldArrayIndex());
@@ -161,11 +161,11 @@ TEST(WorldState, BodiesThatWereJoinedInContactGoOnBitForBit) {
   const btTransform to_b = b->getWorldTransform().inverse() * a->getWorldTransform();
   scene.joints.push_back(
       std::make_unique<btPoint2PointConstraint>(*a, *b, btVector3(0, 0, 0), to_b.getOrigin()));
-  scene.fluid.world.addConstraint(scene.joints.back().get(), true);
+  scene.scene.world.addConstraint(scene.joints.back().get(), true);
   scene.step(5);
-  const WorldState state = saveState(scene.fluid.world, scene.fluid.registry);
+  const WorldState state = scene.scene.fluid.save();
   const auto motions = record(scene, kAfter);
-  restoreState(state, scene.fluid.world, scene.fluid.registry);
+  scene.scene.fluid.restore(state);
   expectSame(motions, record(scene, kAfter));
 }
 
@@ -174,25 +174,20 @@ TEST(WorldState, RefusesAWorldOfOtherBodiesOrJoints) {
   const std::string before = run.scene.motion();
   WorldState fewer = run.state;
   fewer.bodies.pop_back();
-  EXPECT_THROW(restoreState(fewer, run.scene.fluid.world, run.scene.fluid.registry),
-               std::invalid_argument);
+  EXPECT_THROW(run.scene.scene.fluid.restore(fewer), std::invalid_argument);
   fewer = run.state;
   fewer.joints.pop_back();
-  EXPECT_THROW(restoreState(fewer, run.scene.fluid.world, run.scene.fluid.registry),
-               std::invalid_argument);
+  EXPECT_THROW(run.scene.scene.fluid.restore(fewer), std::invalid_argument);
   WorldState broken = run.state;
   broken.bodies[3].ambient->def.medium.density = -1;
-  EXPECT_THROW(restoreState(broken, run.scene.fluid.world, run.scene.fluid.registry),
-               std::invalid_argument);
+  EXPECT_THROW(run.scene.scene.fluid.restore(broken), std::invalid_argument);
   broken = run.state;
   broken.bodies[3].ambient->def.fluid_body = nullptr;
-  EXPECT_THROW(restoreState(broken, run.scene.fluid.world, run.scene.fluid.registry),
-               std::invalid_argument);
+  EXPECT_THROW(run.scene.scene.fluid.restore(broken), std::invalid_argument);
   broken = run.state;
   ASSERT_FALSE(broken.contacts.empty());
   broken.contacts[0].points.resize(100);
-  EXPECT_THROW(restoreState(broken, run.scene.fluid.world, run.scene.fluid.registry),
-               std::invalid_argument);
+  EXPECT_THROW(run.scene.scene.fluid.restore(broken), std::invalid_argument);
   EXPECT_EQ(run.scene.motion() == before, true);
 }
 

@@ -17,20 +17,18 @@ namespace {
 
 class WorldType : public testing::Test {
  protected:
-  // The sentence that attach() refuses the world with; empty if it takes it.
-  std::string refusal(const btDynamicsWorld& world) {
-    AmbientRegistry registry;
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(Vector3::Ones()));
-    def.medium = air();
+  // The sentence that a fluid refuses the world with; empty if it takes it.
+  static std::string refusal(btDynamicsWorld&& world) {
+    const btConstraintSolver* solver = world.getConstraintSolver();
     try {
-      registry.attach(world, body_, def);
+      const Fluid fluid(world);
+      EXPECT_NE(world.getConstraintSolver(), solver);
     } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(registry.size(), 0u);
+      EXPECT_EQ(world.getConstraintSolver(), solver);
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
       return error.what();
     }
-    EXPECT_TRUE(registry.isAttached(body_));
+    EXPECT_EQ(world.getConstraintSolver(), solver);
     return {};
   }
   static void expectNames(const std::string& sentence, const char* refused, const char* advised) {
@@ -41,10 +39,6 @@ class WorldType : public testing::Test {
   btSoftBodyRigidBodyCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-
- private:
-  btSphereShape shape_{1};
-  btRigidBody body_{1, nullptr, &shape_, btVector3(1, 1, 1)};
 };
 
 TEST_F(WorldType, SimpleWorldsAreRefused) {

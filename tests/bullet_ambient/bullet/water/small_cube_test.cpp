@@ -7,7 +7,7 @@
 
 #include "tests/bullet_ambient/bullet/water/water_run.h"
 
-// A cube of 1 cm at 1/60 s: it heaves with a period of some ten steps.
+// A cube of 1 cm at 1/60 s: its heave has a period of some ten steps.
 namespace ambient::test {
 namespace {
 
@@ -23,7 +23,7 @@ struct SmallCube {
     def.start.orientation = Quaternion(Eigen::AngleAxisd(tilt, Vector3(1, 0.4, 0.2).normalized()));
     body = &run.add(def);
   }
-  /// The largest rise of the energy above any earlier one, over the run's scale.
+  /// Largest rise of energy above any earlier value, over the run's scale.
   double settle(double time, double step = kStep) {
     double lowest = run.energy(), rise = 0;
     for (int i = 0; i < std::lround(time / step); ++i) {
@@ -39,7 +39,7 @@ struct SmallCube {
       return said.find(text) != std::string::npos;
     });
   }
-  /// Of the vertical along the edges, the least and the largest.
+  /// Least and largest component of the vertical along the cube's edges.
   std::pair<double, double> uprightness() const {
     const Vector3 up = (readState(*body).orientation.conjugate() * Vector3::UnitZ()).cwiseAbs();
     return {up.minCoeff(), up.maxCoeff()};
@@ -49,7 +49,7 @@ struct SmallCube {
   btRigidBody* body = nullptr;
 };
 
-// Flat below 0.2113 and above 0.7887 times the density of water, on a corner at 0.5; docs/water.md.
+// Flat below 0.2113 and above 0.7887 times water's density, corner up at 0.5; docs/water.md.
 TEST(SmallCube, ComesToRestAsHydrostaticsSaysAndGainsNoEnergy) {
   for (const double specific_gravity : {0.1, 0.5, 0.9})
     for (const bool is_dropped : {false, true}) {
@@ -67,7 +67,7 @@ TEST(SmallCube, ComesToRestAsHydrostaticsSaysAndGainsNoEnergy) {
     }
 }
 
-// A cube that a joint lets move up and down alone.
+// A cube on a joint that allows vertical motion only.
 struct CubeOnRail : SmallCube {
   CubeOnRail(double specific_gravity, double above_rest)
       : SmallCube(specific_gravity, kEdge * (0.5 - specific_gravity) + above_rest) {
@@ -88,7 +88,7 @@ struct CubeOnRail : SmallCube {
   }
 };
 
-// Of a period of 3.4 steps: with the explicit push of its buoyancy it jumps out of the water.
+// Period of 3.4 steps: with explicit buoyancy the cube would jump out of the water.
 TEST(SmallCube, StaysInTheWaterWhereAJointMovesItInLongSteps) {
   constexpr double kSpecificGravity = 0.1;
   CubeOnRail cube(kSpecificGravity, 1e-4);
@@ -97,8 +97,8 @@ TEST(SmallCube, StaysInTheWaterWhereAJointMovesItInLongSteps) {
   EXPECT_EQ(cube.timesSaid("less than four steps a period"), 1);
 }
 
-// In a few steps it goes from the depth into the air: 0.008 at most, 0.0005 for all but one. By the
-// buoyancy of the start of each step alone it would gain 0.03 to 0.7.
+// The cube rises from the depth into air within a few steps. Measured gain: 0.008 at most, 0.0005
+// for all but one case. With buoyancy of the start of each step: 0.03 to 0.7.
 TEST(SmallCube, GainsNothingWhereItLeavesTheWaterOnAJoint) {
   for (const double specific_gravity : {0.1, 0.3, 0.5})
     for (const double depth : {0.5, 1.0, 2.0, 3.0}) {
@@ -108,7 +108,7 @@ TEST(SmallCube, GainsNothingWhereItLeavesTheWaterOnAJoint) {
     }
 }
 
-// Its period is 10 steps. A free one takes substeps: 0.001.
+// Period of 10 steps. Difference for a free cube, which takes substeps: 0.001.
 TEST(SmallCube, SwingsByATenthTooLittleWhereAJointMovesIt) {
   constexpr double kStart = 5e-4;
   CubeOnRail cube(0.5, kStart), fine(0.5, kStart);

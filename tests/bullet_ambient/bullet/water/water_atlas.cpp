@@ -4,9 +4,9 @@
 #include <cmath>
 #include <memory>
 
-#include "bullet_ambient/force/airy_waves.h"
-#include "bullet_ambient/spatial/pi.h"
-#include "tests/support/random_bodies.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/airy_waves.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 namespace {
@@ -29,7 +29,7 @@ WaterBodyDef anyBody(Arbitrary& arbitrary, double size) {
   return def;
 }
 
-// At a point of the first body's frame; a hinge about its z.
+// Random joint at a point of the first body's frame; a hinge has its axis along z.
 std::unique_ptr<btTypedConstraint> anyJoint(Arbitrary& arbitrary, btRigidBody& body,
                                             const btVector3& point, btRigidBody* other) {
   const bool is_hinge = arbitrary.between(0, 1) < 0.5;
@@ -46,7 +46,7 @@ std::unique_ptr<btTypedConstraint> anyJoint(Arbitrary& arbitrary, btRigidBody& b
                                              to_other.getBasis() * btVector3(0, 0, 1));
 }
 
-// Beside the first, not overlapping.
+// Random second body beside the first one, without overlap.
 WaterBodyDef anySecond(Arbitrary& arbitrary, const WaterBodyDef& first, double gap) {
   WaterBodyDef def = anyBody(arbitrary, first.size * logarithmic(arbitrary, 0.5, 2));
   const double angle = arbitrary.between(0, 2 * kPi);
@@ -55,7 +55,7 @@ WaterBodyDef anySecond(Arbitrary& arbitrary, const WaterBodyDef& first, double g
   return def;
 }
 
-// Seven more, at the corners of a cube on the first.
+// Adds seven bodies; with the first one they make the corners of a cube.
 void addPile(Arbitrary& arbitrary, const WaterBodyDef& first, WaterRun& run) {
   for (int corner = 1; corner < 8; ++corner) {
     WaterBodyDef def = anyBody(arbitrary, first.size * logarithmic(arbitrary, 0.5, 1));
@@ -74,7 +74,7 @@ void tether(Arbitrary& arbitrary, btRigidBody& body, double radius, WaterRun& ru
 WaterRun makeRun(const WaterCase& water_case, Arbitrary& arbitrary) {
   if (water_case.setting != WaterSetting::kSteep || water_case.around == Around::kVacuum)
     return WaterRun(water_case.around);
-  // Waves break at a height of 0.142 lengths.
+  // Waves break at a height of 0.142 wavelengths.
   const double length = logarithmic(arbitrary, 0.5, 20);
   WaveComponent wave;
   wave.amplitude = 0.9 * 0.142 * length / 2;

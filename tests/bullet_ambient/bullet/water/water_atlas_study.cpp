@@ -3,8 +3,8 @@
 
 #include "tests/bullet_ambient/bullet/water/water_atlas.h"
 
-// water_atlas_study [RUNS [SEED]]: random bodies at the surface of still water, RUNS (100) in each
-// surroundings, and the same in a vacuum. Exit code 1 if a state was not finite in water.
+// water_atlas_study [RUNS [SEED]]: RUNS (100) random cases per setting at the surface of still
+// water, then in a vacuum. Exit code 1 if a state in water was not finite.
 int main(int argc, char** argv) {
   using namespace ambient::test;
   const int runs = argc > 1 ? std::atoi(argv[1]) : 100;

@@ -13,8 +13,8 @@ TEST(WaterAtlas, FreeBodiesGainRoundingAtMost) {
   }
 }
 
-// Contacts and joints do work: docs/water.md has how many of 600 rise by more than 1 %, and how
-// far. Of these 20 no more may than do; without eq. (68a) three of those on joints to the world do.
+// Contacts and joints do work: docs/water.md has the share of 600 runs above 1 %. These 20 runs are
+// held to it; without eq. (68a) three of those on joints to the world exceed it.
 TEST(WaterAtlas, ContactsAndJointsRaiseTheEnergyOfFew) {
   struct Case {
     WaterSetting setting;

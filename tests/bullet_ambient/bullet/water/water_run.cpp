@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "bullet_ambient/bullet/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient::test {
 
 WaterRun::WaterRun(Around around) : around_(around) {
   fluid_.world.setGravity({0, 0, bt(-kRunGravity)});
-  fluid_.registry.setReport([this](const std::string& sentence) { said_.push_back(sentence); });
+  fluid_.fluid.setReport([this](const std::string& sentence) { said_.push_back(sentence); });
   if (around == Around::kWater) fill(std::make_shared<StillWater>(0.0, Vector3(0, 0, 1)));
 }
 
@@ -24,7 +25,7 @@ void WaterRun::fill(std::shared_ptr<const WaterSurface> surface) {
   sea.below = water();
   sea.above = air();
   sea.surface = std::move(surface);
-  fluid_.registry.addRegion(sea);
+  fluid_.fluid.addRegion(sea);
 }
 
 WaterRun::~WaterRun() {
@@ -55,7 +56,7 @@ void WaterRun::attach(const FloatingBody& floating, const WaterBodyDef& def) {
   attach.flow.law = def.law;
   attach.flow.separation_angle = def.separation_angle;
   attach.flight.max_substeps = def.max_substeps;
-  fluid_.registry.attach(*floating.body, attach);
+  fluid_.fluid.add(*floating.body, attach);
 }
 
 void WaterRun::addPlane(const Vector3& normal, double height) {
@@ -91,15 +92,16 @@ double WaterRun::energyOf(const FloatingBody& floating) const {
     const Matrix3 J = (floating.mass * floating.shape.moments).asDiagonal();
     return x.dot(rigidBodyInertia(floating.mass, J) * x) / 2 + weight;
   }
-  const AmbientBody& ambient = *bodiesOf(fluid_.registry).find(floating.body);
+  const AmbientBody& ambient = *membersOf(fluid_.fluid).find(floating.body);
   const SurfaceModel& model = ambient.surfaces.at(0).model;
   const Matrix3 R = state.orientation.toRotationMatrix();
   const SurfacePlane still{{0, 0, 1}, 0, model.excess_density, kRunGravity};
-  const Immersion at = immersionOf(model, seenFrom(still, R, state.position));
+  const SurfaceStand stand = standAtSurface(model, seenFrom(still, R, state.position));
+  const Immersion& at = stand.immersion_F;
   const double centre = (state.position + R * model.above.centre_of_volume).z();
   const double in_air = model.above.displaced_mass * kRunGravity * centre;
-  return x.dot(inertiaAt(model, at).inertia * x) / 2 + weight - in_air +
-         hydrostaticEnergy(at.wet, at.plane) + ambient.encounter.waves.energy();
+  return x.dot(stand.inertia * x) / 2 + weight - in_air + hydrostaticEnergy(at.wet, at.plane) +
+         ambient.encounter.waves.energy();
 }
 
 }  // namespace ambient::test

@@ -15,16 +15,16 @@ constexpr double kRunGravity = 9.81;  // [m/s^2]
 struct WaterBodyDef {
   WaterShape shape = WaterShape::kBox;
   double size = 1;              ///< [m]
-  double specific_gravity = 1;  ///< over the water's density
+  double specific_gravity = 1;  ///< body's density over water's
   RigidState start{};           ///< twist in world axes
   PressureLaw law = PressureLaw::kForm;
   double separation_angle = 1.5707963267948966;  ///< [rad]
   int max_substeps = 0;                          ///< FlightSettings::max_substeps
 };
 
-/// What is around the bodies of a run.
+/// Fluid around the bodies of a run.
 enum class Around {
-  kWater,   ///< below air, its level 0
+  kWater,   ///< water below air, level 0
   kVacuum,  ///< stock Bullet
 };
 
@@ -32,25 +32,25 @@ enum class Around {
 class WaterRun {
  public:
   explicit WaterRun(Around around);
-  /// In water with waves on it.
+  /// Makes water with waves.
   explicit WaterRun(std::shared_ptr<const WaterSurface> surface);
   ~WaterRun();
 
   btRigidBody& add(const WaterBodyDef& def);
-  /// A plane that holds what is on the side of its normal.
+  /// Adds a plane that holds bodies on the side of its normal.
   void addPlane(const Vector3& normal, double height);
-  /// Takes the joint; what it joins does not collide.
+  /// Adds and owns a joint; joined bodies do not collide.
   void join(std::unique_ptr<btTypedConstraint> joint);
   void step(double duration) { fluid_.step(duration); }
 
-  /// Whether all bodies are below five times their size.
+  /// Tells if all bodies are below five times their size.
   bool isDeep() const;
-  /// Of bodies, still water and the waves that they made, docs/theory.md eq. (64); in a vacuum,
-  /// of the bodies [J].
+  /// Energy of bodies, still water and waves made by the bodies, docs/theory.md eq. (64) [J]. In a
+  /// vacuum: energy of bodies alone.
   double energy() const;
-  /// (m + rho V) g L of all bodies; in a vacuum m g L [J].
+  /// Sum of (m + rho V) g L over all bodies; in a vacuum m g L [J].
   double energyScale() const { return energy_scale_; }
-  AmbientCounters counters() const { return fluid_.registry.counters(); }
+  AmbientCounters counters() const { return fluid_.fluid.counters(); }
   const std::vector<std::string>& said() const { return said_; }
 
  private:

@@ -4,16 +4,16 @@
 #include <optional>
 #include <utility>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 namespace {
 
-constexpr double kMargin = 0.01;  // of a hull of 1 m [m]
+constexpr double kMargin = 0.01;  // hull of 1 m [m]
 
 std::unique_ptr<btCollisionShape> makeHull(double size) {
   Arbitrary arbitrary(7);
@@ -30,7 +30,7 @@ std::unique_ptr<btCollisionShape> makeBar(const Vector3& half_size) {
   return std::make_unique<btBoxShape>(toBullet(half_size));
 }
 
-// In the frame of the shape.
+// Makes a collision shape in the shape's own frame.
 SizedShape makeCollisionShape(WaterShape shape, double size) {
   SizedShape made;
   made.collision = std::make_unique<btCompoundShape>();
@@ -62,7 +62,7 @@ SizedShape makeCollisionShape(WaterShape shape, double size) {
   return made;
 }
 
-// Of the size 1, made once.
+// Fluid body of size 1, solved once per shape.
 const FluidBody& unitBody(WaterShape shape) {
   static std::array<std::optional<FluidBody>, kWaterShapes> bodies;
   std::optional<FluidBody>& body = bodies.at(static_cast<std::size_t>(shape));

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "bullet_ambient/force/airy_waves.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/airy_waves.h"
 #include "tests/bullet_ambient/bullet/water/water_run.h"
 #include "tests/support/floating_runs.h"
 
@@ -19,7 +19,7 @@ constexpr std::size_t kExtremes = 4;
 int stepsOf(double time, double step) { return static_cast<int>(std::lround(time / step)); }
 
 double heightOf(const btRigidBody& body) { return readState(body).position.z(); }
-// Of the axis that is upright where the body rests [rad].
+// Tilt of the axis that is upright at rest [rad].
 double tiltOf(const btRigidBody& body) {
   const Vector3 up = readState(body).orientation.conjugate() * Vector3::UnitZ();
   return std::atan2(up.y(), up.z());
@@ -45,7 +45,7 @@ std::vector<double> passSurface(double height, double time, double specific_grav
   return {heightOf(body), tiltOf(body)};
 }
 
-/// The first extremes of a signal of the body over its start.
+/// First extremes of a signal of the body, over its initial value.
 template <class Signal>
 std::vector<double> decay(const WaterBodyDef& def, double time, double step, const Signal& signal) {
   WaterRun run(Around::kWater);
@@ -76,7 +76,7 @@ std::vector<double> roll(double step, int max_substeps) {
   return decay(def, 8, step, tiltOf);
 }
 
-// The first harmonic of the last five of 20 periods.
+// First harmonic of the last five of 20 periods.
 std::vector<double> ride(double step, int max_substeps) {
   constexpr double kPeriod = 2, kAmplitude = 0.05;
   const auto waves = std::make_shared<AiryWaves>(

@@ -2,8 +2,8 @@
 
 #include "tests/bullet_ambient/bullet/water/water_steps.h"
 
-// water_steps_study: motions at the surface by steps of 1/30 to 1/240 s against 1/7680 s, with the
-// substeps that the library takes, and with one where it takes more.
+// water_steps_study: errors of motions at the surface at 1/30 to 1/240 s against 1/7680 s. With the
+// library's substeps, then with one substep where it takes more.
 int main() {
   using namespace ambient::test;
   std::puts("| motion | substeps | 1/30 s | 1/60 s | 1/120 s | 1/240 s | order |");

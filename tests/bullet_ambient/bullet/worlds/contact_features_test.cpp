@@ -4,12 +4,12 @@
 
 #include "tests/bullet_ambient/bullet/worlds/coupled_scene.h"
 
-// What Bullet offers around contacts, with a body of coupled K: kinematic bodies, locked axes,
-// compound shapes.
+// Bullet's features of contacts with a body of coupled K: kinematic bodies, locked axes, compound
+// shapes.
 namespace ambient::test {
 namespace {
 
-// K of a locked body: nothing moves along its locked axes.
+// Body with K of its free axes; no response along locked ones.
 reference::DenseBody locked(const reference::DenseBody& body, const DenseVector6& free) {
   reference::DenseBody result = body;
   result.inertia = free.asDiagonal() * body.inertia * free.asDiagonal();
@@ -37,7 +37,7 @@ TEST(ContactFeatures, AKinematicBodyPushesWithItsVelocity) {
     paddle.setFriction(0);
     paddle.setCollisionFlags(paddle.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     paddle.setActivationState(DISABLE_DEACTIVATION);
-    scene.fluid.world.addRigidBody(&paddle);
+    scene.scene.world.addRigidBody(&paddle);
     const double dt = 1.0 / 128;
     paddle.setWorldTransform(
         btTransform(btQuaternion::getIdentity(), btVector3(bt(speed * dt), 0, 0)));
@@ -49,7 +49,7 @@ TEST(ContactFeatures, AKinematicBodyPushesWithItsVelocity) {
     scene.solve(dt);
     EXPECT_GT(expected.velocities[0].norm(), 1.4);
     EXPECT_LT(scene.coupled.error(expected.velocities[0], expected.velocities[0]), kTolerance);
-    scene.fluid.world.removeRigidBody(&paddle);
+    scene.scene.world.removeRigidBody(&paddle);
   }
 }
 
@@ -72,54 +72,54 @@ TEST(ContactFeatures, ABodyLockedToAPlaneHasTheInertiaOfThatPlane) {
     const DenseVector6 before = scene.coupled.velocity();
     const auto expected =
         reference::solveDense({locked(scene.coupled.dense(dt), free), fixedBody()}, {row});
-    // Not the same as if the body were free and its velocity cut off afterwards.
+    // Locking must differ from a free body with its velocity cut off afterwards.
     const auto unlocked = reference::solveDense({scene.coupled.dense(dt), fixedBody()}, {row});
     EXPECT_GT((free.asDiagonal() * unlocked.velocities[0] - expected.velocities[0]).norm(), 1e-3);
-    scene.fluid.step(dt);
+    scene.scene.step(dt);
     EXPECT_LT(scene.coupled.error(expected.velocities[0], before), kTolerance) << seed;
   }
 }
 
 TEST(ContactFeatures, ABodyLockedToAPlaneStaysInIt) {
-  FluidWorld fluid;
-  fluid.world.setGravity({0, bt(-9.81), 0});
+  FluidWorld scene;
+  scene.world.setGravity({0, bt(-9.81), 0});
   btStaticPlaneShape plane({0, 1, 0}, -1);
   btRigidBody floor(0, nullptr, &plane);
-  fluid.world.addRigidBody(&floor);
+  scene.world.addRigidBody(&floor);
   btBoxShape box({bt(0.3), bt(0.2), bt(0.1)});
   BodyDef def{30, Vector3(0.5, 1, 1.3), {}, &box};
   def.start.twist = {Vector3(0, 0, 2), Vector3(1, 0, 0)};
-  btRigidBody& body = fluid.add(def);
+  btRigidBody& body = scene.add(def);
   body.setAngularFactor(btVector3(0, 0, 1));
   body.setLinearFactor(btVector3(1, 1, 0));
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid({0.3, 0.2, 0.1}, 1));
   attach.medium = water();
   attach.fluid_frame.translation = Vector3(0.02, -0.01, 0.03);  // out of the plane
-  fluid.registry.attach(body, attach);
+  scene.fluid.add(body, attach);
   for (int i = 0; i < 600; ++i) {
-    fluid.step(1.0 / 120);
+    scene.step(1.0 / 120);
     EXPECT_EQ(body.getWorldTransform().getOrigin().z(), 0);
     EXPECT_EQ(body.getLinearVelocity().z(), 0);
     EXPECT_EQ(body.getAngularVelocity().x(), 0);
     EXPECT_EQ(body.getAngularVelocity().y(), 0);
   }
-  EXPECT_GT(fluid.registry.counters(body).rows, 0);
+  EXPECT_GT(scene.of(body).counters().rows, 0);
   const btVector3 z = body.getWorldTransform().getBasis().getColumn(2);
   EXPECT_NEAR(static_cast<double>(z.z()), 1, byPrecision(1e-15, 1e-6));
-  fluid.world.removeRigidBody(&floor);
+  scene.world.removeRigidBody(&floor);
 }
 
-// Of a ball that can move along y only, and overlaps a wall whose normal is off the locked x by an
-// angle: Bullet pushes it out along the normal at a speed of its own.
+// Speed of a ball that moves along y only, pushed out of an overlapping wall. The wall's normal is
+// at an angle to the locked x; Bullet pushes along the normal.
 double speedOfPush(double angle, bool in_fluid) {
   constexpr double kDepth = 1e-3;
-  FluidWorld fluid;
-  fluid.world.getSolverInfo().m_splitImpulse = 0;
+  FluidWorld scene;
+  scene.world.getSolverInfo().m_splitImpulse = 0;
   btStaticPlaneShape plane({bt(std::cos(angle)), bt(std::sin(angle)), 0}, 0);
   btRigidBody wall(0, nullptr, &plane);
   wall.setFriction(0);
-  fluid.world.addRigidBody(&wall);
+  scene.world.addRigidBody(&wall);
   btSphereShape ball(bt(0.2));
   BodyDef def{1, Vector3::Constant(0.016), {}, &ball};
   def.start.position = (0.2 - kDepth) * Vector3(std::cos(angle), std::sin(angle), 0);
@@ -128,17 +128,17 @@ double speedOfPush(double angle, bool in_fluid) {
   FluidBody shape;
   shape.name = "uneven";
   shape.added_mass = added.asDiagonal();
-  btRigidBody& body = in_fluid ? fluid.add(def, shape, idealFluid(1)) : fluid.add(def);
+  btRigidBody& body = in_fluid ? scene.add(def, shape, idealFluid(1)) : scene.add(def);
   body.setLinearFactor({0, 1, 0});
   body.setAngularFactor(0);
-  fluid.step(kWorldStep);
-  EXPECT_EQ(fluid.registry.counters().rows > 0, in_fluid);
-  fluid.world.removeRigidBody(&wall);
+  scene.step(kWorldStep);
+  EXPECT_EQ(scene.fluid.counters().rows > 0, in_fluid);
+  scene.world.removeRigidBody(&wall);
   return static_cast<double>(body.getLinearVelocity().y());
 }
 
-// What is left of the normal along the free axis is a tiny lever. In float its square, 1e-4 of the
-// whole, has three digits.
+// The normal's part along the free axis is a small lever. In float its square, 1e-4 of the whole,
+// has three digits.
 TEST(ContactFeatures, AContactAlmostAlongALockedAxisPushesAsInStockBullet) {
   for (const double angle : {1.5, 0.5, 0.1, 0.01}) {
     const double stock = speedOfPush(angle, false);
@@ -147,8 +147,8 @@ TEST(ContactFeatures, AContactAlmostAlongALockedAxisPushesAsInStockBullet) {
   }
 }
 
-// Two balls of a compound shape, the heavier one small: the body's origin is the centre of mass,
-// the fluid body's that of the shape.
+// Compound of two balls, the heavier one small. The body's origin is the centre of mass, the fluid
+// body's is the shape's.
 TEST(ContactFeatures, ACompoundShapeActsAboutItsCentreOfMass) {
   btSphereShape large(bt(0.25)), small(bt(0.15));
   btCompoundShape authored;
@@ -173,28 +173,28 @@ TEST(ContactFeatures, ACompoundShapeActsAboutItsCentreOfMass) {
   attach.fluid_frame.translation = toVector3(frame.getOrigin());
   attach.fluid_frame.rotation = toQuaternion(frame.getRotation()).toRotationMatrix();
 
-  FluidWorld fluid;
+  FluidWorld scene;
   BodyDef def;
   def.mass = 5;
   def.moments = toVector3(moments);
   def.shape = &shape;
   def.start.twist = {Vector3(1, -2, 1), Vector3(-3, 0.5, 0.2)};
-  btRigidBody& body = fluid.add(def);
+  btRigidBody& body = scene.add(def);
   body.setWorldTransform(principal);  // the authored frame is the world's
   body.updateInertiaTensor();
   body.setFriction(0);
-  fluid.registry.attach(body, attach);
-  btContactSolverInfo& info = fluid.world.getSolverInfo();
+  scene.fluid.add(body, attach);
+  btContactSolverInfo& info = scene.world.getSolverInfo();
   info.m_splitImpulse = 0;
   info.m_erp = info.m_erp2 = 0;
   // The wall touches the large ball from the left, in world axes.
   btStaticPlaneShape plane({1, 0, 0}, bt(-0.2 - 0.25 + 1e-3));
   btRigidBody wall(0, nullptr, &plane);
   wall.setFriction(0);
-  fluid.world.addRigidBody(&wall);
+  scene.world.addRigidBody(&wall);
 
-  // K about the centre of mass c in world axes: of the fluid body, whose frame is the world, by the
-  // velocity that its origin has; of the dry body by its tensor.
+  // K about the centre of mass c, world axes. Fluid: by the velocity of its origin, since its frame
+  // is the world. Dry body: by its tensor.
   const Vector3r c = exact(principal.getOrigin());
   DenseMatrix6 to_fluid = DenseMatrix6::Identity();  // v_F = v + w x (0 - c)
   to_fluid.bottomLeftCorner<3, 3>() << 0, -c.z(), c.y(), c.z(), 0, -c.x(), -c.y(), c.x(), 0;
@@ -210,13 +210,13 @@ TEST(ContactFeatures, ACompoundShapeActsAboutItsCentreOfMass) {
   reference::DenseRow row = reference::pointRow(x, contact - c, x);
   row.lower = 0;
   const auto expected = reference::solveDense({dense, fixedBody()}, {row});
-  fluid.step(CoupledScene::kInstant);
+  scene.step(CoupledScene::kInstant);
   DenseVector6 u;
   u << exact(body.getAngularVelocity()), exact(body.getLinearVelocity());
   EXPECT_GT((expected.velocities[0] - dense.free_velocity).norm(), 1);
-  // The axes of the compound are found to the precision of its own iteration.
+  // Bullet finds the compound's axes by an iteration of limited precision.
   EXPECT_LT(static_cast<double>((u - expected.velocities[0]).norm()), byPrecision(1e-10, 1e-4));
-  fluid.world.removeRigidBody(&wall);
+  scene.world.removeRigidBody(&wall);
 }
 
 }  // namespace

@@ -4,13 +4,13 @@
 
 #include "tests/bullet_ambient/bullet/contact/coupled_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
-#include "tests/support/free_body.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/free_body.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 
-/// One body with a coupled K in an ideal fluid, its collision shape a sphere about the centre of
-/// mass, in a world without gravity and without Bullet's corrections of position.
+/// One body with a coupled K in an ideal fluid, colliding as a sphere about the centre of mass.
+/// World without gravity and without position correction.
 class CoupledScene {
  public:
   static constexpr double kRadius = 0.25;
@@ -20,41 +20,41 @@ class CoupledScene {
     body().setCollisionShape(&ball_);
     body().setActivationState(DISABLE_DEACTIVATION);
     body().setFriction(0);
-    btContactSolverInfo& info = fluid.world.getSolverInfo();
+    btContactSolverInfo& info = scene.world.getSolverInfo();
     info.m_splitImpulse = 0;
     info.m_erp = info.m_erp2 = 0;
     info.m_restitutionVelocityThreshold = 0;
     info.m_numIterations = 500;
-    fluid.world.addRigidBody(&body());
-    coupled.attachTo(fluid.registry);
+    scene.world.addRigidBody(&body());
+    coupled.attachTo(membersOf(scene.fluid));
   }
-  ~CoupledScene() { fluid.world.removeRigidBody(&body()); }
+  ~CoupledScene() { scene.world.removeRigidBody(&body()); }
 
   btRigidBody& body() { return coupled.body(); }
   void stop() {
     body().setLinearVelocity({0, 0, 0});
     body().setAngularVelocity({0, 0, 0});
   }
-  /// A step without the action: velocities stay those that the rows were solved for.
+  /// Steps without the action: velocities stay equal to the rows' solution.
   void solve(double duration) {
-    fluid.world.removeAction(&fluid.action);
-    fluid.step(duration);
-    fluid.world.addAction(&fluid.action);
+    scene.removeAction();
+    scene.step(duration);
+    scene.addAction();
   }
-  /// In which forces and gyroscopic terms change the velocities by nothing; Bullet does not step
-  /// over less than its epsilon.
+  /// Step [s] so short that forces and gyroscopic terms vanish; Bullet skips steps below its
+  /// epsilon.
   static constexpr double kInstant = byPrecision(1e-14, 1e-6);
 
   Arbitrary arbitrary;
   CoupledBody coupled;
-  FluidWorld fluid;
+  FluidWorld scene;
 
  private:
   btSphereShape ball_{static_cast<btScalar>(kRadius)};
 };
 
-/// A fixed wall with the outward normal `normal` in the path of the scene's body, overlapping it by
-/// a millimetre.
+/// A fixed wall with the outward normal `normal` in the path of the body, overlapping by a
+/// millimetre.
 class Wall {
  public:
   Wall(CoupledScene& scene, const btVector3& normal)
@@ -62,9 +62,9 @@ class Wall {
         plane_(normal, normal.dot(scene.body().getWorldTransform().getOrigin()) -
                            static_cast<btScalar>(CoupledScene::kRadius - 1e-3)) {
     body_.setFriction(0);
-    scene_.fluid.world.addRigidBody(&body_);
+    scene_.scene.world.addRigidBody(&body_);
   }
-  ~Wall() { scene_.fluid.world.removeRigidBody(&body_); }
+  ~Wall() { scene_.scene.world.removeRigidBody(&body_); }
 
  private:
   CoupledScene& scene_;

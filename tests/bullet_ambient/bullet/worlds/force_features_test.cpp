@@ -2,7 +2,7 @@
 
 #include "tests/bullet_ambient/bullet/worlds/coupled_scene.h"
 
-// Forces and damping that a program gives to a body of coupled K.
+// User's forces and damping on a body of coupled K.
 namespace ambient::test {
 namespace {
 
@@ -13,7 +13,7 @@ TEST(ForceFeatures, AForceAtAPointIsFeltThroughTheFullInertia) {
     scene.body().applyForce(toBt(scene.arbitrary.vector(1 / CoupledScene::kInstant)),
                             toBt(scene.arbitrary.vector(0.3)));
     const DenseVector6 expected = scene.coupled.dense(bt(CoupledScene::kInstant)).free_velocity;
-    scene.fluid.step(CoupledScene::kInstant);
+    scene.scene.step(CoupledScene::kInstant);
     EXPECT_LT(scene.coupled.error(expected, expected), byPrecision(1e-12, 1e-4)) << seed;
   }
 }
@@ -26,8 +26,8 @@ TEST(ForceFeatures, DampingScalesTheVelocityBeforeEachStep) {
     btRigidBody& body = scaled.body();
     body.setLinearVelocity(body.getLinearVelocity() * btPow(bt(0.7), bt(dt)));
     body.setAngularVelocity(body.getAngularVelocity() * btPow(bt(0.5), bt(dt)));
-    damped.fluid.step(dt);
-    scaled.fluid.step(dt);
+    damped.scene.step(dt);
+    scaled.scene.step(dt);
   }
   const DenseVector6 expected = scaled.coupled.velocity();
   EXPECT_LT(damped.coupled.error(expected, expected), byPrecision(1e-12, 1e-4));

@@ -6,20 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/ambient_body.h"
+#include "bullet_ambient/immersed/ambient_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/worlds/world_setups.h"
-#include "tests/support/free_body.h"
+#include "tests/support/bodies/free_body.h"
 
-// Ambient bodies fly, float on a tether and sink to the floor, in every world and with every
+// Ambient bodies in flight, on a tether and on the floor, in every world and with every
 // solver.
 namespace ambient::test {
 namespace {
 
 const Vector3 kSemiAxes{0.3, 0.25, 0.2};
-const Vector3 kCentreOfVolume{0.01, -0.02, 0.03};  // from the centre of mass: coupled
+const Vector3 kCentreOfVolume{0.01, -0.02, 0.03};  // off the centre of mass: coupled K
 const Twist kSpin{Vector3(0.3, 0.2, 1), Vector3::Zero()};
-// Boxes that fit round an ellipsoid of water.
+// Boxes around an ellipsoid of water.
 class Tank {
  public:
   explicit Tank(std::unique_ptr<WorldHost> host) : host_(std::move(host)) {
@@ -35,7 +35,7 @@ class Tank {
   }
 
   void step(int count) { host_->step(kWorldStep, count); }
-  // Without it, only solvers with pools of their own have one friction row per contact.
+  // Without this flag only solvers with pools of their own have one friction row per contact.
   void useTwoFrictionDirections() {
     host_->world().getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   }
@@ -54,8 +54,8 @@ class Tank {
         btTransform(btQuaternion::getIdentity(), btVector3(0, 0, -1)));
     host_->world().addRigidBody(bodies_.back().get());
   }
-  // Half as heavy as water, so that buoyancy is twice its weight, and in equilibrium: the sum of
-  // both, seen from the tether, points up.
+  // Adds a body of half water's density in equilibrium: buoyancy is twice the weight, and their sum
+  // points upwards from the tether.
   void addTethered() {
     const Vector3 below(0, 0, -0.4);
     const Vector3 up = 2 * (kCentreOfVolume - below) + below;
@@ -67,7 +67,7 @@ class Tank {
     tether_ = std::make_unique<btPoint2PointConstraint>(*tethered_, toBullet(below));
     host_->world().addConstraint(tether_.get());
   }
-  // `density`: of the body relative to water. `start`: twist in world axes.
+  // `density`: body's over water's. `start`: twist in world axes.
   btRigidBody& add(double density, const RigidState& start) {
     AttachDef def;
     def.fluid_body = fluid_body_;
@@ -80,7 +80,7 @@ class Tank {
     body.setWorldTransform(btTransform(toBullet(start.orientation), toBullet(start.position)));
     body.setAngularVelocity(toBullet(start.twist.angular));
     host_->world().addRigidBody(&body);
-    host_->registry.attach(body, def);
+    host_->fluid().add(body, def);
     return body;
   }
 
@@ -94,8 +94,8 @@ class Tank {
   std::unique_ptr<btPoint2PointConstraint> tether_;
 };
 
-// Bullet's Lemke solver cannot do without friction and is wrong where bounds coincide, with fluid
-// or without.
+// Excludes Lemke's solver: it needs friction, and is wrong where bounds coincide, with fluid or
+// without.
 std::vector<WorldSetup> worldsWithRestingContacts() {
   std::vector<WorldSetup> worlds = allWorlds();
   const auto uses_lemke = [](const WorldSetup& setup) { return usesSolver(setup, "Lemke"); };
@@ -125,7 +125,7 @@ TEST_P(FourWorlds, HoldABuoyantBodyOnItsTether) {
   Tank tank(GetParam().make(true));
   const Quaternion start = readState(tank.tethered()).orientation;
   tank.step(600);
-  // What gives way is the joint, by its position error of a step.
+  // The joint yields by its position error of one step.
   EXPECT_LT(tank.tetherStretch(), byPrecision(1e-9, 1e-5));
   EXPECT_LT(angleBetween(readState(tank.tethered()).orientation, start), byPrecision(1e-8, 1e-3));
 }
@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(Of, SequentialWorlds,
                                          worldNamed("DiscreteMtWithPool")),
                          nameOf);
 
-// The same rows in the same order, as in stock Bullet; a btMultiBodyDynamicsWorld has another.
+// Stock Bullet has equal rows in equal order; a btMultiBodyDynamicsWorld orders them differently.
 TEST_P(SequentialWorlds, MoveContactsAndJointsAlike) {
   Tank reference(worldNamed("DiscreteWithSequentialImpulse").make(true)),
       tank(GetParam().make(true));

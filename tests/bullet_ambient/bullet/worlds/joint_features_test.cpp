@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "tests/bullet_ambient/bullet/worlds/coupled_scene.h"
 
-// What Bullet offers around joints, with a body of coupled K in an ideal fluid.
+// Bullet's features of joints with a body of coupled K in an ideal fluid.
 namespace ambient::test {
 namespace {
 
@@ -18,19 +18,19 @@ struct OnJoint : CoupledScene {
     axis = toBt(arbitrary.vector().normalized());
   }
   ~OnJoint() {
-    if (joint) fluid.world.removeConstraint(joint.get());
+    if (joint) scene.world.removeConstraint(joint.get());
   }
   template <class Joint>
   Joint& add(Joint* made) {
     joint.reset(made);
-    fluid.world.addConstraint(made);
+    scene.world.addConstraint(made);
     return *made;
   }
   btHingeConstraint& addHinge() { return add(new btHingeConstraint(body(), pivot, axis)); }
   btTransform pose() { return body().getWorldTransform(); }
   Vector3r arm() { return exact(pose().getBasis() * pivot); }
   Vector3r axisInWorld() { return exact(pose().getBasis() * axis); }
-  /// Twist of the centre of mass per unit of spin about the hinge.
+  /// Returns the twist of the centre of mass per unit spin about the hinge.
   DenseVector6 hingeTwist() {
     DenseVector6 s;
     s << axisInWorld(), arm().cross(axisInWorld());
@@ -47,8 +47,8 @@ struct OnJoint : CoupledScene {
   std::unique_ptr<btTypedConstraint> joint;
 };
 
-// On a hinge d/dt(I_eff spin) is the torque: I_eff is constant, and what the fluid does with the
-// rest of K has no power.
+// On a hinge d/dt(I_eff spin) = torque: I_eff is constant, and gyroscopic forces of the rest of K
+// do no work.
 TEST(JointFeatures, AMotorTurnsTheInertiaAboutItsHinge) {
   constexpr int kSteps = 48;
   constexpr double kSpin = 2;
@@ -56,7 +56,7 @@ TEST(JointFeatures, AMotorTurnsTheInertiaAboutItsHinge) {
     OnJoint scene(seed);
     const double impulse = kSpin * scene.hingeInertia() / kSteps;
     scene.addHinge().enableAngularMotor(true, 1000, bt(impulse));
-    scene.fluid.step(1.0 / 256, kSteps - 1);
+    scene.scene.step(1.0 / 256, kSteps - 1);
     scene.solve(1.0 / 256);
     EXPECT_NEAR(std::abs(scene.hingeSpin()) / kSpin, 1, 1e-3) << seed;
   }
@@ -87,17 +87,17 @@ TEST(JointFeatures, AHingeStopsAtItsLimit) {
     const DenseVector6 u = kSpin * scene.hingeTwist();
     scene.body().setAngularVelocity(toBt(u.head<3>().cast<double>()));
     scene.body().setLinearVelocity(toBt(u.tail<3>().cast<double>()));
-    scene.fluid.step(kStep, 160);
+    scene.scene.step(kStep, 160);
     EXPECT_NEAR(turned(), kSpin * 160 * kStep, 1e-3) << seed;
-    scene.fluid.step(kStep, 240);
+    scene.scene.step(kStep, 240);
     EXPECT_GT(turned(), kLimit - 1e-6) << seed;
     EXPECT_LT(turned(), kLimit + kSpin * kStep) << seed;
-    // What half a turn's change of velocity leaves when the limit is met.
+    // The residual is half of the turning part when the hinge meets its limit.
     EXPECT_NEAR(scene.hingeSpin(), 0, kSpin * kSpin * kStep) << seed;
   }
 }
 
-// Everything locked but the x axis of the world.
+// Locks all but the x axis of the world.
 btGeneric6DofSpring2Constraint& addRail(OnJoint& scene, double low, double high) {
   const btTransform world_in_body(scene.pose().getBasis().inverse());
   auto& rail = scene.add(new btGeneric6DofSpring2Constraint(scene.body(), world_in_body));
@@ -111,11 +111,11 @@ btGeneric6DofSpring2Constraint& addRail(OnJoint& scene, double low, double high)
 TEST(JointFeatures, ARailStopsABodyAtItsEnd) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     OnJoint scene(seed);
-    scene.fluid.world.getSolverInfo().m_erp = bt(0.2);
+    scene.scene.world.getSolverInfo().m_erp = bt(0.2);
     addRail(scene, -0.3, 0.3);
     const double start = static_cast<double>(scene.pose().getOrigin().x());
     scene.body().setLinearVelocity({2, 0, 0});
-    scene.fluid.step(1.0 / 256, 128);
+    scene.scene.step(1.0 / 256, 128);
     EXPECT_NEAR(std::abs(static_cast<double>(scene.pose().getOrigin().x()) - start), 0.3, 0.01)
         << seed;
     EXPECT_LT(static_cast<double>(scene.body().getLinearVelocity().length()), 0.01) << seed;
@@ -131,11 +131,11 @@ TEST(JointFeatures, ASpringSwingsTheInertiaAlongItsRail) {
     rail.enableSpring(0, true);
     rail.setStiffness(0, bt(omega * omega * inertia));
     rail.setEquilibriumPoint(0, bt(0.1));
-    // Time between two turns, where the velocity is 0.
+    // Time between two reversals, which have velocity 0.
     const double dt = 1.0 / 512;
     double first = -1, period = -1, before = 0;
     for (int i = 1; i < 2000 && period < 0; ++i) {
-      scene.fluid.step(dt);
+      scene.scene.step(dt);
       const double now = static_cast<double>(scene.body().getLinearVelocity().x());
       if (before * now < 0) {
         const double time = dt * (i - now / (now - before));
@@ -147,26 +147,26 @@ TEST(JointFeatures, ASpringSwingsTheInertiaAlongItsRail) {
       }
       before = now;
     }
-    // Bullet's steps make it shorter by (omega dt)^2 / 24.
+    // Bullet's steps shorten the period by (omega dt)^2 / 24.
     EXPECT_NEAR(period * omega / (2 * kPi), 1, byPrecision(1e-5, 2e-3)) << seed;
   }
 }
 
-// 5 rad per step, while rows are solved at the pose where it begins. Measured: 1.9 in 10 s, and
-// infinite where gyroscopic terms may add energy.
+// 5 rad per step; rows use the pose at the start. Measured: 1.9 in 10 s, and infinite if gyroscopic
+// terms may add energy.
 TEST(JointFeatures, AFastTopOnAJointDoesNotBlowUp) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     OnJoint scene(seed);
     scene.body().setAngularVelocity(toBt(scene.arbitrary.vector().normalized() * 300));
     scene.add(new btPoint2PointConstraint(scene.body(), scene.pivot));
     const auto energy = [&] { return scene.coupled.kineticEnergy(scene.coupled.velocity()); };
-    scene.fluid.step(1.0 / 60);
+    scene.scene.step(1.0 / 60);
     const Real start = energy();
     for (int i = 0; i < 120; ++i) {
-      scene.fluid.step(1.0 / 60);
+      scene.scene.step(1.0 / 60);
       ASSERT_LT(energy(), 2 * start) << seed;
     }
-    EXPECT_EQ(scene.fluid.registry.counters(scene.body()).rejected, 0) << seed;
+    EXPECT_EQ(scene.scene.of(scene.body()).counters().rejected, 0) << seed;
   }
 }
 
@@ -185,7 +185,7 @@ TEST(JointFeatures, FeedbackIsWhatChangesTheMomentum) {
     DenseVector6 reported, applied;
     applied << exact(scene.body().getTotalTorque()), exact(scene.body().getTotalForce());
     const DenseVector6 before = scene.coupled.momentum(scene.coupled.velocity());
-    scene.fluid.step(dt);
+    scene.scene.step(dt);
     reported << exact(feedback.m_appliedTorqueBodyA), exact(feedback.m_appliedForceBodyA);
     DenseVector6 expected = (scene.coupled.momentum(scene.coupled.velocity()) - before) / dt;
     expected.head<3>() -= centre.cross(Vector3r(expected.tail<3>()));
@@ -212,7 +212,7 @@ TEST(JointFeatures, AJointBreaksAtTheImpulseOfTheFullInertia) {
       const auto impulses = reference::solveDense({scene.coupled.dense(dt), wall}, rows).impulses;
       const auto largest = static_cast<double>(impulses.cwiseAbs().maxCoeff());
       scene.joint->setBreakingImpulseThreshold(bt(strength * largest));
-      scene.fluid.step(dt);
+      scene.scene.step(dt);
       EXPECT_EQ(scene.joint->isEnabled(), strength > 1) << seed;
     }
   }
@@ -225,8 +225,8 @@ TEST(JointFeatures, SubstepsOfACallAreStepsOfTheirOwn) {
     scene->add(new btPoint2PointConstraint(scene->body(), scene->pivot));
   }
   const btScalar h = bt(1.0 / 256);
-  for (int i = 0; i < 64; ++i) in_calls.fluid.world.stepSimulation(4 * h, 4, h);
-  one_by_one.fluid.step(1.0 / 256, 256);
+  for (int i = 0; i < 64; ++i) in_calls.scene.world.stepSimulation(4 * h, 4, h);
+  one_by_one.scene.step(1.0 / 256, 256);
   EXPECT_GT(static_cast<double>(one_by_one.body().getAngularVelocity().length()), 0.1);
   EXPECT_TRUE(in_calls.pose() == one_by_one.pose());
   EXPECT_EQ(in_calls.coupled.velocity(), one_by_one.coupled.velocity());

@@ -6,11 +6,11 @@
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/worlds/world_setups.h"
-#include "tests/support/free_body.h"
+#include "tests/support/bodies/free_body.h"
 
-// Soft bodies touch rigid ones after the solver and after the actions, by
-// btRigidBody::applyImpulse: with the mass and inertia of the dry body, whether it is ambient or
-// not. K acts in the rigid part of the next step.
+// Soft bodies touch rigid ones after solver and actions, by btRigidBody::applyImpulse(). These
+// impulses use the dry mass and inertia, for ambient bodies, too. K acts in the rigid part of the
+// next step.
 namespace ambient::test {
 namespace {
 
@@ -36,7 +36,7 @@ class SoftScene {
   }
   btSoftBodyWorldInfo& info() { return soft_world().getWorldInfo(); }
 
-  // A sphere of 1 kg.
+  // Adds a sphere of 1 kg.
   btRigidBody& addBall(const Vector3& position, const FluidBody& fluid_body, double density) {
     body_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
         1, nullptr, &ball_, toBullet(Vector3::Constant(0.4 * kRadius * kRadius))));
@@ -46,7 +46,7 @@ class SoftScene {
     AttachDef def;
     def.fluid_body = std::make_shared<FluidBody>(fluid_body);
     def.medium.density = density;
-    host_->registry.attach(*body_, def);
+    host_->fluid().add(*body_, def);
     return *body_;
   }
   void step(int count) { host_->step(kWorldStep, count); }
@@ -76,7 +76,7 @@ TEST(SoftContact, CarriesAnAmbientBodyOnASheet) {
                                                {1, 1, 0}, 17, 17, 1 + 2 + 4 + 8, true),
                 2);
   sheet.m_cfg.kDP = bt(0.02);
-  // It displaces half of its mass.
+  // The ball displaces half of its mass.
   const FluidBody shape = meshedEllipsoid(Vector3::Constant(kRadius), 1);
   btRigidBody& ball = scene.addBall({0, 0, 0.6}, shape, 0.5 / shape.volume);
   ball.setDamping(bt(0.5), bt(0.5));
@@ -97,7 +97,7 @@ TEST(SoftContact, ExchangesMomentumWithTheDryBody) {
       btSoftBodyHelpers::CreateEllipsoid(scene.info(), {0, 0, 0}, {bt(0.5), bt(0.5), bt(0.5)}, 80),
       1);
   soft.m_cfg.kVC = 0;
-  // The fluid has twice the inertia of the body, and nothing but that acts.
+  // Fluid inertia of twice the body's is the only effect of the fluid.
   btRigidBody& ball = scene.addBall({0, 0, 1.2}, shapeWithoutFaces(2 * Matrix6::Identity(), 0), 1);
   ball.setLinearVelocity({0, 0, -3});
   Vector3 exchanged = Vector3::Zero();

@@ -6,12 +6,12 @@
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/kirchhoff_integration.h"
 
-// The thinner the fluid, the more the motion is that of a vacuum: at first order in the density.
+// Motion in thin fluid tends to motion in a vacuum, at first order in the density.
 namespace ambient::test {
 namespace {
 
 constexpr int kSteps = 60;
-// Offset from the centre of mass, so that the added mass is coupled.
+// Offset from the centre of mass couples the added mass.
 AttachDef inFluid(double density) {
   AttachDef def;
   def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1));
@@ -21,14 +21,14 @@ AttachDef inFluid(double density) {
 }
 
 struct Run {
-  FluidWorld fluid;
+  FluidWorld scene;
   btRigidBody& body;
 
-  explicit Run(double density) : body(fluid.add(start())) {
-    fluid.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
-    fluid.world.removeRigidBody(&body);
-    fluid.world.addRigidBody(&body);  // takes the world's gravity
-    if (density > 0) fluid.registry.attach(body, inFluid(density));
+  explicit Run(double density) : body(scene.add(start())) {
+    scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
+    scene.world.removeRigidBody(&body);
+    scene.world.addRigidBody(&body);  // takes the world's gravity
+    if (density > 0) scene.fluid.add(body, inFluid(density));
   }
   static BodyDef start() {
     BodyDef def{1, Vector3(0.04, 0.05, 0.07), {}, nullptr};
@@ -42,7 +42,7 @@ struct Run {
 
 template <class Simulate>
 void expectFirstOrder(const Simulate& simulate, const Vector6& vacuum) {
-  // float32 stores the velocities to 6e-8 in each of the steps.
+  // float32 rounds velocities to 6e-8 in each step.
   const double thin = kDouble ? 1e-5 : 1e-2;
   double error[3];
   for (int k = 0; k < 3; ++k) error[k] = (simulate(thin * std::pow(4, k)) - vacuum).norm();
@@ -53,7 +53,7 @@ void expectFirstOrder(const Simulate& simulate, const Vector6& vacuum) {
   }
 }
 
-// Euler's equations and a parabola; Bullet's own flight of a spinning body is but of first order.
+// Euler's equations and a parabola; Bullet's own flight of a spinning body has first order.
 Vector6 exactFlight() {
   const BodyDef def = Run::start();
   const double duration = kSteps * kWorldStep;
@@ -70,7 +70,7 @@ Vector6 exactFlight() {
 
 Vector6 flight(double density) {
   Run run(density);
-  run.fluid.step(kWorldStep, kSteps);
+  run.scene.step(kWorldStep, kSteps);
   return run.velocity();
 }
 
@@ -78,9 +78,9 @@ Vector6 swing(double density, double step) {
   Run run(density);
   run.body.setFlags(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT);
   btPoint2PointConstraint joint(run.body, btVector3(0, static_cast<btScalar>(0.1), 1));
-  run.fluid.world.addConstraint(&joint);
-  run.fluid.step(step, static_cast<int>(std::lround(kSteps * kWorldStep / step)));
-  run.fluid.world.removeConstraint(&joint);
+  run.scene.world.addConstraint(&joint);
+  run.scene.step(step, static_cast<int>(std::lround(kSteps * kWorldStep / step)));
+  run.scene.world.removeConstraint(&joint);
   return run.velocity();
 }
 
@@ -94,7 +94,7 @@ TEST(VacuumLimit, OfAPendulumIsReachedAtFirstOrder) {
   expectFirstOrder(pendulum, pendulum(kThinnest));
 }
 
-// Both are of first order in the step.
+// Both pendulums have first order in the step.
 TEST(VacuumLimit, OfAPendulumIsThatOfStockBulletTheShorterTheStep) {
   double difference[4];
   for (int k = 0; k < 4; ++k) {

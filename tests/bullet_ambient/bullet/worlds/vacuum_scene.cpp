@@ -79,7 +79,7 @@ void VacuumScene::addJoints() {
     }
     if (kind == 2) keep(new btSliderConstraint(body, frame, true));
     if (kind == 3) {
-      // Bullet's constructor for one body would pin it to the origin of the world.
+      // Bullet's constructor for one body would fix it to the origin of the world.
       keep(new btConeTwistConstraint(body, btTypedConstraint::getFixedBody(), frame,
                                      body.getWorldTransform() * frame));
     }
@@ -113,7 +113,7 @@ void VacuumScene::addVehicle() {
   host_->world().addAction(vehicle_.get());
 }
 
-// A ball on a sheet that is held at its corners, and a soft ball that falls onto the floor.
+// Adds a ball on a sheet held at its corners, and a soft ball that falls onto the floor.
 void VacuumScene::addSoftBodies(btSoftRigidDynamicsWorld& world) {
   world.getWorldInfo().m_gravity = world.getGravity();
   soft_bodies_.emplace_back(btSoftBodyHelpers::CreatePatch(world.getWorldInfo(), {10, -6, 2},
@@ -128,7 +128,7 @@ void VacuumScene::addSoftBodies(btSoftRigidDynamicsWorld& world) {
   add(1, ball_, {bt(12.1), bt(-4.2), 3});
 }
 
-// A chain that swings from the ceiling into a box.
+// Adds a chain that swings from the ceiling into a box.
 void VacuumScene::addMultiBody(btMultiBodyDynamicsWorld& world) {
   const btVector3 half(0, 0, bt(-0.4));
   btVector3 inertia;

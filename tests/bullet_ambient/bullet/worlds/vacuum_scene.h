@@ -7,30 +7,30 @@
 
 namespace ambient::test {
 
-/// A scene in which all that a world offers happens at once, built the same way each time: a stack
-/// that is hit by a ball, five joints, a vehicle; soft bodies and multibodies in the worlds that
-/// take them.
+/// Scene of many features at once, built the same way each time: a stack hit by a
+/// ball, five joints, a vehicle. Worlds that support soft bodies and multibodies get
+/// some.
 class VacuumScene {
  public:
   explicit VacuumScene(std::unique_ptr<WorldHost> host);
   ~VacuumScene();
 
-  /// A unit cube and what stands beside the rest, on the same floor, in an island of its own.
+  /// Adds a box that bodies() and state() leave out; place it in an island of its own.
   btRigidBody& addAside(const btVector3& position);
   void step(int count) { host_->step(1.0 / 120, count); }
 
   WorldHost& host() { return *host_; }
-  /// Every dynamic body but those aside.
+  /// Dynamic bodies without those of addAside().
   const std::vector<btRigidBody*>& bodies() const { return watched_; }
-  /// Those of them that hang on a joint.
+  /// Bodies of bodies() that hang on a joint.
   const std::vector<btRigidBody*>& jointed() const { return jointed_; }
   /// Poses and velocities of rigid bodies, nodes of soft bodies, links of multibodies; without
-  /// those aside.
+  /// bodies of addAside().
   std::vector<btScalar> state() const;
-  /// Poses and velocities of another scene become those of this one; what joints and contacts
-  /// remember stays.
+  /// Copies poses and velocities from another scene; keeps memory of joints and
+  /// contacts.
   void takeStateOf(const VacuumScene& other);
-  /// How far the ball of the stack has come [m].
+  /// Distance that the ball of the stack has moved [m].
   btScalar ballTravel() const;
 
  private:
@@ -61,7 +61,7 @@ class VacuumScene {
   btRigidBody* hitting_ball_ = nullptr;
 };
 
-/// Bit for bit, so that -0 is not 0.
+/// Compares bit for bit: -0 differs from 0.
 bool sameBits(const std::vector<btScalar>& a, const std::vector<btScalar>& b);
 
 }  // namespace ambient::test

@@ -6,12 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "tests/bullet_ambient/bullet/worlds/vacuum_scene.h"
-#include "tests/support/ellipsoid_body.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 
-// A fluid that adds no inertia and has no volume, through the full 6x6 path: every step that begins
-// like one of stock Bullet ends like it, to rounding.
+// A fluid without inertia or volume, through the full 6x6 path. Each step from a state of stock
+// Bullet must end like stock Bullet, to rounding.
 namespace ambient::test {
 namespace {
 
@@ -19,10 +19,10 @@ constexpr int kSteps = 300;
 constexpr double kTimeStep = 1.0 / 120;
 constexpr bool kDouble = sizeof(btScalar) == 8;
 constexpr double kTolerance = kDouble ? 3e-15 : 3e-7;
-// Where a ball hits a stack, its rows pass roundings on to each other. Measured: 1.5e-14, 3e-7.
+// A ball that hits a stack: rows amplify rounding. Measured: 1.5e-14, 3e-7.
 constexpr double kStackTolerance = kDouble ? 3e-14 : 1e-6;
 
-// Bodies whose moments differ turn otherwise than in Bullet, free or held, and have no fluid here.
+// Tells if the moments are equal. Other bodies turn differently from Bullet and stay dry here.
 bool isRound(const btRigidBody& body) {
   const btVector3& inverse = body.getInvInertiaDiagLocal();
   return inverse.x() == inverse.y() && inverse.y() == inverse.z();
@@ -48,8 +48,8 @@ double velocityDifference(const btRigidBody& a, const btRigidBody& b) {
                                       (a.getAngularVelocity() - b.getAngularVelocity()).length()));
 }
 
-// A body that nothing has touched flies along a parabola, where Bullet moves it with the velocity
-// of the end of the step.
+// Difference of place. A body without contacts flies along a parabola; Bullet moves it by the
+// velocity of the step's end.
 double placeDifference(const btRigidBody& stock, const btRigidBody& ambient) {
   const Vector3 place = toVector3(stock.getWorldTransform().getOrigin());
   const Vector3 difference = toVector3(ambient.getWorldTransform().getOrigin()) - place;
@@ -71,15 +71,15 @@ class VacuumStep : public testing::TestWithParam<WorldSetup> {
     for (VacuumScene* scene : {&stock_, &ambient_}) {
       if (isPivoting()) scene->host().world().getSolverInfo().m_minimumSolverBatchSize = 1;
       for (btRigidBody* body : scene->bodies()) {
-        // Bullet's gyroscopic torque in the form that the velocity of rows has too.
+        // Explicit form of Bullet's gyroscopic torque, equal to the one in the rows' velocity.
         body->setFlags(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT);
         if (scene == &ambient_ && isRound(*body))
-          ambient_.host().registry.attach(*body, nothingButThePath());
+          ambient_.host().fluid().add(*body, nothingButThePath());
       }
     }
   }
-  // The impulses of a box on four contacts are not unique: pivoting solvers find others after a
-  // rounding, also without fluid.
+  // Tells if the solver pivots. Impulses of a box on four contacts are not unique: pivoting solvers
+  // find others after a rounding, also without fluid.
   static bool isPivoting() {
     return usesSolver(GetParam(), "Dantzig") || usesSolver(GetParam(), "Lemke");
   }
@@ -112,9 +112,9 @@ TEST_P(VacuumStep, EndsAsInStockBullet) {
     compare();
     ambient_.takeStateOf(stock_);
   }
-  // Lemke's solver may throw the stack of stock Bullet apart; then the joints are left.
+  // Lemke's solver may throw the stack apart in stock Bullet; joints remain.
   const int rows_per_step = usesSolver(GetParam(), "Lemke") ? 1 : 10;
-  EXPECT_GT(ambient_.host().registry.counters().rows, rows_per_step * kSteps);
+  EXPECT_GT(ambient_.host().fluid().counters().rows, rows_per_step * kSteps);
   EXPECT_LT(velocity_error_, kStackTolerance);
   EXPECT_LT(jointed_velocity_error_, kTolerance);
   EXPECT_LT(pose_error_, kTolerance);

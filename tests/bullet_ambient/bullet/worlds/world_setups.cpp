@@ -11,66 +11,62 @@
 namespace ambient::test {
 namespace {
 
-/// The solver of one kind, constructed from a registry that Bullet's own does not need.
-template <class Kind, bool kIsAmbient>
-struct SolverHolder : Kind::Ambient {
-  explicit SolverHolder(AmbientRegistry& registry) : Kind::Ambient(registry) {}
-};
-template <class Kind>
-struct SolverHolder<Kind, false> : Kind::Stock {
-  explicit SolverHolder(AmbientRegistry&) {}
-};
-
+/// A solver that takes the place of the plain one that the fluid of a world was made with.
 template <class Kind, class World, bool kIsAmbient>
 class SingleThreadedHost final : public WorldHost {
+  static constexpr bool kHasMultiBodies = std::is_base_of_v<btMultiBodyDynamicsWorld, World>;
+  using Plain = std::conditional_t<kHasMultiBodies, btMultiBodyConstraintSolver,
+                                   btSequentialImpulseConstraintSolver>;
+
  public:
   SingleThreadedHost() {
-    if (kIsAmbient) world_.addAction(&action_);
+    if constexpr (kIsAmbient) {
+      fluid_.emplace(world_);
+      ambient_.emplace(membersOf(*fluid_).shared_from_this());
+      set(ambient_->solver);
+    } else {
+      set(stock_.solver);
+    }
   }
+  ~SingleThreadedHost() override { fluid_.reset(); }
   btDiscreteDynamicsWorld& world() override { return world_; }
 
  private:
-  SolverHolder<Kind, kIsAmbient> holder_{registry};
-  World world_{&dispatcher_, &broadphase_, &holder_.solver, &configuration_};
+  template <class Solver>
+  void set(Solver& solver) {
+    if constexpr (kHasMultiBodies) {
+      world_.setMultiBodyConstraintSolver(&solver);
+    } else {
+      world_.setConstraintSolver(&solver);
+    }
+  }
+
+  Plain plain_;
+  typename Kind::Stock stock_;
+  World world_{&dispatcher_, &broadphase_, &plain_, &configuration_};
+  std::optional<typename Kind::Ambient> ambient_;
 };
 
 /// Islands of more than a few contacts go to the multithreaded solver, as large ones do by default.
-template <bool kIsAmbient>
 class MultithreadedHost final : public WorldHost {
   using Limit = btSequentialImpulseConstraintSolverMt;
 
  public:
-  MultithreadedHost()
+  explicit MultithreadedHost(bool is_ambient)
       : default_limit_(std::exchange(Limit::s_minimumContactManifoldsForBatching, 3)) {
-    if (kIsAmbient) world_.addAction(&action_);
+    if (is_ambient) fluid_.emplace(world_);
   }
-  ~MultithreadedHost() override { Limit::s_minimumContactManifoldsForBatching = default_limit_; }
+  ~MultithreadedHost() override {
+    fluid_.reset();
+    Limit::s_minimumContactManifoldsForBatching = default_limit_;
+  }
   btDiscreteDynamicsWorld& world() override { return world_; }
 
  private:
-  template <class Base>
-  using Solver = std::conditional_t<kIsAmbient, AmbientSolver<Base>, Base>;
-
-  template <class Base>
-  std::unique_ptr<Solver<Base>> make() {
-    if constexpr (kIsAmbient) {
-      return std::make_unique<Solver<Base>>(registry);
-    } else {
-      return std::make_unique<Base>();
-    }
-  }
-  struct Pair {
-    btConstraintSolver* solvers[2];
-  };
-
   int default_limit_;
-  // The pool deletes its solvers.
-  Pair pair_{{make<btSequentialImpulseConstraintSolver>().release(),
-              make<btSequentialImpulseConstraintSolver>().release()}};
-  btConstraintSolverPoolMt pool_{pair_.solvers, 2};
-  std::unique_ptr<btConstraintSolver> large_{make<btSequentialImpulseConstraintSolverMt>()};
-  btDiscreteDynamicsWorldMt world_{&dispatcher_, &broadphase_, &pool_, large_.get(),
-                                   &configuration_};
+  btConstraintSolverPoolMt pool_{2};
+  btSequentialImpulseConstraintSolverMt large_;
+  btDiscreteDynamicsWorldMt world_{&dispatcher_, &broadphase_, &pool_, &large_, &configuration_};
 };
 
 template <class Kind, class World>
@@ -80,14 +76,13 @@ std::unique_ptr<WorldHost> make(bool is_ambient) {
 }
 
 std::unique_ptr<WorldHost> makeMultithreaded(bool is_ambient) {
-  if (is_ambient) return std::make_unique<MultithreadedHost<true>>();
-  return std::make_unique<MultithreadedHost<false>>();
+  return std::make_unique<MultithreadedHost>(is_ambient);
 }
 
 }  // namespace
 
-// Bullet's btMultiBodyConstraintSolver reads uninitialised members where no
-// btMultiBodyDynamicsWorld calls it.
+// Leaves out btMultiBodyConstraintSolver except in a btMultiBodyDynamicsWorld: elsewhere the solver
+// reads uninitialised members.
 const std::vector<WorldSetup>& allWorlds() {
   using Discrete = btDiscreteDynamicsWorld;
   using Soft = btSoftRigidDynamicsWorld;

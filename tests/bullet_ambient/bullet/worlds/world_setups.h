@@ -8,15 +8,16 @@
 
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/ambient_action.h"
+#include "bullet_ambient/bullet/world/fluid.h"
 
 namespace ambient::test {
 
-/// A world as a program sets it up: with Bullet's own solver, or with an ambient solver and action.
+/// World set up like a user's program: with Bullet's solver, or with ambient solver and action.
 class WorldHost {
  public:
   WorldHost() = default;
@@ -25,7 +26,7 @@ class WorldHost {
   virtual ~WorldHost() = default;
 
   virtual btDiscreteDynamicsWorld& world() = 0;
-  /// Null if the world does not take such bodies.
+  /// Returns null if the world does not support soft bodies.
   btSoftRigidDynamicsWorld* softWorld() {
     return dynamic_cast<btSoftRigidDynamicsWorld*>(&world());
   }
@@ -37,19 +38,20 @@ class WorldHost {
     for (int i = 0; i < count; ++i) world().stepSimulation(dt, 0, dt);
   }
 
-  AmbientRegistry registry;  ///< without bodies where the solver is Bullet's own
+  /// @pre the host is ambient
+  Fluid& fluid() { return *fluid_; }
 
  protected:
   btSoftBodyRigidBodyCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
-  // Not btDbvtBroadphase: when it drops pairs that are apart again depends on how everything else
-  // moves, and Bullet merges islands by pairs.
+  // Not btDbvtBroadphase: its time of dropping separated pairs depends on the motion of all bodies,
+  // and Bullet merges islands by pairs.
   btSimpleBroadphase broadphase_;
-  AmbientAction action_{registry};
+  std::optional<Fluid> fluid_;  // of the world of a derived class, which resets it first
 };
 
-/// A world and a solver that a program may combine. All are made in one source, because each is a
-/// template of its own.
+/// A supported combination of world and solver. One source makes all of them, because each one is a
+/// template.
 struct WorldSetup {
   const char* name;
   std::unique_ptr<WorldHost> (*make)(bool is_ambient);
@@ -60,11 +62,11 @@ const std::vector<WorldSetup>& allWorlds();
 inline std::string nameOf(const testing::TestParamInfo<WorldSetup>& test) {
   return test.param.name;
 }
-/// Whether the solver's name is part of that of the setup.
+/// Tells if the setup's name contains the solver's name.
 inline bool usesSolver(const WorldSetup& setup, const char* solver) {
   return std::strstr(setup.name, solver) != nullptr;
 }
-/// @pre there is one of that name.
+/// @pre a setup has this name
 const WorldSetup& worldNamed(const std::string& name);
 
 }  // namespace ambient::test

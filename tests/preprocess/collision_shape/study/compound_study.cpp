@@ -1,4 +1,4 @@
-// How exactly compounds are united, over random ones and against other ways to make the same
+// Accuracy of united compounds: random ones, and comparison with other constructions of equal
 // bodies: compound_study
 #include <btBulletCollisionCommon.h>
 
@@ -9,9 +9,9 @@
 #include <exception>
 #include <vector>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/pi.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "tests/preprocess/collision_shape/study/random_shapes.h"
 
@@ -27,7 +27,7 @@ CollisionShapeSettings unitedOnly() {
   return settings;
 }
 
-/// A convex polyhedron as the half spaces n . x <= d of its triangles.
+/// A convex polyhedron: the intersection of half spaces n . x <= d of its triangles.
 struct ConvexChild {
   std::vector<Vector3> normals;
   std::vector<double> distances;
@@ -58,7 +58,7 @@ std::vector<ConvexChild> childrenOf(const btCompoundShape& compound) {
   return children;
 }
 
-/// Of the union of convex children, on a lattice of cells.
+/// Volume of the union of convex children, by cells of a lattice.
 double latticeVolume(const btCompoundShape& compound) {
   constexpr int kCells = 60;
   const std::vector<ConvexChild> children = childrenOf(compound);
@@ -81,7 +81,7 @@ double latticeVolume(const btCompoundShape& compound) {
 void studyRandomCompounds() {
   constexpr unsigned kCompounds = 300;
   CollisionShapeSettings settings = unitedOnly();
-  settings.quality = Quality::kInstant;  // the same union, without the flow
+  settings.quality = Quality::kInstant;  // kInstant: union without flow
   int united = 0;
   double largest = 0;
   for (unsigned seed = 0; seed < kCompounds; ++seed) {
@@ -136,7 +136,7 @@ void studyKnownUnions() {
   compare("two cubes side by side", side_by_side, btBoxShape(btVector3(1, 0.5, 0.5)));
   compare("two cubes that overlap by half", overlapping, btBoxShape(btVector3(0.75, 0.5, 0.5)));
   compare("cylinder with a ball at each end", capsule, btCapsuleShapeX(0.5, 1));
-  // Dipoles of the images have strengths of 1, -1/8, 1/27, ...: their sum is eta(3).
+  // Image dipoles have strengths of 1, -1/8, 1/27, ...: their sum is eta(3).
   constexpr double kEta3 = 0.9015426773696957;
   const double images = 4 * kPi / 3 * (3 * kEta3 - 2);
   const double along = makeFluidBody(pair, unitedOnly()).added_mass(3, 3);

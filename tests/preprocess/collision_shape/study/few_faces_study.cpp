@@ -1,4 +1,4 @@
-// How few faces carry the loads by the form law within 1 %, and how long they take to find:
+// Number of faces for loads within 1 % by the form law, and time of the search:
 // few_faces_study
 #include <btBulletCollisionCommon.h>
 
@@ -10,7 +10,8 @@
 #include <optional>
 #include <random>
 
-#include "bullet_ambient/bullet/conversions.h"
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 #include "preprocess/reduced_loads/form_levels.h"
@@ -36,13 +37,13 @@ std::unique_ptr<btConvexHullShape> hull(int points, double margin) {
 void study(const char* name, const btCollisionShape& shape) {
   CollisionShapeSettings settings;
   settings.load_error = 0;
-  settings.flow.max_panels = 0;  // faces do not depend on the flow
+  settings.flow.max_panels = 0;  // faces are independent of the flow
   settings.report = nullptr;
   const FluidBody body = makeFluidBody(shape, settings);
   const auto start = std::chrono::steady_clock::now();
   const std::optional<FormLevel> level = smallestFormLevel(body, kLoadError);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  const std::size_t all = formLawFaces(body).size();
+  const std::size_t all = formLawFaces(body, {}).size();
   if (level) {
     std::printf("| %s | %zu | %zu | %zu | %.2f | %.0f |\n", name, body.faces.size(), all,
                 level->faces.size(), 100 * level->p99_error, time.count());

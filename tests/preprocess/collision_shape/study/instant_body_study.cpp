@@ -1,4 +1,4 @@
-// What Quality::kInstant costs and how far it is off, over 200 random shapes: instant_body_study
+// Cost and error of Quality::kInstant over 200 random shapes: instant_body_study
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,16 +17,16 @@ double errorOf(const Matrix3& block, const Matrix3& reference) {
   return (block - reference).cwiseAbs().maxCoeff() / reference.cwiseAbs().maxCoeff();
 }
 
-/// Of one kind of shapes.
+/// Times and errors for one kind of shapes.
 struct Results {
   std::vector<double> milliseconds, translation, rotation;
 
   void add(const btCollisionShape& shape) {
     CollisionShapeSettings settings;
     settings.report = nullptr;
-    settings.load_error = 0;  // of faces, not of the added mass
+    settings.load_error = 0;  // measures added mass, not faces
     settings.faces = kInstantFaces;
-    // Some per cent off, where the guess is tens. Prisms have fewer triangles and are divided.
+    // Error of some per cent, against tens for the guess. Prisms have fewer triangles: divided.
     settings.flow.max_panels = kInstantFaces;
     const FluidBody solved = makeFluidBody(shape, settings);
     settings.quality = Quality::kInstant;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "bullet_ambient/bullet/conversions.h"
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 
 namespace ambient {
 

@@ -11,19 +11,19 @@
 
 namespace ambient {
 
-/// Random shapes of one seed, which it owns; lengths about 1 m.
+/// Owner of random shapes from one seed; lengths about 1 m.
 class RandomShapes {
  public:
   explicit RandomShapes(unsigned seed) : random_(seed) {}
 
-  /// Of 6 to 30 points in a box, without margin.
+  /// Convex hull of 6 to 30 points in a box, without margin.
   btConvexHullShape& hull();
   /// Two to five balls, cylinders, capsules and boxes, turned about z, in a cube of 1.6.
   const btCompoundShape& compound();
-  /// Two to five of these and of hulls; `on_grid`: places and half sizes are multiples of 1/4, and
-  /// turns of 90 degrees, so that sides meet.
+  /// Compound like compound(), including hulls. `on_grid`: places and half sizes are multiples of
+  /// 1/4, and turns of 90 degrees, so that sides meet.
   const btCompoundShape& mixedCompound(bool on_grid);
-  /// A prism over a star, as a mesh: not convex.
+  /// Prism over a star as a mesh: not convex.
   const btCollisionShape& prism();
 
  private:

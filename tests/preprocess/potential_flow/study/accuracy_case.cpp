@@ -5,8 +5,8 @@
 #include <ctime>
 
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/potential_flow/flat_merging.h"
-#include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/potential_flow/surface/flat_merging.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 
 namespace ambient::study {
 namespace {
@@ -15,8 +15,8 @@ double largestOf(const Matrix6& K, int row, int column) {
   return K.block<3, 3>(row, column).cwiseAbs().maxCoeff();
 }
 
-/// Largest entry of the rotation block; a sphere's is zero: the inertia of a solid sphere of the
-/// fluid instead.
+/// Largest entry of the rotation block. Spheres have 0 there: inertia of a solid sphere of fluid
+/// instead.
 double rotationScale(const Matrix6& exact) {
   const double largest = largestOf(exact, 0, 0);
   if (largest > 0) return largest;

@@ -9,15 +9,15 @@
 
 namespace ambient::study {
 
-/// Added mass per unit density about the mesh's origin, to compare with.
+/// Reference of added mass per unit density, about the mesh's origin.
 struct Reference {
   Matrix6 added_mass = Matrix6::Zero();
-  /// How far the extrapolation went from the finest mesh, over the largest entry of the block, the
-  /// larger of rotation and translation; 0: closed form or published value.
+  /// Distance from the finest mesh to the extrapolated value over the largest entry of the block;
+  /// the larger one of rotation and translation. 0: closed form or published value.
   double correction = 0;
 };
 
-/// Which entries vanish by the symmetry of the body, not of its mesh.
+/// Entries that vanish by symmetry of the body, though not of its mesh.
 enum class Symmetry {
   kThreeMirrors,  ///< all off the diagonal
   kTwoMirrors,    ///< x -> -x, y -> -y: all but the diagonal, (w_x, v_y) and (w_y, v_x)
@@ -25,7 +25,7 @@ enum class Symmetry {
   kFlatSheet      ///< all but w_x, w_y, v_z
 };
 
-/// What the accuracy is wanted to be.
+/// Class of shape, with a required accuracy.
 enum class Target { kSmooth, kSharp, kSheet };
 double wantedError(Target target);
 
@@ -34,24 +34,24 @@ struct AccuracyCase {
   std::string shape;
   Target target = Target::kSmooth;
   Symmetry symmetry = Symmetry::kThreeMirrors;
-  TriangleMesh mesh;  ///< the user's
+  TriangleMesh mesh;  ///< user's mesh
   std::function<Reference()> reference;
 
   bool sheet() const { return target == Target::kSheet; }
 };
 
-/// Errors over the largest entry of the block, in rotation of a sphere over the inertia of a solid
-/// sphere of the fluid; of the coupling over the root of the product of the
-/// two largest entries of rotation and translation.
+/// Errors over the largest entry of the block. Rotation of a sphere: over the inertia of a solid
+/// sphere of fluid. Coupling: over the geometric mean of the largest entries of rotation and
+/// translation.
 struct AccuracyRow {
   Eigen::Index panels = 0;
   double rotation = 0, translation = 0, coupling = 0;
-  double should_be_zero = 0;     ///< largest entry that vanishes by symmetry, over the same
-  double processor_seconds = 0;  ///< of one build, all threads together
+  double should_be_zero = 0;     ///< largest entry that vanishes by symmetry, same scale
+  double processor_seconds = 0;  ///< one build, sum of all threads
 };
 
-/// The added mass about the mesh's origin as makeFluidBody() computes it; with 0 panels, every
-/// triangle is one, by the dense solver.
+/// Added mass about the mesh's origin by makeFluidBody(). 0 panels: the dense solver with a panel
+/// for each triangle.
 Matrix6 builtAddedMass(const TriangleMesh& mesh, bool sheet, int max_panels, int threads = 0);
 
 /// Builds the case at default settings.
@@ -60,8 +60,8 @@ AccuracyRow measureAccuracy(const AccuracyCase& one, const Reference& reference)
 /// Errors of rotation, translation and coupling alone.
 AccuracyRow compareAddedMass(const Matrix6& K, const Reference& reference, Symmetry symmetry);
 
-/// Limit of two meshes whose triangles are panels, for an error of that order in the size of the
-/// panels.
+/// Limit of two meshes with triangles as panels, for an error of order `order` in the panel
+/// size.
 Reference extrapolate(const TriangleMesh& coarse, const TriangleMesh& fine, bool sheet,
                       double order);
 

@@ -3,23 +3,23 @@
 #include <cmath>
 #include <utility>
 
-#include "bullet_ambient/spatial/pi.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/surface_refinement.h"
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "tests/preprocess/potential_flow/study/known_added_mass.h"
 #include "tests/preprocess/potential_flow/study/study_meshes.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/reference/sheet_added_mass.h"
-#include "tests/support/graded_meshes.h"
+#include "tests/support/bodies/graded_meshes.h"
 
 namespace ambient::study {
 namespace {
 
-// Orders of the error in the size of the panels: curved bodies are polyhedra first of all, solids
-// of flat sides have graded edges.
+// Orders of the error in the panel size. Curved bodies: polyhedra dominate the error; solids of
+// flat sides: graded edges.
 constexpr double kCurvedOrder = 2, kFlatOrder = 2.6;
-// Triangles of the two meshes that references are extrapolated from.
+// Triangles of the two meshes behind extrapolated references.
 constexpr int kCoarseReference = 1800, kFineReference = 4800;
 
 template <class Geometry>
@@ -50,7 +50,7 @@ std::function<Reference()> extrapolated(const Make& make, double order) {
 }
 
 AccuracyCase ellipsoid(const std::string& name, const Vector3& semi_axes, int faces) {
-  return {name, Target::kSmooth, Symmetry::kThreeMirrors, meshOf(EllipsoidShape{semi_axes}, faces),
+  return {name, Target::kSmooth, Symmetry::kThreeMirrors, meshOf(Ellipsoid{semi_axes}, faces),
           known(reference::ellipsoidAddedMass(semi_axes).asDiagonal())};
 }
 
@@ -70,18 +70,18 @@ void addSmoothBodies(std::vector<AccuracyCase>& cases) {
   for (const int faces : {1300, 3000}) {
     const TriangleMesh mesh = test::twisted(makeEllipsoidMesh({1.2, 0.6, 1}, faces), 1);
     cases.push_back({"twisted ellipsoid", Target::kSmooth, Symmetry::kThreeTurns,
-                     withVolume(mesh, twisted_volume),
+                     scaledToVolume(mesh, twisted_volume),
                      known(matrixOf(reference::TwistedEllipsoidAddedMass()))});
   }
   for (const int along : {26, 36}) {
     test::TorusShape torus;
     torus.along = torus.around = along;
     cases.push_back({"torus 2 : 1", Target::kSmooth, Symmetry::kThreeMirrors,
-                     withVolume(test::makeTorus(torus), 4 * kPi * kPi),
+                     scaledToVolume(test::makeTorus(torus), 4 * kPi * kPi),
                      known(matrixOf(reference::torusAddedMass()))});
   }
   cases.push_back({"capsule, height 2", Target::kSmooth, Symmetry::kThreeMirrors,
-                   meshOf(CapsuleShape{1, 2}), known(matrixOf(reference::capsuleAddedMass()))});
+                   meshOf(Capsule{1, 2}), known(matrixOf(reference::capsuleAddedMass()))});
 }
 
 void addRoundSharpBodies(std::vector<AccuracyCase>& cases) {
@@ -90,7 +90,7 @@ void addRoundSharpBodies(std::vector<AccuracyCase>& cases) {
     cases.push_back({name, Target::kSharp, symmetry, std::move(mesh), std::move(reference)});
   };
   const auto cylinder = [](double height) {
-    return [height](int faces) { return meshOf(CylinderShape{1, height}, faces); };
+    return [height](int faces) { return meshOf(Cylinder{1, height}, faces); };
   };
   constexpr Symmetry kThree = Symmetry::kThreeMirrors, kTwo = Symmetry::kTwoMirrors;
   const auto& default_faces = ShapeDescription::kDefaultFaces;
@@ -103,17 +103,17 @@ void addRoundSharpBodies(std::vector<AccuracyCase>& cases) {
   add("cylinder, L/D 10", kThree, cylinder(20)(default_faces),
       extrapolated(cylinder(20), kCurvedOrder));
   for (const double height : {0.5, 1.0, 4.0}) {
-    const auto cone = [height](int faces) { return meshOf(ConeShape{1, height}, faces); };
+    const auto cone = [height](int faces) { return meshOf(Cone{1, height}, faces); };
     add("cone, height over radius " + std::to_string(height).substr(0, 3), kTwo,
         cone(default_faces), extrapolated(cone, kCurvedOrder));
   }
   const double half_ball = 2 * kPi / 3;
-  add("hemisphere", kTwo, withVolume(test::gradedHemisphere(10), half_ball),
+  add("hemisphere", kTwo, scaledToVolume(test::gradedHemisphere(10), half_ball),
       known(matrixOf(reference::hemisphereAddedMass())));
   for (const int percent : {20, 10, 5}) {
     const double thickness = percent / 100.0;
     const auto bowl = [thickness](int rings, int rows, bool graded) {
-      return withVolume(makeBowl({thickness, rings, rows, graded}), bowlVolume(thickness));
+      return scaledToVolume(makeBowl({thickness, rings, rows, graded}), bowlVolume(thickness));
     };
     add("bowl, thickness " + std::to_string(percent) + " %", kTwo, bowl(10, 1, false),
         [bowl] { return extrapolate(bowl(14, 4, true), bowl(20, 5, true), false, kCurvedOrder); });
@@ -126,7 +126,7 @@ void addFlatSidedBodies(std::vector<AccuracyCase>& cases) {
     cases.push_back({name, Target::kSharp, Symmetry::kThreeMirrors, mesh, std::move(reference)});
   };
   add("cube", makeBoxMesh({1, 1, 1}, 12), known(cubeAddedMass()));
-  add("cube", meshOf(BoxShape{{1, 1, 1}}), known(cubeAddedMass()));
+  add("cube", meshOf(Box{{1, 1, 1}}), known(cubeAddedMass()));
   add("cube, equal triangles", divideTriangles(makeBoxMesh({1, 1, 1}, 12), 3072),
       known(cubeAddedMass()));
   const auto addBox = [&](const std::string& name, const Eigen::Vector3d& half_sizes) {
@@ -158,12 +158,11 @@ void addSheets(std::vector<AccuracyCase>& cases) {
                        const reference::SheetAddedMass& exact) {
     cases.push_back({name, Target::kSheet, Symmetry::kFlatSheet, mesh, known(exact)});
   };
-  add("disc", meshOf(EllipticSheetShape{{1, 1}}), reference::diskAddedMass(1));
-  add("elliptic disc 2 : 1", meshOf(EllipticSheetShape{{2, 1}}),
-      reference::ellipticDisk21AddedMass());
+  add("disc", meshOf(EllipseSheet{{1, 1}}), reference::diskAddedMass(1));
+  add("elliptic disc 2 : 1", meshOf(EllipseSheet{{2, 1}}), reference::ellipticDisk21AddedMass());
   for (const int length : {1, 2, 4})
     add("rectangular sheet " + std::to_string(length) + " : 1",
-        meshOf(RectangularSheetShape{{static_cast<double>(length), 1.0}}),
+        meshOf(RectangleSheet{{static_cast<double>(length), 1.0}}),
         reference::rectangleAddedMass(length));
 }
 

@@ -6,7 +6,7 @@
 
 namespace ambient::study {
 
-/// Every shape of the table, as a user would hand it in.
+/// Every shape of the table, with a user's mesh.
 std::vector<AccuracyCase> accuracyCases();
 
 }  // namespace ambient::study

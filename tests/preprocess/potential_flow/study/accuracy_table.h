@@ -6,7 +6,7 @@
 
 namespace ambient::study {
 
-/// Markdown: one line per case whose name holds `filter`, printed as it is measured.
+/// Markdown: a line per case with `filter` in its name, printed immediately.
 std::string accuracyTable(const std::string& filter);
 
 }  // namespace ambient::study

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "tests/preprocess/potential_flow/study/accuracy_case.h"
 #include "tests/preprocess/potential_flow/study/known_added_mass.h"
 #include "tests/preprocess/potential_flow/study/study_meshes.h"
@@ -15,7 +15,7 @@
 namespace ambient::study {
 namespace {
 
-/// Meshes of one body, every triangle a panel, from coarse to fine.
+/// Meshes of one body from coarse to fine; each triangle is a panel.
 struct Sequence {
   std::string name;
   bool sheet;
@@ -28,7 +28,7 @@ Sequence smoothBody() {
   Sequence sequence{"spheroid 2 : 1", false, {}, reference::ellipsoidAddedMass(semi_axes)};
   const double volume = 8 * std::acos(-1.0) / 3;
   for (const int n : {4, 6, 9, 13})
-    sequence.meshes.push_back(withVolume(makeEllipsoidMesh(semi_axes, 20 * n * n), volume));
+    sequence.meshes.push_back(scaledToVolume(makeEllipsoidMesh(semi_axes, 20 * n * n), volume));
   return sequence;
 }
 

@@ -4,8 +4,8 @@
 
 namespace ambient::study {
 
-/// Markdown: errors on four meshes each of a smooth body, a cube and a sheet, and the order of the
-/// error in the size of the panels from one to the next.
+/// Markdown: errors on four meshes each of a smooth body, a cube and a sheet. Columns of order:
+/// error against panel size from mesh to mesh.
 std::string convergenceTable();
 
 }  // namespace ambient::study

@@ -6,17 +6,17 @@
 #include <functional>
 #include <vector>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/primitives.h"
-#include "preprocess/potential_flow/surface_refinement.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
 #include "preprocess/shape/shape_mesh.h"
 #include "tests/preprocess/potential_flow/study/accuracy_case.h"
 #include "tests/preprocess/potential_flow/study/known_added_mass.h"
 #include "tests/preprocess/potential_flow/study/study_meshes.h"
 #include "tests/preprocess/potential_flow/study/timed_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"
-#include "tests/support/graded_meshes.h"
+#include "tests/support/bodies/graded_meshes.h"
 
 namespace ambient::study {
 namespace {
@@ -24,7 +24,7 @@ namespace {
 constexpr int kTakes = 2;
 constexpr int kFewPanels = 1000;
 
-/// A body with a known added mass, and how to mesh it with about so many faces.
+/// A body with a known added mass, and its mesher by approximate number of faces.
 struct Body {
   std::string name;
   Matrix6 exact;
@@ -34,7 +34,8 @@ struct Body {
 Body spheroid(const std::string& name, double height) {
   const Vector3 semi_axes(1, 1, height);
   return {name, reference::ellipsoidAddedMass(semi_axes).asDiagonal(), [semi_axes](int faces) {
-            return withVolume(makeEllipsoidMesh(semi_axes, faces), 4 * kPi / 3 * semi_axes.prod());
+            return scaledToVolume(makeEllipsoidMesh(semi_axes, faces),
+                                  4 * kPi / 3 * semi_axes.prod());
           }};
 }
 
@@ -42,22 +43,22 @@ Body torus() {
   return {"torus 2 : 1", matrixOf(reference::torusAddedMass()), [](int faces) {
             test::TorusShape shape;
             shape.along = shape.around = static_cast<int>(std::sqrt(faces / 2.0));
-            return withVolume(test::makeTorus(shape), 4 * kPi * kPi);
+            return scaledToVolume(test::makeTorus(shape), 4 * kPi * kPi);
           }};
 }
 
 Body twistedEllipsoid() {
   const double volume = 4 * kPi / 3 * 1.2 * 0.6;
-  return {"twisted ellipsoid", matrixOf(reference::TwistedEllipsoidAddedMass()),
-          [volume](int faces) {
-            return withVolume(test::twisted(makeEllipsoidMesh({1.2, 0.6, 1}, faces), 1), volume);
-          }};
+  return {
+      "twisted ellipsoid", matrixOf(reference::TwistedEllipsoidAddedMass()), [volume](int faces) {
+        return scaledToVolume(test::twisted(makeEllipsoidMesh({1.2, 0.6, 1}, faces), 1), volume);
+      }};
 }
 
 Body cylinder() {
   return {"cylinder, L/D 1", matrixOf(reference::cylinderAddedMass()), [](int faces) {
             ShapeDescription shape;
-            shape.geometry = CylinderShape{1, 2};
+            shape.geometry = Cylinder{1, 2};
             shape.faces = faces;
             return makeShapeMesh(shape).mesh;
           }};
@@ -69,7 +70,7 @@ Body cube() {
           }};
 }
 
-/// The mesh as it is: every triangle a panel, nothing corrected.
+/// Added mass of the mesh without corrections: each triangle is a panel.
 Matrix6 plainAddedMass(const TriangleMesh& mesh) { return solvePotentialFlow(mesh).added_mass; }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace ambient::study {
 
-// Matrices of what tests/reference knows, about the origin, rotation first.
+// Matrices from tests/reference, about the origin, rotation first.
 
 inline Matrix6 matrixOf(const reference::RevolutionAddedMass& exact) {
   Vector6 diagonal;

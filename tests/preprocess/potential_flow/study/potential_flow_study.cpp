@@ -10,7 +10,8 @@
 #include "tests/preprocess/potential_flow/study/accuracy_table.h"
 #include "tests/preprocess/potential_flow/study/convergence_table.h"
 #include "tests/preprocess/potential_flow/study/cost_curve.h"
-#include "tests/preprocess/potential_flow/study/point_source_race.h"
+#include "tests/preprocess/potential_flow/study/point_sources/point_source_race.h"
+#include "tests/support/parse_or_exit.h"
 
 namespace {
 
@@ -25,14 +26,16 @@ void write(const std::string& name, const std::string& text) {
 int main(int argc, char** argv) {
   std::vector<std::string> tables{"accuracy", "convergence", "race"};
   std::string shape, out, curve, script = AMBIENT_POINT_SOURCES;
-  CLI::App app{"Accuracy, order of convergence and speed of the added mass, as Markdown tables."};
-  app.add_option("--table", tables, "accuracy, convergence, race; all by default")
+  CLI::App app{"Accuracy, order of convergence and speed of the added mass, as Markdown tables.",
+               "potential_flow_study"};
+  app.add_option("--table", tables, "Which tables to make (default: all)")
       ->check(CLI::IsMember(std::set<std::string>{"accuracy", "convergence", "race"}));
-  app.add_option("--shape", shape, "only shapes whose name holds this, in the table of accuracy");
-  app.add_option("--point-sources", script, "the script to race against");
-  app.add_option("--out", out, "file for the tables");
-  app.add_option("--curve", curve, "instead of tables: file for error over run time, as CSV");
-  CLI11_PARSE(app, argc, argv);
+  app.add_option("--shape", shape, "Only shapes whose name holds this, in the table of accuracy");
+  app.add_option("--point-sources", script, "The script to race against");
+  app.add_option("--out", out, "Write the tables to this file");
+  app.add_option("--curve", curve,
+                 "Write the error over the run time to this CSV file, and no tables");
+  if (const auto exit_code = ambient::parseOrExit(app, argc, argv)) return *exit_code;
   try {
     if (!curve.empty()) {
       write(curve, ambient::study::costCurve(script));
@@ -47,7 +50,7 @@ int main(int argc, char** argv) {
     if (!out.empty()) write(out, text);
     return 0;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "potential_flow_study: %s\n", error.what());
     return 1;
   }
 }

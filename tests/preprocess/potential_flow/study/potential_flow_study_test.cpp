@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "preprocess/mesh/mesh_checks.h"
-#include "preprocess/mesh/primitives.h"
+#include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/study/accuracy_case.h"
 #include "tests/preprocess/potential_flow/study/study_meshes.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"
-#include "tests/support/graded_meshes.h"
+#include "tests/support/bodies/graded_meshes.h"
 
 namespace ambient::study {
 namespace {
@@ -17,13 +17,13 @@ namespace {
 TEST(PotentialFlowStudy, MeasuresASpheroidOfFewTrianglesWithinItsTarget) {
   const Vector3 semi_axes(1, 1, 2);
   AccuracyCase spheroid;
-  spheroid.mesh = withVolume(makeEllipsoidMesh(semi_axes, 320), 8 * std::acos(-1.0) / 3);
+  spheroid.mesh = scaledToVolume(makeEllipsoidMesh(semi_axes, 320), 8 * std::acos(-1.0) / 3);
   const Reference exact{reference::ellipsoidAddedMass(semi_axes).asDiagonal(), 0};
   const Matrix6 K = builtAddedMass(spheroid.mesh, false, 0, 1);
   const AccuracyRow row = compareAddedMass(K, exact, spheroid.symmetry);
   EXPECT_LT(row.translation, 5e-3);
   EXPECT_LT(row.rotation, 0.02);
-  EXPECT_LT(row.should_be_zero, 1e-6);  // measured 4e-8: near pairs are not integrated exactly
+  EXPECT_LT(row.should_be_zero, 1e-6);  // measured 4e-8: error of near pairs' quadrature
 }
 
 TEST(PotentialFlowStudy, ComparesEntryByEntry) {

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/spatial/pi.h"
+#include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/graded_grid.h"
-#include "preprocess/mesh/primitives.h"
-#include "tests/support/graded_meshes.h"
+#include "preprocess/mesh/shapes/primitives.h"
+#include "tests/support/bodies/graded_meshes.h"
 
 namespace ambient::study {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// The triangles around a vertex of the icosahedron, counter-clockwise from outside.
+/// Triangles around a vertex of the icosahedron, counter-clockwise from outside.
 std::vector<int> trianglesAround(const TriangleMesh& mesh, Eigen::Index v) {
   const Vector3d axis = mesh.vertices.col(v).normalized();
   const Vector3d first = axis.unitOrthogonal(), second = axis.cross(first);
@@ -34,7 +34,7 @@ std::vector<int> trianglesAround(const TriangleMesh& mesh, Eigen::Index v) {
   return triangles;
 }
 
-/// Corners are the barycentres of the icosahedron's triangles.
+/// Corners of the dodecahedron: barycentres of the icosahedron's triangles.
 std::vector<Vector3d> dodecahedronCorners(const TriangleMesh& icosahedron) {
   std::vector<Vector3d> corners;
   for (Eigen::Index t = 0; t < icosahedron.triangleCount(); ++t) {
@@ -45,7 +45,7 @@ std::vector<Vector3d> dodecahedronCorners(const TriangleMesh& icosahedron) {
   return corners;
 }
 
-/// Weights of the three corners of a coarse triangle, by vertex; names what neighbours share.
+/// Weights of a coarse triangle's three corners, by vertex; a name for shared vertices.
 using WeightName = std::array<std::pair<int, int>, 3>;
 
 WeightName nameOf(const Vector3i& corners, const Vector3i& weights) {
@@ -55,7 +55,7 @@ WeightName nameOf(const Vector3i& corners, const Vector3i& weights) {
   return name;
 }
 
-/// Vertices of a bowl by (ring, step around, surface); the rim's rows lie between the surfaces.
+/// Vertex of a bowl: (ring, step around, surface); rows of the rim lie between the surfaces.
 struct BowlVertex {
   int ring, step, surface;
   bool operator<(const BowlVertex& other) const {
@@ -140,8 +140,8 @@ TriangleMesh makeBowl(const BowlMesh& bowl) {
   std::map<BowlVertex, int> numbers;
   std::vector<Vector3d> vertices;
   std::vector<Vector3i> triangles;
-  // Surfaces 0 (outer) to rim_rows (inner) are rings at the rim; only the outer and inner ones are
-  // domes.
+  // Rings at the rim: surfaces 0 (outer) to rim_rows (inner). Only the outer and inner ones
+  // continue as domes.
   const auto radiusOf = [&](int surface) {
     const double t = static_cast<double>(surface) / bowl.rim_rows;
     return 1 - bowl.thickness * (bowl.graded ? (1 - std::cos(kPi * t)) / 2 : t);
@@ -160,7 +160,7 @@ TriangleMesh makeBowl(const BowlMesh& bowl) {
     }
     return entry->second;
   };
-  // Counter-clockwise seen from above, that is from inside the bowl.
+  // Counter-clockwise seen from above, which is from inside the bowl.
   const auto add = [&](int a, int b, int c, bool from_above) {
     triangles.emplace_back(a, from_above ? b : c, from_above ? c : b);
   };
@@ -188,7 +188,7 @@ TriangleMesh makeBowl(const BowlMesh& bowl) {
 
 double bowlVolume(double thickness) { return 2 * kPi / 3 * (1 - std::pow(1 - thickness, 3)); }
 
-TriangleMesh withVolume(TriangleMesh mesh, double volume) {
+TriangleMesh scaledToVolume(TriangleMesh mesh, double volume) {
   mesh.vertices *= std::cbrt(volume / test::volumeOf(mesh));
   return mesh;
 }

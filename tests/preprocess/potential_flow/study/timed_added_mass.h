@@ -11,14 +11,14 @@
 
 namespace ambient::study {
 
-/// An added mass and the least times of several takes.
+/// An added mass, and minimum times of several takes.
 struct TimedAddedMass {
   Matrix6 added_mass = Matrix6::Zero();
-  double processor_seconds = std::numeric_limits<double>::infinity();  ///< of all threads together
+  double processor_seconds = std::numeric_limits<double>::infinity();  ///< sum of all threads
   double wall_seconds = std::numeric_limits<double>::infinity();
 };
 
-/// Of solve(), which returns the added mass.
+/// Times solve(), which returns the added mass.
 template <typename Solve>
 TimedAddedMass takeTime(int takes, const Solve& solve) {
   TimedAddedMass best;
@@ -33,7 +33,7 @@ TimedAddedMass takeTime(int takes, const Solve& solve) {
   return best;
 }
 
-/// By point sources in numpy: what the script prints for the mesh.
+/// Runs point sources in numpy; returns numbers printed by the script for the mesh.
 /// @throws std::runtime_error if the script fails.
 TimedAddedMass runPointSources(const std::string& script, bool exact_flux, int takes,
                                const TriangleMesh& mesh);

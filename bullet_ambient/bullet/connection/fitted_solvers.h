@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+
+class btConstraintSolver;
+class btDiscreteDynamicsWorld;
+
+AMBIENT_BEGIN
+
+class AmbientBodies;
+
+/// How the owner of a world deletes its solver.
+enum class SolverOwner {
+  kKeepsPointer,  ///< by a pointer of its own
+  /// By the pointer that it finds in the world, like PyBullet where another type of solver is asked
+  /// for. If that is the fluid's, nobody else knows the one that it stands for: the fluid deletes
+  /// it.
+  kAsksWorld,
+};
+
+/// The solvers of a fluid that take the place of a world's plain ones: one, or those of a pool and
+/// the one for large islands of a multithreaded world. They go on with the random numbers of the
+/// plain ones.
+class FittedSolvers {
+ public:
+  /// Makes them; the world stays as it is.
+  /// @throws std::invalid_argument, in one sentence that names makeSolver(), if the world has
+  /// another solver than Bullet's plain ones, or a pool of others.
+  FittedSolvers(btDiscreteDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
+                SolverOwner owner);
+  /// Deletes those that nobody else has deleted.
+  ~FittedSolvers();
+  FittedSolvers(const FittedSolvers&) = delete;
+  FittedSolvers& operator=(const FittedSolvers&) = delete;
+
+  /// Gives them to the world.
+  void install(btDiscreteDynamicsWorld& world);
+  /// Gives the world its own solvers back in place of these. Another solver that it has been given
+  /// meanwhile stays.
+  void giveBack(btDiscreteDynamicsWorld& world);
+  /// Whether the world solves with them. Compares an address and whether it is alive.
+  bool areIn(btDiscreteDynamicsWorld& world) const;
+
+ private:
+  struct DeleteIfAlive {
+    std::weak_ptr<const void> life;
+    void operator()(btConstraintSolver* solver) const;
+  };
+  using MadeSolver = std::unique_ptr<btConstraintSolver, DeleteIfAlive>;
+  template <class Made>
+  static MadeSolver hold(std::unique_ptr<Made> made);
+  static MadeSolver makeFor(btDiscreteDynamicsWorld& world,
+                            const std::shared_ptr<AmbientBodies>& members);
+
+  // Solvers for all islands, and for large ones in multithreaded worlds; those of before, which may
+  // have been deleted.
+  MadeSolver made_, made_large_;
+  btConstraintSolver* given_ = nullptr;
+  btConstraintSolver* given_large_ = nullptr;
+  bool owns_given_ = false;  // the world had made it itself
+  SolverOwner owner_;
+};
+
+AMBIENT_END

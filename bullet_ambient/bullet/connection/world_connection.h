@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+
+class btActionInterface;
+class btDiscreteDynamicsWorld;
+class btDynamicsWorld;
+class btMultiBodyDynamicsWorld;
+
+AMBIENT_BEGIN
+
+class AmbientBodies;
+class FittedSolvers;
+enum class SolverOwner;
+struct WorldLife;
+
+/// Gives a world the solvers that fit it and an action, and takes both back when it is destroyed.
+/// World, solvers and connection may be destroyed in any order: Bullet destroys its island manager
+/// with its world, so that one of a derived class tells when that is.
+class WorldConnection {
+ public:
+  /// @throws std::invalid_argument with one sentence that begins with "Fluid: "; the world is then
+  /// as it was.
+  WorldConnection(btDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
+                  btActionInterface& action, SolverOwner owner);
+  ~WorldConnection();
+  WorldConnection(const WorldConnection&) = delete;
+  WorldConnection& operator=(const WorldConnection&) = delete;
+
+  bool isWorldAlive() const;
+  /// Fits solvers to the one that the world has been given since, if it has.
+  /// @throws as the constructor; world() if the world was destroyed
+  void refit();
+
+  /// @throws std::logic_error, in one sentence that begins with `who`, if it was destroyed.
+  btDiscreteDynamicsWorld& world(const char* who) const;
+  /// @throws as world(); std::invalid_argument if it is of another type.
+  btMultiBodyDynamicsWorld& multiBodyWorld(const char* who) const;
+
+ private:
+  btDiscreteDynamicsWorld* world_;
+  btActionInterface& action_;
+  SolverOwner owner_;
+  std::shared_ptr<WorldLife> life_;
+  std::unique_ptr<FittedSolvers> solvers_;
+};
+
+AMBIENT_END

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <LinearMath/btMatrix3x3.h>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/motion/body/body_model.h"
+#include "bullet_ambient/motion/flight/axis_locks.h"
+
+AMBIENT_BEGIN
+
+/// T in body axes with T D T^T = K^-1, D = diag(I^-1, 1/m) being what Bullet holds; docs/theory.md
+/// eq. (26). From one Cholesky factor K = L L^T: T = L^-T diag(sqrt I, sqrt m), upper triangular.
+/// `inertia_diagonal`: principal moments I of the btRigidBody [kg m^2].
+Matrix6 makeVelocityBasis(const BodyModel& model, const Vector3& inertia_diagonal);
+
+/// T in world axes, in Bullet's precision: u = T u' with u = (w, v). The lower left block is zero.
+struct WorldBasis {
+  btMatrix3x3 angular = btMatrix3x3::getIdentity();    ///< w from w'
+  btMatrix3x3 coupling = {0, 0, 0, 0, 0, 0, 0, 0, 0};  ///< w from v'
+  btMatrix3x3 linear = btMatrix3x3::getIdentity();     ///< v from v'
+};
+WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& rotation_WB);
+/// Turns a diagonal basis into world axes.
+WorldBasis toWorld(const Vector6& basis_B, const Matrix3& rotation_WB);
+
+/// T in world axes for a body with locked axes: T D T^T = K_eff^-1 of docs/theory.md eq. (30). It
+/// is not constant in body axes, and singular: locked axes of u' do not move the body.
+WorldBasis makeLockedBasis(const BodyModel& model, const Matrix3& root_inertia_W,
+                           const Matrix3& rotation_WB, const AxisFactors& factors);
+
+/// sqrt(I) in world axes, for principal moments I [kg m^2].
+Matrix3 rootInertia(const Vector3& inertia_diagonal, const Matrix3& rotation_WB);
+
+AMBIENT_END

@@ -1,0 +1,192 @@
+#include "bullet_ambient/bullet/links/multibody_rows.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+
+#include "bullet_ambient/bullet/members/ambient_trees.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
+
+AMBIENT_BEGIN
+namespace {
+
+// One side of a row: a multibody, which is a tree in fluid or dry, an ambient body, or another
+// rigid body. Without either: nothing.
+struct MultiBodyParty {
+  btMultiBody* multibody = nullptr;
+  int jacobian = 0;  // where the multibody's Jacobian begins
+  int change = 0;    // and its change of velocity
+  AmbientTree* tree = nullptr;
+  RowBody* ambient = nullptr;
+  const btSolverBody* solver_body = nullptr;
+  RowSide side;
+
+  bool isInFluid() const { return tree || ambient; }
+};
+
+class RowSet {
+ public:
+  RowSet(const MultiBodyRows& rows, RowBodies& bodies,
+         const btAlignedObjectArray<btSolverBody>& solver_bodies)
+      : data_(rows.data), trees_(rows.trees), bodies_(bodies), solver_bodies_(solver_bodies) {}
+
+  // `time_step`: of the applied forces that the rows have seen; 0 if none.
+  void rewrite(btMultiBodyConstraintArray& rows, btScalar relaxation, btScalar time_step) {
+    for (int i = 0; i < rows.size(); ++i) {
+      btMultiBodySolverConstraint& row = rows[i];
+      const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
+      const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
+      const MultiBodyParty a = row.m_multiBodyA ? multibody(row.m_multiBodyA, row.m_jacAindex,
+                                                            row.m_deltaVelAindex, side_a)
+                                                : rigidBody(row.m_solverBodyIdA, side_a);
+      const MultiBodyParty b = row.m_multiBodyB ? multibody(row.m_multiBodyB, row.m_jacBindex,
+                                                            row.m_deltaVelBindex, side_b)
+                                                : rigidBody(row.m_solverBodyIdB, side_b);
+      if (!a.isInFluid() && !b.isInFluid()) continue;
+      rewriteRow(row, a, b, relaxation, time_step);
+      count(a.isInFluid() ? a : b);
+    }
+  }
+
+ private:
+  MultiBodyParty multibody(btMultiBody* body, int jacobian, int change, const RowSide& side) const {
+    AmbientTree* tree = trees_ ? trees_->find(body) : nullptr;
+    if (tree && !hasMet(*tree)) tree = nullptr;
+    return {body, jacobian, change, tree, nullptr, nullptr, side};
+  }
+
+  MultiBodyParty rigidBody(int id, const RowSide& side) {
+    if (id < 0) return {nullptr, 0, 0, nullptr, nullptr, nullptr, side};
+    return {nullptr, 0, 0, nullptr, bodies_.find(id), &solver_bodies_[id], side};
+  }
+
+  static void count(const MultiBodyParty& party) {
+    if (party.tree) {
+      ++party.tree->links.front()->ambient.counters.rows;
+    } else {
+      ++party.ambient->rows;
+    }
+  }
+
+  // H^-1 J^T in place of the response without fluid, of which warm starting has used `impulse`.
+  void respond(const MultiBodyParty& party, btScalar impulse) {
+    TreeStep& step = party.tree->step;
+    Coordinates &force = step.change, &response = step.spare;
+    const int size = static_cast<int>(force.size());
+    btScalar* stored = &data_.m_deltaVelocitiesUnitImpulse[party.jacobian];
+    for (int i = 0; i < size; ++i)
+      force[i] = static_cast<double>(data_.m_jacobians[party.jacobian + i]);
+    if (step.outcome == TreeOutcome::kFlown) party.tree->flight.prepareJointRows();
+    party.tree->flight.dynamics().respond(force, response);
+    for (int i = 0; i < size; ++i) {
+      const btScalar change = static_cast<btScalar>(response[i]) - stored[i];
+      stored[i] += change;
+      if (impulse != 0) data_.m_deltaVelocities[party.change + i] += change * impulse;
+      force[i] = static_cast<double>(change);
+    }
+    if (impulse == 0) return;
+    force *= static_cast<double>(impulse);
+    addChange(*party.multibody, force);
+  }
+
+  btScalar responseOf(const MultiBodyParty& party, btScalar impulse) {
+    if (party.tree) respond(party, impulse);
+    if (party.multibody) {
+      btScalar sum = 0;
+      for (int i = 0; i < party.multibody->getNumDofs() + 6; ++i)
+        sum += data_.m_jacobians[party.jacobian + i] *
+               data_.m_deltaVelocitiesUnitImpulse[party.jacobian + i];
+      return sum;
+    }
+    if (party.ambient) return changeBasis(*party.ambient, party.side);
+    return party.solver_body ? inverseEffectiveMass(*party.solver_body, party.side) : btScalar(0);
+  }
+
+  // Returns the change of velocity in the step that the rows must see and have not seen.
+  static btScalar unseenChange(const MultiBodyParty& party, btScalar time_step) {
+    if (!party.ambient) return 0;
+    const RowSide& side = party.side;
+    const btScalar change = side.angular.dot(party.ambient->spin_change) +
+                            side.linear.dot(party.ambient->velocity_change);
+    // Rows about an axis, as of rolling friction, see no forces.
+    if (time_step == 0 || side.linear.length2() == 0) return change;
+    const btRigidBody& body = *party.solver_body->m_originalBody;
+    const btVector3 spin = body.getInvInertiaTensorWorld() * body.getTotalTorque();
+    const btVector3 velocity = body.getTotalForce() * body.getInvMass();
+    return change - time_step * (side.angular.dot(spin) + side.linear.dot(velocity));
+  }
+
+  static bool isLocked(const MultiBodyParty& party) {
+    return party.ambient && party.ambient->is_locked;
+  }
+
+  // A row that only pulls at locked axes, against a multibody that cannot move. The solver divides
+  // by the effective mass: that remains what it was.
+  static void suspendRow(btMultiBodySolverConstraint& row, const MultiBodyParty& a,
+                         const MultiBodyParty& b) {
+    for (const MultiBodyParty* party : {&a, &b}) {
+      if (!party->ambient) continue;
+      party->side.angular.setZero();
+      party->side.linear.setZero();
+      party->side.angular_component.setZero();
+    }
+    row.m_rhs = row.m_cfm = 0;
+  }
+
+  void rewriteRow(btMultiBodySolverConstraint& row, const MultiBodyParty& a,
+                  const MultiBodyParty& b, btScalar relaxation, btScalar time_step) {
+    const btScalar old_inverse = row.m_jacDiagABInv;
+    const btScalar unseen = unseenChange(a, time_step) + unseenChange(b, time_step);
+    const btScalar response =
+        responseOf(a, row.m_appliedImpulse) + responseOf(b, row.m_appliedImpulse);
+    if (!(old_inverse > 0)) return;  // switched off by Bullet
+    const btScalar cfm = row.m_cfm / old_inverse;
+    const btScalar old_response = relaxation / old_inverse - cfm;
+    if ((isLocked(a) || isLocked(b)) && !(response > kNoResponse * old_response)) {
+      suspendRow(row, a, b);
+      return;
+    }
+    const btScalar new_inverse = relaxation / (response + cfm);
+    row.m_rhs = (row.m_rhs / old_inverse - unseen) * new_inverse;
+    row.m_cfm = cfm * new_inverse;
+    row.m_jacDiagABInv = new_inverse;
+  }
+
+  btMultiBodyJacobianData& data_;
+  const AmbientTrees* trees_;
+  RowBodies& bodies_;
+  const btAlignedObjectArray<btSolverBody>& solver_bodies_;
+};
+
+}  // namespace
+
+void rewriteMultiBodyRows(const MultiBodyRows& rows, const btContactSolverInfo& info,
+                          RowBodies& bodies,
+                          const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
+  RowSet set(rows, bodies, solver_bodies);
+  set.rewrite(rows.contacts, info.m_sor, info.m_timeStep);
+  set.rewrite(rows.frictions, info.m_sor, info.m_timeStep);
+  set.rewrite(rows.rolling_frictions, info.m_sor, 0);
+  set.rewrite(rows.spinning_frictions, info.m_sor, 0);
+  set.rewrite(rows.joints, 1, 0);
+}
+
+void reapplyMultiBodyImpulses(const btMultiBodyConstraintArray& rows, RowBodies& bodies,
+                              btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
+  for (int i = 0; i < rows.size(); ++i) {
+    const btMultiBodySolverConstraint& row = rows[i];
+    const btScalar impulse = row.m_appliedImpulse;
+    if (impulse == 0) continue;
+    if (!row.m_multiBodyA && bodies.find(row.m_solverBodyIdA)) {
+      btSolverBody& a = solver_bodies[row.m_solverBodyIdA];
+      a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA,
+                             impulse);
+    }
+    if (!row.m_multiBodyB && bodies.find(row.m_solverBodyIdB)) {
+      btSolverBody& b = solver_bodies[row.m_solverBodyIdB];
+      b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB,
+                             impulse);
+    }
+  }
+}
+
+AMBIENT_END

@@ -1,0 +1,157 @@
+#include "bullet_ambient/bullet/links/tree_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/links/tree_links.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+AMBIENT_BEGIN
+namespace {
+
+bool hasWind(const AmbientBody& ambient) {
+  return ambient.surface()->model.loads_above.loads &&
+         ambient.encounter.velocity_above != ambient.medium.velocity;
+}
+
+bool isDriven(const Link& link) {
+  const auto& forces = link.joint_force;
+  return !link.surroundings.applied.torque.isZero(0) ||
+         std::any_of(forces.begin(), forces.end(), [](double force) { return force != 0; }) ||
+         (link.model && !link.surroundings.ambient_acceleration.isZero(0));
+}
+
+// Whether nothing but weight and water moves a tree.
+bool isLeftToWater(AmbientTree& tree) {
+  bool has_wind = false;
+  forEachAtSurface(
+      tree, [&](const AmbientBody& ambient, int) { has_wind = has_wind || hasWind(ambient); });
+  const auto& links = tree.tree.links;
+  return !has_wind && std::none_of(links.begin(), links.end(), isDriven) &&
+         findFlow(tree.tree, tree.step.surface.start, tree.step.spare);
+}
+
+double twiceKinetic(AmbientTree& tree, const CoordinatesIn& u) {
+  Coordinates& x = tree.step.spare;
+  x = u;
+  x.segment<3>(3) -= flowAround(tree.tree);
+  return tree.flight.dynamics().normSquared(x);
+}
+
+// Energy of place where the dynamics are; of_water(AmbientBody&, index in the tree) is that of the
+// surface and waves.
+template <class OfWater>
+double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfWater& of_water) {
+  const LinkDynamics& dynamics = tree.flight.dynamics();
+  double sum = 0;
+  for (int i = 0; i < tree.tree.size(); ++i) {
+    const Link& link = tree.tree.links[i];
+    if (!link.model) sum -= link.surroundings.applied.force.dot(dynamics.position(i) - origin_W);
+  }
+  for (const auto& ambient_link : tree.links) {
+    const int i = ambient_link->link + 1;
+    const AmbientBody& ambient = ambient_link->ambient;
+    const Link& link = tree.tree.links[i];
+    if (!link.model) continue;
+    const SurfaceMedia* surface = ambient.surface();
+    sum += energyOfPlace(surface ? surface->model.above : *link.model, link.surroundings,
+                         {dynamics.rotation(i), dynamics.position(i) - origin_W},
+                         surface ? of_water(ambient, i) : 0);
+  }
+  return sum;
+}
+
+// Energy of the water around a link where it stood last, docs/theory.md eq. (64) [J].
+double energyOfWater(const AmbientBody& ambient) {
+  const SurfaceStand& stand = ambient.surface()->stand;
+  return hydrostaticEnergy(stand.wet, stand.plane);
+}
+
+// Energy that the rounding of Bullet's poses changes.
+double roundingOf(const AmbientTree& tree) {
+  constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  double sum = 0;
+  forEachAtSurface(tree, [&](const AmbientBody& ambient, int link) {
+    const SurfaceModel& model = ambient.surface()->model;
+    const double weight =
+        (model.below.mass + model.below.displaced_mass) * ambient.encounter.plane_W.gravity;
+    sum += weight * (model.radius + tree.flight.dynamics().position(link).norm());
+  });
+  return kRounding * sum;
+}
+
+Vector3 originAfter(const AmbientTree& tree, double time) {
+  return tree.step.surface.origin_W + time * flowAround(tree.tree);
+}
+
+}  // namespace
+
+bool isAtSurface(const AmbientTree& tree) noexcept {
+  bool is_at = false;
+  forEachAtSurface(tree, [&is_at](const AmbientBody&, int) { is_at = true; });
+  return is_at;
+}
+
+void keepEnergy(AmbientTree& tree) noexcept {
+  SurfaceStep& surface = tree.step.surface;
+  surface.is_bound = isLeftToWater(tree);
+  if (!surface.is_bound) return;
+  surface.origin_W = tree.flight.dynamics().position(0);
+  surface.rounding = roundingOf(tree);
+  surface.energy = twiceKinetic(tree, surface.start) / 2 +
+                   energyOfPlace(tree, surface.origin_W, [](const AmbientBody& ambient, int) {
+                     return energyOfWater(ambient) + ambient.encounter.waves.energy();
+                   });
+}
+
+bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
+  if (!tree.step.surface.is_bound) return false;
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  const Vector3 flow = flowAround(tree.tree);
+  dynamics.setVelocity(tree.step.moved);
+  bool is_stiff = false;
+  double most = 0;  // work of a buoyancy that changes by that of a disc as wide as the link
+  forEachAtSurface(tree, [&](const AmbientBody& ambient, int link) {
+    const SurfaceModel& model = ambient.surface()->model;
+    const SurfacePlane& plane = ambient.encounter.plane_W;
+    const Twist& twist = dynamics.twist(link);
+    const double radius = model.radius;
+    const double speed =
+        (dynamics.rotation(link) * twist.linear - flow).norm() + radius * twist.angular.norm();
+    const double way = duration * speed;
+    most += kPi / 2 * plane.density * plane.gravity * radius * radius * way * way;
+    is_stiff = is_stiff || duration * ambient.surface()->stand.swing > kLongestSwing;
+  });
+  return is_stiff || twiceKinetic(tree, tree.step.end) < 2 * most;
+}
+
+bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept {
+  const SurfaceStep& surface = tree.step.surface;
+  const LinkDynamics& dynamics = tree.flight.dynamics();
+  const double place = energyOfPlace(
+      tree, originAfter(tree, since_start), [&](const AmbientBody& ambient, int link) {
+        const FrameOffset pose{dynamics.rotation(link), dynamics.position(link)};
+        return hydrostaticEnergyAt(ambient, pose, surface.time) +
+               ambient.encounter.waves_with_rows.energy();
+      });
+  return place > surface.energy + surface.rounding;
+}
+
+double boundEnergy(AmbientTree& tree, double duration) noexcept {
+  TreeStep& step = tree.step;
+  if (!step.surface.is_bound) return 0;
+  const double place =
+      energyOfPlace(tree, originAfter(tree, duration), [](const AmbientBody& ambient, int) {
+        return energyOfWater(ambient) + ambient.encounter.waves.energy();
+      });
+  const double has = twiceKinetic(tree, step.end);
+  const double allowed = 2 * std::max(0.0, step.surface.energy + step.surface.rounding - place);
+  if (!(has > allowed)) return 0;
+  step.end = std::sqrt(allowed / has) * step.spare;
+  step.end.segment<3>(3) += flowAround(tree.tree);
+  return (has - allowed) / 2;
+}
+
+AMBIENT_END

@@ -1,0 +1,149 @@
+#include "bullet_ambient/bullet/links/tree_flight.h"
+
+#include <algorithm>
+
+#include "bullet_ambient/bullet/links/tree_energy.h"
+#include "bullet_ambient/bullet/links/tree_links.h"
+#include "bullet_ambient/bullet/links/tree_surface.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+AMBIENT_BEGIN
+namespace {
+
+// One step for all links: the strictest tolerance, and the most substeps.
+LinkFlightSettings settingsOf(const AmbientTree& tree) {
+  LinkFlightSettings settings;
+  int most = 0;
+  for (const auto& link : tree.links) {
+    settings.tolerance = std::min(settings.tolerance, link->ambient.def.flight.tolerance);
+    most = std::max(most, link->ambient.def.flight.max_substeps);
+  }
+  if (most > 0) settings.max_substeps = most;
+  return settings;
+}
+
+// Reports the first links for whose motion the steps are too long.
+void addErrors(double error, AmbientTree& tree, Complaints& complaints) {
+  for (const auto& link : tree.links) {
+    AmbientBody& ambient = link->ambient;
+    if (!ambient.step_errors.add(error) || ambient.def.flight.max_substeps > 0) continue;
+    ambient.counters.too_long = 1;
+    complaints.sayTooLong(ambient.def);
+  }
+}
+
+// Flight of a tree in one step.
+class TreeFlight {
+ public:
+  TreeFlight(AmbientTree& tree, const TreeTask& task)
+      : tree_(tree), step_(tree.step), task_(task), settings_(settingsOf(tree)) {}
+
+  bool fly() {
+    flyPart(task_.duration);
+    step_.moved = tree_.flight.meanVelocity();
+    if (is_finite_ && step_.meets_surface && mayGainEnergy(tree_, task_.duration) &&
+        hasGained(1, 1))
+      flyInParts();
+    if (!is_finite_) return false;
+    addCount(count_, tree_);
+    addErrors(count_.error, tree_, task_.bodies.complaints);
+    countEnergyRemoved(count_.energy_removed, tree_);
+    return true;
+  }
+
+ private:
+  void flyPart(double duration) {
+    const LinkFlightResult result = tree_.flight.fly(step_.pose, step_.start, duration, settings_);
+    is_finite_ = is_finite_ && result.is_finite;
+    step_.end = tree_.flight.endVelocity();
+    count_.substeps += result.count.substeps;
+    count_.load_evaluations += result.count.load_evaluations;
+    count_.guarded += result.count.guarded;
+    count_.coarse = count_.coarse || result.count.coarse;
+    count_.error = std::max(count_.error, result.count.error);
+    count_.energy_removed += result.count.energy_removed;
+  }
+
+  // After `made` of `parts` parts; the tree is at the end of the last flight.
+  bool hasGained(int made, int parts) {
+    tree_.flight.dynamics().setPose(tree_.flight.endPose());
+    return hasGainedEnergy(tree_, made * task_.duration / parts);
+  }
+
+  // In twice as many parts until the energy reaches. If it never does, the motion ends after the
+  // last part at whose end it reaches.
+  void flyInParts() {
+    step_.surface.pose = step_.pose;
+    for (const auto& link : tree_.links) link->met = link->ambient.encounter;
+    int parts = 1, reached = 0;
+    while (is_finite_ && reached < parts && parts < settings_.max_substeps) {
+      parts = std::min(2 * parts, settings_.max_substeps);
+      reached = flyParts(parts, parts);
+    }
+    if (reached < parts) halt(reached, parts);
+    step_.pose = step_.surface.pose;
+    step_.start = step_.surface.start;
+    velocityBetween(tree_.tree, step_.pose, tree_.flight.endPose(), task_.duration, step_.moved);
+    step_.moved.segment<3>(3) +=
+        (1 - static_cast<double>(reached) / parts) * flowAround(tree_.tree);
+  }
+
+  void halt(int reached, int parts) {
+    count_.halted = true;
+    if (reached > 0) {
+      flyParts(reached, parts);
+      return;
+    }
+    returnToStart();
+    kickAtSurface(tree_, {task_.bodies, task_.duration / parts, task_.gravity});
+    restInFlow(tree_.tree, step_.end);
+    tree_.flight.stay(step_.pose, step_.end);
+  }
+
+  // Flies the first `made` of `parts` parts. Returns the number after which the energy reached
+  // last.
+  int flyParts(int made, int parts) {
+    returnToStart();
+    const TreeTask part{task_.bodies, task_.duration / parts, task_.gravity};
+    int reached = 0;
+    for (int i = 1; i <= made && is_finite_; ++i) {
+      if (i > 1) arrive();
+      kickAtSurface(tree_, part);
+      flyPart(part.duration);
+      if (!hasGained(i, parts)) reached = i;
+    }
+    return reached;
+  }
+
+  void arrive() {
+    step_.pose = tree_.flight.endPose();
+    count_.energy_removed += arriveAtSurface(tree_);
+    step_.start = step_.end;
+  }
+
+  void returnToStart() {
+    step_.pose = step_.surface.pose;
+    step_.start = step_.surface.start;
+    placeStandIns(tree_, step_.start);
+    count_.error = count_.halted ? 1 : 0;
+    count_.energy_removed = 0;
+    count_.coarse = false;
+    for (const auto& link : tree_.links) link->ambient.encounter = link->met;
+    forEachAtSurface(tree_, [](AmbientBody& ambient, int) { freezeAtSurface(ambient); });
+  }
+
+  AmbientTree& tree_;
+  TreeStep& step_;
+  const TreeTask& task_;
+  const LinkFlightSettings settings_;
+  FlightCount count_;
+  bool is_finite_ = true;
+};
+
+}  // namespace
+
+bool flyTree(AmbientTree& tree, const TreeTask& task) noexcept {
+  return TreeFlight(tree, task).fly();
+}
+
+AMBIENT_END

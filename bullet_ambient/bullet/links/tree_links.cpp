@@ -1,0 +1,134 @@
+#include "bullet_ambient/bullet/links/tree_links.h"
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+
+#include <algorithm>
+
+#include "bullet_ambient/bullet/members/attach_link.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+AMBIENT_BEGIN
+namespace {
+
+void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
+  Link& in_tree = tree.tree.links[link.link + 1];
+  AmbientBody& ambient = link.ambient;
+  if (!prepareFluid(ambient, task.bodies, task.duration)) {
+    in_tree.model = nullptr;
+    in_tree.surroundings.ambient_velocity.setZero();
+    return;
+  }
+  if (ambient.surface()) freezeAtSurface(ambient);
+  in_tree.model = &ambient.model;
+  in_tree.mass = 1 / static_cast<double>(link.stand_in.getInvMass());
+  in_tree.surroundings.gravity = toVector3(task.gravity);
+  in_tree.surroundings.ambient_velocity = ambient.medium.velocity;
+  in_tree.surroundings.ambient_acceleration = ambient.medium.acceleration;
+}
+
+// Whether a link is smooth, so that followWake() asks how it moves.
+bool hasWakes(const AmbientTree& tree) {
+  return std::any_of(tree.links.begin(), tree.links.end(), [](const auto& link) {
+    const auto& loads = link->ambient.model.loads;
+    return loads && loads->wakeShare() > 0;
+  });
+}
+
+// Whether a link moves by more than a body that may rest, or its fluid changes with time.
+bool moves(AmbientTree& tree) {
+  constexpr double kRestingTravel = 0.01, kRestingTime = 2;  // as of bodies
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  dynamics.setVelocity(tree.step.end);
+  return std::any_of(tree.links.begin(), tree.links.end(), [&dynamics](const auto& link) {
+    const AmbientBody& ambient = link->ambient;
+    const Twist twist = dynamics.twist(link->link + 1);
+    const double size = ambient.model.reference_length;
+    const double travel = kRestingTime * (twist.linear.norm() + size * twist.angular.norm());
+    return !ambient.may_rest || travel > kRestingTravel * size;
+  });
+}
+
+// Whether a tree without joints floats where it could turn over. Joints may hold the links of
+// others.
+bool standsOnSaddle(AmbientTree& tree) {
+  AmbientBody& ambient = tree.links.front()->ambient;
+  if (tree.tree.size() > 1 || !ambient.surface()) return false;
+  readPose(*tree.multi_body, tree.step.pose);
+  placeStandIns(tree, tree.step.end);
+  return !mayRestAtSurface(ambient);
+}
+
+}  // namespace
+
+void placeStandIns(AmbientTree& tree, const CoordinatesIn& u) noexcept {
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  dynamics.setPose(tree.step.pose);
+  dynamics.setVelocity(u);
+  for (const auto& link : tree.links) {
+    const Matrix3& R = dynamics.rotation(link->link + 1);
+    const Twist& twist = dynamics.twist(link->link + 1);
+    link->stand_in.setWorldTransform(
+        btTransform(toBulletMatrix(R), toBullet(dynamics.position(link->link + 1))));
+    link->stand_in.setLinearVelocity(toBullet(Vector3(R * twist.linear)));
+    link->stand_in.setAngularVelocity(toBullet(Vector3(R * twist.angular)));
+  }
+}
+
+Vector3 flowAround(const LinkTree& tree) noexcept {
+  if (tree.links.front().keeps_velocity) return Vector3::Zero();
+  const Link* first = nullptr;
+  for (const Link& link : tree.links) {
+    if (!link.model) continue;
+    if (!first) first = &link;
+    if (link.surroundings.ambient_velocity != first->surroundings.ambient_velocity)
+      return Vector3::Zero();
+  }
+  return first ? first->surroundings.ambient_velocity : Vector3(Vector3::Zero());
+}
+
+bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept {
+  readLinks(*tree.multi_body, tree.tree);
+  for (const auto& link : tree.links) standIn(*link, *tree.multi_body, task.gravity);
+  if (!task.bodies.regions.empty() || hasWakes(tree)) placeStandIns(tree, tree.step.start);
+  bool is_in_fluid = false;
+  for (const auto& link : tree.links) {
+    prepareLink(*link, tree, task);
+    is_in_fluid = is_in_fluid || tree.tree.links[link->link + 1].model;
+  }
+  return is_in_fluid;
+}
+
+void moveStandIns(AmbientTree& tree) noexcept {
+  readPose(*tree.multi_body, tree.step.pose);
+  readVelocity(*tree.multi_body, tree.step.start);
+  placeStandIns(tree, tree.step.start);
+}
+
+void addCount(const FlightCount& count, AmbientTree& tree) noexcept {
+  const auto loaded = std::count_if(tree.links.begin(), tree.links.end(), [](const auto& link) {
+    return link->ambient.model.loads != nullptr;
+  });
+  const int evaluations = loaded > 0 ? count.load_evaluations / static_cast<int>(loaded) : 0;
+  for (const auto& link : tree.links) {
+    link->ambient.counters.substeps += count.substeps;
+    if (link->ambient.model.loads) countLoads(link->ambient, evaluations);
+  }
+  AmbientCounters& counters = tree.links.front()->ambient.counters;
+  counters.guarded += count.guarded;
+  counters.coarse += count.coarse;
+  counters.halted += count.halted;
+}
+
+void countEnergyRemoved(double energy, AmbientTree& tree) noexcept {
+  tree.links.front()->ambient.counters.energy_removed += energy;
+}
+
+void keepTreeAwake(AmbientTree& tree) noexcept {
+  if (!tree.multi_body->getCanSleep()) return;
+  if (moves(tree) || standsOnSaddle(tree)) tree.multi_body->wakeUp();
+}
+
+AMBIENT_END

@@ -1,0 +1,280 @@
+#include "bullet_ambient/bullet/links/tree_motion.h"
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/links/tree_energy.h"
+#include "bullet_ambient/bullet/links/tree_feedback.h"
+#include "bullet_ambient/bullet/links/tree_flight.h"
+#include "bullet_ambient/bullet/links/tree_links.h"
+#include "bullet_ambient/bullet/links/tree_surface.h"
+#include "bullet_ambient/bullet/members/multibody_identity.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/bullet/reading/tree_reading.h"
+#include "bullet_ambient/motion/flight/row_velocity.h"
+
+AMBIENT_BEGIN
+namespace {
+
+constexpr TurnLimits kTreeTurn{0.5, 0.45};  // as of bodies, docs/theory.md eq. (28a)
+
+void subtractFlow(const LinkTree& tree, CoordinatesOut u) { u.segment<3>(3) -= flowAround(tree); }
+
+double fastestSpin(LinkDynamics& dynamics, const CoordinatesIn& u) {
+  dynamics.setVelocity(u);
+  double fastest = 0;
+  for (int i = 0; i < dynamics.tree().size(); ++i)
+    fastest = std::max(fastest, dynamics.twist(i).angular.norm());
+  return fastest;
+}
+
+// m of docs/theory.md eq. (28a): `x` is seen from the flow, `t` its turning part over h.
+double extentOf(LinkDynamics& dynamics, const CoordinatesIn& x, const CoordinatesIn& t, double h) {
+  const double by_spin = h * fastestSpin(dynamics, x) / kTreeTurn.spin;
+  const double size = dynamics.normSquared(x);
+  if (!(size > 0)) return by_spin;
+  return std::max(by_spin, std::sqrt(dynamics.normSquared(t) / size) / kTreeTurn.change);
+}
+
+double shareOfTurn(double extent) { return std::min(1.0, std::max(0.0, 2 - 2 * extent)) / 2; }
+
+// 2 a.H b
+double twiceProduct(LinkDynamics& dynamics, const Coordinates& a, const Coordinates& b,
+                    Coordinates& free) {
+  free = a + b;
+  const double sum = dynamics.normSquared(free);
+  free = a - b;
+  return (sum - dynamics.normSquared(free)) / 2;
+}
+
+void reject(AmbientTree& tree, AmbientBodies& bodies) {
+  ++tree.links.front()->ambient.counters.rejected;
+  bodies.complaints.say(Complaint::kNotFinite);
+}
+
+void stopIfNotFinite(AmbientTree& tree, AmbientBodies& bodies) {
+  if (tree.step.start.allFinite()) return;
+  tree.step.start.setZero();
+  reject(tree, bodies);
+}
+
+// Leaves it with the velocity that it had.
+void giveUp(AmbientTree& tree, AmbientBodies& bodies) {
+  tree.step.outcome = TreeOutcome::kStock;
+  writeVelocity(*tree.multi_body, tree.step.start);
+  reject(tree, bodies);
+}
+
+bool fly(AmbientTree& tree, const TreeTask& task) {
+  TreeStep& step = tree.step;
+  if (!flyTree(tree, task)) return false;
+  step.outcome = TreeOutcome::kFlown;
+  step.reserve = 0;
+  return true;
+}
+
+// For rows that turn with it.
+bool prepareRows(AmbientTree& tree, double h) {
+  TreeStep& step = tree.step;
+  LinkFlight& flight = tree.flight;
+  const LinkFlightResult result = flight.computeRowVelocity(step.pose, step.start, h);
+  addCount(result.count, tree);
+  if (!result.is_finite) return false;
+  step.outcome = TreeOutcome::kRows;
+  step.end = flight.rowVelocity();
+  step.moved = step.end;
+  subtractFlow(tree.tree, step.moved);
+  step.extent = extentOf(flight.dynamics(), step.moved, flight.turning(), h);
+  step.share = shareOfTurn(step.extent) * flight.turning();
+  step.moved = step.end + step.share;
+  return true;
+}
+
+// Rows have woken it in a substep that began without it: Bullet has given it no forces.
+bool prepareWoken(AmbientTree& tree) {
+  TreeStep& step = tree.step;
+  tree.flight.dynamics().setPose(step.pose);
+  if (!tree.flight.dynamics().factor()) return false;
+  step.outcome = TreeOutcome::kRows;
+  step.moved = step.end = step.start;
+  step.share.setZero();
+  step.extent = 0;
+  return true;
+}
+
+void finishFlown(AmbientTree& tree) {
+  TreeStep& step = tree.step;
+  step.spare = step.moved - step.change / 2;  // Bullet adds the change by the rows itself
+  writeVelocity(*tree.multi_body, step.spare);
+  step.moved += step.change / 2;
+  step.end += step.change;
+}
+
+void finishRows(AmbientTree& tree, const TreeTask& task) {
+  TreeStep& step = tree.step;
+  if (step.change.isZero(0) && step.extent <= kSlowTurn && step.was_awake) {
+    if (fly(tree, task)) {
+      writeVelocity(*tree.multi_body, step.moved);
+    } else {
+      giveUp(tree, task.bodies);
+    }
+    return;
+  }
+  step.moved += step.change;
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  Coordinates& free = step.spare;
+  const double on_share = twiceProduct(dynamics, step.share, step.change, free);
+  free = step.end + step.change;
+  subtractFlow(tree.tree, free);
+  step.energy = std::max(0.0, dynamics.normSquared(free) + std::min(0.0, on_share));
+}
+
+// From `from` towards `to`, both seen from the flow, as far as an energy allows. If it allows
+// neither, a part of `to`, or of `from` where that is no velocity of a whole turn. Returns the
+// energy that `to` has lost [J].
+double keepWithin(double energy, LinkDynamics& dynamics, Coordinates& to, TreeStep& step) {
+  const Coordinates& from = step.spare;
+  const double has = dynamics.normSquared(to);
+  if (!(has > energy)) return 0;
+  const double removed = (has - energy) / 2;
+  const double had = dynamics.normSquared(from), excess = had - energy;
+  if (excess > 0) {
+    const bool is_slow = step.extent <= kSlowTurn;
+    to = std::sqrt(energy / (is_slow ? has : had)) * (is_slow ? to : from);
+    return removed;
+  }
+  Coordinates& way = step.change;
+  way = to - from;
+  const double a = dynamics.normSquared(way), b = (has - had - a) / 2;
+  const double root = std::sqrt(std::max(0.0, b * b - a * excess));
+  to = from + (b > 0 ? -excess / (b + root) : (root - b) / a) * way;
+  return removed;
+}
+
+// In `share`: h times what of du/dt at `pose` is due to u, the turning part t.
+void computeTurningAt(LinkDynamics& dynamics, const Coordinates& u, double h, TreeStep& step) {
+  Coordinates &turning = step.share, &at_rest = step.change, &rate = step.spare;
+  dynamics.setPose(step.pose);
+  dynamics.factor();
+  at_rest.setZero();
+  at_rest.segment<3>(3) = flowAround(dynamics.tree());
+  dynamics.accelerations(at_rest, rate);
+  dynamics.accelerations(u, turning);
+  turning = h * (turning - rate);
+}
+
+// Leaves the velocity after the substep in `end`.
+void turnAfterRows(AmbientTree& tree, double h) {
+  TreeStep& step = tree.step;
+  LinkFlight& flight = tree.flight;
+  Coordinates& turn = step.share;
+  step.end += step.change;
+  movePose(tree.tree, step.pose, step.moved, h / 2, step.pose);
+  computeTurningAt(flight.dynamics(), step.moved, h, step);
+  step.end += turn;
+  Coordinates& from = step.spare;
+  from = step.moved;
+  subtractFlow(tree.tree, from);
+  turn = step.end - step.moved + from;  // seen from the flow
+  readPose(*tree.multi_body, step.pose);
+  flight.dynamics().setPose(step.pose);
+  const double allowed = step.energy + step.reserve;
+  countEnergyRemoved(keepWithin(allowed, flight.dynamics(), turn, step), tree);
+  const double left = allowed - flight.dynamics().normSquared(turn);
+  AMBIENT_ASSERT(!(step.energy < 0));
+  step.reserve = std::clamp(left, 0.0, step.energy);
+  step.end = turn + step.moved - from;
+}
+
+// Rows of joints, or Bullet's limit of turns, have led it away from the end of its flight.
+void keepIntegrals(AmbientTree& tree, double h) {
+  TreeStep& step = tree.step;
+  const bool has_rows = !step.change.isZero(0);
+  if (!has_rows && !turnsTooFastForBullet(tree.tree, step.moved, h)) return;
+  readPose(*tree.multi_body, step.pose);
+  countEnergyRemoved(tree.flight.arriveAt(step.pose, has_rows, step.end), tree);
+}
+
+// Gives it the velocity that rows are solved against, and an outcome. False if that is not finite.
+bool begin(AmbientTree& tree, const TreeTask& task) {
+  TreeStep& step = tree.step;
+  if (!step.was_awake) return prepareWoken(tree);
+  if (!step.turns_rows && flyAsBody(tree, task)) {
+    step.outcome = TreeOutcome::kFlown;
+    step.reserve = 0;
+    return true;
+  }
+  if (isAtSurface(tree)) {
+    step.surface.start = step.start;
+    kickAtSurface(tree, task);
+    keepEnergy(tree);
+  }
+  return step.turns_rows ? prepareRows(tree, task.duration) : fly(tree, task);
+}
+
+}  // namespace
+
+void meetTree(AmbientTree& tree, const TreeTask& task) noexcept {
+  AMBIENT_ASSERT(task.duration > 0 && !tree.links.empty());
+  TreeStep& step = tree.step;
+  btMultiBody& body = *tree.multi_body;
+  if (isAsleep(body)) return;
+  step.outcome = TreeOutcome::kStock;
+  step.meets_surface = false;
+  readPose(body, step.pose);
+  stopIfNotFinite(tree, task.bodies);
+  if (!prepareLinks(tree, task)) return;
+  beginTreeReading(tree);
+  if (body.isUsingRK4Integration()) {
+    task.bodies.complaints.say(Complaint::kRungeKutta);
+    body.setPosUpdated(false);
+    setInstanceNumber(body, tree.instance);
+  }
+  if (!begin(tree, task)) {
+    giveUp(tree, task.bodies);
+    return;
+  }
+  writeVelocity(body, step.outcome == TreeOutcome::kFlown ? step.end : step.moved);
+}
+
+void finishTree(AmbientTree& tree, const TreeTask& task) noexcept {
+  TreeStep& step = tree.step;
+  if (!hasMet(tree)) return;
+  readChange(*tree.multi_body, step.change);
+  if (!step.change.allFinite()) {
+    clearChange(*tree.multi_body);
+    step.change.setZero();
+    reject(tree, task.bodies);
+  }
+  if (step.outcome == TreeOutcome::kFlown) {
+    finishFlown(tree);
+  } else {
+    finishRows(tree, task);
+  }
+}
+
+void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
+  TreeStep& step = tree.step;
+  btMultiBody& body = *tree.multi_body;
+  if (!hasMet(tree) || isAsleep(body)) return;
+  if (step.outcome == TreeOutcome::kRows) {
+    turnAfterRows(tree, task.duration);
+  } else {
+    keepIntegrals(tree, task.duration);
+  }
+  passSurface(tree, task);
+  if (!step.end.allFinite()) {
+    reject(tree, task.bodies);
+    return;
+  }
+  step.change = step.end - step.moved;
+  addVelocity(body, step.change);
+  if (step.outcome == TreeOutcome::kFlown) keepTreeAwake(tree);
+  if (wantsJointForces(body)) writeJointForces(tree, task);
+  finishTreeReading(tree, task.duration);
+}
+
+AMBIENT_END

@@ -1,0 +1,52 @@
+#include "bullet_ambient/bullet/links/tree_now.h"
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/force/surface/buoyancy.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+AMBIENT_BEGIN
+
+TreeNow::TreeNow(const AmbientTrees& trees, const btMultiBody& body) : tree_(makeLinkTree(body)) {
+  const Vector3 gravity =
+      trees.world() ? toVector3(trees.world()->getGravity()) : Vector3(Vector3::Zero());
+  for (Link& link : tree_.links) link.surroundings.applied = weight(link.mass, gravity);
+  if (const AmbientTree* tree = trees.find(&body))
+    for (const auto& link : tree->links) immerse(*link, body, gravity);
+  readPose(body, pose_);
+  velocity.resize(coordinateCount(tree_));
+  readVelocity(body, velocity);
+}
+
+LinkDynamics TreeNow::dynamics() const {
+  LinkDynamics dynamics(tree_);
+  dynamics.setPose(pose_);
+  return dynamics;
+}
+
+void TreeNow::applyLoads() {
+  LinkDynamics at_rest = dynamics();
+  at_rest.setVelocity(velocity);
+  for (int i = 0; i < tree_.size(); ++i) {
+    Link& link = tree_.links[i];
+    if (!link.model || !link.model->loads) continue;
+    const Wrench load = computeSurfaceLoad(*link.model, at_rest.relativeTwist(i)).wrench;
+    const Matrix3& R = at_rest.rotation(i);
+    link.surroundings.applied += {R * load.torque, R * load.force};
+  }
+}
+
+void TreeNow::immerse(AmbientLink& ambient, const btMultiBody& body, const Vector3& gravity) {
+  if (!ambient.ambient.isInFluid()) return;
+  ambient.stand_in.setWorldTransform(linkTransform(body, ambient.link));
+  Link& link = tree_.links[ambient.link + 1];
+  models_.push_back(modelNow(ambient.ambient));
+  link.model = &models_.back();
+  link.surroundings.gravity = gravity;
+  link.surroundings.ambient_velocity = ambient.ambient.medium.velocity;
+  link.surroundings.ambient_acceleration = ambient.ambient.medium.acceleration;
+}
+
+AMBIENT_END

@@ -1,0 +1,112 @@
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bullet_ambient/immersed/region_call.h"
+
+AMBIENT_BEGIN
+namespace {
+
+int readNumber(const btRigidBody& body) noexcept;
+
+// Bullet has no accessor for the number. The arguments of an explicit instantiation are not subject
+// to access control ([temp.spec.general]), which lends one without a change of Bullet.
+template <int btRigidBody::*kNumber>
+struct NumberReader {
+  friend int readNumber(const btRigidBody& body) noexcept { return body.*kNumber; }
+};
+template struct NumberReader<&btRigidBody::m_debugBodyId>;
+
+}  // namespace
+
+int instanceNumber(const btRigidBody& body) noexcept { return readNumber(body); }
+
+AmbientBody* AmbientBodies::find(const btCollisionObject* body) const {
+  const auto found = by_object_.find(body);
+  if (found == by_object_.end()) return nullptr;
+  AmbientBody* ambient = found->second->get();
+  return isSame(*ambient) ? ambient : nullptr;
+}
+
+bool AmbientBodies::isSame(const AmbientBody& ambient) {
+  const btCollisionObject* object = ambient.body;
+  const btRigidBody* rigid = btRigidBody::upcast(object);
+  return rigid && instanceNumber(*rigid) == ambient.instance;
+}
+
+void AmbientBodies::insert(std::unique_ptr<AmbientBody> ambient) {
+  ambient->instance = instanceNumber(*ambient->body);
+  if (AmbientBody* same = find(ambient->body)) {
+    if (ambient->def.name.empty()) ambient->def.name = same->def.name;  // no state has it
+    ambient->reading = same->reading;
+    slots.replace(*same, {ambient.get(), nullptr});
+  } else {
+    slots.enter({ambient.get(), nullptr});
+  }
+  erase(*ambient->body);  // or what is left of one that was destroyed at this address
+  const btCollisionObject* body = ambient->body;
+  List last;
+  last.push_back(std::move(ambient));
+  by_object_.emplace(body, last.begin());
+  bodies_.splice(bodies_.end(), last);
+}
+
+bool AmbientBodies::erase(const btRigidBody& body) {
+  const auto found = by_object_.find(&body);
+  if (found == by_object_.end()) return false;
+  forgetMeeting(**found->second);
+  slots.leave(**found->second);
+  bodies_.erase(found->second);
+  by_object_.erase(found);
+  return true;
+}
+
+void AmbientBodies::clear() {
+  met_ = nullptr;
+  for (const auto& ambient : bodies_) slots.leave(*ambient);
+  by_object_.clear();
+  bodies_.clear();
+  trees.clear();
+}
+
+void AmbientBodies::close() {
+  clear();
+  regions = {};
+  complaints.setReport(nullptr);
+  task_runner = nullptr;
+  naming = nullptr;
+  is_closed = true;
+}
+
+void AmbientBodies::requireChangeable(const char* function) {
+  RegionCall* call = RegionCall::current(regions);
+  if (!call) return;
+  call->was_refused = true;
+  const std::string sentence =
+      std::string("bullet_ambient: the flow or the surface of a region of fluid has called ") +
+      function +
+      ", which changes what is asked for its fluid; nothing has changed: call it between "
+      "steps";
+  complaints.say(Complaint::kChange, sentence.c_str());
+  throw std::logic_error(sentence);
+}
+
+void AmbientBodies::meet(AmbientBody& ambient) noexcept {
+  if (std::exchange(ambient.outcome.kind, Outcome::kStock) != Outcome::kNotMet) return;
+  ambient.next_met = met_.load(std::memory_order_relaxed);
+  while (!met_.compare_exchange_weak(ambient.next_met, &ambient)) {
+  }
+}
+
+// Between steps the list is empty, unless there is no action to take it.
+void AmbientBodies::forgetMeeting(const AmbientBody& ambient) noexcept {
+  AmbientBody* met = met_.load();
+  if (met == &ambient) met_ = ambient.next_met;
+  for (; met; met = met->next_met) {
+    if (met->next_met == &ambient) met->next_met = ambient.next_met;
+  }
+}
+
+AMBIENT_END

@@ -1,0 +1,109 @@
+#include "bullet_ambient/bullet/members/attach_link.h"
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
+
+AMBIENT_BEGIN
+namespace {
+
+btScalar massOf(const btMultiBody& body, int link) {
+  return link < 0 ? body.getBaseMass() : body.getLinkMass(link);
+}
+const btVector3& inertiaOf(const btMultiBody& body, int link) {
+  return link < 0 ? body.getBaseInertia() : body.getLinkInertia(link);
+}
+
+// Inverts a mass or moment like btRigidBody::setMassProps().
+btScalar inverseOf(btScalar a) { return a != 0 ? 1 / a : btScalar(0); }
+
+bool hasMass(const btRigidBody& body, btScalar mass, const btVector3& inertia) {
+  const btVector3 inverse(inverseOf(inertia.x()), inverseOf(inertia.y()), inverseOf(inertia.z()));
+  return body.getInvMass() == inverseOf(mass) && body.getInvInertiaDiagLocal() == inverse;
+}
+
+void checkTreeOf(const std::string& who, const LinkOf& at) {
+  if (at.link < -1 || at.link >= at.multi_body.getNumLinks()) {
+    throw std::invalid_argument(who + ": the btMultiBody has links 0 to " +
+                                std::to_string(at.multi_body.getNumLinks() - 1) +
+                                ", and its base is link -1");
+  }
+  if (at.multi_body.isUsingRK4Integration()) {
+    throw std::invalid_argument(
+        who + ": useRK4Integration moves a btMultiBody by its dry mass; switch it off");
+  }
+}
+
+void checkLinkMass(const std::string& who, const LinkOf& at) {
+  if (at.link < 0 && at.multi_body.isBaseStaticOrKinematic()) {
+    throw std::invalid_argument(who + " is static or kinematic; only what moves feels a fluid");
+  }
+  const btScalar mass = massOf(at.multi_body, at.link);
+  if (!(mass > 0)) {
+    throw std::invalid_argument(who + " has a mass of " + std::to_string(mass) +
+                                " kg; must be positive");
+  }
+}
+
+}  // namespace
+
+void standIn(AmbientLink& link, const btMultiBody& body, const btVector3& gravity) noexcept {
+  btRigidBody& stand_in = link.stand_in;
+  const btScalar mass = massOf(body, link.link);
+  const btVector3& inertia = inertiaOf(body, link.link);
+  if (!hasMass(stand_in, mass, inertia)) stand_in.setMassProps(mass, inertia);
+  if (!(stand_in.getGravity() == gravity)) stand_in.setGravity(gravity);
+}
+
+AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& at,
+                        AttachDef def) {
+  if (!def.fluid_body) {
+    throw std::invalid_argument("add: the fluid body is null; load one with loadFluidBody()");
+  }
+  const std::string link_name = "add: link " + std::to_string(at.link);
+  checkTreeOf(link_name + " with fluid body '" + def.fluid_body->name + "'", at);
+  const btCollisionObject* collider =
+      at.link < 0 ? at.multi_body.getBaseCollider() : at.multi_body.getLinkCollider(at.link);
+  if (def.name.empty() && collider && bodies.naming) def.name = bodies.naming(*collider);
+  const std::string who = def.name.empty()
+                              ? link_name + " with fluid body '" + def.fluid_body->name + "'"
+                              : link_name + ", '" + def.name + "',";
+  checkLinkMass(who, at);
+  const AmbientTree* known = bodies.trees.at(&at.multi_body);
+  if (known && !(known->isSame() && hasLinksOf(at.multi_body, known->tree))) {
+    bodies.trees.erase(at.multi_body);  // of another one that was destroyed at this address
+    known = nullptr;
+  }
+  if (known && known->find(at.link)) {
+    throw std::invalid_argument(
+        who + " was added already; use Immersed::setMedium(), or remove it first");
+  }
+  checkDef(who, def);
+  auto link = std::make_unique<AmbientLink>(at.link);
+  standIn(*link, at.multi_body, world.getGravity());
+  link->stand_in.setWorldTransform(linkTransform(at.multi_body, at.link));
+  link->ambient.def = std::move(def);
+  refresh(link->ambient, bodies);
+  AmbientBody& attached = link->ambient;
+  bodies.trees.insert(world, at.multi_body, std::move(link));
+  wake(at.multi_body);
+  return attached;
+}
+
+void wake(btMultiBody& body) noexcept {
+  body.wakeUp();
+  if (body.getBaseCollider()) body.getBaseCollider()->activate();
+  for (int i = 0; i < body.getNumLinks(); ++i)
+    if (body.getLink(i).m_collider) body.getLink(i).m_collider->activate();
+}
+
+AMBIENT_END

@@ -1,0 +1,159 @@
+#include "bullet_ambient/bullet/reading/fluid_reading.h"
+
+#include "bullet_ambient/force/surface/buoyancy.h"
+#include "bullet_ambient/motion/surface/body_waves.h"
+#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/motion/surface/surface_stand.h"
+
+AMBIENT_BEGIN
+namespace {
+
+Wrench turned(const Matrix3& rotation, const Wrench& f) {
+  return {rotation * f.torque, rotation * f.force};
+}
+
+Wrench without(Wrench all, const Wrench& part) { return all -= part; }
+
+/// Momentum of the dry body in W about its centre of mass, as an impulse [N m s, N s].
+Wrench dryMomentum(const AmbientBody& ambient, const RigidState& state) {
+  const btRigidBody& body = *ambient.body;
+  const Vector3 moments = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
+  return turned(state.orientation.toRotationMatrix(),
+                {moments.cwiseProduct(state.twist.angular),
+                 state.twist.linear / static_cast<double>(body.getInvMass())});
+}
+
+Matrix6 addedInertia(const AmbientBody& ambient, const Matrix6& inertia) {
+  const btRigidBody& body = *ambient.body;
+  const Vector3 moments = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
+  Matrix6 added = inertia;
+  added.diagonal() -= stack(moments, Vector3::Constant(1 / static_cast<double>(body.getInvMass())));
+  return added;
+}
+
+/// Twist relative to the ambient flow a time after the start.
+Twist relativeTwist(const RigidState& state, const Surroundings& s, double time) {
+  const Vector3 flow = s.ambient_velocity + time * s.ambient_acceleration;
+  return {state.twist.angular, state.twist.linear - state.orientation.conjugate() * flow};
+}
+
+/// Impulse of the fluid that moves along, as its momentum A x changes on the way.
+Wrench addedMassImpulse(const AmbientBody& ambient, const ReadStep& step,
+                        const FluidReading& reading) {
+  const Surroundings& s = reading.surroundings;
+  const double h = step.duration;
+  const Matrix6 added = addedInertia(ambient, step.model.inertia);
+  const auto momentum = [&](const RigidState& state, double time) {
+    const Vector6 x = relativeTwist(state, s, time).vector();
+    return turned(state.orientation.toRotationMatrix(), Wrench::fromVector(added * x));
+  };
+  const Wrench before = momentum(reading.start, 0), after = momentum(step.end, h);
+  const Vector3 way = step.end.position - reading.start.position - h * s.ambient_velocity -
+                      h * h / 2 * s.ambient_acceleration;
+  Wrench impulse = without(before, after);
+  impulse.torque -= way.cross(before.force + after.force) / 2;
+  return impulse + reading.passage_W;
+}
+
+/// Wrenches in B at the middle of the way.
+class MiddleWrenches {
+ public:
+  MiddleWrenches(const AmbientBody& ambient, const ReadStep& step, const FluidReading& reading)
+      : ambient_(ambient),
+        step_(step),
+        reading_(reading),
+        to_world_(step.middle.orientation.toRotationMatrix()),
+        seen_(relativeTwist(step.middle, reading.surroundings, step.duration / 2)) {}
+
+  FluidWrench find() {
+    if (ambient_.surface()) {
+      findAtSurface(*ambient_.surface());
+    } else {
+      findSubmerged();
+    }
+    for (Wrench* part :
+         {&found_.pressure, &found_.friction, &found_.buoyancy, &found_.waves, &found_.wind})
+      *part = turned(to_world_, *part);
+    return found_;
+  }
+
+ private:
+  void setBuoyancy(const BodyModel& model) {
+    const Surroundings& s = reading_.surroundings;
+    found_.buoyancy = buoyancy(model.displaced_mass, model.centre_of_volume,
+                               to_world_.transpose() * (s.gravity - s.ambient_acceleration));
+  }
+
+  void setLoads(const Wrench& all, const Wrench& friction) {
+    found_.friction = friction;
+    found_.pressure = without(all, friction);
+  }
+
+  void findSubmerged() {
+    const BodyModel& model = step_.model;
+    setBuoyancy(model);
+    if (!model.loads) return;
+    const FrameOffset& frame = model.load_frame;
+    setLoads(computeSurfaceLoad(model, seen_).wrench,
+             model.load_share * frame.toB(model.loads->parts(frame.toF(seen_)).friction));
+  }
+
+  void findAtSurface(const SurfaceMedia& surface) {
+    const SurfaceModel& model = surface.model;
+    const Surroundings& s = reading_.surroundings;
+    const double time = step_.duration / 2;
+    SurfacePlane plane_W = reading_.plane_W;
+    plane_W.height +=
+        plane_W.normal.dot(time * s.ambient_velocity + time * time / 2 * s.ambient_acceleration);
+    const SurfaceStand stand =
+        standAtSurface(model, seenFrom(plane_W, to_world_, step_.middle.position));
+    setBuoyancy(step_.has_flown ? frozenAt(model, stand) : step_.model);
+    if (model.loads_below.loads)
+      setLoads(ambient_.load_share * loadBelow(model, stand, seen_),
+               ambient_.load_share * frictionBelow(model, stand, seen_));
+    found_.waves = waveWrench(stand.waves, to_world_, reading_.waves, ambient_.encounter.waves);
+    if (!model.loads_above.loads) return;
+    Twist seen_above = step_.middle.twist;
+    seen_above.linear -= to_world_.transpose() * ambient_.encounter.velocity_above;
+    found_.wind = loadAbove(model, stand, seen_above);
+  }
+
+  const AmbientBody& ambient_;
+  const ReadStep& step_;
+  const FluidReading& reading_;
+  const Matrix3 to_world_;
+  const Twist seen_;  // relative to the flow
+  FluidWrench found_;
+};
+
+}  // namespace
+
+void beginReading(const AmbientBody& ambient, const RigidState& start,
+                  const Surroundings& surroundings, FluidReading& reading) noexcept {
+  reading = {};
+  reading.start = start;
+  reading.surroundings = surroundings;
+  reading.plane_W = ambient.encounter.plane_W;
+  reading.waves = ambient.encounter.waves;
+  reading.moved_W = {start.orientation * start.twist.angular,
+                     start.orientation * start.twist.linear};
+}
+
+void finishReading(const AmbientBody& ambient, const ReadStep& step,
+                   FluidReading& reading) noexcept {
+  FluidWrench& wrench = reading.wrench;
+  const double rate = 1 / step.duration;
+  const Wrench change =
+      without(dryMomentum(ambient, step.end), dryMomentum(ambient, reading.start));
+  const Wrench unapplied = without(rate * change, reading.surroundings.applied);
+  wrench = MiddleWrenches(ambient, step, reading).find();
+  if (reading.knows_impulse) {
+    wrench.constraints = rate * reading.impulse_W;
+    wrench.added_mass = without(unapplied, wrench.total() + wrench.constraints);
+  } else {
+    wrench.added_mass = rate * addedMassImpulse(ambient, step, reading);
+    wrench.constraints = without(unapplied, wrench.total());
+  }
+}
+
+AMBIENT_END

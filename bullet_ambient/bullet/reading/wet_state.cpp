@@ -1,0 +1,105 @@
+#include "bullet_ambient/bullet/reading/wet_state.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+
+#include "bullet_ambient/immersed/region_call.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+AMBIENT_BEGIN
+namespace {
+
+/// Share of a triangle's area, by the depths of its corners.
+double wetShareOf(std::array<double, 3> depths) {
+  std::sort(depths.begin(), depths.end(), std::greater<>());
+  const auto [deep, middle, high] = depths;
+  if (high >= 0) return 1;
+  if (deep <= 0) return 0;
+  if (middle <= 0) return deep * deep / ((deep - middle) * (deep - high));
+  return 1 - high * high / ((deep - high) * (middle - high));
+}
+
+/// Share of a body's surface below a plane in F.
+double wetAreaShare(const FluidBody& shape, const SurfacePlane& plane) {
+  const double radius = shape.sphere_radius;
+  if (radius > 0)
+    return std::clamp(0.5 + plane.depth(shape.centre_of_volume) / (2 * radius), 0.0, 1.0);
+  const std::vector<std::int32_t>& triangles = shape.surface.triangles;
+  const auto corner = [&](std::int32_t vertex) {
+    const double* v = shape.surface.vertices.data() + 3 * static_cast<std::size_t>(vertex);
+    return Vector3(v[0], v[1], v[2]);
+  };
+  double wet = 0, all = 0;
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    const Vector3 a = corner(triangles[i]), b = corner(triangles[i + 1]),
+                  c = corner(triangles[i + 2]);
+    const double area = (b - a).cross(c - a).norm();
+    all += area;
+    wet += area * wetShareOf({plane.depth(a), plane.depth(b), plane.depth(c)});
+  }
+  return all > 0 ? wet / all : 0;
+}
+
+WetState wholly(const AmbientBody& ambient, bool is_wet) {
+  const FluidBody& shape = *ambient.def.fluid_body;
+  const RigidState pose = readState(*ambient.body);
+  WetState state;
+  state.centre_of_buoyancy = pose.position + pose.orientation * ambient.model.centre_of_volume;
+  if (!is_wet) return state;
+  state.share = 1;
+  state.volume = shape.volume;
+  state.area = shape.area;
+  state.draught = std::numeric_limits<double>::infinity();
+  return state;
+}
+
+WetState cutBy(const SurfacePlane& plane_W, const SurfaceModel& model, const AmbientBody& ambient) {
+  const FluidBody& shape = *model.shape;
+  const RigidState pose = readState(*ambient.body);
+  const SurfacePlane plane_B =
+      seenFrom(plane_W, pose.orientation.toRotationMatrix(), pose.position);
+  const Immersion immersion = immersionOf(model, plane_B);
+  if (immersion.isDry()) return wholly(ambient, false);
+  WetState state;
+  state.volume = immersion.wet.volume;
+  state.share = wetShare(immersion, shape.volume);
+  state.draught = immersion.draught();
+  state.area = shape.area * wetAreaShare(shape, immersion.plane);
+  state.centre_of_buoyancy = wholly(ambient, false).centre_of_buoyancy;
+  if (state.volume > 0)
+    state.centre_of_buoyancy =
+        pose.position +
+        pose.orientation * (immersion.wet.inB(model.fluid_frame).moment / state.volume);
+  return state;
+}
+
+WetState inRegion(const AmbientBody& ambient, const FluidRegions::Entry& entry,
+                  const FluidRegions& regions) {
+  if (!entry.region.surface) return wholly(ambient, entry.region.below.density > 0);
+  const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
+  RegionCall call(regions);
+  const RegionSample sample =
+      sampleRegion(entry.region, position, regions.time, ambient.def.medium);
+  const int media = findSurface(ambient.surfaces, SurfaceKind(entry.region));
+  const Vector3 gravity = toVector3(ambient.body->getGravity());
+  if (media < 0 || !hasSurface(sample, gravity)) return wholly(ambient, !sample.isAbove());
+  return cutBy(planeNear(position, sample, gravity),
+               ambient.surfaces[static_cast<std::size_t>(media)].model, ambient);
+}
+
+}  // namespace
+
+WetState wetStateOf(const AmbientBody& ambient, const FluidRegions& regions) {
+  long long asked = 0;
+  const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
+  const FluidRegions::Entry* entry =
+      ambient.def.follow_regions ? regions.find(position, asked) : nullptr;
+  if (!entry) return wholly(ambient, ambient.def.medium.density > 0);
+  WetState state = inRegion(ambient, *entry, regions);
+  state.region = entry->id;
+  return state;
+}
+
+AMBIENT_END

@@ -1,0 +1,156 @@
+#include "bullet_ambient/bullet/rows/row_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/spatial/cholesky.h"
+#include "bullet_ambient/spatial/rotation.h"
+
+AMBIENT_BEGIN
+namespace {
+
+constexpr double kRounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+
+Twist turnedBy(const Quaternion& q, const Vector6& x) { return {q * x.head<3>(), q * x.tail<3>()}; }
+
+Vector6 changeByRows(btSolverBody& b) {
+  return stack(toVector3(b.internalGetDeltaAngularVelocity()),
+               toVector3(b.internalGetDeltaLinearVelocity()));
+}
+
+// Returns the velocity that Bullet is about to write back.
+Vector6 solvedVelocity(btSolverBody& b) {
+  return stack(toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
+                         b.m_externalTorqueImpulse),
+               toVector3(b.m_linearVelocity + b.internalGetDeltaLinearVelocity() +
+                         b.m_externalForceImpulse));
+}
+
+// The part of its way that the body has made: less than 1 if a continuous collision has stopped it;
+// none if it is not on its way.
+std::optional<double> partOfWay(const RowMotion& rows, const RigidState& now, double time_step) {
+  const RigidState& start = rows.start;
+  const Vector3 velocity = rows.flow_W + start.orientation * start.twist.linear;
+  const Vector3 way = time_step * velocity, gone = now.position - start.position;
+  const double rounding = kRounding * (now.position.norm() + way.norm());
+  double part = 1;
+  if ((gone - way).norm() > rounding && way.squaredNorm() > 0)
+    part = std::clamp(gone.dot(way) / way.squaredNorm(), 0.0, 1.0);
+  const bool is_beside = (gone - part * way).norm() > rounding;
+  const bool is_turned =
+      angleBetween(start.orientation, now.orientation) > rows.turn + std::sqrt(kRounding);
+  if (is_beside || is_turned) return std::nullopt;
+  return part;
+}
+
+// From `from` towards `to`, as far as an energy allows; if it does not allow `from`, a part of it.
+BoundedTwist withinEnergy(const BodyModel& model, const Vector6& from, const Vector6& to,
+                          double bound) {
+  AMBIENT_ASSERT(!(bound < 0));
+  const DualPair start = pairOfTwist(model, from), step = pairOfTwist(model, to - from);
+  const double excess = inner(start, start) - bound;
+  const double a = inner(step, step), b = inner(start, step), removed = (a + 2 * b + excess) / 2;
+  if (excess > 0) return {std::sqrt(bound / inner(start, start)) * from, std::max(0.0, removed)};
+  if (!(removed > 0)) return {to};
+  const double root = std::sqrt(b * b - a * excess);
+  return {from + (b > 0 ? -excess / (b + root) : (root - b) / a) * (to - from), removed};
+}
+
+// The twist with this spin and no linear momentum.
+Vector6 spinAlone(const BodyModel& model, const Vector3& spin) {
+  const Matrix6& K = model.inertia;
+  const Matrix3 coupling = K.bottomLeftCorner<3, 3>(), mass = K.bottomRightCorner<3, 3>();
+  return stack(spin, Cholesky<3>(mass).solve(-coupling * spin));
+}
+
+// The velocity `to` at the cost of its spin, eq. (31b): with its linear momentum and a spin from
+// that of `from` towards its own, as far as the energy allows.
+BoundedTwist keepingMomentum(const BodyModel& model, const RowMotion& rows, const Vector6& from,
+                             const Vector6& to) {
+  const double bound = *rows.energy_bound;
+  const Vector6 spin = spinAlone(model, to.head<3>()), straight = to - spin;
+  const double energy = inertiaNormSquared(model, straight);
+  if (energy > bound) {
+    if (rows.is_held) return withinEnergy(model, from, to, bound);
+    return {std::sqrt(bound / energy) * straight, (inertiaNormSquared(model, to) - bound) / 2};
+  }
+  BoundedTwist end = withinEnergy(model, spinAlone(model, from.head<3>()), spin, bound - energy);
+  end.twist += straight;
+  return end;
+}
+
+}  // namespace
+
+void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody& solver_body,
+                    double time_step) noexcept {
+  const BodyModel& model = ambient.model;
+  AMBIENT_ASSERT(time_step > 0 && !(row_body.extent < 0));
+  const Medium& medium = ambient.medium;
+  RowMotion& rows = ambient.outcome.rows;
+  rows.start = row_body.start;
+  rows.is_held = row_body.is_held;
+  rows.flow_W = medium.velocity + time_step * medium.acceleration;
+  const Quaternion to_body = rows.start.orientation.conjugate();
+  rows.start.twist =
+      turnedBy(to_body, solvedVelocity(solver_body) - stack(Vector3::Zero(), rows.flow_W));
+  const Vector6 share = turnedBy(to_body, row_body.turning_W.vector()).vector();
+  RigidState kept = rows.start;
+  kept.twist = Twist::fromVector(kept.twist.vector() - share);
+
+  double extent = row_body.extent;
+  if (!row_body.is_locked) {
+    rows.momentum = worldMomentum(model, kept);
+    const DualPair moved = pairOfTwist(model, rows.start.twist.vector());
+    extent = std::max(extent, computeTurning(model, moved, time_step).extent);
+  }
+  if (extent > kSlowTurn) {
+    const Vector6 by_rows = turnedBy(to_body, changeByRows(solver_body)).vector();
+    const double on_share = 2 * inner(pairOfTwist(model, share), pairOfTwist(model, by_rows));
+    const double energy = inertiaNormSquared(model, kept.twist.vector()) + std::min(0.0, on_share);
+    rows.energy_bound = std::max(0.0, energy);
+  }
+  rows.start.position += time_step * toVector3(solver_body.internalGetPushVelocity());
+  rows.turn = time_step * (rows.start.twist.angular.norm() +
+                           toVector3(solver_body.internalGetTurnVelocity()).norm());
+}
+
+void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints) noexcept {
+  const RowMotion& rows = ambient.outcome.rows;
+  if (!rows.momentum && !rows.energy_bound && !ambient.surface()) return;
+  btRigidBody& body = *ambient.body;
+  const RigidState now = readState(body);
+  const std::optional<double> part = partOfWay(rows, now, time_step);
+  if (!part) return;
+  const Twist moved_W = turnedBy(rows.start.orientation, rows.start.twist.vector());
+  const Vector6 moved = turnedBy(now.orientation.conjugate(), moved_W.vector()).vector();
+  BoundedTwist end{moved};
+  if (rows.momentum) {
+    const Vector3 position = rows.momentum->pivot + *part * time_step * moved_W.linear;
+    end.twist = twistOf(ambient.model, *rows.momentum, now.orientation, position).vector();
+  }
+  if (rows.energy_bound)
+    end = rows.momentum ? keepingMomentum(ambient.model, rows, moved, end.twist)
+                        : withinEnergy(ambient.model, moved, end.twist, *rows.energy_bound);
+  double energy_removed = end.energy_removed;
+  if (ambient.surface()) {
+    const Axes axes = rows.momentum ? Axes::kFree : Axes::kLocked;
+    end = passWithRows(ambient, end.twist, axes, time_step);
+    energy_removed += end.energy_removed;
+  }
+  const Twist change_W = withoutTraces(turnedBy(now.orientation, end.twist - moved), time_step);
+  if (!change_W.vector().allFinite()) {
+    ++ambient.counters.rejected;
+    complaints.say(Complaint::kNotFinite);
+    return;
+  }
+  ambient.counters.energy_removed += energy_removed;
+  body.setAngularVelocity(body.getAngularVelocity() + toBullet(change_W.angular));
+  body.setLinearVelocity(body.getLinearVelocity() + toBullet(change_W.linear));
+}
+
+AMBIENT_END

@@ -1,0 +1,188 @@
+#include "bullet_ambient/bullet/rows/row_rewriting.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "bullet_ambient/base/ambient_assert.h"
+
+AMBIENT_BEGIN
+namespace {
+
+// One side of a row: an ambient body, or any other.
+struct Party {
+  RowBody* ambient;
+  const btSolverBody& solver_body;
+  RowSide side;
+};
+
+// J (change of velocity outside the rows), less what the row has been set up with. Stock friction
+// rows leave the spin out; joints see all of it.
+btScalar unseenChange(RowKind kind, const Party& party) {
+  if (!party.ambient || kind == RowKind::kJoint) return 0;
+  const RowBody& body = *party.ambient;
+  const btVector3 spin = kind == RowKind::kContact ? -body.spin_aside : body.spin_change;
+  return party.side.angular.dot(spin) - party.side.linear.dot(body.velocity_aside);
+}
+
+btScalar inverseEffectiveMass(const Party& party) {
+  return party.ambient ? changeBasis(*party.ambient, party.side)
+                       : inverseEffectiveMass(party.solver_body, party.side);
+}
+
+btScalar diagonal(const RowBody& body, const RowSide& side) {
+  return side.linear.length2() * body.inverse_mass + side.angular.dot(side.angular_component);
+}
+
+// J K^-1 J^T, without a change of the row.
+btScalar responseOf(const Party& party) {
+  btVector3 angular = party.side.angular, linear = party.side.linear;
+  btVector3 angular_component = party.side.angular_component;
+  const RowSide copy{angular, linear, angular_component};
+  return party.ambient ? changeBasis(*party.ambient, copy)
+                       : inverseEffectiveMass(party.solver_body, copy);
+}
+
+// J P sqrt(D)^-1 with P the locked axes: it moves nothing, because T of these axes is zero, and is
+// orthogonal to all rows that can move the body.
+btScalar pointAlongLockedAxes(const Party& party) {
+  if (!party.ambient) return 0;
+  const RowBody& body = *party.ambient;
+  const RowSide& side = party.side;
+  side.angular = body.root_inertia * (side.angular * body.locked_angular);
+  side.linear = side.linear * body.locked_linear / btSqrt(body.inverse_mass);
+  side.angular_component = times(side.angular, body.inverse_inertia_T);
+  return diagonal(body, side);
+}
+
+void scaleSide(const Party& party, btScalar factor) {
+  if (!party.ambient) return;
+  party.side.angular *= factor;
+  party.side.linear *= factor;
+  party.side.angular_component *= factor;
+}
+
+bool isLocked(const Party& party) { return party.ambient && party.ambient->is_locked; }
+
+// A row that only pulls at locked axes. It stays in its pool, and complementarity solvers divide by
+// its diagonal element: that remains what it was without fluid.
+void suspendRow(btSolverConstraint& row, const Party& a, const Party& b, btScalar old_denominator) {
+  const btScalar found = pointAlongLockedAxes(a) + pointAlongLockedAxes(b);
+  const btScalar factor = found > 0 ? btSqrt(old_denominator / found) : btScalar(0);
+  scaleSide(a, factor);
+  scaleSide(b, factor);
+  row.m_rhs = row.m_rhsPenetration = row.m_cfm = 0;
+}
+
+// |P J|^2 / m of the linear part, with P the locked axes: what Bullet's response has and the body
+// does not do.
+btScalar lockedResponse(const Party& party) {
+  if (!party.ambient) return 0;
+  return (party.side.linear * party.ambient->locked_linear).length2() * party.ambient->inverse_mass;
+}
+
+// Returns the relaxation factor of a row whose bodies have locked axes, above 0 and at most 1.
+// Bullet's effective mass (its inverse is `old_denominator`) does not know locks. A row almost
+// along a locked axis gets this fraction of what it asks for, so that its small lever does not
+// throw the body about.
+btScalar lockedRelaxation(const Party& a, const Party& b, btScalar old_denominator) {
+  const btScalar share = 1 - (lockedResponse(a) + lockedResponse(b)) / old_denominator;
+  return btMax(share, kNoResponse);
+}
+
+void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a, const Party& b,
+                btScalar relaxation) {
+  const btScalar old_inverse = row.m_jacDiagABInv;
+  if (!(old_inverse > 0)) {  // Bullet has switched it off: its Jacobian is as good as zero
+    inverseEffectiveMass(a);
+    inverseEffectiveMass(b);
+    return;
+  }
+  // Contact rows hold their softness inside the effective mass, all others apart from it.
+  const bool is_soft = kind == RowKind::kContact && row.m_cfm != 0;
+  const btScalar cfm = is_soft ? row.m_cfm / old_inverse : btScalar(0);
+  btScalar share = 1;
+  if (isLocked(a) || isLocked(b)) {
+    const btScalar old_denominator = relaxation / old_inverse - cfm;
+    share = lockedRelaxation(a, b, old_denominator);
+    if (!(responseOf(a) + responseOf(b) > kNoResponse * old_denominator)) {
+      suspendRow(row, a, b, old_denominator);
+      return;
+    }
+  }
+  const btScalar unseen = unseenChange(kind, a) + unseenChange(kind, b);
+  const btScalar new_inverse =
+      share * relaxation / (inverseEffectiveMass(a) + inverseEffectiveMass(b) + cfm);
+  const btScalar ratio = new_inverse / old_inverse;
+  row.m_jacDiagABInv = new_inverse;
+  // By the ratio only: spring rows may hold infinite right-hand sides.
+  row.m_rhs = row.m_rhs * ratio - unseen * new_inverse;
+  if (kind == RowKind::kContact) {
+    row.m_rhsPenetration *= ratio;
+    row.m_cfm = cfm * new_inverse;
+  }
+}
+
+}  // namespace
+
+void RowBodies::reset(int solver_body_count) {
+  bodies_.clear();
+  index_.assign(solver_body_count, -1);
+}
+
+RowBody& RowBodies::add(int solver_body) {
+  AMBIENT_ASSERT(solver_body >= 0 && !find(solver_body));
+  index_[solver_body] = static_cast<int>(bodies_.size());
+  return bodies_.emplace_back();
+}
+
+btScalar changeBasis(const RowBody& body, RowSide side) noexcept {
+  const WorldBasis& T = body.basis;
+  const btVector3 angular = times(side.angular, T.angular);
+  side.linear = times(side.linear, T.linear);
+  if (body.has_coupling) side.linear += times(side.angular, T.coupling);
+  side.angular = angular;
+  side.angular_component = times(angular, body.inverse_inertia_T);
+  return diagonal(body, side);
+}
+
+btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noexcept {
+  return side.linear.dot(side.linear * body.internalGetInvMass()) +
+         side.angular.dot(side.angular_component);
+}
+
+void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
+                 const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
+  for (int i = 0; i < rows.size(); ++i) {
+    btSolverConstraint& row = rows[i];
+    // The multithreaded solver leaves rows of torsional friction that it does not need unset.
+    if (kind == RowKind::kTorsionalFriction && row.m_frictionIndex < 0) continue;
+    RowBody* a = bodies.find(row.m_solverBodyIdA);
+    RowBody* b = bodies.find(row.m_solverBodyIdB);
+    if (!a && !b) continue;
+    const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
+    const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
+    rewriteRow(row, kind, {a, solver_bodies[row.m_solverBodyIdA], side_a},
+               {b, solver_bodies[row.m_solverBodyIdB], side_b}, relaxation);
+    ++(a ? a : b)->rows;
+  }
+}
+
+void reapplyImpulses(const btConstraintArray& rows, RowBodies& bodies,
+                     btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
+  for (int i = 0; i < rows.size(); ++i) {
+    const btSolverConstraint& row = rows[i];
+    const btScalar impulse = row.m_appliedImpulse;
+    if (impulse == 0) continue;
+    if (bodies.find(row.m_solverBodyIdA)) {
+      btSolverBody& a = solver_bodies[row.m_solverBodyIdA];
+      a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA,
+                             impulse);
+    }
+    if (bodies.find(row.m_solverBodyIdB)) {
+      btSolverBody& b = solver_bodies[row.m_solverBodyIdB];
+      b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB,
+                             impulse);
+    }
+  }
+}
+
+AMBIENT_END

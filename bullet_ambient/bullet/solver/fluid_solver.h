@@ -1,0 +1,211 @@
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/bullet/solver/solver_group.h"
+#include "bullet_ambient/bullet/solver/tree_group.h"
+
+class btMLCPSolver;
+class btMultiBodyConstraintSolver;
+class btMultiBodyMLCPConstraintSolver;
+class btSequentialImpulseConstraintSolverMt;
+class btDeformableMultiBodyConstraintSolver;
+
+AMBIENT_BEGIN
+
+class AmbientBodies;
+
+/// A stock constraint solver whose contacts and joints feel the full 6x6 inertia of ambient bodies,
+/// by a change of velocity basis; docs/bullet_step.md. A world without ambient bodies moves bit for
+/// bit as with Base. Base: btSequentialImpulseConstraintSolver or a class derived from it. Must be
+/// compiled against the same Bullet headers and precision as the library.
+template <class Base = btSequentialImpulseConstraintSolver>
+class FluidSolver : public Base {
+  static_assert(std::is_base_of_v<btSequentialImpulseConstraintSolver, Base>,
+                "FluidSolver<Base>: Base must be btSequentialImpulseConstraintSolver or derived "
+                "from it");
+  static_assert(!std::is_base_of_v<btDeformableMultiBodyConstraintSolver, Base>,
+                "FluidSolver<Base>: btDeformableMultiBodyDynamicsWorld solves rigid bodies "
+                "together with deformable ones in a way that cannot be rewritten; use "
+                "btSoftRigidDynamicsWorld or btMultiBodyDynamicsWorld");
+  static constexpr bool kHasMultiBodies = std::is_base_of_v<btMultiBodyConstraintSolver, Base>;
+  // Solvers that solve all rows together themselves.
+  static constexpr bool kSolvesAtOnce = std::is_base_of_v<btMLCPSolver, Base> ||
+                                        std::is_base_of_v<btMultiBodyMLCPConstraintSolver, Base>;
+  // Solvers that infer the number of rows from the sizes of their pools, or keep their own pools.
+  static constexpr bool kHasEvenFrictions =
+      std::is_base_of_v<btMLCPSolver, Base> ||
+      std::is_base_of_v<btSequentialImpulseConstraintSolverMt, Base>;
+
+ public:
+  /// Solves with the members of a fluid; makeSolver() has them of a Fluid. Further arguments go to
+  /// Base. Once the fluid is destroyed, it solves as Base does.
+  template <class... Args>
+  explicit FluidSolver(std::shared_ptr<AmbientBodies> members, Args&&... args)
+      : Base(std::forward<Args>(args)...),
+        members_(std::move(members)),
+        group_(*members_),
+        trees_(*members_) {}
+
+  /// Expires when the solver is destroyed, by whomever.
+  std::weak_ptr<const void> life() const { return life_; }
+
+  void prepareSolve(int body_count, int manifold_count) override {
+    Base::prepareSolve(body_count, manifold_count);
+    if constexpr (kHasMultiBodies) trees_.begin();
+  }
+
+  void allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) override {
+    Base::allSolved(info, debug_drawer);
+    if constexpr (kHasMultiBodies) trees_.finish(info);
+  }
+
+ protected:
+  btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count,
+                                        btPersistentManifold** manifolds, int manifold_count,
+                                        btTypedConstraint** constraints, int constraint_count,
+                                        const btContactSolverInfo& info,
+                                        btIDebugDraw* debug_drawer) override {
+    if constexpr (kHasMultiBodies) trees_.meet(info);
+    input_ = {manifolds, manifold_count, constraints, constraint_count};
+    return Base::solveGroupCacheFriendlySetup(bodies, body_count, manifolds, manifold_count,
+                                              constraints, constraint_count, info, debug_drawer);
+  }
+
+  void convertBodies(btCollisionObject** bodies, int body_count,
+                     const btContactSolverInfo& info) override {
+    bool all_stay = false;
+    if constexpr (kHasMultiBodies) all_stay = this->m_tmpNumMultiBodyConstraints > 0;
+    const GroupBodies converted =
+        group_.select({bodies, body_count}, input_, info.m_timeStep, all_stay);
+    this->m_tmpSolverBodyPool.reserve(body_count + 1);
+    Base::convertBodies(converted.first, converted.count, info);
+    group_.begin(this->m_tmpSolverBodyPool);
+  }
+
+  // The last stock conversion: joints and contacts are rows by now.
+  void convertContacts(btPersistentManifold** manifolds, int manifold_count,
+                       const btContactSolverInfo& info) override {
+    group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kEven);
+    Base::convertContacts(manifolds, manifold_count, info);
+    if constexpr (!kHasEvenFrictions) addSecondFrictions(info);
+    group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kTrue);
+    if constexpr (kHasMultiBodies) {
+      const MultiBodyRows multibodies{this->m_multiBodyNormalContactConstraints,
+                                      this->m_multiBodyFrictionContactConstraints,
+                                      this->m_multiBodyTorsionalFrictionContactConstraints,
+                                      this->m_multiBodySpinningFrictionContactConstraints,
+                                      this->m_multiBodyNonContactConstraints,
+                                      this->m_data,
+                                      trees_.met()};
+      group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), &multibodies, info);
+    } else {
+      group_.rewriteRows(this->m_tmpSolverBodyPool, pools(), nullptr, info);
+    }
+    solved_joints_ = 0;
+    if constexpr (!kSolvesAtOnce)
+      solved_joints_ =
+          group_.solveJoints(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool);
+  }
+
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
+                                             btPersistentManifold** manifolds, int manifold_count,
+                                             btTypedConstraint** constraints, int constraint_count,
+                                             const btContactSolverInfo& info,
+                                             btIDebugDraw* debug_drawer) override {
+    btContactSolverInfo once = info;
+    // One iteration takes what rounding has left, unless a residual is asked for.
+    const bool is_enough = isSolved() && !(info.m_leastSquaresResidualThreshold > 0);
+    once.m_leastSquaresResidualThreshold = BT_LARGE_FLOAT;
+    return Base::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count,
+                                                   constraints, constraint_count,
+                                                   is_enough ? once : info, debug_drawer);
+  }
+
+  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
+                                         const btContactSolverInfo& info) override {
+    if constexpr (!kHasEvenFrictions) reportSecondFrictions();
+    group_.finish(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool);
+    return Base::solveGroupCacheFriendlyFinish(bodies, body_count, info);
+  }
+
+ private:
+  // On a face that is aslant to the push, one friction row per contact holds the push, but the
+  // iterations do not get to the end of what pushes along the normal do across it.
+  void addSecondFrictions(const btContactSolverInfo& info) {
+    constexpr int kEvenModes =
+        SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
+    const btConstraintArray& contacts = this->m_tmpSolverContactConstraintPool;
+    first_frictions_ = this->m_tmpSolverContactFrictionConstraintPool.size();
+    if (!group_.mayHoldSlopes() || (info.m_solverMode & kEvenModes)) return;
+    for (int i = 0; i < contacts.size(); ++i)
+      if (group_.holdsSlope(this->m_tmpSolverBodyPool, contacts[i])) addSecondFriction(i, info);
+  }
+
+  void addSecondFriction(int index, const btContactSolverInfo& info) {
+    const btSolverConstraint& contact = this->m_tmpSolverContactConstraintPool[index];
+    auto& point = *static_cast<btManifoldPoint*>(contact.m_originalContactPoint);
+    const btSolverBody& a = this->m_tmpSolverBodyPool[contact.m_solverBodyIdA];
+    const btSolverBody& b = this->m_tmpSolverBodyPool[contact.m_solverBodyIdB];
+    const bool is_given =
+        (info.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) &&
+        (point.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED);
+    btVector3& direction = point.m_lateralFrictionDir2;
+    if (!is_given) {
+      direction = point.m_lateralFrictionDir1.cross(point.m_normalWorldOnB).normalized();
+      for (btRigidBody* body : {a.m_originalBody, b.m_originalBody})
+        if (body)
+          this->applyAnisotropicFriction(body, direction,
+                                         btCollisionObject::CF_ANISOTROPIC_FRICTION);
+    }
+    this->addFrictionConstraint(
+        direction, contact.m_solverBodyIdA, contact.m_solverBodyIdB, index, point,
+        point.getPositionWorldOnA() - a.getWorldTransform().getOrigin(),
+        point.getPositionWorldOnB() - b.getWorldTransform().getOrigin(), nullptr, nullptr,
+        info.m_sor, info, is_given ? point.m_contactMotion2 : btScalar(0),
+        is_given ? point.m_frictionCFM : btScalar(0));
+  }
+
+  // Reports them to the contact points like Bullet's mode of two directions.
+  void reportSecondFrictions() {
+    const btConstraintArray& frictions = this->m_tmpSolverContactFrictionConstraintPool;
+    for (int i = first_frictions_; i < frictions.size(); ++i) {
+      const btSolverConstraint& contact =
+          this->m_tmpSolverContactConstraintPool[frictions[i].m_frictionIndex];
+      static_cast<btManifoldPoint*>(contact.m_originalContactPoint)->m_appliedImpulseLateral2 =
+          frictions[i].m_appliedImpulse;
+    }
+  }
+
+  // All rows of the group are.
+  bool isSolved() const {
+    if (solved_joints_ == 0) return false;
+    if constexpr (kHasMultiBodies)
+      if (this->m_multiBodyNormalContactConstraints.size() > 0 ||
+          this->m_multiBodyNonContactConstraints.size() > 0)
+        return false;
+    return this->m_tmpSolverContactConstraintPool.size() == 0 &&
+           solved_joints_ == this->m_tmpSolverNonContactConstraintPool.size();
+  }
+
+  RowPools pools() {
+    return {this->m_tmpSolverContactConstraintPool, this->m_tmpSolverContactFrictionConstraintPool,
+            this->m_tmpSolverContactRollingFrictionConstraintPool,
+            this->m_tmpSolverNonContactConstraintPool};
+  }
+
+  const std::shared_ptr<AmbientBodies> members_;
+  const std::shared_ptr<const void> life_ = std::make_shared<char>();
+  SolverGroup group_;
+  TreeGroup trees_;
+  int first_frictions_ = 0;  // those that Bullet has made
+  int solved_joints_ = 0;    // rows
+  GroupInput input_;
+};
+
+AMBIENT_END

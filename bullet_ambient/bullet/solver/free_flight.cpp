@@ -1,0 +1,232 @@
+#include <limits>
+#include <optional>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/motion/flight/flight_group.h"
+
+AMBIENT_BEGIN
+namespace {
+
+// A velocity that others changed by more than this part since the last flight makes its history
+// worthless.
+constexpr double kSameVelocity = 1e-3;
+constexpr double kBulletMaxTurn = kPi / 4;  // [rad] per step in integrateTransform
+
+// Bodies before their flight.
+struct Departures {
+  Twist twists_W[kFlightsTogether];  // as Bullet has them
+  RigidState states[kFlightsTogether];
+  Surroundings surroundings[kFlightsTogether];
+};
+
+void readDepartures(AmbientBody* const* bodies, int count, Departures& departures) {
+  DepartureLanes lanes{};
+  for (int i = 0; i < count; ++i) {
+    const btRigidBody& body = *bodies[i]->body;
+    const btMatrix3x3& rotation = body.getWorldTransform().getBasis();
+    for (int row = 0; row < 3; ++row)
+      setLane(lanes.rotation + 3 * row, i, toVector3(rotation[row]));
+    departures.twists_W[i] = {toVector3(body.getAngularVelocity()),
+                              toVector3(body.getLinearVelocity())};
+    setLane(lanes.twist_W, i, departures.twists_W[i]);
+  }
+  fastestFlightKernel().depart(lanes);
+  for (int i = 0; i < count; ++i) {
+    const Vector3 position = toVector3(bodies[i]->body->getWorldTransform().getOrigin());
+    departures.states[i] = {orientationOf(lanes.orientation, i), position,
+                            twistOf(lanes.twist_B, i)};
+    departures.surroundings[i] = readSurroundings(*bodies[i]);
+  }
+}
+
+bool isWithinRounding(const Vector3& a, const Vector3& b) {
+  constexpr double kRounding = 1e-12;
+  return (a - b).squaredNorm() <= kRounding * kRounding * b.squaredNorm();
+}
+
+bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start, const Twist& now) {
+  if (isWithinRounding(now.angular, ambient.left_W.angular) &&
+      isWithinRounding(now.linear, ambient.left_W.linear)) {
+    return false;
+  }
+  const Quaternion to_body = start.orientation.conjugate();
+  const Twist change{to_body * (now.angular - ambient.left_W.angular),
+                     to_body * (now.linear - ambient.left_W.linear)};
+  return inertiaNormSquared(ambient.metric(), change.vector()) >
+         kSameVelocity * kSameVelocity * inertiaNormSquared(ambient.metric(), start.twist.vector());
+}
+
+SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
+  SurfaceEncounter& encounter = ambient.encounter;
+  SurfaceMedia& surface = *ambient.surface();
+  const FlightTask& task = flight.task;
+  const RigidState& start = flight.body.state;
+  standAt(ambient,
+          seenFrom(encounter.plane_W, start.orientation.toRotationMatrix(), start.position));
+  return {{surface.model, encounter.plane_W, task.surroundings, encounter.velocity_above,
+           task.settings, task.duration, ambient.load_share},
+          flight.body,
+          encounter.waves,
+          surface.stand};
+}
+
+void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int count) {
+  std::optional<SurfaceFlight> near[kFlightsTogether];
+  SurfaceFlight* all[kFlightsTogether];
+  for (int i = 0; i < count; ++i) all[i] = &near[i].emplace(surfaceFlight(*bodies[i], *flights[i]));
+  flyAtSurface(all, count);
+  for (int i = 0; i < count; ++i) bodies[i]->encounter.met_B = bodies[i]->surface()->stand.plane;
+}
+
+// Flies bodies at a surface together, and all others.
+void flyAll(AmbientBody* const* bodies, Flight* const* flights, int count) {
+  AmbientBody* at_surface[kFlightsTogether];
+  Flight *near[kFlightsTogether], *free[kFlightsTogether];
+  int near_count = 0, free_count = 0;
+  for (int i = 0; i < count; ++i) {
+    if (bodies[i]->surface()) {
+      at_surface[near_count] = bodies[i];
+      near[near_count++] = flights[i];
+    } else {
+      free[free_count++] = flights[i];
+    }
+  }
+  if (near_count > 0) flyNearSurface(at_surface, near, near_count);
+  if (free_count > 0) flyTogether(free, free_count);
+}
+
+// Twists in world axes: at the end, and the mean one.
+struct Arrivals {
+  Twist ends_W[kFlightsTogether];
+  Twist means_W[kFlightsTogether];
+};
+
+void computeArrivals(const Departures& departures, const Flight* const* flights, int count,
+                     double time_step, Arrivals& arrivals) {
+  ArrivalLanes lanes{};
+  lanes.duration = time_step;
+  lanes.least = leastVelocity(time_step);
+  for (int i = 0; i < count; ++i) {
+    const RigidState &start = departures.states[i], &end = flights[i]->body.state;
+    setLane(lanes.start_orientation, i, start.orientation);
+    setLane(lanes.start_position, i, start.position);
+    setLane(lanes.orientation, i, end.orientation);
+    setLane(lanes.position, i, end.position);
+    setLane(lanes.twist_B, i, end.twist);
+  }
+  fastestFlightKernel().arrive(lanes);
+  for (int i = 0; i < count; ++i) {
+    arrivals.ends_W[i] = twistOf(lanes.twist_W, i);
+    arrivals.means_W[i] = twistOf(lanes.mean_W, i);
+  }
+}
+
+bool fitsBullet(const RigidState& state, const Twist& twist_W) {
+  constexpr auto kLargest = static_cast<double>(std::numeric_limits<btScalar>::max());
+  return state.isFinite() && state.position.norm() < kLargest && twist_W.linear.norm() < kLargest &&
+         twist_W.angular.norm() < kLargest;
+}
+
+void add(const FlightCount& count, AmbientBody& ambient) {
+  ambient.counters.substeps += count.substeps;
+  countLoads(ambient, count.load_evaluations);
+  ambient.counters.guarded += count.guarded;
+  ambient.counters.coarse += count.coarse;
+  ambient.counters.halted += count.halted;
+}
+
+// Keeps the end of a flight if it is one.
+void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, double length_scale,
+          AmbientBody& ambient) {
+  add(flight.count, ambient);
+  FlightEnd& end = ambient.outcome.flight;
+  // No warning if the user limits max_substeps.
+  end.is_too_long =
+      ambient.step_errors.add(flight.count.error) && ambient.def.flight.max_substeps == 0;
+  if (end.is_too_long) ambient.counters.too_long = 1;
+  if (!fitsBullet(flight.state, end_W)) {
+    ambient.outcome.kind = Outcome::kAdrift;
+    ++ambient.counters.rejected;
+    ambient.memory = {};
+    ambient.encounter.waves = {};
+    ambient.encounter.met_B.reset();
+    return;
+  }
+  ambient.outcome.kind = Outcome::kFlown;
+  ambient.counters.energy_removed += flight.count.energy_removed;
+  ambient.memory = flight.memory;
+  end.state = flight.state;
+  end.twist_W = end_W;
+  end.effective_W = mean_W;
+  end.length_scale = length_scale;
+}
+
+// Bullet bounds the turn of a step. From half a turn on, the turn is the small rest of a large
+// spin, whose rounding would turn the body away from its angular momentum.
+bool turnsTooFarForBullet(const FlightEnd& flight, double time_step) {
+  return flight.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) ||
+         flight.twist_W.angular.norm() * time_step > kPi;
+}
+
+// Within rounding of where the flight ends, or did a continuous collision stop the body on its way?
+bool reachedEnd(const AmbientBody& ambient) {
+  const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
+  const double rounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  const FlightEnd& end = ambient.outcome.flight;
+  return (position - end.state.position).norm() <= rounding * end.length_scale;
+}
+
+}  // namespace
+
+void beginFlights(AmbientBody* const* bodies, int count, double time_step,
+                  Twist* changes_W) noexcept {
+  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
+  AMBIENT_ASSERT(time_step > 0);
+  Departures departures;
+  readDepartures(bodies, count, departures);
+  std::optional<Flight> flights[kFlightsTogether];
+  Flight* all[kFlightsTogether] = {};
+  for (int i = 0; i < count; ++i) {
+    AmbientBody& ambient = *bodies[i];
+    const RigidState& start = departures.states[i];
+    if (wasMovedByOthers(ambient, start, departures.twists_W[i])) ambient.memory.has_load = false;
+    const FlightTask task{ambient.model, departures.surroundings[i], ambient.def.flight, time_step};
+    all[i] = &flights[i].emplace(task, start, ambient.memory);
+  }
+  flyAll(bodies, all, count);
+  Arrivals arrivals;
+  computeArrivals(departures, all, count, time_step, arrivals);
+  for (int i = 0; i < count; ++i) {
+    AmbientBody& ambient = *bodies[i];
+    const FlightResult& flight = all[i]->body;
+    const Twist &mean_W = arrivals.means_W[i], &before_W = departures.twists_W[i];
+    const double length_scale = flight.state.position.norm() + ambient.model.reference_length +
+                                time_step * before_W.linear.norm();
+    keep(flight, arrivals.ends_W[i], mean_W, length_scale, ambient);
+    changes_W[i] = {};
+    if (ambient.outcome.kind == Outcome::kFlown)
+      changes_W[i] = {mean_W.angular - before_W.angular, mean_W.linear - before_W.linear};
+  }
+}
+
+void endFlight(AmbientBody& ambient, double time_step) noexcept {
+  btRigidBody& body = *ambient.body;
+  const FlightEnd& flight = ambient.outcome.flight;
+  if (turnsTooFarForBullet(flight, time_step) && reachedEnd(ambient)) {
+    btTransform end = body.getWorldTransform();
+    end.setRotation(toBullet(flight.state.orientation));
+    body.setCenterOfMassTransform(end);
+  }
+  const Twist &end = flight.twist_W, &effective = flight.effective_W;
+  // Added, not set: impulses that other actions have applied meanwhile survive.
+  body.setAngularVelocity(body.getAngularVelocity() +
+                          toBullet(Vector3(end.angular - effective.angular)));
+  body.setLinearVelocity(body.getLinearVelocity() +
+                         toBullet(Vector3(end.linear - effective.linear)));
+  ambient.left_W = end;
+}
+
+AMBIENT_END

@@ -1,0 +1,99 @@
+#include "bullet_ambient/bullet/state/ambient_state.h"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bullet_ambient/bullet/links/tree_links.h"
+#include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/immersed/region_following.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+AMBIENT_BEGIN
+namespace {
+
+// Gives a link at a surface the inertia that its last substep has left.
+void meetSurfaceAgain(AmbientBody& ambient, const FluidRegions& regions) {
+  if (!ambient.place.is_at_surface || !ambient.encounter.met_B) return;
+  const auto entry = regions.all().find(ambient.place.region);
+  if (entry == regions.all().end()) return;
+  const int media = findSurface(ambient.surfaces, SurfaceKind(entry->second.region));
+  if (media >= 0) freezeAsMet(ambient, media);
+}
+
+std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBodyState& state,
+                                      AmbientBodies& registered) {
+  const auto index = static_cast<std::size_t>(saved.link) + 1;
+  if (saved.link < -1 || index >= state.links.size())
+    throw std::invalid_argument("restoreState: a fluid is that of link " +
+                                std::to_string(saved.link) + ", which the state has not");
+  auto link = std::make_unique<AmbientLink>(saved.link);
+  link->stand_in.setMassProps(state.links[index].mass, state.links[index].inertia);
+  link->ambient = makeAmbient(saved.ambient, link->stand_in, registered);
+  return link;
+}
+
+}  // namespace
+
+AmbientState saveAmbient(const AmbientBody& ambient) {
+  AmbientState state{ambient.def,    ambient.medium,          ambient.place,
+                     ambient.memory, ambient.encounter.waves, ambient.encounter.met_B,
+                     ambient.wake,   ambient.left_W,          ambient.counters};
+  if (isModelStale(ambient)) state.memory = {};  // as the next step will do
+  return state;
+}
+
+void saveFluids(const AmbientTree& tree, MultiBodyState& state) {
+  for (const auto& link : tree.links) {
+    LinkFluidState& saved = state.fluids.emplace_back();
+    saved.link = link->link;
+    saved.ambient = saveAmbient(link->ambient);
+  }
+  state.turn_reserve = tree.step.reserve;
+}
+
+AmbientBody makeAmbient(const AmbientState& saved, btRigidBody& body, AmbientBodies& registered) {
+  if (!saved.def.fluid_body)
+    throw std::invalid_argument("restoreState: an attached body of the state has no fluid body");
+  checkDef("restoreState: body with fluid body '" + saved.def.fluid_body->name + "'", saved.def);
+  AmbientBody ambient;
+  ambient.body = &body;
+  ambient.def = saved.def;
+  refreshModel(ambient, registered.regions, registered.load_tables);
+  // A region that does not exist here is left to the next step.
+  if (enterMedium(ambient, saved.place, saved.medium) && isModelStale(ambient) &&
+      body.getInvMass() > 0)
+    rebuildModel(ambient);
+  ambient.memory = saved.memory;
+  ambient.encounter.waves = saved.waves;
+  ambient.encounter.met_B = saved.met_B;
+  ambient.wake = saved.wake;
+  ambient.left_W = saved.left_W;
+  ambient.counters = saved.counters;
+  return ambient;
+}
+
+std::vector<std::unique_ptr<AmbientLink>> makeLinks(const MultiBodyState& state,
+                                                    AmbientBodies& registered) {
+  std::vector<std::unique_ptr<AmbientLink>> links;
+  for (const LinkFluidState& saved : state.fluids) {
+    for (const auto& other : links)
+      if (other->link == saved.link)
+        throw std::invalid_argument("restoreState: the state has two fluids of link " +
+                                    std::to_string(saved.link));
+    links.push_back(makeLink(saved, state, registered));
+  }
+  return links;
+}
+
+void insertLinks(const MultiBodyState& state, std::vector<std::unique_ptr<AmbientLink>> links,
+                 btMultiBodyDynamicsWorld& world, btMultiBody& body, AmbientBodies& registered) {
+  registered.trees.replace(world, body, std::move(links));
+  AmbientTree* tree = registered.trees.find(&body);
+  if (!tree) return;
+  tree->step.reserve = state.turn_reserve;
+  moveStandIns(*tree);
+  for (const auto& link : tree->links) meetSurfaceAgain(link->ambient, registered.regions);
+}
+
+AMBIENT_END

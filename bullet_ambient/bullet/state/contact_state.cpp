@@ -1,0 +1,258 @@
+#include "bullet_ambient/bullet/state/contact_state.h"
+
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "bullet_ambient/bullet/core/world_objects.h"
+#include "bullet_ambient/bullet/state/multibody_state.h"
+
+AMBIENT_BEGIN
+namespace {
+
+class ObjectNumbers {
+ public:
+  explicit ObjectNumbers(btCollisionWorld& world) {
+    for (const btCollisionObject* object : objectsOf(world)) {
+      numbers_.emplace(object, static_cast<int>(numbers_.size()));
+    }
+  }
+  /// Both are -1 if one is not in this world.
+  PairState pair(const void* a, const void* b) const {
+    const auto found_a = numbers_.find(a), found_b = numbers_.find(b);
+    if (found_a == numbers_.end() || found_b == numbers_.end()) return {-1, -1};
+    return {found_a->second, found_b->second};
+  }
+
+ private:
+  std::map<const void*, int> numbers_;
+};
+
+// A manifold, Bullet's place for the contact points of a pair or a part of one.
+struct Place {
+  btPersistentManifold* manifold;
+  PairState pair;
+  int part;
+};
+
+// Places of the contacts of pairs, without predictive contacts, which last for one step.
+std::vector<Place> placesOf(btCollisionWorld& world) {
+  btManifoldArray manifolds;
+  btOverlappingPairCache& cache = *world.getPairCache();
+  for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
+    btCollisionAlgorithm* algorithm = cache.getOverlappingPairArrayPtr()[i].m_algorithm;
+    if (algorithm) algorithm->getAllContactManifolds(manifolds);
+  }
+  const ObjectNumbers numbers(world);
+  std::map<std::pair<int, int>, int> parts;
+  std::vector<Place> places;
+  for (int i = 0; i < manifolds.size(); ++i) {
+    const PairState pair = numbers.pair(manifolds[i]->getBody0(), manifolds[i]->getBody1());
+    if (pair.object_a < 0) continue;
+    places.push_back({manifolds[i], pair, parts[{pair.object_a, pair.object_b}]++});
+  }
+  return places;
+}
+
+void fill(btPersistentManifold& manifold, const std::vector<btManifoldPoint>& points) {
+  manifold.setNumContacts(static_cast<int>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    btManifoldPoint& point = manifold.getContactPoint(static_cast<int>(i));
+    point = points[i];
+    point.m_userPersistentData = nullptr;  // belonged to the point that it was saved from
+  }
+}
+
+// Swaps two manifolds in Bullet's array of them.
+void swapManifolds(int to, int from, btPersistentManifold** array) {
+  std::swap(array[to], array[from]);
+  array[to]->m_index1a = to;
+  array[from]->m_index1a = from;
+}
+
+class Objects {
+ public:
+  explicit Objects(btCollisionWorld& world) : objects_(objectsOf(world)) {}
+
+  /// Null if there is none of this number.
+  btCollisionObject* operator[](int number) const {
+    const auto i = static_cast<std::size_t>(number);
+    return i < objects_.size() ? objects_[i] : nullptr;
+  }
+
+ private:
+  std::vector<btCollisionObject*> objects_;
+};
+
+// btDbvtBroadphase finds a pair once, when its boxes with margins begin to overlap, and drops it
+// some steps after they ceased to.
+bool isDue(const btBroadphasePair& pair, const btCollisionWorld& world) {
+  if (!dynamic_cast<const btDbvtBroadphase*>(world.getBroadphase())) return true;
+  const auto& a = *static_cast<const btDbvtProxy*>(pair.m_pProxy0);
+  const auto& b = *static_cast<const btDbvtProxy*>(pair.m_pProxy1);
+  return Intersect(a.leaf->volume, b.leaf->volume);
+}
+
+// The saved ones in their order, then those that the broadphase would not find again.
+void restorePairs(const std::vector<PairState>& pairs, const Objects& objects,
+                  btCollisionWorld& world) {
+  btOverlappingPairCache& cache = *world.getPairCache();
+  std::vector<btBroadphasePair> found;
+  for (int i = cache.getNumOverlappingPairs() - 1; i >= 0; --i) {
+    const btBroadphasePair pair = cache.getOverlappingPairArrayPtr()[i];
+    if (isDue(pair, world)) found.push_back(pair);
+    cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, world.getDispatcher());
+  }
+  for (const PairState& pair : pairs) {
+    btCollisionObject* a = objects[pair.object_a];
+    btCollisionObject* b = objects[pair.object_b];
+    if (a && b && a != b) {
+      cache.addOverlappingPair(a->getBroadphaseHandle(), b->getBroadphaseHandle());
+    }
+  }
+  for (const btBroadphasePair& pair : found) {
+    cache.addOverlappingPair(pair.m_pProxy0, pair.m_pProxy1);
+  }
+}
+
+// While it lives, a joint does not keep these two from colliding.
+class CollisionsAllowed {
+ public:
+  CollisionsAllowed(btCollisionObject& a, btCollisionObject& b)
+      : a_(a), b_(b), removed_from_a_(allow(a, b)), removed_from_b_(allow(b, a)) {}
+  ~CollisionsAllowed() {
+    for (int i = 0; i < removed_from_a_; ++i) a_.setIgnoreCollisionCheck(&b_, true);
+    for (int i = 0; i < removed_from_b_; ++i) b_.setIgnoreCollisionCheck(&a_, true);
+  }
+  CollisionsAllowed(const CollisionsAllowed&) = delete;
+  CollisionsAllowed& operator=(const CollisionsAllowed&) = delete;
+
+ private:
+  // Two joints enter an object twice.
+  static int allow(btCollisionObject& object, const btCollisionObject& other) {
+    const int before = object.getNumObjectsWithoutCollision();
+    int now = before, last = before + 1;
+    while (now < last && !object.checkCollideWith(&other)) {
+      last = now;
+      object.setIgnoreCollisionCheck(&other, false);
+      now = object.getNumObjectsWithoutCollision();
+    }
+    return before - now;
+  }
+
+  btCollisionObject& a_;
+  btCollisionObject& b_;
+  int removed_from_a_, removed_from_b_;
+};
+
+// Makes places for contacts like Bullet's near callback, but also for pairs that do not collide at
+// present: because they sleep, or were joined since, which leaves their last points in force.
+void makePlaces(btBroadphasePair& pair, btCollisionWorld& world) {
+  auto& a = *static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+  auto& b = *static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+  const CollisionsAllowed allowed(a, b);
+  const btCollisionObjectWrapper of_a(nullptr, a.getCollisionShape(), &a, a.getWorldTransform(), -1,
+                                      -1);
+  const btCollisionObjectWrapper of_b(nullptr, b.getCollisionShape(), &b, b.getWorldTransform(), -1,
+                                      -1);
+  if (!pair.m_algorithm) {
+    pair.m_algorithm =
+        world.getDispatcher()->findAlgorithm(&of_a, &of_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+  }
+  if (!pair.m_algorithm) return;
+  btManifoldResult result(&of_a, &of_b);
+  pair.m_algorithm->processCollision(&of_a, &of_b, world.getDispatchInfo(), &result);
+}
+
+// Some of Bullet's algorithms make no place for a pair of sleeping bodies.
+void wakeAll(btCollisionWorld& world) {
+  for (btRigidBody* body : rigidBodiesOf(world)) {
+    if (!body->isStaticObject()) body->forceActivationState(ACTIVE_TAG);
+  }
+  for (btMultiBody* body : multiBodiesOf(world)) wakeColliders(*body);
+}
+
+std::pair<int, int> inOrder(const PairState& pair) {
+  return {std::min(pair.object_a, pair.object_b), std::max(pair.object_a, pair.object_b)};
+}
+
+void makePlaces(const std::vector<ContactState>& contacts, btCollisionWorld& world) {
+  std::set<std::pair<int, int>> touching;
+  for (const ContactState& contact : contacts) touching.insert(inOrder(contact.pair));
+  const ObjectNumbers numbers(world);
+  btOverlappingPairCache& cache = *world.getPairCache();
+  for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
+    btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
+    const PairState found =
+        numbers.pair(pair.m_pProxy0->m_clientObject, pair.m_pProxy1->m_clientObject);
+    if (touching.count(inOrder(found)) > 0) makePlaces(pair, world);
+  }
+}
+
+}  // namespace
+
+std::vector<PairState> savePairs(btCollisionWorld& world) {
+  const ObjectNumbers numbers(world);
+  std::vector<PairState> pairs;
+  btOverlappingPairCache& cache = *world.getPairCache();
+  for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
+    const btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
+    const PairState saved =
+        numbers.pair(pair.m_pProxy0->m_clientObject, pair.m_pProxy1->m_clientObject);
+    if (saved.object_a >= 0) pairs.push_back(saved);
+  }
+  return pairs;
+}
+
+// In the order of Bullet's array of manifolds, which is that of the rows of a solver.
+std::vector<ContactState> saveContacts(btCollisionWorld& world) {
+  std::vector<Place> places = placesOf(world);
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.manifold->m_index1a < b.manifold->m_index1a;
+  });
+  std::vector<ContactState> contacts;
+  for (const Place& place : places) {
+    ContactState contact{place.pair, place.part, {}};
+    for (int p = 0; p < place.manifold->getNumContacts(); ++p) {
+      contact.points.push_back(place.manifold->getContactPoint(p));
+      contact.points.back().m_userPersistentData = nullptr;
+    }
+    contacts.push_back(std::move(contact));
+  }
+  return contacts;
+}
+
+void restoreContacts(const std::vector<PairState>& pairs, const std::vector<ContactState>& contacts,
+                     btCollisionWorld& world) {
+  world.updateAabbs();
+  world.computeOverlappingPairs();
+  restorePairs(pairs, Objects(world), world);
+  wakeAll(world);
+  makePlaces(contacts, world);
+
+  std::map<std::tuple<int, int, int>, btPersistentManifold*> places;
+  for (const Place& place : placesOf(world)) {
+    place.manifold->clearManifold();
+    places[{place.pair.object_a, place.pair.object_b, place.part}] = place.manifold;
+  }
+  btPersistentManifold** array = world.getDispatcher()->getInternalManifoldPointer();
+  int restored = 0;
+  for (const ContactState& contact : contacts) {
+    const auto found = places.find({contact.pair.object_a, contact.pair.object_b, contact.part});
+    if (found == places.end()) continue;
+    fill(*found->second, contact.points);
+    swapManifolds(restored++, found->second->m_index1a, array);
+    places.erase(found);
+  }
+}
+
+AMBIENT_END

@@ -1,0 +1,361 @@
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+
+#include <cmath>
+#include <string>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/bullet/state/bullet_access.h"
+#include "bullet_ambient/bullet/state/world_state_structs.h"
+
+AMBIENT_BEGIN
+
+// The stored fields, once for all that is done with them: written, read, checked, taken from Bullet
+// and given back to it. Their order is that of the bytes. To add a field, add it to the structure
+// and here, and raise the version.
+constexpr std::uint32_t kStateVersion = 11;
+
+/// Rule for each number of a field, and the words for one that is not: they follow the name of
+/// what holds the field. The value follows them if they end with a blank.
+struct Rule {
+  bool (*holds)(double) = nullptr;  ///< null: whatever it is
+  const char* fault = "";
+};
+constexpr Rule kAny;
+constexpr Rule finite(const char* fault) {
+  return {[](double x) { return std::isfinite(x); }, fault};
+}
+constexpr Rule finiteNotNegative(const char* fault) {
+  return {[](double x) { return x >= 0 && std::isfinite(x); }, fault};
+}
+constexpr Rule notNegative(const char* fault) {
+  return {[](double x) { return x >= 0; }, fault};
+}
+constexpr Rule share(const char* fault) {
+  return {[](double x) { return x >= 0 && x <= 1; }, fault};
+}
+/// Bullet's thresholds are infinite where a program says "never".
+constexpr Rule number(const char* fault) {
+  return {[](double x) { return !std::isnan(x); }, fault};
+}
+
+/// A visitor of fields, with v(field, rule), v(field, rule, get, set) of the object of Bullet that
+/// has the field, or v(field, rule, get) if `get` returns Numbers. It passes by all else.
+struct FieldVisitor {
+  /// An enumerator, one of those that have a name.
+  template <class Enum, class Names>
+  void choice(Enum&, const Names&) {}
+  void fluidBody(std::shared_ptr<const FluidBody>&) {}
+  /// A structure that may be absent.
+  template <class State>
+  void optional(std::optional<State>&) {}
+  /// Structures; name(index) leads the words of their faults.
+  template <class State, class Name>
+  void list(std::vector<State>&, const Name&) {}
+  /// Checks what must hold of several fields together.
+  template <class Words, class Holds>
+  void check(const Words&, const Holds&) {}
+};
+
+/// Visits fields without names that have one rule.
+template <class V, class... Field>
+void each(V& v, const Rule& rule, Field&... field) {
+  (v(field, rule), ...);
+}
+
+constexpr auto kNoName = [](std::size_t) { return std::string(); };
+inline auto numbered(const char* words) {
+  return [words](std::size_t i) { return words + std::to_string(i) + ", whose "; };
+}
+
+template <class V>
+void fields(V& v, Medium& s) {
+  each(v, kAny, s.density, s.viscosity, s.velocity, s.acceleration);
+}
+
+// checkDef() and makeBodyModel() tell what is wrong with these.
+template <class V>
+void fields(V& v, AttachDef& s) {
+  v.fluidBody(s.fluid_body);
+  fields(v, s.medium);
+  each(v, kAny, s.follow_regions, s.wave_damping, s.flow.separation_angle);
+  v.choice(s.flow.law, kPressureLawNames);
+  each(v, kAny, s.flow.skin_friction, s.flow.stall_lag);
+  v.choice(s.flow.precision, kLoadPrecisionNames);
+  each(v, kAny, s.flow.maximum_load_error);
+  v.choice(s.flight.integrator, kIntegratorNames);
+  each(v, kAny, s.flight.tolerance, s.flight.max_substeps, s.fluid_frame.rotation,
+       s.fluid_frame.translation);
+}
+
+template <class V>
+void fields(V& v, WaveMemory& s) {
+  each(v, kAny, s.heave[0], s.tilt_W[0], s.heave[1], s.tilt_W[1], s.heave_energy, s.tilt_energy);
+  v.check("waves have energies that are negative or not finite, or heights that have such", [&s] {
+    return s.heave_energy >= 0 && s.tilt_energy >= 0 && std::isfinite(s.energy()) &&
+           std::isfinite(s.heave[0] * s.heave[0]) && std::isfinite(s.heave[1] * s.heave[1]) &&
+           std::isfinite(s.tilt_W[0].squaredNorm()) && std::isfinite(s.tilt_W[1].squaredNorm());
+  });
+}
+
+template <class V>
+void fields(V& v, SurfacePlane& s) {
+  constexpr auto kFault = "surface of the water is not finite, or its normal is no direction";
+  v(s.normal, kAny);
+  v(s.height, finite(kFault));
+  each(v, finiteNotNegative(kFault), s.density, s.gravity);
+  v.check(kFault, [&s] { return std::abs(s.normal.squaredNorm() - 1) < 0.01; });
+}
+
+template <class V>
+void fields(V& v, AmbientCounters& s) {
+  each(v, kAny, s.substeps, s.load_evaluations, s.faces, s.guarded, s.coarse, s.halted,
+       s.energy_removed, s.rows, s.joint_rows, s.rejected, s.regions_asked, s.medium_changes,
+       s.too_long);
+}
+
+template <class V>
+void fields(V& v, AmbientState& s) {
+  fields(v, s.def);
+  fields(v, s.medium);
+  v.check("medium is not physical", [&m = s.medium] {
+    return m.density >= 0 && m.viscosity >= 0 && std::isfinite(m.density) &&
+           std::isfinite(m.viscosity) && m.velocity.allFinite() && m.acceleration.allFinite();
+  });
+  each(v, kAny, s.place.region, s.place.is_above, s.place.is_at_surface);
+  fields(v, s.waves);
+  v.optional(s.met_B);
+  each(v, kAny, s.memory.load_W.torque, s.memory.load_W.force, s.memory.has_load);
+  v(s.memory.substep, finiteNotNegative("flight has a substep that is negative or not finite: "));
+  each(v, kAny, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.has_begun);
+  each(v, kAny, s.left_W.angular, s.left_W.linear);
+  // Flights take energies of both.
+  v.check("flight has a load or velocity that is not finite, or its square is not", [&s] {
+    return std::isfinite(s.memory.load_W.vector().squaredNorm()) &&
+           std::isfinite(s.wake.velocity_W.vector().squaredNorm()) &&
+           std::isfinite(s.left_W.vector().squaredNorm());
+  });
+  fields(v, s.counters);
+}
+
+template <class V>
+void fields(V& v, ObjectState& s) {
+  using Object = btCollisionObject;
+  constexpr Rule kMotion = finite("pose or velocity is not finite");
+  constexpr Rule kContact = finite("friction or restitution is not finite");
+  constexpr Rule kThreshold = number("threshold of sleep or collision is not a number");
+  constexpr Rule kActivation{[](double x) { return x >= ACTIVE_TAG && x <= FIXED_BASE_MULTI_BODY; },
+                             "activation state is unknown: "};
+  v(s.pose, kMotion, constant(&Object::getWorldTransform), &Object::setWorldTransform);
+  v(s.interpolation_pose, kMotion, constant(&Object::getInterpolationWorldTransform),
+    &Object::setInterpolationWorldTransform);
+  v(s.interpolation_linear_velocity, kMotion, &Object::getInterpolationLinearVelocity,
+    &Object::setInterpolationLinearVelocity);
+  v(s.interpolation_angular_velocity, kMotion, &Object::getInterpolationAngularVelocity,
+    &Object::setInterpolationAngularVelocity);
+  v(s.friction, kContact, &Object::getFriction, &Object::setFriction);
+  v(s.rolling_friction, kContact, &Object::getRollingFriction, &Object::setRollingFriction);
+  v(s.spinning_friction, kContact, &Object::getSpinningFriction, &Object::setSpinningFriction);
+  v(s.restitution, kContact, &Object::getRestitution, &Object::setRestitution);
+  v(s.ccd_radius, kThreshold, &Object::getCcdSweptSphereRadius, &Object::setCcdSweptSphereRadius);
+  v(s.ccd_threshold, kThreshold, &Object::getCcdMotionThreshold, &Object::setCcdMotionThreshold);
+  v(s.contact_processing_threshold, kThreshold, &Object::getContactProcessingThreshold,
+    &Object::setContactProcessingThreshold);
+  v(s.deactivation_time, kThreshold, &Object::getDeactivationTime, kByRestoreSleep);
+  v(s.activation_state, kActivation, &Object::getActivationState, kByRestoreSleep);
+  v(s.collision_flags, kAny, &Object::getCollisionFlags, &Object::setCollisionFlags);
+}
+
+template <class V>
+void fields(V& v, BodyState& s) {
+  using Body = btRigidBody;
+  constexpr Rule kMotion = finite("pose or velocity is not finite");
+  constexpr Rule kForce = finite("force, torque or gravity is not finite");
+  constexpr Rule kInertia = finiteNotNegative("inverse inertia is negative or not finite");
+  constexpr Rule kFactor = finite("linear or angular factor is not finite");
+  constexpr Rule kMass = finiteNotNegative("inverse mass is negative or not finite: ");
+  constexpr Rule kDamping = share("damping is not between 0 and 1");
+  constexpr Rule kThreshold = number("threshold of sleep or collision is not a number");
+  fields(v, static_cast<ObjectState&>(s));
+  v(s.linear_velocity, kMotion, &Body::getLinearVelocity, &Body::setLinearVelocity);
+  v(s.angular_velocity, kMotion, &Body::getAngularVelocity, &Body::setAngularVelocity);
+  v(s.total_force, kForce, &Body::getTotalForce, kByRestoreForces);
+  v(s.total_torque, kForce, &Body::getTotalTorque, kByRestoreForces);
+  v(s.gravity, kForce, &Body::getGravity, kByRestoreMass);
+  v(s.inverse_inertia, kInertia, &Body::getInvInertiaDiagLocal, kByRestoreMass);
+  v(s.linear_factor, kFactor, &Body::getLinearFactor, kByRestoreForces);
+  v(s.angular_factor, kFactor, &Body::getAngularFactor, kByRestoreForces);
+  v(s.inverse_mass, kMass, &Body::getInvMass, kByRestoreMass);
+  v(s.linear_damping, kDamping, &Body::getLinearDamping,
+    [](Body& b, btScalar x) { b.setDamping(x, b.getAngularDamping()); });
+  v(s.angular_damping, kDamping, &Body::getAngularDamping,
+    [](Body& b, btScalar x) { b.setDamping(b.getLinearDamping(), x); });
+  v(s.linear_sleeping_threshold, kThreshold, &Body::getLinearSleepingThreshold,
+    [](Body& b, btScalar x) { b.setSleepingThresholds(x, b.getAngularSleepingThreshold()); });
+  v(s.angular_sleeping_threshold, kThreshold, &Body::getAngularSleepingThreshold,
+    [](Body& b, btScalar x) { b.setSleepingThresholds(b.getLinearSleepingThreshold(), x); });
+  v(s.flags, kAny, &Body::getFlags, &Body::setFlags);
+  v.optional(s.ambient);
+}
+
+template <class V>
+void fields(V& v, MultiBodyLinkState& s) {
+  using Link = btMultibodyLink;
+  using Place = LinkPlace;
+  constexpr Rule kMass = finiteNotNegative("mass is negative or not finite: ");
+  constexpr Rule kInertia = finiteNotNegative("inertia is negative or not finite");
+  constexpr Rule kForce = finite("force or torque is not finite");
+  constexpr Rule kPosition = finite("pose or position of its joint is not finite");
+  v(
+      s.mass, kMass, [](Place& l) { return l.link ? l.link->m_mass : l.body.getBaseMass(); },
+      [](Place& l, btScalar x) { l.link ? void(l.link->m_mass = x) : l.body.setBaseMass(x); });
+  v(
+      s.inertia, kInertia,
+      [](Place& l) { return l.link ? l.link->m_inertiaLocal : l.body.getBaseInertia(); },
+      [](Place& l, const btVector3& x) {
+        l.link ? void(l.link->m_inertiaLocal = x) : l.body.setBaseInertia(x);
+      });
+  // Added to zero: a base has no setter.
+  v(
+      s.force, kForce,
+      [](Place& l) { return l.link ? l.link->m_appliedForce : l.body.getBaseForce(); },
+      [](Place& l, const btVector3& x) {
+        l.link ? void(l.link->m_appliedForce = x) : l.body.addBaseForce(x);
+      });
+  v(
+      s.torque, kForce,
+      [](Place& l) { return l.link ? l.link->m_appliedTorque : l.body.getBaseTorque(); },
+      [](Place& l, const btVector3& x) {
+        l.link ? void(l.link->m_appliedTorque = x) : l.body.addBaseTorque(x);
+      });
+  v(s.joint_position, kPosition,
+    [](Place& l) { return l.joint(&Link::m_jointPos, &Link::m_posVarCount); });
+  v(s.interpolation_position, kPosition,
+    [](Place& l) { return l.joint(&Link::m_jointPos_interpolate, &Link::m_posVarCount); });
+  v(s.joint_force, kForce,
+    [](Place& l) { return l.joint(&Link::m_jointTorque, &Link::m_dofCount); });
+  // After the joints: their caches follow them, and so would the pose.
+  v(
+      s.pose, kPosition,
+      [](Place& l) { return l.link ? l.link->m_cachedWorldTransform : btTransform::getIdentity(); },
+      [](Place& l, const btTransform& x) {
+        if (!l.link) return;
+        l.link->updateCacheMultiDof();
+        l.link->m_cachedWorldTransform = x;
+      });
+  v.optional(s.collider);
+}
+
+template <class V>
+void fields(V& v, LinkFluidState& s) {
+  v(s.link, kAny);
+  fields(v, s.ambient);
+}
+
+template <class V>
+void fields(V& v, MultiBodyState& s) {
+  using Body = btMultiBody;
+  constexpr Rule kMotion = finite("pose or velocity is not finite");
+  constexpr Rule kDamping = finiteNotNegative("damping is negative or not finite");
+  constexpr Rule kLimit = notNegative("limit of velocity is negative or not a number");
+  constexpr Rule kSleep = number("threshold or time of sleep is not a number");
+  v.check("base is missing", [&s] { return !s.links.empty(); });
+  v(s.position, kMotion, &Body::getBasePos, &Body::setBasePos);
+  v(s.interpolation_position, kMotion, &Body::getInterpolateBasePos, &Body::setInterpolateBasePos);
+  v(s.orientation, kAny, &Body::getWorldToBaseRot, &Body::setWorldToBaseRot);
+  v(s.interpolation_orientation, kAny, &Body::getInterpolateWorldToBaseRot,
+    &Body::setInterpolateWorldToBaseRot);
+  v.check("orientation is no quaternion of unit length", [&s] {
+    return std::abs(s.orientation.length2() - 1) < btScalar(0.01) &&
+           std::abs(s.interpolation_orientation.length2() - 1) < btScalar(0.01);
+  });
+  v(s.velocity, kMotion, &velocitiesOf);
+  v.list(s.links,
+         [](std::size_t i) { return "link " + std::to_string(static_cast<int>(i) - 1) + ": "; });
+  v(s.linear_damping, kDamping, &Body::getLinearDamping, &Body::setLinearDamping);
+  v(s.angular_damping, kDamping, &Body::getAngularDamping, &Body::setAngularDamping);
+  v(s.velocity_limit, kLimit, &Body::getMaxCoordinateVelocity, &Body::setMaxCoordinateVelocity);
+  v(
+      s.sleep_timer, kSleep, [](Body& b) { return sleepOf(b).timer; }, kByRestoreSleep);
+  v(
+      s.sleep_threshold, kSleep, [](Body& b) { return sleepOf(b).threshold; }, kByRestoreSleep);
+  v(
+      s.sleep_timeout, kSleep, [](Body& b) { return sleepOf(b).timeout; }, kByRestoreSleep);
+  v(s.is_awake, kAny, &Body::isAwake, kByRestoreSleep);
+  v(s.can_sleep, kAny, &Body::getCanSleep, kByRestoreSleep);
+  v(s.can_wake_up, kAny, &Body::getCanWakeup, kByRestoreSleep);
+  v(s.has_gyroscopic_term, kAny, &Body::getUseGyroTerm, &Body::setUseGyroTerm);
+  v(s.turn_reserve, finiteNotNegative("reserve of energy is negative or not finite"));
+  v.list(s.fluids, kNoName);
+}
+
+template <class V>
+void fields(V& v, btManifoldPoint& s) {
+  constexpr auto kFault =
+      "has a contact point whose numbers are not finite, or whose normal is no direction";
+  each(v, finite(kFault), s.m_localPointA, s.m_localPointB, s.m_positionWorldOnB,
+       s.m_positionWorldOnA, s.m_normalWorldOnB);
+  v.check(kFault, [&s] { return s.m_normalWorldOnB.length2() < 2; });
+  each(v, kAny, s.m_lateralFrictionDir1, s.m_lateralFrictionDir2);
+  each(v, finite(kFault), s.m_distance1, s.m_combinedFriction, s.m_combinedRollingFriction,
+       s.m_combinedSpinningFriction, s.m_combinedRestitution, s.m_appliedImpulse);
+  each(v, kAny, s.m_prevRHS, s.m_appliedImpulseLateral1, s.m_appliedImpulseLateral2);
+  each(v, finite(kFault), s.m_contactMotion1, s.m_contactMotion2, s.m_contactCFM, s.m_contactERP,
+       s.m_frictionCFM);
+  each(v, kAny, s.m_partId0, s.m_partId1, s.m_index0, s.m_index1, s.m_contactPointFlags,
+       s.m_lifeTime);
+  // Bullet leaves directions of friction unset until rows are made.
+  v.check(kFault, [&s] {
+    return !(s.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED) ||
+           std::isfinite(s.m_lateralFrictionDir1.length2() + s.m_lateralFrictionDir2.length2());
+  });
+}
+
+template <class V>
+void fields(V& v, PairState& s) {
+  each(v, notNegative("has a contact without an object"), s.object_a, s.object_b);
+}
+
+template <class V>
+void fields(V& v, ContactState& s) {
+  fields(v, s.pair);
+  v(s.part, kAny);
+  v.check("has a contact of " + std::to_string(s.points.size()) + " points; at most " +
+              std::to_string(MANIFOLD_CACHE_SIZE) + " are possible",
+          [&s] { return s.points.size() <= MANIFOLD_CACHE_SIZE; });
+  v.list(s.points, kNoName);
+}
+
+template <class V>
+void fields(V& v, JointState& s) {
+  using Joint = btTypedConstraint;
+  v(s.is_enabled, kAny, &Joint::isEnabled, &Joint::setEnabled);
+  v(s.applied_impulse, finite("has a joint whose impulse is not finite"),
+    &Joint::internalGetAppliedImpulse, &Joint::internalSetAppliedImpulse);
+}
+
+template <class V>
+void fields(V& v, MultiBodyJointState& s) {
+  v(s.applied_impulses, finite("has a joint whose impulse is not finite"));
+}
+
+template <class V>
+void fields(V& v, WorldState& s) {
+  v.list(s.bodies, numbered("has a body, number "));
+  v.list(s.multi_bodies, numbered("has a multibody, number "));
+  v.list(s.pairs, kNoName);
+  v.list(s.contacts, kNoName);
+  v.list(s.joints, kNoName);
+  v.list(s.multi_body_joints, kNoName);
+  v(s.random_seed, kAny);
+  v(s.time, finite("has a time that is not finite"));
+}
+
+/// Shows the fields of a state to a visitor that changes nothing.
+template <class V, class State>
+void visit(V& v, const State& s) {
+  fields(v, const_cast<State&>(s));
+}
+
+AMBIENT_END

@@ -1,0 +1,183 @@
+#include "bullet_ambient/bullet/world/fluid.h"
+
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <vector>
+
+#include "bullet_ambient/bullet/connection/world_connection.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/bullet/members/attach_link.h"
+#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/bullet/world/fluid_action.h"
+#include "bullet_ambient/immersed/region_following.h"
+
+AMBIENT_BEGIN
+namespace {
+
+// Makes all loads first: what throws changes nothing.
+void learnAll(AmbientBodies& bodies, const RegionFluids& fluids) {
+  if (fluids.empty()) return;
+  std::vector<KnownFluids> made;
+  bodies.forEach([&](const AmbientBody& ambient) {
+    made.push_back(makeKnownFluids(ambient.def, fluids, bodies.load_tables));
+  });
+  std::size_t next = 0;
+  bodies.forEach([&](AmbientBody& ambient) { learnFluids(ambient, std::move(made[next++])); });
+}
+
+void forgetAll(AmbientBodies& bodies, const RegionFluids& fluids) {
+  if (fluids.empty()) return;
+  bodies.forEach([&](AmbientBody& ambient) { forgetFluids(ambient, fluids); });
+}
+
+template <class Object>
+Object& requireObject(Object* object) {
+  if (!object) throw std::invalid_argument("add: the body is null");
+  return *object;
+}
+
+// Reports a new member that is light beside what it displaces. Returns the member.
+const AmbientBody& reportIfLight(AmbientBodies& members, const AmbientBody& ambient) {
+  const DisplacedMass mass = displacedMass(ambient);
+  if (mass.isMuchLighter()) warnOfLightBody(members.complaints, ambient.def, mass, 1);
+  return ambient;
+}
+
+}  // namespace
+
+AmbientBodies& membersOf(const Fluid& fluid) { return *fluid.members_; }
+
+Fluid::Fluid(btDynamicsWorld& world, SolverOwner owner)
+    : members_(std::make_shared<AmbientBodies>()),
+      action_(std::make_unique<FluidAction>(*members_, drawing)),
+      connection_(std::make_unique<WorldConnection>(world, members_, *action_, owner)) {
+  setReport([](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); });
+}
+
+// Solvers of the program may keep the members, without anything of the program's.
+Fluid::~Fluid() { members_->close(); }
+
+bool Fluid::isWorldAlive() const { return connection_->isWorldAlive(); }
+
+void Fluid::refit() { connection_->refit(); }
+
+Immersed Fluid::add(btRigidBody* body, AttachDef def) {
+  return add(requireObject(body), std::move(def));
+}
+
+Immersed Fluid::add(btRigidBody& body, AttachDef def) {
+  connection_->world("add");
+  members_->requireChangeable("add");
+  const AmbientBody& ambient = attachBody(*members_, body, std::move(def));
+  return Immersed(*members_, reportIfLight(*members_, ambient));
+}
+
+Immersed Fluid::add(btMultiBody* multi_body, int link, AttachDef def) {
+  return add(requireObject(multi_body), link, std::move(def));
+}
+
+Immersed Fluid::add(btMultiBody& multi_body, int link, AttachDef def) {
+  btMultiBodyDynamicsWorld& world = connection_->multiBodyWorld("add");
+  members_->requireChangeable("add");
+  const AmbientBody& ambient = attachLink(*members_, world, {multi_body, link}, std::move(def));
+  return Immersed(*members_, reportIfLight(*members_, ambient));
+}
+
+AttachReport Fluid::addAll(FluidBodySource& shapes, const Medium& medium, AttachSettings settings) {
+  btDiscreteDynamicsWorld& world = connection_->world("addAll");
+  members_->requireChangeable("addAll");
+  const bool later_bodies = settings.later_bodies;
+  auto attachment =
+      std::make_unique<WorldAttachment>(*members_, shapes, medium, std::move(settings));
+  AttachReport report = attachment->attachNew(world);
+  if (later_bodies || report.attached > 0) action_->follow(std::move(attachment));
+  return report;
+}
+
+void Fluid::addLaterBodies() {
+  btDiscreteDynamicsWorld& world = connection_->world("addLaterBodies");
+  members_->requireChangeable("addLaterBodies");
+  action_->attachLater(world);
+}
+
+std::optional<Immersed> Fluid::find(const btRigidBody& body) const {
+  const AmbientBody* ambient = members_->find(&body);
+  if (!ambient) return std::nullopt;
+  return Immersed(*members_, *ambient);
+}
+
+std::optional<Immersed> Fluid::find(const btMultiBody& multi_body, int link) const {
+  const AmbientLink* found = members_->trees.find(&multi_body, link);
+  if (!found) return std::nullopt;
+  return Immersed(*members_, found->ambient);
+}
+
+std::size_t Fluid::size() const {
+  std::size_t size = 0;
+  members_->forEach([&size](const AmbientBody&) { ++size; });
+  return size;
+}
+
+void Fluid::clear() {
+  members_->requireChangeable("clear");
+  members_->clear();
+  action_->followNothing();
+}
+
+RegionId Fluid::addRegion(FluidRegion region) {
+  members_->requireChangeable("addRegion");
+  FluidRegions& regions = members_->regions;
+  checkRegion(regions.next(), region);
+  learnAll(*members_, regions.missing(region));
+  return regions.add(std::move(region));
+}
+
+void Fluid::setRegion(RegionId id, FluidRegion region) {
+  members_->requireChangeable("setRegion");
+  FluidRegions& regions = members_->regions;
+  checkRegion(id, region);
+  const FluidRegion before = regions.require(id);
+  learnAll(*members_, regions.missing(region));
+  regions.set(id, std::move(region));
+  forgetAll(*members_, regions.missing(before));
+}
+
+bool Fluid::removeRegion(RegionId id) {
+  members_->requireChangeable("removeRegion");
+  FluidRegions& regions = members_->regions;
+  const auto found = regions.all().find(id);
+  if (found == regions.all().end()) return false;
+  const FluidRegion before = found->second.region;
+  regions.remove(id);
+  forgetAll(*members_, regions.missing(before));
+  return true;
+}
+
+WorldState Fluid::save() const { return saveState(connection_->world("save"), *members_); }
+
+void Fluid::restore(const WorldState& state) {
+  restoreState(state, connection_->world("restore"), *members_);
+}
+
+double Fluid::time() const { return members_->regions.time; }
+
+AmbientCounters Fluid::counters() const {
+  AmbientCounters sum;
+  members_->forEach([&](const AmbientBody& ambient) { sum += ambient.counters; });
+  return sum;
+}
+
+void Fluid::setReport(std::function<void(const std::string&)> report) {
+  members_->complaints.setReport(std::move(report));
+}
+
+void Fluid::setNaming(std::function<std::string(const btCollisionObject&)> naming) {
+  members_->naming = std::move(naming);
+}
+
+void Fluid::setTaskRunner(TaskRunner* runner) { members_->task_runner = runner; }
+
+AMBIENT_END

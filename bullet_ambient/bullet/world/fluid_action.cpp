@@ -1,0 +1,153 @@
+#include "bullet_ambient/bullet/world/fluid_action.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include <cmath>
+#include <utility>
+
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/bullet/reading/body_reading.h"
+#include "bullet_ambient/bullet/rows/row_motion.h"
+#include "bullet_ambient/bullet/world/world_trees.h"
+#include "bullet_ambient/immersed/region_call.h"
+
+AMBIENT_BEGIN
+
+namespace {
+
+// Asks the world, not the fluid: a body there may have been destroyed.
+bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const AmbientBody* ambient = bodies.find(objects[i]);
+    if (ambient && ambient->isInFluid() && objects[i]->isActive() &&
+        !objects[i]->isStaticOrKinematicObject()) {
+      return true;
+    }
+  }
+  return hasAwakeTree(world, bodies);
+}
+
+// Whether the body that the solver met is still there: it may have been removed and destroyed
+// since, by another action, or long ago if that substep had no action. Removals swap the world's
+// array.
+bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  int index = ambient.outcome.world_index;
+  if (index < 0 || index >= objects.size() || objects[index] != ambient.body) {
+    index = objects.findLinearSearch(ambient.body);
+  }
+  return index < objects.size() && AmbientBodies::isSame(ambient);
+}
+
+void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& complaints) {
+  if (kind == Outcome::kHeld) return release(ambient);
+  if (kind == Outcome::kFlown) {
+    endFlight(ambient, time_step);
+  } else {
+    endRowMotion(ambient, time_step, complaints);
+  }
+  if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
+  keepAwakeInUnsteadyFluid(ambient);
+}
+
+void completeRead(Outcome kind, AmbientBody& ambient, double time_step, Complaints& complaints) {
+  const Twist before_W = velocityOf(*ambient.body);
+  complete(kind, ambient, time_step, complaints);
+  if (kind != Outcome::kHeld) finishBodyReading(ambient, kind, before_W, time_step);
+}
+
+// Clears contact impulses after a substep whose duration is not finite: the next one would start
+// its contacts with them.
+void forgetBrokenImpulses(btCollisionWorld& world) {
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      btManifoldPoint& point = manifold.getContactPoint(k);
+      for (btScalar* impulse : {&point.m_appliedImpulse, &point.m_appliedImpulseLateral1,
+                                &point.m_appliedImpulseLateral2})
+        if (!std::isfinite(*impulse)) *impulse = 0;
+    }
+  }
+}
+
+// Wakes the followers that the world still has: others may have been destroyed.
+void wakeFollowers(const btCollisionWorld& world, const AmbientBodies& bodies) {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const AmbientBody* ambient = bodies.find(objects[i]);
+    if (ambient && ambient->def.follow_regions) objects[i]->activate();
+  }
+  wakeFollowingTrees(world, bodies);
+}
+
+}  // namespace
+
+// In two substeps in a row: another action may have woken the body after the solver's turn.
+bool FluidAction::isSolverMissing(const btCollisionWorld& world) {
+  const unsigned solved = bodies_.solved;
+  const bool is_missing = std::exchange(solved_, solved) == solved &&
+                          (bodies_.size() > 0 || !bodies_.trees.empty()) &&
+                          hasAwakeMember(world, bodies_);
+  return std::exchange(was_missing_, is_missing) && is_missing;
+}
+
+void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
+  world_ = world;
+  for (AmbientBody* ambient = bodies_.takeMet(); ambient; ambient = ambient->next_met) {
+    const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotMet);
+    if (kind == Outcome::kStock || !isStillIn(*world, *ambient)) continue;
+    const auto duration = static_cast<double>(time_step);
+    if (ambient->reading) {
+      completeRead(kind, *ambient, duration, bodies_.complaints);
+    } else {
+      complete(kind, *ambient, duration, bodies_.complaints);
+    }
+  }
+  completeTrees(*world, bodies_, static_cast<double>(time_step));
+  if (std::isfinite(time_step)) {
+    bodies_.regions.time += static_cast<double>(time_step);
+  } else if (bodies_.size() > 0 || !bodies_.trees.empty() || !bodies_.regions.empty()) {
+    bodies_.complaints.say(Complaint::kDuration);
+    forgetBrokenImpulses(*world);
+  }
+  if (std::exchange(bodies_.regions.has_changed, false)) wakeFollowers(*world, bodies_);
+  if (isSolverMissing(*world)) {
+    const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
+    bodies_.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);
+  }
+  attachLater(*world);
+}
+
+void FluidAction::attachLater(btCollisionWorld& world) {
+  for (const auto& attachment : followed_) attachment->update(world);
+}
+
+void FluidAction::follow(std::unique_ptr<WorldAttachment> attachment) {
+  followed_.push_back(std::move(attachment));
+}
+
+void FluidAction::debugDraw(btIDebugDraw* drawer) {
+  if (!drawer || !world_ || !drawing_.drawsAnything()) return;
+  const FluidRegions& regions = bodies_.regions;
+  const auto* dynamics = dynamic_cast<const btDynamicsWorld*>(world_);
+  if (drawing_.water_surface && dynamics) {
+    const btVector3 gravity = const_cast<btDynamicsWorld*>(dynamics)->getGravity();
+    RegionCall call(regions);
+    for (const auto& [id, entry] : regions.all())
+      drawSurface({entry.region, gravity, regions.time}, drawing_, *drawer);
+  }
+  const btCollisionObjectArray& objects = world_->getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const AmbientBody* ambient = bodies_.find(objects[i]);
+    if (ambient && ambient->isInFluid() && !objects[i]->isStaticOrKinematicObject()) {
+      drawFluid(*ambient, drawing_, *drawer);
+    }
+  }
+  drawTrees(*world_, bodies_, drawing_, *drawer);
+}
+
+AMBIENT_END

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <BulletDynamics/Dynamics/btActionInterface.h>
+
+#include <memory>
+#include <vector>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/bullet/world/fluid_drawing.h"
+#include "bullet_ambient/bullet/world/world_attachment.h"
+
+AMBIENT_BEGIN
+
+class AmbientBodies;
+
+/// Completes free flight after Bullet has moved the bodies, and draws. Forces are not applied here:
+/// an action runs after the solver, its forces would be a substep late and lost in the last.
+class FluidAction : public btActionInterface {
+ public:
+  /// Both must outlive the action. `drawing`: what debugDraw() draws.
+  FluidAction(AmbientBodies& bodies, const FluidDrawing& drawing)
+      : bodies_(bodies), drawing_(drawing) {}
+
+  void updateAction(btCollisionWorld* world, btScalar time_step) override;
+  void debugDraw(btIDebugDraw* drawer) override;
+
+  /// Keeps the world's bodies attached: WorldAttachment::update() at the end of every substep.
+  void follow(std::unique_ptr<WorldAttachment> attachment);
+  /// Attaches what has come to the world, as updateAction() does at its end.
+  void attachLater(btCollisionWorld& world);
+  /// Forgets all that it follows.
+  void followNothing() { followed_.clear(); }
+
+ private:
+  bool isSolverMissing(const btCollisionWorld& world);
+
+  AmbientBodies& bodies_;
+  const FluidDrawing& drawing_;
+  std::vector<std::unique_ptr<WorldAttachment>> followed_;
+  unsigned solved_ = 0;  // groups, until the last step
+  bool was_missing_ = false;
+  const btCollisionWorld* world_ = nullptr;  // of the last step
+};
+
+AMBIENT_END

@@ -1,0 +1,142 @@
+#include "bullet_ambient/bullet/world/fluid_drawing.h"
+
+#include <LinearMath/btIDebugDraw.h>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/fluid_body/sharpness.h"
+#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/loads/face_flow.h"
+#include "bullet_ambient/force/medium/fluid_region.h"
+#include "bullet_ambient/force/surface/buoyancy.h"
+#include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+AMBIENT_BEGIN
+namespace {
+
+class Arrows {
+ public:
+  Arrows(const RigidState& pose, btIDebugDraw& drawer) : pose_(pose), drawer_(drawer) {}
+
+  // Both in body axes.
+  void draw(const Vector3& from, const Vector3& arrow, const btVector3& colour) const {
+    drawer_.drawLine(toWorld(from), toWorld(from + arrow), colour);
+  }
+  void drawCross(const Vector3& centre, double half_size, const btVector3& colour) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 arm = half_size * Vector3::Unit(axis);
+      draw(centre - arm, 2 * arm, colour);
+    }
+  }
+
+ private:
+  btVector3 toWorld(const Vector3& point) const {
+    return toBullet(Vector3(pose_.position + pose_.orientation * point));
+  }
+
+  const RigidState& pose_;
+  btIDebugDraw& drawer_;
+};
+
+void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
+               const Arrows& arrows) {
+  const FluidBody& body = *ambient.def.fluid_body;
+  const bool is_form = ambient.def.flow.law == PressureLaw::kForm;
+  const ShapeFactors factors(is_form ? formShapeOf(body) : FormShape{});
+  const FaceTable form_faces = is_form ? formLawFaces(body, factors.shape) : FaceTable{};
+  const FaceTable& faces = is_form ? form_faces : body.faces;
+  const FrameOffset& frame = ambient.def.fluid_frame;
+  LoadSettings settings = loadSettings(ambient.medium, ambient.def.flow);
+  if (is_form) settings.shape = &factors;
+  const double length = ambient.model.reference_length;
+  const Twist x_F = frame.toF(relative);
+  const double normal_length = what.normal_length * length;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const FaceFlow flow = computeFaceFlow(faces, i, length, x_F, settings);
+    const Vector3 at = frame.rotation * faces.centroid(i) + frame.translation;
+    const auto draw = [&](double scale, const Vector3& vector_F, const btVector3& colour) {
+      arrows.draw(at, scale * (frame.rotation * vector_F), colour);
+    };
+    if (what.separation) {
+      draw(normal_length, faces.normal(i),
+           flow.is_attached ? fluid_colours::kAttached : fluid_colours::kSeparated);
+    }
+    if (what.pressure && (flow.is_attached || is_form))
+      draw(what.length_per_face_force, flow.pressure, fluid_colours::kPressure);
+    if (!flow.is_attached) continue;
+    if (what.slip_velocity) draw(what.length_per_velocity, flow.slip, fluid_colours::kSlip);
+    if (what.friction) draw(what.length_per_face_force, flow.friction, fluid_colours::kFriction);
+  }
+}
+
+// The point of a region's surface straight above or below a point.
+Vector3 onSurface(const DrawnSurface& surface, const Vector3& up, const Vector3& point) {
+  return point + surface.region.surface->sample(point, surface.time).height * up;
+}
+
+}  // namespace
+
+FluidDrawing FluidDrawing::all() {
+  FluidDrawing all;
+  all.separation = all.slip_velocity = all.pressure = all.friction = true;
+  all.buoyancy = all.total_wrench = all.centre_of_volume = all.water_surface = true;
+  return all;
+}
+
+void drawSurface(const DrawnSurface& surface, const FluidDrawing& what, btIDebugDraw& drawer) {
+  constexpr int kCells = 16;
+  const Vector3 gravity = toVector3(surface.gravity);
+  if (!surface.region.surface || !(gravity.norm() > 0)) return;
+  const Vector3 up = -gravity.normalized();
+  Eigen::Index vertical = 0;
+  up.cwiseAbs().maxCoeff(&vertical);
+  RegionBounds bounds{Vector3::Constant(-what.surface_extent),
+                      Vector3::Constant(what.surface_extent)};
+  if (surface.region.bounds) {
+    bounds.lowest = bounds.lowest.cwiseMax(surface.region.bounds->lowest);
+    bounds.highest = bounds.highest.cwiseMin(surface.region.bounds->highest);
+  }
+  const auto corner = [&](int i, int j) {
+    Vector3 point = (bounds.lowest + bounds.highest) / 2;
+    const Eigen::Index u = (vertical + 1) % 3, v = (vertical + 2) % 3;
+    point[u] = bounds.lowest[u] + (bounds.highest[u] - bounds.lowest[u]) * i / kCells;
+    point[v] = bounds.lowest[v] + (bounds.highest[v] - bounds.lowest[v]) * j / kCells;
+    return toBullet(onSurface(surface, up, point));
+  };
+  for (int i = 0; i <= kCells; ++i)
+    for (int j = 0; j < kCells; ++j) {
+      drawer.drawLine(corner(i, j), corner(i, j + 1), fluid_colours::kWater);
+      drawer.drawLine(corner(j, i), corner(j + 1, i), fluid_colours::kWater);
+    }
+}
+
+void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer) {
+  AMBIENT_ASSERT(ambient.isInFluid() && !ambient.body->isStaticOrKinematicObject());
+  const BodyModel model = modelNow(ambient);
+  const RigidState state = readState(*ambient.body);
+  const Surroundings s = readSurroundings(ambient);
+  const Quaternion to_body = state.orientation.conjugate();
+  const Arrows arrows(state, drawer);
+  Twist relative = state.twist;
+  relative.linear -= to_body * s.ambient_velocity;
+  if (what.drawsFaces()) drawFaces(ambient, relative, what, arrows);
+
+  const Vector3& centre = model.centre_of_volume;
+  const Wrench lift =
+      buoyancy(model.displaced_mass, centre, to_body * (s.gravity - s.ambient_acceleration));
+  if (what.buoyancy) {
+    arrows.draw(centre, what.length_per_force * lift.force, fluid_colours::kBuoyancy);
+  }
+  if (what.total_wrench) {
+    Wrench total = lift;
+    if (model.loads) total += computeSurfaceLoad(model, relative).wrench;
+    arrows.draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
+    arrows.draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
+  }
+  if (what.centre_of_volume) {
+    arrows.drawCross(centre, what.normal_length * model.reference_length / 2,
+                     fluid_colours::kBuoyancy);
+  }
+}
+
+AMBIENT_END

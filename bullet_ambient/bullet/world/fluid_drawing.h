@@ -1,0 +1,66 @@
+#pragma once
+
+#include <LinearMath/btVector3.h>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+
+class btIDebugDraw;
+
+namespace ambient {
+
+struct FluidRegion;
+}  // namespace ambient
+
+AMBIENT_BEGIN
+
+struct AmbientBody;
+
+/// Choice of what is drawn of bodies in a fluid, through the world's btIDebugDraw. Arrows are
+/// lines from the place where the vector acts: of forces on the body, and of the fluid's velocity
+/// along the wall.
+struct FluidDrawing {
+  bool separation = false;        ///< a short normal per face: green attached, red separated
+  bool slip_velocity = false;     ///< per attached face, blue
+  bool pressure = false;          ///< force per attached face, orange
+  bool friction = false;          ///< force per attached face, yellow
+  bool buoyancy = false;          ///< at the centre of volume, cyan
+  bool total_wrench = false;      ///< force white and torque magenta at the centre of mass
+  bool centre_of_volume = false;  ///< a small cross, cyan
+  bool water_surface = false;     ///< a net over each region's surface, blue
+
+  double length_per_velocity = 0.1;  ///< [m per m/s]
+  double length_per_force = 0.01;    ///< [m per N]; of the whole body
+  /// [m per N] of single faces, whose forces are smaller the more faces there are.
+  double length_per_face_force = 1;
+  double length_per_torque = 0.1;  ///< [m per N m]
+  double surface_extent = 10;      ///< of the net over a region without bounds, from the origin [m]
+  double normal_length = 0.05;     ///< of the normals and the cross, in sqrt(wetted area) [1]
+
+  static FluidDrawing all();
+  bool drawsFaces() const { return separation || slip_velocity || pressure || friction; }
+  bool drawsAnything() const {
+    return drawsFaces() || buoyancy || total_wrench || centre_of_volume || water_surface;
+  }
+};
+
+/// The colours of FluidDrawing, red, green and blue.
+namespace fluid_colours {
+inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
+    kSlip(btScalar(0.2), btScalar(0.4), 1), kPressure(1, btScalar(0.5), 0), kFriction(1, 1, 0),
+    kBuoyancy(0, 1, 1), kForce(1, 1, 1), kTorque(1, 0, 1), kWater(0, btScalar(0.3), btScalar(0.8));
+}  // namespace fluid_colours
+
+/// Draws one body as it moves now. The total wrench is that of pressure, friction (after the
+/// passivity guard) and buoyancy; the inertia of the fluid is no part of it. @pre it is in a fluid,
+/// alive and dynamic.
+void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer);
+
+/// Draws the surface of a region at a time, where gravity says what is up; nothing without it.
+struct DrawnSurface {
+  const FluidRegion& region;
+  btVector3 gravity;
+  double time;  ///< [s]
+};
+void drawSurface(const DrawnSurface& surface, const FluidDrawing& what, btIDebugDraw& drawer);
+
+AMBIENT_END

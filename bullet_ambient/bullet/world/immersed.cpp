@@ -1,0 +1,172 @@
+#include "bullet_ambient/bullet/world/immersed.h"
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/links/impulse_response.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/bullet/members/attach_link.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/bullet/reading/fluid_reading.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+AMBIENT_BEGIN
+namespace {
+
+void replaceDef(AmbientBody& ambient, AttachDef def, AmbientBodies& bodies) {
+  std::swap(ambient.def, def);
+  try {
+    refresh(ambient, bodies);
+  } catch (...) {
+    std::swap(ambient.def, def);
+    throw;
+  }
+}
+
+// Whether the body's own medium is above surfaces where regions name none: it then has loads by
+// wind if that medium moves.
+bool isOwnAboveSurfaces(const AmbientBody& ambient) {
+  return std::any_of(ambient.surfaces.begin(), ambient.surfaces.end(),
+                     [](const SurfaceMedia& surface) { return !surface.kind.above; });
+}
+
+// Whether the fluid is another one than before.
+bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bodies) {
+  checkMedium(*ambient.def.fluid_body, medium);
+  const Medium before = ambient.def.medium;
+  if (medium.density != before.density || medium.viscosity != before.viscosity ||
+      (mayBlow(medium) != mayBlow(before) && isOwnAboveSurfaces(ambient))) {
+    AttachDef def = ambient.def;
+    def.medium = medium;
+    replaceDef(ambient, std::move(def), bodies);
+    return true;
+  }
+  if (medium.velocity == before.velocity && medium.acceleration == before.acceleration)
+    return false;
+  ambient.def.medium = medium;
+  if (ambient.place.region == RegionId::kNone) ambient.medium = medium;
+  return true;
+}
+
+void changeFluidBody(AmbientBody& ambient, std::shared_ptr<const FluidBody> fluid_body,
+                     const FrameOffset& fluid_frame, AmbientBodies& bodies) {
+  if (!fluid_body) throw std::invalid_argument("setFluidBody: the fluid body is null");
+  AttachDef def = ambient.def;
+  def.fluid_body = std::move(fluid_body);
+  def.fluid_frame = fluid_frame;
+  replaceDef(ambient, std::move(def), bodies);
+}
+
+AmbientLink& linkOf(const Member& member) {
+  for (const auto& link : member.tree->links)
+    if (&link->ambient == member.ambient) return *link;
+  AMBIENT_ASSERT(false);
+  return *member.tree->links.front();
+}
+
+void wakeUp(const Member& member) {
+  if (member.tree) {
+    wake(*member.tree->multi_body);
+  } else {
+    member.ambient->body->activate();
+  }
+}
+
+}  // namespace
+
+Immersed::Immersed(AmbientBodies& bodies, const AmbientBody& ambient)
+    : bodies_(bodies.weak_from_this()), id_(bodies.slots.nameOf(ambient)) {}
+
+Immersed::Held Immersed::hold() const noexcept {
+  Held held{bodies_.lock(), {}};
+  if (held.bodies) held.member = held.bodies->slots.find(id_);
+  return held;
+}
+
+Immersed::Held Immersed::require(const char* function) const {
+  Held held = hold();
+  if (held.member.ambient) return held;
+  const bool is_closed = !held.bodies || held.bodies->is_closed;
+  throw std::logic_error(std::string(function) +
+                         (is_closed ? ": the Fluid or the world of this Immersed was destroyed"
+                                    : ": this Immersed was removed from its Fluid"));
+}
+
+bool Immersed::isValid() const noexcept { return hold().member.ambient; }
+
+void Immersed::setMedium(const Medium& medium) const {
+  const Held held = require("setMedium");
+  held.bodies->requireChangeable("setMedium");
+  if (changeMedium(*held.member.ambient, medium, *held.bodies)) wakeUp(held.member);
+}
+
+void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body) const {
+  setFluidBody(std::move(fluid_body), require("setFluidBody").member.ambient->def.fluid_frame);
+}
+
+void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
+                            const FrameOffset& fluid_frame) const {
+  const Held held = require("setFluidBody");
+  held.bodies->requireChangeable("setFluidBody");
+  changeFluidBody(*held.member.ambient, std::move(fluid_body), fluid_frame, *held.bodies);
+  wakeUp(held.member);
+}
+
+Medium Immersed::medium() const { return require("medium").member.ambient->medium; }
+
+RegionId Immersed::region() const { return require("region").member.ambient->place.region; }
+
+Matrix6 Immersed::inertia() const { return modelNow(*require("inertia").member.ambient).inertia; }
+
+AmbientCounters Immersed::counters() const { return require("counters").member.ambient->counters; }
+
+void Immersed::readWrench(bool is_read) const {
+  const Held held = require("readWrench");
+  held.bodies->requireChangeable("readWrench");
+  std::shared_ptr<FluidReading>& reading = held.member.ambient->reading;
+  if (is_read != (reading != nullptr))
+    reading = is_read ? std::make_shared<FluidReading>() : nullptr;
+}
+
+FluidWrench Immersed::wrench() const {
+  const Held held = require("wrench");
+  const AmbientBody& ambient = *held.member.ambient;
+  if (!ambient.reading)
+    throw std::logic_error("wrench: it is not read; call readWrench(true) before a step");
+  return ambient.isInFluid() ? ambient.reading->wrench : FluidWrench{};
+}
+
+WetState Immersed::wet() const {
+  const Held held = require("wet");
+  if (held.member.tree) {
+    AmbientLink& link = linkOf(held.member);
+    link.stand_in.setWorldTransform(linkTransform(*held.member.tree->multi_body, link.link));
+  }
+  return wetStateOf(*held.member.ambient, held.bodies->regions);
+}
+
+void Immersed::applyImpulse(const Wrench& impulse) const {
+  const Held held = require("applyImpulse");
+  if (held.member.tree) {
+    applyImpulseToLink(held.bodies->trees, *held.member.tree, linkOf(held.member).link, impulse);
+  } else {
+    applyImpulseToBody(*held.member.ambient, impulse);
+  }
+  wakeUp(held.member);
+}
+
+bool Immersed::remove() const {
+  const Held held = hold();
+  if (!held.member.ambient) return false;
+  held.bodies->requireChangeable("remove");
+  if (!held.member.tree) return held.bodies->erase(*held.member.ambient->body);
+  return held.bodies->trees.erase(*held.member.tree->multi_body, linkOf(held.member).link);
+}
+
+AMBIENT_END

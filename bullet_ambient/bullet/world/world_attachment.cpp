@@ -1,0 +1,263 @@
+#include "bullet_ambient/bullet/world/world_attachment.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include <exception>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/bullet/members/attach_link.h"
+#include "bullet_ambient/bullet/members/multibody_identity.h"
+#include "bullet_ambient/bullet/world/immersed.h"
+
+AMBIENT_BEGIN
+namespace {
+
+int instanceOf(const btCollisionObject& object) noexcept {
+  if (const btRigidBody* body = btRigidBody::upcast(&object)) return instanceNumber(*body);
+  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
+  return collider && collider->m_multiBody ? instanceNumber(*collider->m_multiBody) : -1;
+}
+
+bool isDynamic(const btRigidBody& body) {
+  return !body.isStaticOrKinematicObject() && body.getInvMass() != 0;
+}
+
+bool canMove(const btMultiBody& multi_body, int link) {
+  if (link < 0) return !multi_body.isBaseStaticOrKinematic() && multi_body.getBaseMass() > 0;
+  return multi_body.getLinkMass(link) > 0;
+}
+
+// A body, or the stand-in of a link.
+const AmbientBody* ambientOf(const btCollisionObject& object, const AmbientBodies& bodies) {
+  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
+  if (!collider) return bodies.find(&object);
+  const AmbientLink* link = bodies.trees.find(collider->m_multiBody, collider->m_link);
+  return link ? &link->ambient : nullptr;
+}
+
+std::string nameOf(int index, const btCollisionObject& object, const AmbientBodies& bodies) {
+  const std::string name = "body " + std::to_string(index);
+  if (bodies.naming) {
+    try {
+      const std::string given = bodies.naming(object);
+      if (!given.empty()) return name + " '" + given + "': ";
+    } catch (...) {  // then by its shape
+    }
+  }
+  const btCollisionShape* shape = object.getCollisionShape();
+  return shape ? name + " (" + shape->getName() + "): " : name + ": ";
+}
+
+// Calls a function of the program's settings; what it throws is named after the function.
+template <class Call>
+auto callOf(const char* name, const Call& call) -> decltype(call()) {
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string(name) + " threw: " + error.what());
+  } catch (...) {
+    throw std::runtime_error(std::string(name) + " threw something unknown");
+  }
+}
+
+// Counts bodies that were just attached, for one report of all.
+struct Tally {
+  std::set<const FluidBody*> shapes;
+  std::optional<AttachDef> lightest;  // for its share of what it displaces
+  DisplacedMass mass;
+  int light_count = 0;
+
+  void add(int index, const AmbientBody& ambient, AttachReport& report) {
+    ++report.attached;
+    shapes.insert(ambient.def.fluid_body.get());
+    const DisplacedMass own = displacedMass(ambient);
+    if (own.isLighter()) report.light.push_back({index, own.body, own.medium});
+    if (!own.isMuchLighter()) return;
+    if (light_count++ > 0 && own.body * mass.medium >= mass.body * own.medium) return;
+    lightest = ambient.def;
+    mass = own;
+  }
+};
+
+}  // namespace
+
+std::string AttachReport::text() const {
+  std::ostringstream text;
+  text << attached << " bodies attached with " << fluid_bodies << " fluid bodies, "
+       << refused.size() << " refused, " << light.size() << " lighter than what they displace\n";
+  for (const Refusal& refusal : refused) text << refusal.reason << '\n';
+  return text.str();
+}
+
+WorldAttachment::WorldAttachment(AmbientBodies& bodies, FluidBodySource& source,
+                                 const Medium& medium, AttachSettings settings)
+    : bodies_(bodies),
+      source_(source),
+      medium_(medium),
+      settings_(std::move(settings)),
+      revision_(source.revision()) {}
+
+AttachDef WorldAttachment::makeDef(const btCollisionShape* shape, Met& met) const {
+  AttachDef def;
+  def.medium = medium_;
+  def.flow = settings_.flow;
+  def.flight = settings_.flight;
+  if (!shape) throw std::invalid_argument("it has no collision shape");
+  def.fluid_body = source_.fluidBody(*shape);
+  met.given = def.fluid_body.get();
+  return def;
+}
+
+const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, Met& met, AttachReport& report) {
+  if (!isDynamic(body)) return nullptr;
+  if (settings_.filter && !callOf("filter", [&] { return settings_.filter(body); })) return nullptr;
+  if (bodies_.find(&body)) {
+    ++report.attached_before;
+    return nullptr;
+  }
+  AttachDef def = makeDef(body.getCollisionShape(), met);
+  if (settings_.adjust) callOf("adjust", [&] { settings_.adjust(body, def); });
+  if (!def.fluid_body) return nullptr;
+  return &ambient::attachBody(bodies_, body, std::move(def));
+}
+
+const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link, Met& met,
+                                               AttachReport& report) {
+  if (!canMove(multi_body, link)) return nullptr;
+  if (settings_.filter_link &&
+      !callOf("filter_link", [&] { return settings_.filter_link(multi_body, link); }))
+    return nullptr;
+  if (bodies_.trees.find(&multi_body, link)) {
+    ++report.attached_before;
+    return nullptr;
+  }
+  const btMultiBodyLinkCollider* collider =
+      link < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(link);
+  AttachDef def = makeDef(collider->getCollisionShape(), met);
+  if (settings_.adjust_link)
+    callOf("adjust_link", [&] { settings_.adjust_link(multi_body, link, def); });
+  if (!def.fluid_body) return nullptr;
+  return &ambient::attachLink(bodies_, *multibody_world_, {multi_body, link}, std::move(def));
+}
+
+const AmbientBody* WorldAttachment::attach(btCollisionObject& object, Met& met,
+                                           AttachReport& report) {
+  if (btRigidBody* body = btRigidBody::upcast(&object)) return attachBody(*body, met, report);
+  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
+  if (!collider || !collider->m_multiBody || !multibody_world_) return nullptr;
+  return attachLink(*collider->m_multiBody, collider->m_link, met, report);
+}
+
+std::vector<btCollisionObject*> WorldAttachment::meetAll(const btCollisionWorld& world) {
+  std::unordered_map<const btCollisionObject*, Met> before;
+  for (const Met& met : met_) before.emplace(met.object, met);
+  met_.clear();
+  std::vector<btCollisionObject*> strangers;
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    if (const auto* collider = btMultiBodyLinkCollider::upcast(objects[i]))
+      if (collider->m_multiBody) giveInstanceNumber(*collider->m_multiBody);
+    const Met met{objects[i], instanceOf(*objects[i])};
+    const auto known = before.find(met.object);
+    const bool is_known = known != before.end() && known->second.instance == met.instance;
+    met_.push_back(is_known ? known->second : met);
+    strangers.push_back(is_known ? nullptr : objects[i]);
+  }
+  return strangers;
+}
+
+AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
+  AttachReport report;
+  Tally tally;
+  multibody_world_ = dynamic_cast<btMultiBodyDynamicsWorld*>(&world);
+  const std::vector<btCollisionObject*> strangers = meetAll(world);
+  for (std::size_t i = 0; i < strangers.size(); ++i) {
+    btCollisionObject* object = strangers[i];
+    if (!object) continue;
+    const int index = static_cast<int>(i);
+    try {
+      if (const AmbientBody* ambient = attach(*object, met_[i], report)) {
+        tally.add(index, *ambient, report);
+      }
+    } catch (const std::exception& error) {
+      report.refused.push_back({index, nameOf(index, *object, bodies_) + error.what()});
+    } catch (...) {  // thrown by the program's source
+      report.refused.push_back(
+          {index, nameOf(index, *object, bodies_) + "something unknown was thrown"});
+    }
+  }
+  multibody_world_ = nullptr;
+  report.fluid_bodies = static_cast<int>(tally.shapes.size());
+  if (tally.lightest) {
+    warnOfLightBody(bodies_.complaints, *tally.lightest, tally.mass, tally.light_count);
+  }
+  return report;
+}
+
+// Removals swap the world's array, and a new body may stand where a destroyed one did.
+bool WorldAttachment::hasMetAll(const btCollisionWorld& world) const noexcept {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  if (static_cast<std::size_t>(objects.size()) != met_.size()) return false;
+  for (int i = 0; i < objects.size(); ++i) {
+    const Met& met = met_[static_cast<std::size_t>(i)];
+    if (met.object != objects[i] || met.instance != instanceOf(*objects[i])) return false;
+  }
+  return true;
+}
+
+// Keeps what the program has given to a body meanwhile, and what cannot be replaced.
+void WorldAttachment::replaceFluidBodies(btCollisionWorld& world) {
+  std::unordered_map<const btCollisionObject*, Met*> met_bodies;
+  for (Met& met : met_) {
+    if (met.given) met_bodies.emplace(met.object, &met);
+  }
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    const auto met = met_bodies.find(objects[i]);
+    if (met == met_bodies.end()) continue;
+    const AmbientBody* ambient = ambientOf(*objects[i], bodies_);
+    if (!ambient || ambient->def.fluid_body.get() != met->second->given) continue;
+    try {
+      std::shared_ptr<const FluidBody> better = source_.fluidBody(*objects[i]->getCollisionShape());
+      if (better.get() == met->second->given) continue;
+      Immersed(bodies_, *ambient).setFluidBody(better);
+      met->second->given = better.get();
+    } catch (const std::exception& error) {
+      tell(nameOf(i, *objects[i], bodies_) + error.what());
+    } catch (...) {  // thrown by the program's source
+      tell(nameOf(i, *objects[i], bodies_) + "something unknown was thrown");
+    }
+  }
+}
+
+void WorldAttachment::tell(const std::string& sentence) const {
+  bodies_.complaints.tell("bullet_ambient: " + sentence);
+}
+
+void WorldAttachment::update(btCollisionWorld& world) noexcept {
+  try {
+    if (settings_.later_bodies && !hasMetAll(world)) {
+      for (const AttachReport::Refusal& refusal : attachNew(world).refused) tell(refusal.reason);
+    }
+    const unsigned revision = source_.revision();
+    if (revision == revision_) return;
+    replaceFluidBodies(world);
+    revision_ = revision;
+  } catch (...) {
+    // Out of memory, which must not unwind through Bullet's step: the next one tries again.
+  }
+}
+
+AMBIENT_END

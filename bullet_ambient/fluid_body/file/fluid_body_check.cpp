@@ -1,0 +1,273 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "bullet_ambient/fluid_body/octahedral_lattice.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+
+namespace ambient {
+namespace {
+
+// Tolerance for conditions that hold exactly but for the rounding of some thousand operations.
+constexpr double kRounding = 1e-9;
+
+// Largest distance from the origin in sizes of the body: the preprocessor's own limit. Beyond,
+// rounding of the coordinates would exceed the details of the shape.
+constexpr double kFarthest = 1e12;
+
+class Checker {
+ public:
+  explicit Checker(std::string source) : source_(std::move(source)) {}
+
+  template <class... Parts>
+  [[noreturn]] void fail(const Parts&... parts) const {
+    std::ostringstream message;
+    message.precision(9);
+    message << source_ << ": ";
+    (message << ... << parts);
+    throw std::runtime_error(plainLine(message.str()));
+  }
+
+  void finite(double value, const char* what) const {
+    if (!std::isfinite(value)) fail(what, " is ", value, ", but must be finite");
+  }
+
+  void notNegative(double value, const char* what) const {
+    finite(value, what);
+    if (value < 0) fail(what, " is ", value, ", but must not be negative");
+  }
+
+  /// Fails if a point is farther from the origin than kFarthest sizes; size 0: no check.
+  void near(const Vector3& point, double size, const char* what) const {
+    const double distance = point.stableNorm();
+    if (size > 0 && !(distance / size <= kFarthest))
+      fail(what, " lies ", distance, " m from the origin, limit ", kFarthest,
+           " times the size of the body of ", size, " m");
+  }
+
+  template <class Matrix>
+  void finiteMatrix(const Matrix& matrix, const char* what) const {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) finite(matrix.data()[i], what);
+  }
+
+  void finiteColumn(const std::vector<double>& column, const char* what) const {
+    for (std::size_t i = 0; i < column.size(); ++i)
+      if (!std::isfinite(column[i]))
+        fail(what, " of entry ", i, " is ", column[i], ", but must be finite");
+  }
+
+  /// Fails unless the matrix is symmetric and positive semi-definite up to rounding.
+  /// @pre all entries are finite and of one unit.
+  template <class Matrix>
+  void positiveSemiDefinite(const Matrix& matrix, const char* what) const {
+    const double largest = matrix.cwiseAbs().maxCoeff();
+    if (largest == 0) return;
+    using Aligned = Eigen::Matrix<double, Matrix::RowsAtCompileTime, Matrix::ColsAtCompileTime>;
+    const Aligned scaled = matrix / largest;
+    const double asymmetry = (scaled - scaled.transpose()).cwiseAbs().maxCoeff();
+    if (!(asymmetry <= kRounding))
+      fail(what, " is not symmetric: off by ", asymmetry, " of its largest entry, limit ",
+           kRounding);
+    const double lowest = symmetricEigen(scaled).values[0];
+    if (!(lowest >= -kRounding))
+      fail(what, " is not positive semi-definite: lowest eigenvalue ", lowest,
+           " of its largest entry, limit ", -kRounding);
+  }
+
+ private:
+  std::string source_;
+};
+
+void checkAddedMass(const FluidBody& body, const Checker& check) {
+  check.finiteMatrix(body.added_mass, "added mass");
+  // With the body's size as unit of length all entries have one unit and one tolerance.
+  const double translation = body.added_mass.diagonal().tail<3>().cwiseAbs().maxCoeff();
+  const double rotation = body.added_mass.diagonal().head<3>().cwiseAbs().maxCoeff();
+  const double length = rotation > 0 && translation > 0 ? std::sqrt(rotation / translation) : 1;
+  Vector6 units;
+  units << Vector3::Constant(1 / length), Vector3::Ones();
+  const Matrix6 scaled = units.asDiagonal() * body.added_mass * units.asDiagonal();
+  check.finiteMatrix(scaled, "added mass over its own length scale");
+  check.positiveSemiDefinite(scaled, "added mass");
+}
+
+void checkMassDistribution(const MassDistribution& mass, const Checker& check, const char* centre,
+                           const char* inertia) {
+  check.finiteMatrix(mass.centre, centre);
+  check.finiteMatrix(mass.inertia, inertia);
+  check.positiveSemiDefinite(mass.inertia, inertia);
+}
+
+/// Characteristic length of the body [m]: the larger of sqrt(area) and cbrt(volume).
+double sizeOf(const FluidBody& body) {
+  return std::max(std::sqrt(body.area), portable::cbrt(body.volume));
+}
+
+void checkPlaces(const FluidBody& body, const Checker& check) {
+  const double size = sizeOf(body);
+  check.near(body.centre_of_volume, size, "centre of volume");
+  check.near(body.uniform_mass.centre, size, "centre of uniform mass");
+  check.near(body.surface_mass.centre, size, "centre of surface mass");
+  for (std::size_t i = 0; i < body.faces.size(); ++i)
+    check.near(body.faces.centroid(i), size, "centroid of a face");
+  for (const LoadLevel& level : body.levels) check.near(level.centre, size, "centre of a level");
+}
+
+void checkFaces(const FaceTable& faces, const Checker& check) {
+  constexpr std::array kNames{"face normal x",   "face normal y",   "face normal z",
+                              "face centroid x", "face centroid y", "face centroid z",
+                              "face area"};
+  const std::size_t count = faces.size();
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    const std::vector<double>& column = *faces.columns()[k];
+    if (column.size() != count)
+      check.fail(kNames[k], " has ", column.size(), " entries, but there are ", count,
+                 " face areas");
+    check.finiteColumn(column, kNames[k]);
+  }
+  if (!faces.sharpness.empty() && faces.sharpness.size() != count)
+    check.fail("face sharpness has ", faces.sharpness.size(), " entries, but there are ", count,
+               " face areas");
+  for (std::size_t i = 0; i < faces.sharpness.size(); ++i)
+    if (!(faces.sharpness[i] >= 0) || !(faces.sharpness[i] <= 2))
+      check.fail("sharpness of face ", i, " is ", faces.sharpness[i],
+                 ", but must be between 0 and 2");
+  for (std::size_t i = 0; i < count; ++i) {
+    if (faces.area[i] < 0)
+      check.fail("area of face ", i, " is ", faces.area[i], " m^2, but must not be negative");
+    const double length = faces.normal(i).norm();
+    if (!(std::abs(length - 1) <= kRounding))
+      check.fail("normal of face ", i, " has length ", length, ", but must be 1 within ",
+                 kRounding);
+  }
+}
+
+void checkSurface(const Surface& surface, const Checker& check) {
+  check.finiteColumn(surface.vertices, "vertex coordinate");
+  if (surface.vertices.size() % 3 != 0)
+    check.fail("there are ", surface.vertices.size(),
+               " vertex coordinates, but their number must be a multiple of 3");
+  if (surface.triangles.size() % 3 != 0)
+    check.fail("there are ", surface.triangles.size(),
+               " triangle indices, but their number must be a multiple of 3");
+  const std::size_t vertex_count = surface.vertices.size() / 3;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const std::int32_t index = surface.triangles[i];
+    if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
+      check.fail("triangle ", i / 3, " refers to vertex ", index, ", but there are ", vertex_count,
+                 " vertices");
+  }
+}
+
+void checkBlocks(const LoadLevel& level, const Checker& check) {
+  const std::size_t needed =
+      (static_cast<std::size_t>(level.clusters) + ClusterBlock::kClusters - 1) /
+      ClusterBlock::kClusters;
+  if (level.blocks.size() != needed)
+    check.fail("a level of reduced loads has ", level.blocks.size(), " blocks, but its ",
+               level.clusters, " clusters need ", needed);
+  for (const ClusterBlock& block : level.blocks) {
+    for (const auto* rows :
+         {&block.switching, &block.spread[0], &block.spread[1], &block.by_slip, &block.by_normal})
+      for (const auto& row : *rows)
+        for (const float value : row)
+          check.finite(static_cast<double>(value), "value of a cluster");
+    for (const auto& row : block.centroid)
+      for (const float value : row)
+        check.finite(static_cast<double>(value), "centroid of a cluster");
+    for (const float area : block.area)
+      check.notNegative(static_cast<double>(area), "area of a cluster");
+  }
+}
+
+void checkLevel(const LoadLevel& level, const Checker& check) {
+  if (level.clusters < 1)
+    check.fail("a level of reduced loads has ", level.clusters,
+               " clusters, but must have 1 or more");
+  if (!(level.separation_angle >= kPi / 2 * (1 - kRounding)) ||
+      !(level.separation_angle <= kPi * (1 + kRounding)))
+    check.fail("separation angle of a level is ", level.separation_angle,
+               ", but must be between pi/2 and pi");
+  check.finiteMatrix(level.centre, "centre of a level");
+  check.finite(level.length, "length of a level");
+  if (!(level.length > 0))
+    check.fail("length of a level is ", level.length, ", but must be positive");
+  check.finiteMatrix(level.even, "even part of a level");
+  const LoadLevelError& error = level.error;
+  for (const double value : {error.maximum, error.p99, error.rms, error.broadside, error.friction})
+    check.notNegative(value, "error of a level");
+  check.notNegative(level.cost, "cost of a level");
+  checkBlocks(level, check);
+}
+
+void checkFormLevel(const FormLevel& level, const Checker& check) {
+  checkFaces(level.faces, check);
+  if (level.faces.sharpness.size() != level.faces.size())
+    check.fail("a level of the form law has no sharpness");
+  check.notNegative(level.p99_error, "error of a level");
+}
+
+void checkPart(const AddedMassPart& part, double size, const Checker& check) {
+  check.finiteMatrix(part.centre, "centre of a part of the added mass");
+  check.near(part.centre, size, "centre of a part of the added mass");
+  check.finiteMatrix(part.spread, "spread of a part of the added mass");
+  check.finiteMatrix(part.inertia, "a part of the added mass");
+}
+
+void checkWaterline(const FluidBody& body, const Checker& check) {
+  const WaterlineTable& table = body.waterline;
+  constexpr int kMostSubdivisions = 64;
+  if (table.subdivisions < 0 || table.subdivisions > kMostSubdivisions)
+    check.fail("the waterline table has ", table.subdivisions, " subdivisions, but must have 0 to ",
+               kMostSubdivisions);
+  double last = 0;
+  for (const double immersion : table.immersions) {
+    if (!(immersion > last) || !(immersion < WaterlineTable::kDeep))
+      check.fail("immersion ", immersion, " of the waterline table must be above ", last,
+                 " and below ", WaterlineTable::kDeep);
+    last = immersion;
+  }
+  const std::size_t needed =
+      table.empty() ? 0 : OctahedralLattice(table.subdivisions).size() * table.immersions.size();
+  if (table.corrections.size() != needed)
+    check.fail("the waterline table has ", table.corrections.size(), " corrections, but needs ",
+               needed);
+  if (needed > 0 && body.added_mass_parts.empty())
+    check.fail("the waterline table has nothing to correct: there are no parts of the added mass");
+  for (const Matrix6& correction : table.corrections)
+    check.finiteMatrix(correction, "a correction of the waterline table");
+}
+
+}  // namespace
+
+void checkFluidBody(const FluidBody& body, const std::string& source) {
+  const Checker check(source);
+  check.notNegative(body.asymmetry, "asymmetry");
+  check.notNegative(body.volume, "volume");
+  check.notNegative(body.area, "area");
+  check.notNegative(body.sphere_radius, "radius of the sphere");
+  for (const double drag : body.drag) check.notNegative(drag, "measured drag coefficient");
+  if (!body.drag.isZero(0) && body.drag.minCoeff() == 0)
+    check.fail("a measured drag coefficient is 0, but must be positive where another one is given");
+  check.finiteMatrix(body.centre_of_volume, "centre of volume");
+  check.finiteMatrix(body.origin, "origin");
+  checkAddedMass(body, check);
+  checkMassDistribution(body.uniform_mass, check, "centre of uniform mass",
+                        "inertia of uniform mass");
+  checkMassDistribution(body.surface_mass, check, "centre of surface mass",
+                        "inertia of surface mass");
+  checkFaces(body.faces, check);
+  checkSurface(body.surface, check);
+  for (const LoadLevel& level : body.levels) checkLevel(level, check);
+  for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
+  for (const AddedMassPart& part : body.added_mass_parts) checkPart(part, sizeOf(body), check);
+  checkWaterline(body, check);
+  checkPlaces(body, check);
+}
+
+}  // namespace ambient

@@ -1,0 +1,125 @@
+#include "bullet_ambient/fluid_body/form_shape.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/fluid_body/surface_triangles.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kPitchRelief = 0.4;  // p: part of the pitching that lift does not feel
+
+double square(double x) { return x * x; }
+double positivePart(double x) { return std::max(x, 0.0); }
+
+/// Side of an edge: a triangle, and its corner that is not on the edge.
+struct EdgeSide {
+  int triangle, corner;
+};
+using Edge = std::pair<int, int>;
+
+std::map<Edge, std::vector<EdgeSide>> edgesOf(const SurfaceTriangles& mesh) {
+  std::map<Edge, std::vector<EdgeSide>> edges;
+  for (int t = 0; t < mesh.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.vertex(t, k), b = mesh.vertex(t, (k + 1) % 3);
+      edges[std::minmax(a, b)].push_back({t, mesh.vertex(t, (k + 2) % 3)});
+    }
+  return edges;
+}
+
+/// True of a border, and of a convex edge sharper than 55 degrees.
+bool isSharp(const SurfaceTriangles& mesh, const Edge& edge, const std::vector<EdgeSide>& sides) {
+  constexpr double kSharpCosine = 0.57357644;  // cos 55 degrees
+  if (sides.size() != 2) return sides.size() == 1;
+  const Vector3& normal = mesh.normal(sides[0].triangle);
+  const Vector3 across = mesh.place(sides[1].corner) - mesh.place(edge.first);
+  return across.dot(normal) < 0 && normal.dot(mesh.normal(sides[1].triangle)) < kSharpCosine;
+}
+
+/// E of eq. (45c).
+double edgeShare(const FluidBody& body) {
+  if (body.surface.triangles.empty()) return 1;
+  const SurfaceTriangles mesh(body);
+  if (mesh.isSheet()) return 1;
+  double length = 0;
+  for (const auto& [edge, sides] : edgesOf(mesh))
+    if (isSharp(mesh, edge, sides))
+      length += (mesh.place(edge.first) - mesh.place(edge.second)).norm();
+  return square(length) / (square(length) + body.area);
+}
+
+/// Means over the area.
+struct SurfaceMoments {
+  Matrix3 places = Matrix3::Zero();   ///< (c - c_0)(c - c_0)^T [m^2], c_0: mean place
+  Matrix3 normals = Matrix3::Zero();  ///< n n^T
+};
+
+SurfaceMoments momentsOf(const FaceTable& faces) {
+  Vector3 mean = Vector3::Zero();
+  double area = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    mean += faces.area[i] * faces.centroid(i);
+    area += faces.area[i];
+  }
+  mean /= area;
+  SurfaceMoments moments;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Vector3 c = faces.centroid(i) - mean, n = faces.normal(i);
+    const double share = faces.area[i] / area;
+    moments.places += share * c * c.transpose();
+    moments.normals += share * n * n.transpose();
+  }
+  return moments;
+}
+
+/// Fills in the mean plane with its span, aspect ratio and chord, eq. (45b). Returns
+/// false for faces on one line, which have no chord.
+bool setPlane(const SurfaceMoments& moments, FormShape& shape) {
+  const SymmetricEigen<3> extent = symmetricEigen<3>(moments.places);
+  if (!(extent.values[1] > 0)) return false;
+  shape.facing = symmetricEigen<3>(moments.normals).vectors.col(2);
+  shape.span = extent.vectors.col(2);
+  shape.span -= shape.facing.dot(shape.span) * shape.facing;
+  shape.span = shape.span.norm() > 0 ? Vector3(shape.span.normalized()) : Vector3::Zero();
+  shape.chord = std::sqrt(12 * extent.values[1]);
+  shape.aspect = std::sqrt(extent.values[2] / extent.values[1]);
+  shape.pitching = std::sqrt(kPitchRelief * (1 - 1 / square(shape.aspect))) * shape.span;
+  return true;
+}
+
+}  // namespace
+
+double FormShape::pitchingArm(const Vector3& normal, const Vector3& place) const {
+  return pitching.dot((place - centre).cross(normal));
+}
+
+FormShape formShapeOf(const FluidBody& body) {
+  FormShape shape;
+  shape.centre = body.centre_of_volume;
+  const SymmetricEigen<3> mass = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>());
+  const double largest = mass.values[2];
+  if (!(largest > 0) || !(body.area > 0) || body.faces.size() == 0) return shape;
+  const SurfaceMoments moments = momentsOf(body.faces);
+  if (!setPlane(moments, shape)) return shape;
+  const double aside = 1.5 * (1 - symmetricEigen<3>(moments.normals).values[2]);
+  shape.wing =
+      square(positivePart(1 - square(body.volume / largest))) * positivePart(1 - square(aside));
+  shape.edges = edgeShare(body);
+  const double smooth = positivePart(1 - 2 * shape.edges);
+  const double slender = positivePart(mass.values[1] - mass.values[0]) / mass.values[1];
+  if (mass.values[1] > 0)
+    shape.slender = std::sqrt(smooth * (1 - shape.wing) * slender) * mass.vectors.col(0);
+  AMBIENT_ASSERT(shape.wing >= 0 && shape.wing <= 1 && shape.edges >= 0 && shape.edges <= 1);
+  return shape;
+}
+
+}  // namespace ambient

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+
+namespace ambient {
+
+/// Sixteen faces in single precision, component by component: input of the load kernels. Plain
+/// data only, because the kernels are compiled once per instruction set. Units of length and area:
+/// those of PackedFaces. The last block of a shape is filled up with zeros.
+struct alignas(64) FaceBlock {
+  static constexpr int kFaces = 16;
+  float normal[3][kFaces];    ///< unit normals n
+  float centroid[3][kFaces];  ///< c, components in [-1, 1]
+  float moment[3][kFaces];    ///< c x n
+  float area[kFaces];         ///< in [0, 1]
+};
+
+/// Bounds of the 6-vectors (c x n, n) of all faces of a block, for sixteen blocks. The normal
+/// velocity of a face is the product of (c x n, n) with the twist. Bounds are rounded outwards.
+struct alignas(64) FaceBounds {
+  static constexpr int kBlocks = 16;
+  float middle[6][kBlocks];
+  float reach[6][kBlocks];  ///< largest distance from the middle
+};
+
+/// FormFactors of the faces of one block, for the form law.
+struct alignas(64) FormBlock {
+  float by_normal[FaceBlock::kFaces];
+  float by_speed[FaceBlock::kFaces];
+  float by_lee[FaceBlock::kFaces];
+};
+
+/// Arms of the faces of one block in pitching, FormShape::pitchingArm(), in units of length.
+struct alignas(64) PitchBlock {
+  float arm[FaceBlock::kFaces];
+};
+
+/// Blocks of a shape with their bounds.
+struct FaceBlocks {
+  const FaceBlock* blocks;
+  const FaceBounds* bounds;
+  std::size_t count;                  ///< number of blocks
+  const FormBlock* form = nullptr;    ///< one per block; null: the published law
+  const double* lee = nullptr;        ///< 6 x 21, lee side of the form law: see addEvenPart()
+  const PitchBlock* pitch = nullptr;  ///< one per block; null: no wing
+
+  /// Returns the blocks from number `block` on, without bounds.
+  FaceBlocks from(std::size_t block) const {
+    return {blocks + block,
+            nullptr,
+            count - block,
+            form ? form + block : nullptr,
+            lee,
+            pitch ? pitch + block : nullptr};
+  }
+};
+
+}  // namespace ambient

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/fluid_body/form_shape.h"
+#include "bullet_ambient/fluid_body/packed/face_block.h"
+
+namespace ambient {
+
+/// Faces of a shape for loads in single precision: 47 bytes per face, in frame F. Units are powers
+/// of two: shapes whose sizes differ by a power of two have the same bits. Faces with similar
+/// normal and place share a block. A block is skipped if the flow is detached from all its faces.
+/// The factors of the form law take 12 bytes more, the arms of wings 4.
+class PackedFaces {
+ public:
+  /// Packs for the published law. Cost: O(F log F), 0.1 us per face.
+  explicit PackedFaces(const FaceTable& faces);
+  /// Packs for the form law. @pre faces.sharpness is filled
+  PackedFaces(const FaceTable& faces, const FormShape& shape);
+
+  FaceBlocks blocks() const {
+    return {blocks_.data(), bounds_.data(),
+            blocks_.size(), form_.empty() ? nullptr : form_.data(),
+            lee_.data(),    pitch_.empty() ? nullptr : pitch_.data()};
+  }
+  std::size_t size() const { return order_.size(); }
+  double lengthUnit() const { return length_unit_; }  ///< [m]
+  double areaUnit() const { return area_unit_; }      ///< [m^2]
+
+ private:
+  FaceBlock packBlock(const FaceTable& faces, std::size_t block) const;
+  void setBounds(std::size_t block);
+  void packForm(const FaceTable& faces);
+  void packPitch(const FaceTable& faces, const FormShape& shape);
+  void addLee(const FaceTable& faces, std::size_t face, double by_lee);
+
+  std::vector<std::uint32_t> order_;  ///< index into FaceTable of each face in the blocks
+  std::vector<FaceBlock> blocks_;
+  std::vector<FaceBounds> bounds_;
+  std::vector<FormBlock> form_;
+  std::vector<PitchBlock> pitch_;
+  std::vector<double> lee_;  ///< 6 x 21, column by column
+  double length_unit_ = 1, area_unit_ = 1;
+};
+
+}  // namespace ambient

@@ -1,0 +1,175 @@
+#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/fluid_body/flat_sides.h"
+#include "bullet_ambient/fluid_body/packed/block_order.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
+
+namespace ambient {
+namespace {
+
+using Triangle = std::array<Vector3, 3>;
+
+// Returns the triangles of the surface; flat sides become fans if this needs fewer triangles.
+std::vector<Triangle> trianglesOf(const Surface& surface) {
+  const SurfaceTriangles mesh(surface);
+  std::vector<Triangle> triangles;
+  std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
+  for (const FlatSide& side : findFlatSides(mesh)) {
+    const std::vector<Vector3>& c = side.corners;
+    if (c.size() >= side.triangles.size() + 2) continue;
+    for (std::size_t i = 2; i < c.size(); ++i) triangles.push_back({c[0], c[i - 1], c[i]});
+    for (const int t : side.triangles) is_replaced[static_cast<std::size_t>(t)] = true;
+  }
+  for (int t = 0; t < mesh.size(); ++t) {
+    if (is_replaced[static_cast<std::size_t>(t)]) continue;
+    const auto corner = [&](int i) { return mesh.place(mesh.vertex(t, i)); };
+    triangles.push_back({corner(0), corner(1), corner(2)});
+  }
+  return triangles;
+}
+
+// Returns the corners of all triangles without duplicates.
+std::vector<Vector3> cornersOf(const std::vector<Triangle>& triangles) {
+  std::vector<std::array<double, 3>> places;
+  for (const Triangle& t : triangles)
+    for (const Vector3& p : t) places.push_back({p.x(), p.y(), p.z()});
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<Vector3> corners;
+  for (const auto& p : places) corners.emplace_back(p[0], p[1], p[2]);
+  return corners;
+}
+
+template <class Thing, class Place>
+std::vector<Thing> inBlocks(const std::vector<Thing>& things, std::size_t size,
+                            const Place& placeOf) {
+  std::vector<Vector6> coordinates;
+  coordinates.reserve(things.size());
+  for (const Thing& thing : things) coordinates.push_back(stack({0, 0, 0}, placeOf(thing)));
+  std::vector<Thing> sorted;
+  sorted.reserve(things.size());
+  for (const std::uint32_t i : orderInBlocks(coordinates, size)) sorted.push_back(things[i]);
+  return sorted;
+}
+
+struct Box {
+  Vector3 centre, half;
+};
+
+/// Axis-aligned box around points, enlarged against rounding.
+Box boxAround(const Vector3* points, std::size_t count) {
+  constexpr double kRounding = 1e-12;
+  Vector3 low = points[0], high = points[0];
+  for (std::size_t i = 1; i < count; ++i) {
+    low = low.cwiseMin(points[i]);
+    high = high.cwiseMax(points[i]);
+  }
+  const double size = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  return {(low + high) / 2, ((high - low) / 2).array() + kRounding * size};
+}
+
+Vector3 areaNormal(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]) / 2; }
+
+using Moments = std::array<double, HullMoments::kNumbers>;
+
+/// Adds to N = sum A n, M = sum A n c^T, Q_jkl = sum int n_j z_k z_l dA; docs/theory.md eq. (57).
+void add(const Triangle& t, Moments& moments) {
+  const Vector3 normal = areaNormal(t);
+  const Vector3 c = (t[0] + t[1] + t[2]) / 3;
+  const Matrix3 second = (t[0] * t[0].transpose() + t[1] * t[1].transpose() +
+                          t[2] * t[2].transpose() + 9 * c * c.transpose()) /
+                         12;
+  double* to = moments.data();
+  for (int j = 0; j < 3; ++j) *to++ += normal[j];
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < 3; ++k) *to++ += normal[j] * c[k];
+  for (int j = 0; j < 3; ++j)
+    for (int k = 0; k < 3; ++k)
+      for (int l = k; l < 3; ++l) *to++ += normal[j] * second(k, l);
+}
+
+HullBlock blockOf(const Triangle* triangles, std::size_t count) {
+  AMBIENT_ASSERT(count > 0 && count <= HullBlock::kTriangles);
+  HullBlock block = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3 normal = areaNormal(triangles[i]);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int corner = 0; corner < 3; ++corner)
+        block.corner[corner][axis][i] = triangles[i][static_cast<std::size_t>(corner)][axis];
+      block.area_normal[axis][i] = normal[axis];
+    }
+  }
+  // Unused lanes repeat one corner of the last triangle: the block stays dry, cut or wet as it is.
+  for (std::size_t i = count; i < HullBlock::kTriangles; ++i)
+    for (auto& corner : block.corner)
+      for (int axis = 0; axis < 3; ++axis) corner[axis][i] = triangles[count - 1][0][axis];
+  return block;
+}
+
+double volumeOf(const std::vector<Triangle>& triangles) {
+  double volume = 0;
+  for (const Triangle& t : triangles) volume += t[0].dot(t[1].cross(t[2])) / 6;
+  return volume;
+}
+
+}  // namespace
+
+PackedHull::PackedHull(const FluidBody& body) {
+  if (body.surface.triangles.empty()) return;
+  const std::vector<Triangle> triangles = trianglesOf(body.surface);
+  packPoints(cornersOf(triangles));
+  if (!(body.volume > 0)) return;
+  const double volume = volumeOf(triangles);
+  if (volume > 0) volume_factor_ = body.volume / volume;
+  AMBIENT_ASSERT(volume_factor_ > 0 && std::isfinite(volume_factor_));
+  packTriangles(inBlocks(triangles, HullBlock::kTriangles,
+                         [](const Triangle& t) { return Vector3(t[0] + t[1] + t[2]); }));
+}
+
+void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
+  constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullMoments::kBlocks;
+  for (std::size_t begin = 0; begin < triangles.size(); begin += kTriangles) {
+    const std::size_t count = std::min(kTriangles, triangles.size() - begin);
+    const std::size_t lane = blocks_.size() % kBlocks;
+    if (lane == 0) {
+      moments_.push_back({});
+      for (auto& half : moments_.back().half)
+        for (double& entry : half) entry = HullMoments::kNoBlock;
+    }
+    blocks_.push_back(blockOf(&triangles[begin], count));
+    HullMoments& group = moments_.back();
+    const Box box = boxAround(triangles[begin].data(), 3 * count);
+    for (int axis = 0; axis < 3; ++axis) {
+      group.centre[axis][lane] = box.centre[axis];
+      group.half[axis][lane] = box.half[axis];
+    }
+    Moments moments = {};
+    for (std::size_t i = begin; i < begin + count; ++i) add(triangles[i], moments);
+    for (std::size_t number = 0; number < moments.size(); ++number)
+      group.moments[number][lane] = moments[number];
+  }
+}
+
+void PackedHull::packPoints(const std::vector<Vector3>& points) {
+  constexpr std::size_t kPoints = HullPoints::kPoints;
+  const std::vector<Vector3> sorted =
+      inBlocks(points, kPoints, [](const Vector3& place) { return place; });
+  for (std::size_t begin = 0; begin < sorted.size(); begin += kPoints) {
+    const std::size_t count = std::min(kPoints, sorted.size() - begin);
+    const Box box = boxAround(&sorted[begin], count);
+    HullPoints& block = points_.emplace_back();
+    for (int axis = 0; axis < 3; ++axis) {
+      block.centre[axis] = box.centre[axis];
+      block.half[axis] = box.half[axis];
+      for (std::size_t i = 0; i < kPoints; ++i)
+        block.place[axis][i] = sorted[begin + std::min(i, count - 1)][axis];
+    }
+  }
+}
+
+}  // namespace ambient

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/fluid_body/packed/hull_block.h"
+
+namespace ambient {
+
+/// Shape for hydrostatics, in frame F: surface triangles in blocks of neighbours with their
+/// moments, 140 bytes per triangle. A flat side with a convex outline becomes a fan of few
+/// triangles, whatever its mesh. A sheet has corners but no triangles: it displaces nothing.
+class PackedHull {
+ public:
+  /// Cost: O(T log T), 2 us per triangle.
+  explicit PackedHull(const FluidBody& body);
+
+  HullBlocks blocks() const { return {blocks_.data(), moments_.data(), blocks_.size()}; }
+  HullCorners corners() const { return {points_.data(), points_.size()}; }
+  /// FluidBody::volume over the volume inside the triangles; above 1 for meshes of round bodies.
+  double volumeFactor() const { return volume_factor_; }
+
+ private:
+  using Triangle = std::array<Vector3, 3>;
+  void packTriangles(const std::vector<Triangle>& triangles);
+  void packPoints(const std::vector<Vector3>& points);
+
+  std::vector<HullBlock> blocks_;
+  std::vector<HullMoments> moments_;
+  std::vector<HullPoints> points_;
+  double volume_factor_ = 1;
+};
+
+}  // namespace ambient

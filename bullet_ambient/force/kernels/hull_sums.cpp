@@ -1,0 +1,329 @@
+#include "bullet_ambient/force/kernels/hull_sums.h"
+
+#include "bullet_ambient/base/instruction_set.h"
+#include "bullet_ambient/force/kernels/double_lanes.h"
+
+// Compiled once for each instruction set, which AMBIENT_KERNEL() adds to the name.
+
+namespace ambient {
+namespace {
+
+constexpr int kLanes = 8;
+constexpr int kGroups = 32;  ///< number of groups of eight blocks per pass
+static_assert(HullMoments::kBlocks == kLanes, "a block of a group is a lane");
+static_assert(HullBlock::kTriangles == kLanes, "a triangle of a block is a lane");
+
+inline Doubles broadcast(double value) { return Doubles{} + value; }
+inline Vectors broadcast(const double (&v)[3]) {
+  return {broadcast(v[0]), broadcast(v[1]), broadcast(v[2])};
+}
+template <int kColumns>
+inline Vectors load(const double (&columns)[3][kColumns], int at) {
+  return {load(columns[0] + at), load(columns[1] + at), load(columns[2] + at)};
+}
+inline Doubles select(const Mask& mask, const Doubles& a, const Doubles& b) { return mask ? a : b; }
+inline Vectors select(const Mask& mask, const Vectors& a, const Vectors& b) {
+  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+/// Plane, the same in all lanes.
+struct Planes {
+  Vectors normal, axis1, axis2, size;
+  Doubles height;
+
+  explicit Planes(const HullPlane& plane)
+      : normal(broadcast(plane.normal)),
+        axis1(broadcast(plane.axes[0])),
+        axis2(broadcast(plane.axes[1])),
+        size({larger(normal.x), larger(normal.y), larger(normal.z)}),
+        height(broadcast(plane.height)) {}
+  Doubles depth(const Vectors& place) const { return height - dot(normal, place); }
+  /// Coordinates along e_1 and e_2, and the depth as z.
+  Vectors seen(const Vectors& place) const {
+    return {dot(axis1, place), dot(axis2, place), depth(place)};
+  }
+
+ private:
+  static Doubles larger(const Doubles& a) { return a > -a ? a : -a; }
+};
+
+/// Rows of the sums, as multiples: 3 V, 12 S along the axes, 24 W; waterplane: 2 A_w, 6 P_1,
+/// 24 P_2.
+enum Row {
+  kVolume,
+  kMoment,
+  kDepth = kMoment + 2,
+  kArea,
+  kFirst,
+  kSecond = kFirst + 2,
+  kRows = 10
+};
+struct HullLanes {
+  double rows[kRows][kLanes] = {};
+};
+
+/// Masks of wet corners; depths za, zb, zc of the corners of triangles.
+struct WetCorners {
+  Mask a, b, c;
+
+  WetCorners(const Doubles& za, const Doubles& zb, const Doubles& zc)
+      : a(za > Doubles{}), b(zb > Doubles{}), c(zc > Doubles{}) {}
+  Mask any() const { return a | b | c; }
+  Mask all() const { return a & b & c; }
+  Mask most() const { return (a & b) | (b & c) | (c & a); }
+};
+
+struct HullRows {
+  Doubles rows[kRows] = {};
+
+  void storeTo(HullLanes& lanes, int lane) const {
+    for (int row = 0; row < kRows; ++row) store(lanes.rows[row] + lane, rows[row]);
+  }
+
+  /// Adds triangles. Corners by Planes::seen(); `flux`: -s.n A. Dry triangles add nothing.
+  void addTriangles(const Vectors& a, const Vectors& b, const Vectors& c, const Doubles& flux) {
+    const Doubles zero = {};
+    const WetCorners wet(a.z, b.z, c.z);
+    const Mask most = wet.most();
+    if (anyOf(most)) addWhole(a, b, c, select(most, flux, zero));
+    const Mask is_cut = wet.any() & ~wet.all();
+    if (!anyOf(is_cut)) return;
+    const Mask alone_a = (wet.a ^ wet.b) & (wet.a ^ wet.c),
+               alone_b = (wet.b ^ wet.a) & (wet.b ^ wet.c);
+    const Vectors u = select(alone_a, a, select(alone_b, b, c));
+    const Vectors p = select(alone_a, b, select(alone_b, c, a));
+    const Vectors q = select(alone_a, c, select(alone_b, a, b));
+    addCorner(u, p, q, select(most, -flux, flux), is_cut);
+  }
+
+ private:
+  /// Adds whole triangles, docs/theory.md eq. (55).
+  void addWhole(const Vectors& a, const Vectors& b, const Vectors& c, const Doubles& flux) {
+    const Vectors sum = a + b + c;
+    addMoments(flux, a.z * a + b.z * b + c.z * c + sum.z * sum);
+    rows[kVolume] = rows[kVolume] + flux * sum.z;
+  }
+  void addMoments(const Doubles& flux, const Vectors& of_depth) {
+    rows[kMoment] = rows[kMoment] + flux * of_depth.x;
+    rows[kMoment + 1] = rows[kMoment + 1] + flux * of_depth.y;
+    rows[kDepth] = rows[kDepth] + flux * of_depth.z;
+  }
+
+  /// Adds the corner triangle at u of triangles that the plane cuts, eq. (56), and the line of cut.
+  void addCorner(const Vectors& u, const Vectors& p, const Vectors& q, const Doubles& flux,
+                 const Mask& is_cut) {
+    const Doubles zero = {}, one = zero + 1.0;
+    // lambda_p = u.z / (u.z - p.z) and lambda_q of the edges, by one division.
+    const Doubles to_p = u.z - p.z, to_q = u.z - q.z, product = to_p * to_q;
+    const Doubles per = select(is_cut, u.z / select(product > zero, product, one), zero);
+    const Doubles lp = per * to_q, lq = per * to_p;
+    const Doubles px = u.x + lp * (p.x - u.x), py = u.y + lp * (p.y - u.y);
+    const Doubles qx = u.x + lq * (q.x - u.x), qy = u.y + lq * (q.y - u.y);
+    const Doubles by_depth = (lp * lq) * flux * u.z;
+    rows[kVolume] = rows[kVolume] + by_depth;
+    addMoments(by_depth, {2 * u.x + px + qx, 2 * u.y + py + qy, 2 * u.z});
+    const Doubles cross = px * qy - py * qx;
+    addLine(px, py, qx, qy, select(is_cut, select(u.z > zero, -cross, cross), zero));
+  }
+
+  /// Adds a line a, b with k = a x b to the moments of the waterplane, eq. (58), per lane.
+  void addLine(const Doubles& ax, const Doubles& ay, const Doubles& bx, const Doubles& by,
+               const Doubles& k) {
+    const Doubles x = ax + bx, y = ay + by;
+    rows[kArea] = rows[kArea] + k;
+    rows[kFirst] = rows[kFirst] + k * x;
+    rows[kFirst + 1] = rows[kFirst + 1] + k * y;
+    rows[kSecond] = rows[kSecond] + k * (x * x + ax * ax + bx * bx);
+    rows[kSecond + 1] = rows[kSecond + 1] + k * (x * y + ax * ay + bx * by);
+    rows[kSecond + 2] = rows[kSecond + 2] + k * (y * y + ay * ay + by * by);
+  }
+};
+
+/// Blocks of one pass, sorted into wholly wet, cut and dry ones.
+struct Choice {
+  double wet[kGroups][kLanes];  ///< 1: wholly wet, else 0
+  int cut[kGroups * kLanes];    ///< indices of cut blocks
+  int cut_count = 0;
+};
+
+enum class Side { kDry, kCut, kWet };
+
+/// Finds out on which side of the plane a block is, by its corners.
+inline Side sideOf(const HullBlock& block, const Planes& planes) {
+  bool any_wet = false, any_dry = false;
+  for (int lane = 0; lane < kLanes; lane += kWidth) {
+    const WetCorners wet(planes.depth(load(block.corner[0], lane)),
+                         planes.depth(load(block.corner[1], lane)),
+                         planes.depth(load(block.corner[2], lane)));
+    any_wet = any_wet || anyOf(wet.any());
+    any_dry = any_dry || anyOf(~wet.all());
+  }
+  if (!any_wet) return Side::kDry;
+  return any_dry ? Side::kCut : Side::kWet;
+}
+
+/// Sorts the blocks by their boxes; blocks whose box meets the plane by their corners.
+inline void choose(const HullMoments* groups, int count, const HullBlock* blocks,
+                   const Planes& planes, Choice& choice) {
+  choice.cut_count = 0;
+  const Doubles zero = {}, one = zero + 1.0;
+  for (int group = 0; group < count; ++group) {
+    double open[kLanes];
+    for (int lane = 0; lane < kLanes; lane += kWidth) {
+      const Doubles depth = planes.depth(load(groups[group].centre, lane));
+      const Doubles reach = dot(planes.size, load(groups[group].half, lane));
+      const Mask is_wet = depth > reach;
+      store(choice.wet[group] + lane, select(is_wet, one, zero));
+      store(open + lane, select(is_wet, zero, select(depth >= -reach, one, zero)));
+    }
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (!(open[lane] > 0)) continue;
+      const int block = group * kLanes + lane;
+      const Side side = sideOf(blocks[block], planes);
+      choice.wet[group][lane] = side == Side::kWet ? 1 : 0;
+      if (side == Side::kCut) choice.cut[choice.cut_count++] = block;
+    }
+  }
+}
+
+inline void addCut(const HullBlock* blocks, const Choice& choice, const Planes& planes,
+                   HullRows (&sums)[kLanes / kWidth]) {
+  for (int part = 0; part < kLanes / kWidth; ++part) {
+    HullRows rows = sums[part];
+    for (int i = 0; i < choice.cut_count; ++i) {
+      const HullBlock& block = blocks[choice.cut[i]];
+      const int lane = part * kWidth;
+      const Doubles flux = -dot(planes.normal, load(block.area_normal, lane));
+      rows.addTriangles(planes.seen(load(block.corner[0], lane)),
+                        planes.seen(load(block.corner[1], lane)),
+                        planes.seen(load(block.corner[2], lane)), flux);
+    }
+    sums[part] = rows;
+  }
+}
+
+/// Sums s.N, s.M, s.Q over wholly wet blocks, per lane.
+enum WetRow { kFlux, kFluxMoment, kFluxSecond = kFluxMoment + 3, kWetRows = 10 };
+struct WetRows {
+  Doubles rows[kWetRows] = {};
+};
+
+inline void addWet(const HullMoments* groups, int count, const Choice& choice, const Planes& planes,
+                   WetRows (&sums)[kLanes / kWidth]) {
+  for (int part = 0; part < kLanes / kWidth; ++part) {
+    const int lane = part * kWidth;
+    WetRows rows = sums[part];
+    for (int group = 0; group < count; ++group) {
+      const Doubles wet = load(choice.wet[group] + lane);
+      if (!anyOf(wet > Doubles{})) continue;
+      const auto& moments = groups[group].moments;
+      const Vectors s = wet * planes.normal;
+      const auto along = [&](int number, int stride) {
+        return s.x * load(moments[number] + lane) + s.y * load(moments[number + stride] + lane) +
+               s.z * load(moments[number + 2 * stride] + lane);
+      };
+      rows.rows[kFlux] = rows.rows[kFlux] + along(0, 1);
+      for (int k = 0; k < 3; ++k)
+        rows.rows[kFluxMoment + k] = rows.rows[kFluxMoment + k] + along(3 + k, 3);
+      for (int k = 0; k < 6; ++k)
+        rows.rows[kFluxSecond + k] = rows.rows[kFluxSecond + k] + along(12 + k, 6);
+    }
+    sums[part] = rows;
+  }
+}
+
+template <class Rows, int kCount>
+inline void sumRows(const Rows (&parts)[kLanes / kWidth], double (&sums)[kCount]) {
+  for (int row = 0; row < kCount; ++row) {
+    double lanes[kLanes];
+    for (int part = 0; part < kLanes / kWidth; ++part)
+      store(lanes + part * kWidth, parts[part].rows[row]);
+    sums[row] = sumLanes(lanes);
+  }
+}
+
+inline double dot(const double* a, const double* b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Converts the rows of the cut blocks to sums.
+inline HullSums sumsOf(const double (&r)[kRows]) {
+  return {r[kVolume] / 3,
+          r[kDepth] / 24,
+          {r[kMoment] / 12, r[kMoment + 1] / 12},
+          r[kArea] / 2,
+          {r[kFirst] / 6, r[kFirst + 1] / 6},
+          {r[kSecond] / 24, r[kSecond + 1] / 24, r[kSecond + 2] / 24}};
+}
+
+/// Adds the wholly wet blocks, docs/theory.md eq. (57).
+inline void addWetTo(HullSums& sums, const double (&wet)[kWetRows], const HullPlane& plane) {
+  const double h = plane.height, flux = wet[kFlux];
+  const double* const sm = wet + kFluxMoment;
+  const double* const q = wet + kFluxSecond;
+  const double* const s = plane.normal;
+  const double rows[3][3] = {{q[0], q[1], q[2]}, {q[1], q[3], q[4]}, {q[2], q[4], q[5]}};
+  const double sqs[3] = {dot(rows[0], s), dot(rows[1], s), dot(rows[2], s)};
+  const double sms = dot(s, sm);
+  const double moment[3] = {sqs[0] - h * sm[0], sqs[1] - h * sm[1], sqs[2] - h * sm[2]};
+  sums.volume += sms - h * flux;
+  for (int axis = 0; axis < 2; ++axis) sums.moment[axis] += dot(plane.axes[axis], moment);
+  sums.depth += h * sms - 0.5 * (h * h * flux + dot(s, sqs));
+}
+
+HullSums sumHull(const HullBlocks& hull, const HullPlane& plane) noexcept {
+  const Planes planes(plane);
+  HullRows cut[kLanes / kWidth];
+  WetRows wet[kLanes / kWidth];
+  Choice choice;
+  const std::size_t groups = (hull.count + kLanes - 1) / kLanes;
+  for (std::size_t begin = 0; begin < groups; begin += kGroups) {
+    const std::size_t left = groups - begin;
+    const int count = left < kGroups ? static_cast<int>(left) : kGroups;
+    const HullBlock* const blocks = hull.blocks + begin * kLanes;
+    choose(hull.moments + begin, count, blocks, planes, choice);
+    addCut(blocks, choice, planes, cut);
+    addWet(hull.moments + begin, count, choice, planes, wet);
+  }
+  double of_cut[kRows], of_wet[kWetRows];
+  sumRows(cut, of_cut);
+  sumRows(wet, of_wet);
+  HullSums sums = sumsOf(of_cut);
+  addWetTo(sums, of_wet, plane);
+  return sums;
+}
+
+inline double absolute(double a) { return a < 0 ? -a : a; }
+
+/// Extent along s; skips blocks whose box lies within the extent found so far.
+HullExtent extentOf(const HullCorners& corners, const double (&s)[3]) noexcept {
+  const Vectors normal = broadcast(s);
+  const double size[3] = {absolute(s[0]), absolute(s[1]), absolute(s[2])};
+  HullExtent extent{};
+  for (std::size_t i = 0; i < corners.count; ++i) {
+    const HullPoints& block = corners.blocks[i];
+    const double middle = dot(s, block.centre), reach = dot(size, block.half);
+    if (i > 0 && middle - reach >= extent.low && middle + reach <= extent.high) continue;
+    Doubles low = dot(normal, load(block.place, 0)), high = low;
+    for (int at = kWidth; at < HullPoints::kPoints; at += kWidth) {
+      const Doubles along = dot(normal, load(block.place, at));
+      low = along < low ? along : low;
+      high = along > high ? along : high;
+    }
+    double lows[kWidth], highs[kWidth];
+    store(lows, low);
+    store(highs, high);
+    if (i == 0) extent = {lows[0], highs[0]};
+    for (int lane = 0; lane < kWidth; ++lane) {
+      if (lows[lane] < extent.low) extent.low = lows[lane];
+      if (highs[lane] > extent.high) extent.high = highs[lane];
+    }
+  }
+  return extent;
+}
+
+}  // namespace
+
+const HullKernel AMBIENT_KERNEL(kHullKernel){sumHull, extentOf};
+
+}  // namespace ambient

@@ -1,0 +1,194 @@
+#pragma once
+
+#include <cstdint>
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+#include "bullet_ambient/force/kernels/lane_vectors.h"
+#include "bullet_ambient/force/kernels/load_sums.h"
+#include "bullet_ambient/force/law/skin_friction.h"
+
+// Vectors of lanes in single precision, and their sums, for all kernels. Only sources that are
+// compiled once per instruction set include this header. The vector types of GCC and Clang have the
+// +, -, *, > and ?: of IEEE 754 per lane.
+
+namespace ambient {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kWidth = 16;
+#elif defined(__AVX2__)
+constexpr int kWidth = 8;
+#else
+constexpr int kWidth = 4;
+#endif
+constexpr int kLanes = 16;
+
+using Floats = float __attribute__((vector_size(kWidth * sizeof(float))));
+using Ints = std::int32_t __attribute__((vector_size(kWidth * sizeof(std::int32_t))));
+
+inline Floats load(const float* from) {
+  Floats f;
+  __builtin_memcpy(&f, from, sizeof f);
+  return f;
+}
+
+inline void store(float* to, Floats f) { __builtin_memcpy(to, &f, sizeof f); }
+
+#if defined(__AVX512F__)
+inline Floats plusProduct(Floats c, Floats a, Floats b) { return _mm512_fmadd_ps(a, b, c); }
+inline Floats lessProduct(Floats c, Floats a, Floats b) { return _mm512_fnmadd_ps(a, b, c); }
+#elif defined(__AVX2__)
+inline Floats plusProduct(Floats c, Floats a, Floats b) { return _mm256_fmadd_ps(a, b, c); }
+inline Floats lessProduct(Floats c, Floats a, Floats b) { return _mm256_fnmadd_ps(a, b, c); }
+#else
+/// a b + c, rounded once.
+inline float fused(float a, float b, float c) {
+#if defined(__FP_FAST_FMAF)
+  return __builtin_fmaf(a, b, c);
+#else
+  // In double the product is exact. Its sum with c is rounded to odd, so that the second rounding,
+  // to float, gives the fused result (Boldo and Melquiond 2008).
+  const double product = static_cast<double>(a) * static_cast<double>(b);
+  const double addend = static_cast<double>(c);
+  double sum = product + addend;
+  const double part = sum - product;
+  const double error = (product - (sum - part)) + (addend - part);  // exact rounding error of sum
+  std::int64_t bits;
+  __builtin_memcpy(&bits, &sum, sizeof bits);
+  if (error != 0 && bits % 2 == 0) bits += (error > 0) == (sum > 0) ? 1 : -1;
+  __builtin_memcpy(&sum, &bits, sizeof bits);
+  return static_cast<float>(sum);
+#endif
+}
+
+/// c + a b and c - a b, each rounded once. Processors with fused multiply-add, x86 since 2013, need
+/// half the operations; on others these functions take thirty times as long.
+inline Floats plusProduct(Floats c, Floats a, Floats b) {
+  for (int lane = 0; lane < kWidth; ++lane) c[lane] = fused(a[lane], b[lane], c[lane]);
+  return c;
+}
+inline Floats lessProduct(Floats c, Floats a, Floats b) { return plusProduct(c, -a, b); }
+#endif
+
+/// Square root per lane, correctly rounded with every instruction set.
+#if defined(__AVX512F__)
+inline Floats root(Floats x) { return _mm512_maskz_sqrt_ps(0xffff, x); }
+#elif defined(__AVX2__)
+inline Floats root(Floats x) { return _mm256_sqrt_ps(x); }
+#else
+inline Floats root(Floats x) {
+  for (int lane = 0; lane < kWidth; ++lane) x[lane] = __builtin_sqrtf(x[lane]);
+  return x;
+}
+#endif
+
+/// 1 / sqrt(x) for normal x > 0, relative error 8e-7, without a division; finite for x = 0.
+inline Floats inverseRoot(Floats x) {
+  Ints bits;
+  __builtin_memcpy(&bits, &x, sizeof bits);
+  bits = 0x5f376908 - (bits >> 1);
+  Floats r;
+  __builtin_memcpy(&r, &bits, sizeof r);
+  const Floats half = 0.5f * x;
+  // Newton's step with 3/2 is always too small; slightly more halves the error. Moroz et al. 2018.
+  r = r * lessProduct(Floats{} + 1.50087896f, half * r, r);
+  return r * lessProduct(Floats{} + 1.5000006f, half * r, r);
+}
+
+using Vectors = VectorsOf<Floats>;
+
+inline Vectors load(const float (&columns)[3][kLanes], int lane) {
+  return {load(columns[0] + lane), load(columns[1] + lane), load(columns[2] + lane)};
+}
+inline Vectors broadcast(const float v[3]) {
+  return {Floats{} + v[0], Floats{} + v[1], Floats{} + v[2]};
+}
+inline Vectors plusProduct(Vectors c, Floats s, Vectors a) {
+  return {plusProduct(c.x, s, a.x), plusProduct(c.y, s, a.y), plusProduct(c.z, s, a.z)};
+}
+inline Vectors lessProduct(Vectors c, Floats s, Vectors a) {
+  return {lessProduct(c.x, s, a.x), lessProduct(c.y, s, a.y), lessProduct(c.z, s, a.z)};
+}
+inline Floats dot(const Vectors& a, const Vectors& b) {
+  return plusProduct(plusProduct(a.x * b.x, a.y, b.y), a.z, b.z);
+}
+/// c + a x b
+inline Vectors plusCross(Vectors c, Vectors a, Vectors b) {
+  return {lessProduct(plusProduct(c.x, a.y, b.z), a.z, b.y),
+          lessProduct(plusProduct(c.y, a.z, b.x), a.x, b.z),
+          lessProduct(plusProduct(c.z, a.x, b.y), a.y, b.x)};
+}
+
+/// Partial sums of a wrench over one run of blocks, one per lane; `pitch`: only of wings.
+struct WrenchLanes {
+  float lanes[6][kLanes];
+  float pitch[kLanes];
+
+  void set(const Vectors& torque, const Vectors& force, int lane) {
+    store(lanes[0] + lane, torque.x);
+    store(lanes[1] + lane, torque.y);
+    store(lanes[2] + lane, torque.z);
+    store(lanes[3] + lane, force.x);
+    store(lanes[4] + lane, force.y);
+    store(lanes[5] + lane, force.z);
+  }
+};
+
+inline Floats slipPower(Floats slip_sq) {
+  return ambient::slipPower<Ints>(slip_sq, [](const Floats& c, const Floats& a, const Floats& b) {
+    return plusProduct(c, a, b);
+  });
+}
+
+constexpr int kHalf = kWidth / 2;
+using Doubles = double __attribute__((vector_size(kHalf * sizeof(double))));
+
+inline Doubles load(const double* from) {
+  Doubles d;
+  __builtin_memcpy(&d, from, sizeof d);
+  return d;
+}
+
+inline void store(double* to, Doubles d) { __builtin_memcpy(to, &d, sizeof d); }
+
+/// Partial sums of a wrench over all runs, one per lane; with `kPitch` those of the pitch as well.
+template <bool kPitch = false>
+struct WrenchTotal {
+  static constexpr int kRows = kPitch ? 7 : 6;
+  double lanes[kRows][kLanes];
+
+  WrenchTotal() {
+    for (double(&row)[kLanes] : lanes)
+      for (int lane = 0; lane < kLanes; lane += kHalf) store(row + lane, Doubles{});
+  }
+
+  void add(const WrenchLanes& run) {
+    for (int row = 0; row < 6; ++row)
+      for (int lane = 0; lane < kLanes; ++lane)
+        lanes[row][lane] += static_cast<double>(run.lanes[row][lane]);
+    if constexpr (kPitch)
+      for (int lane = 0; lane < kLanes; ++lane)
+        lanes[6][lane] += static_cast<double>(run.pitch[lane]);
+  }
+
+  LoadSums sum() const {
+    LoadSums sums;
+    for (int row = 0; row < 6; ++row) sums.wrench[row] = sumLanes(lanes[row]);
+    if constexpr (kPitch) sums.pitch = sumLanes(lanes[6]);
+    return sums;
+  }
+
+ private:
+  static double sumLanes(const double* row) {
+    double folded[8];
+    for (int lane = 0; lane < 8; lane += kHalf)
+      store(folded + lane, load(row + lane) + load(row + lane + 8));
+    const double* f = folded;
+    return ((f[0] + f[4]) + (f[2] + f[6])) + ((f[1] + f[5]) + (f[3] + f[7]));
+  }
+};
+
+}  // namespace
+}  // namespace ambient

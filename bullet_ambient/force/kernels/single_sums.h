@@ -1,0 +1,22 @@
+#pragma once
+
+#include "bullet_ambient/base/instruction_set.h"
+#include "bullet_ambient/fluid_body/packed/face_block.h"
+#include "bullet_ambient/force/kernels/load_sums.h"
+
+namespace ambient {
+
+// Sums over faces in single precision. Plain data only, as in face_sums.h.
+
+/// Sums all blocks; may skip blocks whose bounds show that the flow is detached. Face i of a block
+/// goes to lane i. Runs of 16 blocks are summed in single precision, runs are added in double.
+/// Fused products are written out, and emulated on processors that cannot fuse: all instruction
+/// sets give the same bits.
+using SumBlocks = LoadSums (*)(const FaceBlocks&, const SingleMotion&) noexcept;
+
+LoadSums sumBlocksBaseline(const FaceBlocks&, const SingleMotion&) noexcept;
+LoadSums sumBlocksAvx2(const FaceBlocks&, const SingleMotion&) noexcept;
+LoadSums sumBlocksAvx512(const FaceBlocks&, const SingleMotion&) noexcept;
+constexpr Kernels<SumBlocks> kSumBlocks{sumBlocksBaseline, sumBlocksAvx2, sumBlocksAvx512};
+
+}  // namespace ambient

@@ -1,0 +1,126 @@
+#pragma once
+
+#include "bullet_ambient/force/law/form_pressure.h"
+#include "bullet_ambient/force/law/pressure_law.h"
+#include "bullet_ambient/force/law/wing_pressure.h"
+
+namespace ambient {
+
+// The laws of the pressure on a face, for all sums over faces and for single ones. Each has
+//   of<kRightAngle>(face)
+// which returns the FacePressure of a FaceState. `kRightAngle`: the flow separates at alpha = pi/2.
+// A law needs a place in withPressure() besides.
+
+/// Motion of a face, and what a law may ask for besides. `Real`: a number or a vector of them.
+/// Functions: only laws that need a value compute it.
+template <class Real, class Speed, class Factors, class Wing>
+struct FaceState {
+  Real normal_speed;  ///< n.u, the velocity into the fluid [m/s]
+  Real area;          ///< A
+  Real strength;      ///< |u_s|^2 A where the flow is attached, else 0
+  Real slip_share;    ///< tau of eq. (43e); not read at a right angle
+  Speed speed;        ///< |u|; on a slender body speedAcross()
+  Factors factors;    ///< FormFactors of the face
+  Wing wing;          ///< takes a function of WingFlow and WingFactors, returns its result
+};
+template <class Real, class Speed, class Factors, class Wing>
+FaceState(Real, Real, Real, Real, Speed, Factors, Wing) -> FaceState<Real, Speed, Factors, Wing>;
+
+/// q A of the whole pressure rho/2 q, and of the lift of attached flow in it.
+template <class Real>
+struct FacePressure {
+  Real total, lift;
+};
+
+/// Docs/theory.md eq. (14).
+struct PublishedPressure {
+  static constexpr bool kPressesLee = false;  ///< what faces that the flow leaves feel
+  static constexpr bool kIsSlender = false;   ///< `speed` is speedAcross()
+  static constexpr bool kLifts = false;
+  using Windward = PublishedPressure;  ///< at a right angle, but for the lee that is summed apart
+
+  template <bool kRightAngle, class Real, class... Functions>
+  static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
+    return {face.strength, Real{}};
+  }
+};
+
+/// FormPressure without its lee, which is a quadratic form of the motion, addEvenPart().
+template <bool kSlender>
+struct WindwardFormPressure : PublishedPressure {
+  static constexpr bool kIsSlender = kSlender;
+
+  template <bool kRightAngle, class Real, class... Functions>
+  static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
+    return {face.area * windwardPressure(face.normal_speed, face.speed(), face.factors()), Real{}};
+  }
+};
+
+/// Adds the pressure of the slip to `separated`, q A at a right angle: eq. (43e).
+template <class Real, class... Functions>
+inline Real withSlip(const FaceState<Real, Functions...>& face, const Real& separated) {
+  const Real zero = {};
+  const Real slip = face.normal_speed > zero ? face.slip_share * face.strength : face.strength;
+  return (separated - face.slip_share * separated) + slip;
+}
+
+/// Eq. (43) and (44): blocks; with `kSlender` smooth slender bodies that are no wings.
+template <bool kSlender>
+struct FormPressure {
+  static constexpr bool kPressesLee = true;
+  static constexpr bool kIsSlender = kSlender;
+  static constexpr bool kLifts = false;
+  using Windward = WindwardFormPressure<kSlender>;
+
+  template <bool kRightAngle, class Real, class... Functions>
+  static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
+    const Real pressure = face.area * formPressure(face.normal_speed, face.speed(), face.factors());
+    return {kRightAngle ? pressure : withSlip(face, pressure), Real{}};
+  }
+};
+
+/// Eq. (43) to (43d), wings; `kLee`: with the lee side that addEvenPart() sums for a whole body;
+/// `kSlender`: those that are slender, too.
+template <bool kLee, bool kSlender>
+struct WingPressure {
+  static constexpr bool kPressesLee = kLee;
+  static constexpr bool kIsSlender = kSlender;
+  static constexpr bool kLifts = true;
+  using Windward = WingPressure<false, kSlender>;
+
+  template <bool kRightAngle, class Real, class... Functions>
+  static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
+    return face.wing([&](const auto& flow, const auto& numbers) {
+      const Real zero = {}, u = face.normal_speed;
+      const auto factors = face.factors();
+      const Real attached = attachedShare(u, flow, numbers);
+      const Real windward = windwardPressure(u, speedOf(face, flow), factors);
+      const Real lee = (factors.by_lee * u) * u;
+      const Real lost = u > zero ? attached * (windward - lee) : zero;
+      const Real kept = (kLee ? windward - lee : windward) - lost;
+      const Real lift = face.area * (attached * liftPressure(flow, numbers));
+      const Real separated = face.area * kept + lift;
+      if constexpr (kRightAngle) return FacePressure<Real>{separated, lift};
+      return FacePressure<Real>{withSlip(face, separated), lift - face.slip_share * lift};
+    });
+  }
+
+ private:
+  template <class Face, class Real>
+  static Real speedOf(const Face& face, const WingFlow<Real>& flow) {
+    if constexpr (kSlender) return face.speed();
+    return flow.speed_sq * flow.inverse_speed;
+  }
+};
+
+/// Calls sum(Law{}) with the law of this name. `wing`: of the shape; null of a block, and of the
+/// published law.
+template <class Number, class Sum>
+auto withPressure(PressureLaw law, const WingFactors<Number>* wing, const Sum& sum) {
+  if (law != PressureLaw::kForm) return sum(PublishedPressure{});
+  if (!wing) return sum(FormPressure<false>{});
+  if (!(wing->wing > 0)) return sum(FormPressure<true>{});
+  return wing->is_slender ? sum(WingPressure<true, true>{}) : sum(WingPressure<true, false>{});
+}
+
+}  // namespace ambient

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "bullet_ambient/force/law/pressure_law.h"
+
+namespace ambient {
+
+struct FluidBody;
+struct LoadSettings;
+class SurfaceLoads;
+
+/// Factory of a user's own surface loads for a shape in a fluid with density > 0. Called when a
+/// body is attached and when its fluid or shape changes.
+using LoadLaw = std::function<std::shared_ptr<const SurfaceLoads>(
+    const std::shared_ptr<const FluidBody>&, const LoadSettings&)>;
+
+/// Arithmetic of the loads on faces. What a face does is rounded; sums, and all else, are in
+/// double.
+enum class LoadPrecision {
+  kSingle,  ///< half the time; its error is at most a hundredth of that of a mesh of 1280 faces
+  kDouble,
+};
+
+constexpr std::array<std::pair<LoadPrecision, const char*>, 2> kLoadPrecisionNames{
+    {{LoadPrecision::kSingle, "single"}, {LoadPrecision::kDouble, "double"}}};
+
+/// Settings of the flow around one body.
+struct FlowSettings {
+  double separation_angle =
+      1.5707963267948966;     ///< alpha in [pi/2, pi] [rad]; larger = more attachment
+  bool skin_friction = true;  ///< turbulent 1/5-power law, docs/theory.md eq. (16)
+  LoadLaw own_law = nullptr;  ///< empty: this library's pressure and friction
+  LoadPrecision precision = LoadPrecision::kSingle;
+  /// Allowed p99 error of reduced loads, see LoadLevelError and FormLevel. The cheapest level of
+  /// the fluid body within this error, for law and separation angle, replaces the faces. 0, or no
+  /// such level: all faces.
+  double maximum_load_error = 0.01;
+  PressureLaw law = PressureLaw::kForm;  ///< spheres have the same loads by both laws
+  /// Lag lambda of separation behind the incidence, eq. (48): in body lengths over speed; kForm.
+  double stall_lag = 4.5;
+};
+
+}  // namespace ambient

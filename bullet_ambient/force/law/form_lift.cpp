@@ -1,0 +1,91 @@
+#include "bullet_ambient/force/law/form_lift.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kStallIncidence = 0.45;  // scale of xi in eq. (49)
+constexpr double kOnset = 0.06;   // epsilon of eq. (49a): sin^2 of the incidence of 14 degrees
+constexpr double kLargest = 1e8;  // of a ratio; beyond, the share is 0 or 1
+
+/// 1 - f of eq. (49); xi: lagged sin^2 of the incidence, eq. (48).
+double separatedShareOfBlocks(double xi) noexcept {
+  const double z = std::clamp(xi / kStallIncidence - 0.25, -kLargest, kLargest);
+  return 0.5 * (1 + z / std::sqrt(1 + z * z));
+}
+
+/// x^2 / (1 + x^2), from 0 to 1 as |x| grows.
+double grown(double x) noexcept {
+  const double square = std::min(x * x, kLargest * kLargest);
+  return square / (1 + square);
+}
+
+}  // namespace
+
+FormLift::FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag,
+                   double slip_share)
+    : wing_(factors.shape.wing), kept_(1 - slip_share), centre_(body.centre_of_volume) {
+  AMBIENT_ASSERT(stall_lag >= 0);
+  AMBIENT_ASSERT(body.volume >= 0 && body.area >= 0);
+  const SymmetricEigen<3> eigen = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>());
+  const Eigen::Vector3d& k = eigen.values;
+  const Matrix3& axes = eigen.vectors;
+  largest_ = k[2] - k[0];
+  if (largest_ > 0 && body.area > 0) {
+    const Vector3 relative(0, (k[1] - k[0]) / largest_, 1);
+    direction_ = axes * relative.asDiagonal() * axes.transpose();
+    delay_ = 2 * stall_lag * 8 * largest_ / (kPi * body.area);
+    setWing(factors.shape, 8 * largest_ / (kPi * body.area));
+  }
+  const Vector3 differences(k[2] - k[1], k[2] - k[0], k[1] - k[0]);
+  const double lifting =
+      (1 - factors.shape.slender.squaredNorm()) * (1 - wing_ * (1 - attached_) / 2);
+  circulation_ = kept_ * body.volume / 2 * Matrix3::Identity() +
+                 lifting * (axes * differences.asDiagonal() * axes.transpose());
+}
+
+void FormLift::setWing(const FormShape& shape, double length) {
+  if (!shape.isWing()) return;
+  attached_ = std::min(1.0, normalForceSlope(shape.aspect) * shape.chord / (2 * kPi * length));
+  stall_sq_ = stallSine(shape.aspect) * stallSine(shape.aspect);
+}
+
+Wrench FormLift::load(const Twist& x, double density) const noexcept {
+  AMBIENT_ASSERT(density >= 0);
+  const Vector3& w = x.angular;
+  const Vector3 v = x.at(centre_);
+  Wrench about_centre{Vector3::Zero(), (circulation_ * w).cross(v)};
+  addStall(w, v, about_centre);
+  const Vector3 force = density * about_centre.force;
+  return {density * about_centre.torque + centre_.cross(force), force};
+}
+
+double FormLift::separatedShare(double phi, double turning) const noexcept {
+  const double of_blocks = separatedShareOfBlocks(phi - turning);
+  if (!(wing_ > 0)) return of_blocks;
+  const double xi = phi - turning * phi / (phi + kOnset);
+  const double of_wings = xi > 0 ? 1 - attached_ * (1 - grown(xi / stall_sq_))
+                                 : (1 - attached_) * (1 - grown(xi / kOnset));
+  return wing_ * of_wings + (1 - wing_) * of_blocks;
+}
+
+void FormLift::addStall(const Vector3& w, const Vector3& v, Wrench& about_centre) const noexcept {
+  const double speed = v.norm();
+  if (!(largest_ > 0) || !(speed > 0)) return;
+  const Vector3 e = v / speed;
+  const Vector3 across = direction_ * e;
+  const Vector3 munk = across.cross(e);
+  const double turning = delay_ * (w.dot(munk) / speed);
+  const double lost = kept_ * separatedShare(e.dot(across), turning) * largest_ * speed;
+  about_centre.torque -= lost * speed * munk;
+  about_centre.force -= lost * across.cross(w);
+}
+
+}  // namespace ambient

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
+
+namespace ambient {
+
+struct FormShape;
+struct ShapeFactors;
+
+/// Part of the form law that acts on a body as a whole: lift of the rotation, eq. (46), (47), and
+/// the loss of Munk's moment and of the turning impulse in separated flow, docs/theory.md eq. (48)
+/// to (50). Frame F.
+class FormLift {
+ public:
+  /// slip_share: tau of eq. (43e). Cost: one eigenproblem of 3 rows.
+  /// @pre stall_lag >= 0, in lengths of the body over its speed.
+  FormLift(const FluidBody& body, const ShapeFactors& factors, double stall_lag, double slip_share);
+
+  /// Wrench about F's origin for a twist relative to the ambient flow; density [kg/m^3]. Its power
+  /// is 0. Homogeneous of degree 2 in the twist.
+  Wrench load(const Twist& relative_twist, double density) const noexcept;
+
+ private:
+  void setWing(const FormShape& shape, double length);
+  /// 1 - f of eq. (49) and (49a); phi: sin^2 of the incidence, turning: what the lag takes from it.
+  double separatedShare(double phi, double turning) const noexcept;
+  void addStall(const Vector3& w, const Vector3& v, Wrench& about_centre) const noexcept;
+
+  Matrix3 circulation_;  ///< B [m^3]
+  Matrix3 direction_ =
+      Matrix3::Zero();   ///< D / d, eigenvalues in [0, 1]: directional part of the added mass
+  double largest_ = 0;   ///< d [m^3]; 0: same added mass in all directions, as of sphere or cube
+  double delay_ = 0;     ///< 2 lambda l of eq. (48) [m]
+  double wing_;          ///< W
+  double attached_ = 1;  ///< f_0: circulation of a wing over that of an endless one
+  double stall_sq_ = 1;  ///< sigma^2
+  double kept_;          ///< 1 - tau
+  Vector3 centre_;       ///< centre of volume [m]
+};
+
+}  // namespace ambient

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/fluid_body/packed/packed_parts.h"
+#include "bullet_ambient/force/law/flow_settings.h"
+#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/loads/sphere_table.h"
+
+namespace ambient {
+
+struct Medium;
+class SurfaceLoads;
+class WettedInertia;
+
+/// Kind of loads: body in one fluid, or body that the surface of the water may cut.
+enum class LoadPlace { kUnbounded, kWaterline };
+
+/// Cache of data that bodies of one shape share. An entry is made on first use and kept while a
+/// shared pointer to it exists. Not thread-safe: only code that makes loads uses the cache, and
+/// SurfaceLoads never read it.
+class LoadTables {
+ public:
+  using Body = std::shared_ptr<const FluidBody>;
+  using Faces = std::shared_ptr<const FaceTable>;
+  using Shape = std::shared_ptr<const ShapeFactors>;
+
+  /// Returns the loads of a shape in a medium by these settings; calls make() if there are none.
+  /// @pre flow.own_law is empty
+  template <class Make>
+  std::shared_ptr<const SurfaceLoads> loads(const Body& body, const Medium& medium,
+                                            const FlowSettings& flow, LoadPlace place,
+                                            const Make& make) {
+    return loads_.get(body, keyOf(medium, flow, place), make);
+  }
+  /// Returns the added mass of a shape at the surface of the water; calls make() if there is
+  /// none.
+  template <class Make>
+  std::shared_ptr<const WettedInertia> wettedInertia(const Body& body, const Make& make) {
+    return wetted_.get(body, {}, make);
+  }
+
+  /// Faces of the form law, see formLawFaces().
+  Faces formFaces(const Body& body);
+  /// Shape as the form law sees it. Cost: formShapeOf().
+  Shape shape(const Body& body);
+  /// Faces packed in single precision for the form law of a shape; null: for the published law.
+  /// Cost: PackedFaces().
+  std::shared_ptr<const PackedFaces> packedFaces(const Faces& faces, const ShapeFactors* shape);
+  /// Hull for hydrostatics. Cost: PackedHull().
+  std::shared_ptr<const PackedHull> hull(const Body& body);
+  /// Packed parts of the added mass. Cost: PackedParts().
+  std::shared_ptr<const PackedParts> addedMassParts(const Body& body);
+
+  /// Table for a separation angle. An unused table is kept until another one is made: a single ball
+  /// may be removed and added again. Cost: SphereTable().
+  std::shared_ptr<const SphereTable> sphereTable(double separation_cosine);
+
+ private:
+  /// Cache of tables, keyed by their source and settings; an entry lives while its table is used.
+  template <class Source, class Table, class Settings = std::tuple<>>
+  class Made {
+   public:
+    /// Returns the table of a source and settings; calls make(), which returns a new one, if none.
+    template <class Make>
+    std::shared_ptr<const Table> get(const std::shared_ptr<const Source>& source,
+                                     const Settings& settings, const Make& make) {
+      const std::pair<const Source*, Settings> key{source.get(), settings};
+      if (const auto found = entries_.find(key); found != entries_.end())
+        if (auto table = found->second.table.lock(); table && found->second.source.lock() == source)
+          return table;
+      if (entries_.size() >= most_entries_) dropUnused();
+      std::shared_ptr<const Table> table = make();
+      entries_[key] = {source, table};
+      return table;
+    }
+
+   private:
+    struct Entry {
+      std::weak_ptr<const Source> source;  ///< detects a new source at a reused address
+      std::weak_ptr<const Table> table;
+    };
+
+    // Erases entries of unused tables. The next call comes after the number of entries has doubled.
+    void dropUnused() {
+      for (auto entry = entries_.begin(); entry != entries_.end();)
+        entry = entry->second.table.expired() ? entries_.erase(entry) : std::next(entry);
+      most_entries_ = 2 * entries_.size() + 1;
+    }
+
+    std::map<std::pair<const Source*, Settings>, Entry> entries_;
+    std::size_t most_entries_ = 1;
+  };
+
+  using LoadKey = std::tuple<LoadPlace, double, double, double, bool, LoadPrecision, double,
+                             PressureLaw, double>;
+  static LoadKey keyOf(const Medium& medium, const FlowSettings& flow, LoadPlace place);
+
+  Made<FluidBody, SurfaceLoads, LoadKey> loads_;
+  Made<FluidBody, WettedInertia> wetted_;
+  Made<FluidBody, FaceTable> form_faces_;
+  Made<FluidBody, ShapeFactors> shapes_;
+  Made<FaceTable, PackedFaces, bool> packed_;  ///< by whether the form law is meant
+  Made<FluidBody, PackedHull> hulls_;
+  Made<FluidBody, PackedParts> parts_;
+  std::map<double, std::shared_ptr<const SphereTable>> spheres_;  ///< by separation cosine
+};
+
+}  // namespace ambient

@@ -1,0 +1,112 @@
+#include "bullet_ambient/force/medium/fluid_region.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "bullet_ambient/base/ambient_assert.h"
+
+namespace ambient {
+namespace {
+
+[[noreturn]] void rejectRegion(const std::string& what, double value, const char* limit) {
+  std::ostringstream sentence;
+  sentence << what << " is " << value << "; must be " << limit;
+  throw std::invalid_argument(sentence.str());
+}
+
+void checkRegionMedium(const Medium& medium, const std::string& which) {
+  if (!(medium.density >= 0) || !std::isfinite(medium.density))
+    rejectRegion("density " + which + " [kg/m^3]", medium.density, "zero or positive and finite");
+  if (!(medium.viscosity >= 0) || !std::isfinite(medium.viscosity))
+    rejectRegion("viscosity " + which + " [Pa s]", medium.viscosity, "zero or positive and finite");
+  if (!medium.velocity.allFinite())
+    rejectRegion("speed " + which + " [m/s]", medium.velocity.norm(), "finite");
+  if (!medium.acceleration.allFinite())
+    rejectRegion("acceleration " + which + " [m/s^2]", medium.acceleration.norm(), "finite");
+}
+
+void add(const FlowSample& flow, Medium& medium) {
+  medium.velocity += flow.velocity;
+  medium.acceleration += flow.acceleration;
+}
+
+// An exception of the function counts as a sample that is not finite.
+FlowSample sampleFlow(const FlowField& flow, const Vector3& point_W, double time) noexcept {
+  try {
+    return flow(point_W, time);
+  } catch (...) {
+    return {Vector3::Constant(std::numeric_limits<double>::quiet_NaN()), {0, 0, 0}};
+  }
+}
+
+bool isFinite(const Medium& medium) {
+  return medium.velocity.allFinite() && medium.acceleration.allFinite();
+}
+
+}  // namespace
+
+bool RegionBounds::hold(const Vector3& point_W) const noexcept {
+  return (point_W.array() >= lowest.array()).all() && (point_W.array() < highest.array()).all();
+}
+
+FluidRegion waterBelow(double level) {
+  FluidRegion region;
+  region.below = water();
+  region.surface = std::make_shared<StillWater>(level, Vector3(0, 0, 1));
+  return region;
+}
+
+FluidRegion windZone(const RegionBounds& bounds, const Vector3& velocity) {
+  FluidRegion region;
+  region.bounds = bounds;
+  region.below = air();
+  region.below.velocity = velocity;
+  return region;
+}
+
+Medium unnamedAbove(double water_density, const Medium& own) {
+  return own.density > 0 && own.density < water_density ? own : air();
+}
+
+RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, double time,
+                          const Medium& own) noexcept {
+  AMBIENT_ASSERT(isFinite(region.below));
+  const Medium above = region.above.value_or(unnamedAbove(region.below.density, own));
+  RegionSample sample{region.below, above, std::numeric_limits<double>::infinity()};
+  bool is_finite = true;
+  if (region.surface) {
+    const WaterSample water = region.surface->sample(point_W, time);
+    sample.height = water.height;
+    is_finite = std::isfinite(water.height);
+    add({water.velocity, water.acceleration}, sample.below);
+  }
+  if (region.flow) {
+    const FlowSample flow = sampleFlow(region.flow, point_W, time);
+    add(flow, sample.below);
+    add(flow, sample.above);
+  }
+  if (is_finite && isFinite(sample.below) && isFinite(sample.above)) return sample;
+  return {region.below, above, is_finite ? sample.height : 0, false};
+}
+
+void checkRegion(const FluidRegion& region) {
+  if (region.bounds) {
+    constexpr const char* kAxes[] = {"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double size = region.bounds->highest[axis] - region.bounds->lowest[axis];
+      if (!(size > 0))
+        rejectRegion(std::string("size along ") + kAxes[axis] + " [m]", size, "positive");
+    }
+  }
+  checkRegionMedium(region.below, region.surface ? "below the surface" : "of the medium");
+  if (!region.surface) return;
+  if (!(region.below.density > 0))
+    rejectRegion("density below the surface [kg/m^3]", region.below.density,
+                 "positive: set FluidRegion::below, say to water()");
+  if (region.above) checkRegionMedium(*region.above, "above the surface");
+}
+
+}  // namespace ambient

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "bullet_ambient/force/medium/medium.h"
+#include "bullet_ambient/force/medium/water_surface.h"
+
+namespace ambient {
+
+/// Axis-aligned box in W [m]. The lower sides belong to the box, the upper sides do not: adjacent
+/// boxes leave no gap.
+struct RegionBounds {
+  Vector3 lowest{0, 0, 0};
+  Vector3 highest{0, 0, 0};
+
+  bool hold(const Vector3& point_W) const noexcept;
+};
+
+/// Velocity [m/s] and acceleration [m/s^2] of the fluid at a point, world axes.
+struct FlowSample {
+  Vector3 velocity{0, 0, 0};
+  Vector3 acceleration{0, 0, 0};
+};
+
+/// Wind or current as a function of place [m] and time [s]; WaterSurface::sample() has the rules.
+using FlowField = std::function<FlowSample(const Vector3& point_W, double time)>;
+
+/// Part of the world and the fluid in it: a wind zone, a current, a pool, the sea.
+struct FluidRegion {
+  std::optional<RegionBounds> bounds;  ///< none: everywhere
+  Medium below = {};                   ///< the fluid below the surface; without one, everywhere
+  /// The fluid above the surface; unset: unnamedAbove(). A vacuum is `Medium{}`.
+  std::optional<Medium> above = std::nullopt;
+  std::shared_ptr<const WaterSurface> surface = nullptr;  ///< null: filled with `below`
+  /// Wind or current, added to velocity and acceleration of the media. Velocity and acceleration of
+  /// waves are added to `below`. Sampled at each body's centre of mass at the start of each step.
+  FlowField flow = nullptr;
+  int priority = 0;  ///< in overlaps the highest priority wins; if equal, the region added last
+};
+
+/// Makes a region of water at rest everywhere below z = `level` [m], under air.
+/// @throws std::invalid_argument if the level is not finite.
+FluidRegion waterBelow(double level);
+
+/// Makes a region of air that moves with a velocity [m/s] within bounds.
+FluidRegion windZone(const RegionBounds& bounds, const Vector3& velocity);
+
+/// Whether what moves in it is always the same: no function and no moving surface.
+inline bool isSteady(const FluidRegion& region) {
+  return !region.flow && (!region.surface || region.surface->isStill());
+}
+
+/// Returns the fluid above a surface where FluidRegion::above is unset: a body's own medium if it
+/// has a density [kg/m^3] and that is below the water's, else air at rest.
+Medium unnamedAbove(double water_density, const Medium& own);
+
+/// The fluids of a region around a point: surface and flow sampled.
+struct RegionSample {
+  Medium below, above;
+  double height = 0;  ///< surface above the point, vertically [m]; infinite without a surface
+  /// False if a sample of surface or flow was not finite; the media then lack both samples.
+  bool is_finite = true;
+
+  bool isAbove() const { return !(height > 0); }  ///< true if the point is dry
+  const Medium& here() const { return isAbove() ? above : below; }
+};
+/// For a body whose own medium is `own`.
+RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, double time,
+                          const Medium& own = {}) noexcept;
+
+/// @throws std::invalid_argument, naming value and limit, if bounds or media are not physical, or
+/// below a surface is a vacuum.
+void checkRegion(const FluidRegion& region);
+
+}  // namespace ambient

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "bullet_ambient/spatial/vector_types.h"
+
+namespace ambient {
+
+/// Fluid around one body. All vectors in the world frame W.
+struct Medium {
+  double density = 0;             ///< [kg/m^3], >= 0
+  double viscosity = 0;           ///< dynamic viscosity [Pa s], >= 0; 0 switches skin friction off
+  Vector3 velocity{0, 0, 0};      ///< ambient velocity at the body, without its disturbance [m/s]
+  Vector3 acceleration{0, 0, 0};  ///< rate of change of velocity, for unsteady currents [m/s^2]
+};
+
+/// Air at 20 C and sea level.
+inline Medium air() { return {1.204, 1.82e-5, {0, 0, 0}, {0, 0, 0}}; }
+/// Fresh water at 20 C.
+inline Medium water() { return {998.0, 1.002e-3, {0, 0, 0}, {0, 0, 0}}; }
+
+}  // namespace ambient

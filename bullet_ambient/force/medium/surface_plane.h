@@ -1,0 +1,44 @@
+#pragma once
+
+#include "bullet_ambient/spatial/frame_offset.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
+
+namespace ambient {
+
+/// Surface of the water near one body, as a plane; docs/theory.md eq. (52). Names of variables
+/// tell the frame.
+struct SurfacePlane {
+  Vector3 normal{0, 0, 1};  ///< s, unit, out of the water
+  double height = 0;        ///< h, height of the plane above the frame's origin along s [m]
+  double density = 0;       ///< density of the water minus that of the fluid above [kg/m^3]
+  double gravity = 0;       ///< g = |g - a_fluid| of the hydrostatic pressure, against s [m/s^2]
+
+  /// Depth zeta of a point [m], positive in the water.
+  double depth(const Vector3& point) const { return height - normal.dot(point); }
+  /// Same plane with the normal out of the upper fluid.
+  SurfacePlane flipped() const { return {-normal, -height, density, gravity}; }
+};
+
+/// Converts a plane to another frame, whose pose is given by `rotation` and `position` [m]. The
+/// pose of B in W converts from W to B; the pose of F in B converts from B to F.
+inline SurfacePlane seenFrom(const SurfacePlane& plane, const Matrix3& rotation,
+                             const Vector3& position) {
+  return {rotation.transpose() * plane.normal, plane.depth(position), plane.density, plane.gravity};
+}
+inline SurfacePlane seenFrom(const SurfacePlane& plane, const FrameOffset& frame) {
+  return seenFrom(plane, frame.rotation, frame.translation);
+}
+
+/// Two unit vectors in a plane: first x second = normal.
+struct PlaneAxes {
+  Vector3 first, second;
+
+  explicit PlaneAxes(const Vector3& normal) {
+    Eigen::Index least = 0;
+    normal.cwiseAbs().minCoeff(&least);
+    first = Vector3::Unit(least).cross(normal).normalized();
+    second = normal.cross(first);
+  }
+};
+
+}  // namespace ambient

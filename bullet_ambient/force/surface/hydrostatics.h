@@ -1,0 +1,52 @@
+#pragma once
+
+#include <utility>
+
+#include "bullet_ambient/fluid_body/packed/packed_hull.h"
+#include "bullet_ambient/force/medium/surface_plane.h"
+
+namespace ambient {
+
+/// Section of a body with the water surface.
+struct Waterplane {
+  double area = 0;                   ///< A_w [m^2]; 0: no section, or a negligible one
+  Vector3 centroid{0, 0, 0};         ///< [m]
+  Matrix3 spread = Matrix3::Zero();  ///< int r r^T dA, r from the centroid; spread s = 0 [m^4]
+};
+
+/// Part of a body below the water surface, in the frame of the plane; docs/theory.md eq. (53),
+/// (54).
+struct WetVolume {
+  double volume = 0;          ///< V [m^3]
+  Vector3 moment{0, 0, 0};    ///< S = int z dV [m^4]
+  double depth_integral = 0;  ///< W = int zeta dV [m^4]; rho g W is the energy of the buoyancy
+  Waterplane waterplane;
+
+  /// Converts to frame B; `frame`: pose in B of the present frame.
+  WetVolume inB(const FrameOffset& frame) const;
+};
+
+/// Computes the wet volume exactly, by the divergence theorem over the wet parts of the triangles.
+/// Cost: O(triangles near the plane); allocates nothing. The same bits on every machine.
+WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) noexcept;
+
+/// Smallest and largest s.z over the body [m], for a unit vector s; 0 without corners.
+std::pair<double, double> computeExtent(const PackedHull& hull, const Vector3& s) noexcept;
+
+/// Computes the wet volume of a sphere in closed form; radius and centre [m].
+WetVolume computeWetSphere(double radius, const Vector3& centre,
+                           const SurfacePlane& plane) noexcept;
+
+/// Wrench of the hydrostatic pressure on the wet part about the frame's origin: rho g V s at the
+/// centre of buoyancy S/V, docs/theory.md eq. (53).
+inline Wrench hydrostaticWrench(const WetVolume& wet, const SurfacePlane& plane) noexcept {
+  const Vector3 pull = plane.density * plane.gravity * plane.normal;
+  return {wet.moment.cross(pull), wet.volume * pull};
+}
+
+/// Energy of the buoyancy, rho g W [J].
+inline double hydrostaticEnergy(const WetVolume& wet, const SurfacePlane& plane) noexcept {
+  return plane.density * plane.gravity * wet.depth_integral;
+}
+
+}  // namespace ambient

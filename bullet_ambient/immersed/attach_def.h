@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bullet_ambient/force/law/flow_settings.h"
+#include "bullet_ambient/force/medium/medium.h"
+#include "bullet_ambient/motion/flight/flight_settings.h"
+#include "bullet_ambient/spatial/frame_offset.h"
+
+namespace ambient {
+
+struct FluidBody;
+
+/// Definition of a body or link in a fluid.
+struct AttachDef {
+  /// Shared by all bodies of one shape. It does not follow its collision shape: after
+  /// setLocalScaling(), which Bullet tells nobody, call Immersed::setFluidBody().
+  std::shared_ptr<const FluidBody> fluid_body = nullptr;
+  Medium medium = {};  ///< default: vacuum, in which the body moves as in stock Bullet
+  /// Whether the fluid is that of the region with the highest priority that holds the centre of
+  /// mass, and `medium` only where there is none; Fluid::addRegion().
+  bool follow_regions = true;
+  /// Factor on the damping of a floating body by the waves that it makes; docs/water.md.
+  double wave_damping = 1;
+  FlowSettings flow = {};
+  FlightSettings flight = {};
+  FrameOffset fluid_frame = {};  ///< F in the btRigidBody's frame (centre of mass)
+  /// In reports and errors. Empty: that of Fluid::setNaming(), or the fluid body's.
+  std::string name = {};
+};
+
+/// Counts what was computed for one body since it was attached. Counts that a tree has once are at
+/// its first link.
+struct AmbientCounters {
+  long long substeps = 0;  ///< of free flight
+  long long load_evaluations = 0;
+  long long faces = 0;    ///< faces or clusters summed in them; a sphere has none
+  long long guarded = 0;  ///< load evaluations in which the passivity guard acted
+  long long coarse = 0;   ///< steps whose error stayed too large at the most substeps or retries
+  long long halted = 0;   ///< steps at the surface that ended early, docs/theory.md eq. (64)
+  /// By bounds on the energy of steps, docs/theory.md eq. (25a), (31a), (64), (68), (68a) [J].
+  double energy_removed = 0;
+  long long rows = 0;        ///< constraint rows rewritten
+  long long joint_rows = 0;  ///< of these, solved together before the solver's iterations
+  long long rejected = 0;    ///< results of steps, and samples of regions, not finite and left out
+  long long regions_asked = 0;   ///< whether bounds of one, or around several, hold the body
+  long long medium_changes = 0;  ///< to another density or viscosity, by regions
+  long long too_long = 0;  ///< bodies whose errors add up: steps are too long for their motion
+
+  AmbientCounters& operator+=(const AmbientCounters& other);
+};
+
+inline AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& other) {
+  substeps += other.substeps;
+  load_evaluations += other.load_evaluations;
+  faces += other.faces;
+  guarded += other.guarded;
+  coarse += other.coarse;
+  halted += other.halted;
+  energy_removed += other.energy_removed;
+  rows += other.rows;
+  joint_rows += other.joint_rows;
+  rejected += other.rejected;
+  regions_asked += other.regions_asked;
+  medium_changes += other.medium_changes;
+  too_long += other.too_long;
+  return *this;
+}
+
+}  // namespace ambient

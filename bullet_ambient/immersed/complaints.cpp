@@ -1,0 +1,144 @@
+#include "bullet_ambient/immersed/complaints.h"
+
+#include <string>
+
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/immersed/attach_def.h"
+
+AMBIENT_BEGIN
+namespace {
+
+const char* sentenceOf(Complaint complaint) {
+  switch (complaint) {
+    case Complaint::kNoAction:
+      return "bullet_ambient: bodies in fluid moved in another world than that of their Fluid; "
+             "give each world a Fluid, and each Fluid solvers of its own";
+    case Complaint::kNoSolver:
+      return "bullet_ambient: bodies in fluid are awake but no solver of their Fluid was called; "
+             "leave the world the solver that Fluid has given it, or call "
+             "world->setConstraintSolver() with one of makeSolver<Base>(fluid)";
+    case Complaint::kNoMultiBodySolver:
+      return "bullet_ambient: bodies in fluid are awake but no solver of their Fluid was called: "
+             "setConstraintSolver does not reach the bodies of a btMultiBodyDynamicsWorld; call "
+             "world->setMultiBodyConstraintSolver() with one of "
+             "makeSolver<btMultiBodyConstraintSolver>(fluid)";
+    case Complaint::kNotFinite:
+      return "bullet_ambient: a velocity, force or result of a body in fluid is not finite; the "
+             "body kept its velocity or, where that is not finite, stopped";
+    case Complaint::kNotPhysical:
+      return "bullet_ambient: the mass properties of a body in fluid were changed to values that "
+             "are not physical; it moves as in a vacuum until they are valid again";
+    case Complaint::kOtherLinks:
+      return "bullet_ambient: a btMultiBody in fluid has other links or joints than when it was "
+             "attached, or stands where another one was destroyed; its links have no fluid until "
+             "they are attached again";
+    case Complaint::kRungeKutta:
+      return "bullet_ambient: a btMultiBody in fluid has useRK4Integration, which moves it by its "
+             "dry mass; it moves as if that was switched off";
+    case Complaint::kDuration:
+      return "bullet_ambient: the world was stepped by a time that is not finite; bodies in fluid "
+             "and the time of regions stay as they were";
+    case Complaint::kUp:
+    case Complaint::kRegion:  // these name the region or the body
+    case Complaint::kInertia:
+    case Complaint::kEmpty:
+    case Complaint::kLight:
+    case Complaint::kSwing:
+    case Complaint::kTooLong:
+    case Complaint::kChange:
+    case Complaint::kGaping:
+    case Complaint::kCount:
+      break;
+  }
+  return "";
+}
+
+std::string tooLong(const AttachDef& def) {
+  const std::string sentence =
+      "bullet_ambient: the world's step is too long for the motion of a " + nameOf(def) +
+      ": errors of its velocity add up to more than 5 per cent; take shorter steps, or allow it "
+      "more substeps, say "
+      "flight.max_substeps = 256";
+  const bool may_chatter = def.flow.law == PressureLaw::kPublished && !def.flow.own_law;
+  const std::string way_out =
+      may_chatter ? "; if it has flat sides, the default law, PressureLaw::kForm, needs neither"
+                  : "";
+  return sentence + way_out + "; further bodies of which this is true are only counted";
+}
+
+std::string coarseSwing(const AttachDef& def, double period, double step) {
+  return "bullet_ambient: a " + nameOf(def) + " floats with a period of " + std::to_string(period) +
+         " s and is moved by joints or " + "contacts in steps of " + std::to_string(step) +
+         " s: in less than four steps a period it swings too slowly; take shorter steps";
+}
+
+std::string gapingJoint(const AttachDef& def, const AttachDef* other) {
+  const std::string partner = !other ? "one without fluid"
+                              : other->name.empty()
+                                  ? "one with fluid body '" + other->fluid_body->name + "'"
+                                  : nameOf(*other);
+  return "bullet_ambient: a joint of a " + nameOf(def) + " and " + partner +
+         " comes apart: the solver's iterations do not hold it; take more iterations, " +
+         "btContactSolverInfo::m_numIterations, or shorter steps";
+}
+
+}  // namespace
+
+std::string nameOf(const AttachDef& def) {
+  if (!def.name.empty()) return "body '" + def.name + "'";
+  return "body with fluid body '" + def.fluid_body->name + "'";
+}
+
+bool Complaints::wasSaid(Complaint complaint) const noexcept {
+  return was_said_[static_cast<int>(complaint)].load(std::memory_order_relaxed);
+}
+
+void Complaints::say(Complaint complaint) noexcept { say(complaint, sentenceOf(complaint)); }
+
+void Complaints::say(Complaint complaint, const char* sentence) noexcept {
+  if (wasSaid(complaint) || was_said_[static_cast<int>(complaint)].exchange(true)) return;
+  try {
+    tell(sentence);
+  } catch (...) {
+    // Out of memory for the sentence, which must not unwind through Bullet's solver.
+  }
+}
+
+void Complaints::sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept {
+  if (wasSaid(Complaint::kSwing)) return;
+  try {
+    say(Complaint::kSwing, coarseSwing(def, 2 * kPi / frequency, step).c_str());
+  } catch (...) {
+    // A failure to make the sentence must not unwind through the step.
+  }
+}
+
+void Complaints::sayGaping(const AttachDef& def, const AttachDef* other) noexcept {
+  if (wasSaid(Complaint::kGaping)) return;
+  try {
+    say(Complaint::kGaping, gapingJoint(def, other).c_str());
+  } catch (...) {
+    // A failure to make the sentence must not unwind through the step.
+  }
+}
+
+void Complaints::sayTooLong(const AttachDef& def) noexcept {
+  if (wasSaid(Complaint::kTooLong)) return;
+  try {
+    say(Complaint::kTooLong, tooLong(def).c_str());
+  } catch (...) {
+    // A failure to make the sentence must not unwind through the step.
+  }
+}
+
+void Complaints::tell(const std::string& sentence) noexcept {
+  try {
+    const std::lock_guard<std::recursive_mutex> lock(telling_);
+    if (report_) report_(sentence);
+  } catch (...) {
+    // A user's callback that throws must not unwind through Bullet's solver.
+  }
+}
+
+AMBIENT_END

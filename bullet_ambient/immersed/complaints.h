@@ -1,0 +1,73 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+
+namespace ambient {
+
+struct AttachDef;
+}  // namespace ambient
+
+AMBIENT_BEGIN
+
+/// Names a body in a sentence: "body 'crate'", or "body with fluid body 'box'" without a name.
+/// @pre it has a fluid body
+std::string nameOf(const AttachDef& def);
+
+/// Kinds of reports: something cannot be right.
+enum class Complaint {
+  kNoAction,
+  kNoSolver,
+  kNoMultiBodySolver,
+  kNotFinite,
+  kNotPhysical,
+  kRegion,
+  kUp,
+  kOtherLinks,
+  kRungeKutta,
+  kInertia,
+  kEmpty,
+  kLight,
+  kSwing,
+  kTooLong,
+  kChange,
+  kDuration,
+  kGaping,
+  kCount
+};
+
+/// Says each complaint once. Solvers on several threads may say them at the same time; the report
+/// hears one after the other. Takes a lock only where a complaint is said for the first time.
+class Complaints {
+ public:
+  /// In a sentence that fits all bodies, or in one that names the body.
+  void say(Complaint complaint) noexcept;
+  void say(Complaint complaint, const char* sentence) noexcept;
+  /// Names the first body whose steps are too long; AmbientCounters::too_long counts them.
+  void sayTooLong(const AttachDef& def) noexcept;
+  /// Reports a floating body that rows move, for whose natural frequency [rad/s] the step [s] is
+  /// too long for.
+  void sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept;
+  /// Names a body whose joint comes apart and the other body, null if that has no fluid.
+  void sayGaping(const AttachDef& def, const AttachDef* other) noexcept;
+
+  /// Passes a sentence to the report, each time. Drops what the report throws, which must not
+  /// unwind through Bullet's step.
+  void tell(const std::string& sentence) noexcept;
+  /// Between steps. Null: nobody hears.
+  void setReport(std::function<void(const std::string&)> report) { report_ = std::move(report); }
+
+ private:
+  bool wasSaid(Complaint complaint) const noexcept;
+
+  std::atomic<bool> was_said_[static_cast<int>(Complaint::kCount)] = {};
+  std::recursive_mutex telling_;  // recursive: a report may attach or detach, and that may say more
+  std::function<void(const std::string&)> report_;
+};
+
+AMBIENT_END

@@ -1,0 +1,141 @@
+#include "bullet_ambient/immersed/region_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+AMBIENT_BEGIN
+namespace {
+
+RegionBounds boxOf(const FluidRegion& region) noexcept {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return region.bounds.value_or(
+      RegionBounds{Vector3::Constant(-kInfinity), Vector3::Constant(kInfinity)});
+}
+
+// Returns the place of a region along an axis: the middle of its bounds, or the end that is finite.
+double placeOf(const RegionEntry* entry, int axis) noexcept {
+  if (!entry || !entry->region.bounds) return 0;
+  const double low = entry->region.bounds->lowest[axis], high = entry->region.bounds->highest[axis];
+  if (std::isinf(low)) return std::isinf(high) ? 0 : high;
+  return std::isinf(high) ? low : low / 2 + high / 2;
+}
+
+// False is certain: a point whose numbers are not is left to the bounds of each region.
+bool mayHold(const RegionBounds& box, const Vector3& point) noexcept {
+  for (int axis = 0; axis < 3; ++axis)
+    if (point[axis] < box.lowest[axis] || point[axis] > box.highest[axis]) return false;
+  return true;
+}
+
+bool holds(const FluidRegion& region, const Vector3& point_W) noexcept {
+  return !region.bounds || region.bounds->hold(point_W);
+}
+
+}  // namespace
+
+RegionIndex::Tree RegionIndex::lastTree(std::size_t end) noexcept {
+  const std::size_t lowest_digit = end & (~end + 1);
+  return {end - lowest_digit, lowest_digit};
+}
+
+RegionIndex::Node RegionIndex::leafNode(const RegionEntry* entry) noexcept {
+  return entry ? Node{boxOf(entry->region), entry->rank()} : Node{};
+}
+
+RegionIndex::Node RegionIndex::around(const Node& a, const Node& b) noexcept {
+  return {{a.box.lowest.cwiseMin(b.box.lowest), a.box.highest.cwiseMax(b.box.highest)},
+          std::max(a.best, b.best)};
+}
+
+void RegionIndex::add(RegionEntry& entry) {
+  nodes_.resize(2 * leaves_.size() + 2);
+  leaves_.push_back(&entry);
+  build(lastTree(leaves_.size()));
+}
+
+void RegionIndex::remove(const RegionEntry& entry) {
+  leaves_[entry.leaf] = nullptr;
+  Tree tree = lastTree(leaves_.size());
+  while (tree.first > entry.leaf) tree = lastTree(tree.first);
+  std::size_t i = tree.count + entry.leaf - tree.first;
+  node(tree, i) = {};
+  while (i /= 2) node(tree, i) = around(node(tree, 2 * i), node(tree, 2 * i + 1));
+  if (2 * ++removed_ > leaves_.size()) dropEmptyLeaves();
+}
+
+void RegionIndex::dropEmptyLeaves() {
+  leaves_.erase(std::remove(leaves_.begin(), leaves_.end(), nullptr), leaves_.end());
+  nodes_.resize(2 * leaves_.size());
+  removed_ = 0;
+  for (Tree tree{leaves_.size(), 0}; tree.first > 0;) build(tree = lastTree(tree.first));
+}
+
+void RegionIndex::build(const Tree& tree) {
+  sortLeaves(tree.first, tree.count);
+  for (std::size_t i = 0; i < tree.count; ++i) {
+    RegionEntry* entry = leaves_[tree.first + i];
+    if (entry) entry->leaf = tree.first + i;
+    node(tree, tree.count + i) = leafNode(entry);
+  }
+  for (std::size_t i = tree.count; --i > 0;)
+    node(tree, i) = around(node(tree, 2 * i), node(tree, 2 * i + 1));
+}
+
+// Halves by places along the axis on which these are farthest apart, and each half again.
+void RegionIndex::sortLeaves(std::size_t first, std::size_t count) {
+  if (count < 2) return;
+  const auto begin = leaves_.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto end = begin + static_cast<std::ptrdiff_t>(count);
+  int widest = 0;
+  double width = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = kInfinity, high = -kInfinity;
+    std::for_each(begin, end, [&](const RegionEntry* entry) {
+      low = std::min(low, placeOf(entry, axis));
+      high = std::max(high, placeOf(entry, axis));
+    });
+    if (!(high - low > width)) continue;
+    width = high - low;
+    widest = axis;
+  }
+  std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(count / 2), end,
+                   [widest](const RegionEntry* a, const RegionEntry* b) {
+                     return placeOf(a, widest) < placeOf(b, widest);
+                   });
+  sortLeaves(first, count / 2);
+  sortLeaves(first + count / 2, count / 2);
+}
+
+const RegionEntry* RegionIndex::find(const Vector3& point_W, long long& asked) const noexcept {
+  Found found;
+  for (Tree tree{leaves_.size(), 0}; tree.first > 0;) {
+    tree = lastTree(tree.first);
+    search(tree, point_W, found, asked);
+  }
+  return found.entry;
+}
+
+// The box of the higher rank first: what is found there makes most others needless.
+void RegionIndex::search(const Tree& tree, const Vector3& point_W, Found& found,
+                         long long& asked) const noexcept {
+  constexpr int kDeepest = std::numeric_limits<std::size_t>::digits + 1;
+  std::size_t waiting[kDeepest] = {1};
+  int count = 1;
+  while (count > 0) {
+    const std::size_t i = waiting[--count];
+    const Node& box = node(tree, i);
+    if (!(found.rank < box.best)) continue;
+    ++asked;
+    if (!mayHold(box.box, point_W)) continue;
+    if (i >= tree.count) {
+      const RegionEntry* entry = leaves_[tree.first + i - tree.count];
+      if (holds(entry->region, point_W)) found = {entry, box.best};
+      continue;
+    }
+    const bool is_second_higher = node(tree, 2 * i).best < node(tree, 2 * i + 1).best;
+    waiting[count++] = 2 * i + (is_second_higher ? 0 : 1);
+    waiting[count++] = 2 * i + (is_second_higher ? 1 : 0);
+  }
+}
+
+AMBIENT_END

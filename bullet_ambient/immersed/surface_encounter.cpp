@@ -1,0 +1,257 @@
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/spatial/positive_inverse.h"
+
+AMBIENT_BEGIN
+namespace {
+
+// Returns the plane in W after a time since the step began: it moves with the water.
+SurfacePlane movedPlane(const AmbientBody& ambient, double time) {
+  const Medium& water = ambient.medium;
+  SurfacePlane plane = ambient.encounter.plane_W;
+  plane.height += plane.normal.dot(time * water.velocity + time * time / 2 * water.acceleration);
+  return plane;
+}
+
+// Returns that plane in B, at the pose of now.
+SurfacePlane planeAfter(const AmbientBody& ambient, double time) {
+  const RigidState state = readState(*ambient.body);
+  return seenFrom(movedPlane(ambient, time), state.orientation.toRotationMatrix(), state.position);
+}
+
+// Whether two planes are one but for the rounding of Bullet's poses, relative to their place in W.
+bool isNear(const SurfacePlane& a, const SurfacePlane& b, double size) {
+  constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  return a.density == b.density && a.gravity == b.gravity &&
+         (a.normal - b.normal).cwiseAbs().maxCoeff() <= kRounding &&
+         std::abs(a.height - b.height) <= kRounding * size;
+}
+
+bool isSame(const SurfacePlane& a, const SurfacePlane& b) {
+  return a.normal == b.normal && a.height == b.height && a.density == b.density &&
+         a.gravity == b.gravity;
+}
+
+const SurfaceStand& standAfter(AmbientBody& ambient, double time) {
+  return standAt(ambient, planeAfter(ambient, time));
+}
+
+BodyModel freeze(const SurfaceMedia& surface, const SurfaceStand& stand,
+                 const std::shared_ptr<LoadsAtSurface>& loads) {
+  BodyModel model = frozenAt(surface.model, stand);
+  if (!loads) return model;
+  const FrameOffset& frame = surface.model.loads_below.frame;
+  loads->setPart(
+      {seenFrom(stand.plane, frame), wetShare(stand.immersion_F, surface.model.shape->volume)});
+  model.loads = loads;
+  model.load_frame = frame;
+  return model;
+}
+
+}  // namespace
+
+bool hasSurface(const RegionSample& sample, const Vector3& gravity) noexcept {
+  return gravity.norm() > 0 && (gravity - sample.below.acceleration).norm() > 0;
+}
+
+SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
+                       const Vector3& gravity) noexcept {
+  const Vector3 felt = gravity - sample.below.acceleration;
+  const Vector3 normal = -felt.normalized();
+  const Vector3 above = position - sample.height * gravity.normalized();
+  return {normal, normal.dot(above), sample.below.density - sample.above.density, felt.norm()};
+}
+
+int findSurface(const std::vector<SurfaceMedia>& surfaces, const SurfaceKind& kind) noexcept {
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    if (surfaces[i].kind == kind) return static_cast<int>(i);
+  return -1;
+}
+
+SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const RegionSample& sample,
+                        double duration) noexcept {
+  SurfaceEncounter& encounter = ambient.encounter;
+  const SurfaceSide by_centre = sample.isAbove() ? SurfaceSide::kAbove : SurfaceSide::kBelow;
+  const btRigidBody& body = *ambient.body;
+  const Vector3 gravity = toVector3(body.getGravity());
+  const int media = findSurface(ambient.surfaces, kind);
+  if (media < 0 || !hasSurface(sample, gravity)) return by_centre;
+  const SurfaceModel& model = ambient.surfaces[static_cast<std::size_t>(media)].model;
+  const RigidState state = readState(body);
+  const SurfacePlane plane_W = planeNear(state.position, sample, gravity);
+  const double speed = (toVector3(body.getLinearVelocity()) - sample.below.velocity).norm();
+  const double travel =
+      duration * (speed + model.radius * state.twist.angular.norm() + duration * gravity.norm());
+  const SurfacePlane plane_B =
+      seenFrom(plane_W, state.orientation.toRotationMatrix(), state.position);
+  const SurfaceSide side = sideOf(model, plane_B, travel);
+  if (side != SurfaceSide::kAt) return side;
+  encounter.media = media;
+  encounter.plane_W = plane_W;
+  encounter.velocity_above = sample.above.velocity;
+  return side;
+}
+
+const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept {
+  SurfaceMedia& surface = *ambient.surface();
+  std::optional<SurfacePlane>& met = ambient.encounter.met_B;
+  const double size =
+      surface.model.radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
+  if (!met || !isNear(*met, plane_B, size)) met = plane_B;
+  if (!surface.has_stand || !isSame(surface.stand.plane, *met)) {
+    surface.stand = standAtSurface(surface.model, *met);
+    surface.has_stand = true;
+  }
+  return surface.stand;
+}
+
+BodyModel modelNow(const AmbientBody& ambient) {
+  const SurfaceMedia* surface = ambient.surface();
+  if (!surface) return ambient.model;
+  const auto& loads = surface->model.loads_below.loads;
+  BodyModel model = freeze(*surface, standAtSurface(surface->model, planeAfter(ambient, 0)),
+                           loads ? std::make_shared<LoadsAtSurface>(loads) : nullptr);
+  model.load_share = ambient.load_share;
+  return model;
+}
+
+void freezeAtSurface(AmbientBody& ambient) noexcept {
+  standAfter(ambient, 0);
+  freezeAsStood(ambient);
+}
+
+void freezeAsStood(AmbientBody& ambient) noexcept {
+  const SurfaceMedia& surface = *ambient.surface();
+  ambient.model = freeze(surface, surface.stand, surface.loads);
+  ambient.model.load_share = ambient.load_share;
+  ambient.is_frozen = true;
+}
+
+Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
+  const SurfaceMedia& surface = *ambient.surface();
+  const SurfaceStand& stand = surface.stand;  // since freezeAtSurface()
+  const RigidState state = readState(*ambient.body);
+  const Matrix3 R = state.orientation.toRotationMatrix();
+  const WaveModes& modes = stand.waves;
+  Twist relative = state.twist;
+  relative.linear -= R.transpose() * ambient.medium.velocity;
+  const Vector6 x = relative.vector();
+  ambient.encounter.twist_before_rows = x;
+  WaveMemory& waves = ambient.encounter.waves_with_rows;
+  waves = ambient.encounter.waves;
+  Vector6 end = exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x, waves);
+  if (surface.model.loads_above.loads) {
+    const Vector3 wind_W = ambient.medium.velocity - ambient.encounter.velocity_above;
+    end = takeWind({surface.model, stand, R.transpose() * wind_W, duration}, end);
+    countLoads(ambient, 1);
+  }
+  return end - x;
+}
+
+void stiffenForRows(AmbientBody& ambient, double duration, Complaints& complaints) noexcept {
+  const SurfaceStand& stand = ambient.surface()->stand;
+  if (!(duration * stand.swing > kLongestSwing)) return;
+  if (duration * stand.swing > kPi / 2)
+    complaints.sayCoarseSwing(ambient.def, stand.swing, duration);
+  const Matrix6 stiff = stiffInertia(stand, duration);
+  if (const auto inverse = positiveInverse(stiff)) {
+    ambient.model.inertia = stiff;
+    ambient.model.inverse_inertia = *inverse;
+  }
+}
+
+void freezeAsMet(AmbientBody& ambient, int media) noexcept {
+  SurfaceEncounter& encounter = ambient.encounter;
+  AMBIENT_ASSERT(encounter.met_B);
+  encounter.media = media;
+  const SurfacePlane& met = *encounter.met_B;
+  const RigidState state = readState(*ambient.body);
+  const Vector3 normal_W = state.orientation * met.normal;
+  encounter.plane_W = {normal_W, met.height + normal_W.dot(state.position), met.density,
+                       met.gravity};
+  standAt(ambient, met);
+  freezeAsStood(ambient);
+}
+
+namespace {
+
+/// Weight and buoyancy of a body, in B.
+struct Fall {
+  Vector6 lift;          ///< of the water
+  Vector6 wrench;        ///< of both
+  double potential = 0;  ///< of both [J]
+
+  /// @param mass less that of the fluid above that the body displaces [kg]
+  Fall(const SurfaceStand& stand, double mass)
+      : lift(hydrostaticWrench(stand.wet, stand.plane).vector()), wrench(lift) {
+    const SurfacePlane& plane = stand.plane;
+    wrench.tail<3>() -= mass * plane.gravity * plane.normal;
+    potential = hydrostaticEnergy(stand.wet, plane) - mass * plane.gravity * plane.height;
+  }
+};
+
+struct RowStep {
+  Fall before, after;
+  const Matrix6& inverse;  ///< of the inertia after it
+  Vector6 x_before;
+  double duration;
+};
+
+/// The buoyancy of the start has acted over the whole step, and the body has come to where it is
+/// another one: gives back the energy that weight and water did not have, docs/theory.md eq. (68a).
+BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
+  const Fall &before = step.before, &after = step.after;
+  const double given = step.duration / 2 * before.wrench.dot(step.x_before + x);
+  const double excess = given - (before.potential - after.potential);
+  const Vector6 along = before.lift + after.lift;
+  const double rate = along.dot(x);
+  if (!(excess > 0) || rate == 0) return {x};
+  const Vector6 response = step.inverse * along;
+  const double per_part = along.dot(response), square = rate * rate - 2 * per_part * excess;
+  const double part =
+      square > 0 ? 2 * excess / (std::abs(rate) + std::sqrt(square)) : std::abs(rate) / per_part;
+  const double removed = part * (std::abs(rate) - part / 2 * per_part);
+  return {x - std::copysign(part, rate) * response, removed};
+}
+
+}  // namespace
+
+BoundedTwist passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes,
+                          double duration) noexcept {
+  const SurfaceModel& model = ambient.surface()->model;
+  const SurfaceStand& stand = ambient.surface()->stand;  // since freezeAtSurface()
+  const Matrix6 inertia_before = stand.inertia;
+  const double mass = model.above.mass - model.above.displaced_mass;
+  const Fall fall_before(stand, mass);
+  const SurfaceStand& after = standAfter(ambient, duration);
+  ambient.encounter.plane_W = movedPlane(ambient, duration);
+  if (axes == Axes::kLocked)
+    return scaledWithin(x, x.dot(after.inertia * x), x.dot(inertia_before * x));
+  const BoundedTwist moved = withinPotential({fall_before, Fall(after, mass), after.inverse,
+                                              ambient.encounter.twist_before_rows, duration},
+                                             x);
+  const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
+  BoundedTwist end = passSurface({model, inertia_before, after, duration, gradient}, moved.twist);
+  end.energy_removed += moved.energy_removed;
+  return end;
+}
+
+double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
+                           double duration) noexcept {
+  const SurfaceModel& model = ambient.surface()->model;
+  const SurfacePlane plane_B = seenFrom(movedPlane(ambient, duration), pose);
+  return hydrostaticEnergy(immersionOf(model, plane_B).wet.inB(model.fluid_frame), plane_B);
+}
+
+bool mayRestAtSurface(AmbientBody& ambient) noexcept {
+  return isStable(standAfter(ambient, 0).restoring);
+}
+
+AMBIENT_END

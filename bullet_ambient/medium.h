@@ -1,0 +1,4 @@
+#pragma once
+
+// Medium, air() and water().
+#include "bullet_ambient/force/medium/medium.h"

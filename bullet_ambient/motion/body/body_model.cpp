@@ -1,0 +1,154 @@
+#include "bullet_ambient/motion/body/body_model.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/spatial/cholesky.h"
+#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+
+namespace ambient {
+namespace {
+
+Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& symmetric) {
+  return symmetricEigen(symmetric).values;
+}
+
+void checkMass(const FluidBody& body, const MassProperties& mass) {
+  if (!(mass.mass > 0) || !std::isfinite(mass.mass)) {
+    reject(body, "mass [kg]", mass.mass, "positive and finite");
+  }
+  for (const double entry : mass.inertia.reshaped()) {
+    if (!std::isfinite(entry)) {
+      reject(body, "moment of inertia [kg m^2]", entry,
+             "finite (for a body that must not turn, use its angular factor)");
+    }
+  }
+  const double smallest = eigenvalues(mass.inertia)[0];
+  if (!(smallest > 0)) {
+    reject(body, "smallest principal moment of inertia [kg m^2]", smallest, "positive");
+  }
+}
+
+void checkShape(const FluidBody& body) {
+  if (!(body.volume >= 0) || !std::isfinite(body.volume)) {
+    reject(body, "volume [m^3]", body.volume, "zero or positive and finite");
+  }
+  if (!(body.sphere_radius >= 0) || !std::isfinite(body.sphere_radius)) {
+    reject(body, "radius of the sphere [m]", body.sphere_radius, "zero or positive and finite");
+  }
+  if (!(body.area >= 0) || !std::isfinite(body.area)) {
+    reject(body, "wetted area [m^2]", body.area, "zero or positive and finite");
+  }
+  if (!body.centre_of_volume.allFinite()) {
+    reject(body, "distance of its centre of volume [m]", body.centre_of_volume.norm(), "finite");
+  }
+}
+
+void checkFrame(const FluidBody& body, const FrameOffset& frame) {
+  if (!frame.translation.allFinite()) {
+    reject(body, "distance of its frame from the centre of mass [m]", frame.translation.norm(),
+           "finite");
+  }
+  constexpr double kRounding = 1e-6;  // tolerance for a rotation stored in single precision
+  const Matrix3 rest = frame.rotation * frame.rotation.transpose() - Matrix3::Identity();
+  const double error = rest.cwiseAbs().maxCoeff();
+  if (!(error <= kRounding))
+    reject(body, "error of its frame's rotation matrix", error, "at most 1e-6");
+  if (!(frame.rotation.determinant() > 0)) {
+    reject(body, "determinant of its frame's rotation matrix", frame.rotation.determinant(),
+           "1: a rotation, not a mirror");
+  }
+}
+
+// Limits the distance of centre of volume and centre of mass to 2^23 sizes, the precision of float.
+void checkLever(const FluidBody& body, const BodyModel& model) {
+  constexpr double kSizes = 8388608;
+  const double size = std::max(std::sqrt(body.area), portable::cbrt(body.volume));
+  const double lever = model.centre_of_volume.norm();
+  if (model.displaced_mass > 0 && !(lever <= kSizes * size))
+    reject(body, "distance of its centre of volume from the centre of mass [m]", lever,
+           "at most 2^23 times its size");
+}
+
+// Symmetrises K and sets entries of the size of rounding to 0: the change of frame leaves an
+// asymmetry, and tiny couplings that symmetry of the body forbids.
+Matrix6 withoutRounding(const Matrix6& inertia) {
+  constexpr double kRounding = 1e-14;
+  Matrix6 K = 0.5 * (inertia + inertia.transpose());
+  const Vector6 size = K.diagonal().cwiseAbs().cwiseSqrt();
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      if (i != j && std::abs(K(i, j)) <= kRounding * size[i] * size[j]) K(i, j) = 0;
+  return K;
+}
+
+}  // namespace
+
+void checkMedium(const FluidBody& body, const Medium& medium) {
+  if (!(medium.density >= 0) || !std::isfinite(medium.density)) {
+    reject(body, "density of the medium [kg/m^3]", medium.density, "zero or positive and finite");
+  }
+  if (!(medium.viscosity >= 0) || !std::isfinite(medium.viscosity)) {
+    reject(body, "viscosity of the medium [Pa s]", medium.viscosity, "zero or positive and finite");
+  }
+  if (!medium.velocity.allFinite()) {
+    reject(body, "speed of the medium [m/s]", medium.velocity.norm(), "finite");
+  }
+  if (!medium.acceleration.allFinite()) {
+    reject(body, "acceleration of the medium [m/s^2]", medium.acceleration.norm(), "finite");
+  }
+}
+
+BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_frame,
+                        const MassProperties& mass, const Medium& medium,
+                        std::shared_ptr<const SurfaceLoads> loads) {
+  checkMass(fluid_body, mass);
+  checkShape(fluid_body);
+  checkMedium(fluid_body, medium);
+  checkFrame(fluid_body, fluid_frame);
+  BodyModel model;
+  model.inertia = rigidBodyInertia(mass.mass, mass.inertia) +
+                  medium.density * fluid_frame.inertiaToB(fluid_body.added_mass);
+  model.inertia = withoutRounding(model.inertia);
+  const Cholesky<6> factor(model.inertia);
+  if (!factor.isPositive() || !model.inertia.allFinite()) {
+    reject(fluid_body, "largest entry of body and added inertia",
+           model.inertia.cwiseAbs().maxCoeff(), "finite, in a positive definite 6x6 matrix");
+  }
+  model.inverse_inertia = factor.inverse();
+  model.inverse_inertia = 0.5 * (model.inverse_inertia + model.inverse_inertia.transpose()).eval();
+  AMBIENT_ASSERT(model.inverse_inertia.diagonal().minCoeff() > 0);
+  AMBIENT_ASSERT(isSymmetric(model.inertia));
+  AMBIENT_ASSERT(isSymmetric(model.inverse_inertia));
+  model.has_diagonal_inertia = model.inertia.isDiagonal(0) && model.inverse_inertia.isDiagonal(0);
+  model.even_response = makeEvenResponse(model.inverse_inertia, mass.inertia);
+  model.mass = mass.mass;
+  model.displaced_mass = medium.density * fluid_body.volume;
+  model.centre_of_volume =
+      fluid_frame.rotation * fluid_body.centre_of_volume + fluid_frame.translation;
+  AMBIENT_ASSERT(model.displaced_mass >= 0 && model.centre_of_volume.allFinite());
+  checkLever(fluid_body, model);
+  if (loads) model.load_frame = loads->frame(fluid_frame);
+  model.loads = std::move(loads);
+  model.reference_length = std::sqrt(fluid_body.area);
+  model.largest_mass = eigenvalues(model.inertia.bottomRightCorner<3, 3>())[2];
+  AMBIENT_ASSERT(model.largest_mass > 0 && model.reference_length >= 0);
+  return model;
+}
+
+SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept {
+  AMBIENT_ASSERT(model.loads);
+  const Wrench wrench =
+      model.load_share *
+      model.load_frame.toB(model.loads->load(model.load_frame.toF(relative_twist)));
+  if (!model.loads->needsGuard()) return {wrench, false};
+  return removePositivePower(wrench, relative_twist, model.inertia);
+}
+
+}  // namespace ambient

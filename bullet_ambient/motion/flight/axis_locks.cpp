@@ -1,0 +1,128 @@
+#include "bullet_ambient/motion/flight/axis_locks.h"
+
+#include <Eigen/LU>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/motion/body/kirchhoff.h"
+#include "bullet_ambient/motion/body/passive_kick.h"
+#include "bullet_ambient/spatial/cholesky.h"
+#include "bullet_ambient/spatial/invariants.h"
+
+namespace ambient {
+namespace {
+
+constexpr int kLockedNewtonSteps = 4;
+
+Vector6 projectionOf(const AxisFactors& factors) {
+  return stack(factors.angular, factors.linear).unaryExpr([](double f) {
+    return f != 0 ? 1.0 : 0.0;
+  });
+}
+
+// Accelerations in body axes if `response` replaces K^-1; `forced`: acceleration by all forces.
+class LockedRates {
+ public:
+  LockedRates(const Matrix6& inertia, const Matrix6& response, const Vector6& forced)
+      : inertia_(inertia), response_(response), forced_(forced) {}
+
+  // Acceleration of the velocity in world axes, written in body axes.
+  Vector6 acceleration(const Vector6& x) const {
+    const Vector6 gyroscopic = gyroscopicWrench({x, inertia_ * x}).vector();
+    return response_ * (gyroscopic + inertia_ * turning(x)) + forced_;
+  }
+  // (0, w x v): acceleration in world axes minus the rate of the twist in body axes.
+  static Vector6 turning(const Vector6& x) {
+    return stack(Vector3::Zero(), x.head<3>().cross(x.tail<3>()));
+  }
+  // d(acceleration - turning)/dx
+  Matrix6 jacobian(const Vector6& x) const {
+    const Vector6 m = inertia_ * x;
+    const Matrix3 w = crossMatrix(x.head<3>()), v = crossMatrix(x.tail<3>());
+    const Matrix3 l = crossMatrix(m.head<3>()), p = crossMatrix(m.tail<3>());
+    Matrix6 by_momentum = Matrix6::Zero(), by_twist = Matrix6::Zero(), turned = Matrix6::Zero();
+    by_momentum << -w, -v, Matrix3::Zero(), -w;
+    by_twist << l, p, p, Matrix3::Zero();
+    turned << Matrix3::Zero(), Matrix3::Zero(), -v, w;
+    return response_ * (by_momentum * inertia_ + by_twist + inertia_ * turned) - turned;
+  }
+
+ private:
+  const Matrix6& inertia_;
+  const Matrix6& response_;
+  const Vector6& forced_;
+};
+
+Vector6 midpoint(const LockedRates& rates, const Vector6& x, double dt) {
+  Vector6 mid = x;
+  for (int i = 0; i < kLockedNewtonSteps; ++i) {
+    const Vector6 residual =
+        mid - x - dt / 2 * (rates.acceleration(mid) - LockedRates::turning(mid));
+    const Eigen::Matrix<double, 6, 6> jacobian = Matrix6::Identity() - dt / 2 * rates.jacobian(mid);
+    mid -= jacobian.partialPivLu().solve(residual);
+  }
+  return mid;
+}
+
+}  // namespace
+
+Matrix6 freeInertia(const Matrix6& inertia_W, const AxisFactors& factors) {
+  const Vector6 free = projectionOf(factors);
+  Matrix6 result = free.asDiagonal() * inertia_W * free.asDiagonal();
+  result.diagonal() += Vector6::Ones() - free;
+  return result;
+}
+
+Matrix6 lockedInverse(const Matrix6& inertia_W, const AxisFactors& factors) {
+  AMBIENT_ASSERT(isSymmetric(inertia_W, 1e-9));
+  const Matrix6 inverse = Cholesky<6>(freeInertia(inertia_W, factors)).inverse();
+  const Vector6 scale = stack(factors.angular, factors.linear);
+  const Matrix6 scaled = scale.asDiagonal() * inverse * scale.asDiagonal();
+  return 0.5 * (scaled + scaled.transpose());
+}
+
+RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& start,
+                                  const AxisFactors& factors) noexcept {
+  const Surroundings& s = task.surroundings;
+  const double dt = task.duration;
+  AMBIENT_ASSERT(dt > 0);
+  const Matrix3 R = start.orientation.toRotationMatrix();
+  BodyModel model = task.model;
+  model.inverse_inertia =
+      rotateAxes(lockedInverse(rotateAxes(model.inertia, R), factors), R.transpose());
+  model.has_diagonal_inertia = false;
+  Twist relative = start.twist;
+  relative.linear -= R.transpose() * s.ambient_velocity;
+  const Vector6 x = relative.vector();
+
+  RowVelocity result;
+  Vector6 forced = model.inverse_inertia * externalWrench(model, s, R).vector();
+  if (model.loads) {
+    const SurfaceLoad load = computeSurfaceLoad(model, relative);
+    result.count.load_evaluations = 1;
+    result.count.guarded = load.guarded;
+    const DualPair motion = pairOfTwist(model, x);
+    // The wrench that K^-1 would need for the acceleration that the locks allow.
+    const DualPair sample = pairOfTwist(model, model.inverse_inertia * load.wrench.vector());
+    forced += (passiveKick(motion, {motion, sample}, dt).twist - x) / dt;
+  }
+  const LockedRates rates(model.inertia, model.inverse_inertia, forced);
+  result.extent =
+      extentOf(model, dt * (rates.acceleration(x) - forced), pairOfTwist(model, x), {1 / dt, 0.3});
+  Vector6 turning = Vector6::Zero();
+  if (result.extent <= 1) turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
+  const Vector6 free = projectionOf(factors);
+  const auto inWorld = [&](const Vector6& change) {
+    return Twist{free.head<3>().cwiseProduct(R * change.head<3>()),
+                 free.tail<3>().cwiseProduct(R * change.tail<3>())};
+  };
+  result.turning_W = inWorld(turning);
+  const Vector6 kick = dt * forced;
+  result.change_W = inWorld(turning + kick);
+  const Vector6 push = inWorld(model.inertia * kick).vector();  // momentum along free axes, in W
+  const Vector6 push_B = stack(R.transpose() * push.head<3>(), R.transpose() * push.tail<3>());
+  result.isotropic_excess_W = inWorld(model.even_response.beyond(push_B, kick));
+  result.change_W.linear += dt * free.tail<3>().cwiseProduct(s.ambient_acceleration);
+  return result;
+}
+
+}  // namespace ambient

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "bullet_ambient/motion/flight/row_velocity.h"
+
+namespace ambient {
+
+/// Bullet's factors of impulses along and about the axes of W: 1 free, 0 locked; other
+/// values scale the impulse.
+struct AxisFactors {
+  Vector3 angular = Vector3::Ones();
+  Vector3 linear = Vector3::Ones();
+
+  bool areFree() const { return angular == Vector3::Ones() && linear == Vector3::Ones(); }
+};
+
+/// K (6x6, SPD, world axes) with rows and columns of locked axes replaced by those of the identity.
+/// The result is SPD; its inverse is (P K P)^+ in the free axes, docs/theory.md eq. (30).
+Matrix6 freeInertia(const Matrix6& inertia_W, const AxisFactors& factors);
+
+/// K_eff^-1 = F (P K P)^+ F in world axes, docs/theory.md eq. (30), with F the factors and P the
+/// projection on the axes that are not locked; symmetric positive semi-definite.
+Matrix6 lockedInverse(const Matrix6& inertia_W, const AxisFactors& factors);
+
+/// Like computeRowVelocity(), for a body with locked axes, along which the velocity stays. Contains
+/// the whole turning part t, by the implicit midpoint rule, because such bodies have no free
+/// flight; 0 instead of t beyond an extent of 1, with the limits 1 rad and 0.3 in eq. (28a).
+RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& start,
+                                  const AxisFactors& factors) noexcept;
+
+}  // namespace ambient

@@ -1,0 +1,72 @@
+#include "bullet_ambient/motion/flight/flight.h"
+
+#include <algorithm>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/motion/flight/integrators.h"
+
+namespace ambient {
+
+namespace {
+
+// Conversions to the frame that moves with the ambient flow, and after time t [s] back to W.
+void enterFrame(const Surroundings& s, RigidState& state) {
+  state.twist.linear -= state.orientation.conjugate() * s.ambient_velocity;
+}
+void leaveFrame(const Surroundings& s, double t, RigidState& state) {
+  state.position += t * s.ambient_velocity + t * t / 2 * s.ambient_acceleration;
+  state.twist.linear +=
+      state.orientation.conjugate() * (s.ambient_velocity + t * s.ambient_acceleration);
+}
+
+bool isFluidAtRest(const Surroundings& s) {
+  return s.ambient_velocity.isZero(0) && s.ambient_acceleration.isZero(0);
+}
+
+FlightResult flyAlone(const FlightTask& task, const FlightResult& start) {
+  for (const auto& [integrator, fly] : kLoneIntegrators)
+    if (integrator == task.settings.integrator) return fly(task, start.state, start.memory);
+  return start;
+}
+
+// Moves up to kFlightsTogether bodies, whose states are in the frames that move with the flow.
+void flyGroup(Flight* const* flights, int count) {
+  Flight* leaps[kFlightsTogether];
+  int leap_count = 0;
+  for (int i = 0; i < count; ++i) {
+    Flight& flight = *flights[i];
+    if (flight.task.settings.integrator == Integrator::kPassiveLeapfrog) {
+      leaps[leap_count++] = &flight;
+    } else {
+      flight.body = flyAlone(flight.task, flight.body);
+    }
+  }
+  if (leap_count > 0) flyLeapfrog(leaps, leap_count);
+}
+
+}  // namespace
+
+void flyTogether(Flight* const* flights, int count) noexcept {
+  for (int i = 0; i < count; ++i) {
+    const Surroundings& s = flights[i]->task.surroundings;
+    AMBIENT_ASSERT(flights[i]->task.duration > 0 && flights[i]->task.settings.tolerance > 0);
+    if (!isFluidAtRest(s)) enterFrame(s, flights[i]->body.state);
+  }
+  for (int i = 0; i < count; i += kFlightsTogether)
+    flyGroup(flights + i, std::min(kFlightsTogether, count - i));
+  for (int i = 0; i < count; ++i) {
+    const FlightTask& task = flights[i]->task;
+    if (!isFluidAtRest(task.surroundings))
+      leaveFrame(task.surroundings, task.duration, flights[i]->body.state);
+  }
+}
+
+FlightResult fly(const FlightTask& task, const RigidState& start,
+                 const FlightMemory& memory) noexcept {
+  Flight flight(task, start, memory);
+  Flight* const flights[] = {&flight};
+  flyTogether(flights, 1);
+  return flight.body;
+}
+
+}  // namespace ambient

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/instruction_set.h"
+#include "bullet_ambient/motion/flight/flight_task.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
+
+namespace ambient {
+
+constexpr Kernels<const FlightKernel*> kFlightKernels{&kFlightKernelBaseline, &kFlightKernelAvx2,
+                                                      &kFlightKernelAvx512};
+
+/// Kernel of fastestInstructionSet().
+const FlightKernel& fastestFlightKernel() noexcept;
+
+/// Writes the model of a body into lane `body`. Lanes without a body stay 0, as in FlightLanes{}.
+void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept;
+void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept;
+/// Writes the total inertia of a body in B and its inverse.
+void setInertia(FlightLanes& lanes, int body, const Matrix6& inertia, const Matrix6& inverse,
+                bool is_diagonal) noexcept;
+/// Writes pose and twist of a body; twist in B, relative to the frame that moves with the flow.
+void setState(FlightLanes& lanes, int body, const BodyModel& model,
+              const RigidState& state) noexcept;
+/// Reads the state of a body; `start`: position in W at setState() [m].
+RigidState stateOf(const FlightLanes& lanes, int body, const Vector3& start) noexcept;
+
+/// Access to the values of one body.
+inline void setLane(FlightLane* to, int body, const Vector3& a) noexcept {
+  AMBIENT_ASSERT(body >= 0 && body < kFlightLanes);
+  for (int i = 0; i < 3; ++i) to[i][body] = a[i];
+}
+inline void setLane(FlightLane* to, int body, const Wrench& f) noexcept {
+  setLane(to, body, f.torque);
+  setLane(to + 3, body, f.force);
+}
+inline void setLane(FlightLane* to, int body, const Twist& x) noexcept {
+  setLane(to, body, x.angular);
+  setLane(to + 3, body, x.linear);
+}
+inline void setLane(FlightLane* to, int body, const Quaternion& q) noexcept {
+  for (int i = 0; i < 4; ++i) to[i][body] = q.coeffs()[i];
+}
+inline Vector3 vectorOf(const FlightLane* from, int body) noexcept {
+  return {from[0][body], from[1][body], from[2][body]};
+}
+inline Wrench wrenchOf(const FlightLane* from, int body) noexcept {
+  return {vectorOf(from, body), vectorOf(from + 3, body)};
+}
+inline Twist twistOf(const FlightLane* from, int body) noexcept {
+  return {vectorOf(from, body), vectorOf(from + 3, body)};
+}
+inline Quaternion orientationOf(const FlightLane* from, int body) noexcept {
+  return {from[3][body], from[0][body], from[1][body], from[2][body]};
+}
+
+}  // namespace ambient

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "bullet_ambient/motion/body/body_model.h"
+#include "bullet_ambient/motion/body/rigid_state.h"
+#include "bullet_ambient/motion/flight/flight_memory.h"
+#include "bullet_ambient/motion/flight/flight_settings.h"
+
+namespace ambient {
+
+/// Forces and flow that act on a body in one step besides surface loads. World axes; constant over
+/// the step.
+struct Surroundings {
+  Vector3 gravity = Vector3::Zero();  ///< gravity of the hydrostatic pressure only [m/s^2]
+  Wrench applied;  ///< all other forces, weight included; torque about the centre of mass
+  Vector3 ambient_velocity = Vector3::Zero();      ///< at the start of the step [m/s]
+  Vector3 ambient_acceleration = Vector3::Zero();  ///< [m/s^2]
+};
+
+struct FlightCount {
+  int substeps = 0;
+  int load_evaluations = 0;
+  int guarded = 0;  ///< evaluations in which the passivity guard acted
+  /// True if substeps or retries ran out with the error above the tolerance.
+  bool coarse = false;
+  double error = 0;  ///< velocity error of a coarse step, relative to the motion; 1: not known
+  /// True if the motion stopped before the end of the step, because no substep keeps the energy,
+  /// docs/theory.md eq. (64).
+  bool halted = false;
+  double energy_removed = 0;  ///< energy removed by the bounds of eq. (22), (25a), (64), (68) [J]
+};
+
+struct FlightResult {
+  RigidState state;  ///< twist absolute, in B
+  FlightMemory memory;
+  FlightCount count;
+};
+
+/// Weight, buoyancy and inertial forces of the ambient acceleration in B, docs/theory.md eq. (18)
+/// and (19), for the orientation R, B to W.
+Wrench externalWrench(const BodyModel& model, const Surroundings& surroundings, const Matrix3& R);
+
+/// One body over one step.
+struct FlightTask {
+  const BodyModel& model;
+  const Surroundings& surroundings;
+  const FlightSettings& settings;
+  double duration;  ///< [s], > 0
+};
+
+/// Norm in the metric of K of the motion after a fall by the body's own size [sqrt(J)]: second
+/// term in the denominator of docs/theory.md eq. (25), which relates velocity errors to the
+/// motion.
+double fallScale(const FlightTask& task);
+
+/// Place of a body in a frame that moves with the fluid.
+struct WayFromStart {
+  Matrix3 to_world;  ///< B to W
+  Vector3 way_W;     ///< of the centre of mass since the motion began [m]
+};
+
+/// Energy of place, docs/theory.md eq. (64) without T: `of_water`, that of a surface and of waves,
+/// less the work of constant forces on the way [J].
+double energyOfPlace(const BodyModel& model, const Surroundings& surroundings,
+                     const WayFromStart& place, double of_water);
+
+/// Task and state of a body: start state before flyTogether(), end state afterwards.
+struct Flight {
+  Flight(const FlightTask& given, const RigidState& start, const FlightMemory& memory)
+      : task(given), body{start, memory, {}} {}
+
+  FlightTask task;
+  FlightResult body;
+};
+
+/// Number of bodies that flyTogether() moves side by side.
+constexpr int kFlightsTogether = 8;
+
+}  // namespace ambient

@@ -1,2 +1,0 @@
-#define AMBIENT_KERNEL kFlightKernelAvx2
-#include "bullet_ambient/motion/flight_kernel.h"

@@ -1,0 +1,102 @@
+#pragma once
+
+namespace ambient {
+
+// Arithmetic of the leapfrog for several bodies at once. Plain data only: the kernels are compiled
+// once per instruction set, and must not share an inline function with the rest of the program.
+
+constexpr int kFlightLanes = 8;
+
+/// One number per body.
+using FlightLane = double[kFlightLanes];
+
+/// Number of entries in the upper triangle of a symmetric 6x6 matrix, stored row by row.
+constexpr int kSymmetricEntries = 21;
+constexpr int symmetricEntry(int row, int column) { return row * (11 - row) / 2 + column; }
+
+/// Input and output of the kernels. Vectors in world axes (W) or body axes (B); SI units.
+struct alignas(64) FlightLanes {
+  FlightLane active;  ///< 1: the body moves; 0: kernels keep its pose, motion and last load
+
+  // Constant over the step.
+  FlightLane inertia[kSymmetricEntries];          ///< K in B
+  FlightLane inverse_inertia[kSymmetricEntries];  ///< K^-1
+  bool has_diagonal_inertia;                      ///< K and K^-1 of all bodies are diagonal
+  bool has_loads;                                 ///< at least one body has surface loads
+  FlightLane torque_W[3], force_W[3];  ///< about the centre of mass, without buoyancy and loads
+  FlightLane buoyancy_W[3];
+  FlightLane centre_of_volume_B[3];
+  FlightLane fall_scale;  ///< result of fallScale()
+  FlightLane precision;   ///< tolerance of flow(), relative to the motion
+
+  // Pose and motion.
+  FlightLane orientation[4];  ///< (x, y, z, w), B to W
+  FlightLane way_W[3];        ///< displacement since the start of the step [m]
+  FlightLane twist_B[6], momentum_B[6];
+  FlightLane energy;  ///< kinetic and potential energy at the last measure(), eq. (25a) [J]
+
+  FlightLane flow_time;       ///< duration of the next flow [s]
+  FlightLane kick_time;       ///< duration of the next kick [s]
+  FlightLane is_coarse;       ///< flow() sets 1 if it did not reach its precision
+  FlightLane energy_removed;  ///< flow() and bound() add the energy they remove [J]
+
+  // Within a kick. Wrenches: torque first; loads are 0 for a body without surface loads.
+  FlightLane load_W[6];      ///< surface load of the last kick
+  FlightLane guess_B[6];     ///< load by which sample() predicts the middle of the kick
+  FlightLane load_B[6];      ///< load at the sampled twist
+  FlightLane fall_twist[6];  ///< change of twist by gravity in half the kick
+  FlightLane fall_momentum[6];
+  FlightLane sample_twist[6];
+  FlightLane sample_momentum[6];
+  FlightLane error;  ///< error e of the kick, docs/theory.md eq. (25)
+};
+
+/// Input and output of depart(): poses and velocities of a world, converted to body axes.
+struct alignas(64) DepartureLanes {
+  FlightLane rotation[9];  ///< B to W, row by row; orthogonal up to its rounding
+  FlightLane twist_W[6];
+
+  FlightLane orientation[4];  ///< result: unit quaternion (x, y, z, w)
+  FlightLane twist_B[6];      ///< result
+};
+
+/// Input and output of arrive(): poses at start and end, and velocities in world axes.
+struct alignas(64) ArrivalLanes {
+  FlightLane start_orientation[4], start_position[3];
+  FlightLane orientation[4], position[3], twist_B[6];
+  double duration;  ///< > 0
+  double least;     ///< components of the results with a smaller size become 0; >= 0
+
+  FlightLane twist_W[6];  ///< result: twist at the end
+  FlightLane mean_W[6];   ///< result: constant twist from start pose to end pose, turning by at
+                          ///< most pi, eq. (29)
+};
+
+/// Kernels of one instruction set. depart() and arrive() treat all lanes, the others active bodies.
+struct FlightKernel {
+  void (*depart)(DepartureLanes&) noexcept;
+  void (*arrive)(ArrivalLanes&) noexcept;
+
+  /// Moves bodies without loads over flow_time, eq. (22), by power series in time. Energy and
+  /// world momenta are conserved up to `precision`; the energy never grows. A body that turns by
+  /// more than about 500 rad makes the rest of the way in one stride that keeps the world momenta;
+  /// is_coarse is set.
+  void (*flow)(FlightLanes&) noexcept;
+  /// First half of the kick by gravity, buoyancy and other forces. Sets guess_B to load_W in B.
+  void (*applyGravity)(FlightLanes&) noexcept;
+  /// Predicts the motion in the middle of the kick from guess_B: sample_twist, sample_momentum.
+  void (*sample)(FlightLanes&) noexcept;
+  /// Applies load_B over the whole kick, eq. (23), then the second half of applyGravity(). Sets
+  /// error and load_W.
+  void (*kick)(FlightLanes&) noexcept;
+  /// Sets `energy`.
+  void (*measure)(FlightLanes&) noexcept;
+  /// Scales motions down to the measured energy if it is exceeded and torque_W is 0, eq. (25a).
+  void (*bound)(FlightLanes&) noexcept;
+};
+
+/// No operation is fused, and lanes are independent: the bits of a body do not depend on the
+/// instruction set or on the bodies in other lanes.
+extern const FlightKernel kFlightKernelBaseline, kFlightKernelAvx2, kFlightKernelAvx512;
+
+}  // namespace ambient

@@ -1,0 +1,222 @@
+#pragma once
+
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/motion/lanes/spatial_lanes.h"
+
+// Only for sources compiled once per instruction set, see lanes.h.
+
+namespace ambient {
+namespace {
+
+/// Power series in time of Kirchhoff's equations in body axes. The equations are bilinear: each
+/// coefficient is a sum of cross products of the earlier ones (Jorba and Zou 2005):
+///   l' = l x w + p x v,   p' = p x w,   (w, v) = K^-1 (l, p),
+///   r' = r x w + v,       q' = 1/2 q w,
+/// with the way r from the start in body axes, y = y_0 + R r, and the turn q since the start.
+/// Coefficients are scaled to t = fraction of the duration. Each body gets as many terms as its
+/// precision needs; further terms are zero.
+template <class Inverse>
+class MotionSeries {
+ public:
+  /// Computes the series of the bodies in the mask `moves`.
+  MotionSeries(const Inverse& inverse, const Pairs& start, const Lanes& duration,
+               const Lanes& precision, const Mask& moves)
+      : inverse_(inverse), duration_(duration), precision_sq_(precision * precision) {
+    const Vectors zero = zeroVectors();
+    c_[0] = {start, zero, {zero, all(1)}};
+    const Lanes energy = inner(start, start);
+    per_energy_ = 1 / (energy > Lanes{} ? energy : all(1));
+    is_open_ = moves;
+    do {
+      addTerm();
+      is_open_ = is_open_ & ~isRestBelowPrecision();
+    } while (order_ < kMaxOrder && anyOf(is_open_));
+  }
+
+  struct End {
+    Lanes fraction;  // largest fraction of the duration at which the series has its precision
+    Spatials momentum;
+    Vectors way;
+    Orientations turn;  // not normalised
+  };
+  End end() const {
+    const Lanes fraction = reach();
+    const Coefficient& last = c_[order_];
+    End sum{fraction, last.motion.momentum, last.way, last.turn};
+    for (int k = order_ - 1; k >= 0; --k) {
+      const Coefficient& c = c_[k];
+      sum.momentum = c.motion.momentum + fraction * sum.momentum;
+      sum.way = c.way + fraction * sum.way;
+      sum.turn = {c.turn.u + fraction * sum.turn.u, c.turn.w + fraction * sum.turn.w};
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr int kLeastOrder = 3, kMaxOrder = 18;
+
+  struct Coefficient {
+    Pairs motion;
+    Vectors way;
+    Orientations turn;
+  };
+
+  void addTerm() {
+    const int k = order_;
+    // Zeroth terms: way 0, vector part of the turn 0, cosine 1.
+    const Spatials& latest = c_[k].motion.twist;
+    const Spatials& first = c_[0].motion.momentum;
+    Vectors l = cross(first.angular, latest.angular) + cross(first.linear, latest.linear);
+    Vectors p = cross(first.linear, latest.angular);
+    Vectors turn = latest.angular;
+    Vectors way = latest.linear;
+    Lanes cosine = Lanes{};
+    for (int i = 1; i <= k; ++i) {
+      const Coefficient& a = c_[i];
+      const Spatials& b = c_[k - i].motion.twist;
+      const Spatials& m = a.motion.momentum;
+      l = l + (cross(m.angular, b.angular) + cross(m.linear, b.linear));
+      p = p + cross(m.linear, b.angular);
+      way = way + cross(a.way, b.angular);
+      turn = turn + (cross(a.turn.u, b.angular) + a.turn.w * b.angular);
+      cosine = cosine - dot(a.turn.u, b.angular);
+    }
+    // A series that has reached its precision gets zero terms.
+    const Lanes step = is_open_ ? (1.0 / (k + 1)) * duration_ : Lanes{};
+    Coefficient& next = c_[k + 1];
+    next.motion.momentum = step * Spatials{l, p};
+    next.motion.twist = inverse_ * next.motion.momentum;
+    next.way = step * way;
+    const Lanes half = 0.5 * step;
+    next.turn = {half * turn, half * cosine};
+    ++order_;
+    const Lanes size_before = size_sq_;
+    size_sq_ = larger(inner(next.motion, next.motion) * per_energy_,
+                      dot(next.turn.u, next.turn.u) + next.turn.w * next.turn.w);
+    const Lanes growth_sq = size_sq_ / (size_before > Lanes{} ? size_before : all(1));
+    growth_sq_ = is_open_ ? larger(growth_sq, growth_sq_) : growth_sq_;
+    last_sq_ = is_open_ ? size_sq_ : last_sq_;
+    before_sq_ = is_open_ ? size_before : before_sq_;
+  }
+
+  // True if the remainder is below the precision. Estimate of the next term: the last term times
+  // the largest growth so far; in case the last term vanishes, the one before times the growth
+  // squared. If every second term vanishes, two small terms in a row suffice. One term never
+  // suffices: near an unstable rotation small terms grow fast.
+  Mask isRestBelowPrecision() const {
+    const Mask are_small = larger(last_sq_, before_sq_) <= precision_sq_;
+    if (order_ < kLeastOrder) return are_small;
+    const double per_order_sq = 1.0 / (order_ * order_);
+    const Lanes next = larger(last_sq_, before_sq_ * growth_sq_ * per_order_sq) * growth_sq_;
+    return are_small | (next <= precision_sq_);
+  }
+
+  Lanes reach() const {
+    Lanes fraction = all(1);
+    if (!anyOf(is_open_)) return fraction;
+    for (int i = 0; i < kWidth; ++i) {
+      if (!is_open_[i]) continue;
+      const double last = reachOfTerm(order_, last_sq_[i] / precision_sq_[i]);
+      const double before = reachOfTerm(order_ - 1, before_sq_[i] / precision_sq_[i]);
+      fraction[i] = before < last ? before : last;
+    }
+    return fraction;
+  }
+
+  static double reachOfTerm(int k, double excess) {
+    return excess > 1 ? portable::pow(excess, -0.5 / k) : 1.0;
+  }
+
+  const Inverse& inverse_;
+  Lanes duration_;
+  Lanes precision_sq_;
+  Lanes per_energy_;
+  Mask is_open_;  // bodies that need more terms
+  int order_ = 0;
+  // Squared sizes of terms, in the norms of K^-1 and of the quaternion.
+  Lanes size_sq_ = all(1), last_sq_ = all(1), before_sq_ = all(1);
+  Lanes growth_sq_ = Lanes{};  // largest squared ratio of a term to the one before
+  Coefficient c_[kMaxOrder + 1];
+};
+
+struct Motions {
+  Orientations orientation;
+  Vectors way_W;
+  Pairs motion;  // in B
+};
+inline Motions select(const Mask& mask, const Motions& a, const Motions& b) {
+  return {select(mask, a.orientation, b.orientation), select(mask, a.way_W, b.way_W),
+          select(mask, a.motion, b.motion)};
+}
+
+/// Moves with constant twist over `duration` [s]; the world momenta stay and give the end twist.
+template <class Inverse>
+Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duration) {
+  const Vectors rotation = duration * start.motion.twist.angular;
+  const Lanes angle = squareRoot(dot(rotation, rotation));
+  Lanes cosine = all(1), scale = all(0.5);
+  for (int i = 0; i < kWidth; ++i) {
+    if (!(angle[i] > 0)) continue;
+    cosine[i] = portable::cos(angle[i] / 2);
+    scale[i] = portable::sin(angle[i] / 2) / angle[i];
+  }
+  const Vectors way_W = start.orientation.toWorld(duration * start.motion.twist.linear);
+  const Spatials& m = start.motion.momentum;
+  const Vectors p_W = start.orientation.toWorld(m.linear);
+  const Vectors l_W = start.orientation.toWorld(m.angular) - cross(way_W, p_W);
+  Motions end;
+  end.orientation = normalized(start.orientation * Orientations{scale * rotation, cosine});
+  end.way_W = start.way_W + way_W;
+  end.motion.momentum = {end.orientation.toBody(l_W), end.orientation.toBody(p_W)};
+  end.motion.twist = inverse * end.motion.momentum;
+  return end;
+}
+
+/// Moves active bodies without loads, docs/theory.md eq. (22), see FlightKernel::flow.
+template <class Matrices>
+void flow(FlightLanes& bodies, int at, const Mask& active) {
+  constexpr int kMaxPieces = 1024;  // series per call
+  const Lanes zero = Lanes{};
+  const Matrices inverse(bodies.inverse_inertia, at);
+  const Lanes precision = load(bodies.precision + at);
+  Motions now{{load(bodies.orientation, at), load(bodies.orientation[3] + at)},
+              load(bodies.way_W, at),
+              {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)}};
+  const Motions start = now;
+  const Lanes energy = inner(now.motion, now.motion);
+  const Mask moves = active & (energy > zero);
+  Lanes left = moves ? load(bodies.flow_time + at) : zero;
+  for (int i = 0; i < kMaxPieces && anyOf(left > zero); ++i) {
+    const Mask is_left = left > zero;
+    const auto end = MotionSeries<Matrices>(inverse, now.motion, left, precision, is_left).end();
+    Motions next;
+    next.orientation = normalized(now.orientation * end.turn);
+    next.way_W = now.way_W + next.orientation.toWorld(end.way);
+    next.motion = {inverse * end.momentum, end.momentum};
+    now = select(is_left, next, now);
+    left = left - end.fraction * left;
+  }
+  const Mask is_left = left > zero;
+  if (anyOf(is_left)) {
+    now = select(is_left, coast(inverse, now, left), now);
+    store(bodies.is_coarse + at, is_left ? all(1) : load(bodies.is_coarse + at));
+  }
+  // Scales the motion down to its energy before the flow. The momentum is recomputed from the
+  // twist: rounding of K^-1 grows with the condition of K.
+  now.motion.momentum = Matrices(bodies.inertia, at) * now.motion.twist;
+  const Lanes after = inner(now.motion, now.motion);
+  const Mask has_gained = after > energy;
+  const Lanes scale = has_gained ? squareRoot(energy / (has_gained ? after : all(1))) : all(1);
+  const Lanes removed = moves & has_gained ? 0.5 * (after - energy) : zero;
+  store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
+  now.motion = scale * now.motion;
+  now = select(moves, now, start);
+  store(bodies.orientation, at, now.orientation.u);
+  store(bodies.orientation[3] + at, now.orientation.w);
+  store(bodies.way_W, at, now.way_W);
+  store6(bodies.twist_B, at, now.motion.twist);
+  store6(bodies.momentum_B, at, now.motion.momentum);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "bullet_ambient/motion/lanes/spatial_lanes.h"
+
+// Only for sources compiled once per instruction set, see lanes.h.
+
+namespace ambient {
+namespace {
+
+/// Returns the motions x after `duration` [s] under `load`, which was evaluated at the motions
+/// `at`; per lane like passiveKick() for DualPair, docs/theory.md eq. (23).
+inline Pairs passiveKick(const Pairs& x, const Pairs& at, const Pairs& load,
+                         const Lanes& duration) {
+  const Lanes one = all(1), zero = Lanes{};
+  const Lanes energy = inner(at, at);
+  const Mask moves = energy > zero;  // at rest relative to the fluid there is no load
+  const Lanes per_energy = one / (moves ? energy : one);
+  const Lanes n = squareRoot(moves ? energy : one);
+  const Lanes per_n = one / n;
+  const Lanes along = inner(at, load) * per_energy;
+  const Lanes decay = along > zero ? zero : -along;  // NaN of a load that is not finite stays NaN,
+                                                     // because NaN > 0 is false
+
+  // Lift: K^-1 F minus its part along the twist.
+  const Pairs across = load - along * at;
+  const Lanes f = squareRoot(larger(inner(across, across), zero));
+  const Lanes per_f = one / (f > zero ? f : one);
+
+  const Lanes speed = squareRoot(larger(inner(x, x), zero)) * per_n;
+  const Lanes z = decay * duration * speed;
+  const Lanes angle = duration * f * per_n * logarithmRatio(z) * speed;
+  const Lanes c1 = inner(x, at) * per_n;
+  const Lanes c2 = inner(x, across) * per_f;
+  // Sine and versine from one tangent: a rotation for any rounding of the tangent.
+  const Lanes t = tangent(0.5 * angle);
+  const Lanes sine = 2 * t / (1 + t * t);
+  const Lanes versine = t * sine;
+  const Pairs turned = x + ((-versine * c1 - sine * c2) * per_n) * at +
+                       ((sine * c1 - versine * c2) * per_f) * across;
+  return select(moves, one / (1 + z) * turned, x);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,192 @@
+#include "bullet_ambient/motion/links/link_flight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kLargestTurn = 0.5;       // of a link or a joint in one substep [rad]
+constexpr double kMiddlePrecision = 0.01;  // of the middle velocity, over the flight's tolerance
+constexpr double kAcceptedError = 2;  // a substep is repeated when its error exceeds this tolerance
+constexpr double kSubstepSafety = 0.9;
+
+void countUp(const FlightCount& some, FlightCount& count) {
+  count.load_evaluations += some.load_evaluations;
+  count.guarded += some.guarded;
+}
+
+TreePose poseOfSize(const LinkTree& tree) {
+  TreePose pose;
+  pose.joints.resize(tree.size());
+  return pose;
+}
+
+}  // namespace
+
+LinkFlight::LinkFlight(const LinkTree& tree)
+    : tree_(tree),
+      dynamics_(tree),
+      kick_(tree),
+      integrals_(tree),
+      mean_(dynamics_.coordinates()),
+      end_(dynamics_.coordinates()),
+      start_(dynamics_.coordinates()),
+      rate_(dynamics_.coordinates()),
+      end_pose_(poseOfSize(tree)),
+      middle_(poseOfSize(tree)) {}
+
+LinkFlightResult LinkFlight::fly(const TreePose& start, const CoordinatesIn& u, double duration,
+                                 const LinkFlightSettings& settings) noexcept {
+  AMBIENT_ASSERT(duration > 0 && settings.tolerance > 0 && settings.max_substeps > 0);
+  AMBIENT_ASSERT(static_cast<int>(start.joints.size()) == tree_.size() && u.size() == end_.size());
+  LinkFlightResult result;
+  answers_rows_ = false;
+  for (int substeps = 1, wanted = 1;; substeps = wanted) {
+    end_pose_ = start;
+    end_ = u;
+    wanted =
+        std::min(flyInSubsteps(substeps, duration, settings, result.count), settings.max_substeps);
+    if (wanted <= substeps) break;
+  }
+  mean_ = u;
+  velocityBetween(tree_, start, end_pose_, duration, mean_);
+  result.is_finite = mean_.allFinite() && end_.allFinite();
+  return result;
+}
+
+void LinkFlight::stay(const TreePose& pose, const CoordinatesIn& u) noexcept {
+  end_pose_ = middle_ = pose;
+  mean_ = end_ = u;
+  answers_rows_ = false;
+}
+
+// Integrates in `substeps` substeps. Returns the number needed; larger means: repeat.
+int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSettings& settings,
+                              FlightCount& count) noexcept {
+  const double h = duration / substeps;
+  const bool has_loads = kick_.hasLoads();
+  const bool is_last = substeps >= settings.max_substeps;
+  dynamics_.setPose(end_pose_);
+  if (has_loads) countUp(kick_.sample(dynamics_, end_), count);
+  count.coarse = false;
+  count.substeps = 0;
+  count.error = 0;
+  count.energy_removed = 0;
+  for (int i = 0; i < substeps; ++i) {
+    if (has_loads) kick_.kick(dynamics_, h / 2, end_);
+    integrals_.take(dynamics_, end_);
+    const bool converges = findMiddle(h, settings);
+    integrals_.addForces(dynamics_, mean_, h);
+    movePose(tree_, end_pose_, mean_, h, end_pose_);
+    double excess = std::max(converges ? 1.0 : 2.0, std::ceil(h * largestSpin() / kLargestTurn));
+    dynamics_.setPose(end_pose_);
+    count.energy_removed += integrals_.impose(dynamics_, end_, is_last && excess > 1);
+    double error = excess > 1 ? 1 : 0;  // 1: not known
+    if (has_loads) {
+      const double by_loads = kickAtEnd(h, count), ratio = by_loads / settings.tolerance;
+      error = std::max(error, by_loads);
+      if (ratio > kAcceptedError) excess = std::max(excess, std::sqrt(ratio) / kSubstepSafety);
+    }
+    ++count.substeps;
+    if (!(excess > 1)) continue;
+    if (!is_last)
+      return static_cast<int>(
+          std::min<double>(std::ceil(substeps * excess), settings.max_substeps));
+    count.coarse = true;
+    count.error = std::max(count.error, error);
+  }
+  return substeps;
+}
+
+// Returns the largest spin of links and joints in the middle of a substep [rad/s].
+double LinkFlight::largestSpin() const noexcept {
+  double spin = 0;
+  for (int l = 0; l < tree_.size(); ++l) {
+    spin = std::max(spin, dynamics_.twist(l).angular.norm());
+    if (l > 0)
+      spin = std::max(spin,
+                      jointSpin(tree_.links[l].joint, mean_.data() + dynamics_.firstCoordinate(l)));
+  }
+  return spin;
+}
+
+// The middle of a substep from end_pose_ and end_, by iterations on its velocity; end_ becomes that
+// of the end. False if they do not converge. H is factored once, at the start, where dynamics_ is:
+// what it differs by from that of the middle is of first order, and so is its part in an error that
+// shrinks with each iteration.
+bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexcept {
+  start_ = end_;
+  dynamics_.factor();
+  dynamics_.accelerations(start_, rate_);
+  mean_ = start_ + h / 2 * rate_;
+  const double tolerance = settings.tolerance * settings.tolerance;
+  double last = h * h / 4 * dynamics_.roughNormSquared(rate_);  // squares of changes
+  double rest = 0, motion = 0;  // squares; rest: of what further iterations would change
+  for (int i = 0; i < settings.max_iterations; ++i) {
+    movePose(tree_, end_pose_, mean_, h / 2, middle_);
+    dynamics_.setPose(middle_);
+    dynamics_.correctAccelerations(mean_, rate_);
+    end_ = start_ + h / 2 * rate_ - mean_;
+    mean_ += end_;
+    const double change = dynamics_.roughNormSquared(end_);
+    motion = dynamics_.roughNormSquared(mean_) + dynamics_.roughNormSquared(start_);
+    rest = last > 0 ? change / last * change : change;
+    if (rest <= kMiddlePrecision * kMiddlePrecision * tolerance * motion) break;
+    last = change;
+  }
+  end_ = 2 * mean_ - start_;
+  return rest <= tolerance * motion;
+}
+
+// The loads there act on both sides of the end: they are sampled at what follows from the last
+// ones. Returns the error of those.
+double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
+  rate_ = end_;
+  kick_.kick(dynamics_, h / 2, rate_);
+  countUp(kick_.sample(dynamics_, rate_), count);
+  const double error = kick_.error(dynamics_, h);
+  kick_.kick(dynamics_, h / 2, end_);
+  return error;
+}
+
+double LinkFlight::arriveAt(const TreePose& reached, bool has_rows,
+                            Coordinates& velocity) noexcept {
+  dynamics_.setPose(end_pose_);
+  integrals_.take(dynamics_, end_);
+  dynamics_.setPose(reached);
+  if (!has_rows) return integrals_.impose(dynamics_, velocity, true);
+  integrals_.imposeMomentum(dynamics_, velocity);
+  return 0;
+}
+
+void LinkFlight::prepareJointRows() noexcept {
+  if (answers_rows_) return;
+  dynamics_.setPose(middle_);
+  dynamics_.factor();
+  answers_rows_ = true;
+}
+
+LinkFlightResult LinkFlight::computeRowVelocity(const TreePose& start, const CoordinatesIn& u,
+                                                double duration) noexcept {
+  LinkFlightResult result;
+  dynamics_.setPose(start);
+  dynamics_.factor();
+  dynamics_.accelerations(u, rate_);
+  restInFlow(tree_, end_);
+  dynamics_.accelerations(end_, mean_);
+  mean_ = duration * (rate_ - mean_);
+  end_ = u + duration * rate_ - mean_;
+  if (kick_.hasLoads()) {
+    countUp(kick_.sample(dynamics_, u), result.count);
+    kick_.kick(dynamics_, duration, end_);
+    dynamics_.factor();
+  }
+  result.is_finite = mean_.allFinite() && end_.allFinite();
+  return result;
+}
+
+}  // namespace ambient

@@ -1,0 +1,118 @@
+#include "bullet_ambient/motion/links/link_kick.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/base/ambient_assert.h"
+
+namespace ambient {
+namespace {
+
+bool isLoaded(const Link& link) { return link.model && link.model->loads; }
+
+}  // namespace
+
+LinkKick::LinkKick(const LinkTree& tree)
+    : tree_(tree),
+      samples_(tree.size(), Sample{0, 0, {}}),
+      drags_(tree.size(), 0.0),
+      drag_impulses_(tree.size()),
+      lift_impulses_(tree.size()),
+      surprises_(tree.size()),
+      change_(coordinateCount(tree)),
+      flow_(coordinateCount(tree)) {}
+
+bool LinkKick::hasLoads() const noexcept {
+  return std::any_of(tree_.links.begin(), tree_.links.end(), isLoaded);
+}
+
+Wrench LinkKick::Sample::at(const Wrench& momentum, double its_speed) const {
+  if (!(speed > 0)) return {};
+  const double ratio = its_speed / speed;
+  return -drag * ratio * momentum + ratio * ratio * lift;
+}
+
+FlightCount LinkKick::sample(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept {
+  FlightCount count;
+  dynamics.setVelocity(u);
+  for (int l = 0; l < tree_.size(); ++l) {
+    Sample& sample = samples_[l];
+    const Sample last = sample;
+    sample = {0, 0, {}};
+    if (!isLoaded(tree_.links[l])) continue;
+    const Twist y = dynamics.relativeTwist(l);
+    const SurfaceLoad load = computeSurfaceLoad(*tree_.links[l].model, y);
+    ++count.load_evaluations;
+    count.guarded += load.guarded;
+    const Wrench momentum = dynamics.inertia(l).wrench(y);
+    const double energy = power(momentum, y);
+    if (!(energy > 0)) continue;
+    const double along = power(load.wrench, y) / energy;
+    sample = {std::max(0.0, -along), std::sqrt(energy), load.wrench + -along * momentum};
+    surprises_[l] = load.wrench;
+    surprises_[l] -= last.at(momentum, sample.speed);
+  }
+  return count;
+}
+
+double LinkKick::error(LinkDynamics& dynamics, double h) noexcept {
+  AMBIENT_ASSERT(h > 0);
+  double motion = 0;
+  for (int l = 0; l < tree_.size(); ++l) {
+    if (!isLoaded(tree_.links[l])) {
+      surprises_[l] = {};
+      continue;
+    }
+    const Link& link = tree_.links[l];
+    const double fall = fallScale({*link.model, link.surroundings, {}, h});
+    motion += samples_[l].speed * samples_[l].speed + fall * fall;
+  }
+  dynamics.respond(surprises_, change_);
+  return motion > 0 ? h * std::sqrt(dynamics.normSquared(change_) / motion) : 0;
+}
+
+void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {
+  AMBIENT_ASSERT(h > 0 && u.size() == change_.size());
+  dynamics.setVelocity(u);
+  for (int l = 0; l < tree_.size(); ++l) {
+    const Sample& sample = samples_[l];
+    drags_[l] = 0;
+    drag_impulses_[l] = lift_impulses_[l] = {};
+    if (!(sample.speed > 0)) continue;
+    const Twist x = dynamics.relativeTwist(l);
+    const Wrench momentum = dynamics.inertia(l).wrench(x);
+    const double ratio = std::sqrt(power(momentum, x)) / sample.speed;
+    drags_[l] = h * ratio * sample.drag;
+    drag_impulses_[l] = -drags_[l] * momentum;
+    lift_impulses_[l] = h * ratio * ratio * sample.lift;
+  }
+  dynamics.factor(drags_);
+  dynamics.respond(drag_impulses_, change_);
+  u += change_;
+  applyLift(dynamics, u);
+}
+
+// Lift does no work: where all links are in one flow, the energy relative to it is that after the
+// drag, at most. Elsewhere it changes the motion by no more than that has.
+void LinkKick::applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept {
+  dynamics.respond(lift_impulses_, change_);
+  if (findFlow(tree_, u, flow_)) {
+    u -= flow_;
+    const double before = dynamics.normSquared(u);
+    u += change_;
+    const double after = dynamics.normSquared(u);
+    if (after > before) u *= std::sqrt(before / after);
+    u += flow_;
+    return;
+  }
+  const double lift = dynamics.normSquared(change_);
+  dynamics.setVelocity(u);
+  double motion = 0;
+  for (int l = 0; l < tree_.size(); ++l) {
+    const Twist x = dynamics.relativeTwist(l);
+    motion += power(dynamics.inertia(l).wrench(x), x);
+  }
+  if (motion > 0) u += change_ / std::sqrt(1 + lift / motion);
+}
+
+}  // namespace ambient

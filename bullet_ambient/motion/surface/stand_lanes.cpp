@@ -1,0 +1,137 @@
+#include "bullet_ambient/motion/surface/stand_lanes.h"
+
+#include <algorithm>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/spatial/invariants.h"
+
+namespace ambient {
+namespace {
+
+constexpr int kSpread[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+
+void setPlane(StandLanes& lanes, int body, const SurfacePlane& plane) {
+  setLane(lanes.normal, body, plane.normal);
+  lanes.height[body] = plane.height;
+  lanes.gravity[body] = plane.gravity;
+  lanes.pull[body] = plane.density * plane.gravity;
+}
+
+void setWetVolume(StandLanes& lanes, int body, const WetVolume& wet) {
+  lanes.volume[body] = wet.volume;
+  lanes.depth_integral[body] = wet.depth_integral;
+  setLane(lanes.moment, body, wet.moment);
+}
+
+void setMatrix(FlightLane (&to)[kSymmetricEntries], int body, const Matrix6& m) {
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column)
+      to[symmetricEntry(row, column)][body] = m(row, column);
+}
+
+Matrix6 matrixOf(const FlightLane (&from)[kSymmetricEntries], int body) {
+  Matrix6 m;
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column)
+      m(row, column) = m(column, row) = from[symmetricEntry(row, column)][body];
+  return m;
+}
+
+/// Added mass along the normal per unit density, times c of docs/theory.md eq. (69) [m^3].
+double heaveInertia(const SurfaceModel& model, const SurfacePlace& place) {
+  if (!(model.excess_density > 0)) return 0;
+  const Vector3& s = place.plane.normal;
+  const Matrix3 fluid = (place.inertia - model.above.inertia).bottomRightCorner<3, 3>();
+  return std::max(0.0, model.heave_factor / model.excess_density * s.dot(fluid * s));
+}
+
+void setWave(StandLanes& lanes, int body, int i, const WaveMode& mode) {
+  lanes.strength[i][body] = mode.strength;
+  lanes.loss[i][body] = mode.loss;
+  lanes.rate[i][body] = mode.rate;
+}
+
+WaveMode waveOf(const StandLanes& lanes, int body, int i, const Vector6& motion) {
+  return {motion, lanes.strength[i][body], lanes.loss[i][body], lanes.rate[i][body]};
+}
+
+}  // namespace
+
+const SurfaceKernel& fastestSurfaceKernel() noexcept {
+  static const SurfaceKernel& fastest = *kSurfaceKernels.fastest();
+  return fastest;
+}
+
+void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
+              const SurfacePlace& place) noexcept {
+  setPlane(lanes, body, place.plane);
+  setWetVolume(lanes, body, place.wet);
+  const Waterplane& section = place.wet.waterplane;
+  lanes.area[body] = section.area;
+  setLane(lanes.centroid, body, section.centroid);
+  for (int i = 0; i < 6; ++i) lanes.spread[i][body] = section.spread(kSpread[i][0], kSpread[i][1]);
+  lanes.heave_inertia[body] = heaveInertia(model, place);
+  lanes.damping[body] = model.wave_damping;
+  setMatrix(lanes.inertia, body, place.inertia);
+}
+
+void setStand(StandLanes& lanes, int body, const SurfaceStand& stand) noexcept {
+  setPlane(lanes, body, stand.plane);
+  setWetVolume(lanes, body, stand.wet);
+  setLane(lanes.heave, body, Twist::fromVector(stand.restoring[0].motion));
+  for (int i = 0; i < 2; ++i)
+    setLane(lanes.tilt[i], body, Vector3(stand.restoring[i + 1].motion.head<3>()));
+  for (int i = 0; i < 3; ++i) lanes.stiffness[i][body] = stand.restoring[i].stiffness;
+  setWave(lanes, body, 0, stand.waves.heave);
+  for (int i = 0; i < 2; ++i) setWave(lanes, body, i + 1, stand.waves.tilt[i]);
+}
+
+void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept {
+  stand.inverse = matrixOf(lanes.inverse, body);
+  stand.restoring[0] = {twistOf(lanes.heave, body).vector(), lanes.stiffness[0][body], 0};
+  for (int i = 0; i < 2; ++i)
+    stand.restoring[i + 1] = {stack(vectorOf(lanes.tilt[i], body), Vector3::Zero()),
+                              lanes.stiffness[i + 1][body], lanes.second_moment[i][body]};
+  stand.waves.heave = waveOf(lanes, body, 0, stand.restoring[0].motion);
+  for (int i = 0; i < 2; ++i)
+    stand.waves.tilt[i] = waveOf(lanes, body, i + 1, stand.restoring[i + 1].motion);
+  stand.swing = lanes.swing[body];
+}
+
+void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexcept {
+  fastestSurfaceKernel().stand(lanes);
+  const auto isIndefinite = [&](int i) {
+    return lanes.active[i] > 0 && lanes.is_indefinite[i] > 0;
+  };
+  bool is_any = false;
+  for (int i = 0; i < count; ++i) {
+    if (!isIndefinite(i)) continue;
+    is_any = true;
+    bodies[i].place->inertia = positiveInertia(*bodies[i].model, bodies[i].place->inertia);
+    setPlace(lanes, i, *bodies[i].model, *bodies[i].place);
+  }
+  if (!is_any) return;
+  fastestSurfaceKernel().stand(lanes);
+  for (int i = 0; i < count; ++i)
+    if (isIndefinite(i)) setMatrix(lanes.inverse, i, bodies[i].model->above.inverse_inertia);
+}
+
+void completeStand(const SurfaceModel& model, SurfaceStand& stand) noexcept {
+  StandLanes lanes{};
+  lanes.active[0] = 1;
+  setPlace(lanes, 0, model, stand);
+  const BodyInLane body{&model, &stand};
+  computeStands(lanes, &body, 1);
+  readStand(lanes, 0, stand);
+  AMBIENT_ASSERT(isSymmetric(stand.inertia, 1e-9) && isSymmetric(stand.inverse, 1e-9));
+}
+
+SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
+  SurfaceStand stand;
+  static_cast<SurfacePlace&>(stand) = placeAt(model, plane_B);
+  completeStand(model, stand);
+  return stand;
+}
+
+}  // namespace ambient

@@ -1,0 +1,389 @@
+#include "bullet_ambient/motion/surface/surface_flight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/surface/stand_lanes.h"
+#include "bullet_ambient/spatial/invariants.h"
+
+namespace ambient {
+namespace {
+
+constexpr int kSurfaceAttempts = 3;
+constexpr int kSurfaceSubsteps = 16;
+constexpr double kFlowAccuracy = 1e-6;   // of the tolerance
+constexpr double kMostSurfaceError = 2;  // of an accepted step, in tolerances
+
+/// Progress of one body through a step, in the frame that moves with the water.
+struct Progress {
+  SurfaceFlight* flight = nullptr;
+  RigidState start;
+  Vector3 wind_W;
+  FlightCount count;
+  int most = 0;                   ///< largest number of substeps
+  int substeps = 0;               ///< number of substeps of this attempt
+  int made = 0;                   ///< number of them that are made
+  bool is_done = false;           ///< an attempt was accepted
+  bool has_load = false;          ///< flight.load_W holds a load
+  bool has_gained = false;        ///< more energy of place than it had in all
+  double swing = 0;               ///< the largest natural frequency that was met [1/s]
+  double energy = 0;              ///< at the start of the step [J]
+  double energy_removed = 0;      ///< by the bound of the energy [J]
+  double error = 0;               ///< the largest of the substeps, eq. (25)
+  SurfacePlace later;             ///< where a substep has come to
+  SurfacePlace* place = nullptr;  ///< that of now: that of the stand at the start, or `later`
+
+  const SurfaceModel& model() const { return flight->task.model; }
+};
+
+/// Number of substeps of at most a length [s].
+int substepsOf(double duration, double longest, int most) {
+  const double wanted = std::ceil(duration / longest * (1 - 1e-9));
+  return wanted < most ? std::max(1, static_cast<int>(wanted)) : most;
+}
+
+/// Whether the step may give energy to the body.
+bool mayGain(const Progress& progress) {
+  const bool has_wind = progress.model().loads_above.loads && !progress.wind_W.isZero(0);
+  return has_wind || !progress.flight->task.surroundings.applied.torque.isZero(0);
+}
+
+/// Flights of several bodies, one per lane.
+class SurfaceFlights {
+ public:
+  SurfaceFlights(SurfaceFlight* const* flights, int count)
+      : kernel_(fastestSurfaceKernel()), flow_(fastestFlightKernel()), count_(count) {
+    AMBIENT_ASSERT(count > 0 && count <= kFlightLanes);
+    lanes_.flight.has_diagonal_inertia = false;
+    for (int i = 0; i < count; ++i) begin(i, *flights[i]);
+  }
+
+  void fly() {
+    for (int attempt = 1;; ++attempt) {
+      if (!choose([&](int i) { return !progress_[i].is_done; })) return;
+      restart();
+      for (int i = 0; i < count_; ++i) progress_[i].made = progress_[i].substeps;
+      run();
+      for (int i = 0; i < count_; ++i)
+        if (!progress_[i].is_done) acceptOrRepeat(i, attempt);
+    }
+  }
+
+ private:
+  /// Makes the bodies of a condition the active ones. False: there are none.
+  template <class Condition>
+  bool choose(const Condition& condition) {
+    bool is_any = false;
+    for (int i = 0; i < count_; ++i) {
+      const bool is_chosen = condition(i);
+      lanes_.flight.active[i] = lanes_.stand.active[i] = is_chosen ? 1 : 0;
+      is_any = is_any || is_chosen;
+    }
+    return is_any;
+  }
+  bool isActive(int i) const { return lanes_.flight.active[i] > 0; }
+
+  void begin(int i, SurfaceFlight& flight) {
+    const SurfaceTask& task = flight.task;
+    const Surroundings& s = task.surroundings;
+    const FlightTask above{task.model.above, s, task.settings, task.duration};
+    Progress& p = progress_[i];
+    p.flight = &flight;
+    p.start = flight.body.state;
+    p.start.twist.linear -= p.start.orientation.conjugate() * s.ambient_velocity;
+    p.wind_W = s.ambient_velocity - task.velocity_above;
+    setSurroundings(lanes_.flight, i, above);
+    lanes_.flight.fall_scale[i] = fallScale({task.model.below, s, task.settings, task.duration});
+    lanes_.flight.precision[i] = kFlowAccuracy * task.settings.tolerance;
+    setLane(lanes_.flight.centre_of_volume_B, i, task.model.above.centre_of_volume);
+    setLane(lanes_.normal_W, i, task.plane_W.normal);
+    lanes_.height_W[i] = task.plane_W.depth(p.start.position);
+    setLane(lanes_.wind_W, i, p.wind_W);
+    AMBIENT_ASSERT(task.duration > 0 && isUnit(task.plane_W.normal));
+    has_loads_below_ = has_loads_below_ || task.model.loads_below.loads;
+    has_loads_above_ = has_loads_above_ || task.model.loads_above.loads;
+    p.most = task.settings.max_substeps > 0 ? task.settings.max_substeps : kSurfaceSubsteps;
+    p.swing = flight.stand.swing;
+    const double remembered =
+        flight.body.memory.substep > 0 ? flight.body.memory.substep : task.duration;
+    p.substeps = substepsOf(task.duration, std::min(remembered, kLongestSwing / p.swing), p.most);
+  }
+
+  void restartBody(int i) {
+    Progress& p = progress_[i];
+    const SurfaceFlight& flight = *p.flight;
+    const double h = flight.task.duration / p.substeps;
+    lanes_.flight.kick_time[i] = lanes_.flight.flow_time[i] = h;
+    lanes_.is_stiff[i] = h * p.swing > kLongestSwing * (1 + 1e-9) ? 1 : 0;
+    setLane(lanes_.flight.orientation, i, p.start.orientation);
+    setLane(lanes_.flight.way_W, i, Vector3(0, 0, 0));
+    setLane(lanes_.flight.twist_B, i, p.start.twist);
+    setInertia(lanes_.flight, i, flight.stand.inertia, flight.stand.inverse, false);
+    setStand(lanes_.stand, i, flight.stand);
+    p.place = &flight.stand;
+    setWaves(i, flight.waves);
+    const FlightMemory& memory = flight.body.memory;
+    p.has_load = memory.has_load && p.model().loads_below.loads;
+    setLane(lanes_.flight.load_W, i, p.has_load ? memory.load_W : Wrench{});
+    lanes_.flight.is_coarse[i] = lanes_.flight.energy_removed[i] = 0;
+    p.error = p.energy_removed = 0;
+    p.has_gained = false;
+  }
+
+  /// Brings the active bodies back to the start of the step.
+  void restart() {
+    for (int i = 0; i < count_; ++i)
+      if (isActive(i)) restartBody(i);
+    kernel_.measure(lanes_);
+    for (int i = 0; i < count_; ++i)
+      if (isActive(i)) progress_[i].energy = 0.5 * lanes_.kinetic2[i] + lanes_.potential[i];
+  }
+
+  /// Makes the substeps of the active bodies, and bounds their energy.
+  void run() {
+    bool is_run[kFlightLanes];
+    int most = 0;
+    for (int i = 0; i < count_; ++i) {
+      is_run[i] = isActive(i);
+      if (is_run[i]) most = std::max(most, progress_[i].made);
+    }
+    for (int substep = 0; substep < most; ++substep) {
+      choose([&](int i) { return is_run[i] && substep < progress_[i].made; });
+      advance();
+    }
+    choose([&](int i) { return is_run[i]; });
+    kernel_.measure(lanes_);
+    for (int i = 0; i < count_; ++i)
+      if (is_run[i]) boundEnergy(i);
+  }
+
+  void advance() {
+    beginKick();
+    move();
+    endKick();
+    for (int i = 0; i < count_; ++i)
+      if (isActive(i)) ++progress_[i].count.substeps;
+  }
+
+  /// The second half of a kick, in reversed order: loads are still those of the first half.
+  void beginKick() {
+    if (has_loads_below_) {
+      for (int i = 0; i < count_; ++i) {
+        Progress& p = progress_[i];
+        if (isActive(i) && !p.has_load && p.model().loads_below.loads) findFirstLoad(i);
+      }
+      kernel_.keepLoad(lanes_);
+    }
+    if (has_loads_above_) takeWind();
+    kernel_.exchangeWaves(lanes_);
+    kernel_.fall(lanes_);
+  }
+
+  /// The flow with the inertia frozen in body axes, eq. (22), and then its change.
+  void move() {
+    for (int i = 0; i < count_; ++i) {
+      if (!isActive(i)) continue;
+      const Progress& p = progress_[i];
+      const Twist x = twistOf(lanes_.flight.twist_B, i);
+      setLane(lanes_.gradient, i, gradientAt(p.model(), *p.place, x));
+    }
+    flow_.flow(lanes_.flight);
+    kernel_.see(lanes_);
+    BodyInLane bodies[kFlightLanes];
+    for (int i = 0; i < count_; ++i) {
+      Progress& p = progress_[i];
+      bodies[i] = {&p.model(), &p.later};
+      if (isActive(i)) findPlace(i);
+    }
+    computeStands(lanes_.stand, bodies, count_);
+    kernel_.pass(lanes_);
+  }
+
+  void findPlace(int i) {
+    Progress& p = progress_[i];
+    const SurfacePlane& before = p.place->plane;
+    const SurfacePlane plane_B{vectorOf(lanes_.stand.normal, i), lanes_.stand.height[i],
+                               before.density, before.gravity};
+    p.later = placeAt(p.model(), plane_B);
+    p.place = &p.later;
+    setPlace(lanes_.stand, i, p.model(), p.later);
+    setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
+    lanes_.draught[i] = p.later.immersion_F.draught();
+    lanes_.cover[i] = p.later.immersion_F.cover();
+  }
+
+  /// The first half of a kick, at the pose where the flow has come to.
+  void endKick() {
+    for (int i = 0; i < count_; ++i)
+      if (isActive(i)) progress_[i].swing = std::max(progress_[i].swing, lanes_.stand.swing[i]);
+    kernel_.fall(lanes_);
+    kernel_.exchangeWaves(lanes_);
+    if (has_loads_above_) takeWind();
+    if (has_loads_below_) takeLoads();
+  }
+
+  Wrench loadAt(int i, const Twist& x) {
+    Progress& p = progress_[i];
+    const Wrench wrench = p.flight->task.load_share * loadBelow(p.model(), *p.place, x);
+    ++p.count.load_evaluations;
+    if (!p.model().loads_below.loads->needsGuard()) return wrench;
+    const SurfaceLoad guarded = removePositivePower(wrench, x, p.place->inertia);
+    p.count.guarded += guarded.guarded;
+    return guarded.wrench;
+  }
+
+  void findFirstLoad(int i) {
+    const Wrench load = loadAt(i, twistOf(lanes_.flight.twist_B, i));
+    const Quaternion to_world = orientationOf(lanes_.flight.orientation, i);
+    setLane(lanes_.flight.load_W, i, Wrench{to_world * load.torque, to_world * load.force});
+    progress_[i].has_load = true;
+  }
+
+  /// Half of a kick, with the load in the middle of the whole, eq. (23) to (25).
+  void takeLoads() {
+    kernel_.sampleLoad(lanes_);
+    for (int i = 0; i < count_; ++i) {
+      const bool has_load = isActive(i) && progress_[i].model().loads_below.loads;
+      setLane(lanes_.flight.load_B, i,
+              has_load ? loadAt(i, twistOf(lanes_.flight.sample_twist, i)) : Wrench{});
+    }
+    kernel_.takeLoad(lanes_);
+    for (int i = 0; i < count_; ++i) {
+      Progress& p = progress_[i];
+      if (!isActive(i) || !p.model().loads_below.loads) continue;
+      p.has_load = true;
+      p.error = std::max(p.error, lanes_.flight.error[i]);
+    }
+  }
+
+  void takeWind() {
+    kernel_.meetWind(lanes_);
+    for (int i = 0; i < count_; ++i) {
+      Progress& p = progress_[i];
+      const bool has_wind = isActive(i) && p.model().loads_above.loads;
+      p.count.load_evaluations += has_wind;
+      const Twist seen = twistOf(lanes_.flight.sample_twist, i);
+      setLane(lanes_.flight.load_B, i, has_wind ? loadAbove(p.model(), *p.place, seen) : Wrench{});
+    }
+    kernel_.takeWind(lanes_);
+  }
+
+  /// Energy of which it is not known whether the body had it, docs/theory.md eq. (64): negative if
+  /// the energy of place alone is more than all that there was before.
+  double energyLeft(int i) const { return progress_[i].energy - lanes_.potential[i]; }
+  bool isGain(int i) const {
+    constexpr double kRounding = 1e-13;
+    const double fall = lanes_.flight.fall_scale[i];
+    return energyLeft(i) < -kRounding * (fall * fall + std::abs(progress_[i].energy));
+  }
+
+  /// Scales the motion down to an energy.
+  void scaleWithin(int i, double allowed2) {
+    const Vector6 x = twistOf(lanes_.flight.twist_B, i).vector();
+    const BoundedTwist bounded = scaledWithin(x, lanes_.kinetic2[i], allowed2);
+    setLane(lanes_.flight.twist_B, i, Twist::fromVector(bounded.twist));
+    progress_[i].energy_removed += bounded.energy_removed;
+  }
+
+  void boundEnergy(int i) {
+    if (mayGain(progress_[i])) return;
+    progress_[i].has_gained = isGain(i);
+    scaleWithin(i, std::max(0.0, 2 * energyLeft(i)));
+  }
+
+  /// Accepts the attempt, or sets a larger number of substeps for the next one.
+  void acceptOrRepeat(int i, int attempt) {
+    Progress& p = progress_[i];
+    const SurfaceTask& task = p.flight->task;
+    const double ratio = p.error / task.settings.tolerance, h = task.duration / p.substeps;
+    const double next = ratio > 0 ? std::min(4 * h, 0.9 * h / std::sqrt(ratio)) : 4 * h;
+    const int needed = substepsOf(task.duration, kLongestSwing / p.swing, p.most);
+    const bool is_coarse = ratio > kMostSurfaceError || p.has_gained;
+    const bool is_fine = !is_coarse && needed <= p.substeps;
+    const bool is_last = p.substeps == p.most || (attempt >= kSurfaceAttempts && !p.has_gained);
+    if (!is_fine && !is_last) {
+      const int more = p.has_gained ? 2 * p.substeps : p.substeps + 1;
+      p.substeps =
+          std::min(p.most, std::max({more, needed, substepsOf(task.duration, next, p.most)}));
+      return;
+    }
+    if (p.has_gained) halt(i);
+    finish(i, p.count.halted ? h : next, is_coarse);
+  }
+
+  /// Ends the motion after the last substep that ends where the energy reaches. Where there is no
+  /// such one, the body stays where it is, at rest.
+  void halt(int i) {
+    Progress& p = progress_[i];
+    choose([&](int other) { return other == i; });
+    restart();
+    int reached = 0;
+    for (int substep = 1; substep <= p.substeps; ++substep) {
+      advance();
+      kernel_.measure(lanes_);
+      if (!isGain(i)) reached = substep;
+    }
+    restart();
+    p.made = reached;
+    run();
+    if (reached == 0) scaleWithin(i, 0);
+    p.count.halted = true;
+  }
+
+  void finish(int i, double next_substep, bool is_coarse) {
+    Progress& p = progress_[i];
+    SurfaceFlight& flight = *p.flight;
+    const Surroundings& s = flight.task.surroundings;
+    const double t = flight.task.duration;
+    const bool is_flow_coarse = lanes_.flight.is_coarse[i] > 0;
+    p.count.coarse = is_coarse || is_flow_coarse;
+    if (p.count.coarse) p.count.error = is_flow_coarse || p.count.halted ? 1 : p.error;
+    p.count.energy_removed = p.energy_removed + lanes_.flight.energy_removed[i];
+    FlightResult& body = flight.body;
+    body.count = p.count;
+    body.memory = {wrenchOf(lanes_.flight.load_W, i), p.has_load, next_substep};
+    body.state = stateOf(lanes_.flight, i, p.start.position);
+    body.state.position += t * s.ambient_velocity + t * t / 2 * s.ambient_acceleration;
+    body.state.twist.linear +=
+        body.state.orientation.conjugate() * (s.ambient_velocity + t * s.ambient_acceleration);
+    flight.waves = wavesOf(i);
+    if (p.place == &p.later) {
+      static_cast<SurfacePlace&>(flight.stand) = p.later;
+      readStand(lanes_.stand, i, flight.stand);
+    }
+    p.is_done = true;
+  }
+
+  void setWaves(int i, const WaveMemory& waves) {
+    for (int k = 0; k < 2; ++k) {
+      lanes_.wave_heave[k][i] = waves.heave[k];
+      setLane(lanes_.wave_tilt_W[k], i, waves.tilt_W[k]);
+    }
+    lanes_.heave_energy[i] = waves.heave_energy;
+    lanes_.tilt_energy[i] = waves.tilt_energy;
+  }
+  WaveMemory wavesOf(int i) const {
+    return {{lanes_.wave_heave[0][i], lanes_.wave_heave[1][i]},
+            {vectorOf(lanes_.wave_tilt_W[0], i), vectorOf(lanes_.wave_tilt_W[1], i)},
+            lanes_.heave_energy[i],
+            lanes_.tilt_energy[i]};
+  }
+
+  const SurfaceKernel& kernel_;
+  const FlightKernel& flow_;
+  int count_;
+  bool has_loads_below_ = false, has_loads_above_ = false;
+  SurfaceLanes lanes_{};
+  Progress progress_[kFlightLanes];
+};
+
+}  // namespace
+
+void flyAtSurface(SurfaceFlight* const* flights, int count) noexcept {
+  SurfaceFlights(flights, count).fly();
+}
+
+}  // namespace ambient

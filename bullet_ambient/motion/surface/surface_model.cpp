@@ -1,0 +1,133 @@
+#include "bullet_ambient/motion/surface/surface_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/force/loads/load_tables.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/force/surface/make_wetted_inertia.h"
+#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+
+namespace ambient {
+namespace {
+
+/// Distance of the farthest corner from the centre of mass, or of the farthest point of a sphere.
+double radiusOf(const FluidBody& body, const FrameOffset& frame, const PackedHull* hull) {
+  if (!hull)
+    return body.sphere_radius + (frame.rotation * body.centre_of_volume + frame.translation).norm();
+  const Vector3 middle = -(frame.rotation.transpose() * frame.translation);
+  double largest = 0;
+  for (std::size_t i = 0; i < hull->corners().count; ++i) {
+    const auto& place = hull->corners().blocks[i].place;
+    for (int k = 0; k < HullPoints::kPoints; ++k)
+      largest = std::max(largest, (Vector3(place[0][k], place[1][k], place[2][k]) - middle).norm());
+  }
+  return largest;
+}
+
+void checkSurfaceBody(const SurfaceModelDef& def) {
+  const FluidBody& body = *def.shape;
+  if (!(def.above.density <= def.below.density))
+    reject(body, "density of the fluid above it [kg/m^3]", def.above.density,
+           "at most that of the fluid below");
+  if (!(def.wave_damping >= 0) || !std::isfinite(def.wave_damping))
+    reject(body, "wave damping", def.wave_damping, "zero or positive and finite");
+  if (body.surface.triangles.empty() && !(body.sphere_radius > 0))
+    reject(body, "number of triangles of its surface", 0, "positive for a body that may float");
+}
+
+PartLoads partLoads(const SurfaceModelDef& def, const Medium& medium, LoadTables& tables) {
+  PartLoads part{makeWaterlineLoads(def.shape, medium, def.flow, tables), {}};
+  if (part.loads) part.frame = part.loads->frame(def.fluid_frame);
+  return part;
+}
+
+bool isFeltAbove(const SurfaceModelDef& def) {
+  constexpr double kLittle = 0.01;
+  return def.above.density >= kLittle * def.below.density || !def.above.velocity.isZero(0);
+}
+
+}  // namespace
+
+SurfaceModel makeSurfaceModel(const SurfaceModelDef& def, LoadTables& tables) {
+  checkSurfaceBody(def);
+  const auto modelIn = [&](const Medium& medium) {
+    return makeBodyModel(*def.shape, def.fluid_frame, def.mass, medium,
+                         makeSurfaceLoads(def.shape, medium, def.flow, tables));
+  };
+  SurfaceModel model;
+  model.above = modelIn(def.above);
+  model.below = modelIn(def.below);
+  model.fluid_frame = def.fluid_frame;
+  model.excess_density = def.below.density - def.above.density;
+  model.shape = def.shape;
+  if (!(def.shape->sphere_radius > 0)) model.hull = tables.hull(def.shape);
+  model.wetted = makeWettedInertia(def.shape, tables);
+  model.loads_below = partLoads(def, def.below, tables);
+  if (isFeltAbove(def)) model.loads_above = partLoads(def, def.above, tables);
+  model.radius = radiusOf(*def.shape, def.fluid_frame, model.hull.get());
+  constexpr double kHeaveOfParts = 1.13;
+  if (model.hull && def.shape->waterline.empty()) model.heave_factor = kHeaveOfParts;
+  model.wave_damping = def.wave_damping;
+  AMBIENT_ASSERT(model.wetted && (model.hull || def.shape->sphere_radius > 0));
+  AMBIENT_ASSERT(model.excess_density >= 0 && model.radius >= 0 && std::isfinite(model.radius));
+  return model;
+}
+
+namespace {
+
+Immersion withExtent(const SurfaceModel& model, const SurfacePlane& plane_F) noexcept {
+  Immersion immersion{plane_F, 0, 0, {}};
+  AMBIENT_ASSERT(isUnit(plane_F.normal));
+  if (model.hull) {
+    std::tie(immersion.low, immersion.high) = computeExtent(*model.hull, plane_F.normal);
+  } else {
+    const double middle = plane_F.normal.dot(model.shape->centre_of_volume);
+    immersion.low = middle - model.shape->sphere_radius;
+    immersion.high = middle + model.shape->sphere_radius;
+  }
+  return immersion;
+}
+
+}  // namespace
+
+SurfaceSide sideOf(const SurfaceModel& model, const SurfacePlane& plane_B, double travel) noexcept {
+  AMBIENT_ASSERT(!(travel < 0));
+  const double height = plane_B.height, radius = model.radius;
+  if (height < -radius - travel) return SurfaceSide::kAbove;
+  if (height > 5 * radius + travel) return SurfaceSide::kBelow;  // covered by twice its diameter
+  const Immersion at = withExtent(model, seenFrom(plane_B, model.fluid_frame));
+  if (at.draught() + travel <= 0) return SurfaceSide::kAbove;
+  return at.cover() - travel >= 2 * at.size() ? SurfaceSide::kBelow : SurfaceSide::kAt;
+}
+
+Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
+  const SurfacePlane plane = seenFrom(plane_B, model.fluid_frame);
+  Immersion immersion = withExtent(model, plane);
+  if (model.hull) {
+    immersion.wet = computeWetVolume(*model.hull, plane);
+  } else {
+    immersion.wet =
+        computeWetSphere(model.shape->sphere_radius, model.shape->centre_of_volume, plane);
+  }
+  return immersion;
+}
+
+Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept {
+  const Matrix6 in_F = model.wetted->inertia(immersion);
+  AMBIENT_ASSERT(isSymmetric(in_F, 1e-9));
+  if (model.fluid_frame.isIdentity()) return model.above.inertia + model.excess_density * in_F;
+  const Matrix6 in_B = model.fluid_frame.inertiaToB(in_F);
+  return model.above.inertia + model.excess_density * 0.5 * (in_B + in_B.transpose());
+}
+
+Matrix6 positiveInertia(const SurfaceModel& model, const Matrix6& inertia) noexcept {
+  const auto eigen = symmetricEigen<6>(inertia - model.above.inertia);
+  return model.above.inertia +
+         eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
+}
+
+}  // namespace ambient

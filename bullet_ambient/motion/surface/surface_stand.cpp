@@ -1,0 +1,106 @@
+#include "bullet_ambient/motion/surface/surface_stand.h"
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/motion/body/passive_kick.h"
+#include "bullet_ambient/motion/surface/surface_passage.h"
+#include "bullet_ambient/spatial/invariants.h"
+
+namespace ambient {
+namespace {
+
+Wrench loadOn(const PartLoads& part, const SurfacePlane& plane_B, double share, const Twist& x) {
+  const FrameOffset& frame = part.frame;
+  AMBIENT_ASSERT(part.loads);
+  if (frame.isIdentity()) return part.loads->wetLoad(x, {plane_B, share});
+  return frame.toB(part.loads->wetLoad(frame.toF(x), {seenFrom(plane_B, frame), share}));
+}
+
+}  // namespace
+
+SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
+  SurfacePlace place;
+  place.plane = plane_B;
+  place.immersion_F = immersionOf(model, plane_B);
+  const WetVolume& wet_F = place.immersion_F.wet;
+  place.wet = model.fluid_frame.isIdentity() ? wet_F : wet_F.inB(model.fluid_frame);
+  place.inertia = inertiaAt(model, place.immersion_F);
+  return place;
+}
+
+bool isStable(const RestoringModes& modes) noexcept {
+  return modes[0].stiffness > 0 && modes[1].stiffness > 0 && modes[2].stiffness > 0;
+}
+
+Matrix6 stiffInertia(const SurfaceStand& stand, double duration) noexcept {
+  return stiffened(stand.inertia, stand.restoring, duration);
+}
+
+BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
+  BodyModel frozen = model.above;
+  frozen.inertia = stand.inertia;
+  frozen.inverse_inertia = stand.inverse;
+  frozen.has_diagonal_inertia = false;
+  const double water = model.excess_density * stand.wet.volume;
+  frozen.displaced_mass = model.above.displaced_mass + water;
+  if (frozen.displaced_mass > 0) {
+    frozen.centre_of_volume = (model.above.displaced_mass * model.above.centre_of_volume +
+                               model.excess_density * stand.wet.moment) /
+                              frozen.displaced_mass;
+  }
+  frozen.loads = nullptr;
+  return frozen;
+}
+
+Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept {
+  const FrameOffset& frame = model.fluid_frame;
+  const Immersion& at = place.immersion_F;
+  if (frame.isIdentity())
+    return model.excess_density * model.wetted->gradient(at, x).wrench(at.plane);
+  return model.excess_density *
+         frame.toB(model.wetted->gradient(at, frame.toF(x)).wrench(at.plane));
+}
+
+Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) noexcept {
+  if (!(place.wet.volume > 0)) return model.above.centre_of_volume;
+  return place.wet.moment / place.wet.volume;
+}
+
+BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
+  const SurfaceStand& after = move.after;
+  const Immersion& at = after.immersion_F;
+  return passSurface({move.inertia_before, after.inertia, after.inverse, move.gradient,
+                      after.plane.normal, centreOfBuoyancy(move.model, after), at.draught(),
+                      at.cover(), after.plane.gravity, move.duration},
+                     x);
+}
+
+Wrench loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept {
+  const double share = wetShare(place.immersion_F, model.shape->volume);
+  return loadOn(model.loads_below, place.plane, share, x);
+}
+
+Wrench frictionBelow(const SurfaceModel& model, const SurfacePlace& place,
+                     const Twist& x) noexcept {
+  const PartLoads& part = model.loads_below;
+  const WetPart wet{seenFrom(place.plane, part.frame),
+                    wetShare(place.immersion_F, model.shape->volume)};
+  return part.frame.toB(part.loads->wetParts(part.frame.toF(x), wet).friction);
+}
+
+Wrench loadAbove(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept {
+  const double share = 1 - wetShare(place.immersion_F, model.shape->volume);
+  return loadOn(model.loads_above, place.plane.flipped(), share, x);
+}
+
+Vector6 takeWind(const WindKick& kick, const Vector6& x) noexcept {
+  const SurfaceStand& stand = kick.stand;
+  const Vector6 shift = stack(Vector3::Zero(), kick.wind);
+  const Vector6 seen = x + shift;
+  AMBIENT_ASSERT(kick.duration >= 0);
+  const Vector6 load = loadAbove(kick.model, stand, Twist::fromVector(seen)).vector();
+  const DualPair motion{seen, stand.inertia * seen};
+  return passiveKick(motion, {motion, {stand.inverse * load, load}}, kick.duration).twist - shift;
+}
+
+}  // namespace ambient

@@ -1,0 +1,40 @@
+#!/usr/bin/python3
+"""A Kuka arm turns under water with limited torque, beside one in air; needs pybullet_data. A picture by TinyRenderer, which takes minutes."""
+
+import argparse
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+import pybullet as p
+import pybullet_data
+
+from bullet_ambient.pybullet import Fluid
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("picture", nargs="?", default="out/pybullet_kuka.png", type=Path)
+picture = parser.parse_args().picture
+
+p.connect(p.DIRECT)
+p.setAdditionalSearchPath(pybullet_data.getDataPath())
+p.setGravity(0, 0, -9.81)
+fluid = Fluid()
+fluid.settings(quality="instant")
+fluid.water(level=100, bounds=[-5, -5, -5, 0, 5, 5])  # one half of the world
+arms = [p.loadURDF("kuka_iiwa/model.urdf", [x, 0, 0], useFixedBase=True) for x in (-0.7, 0.7)]
+for arm in arms:
+    for joint in range(7):
+        p.setJointMotorControl2(arm, joint, p.POSITION_CONTROL, targetPosition=0.5, force=300, maxVelocity=1e3)
+    p.setJointMotorControl2(arm, 0, p.VELOCITY_CONTROL, targetVelocity=3, force=1)
+for second in (0.5, 1.0):
+    for _ in range(120):
+        p.stepSimulation()
+    rates = [p.getJointState(arm, 0)[1] for arm in arms]
+    print("after %.1f s: first joint at %.2f rad/s in water, %.2f in air" % (second, *rates))
+print("inertia of the first joint [kg m^2]: %.3f in water, %.3f in air" % tuple(fluid.mass_matrix(arm)[6, 6] for arm in arms))
+
+view = p.computeViewMatrix([0.3, -3.2, 1.4], [0, 0, 0.5], [0, 0, 1])
+lens = p.computeProjectionMatrixFOV(40, 2, 0.1, 20)
+pixels = p.getCameraImage(800, 400, view, lens, renderer=p.ER_TINY_RENDERER, shadow=1, lightDirection=[1, -2, 3])[2]
+picture.parent.mkdir(parents=True, exist_ok=True)
+matplotlib.image.imsave(picture, np.reshape(pixels, (400, 800, 4)).astype(np.uint8))

@@ -1,0 +1,248 @@
+#include "demos/pybullet/fluid_plugin.h"
+
+#include <BulletDynamics/ConstraintSolver/btConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <typeinfo>
+#include <utility>
+
+#include "bullet_ambient/robot_dynamics.h"
+#include "demos/pybullet/region_command.h"
+#include "demos/pybullet/server_world.h"
+
+namespace ambient::pybullet {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+std::string text(const Eigen::MatrixXd& matrix) {
+  json rows = json::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    json numbers = json::array();
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+      numbers.push_back(matrix(row, column));
+    rows.push_back(std::move(numbers));
+  }
+  return rows.dump();
+}
+
+std::unique_ptr<WorldFluid> makeFluid(btDiscreteDynamicsWorld* world) {
+  auto* multi_bodies = dynamic_cast<btMultiBodyDynamicsWorld*>(world);
+  if (!multi_bodies)
+    throw std::invalid_argument("this PyBullet has another kind of world than the plugin knows");
+  const btConstraintSolver* solver = multi_bodies->getConstraintSolver();
+  if (solver && std::strstr(typeid(*solver).name(), "FluidSolver"))
+    throw std::invalid_argument("another copy of this plugin has its fluid in this world");
+  return std::make_unique<WorldFluid>(*multi_bodies);
+}
+
+// The choice with a name; another name is an error that lists them.
+template <class Names>
+auto choose(Command& command, const char* key, const Names& names, decltype(names[0].first) present)
+    -> std::decay_t<decltype(present)> {
+  if (!command.has(key)) return present;
+  const std::string wanted = command.text(key, "");
+  std::string all;
+  for (const auto& [value, name] : names) {
+    if (name == wanted) return value;
+    all += (all.empty() ? "" : ", ") + std::string(name);
+  }
+  command.fail(std::string(key) + " is one of: " + all);
+}
+
+constexpr std::array<std::pair<Quality, const char*>, 2> kQualityNames{
+    {{Quality::kInstant, "instant"}, {Quality::kStandard, "standard"}}};
+
+}  // namespace
+
+const FluidPlugin::NamedAnswer FluidPlugin::kCommands[] = {
+    {"water", &FluidPlugin::setRegion},
+    {"air", &FluidPlugin::setRegion},
+    {"region", &FluidPlugin::setRegion},
+    {"remove", &FluidPlugin::removeRegion},
+    {"settings", &FluidPlugin::setSettings},
+    {"exclude", &FluidPlugin::exclude},
+    {"inertia", &FluidPlugin::inertia},
+    {"mass_matrix", &FluidPlugin::massMatrix},
+    {"save", &FluidPlugin::save},
+    {"restore", &FluidPlugin::restore},
+    {"status", &FluidPlugin::status},
+    {"off", &FluidPlugin::leave},
+};
+
+// A fluid that ends with its world needs no notification: a step may come before that.
+void FluidPlugin::meetWorld() {
+  if (fluid_ && !fluid_->fluid().isWorldAlive()) forgetWorld();
+  if (fluid_ || !refusal_.empty()) return;
+  try {
+    fluid_ = makeFluid(findWorld(server_, client_));
+    for (auto& [name, region] : regions_) region.id = fluid_->fluid().addRegion(region.region);
+  } catch (const std::exception& error) {
+    fluid_.reset();
+    refusal_ = error.what();
+    std::fprintf(stderr, "bullet_ambient: %s\n", refusal_.c_str());
+  }
+}
+
+void FluidPlugin::forgetWorld() {
+  fluid_.reset();
+  refusal_.clear();
+  has_news_ = true;
+}
+
+void FluidPlugin::notice(const Notification* notifications, int count) {
+  for (int i = 0; i < count; ++i) {
+    const Notification& notification = notifications[i];
+    if (notification.type == kSimulationReset) forgetWorld();
+    if (notification.type == kBodyAdded) has_news_ = true;
+    if (notification.type == kBodyRemoved && fluid_) fluid_->forget(notification.body);
+  }
+}
+
+void FluidPlugin::beforeStep() {
+  if (regions_.empty() && !fluid_) return;
+  meetWorld();
+  if (!fluid_) return;
+  if (!shapes_) shapes_ = std::make_unique<FluidBodyCache>(shape_settings_, folder_);
+  const bool adds = has_news_ && !regions_.empty();
+  try {
+    fluid_->prepare({*shapes_, flow_}, adds);
+  } catch (const std::exception& error) {
+    fluid_.reset();
+    refusal_ = error.what();
+    throw;
+  }
+  if (adds) has_news_ = false;
+}
+
+WorldFluid& FluidPlugin::requireFluid() {
+  meetWorld();
+  if (!fluid_) throw std::invalid_argument(refusal_);
+  return *fluid_;
+}
+
+WorldFluid& FluidPlugin::requireCurrent() {
+  requireFluid();
+  beforeStep();
+  return requireFluid();
+}
+
+std::string FluidPlugin::setRegion(Command& command) {
+  const std::string name = command.text("name", command.name());
+  FluidRegion region = makeRegion(command);
+  meetWorld();
+  const auto ours = regions_.find(name);
+  const RegionId id = ours == regions_.end() ? RegionId::kNone : ours->second.id;
+  if (fluid_ && id != RegionId::kNone) fluid_->fluid().setRegion(id, region);
+  const bool adds = fluid_ && id == RegionId::kNone;
+  const RegionId now = adds ? fluid_->fluid().addRegion(region) : id;
+  regions_[name] = {std::move(region), now};
+  return refusal_;
+}
+
+std::string FluidPlugin::removeRegion(Command& command) {
+  const auto region = regions_.find(command.text("name", "water"));
+  command.finish();
+  if (region == regions_.end()) command.fail("there is no such region");
+  if (fluid_) fluid_->fluid().removeRegion(region->second.id);
+  regions_.erase(region);
+  return "";
+}
+
+std::string FluidPlugin::setSettings(Command& command) {
+  if (shapes_)
+    command.fail("comes too late: bodies are in the fluid; give it before the first step");
+  FlowSettings flow = flow_;
+  flow.law = choose(command, "law", kPressureLawNames, flow.law);
+  flow.separation_angle = command.number("separation", flow.separation_angle);
+  const Quality quality = choose(command, "quality", kQualityNames, shape_settings_.quality);
+  const std::string folder = command.text("folder", folder_);
+  command.finish();
+  flow_ = flow;
+  shape_settings_.quality = quality;
+  folder_ = folder;
+  return "";
+}
+
+std::string FluidPlugin::exclude(Command& command) {
+  command.finish();
+  requireFluid().exclude(command.body(), command.link(WorldFluid::kAllLinks));
+  return "";
+}
+
+std::string FluidPlugin::inertia(Command& command) {
+  command.finish();
+  return text(requireCurrent().require(command.body(), command.link(-1)).inertia());
+}
+
+std::string FluidPlugin::massMatrix(Command& command) {
+  command.finish();
+  WorldFluid& fluid = requireCurrent();
+  return text(ambientMassMatrix(fluid.fluid(), fluid.multiBody(command.body())));
+}
+
+std::string FluidPlugin::save(Command& command) {
+  command.finish();
+  return std::to_string(requireCurrent().save());
+}
+
+std::string FluidPlugin::restore(Command& command) {
+  command.finish();
+  const int state = command.body();
+  if (state < 0) command.fail("there are no states below 0");
+  requireCurrent().restore(static_cast<std::size_t>(state));
+  return "";
+}
+
+std::string FluidPlugin::status(Command& command) {
+  command.finish();
+  meetWorld();
+  json status;
+  for (const auto& [name, region] : regions_) status["regions"].push_back(name);
+  if (!refusal_.empty()) status["refused"] = refusal_;
+  if (fluid_) {
+    const AmbientCounters counters = fluid_->fluid().counters();
+    status["members"] = fluid_->fluid().size();
+    status["time"] = fluid_->fluid().time();
+    status["substeps"] = counters.substeps;
+    status["rows"] = counters.rows;
+    status["coarse"] = counters.coarse;
+    status["halted"] = counters.halted;
+    status["rejected"] = counters.rejected;
+    status["energy_removed"] = counters.energy_removed;
+    status["said"] = fluid_->said();
+  }
+  return status.dump();
+}
+
+// PyBullet goes on as if the plugin was not loaded.
+std::string FluidPlugin::leave(Command& command) {
+  command.finish();
+  regions_.clear();
+  forgetWorld();
+  return "";
+}
+
+std::string FluidPlugin::execute(const Arguments& arguments) {
+  const std::string piece = arguments.text;
+  if (!piece.empty() && piece[0] == '+') {
+    pieces_ += piece.substr(1);
+    return "";
+  }
+  const std::string whole = std::exchange(pieces_, "") + piece;
+  Command command(whole, {arguments.ints, arguments.ints + arguments.int_count});
+  std::string names;
+  for (const NamedAnswer& known : kCommands) {
+    if (command.name() == known.name) return (this->*known.answer)(command);
+    names += (names.empty() ? "" : ", ") + std::string(known.name);
+  }
+  if (command.name().empty())
+    throw std::invalid_argument("the command is empty: PyBullet drops texts of 1024 and more");
+  command.fail("there is no such command; there are: " + names);
+}
+
+}  // namespace ambient::pybullet

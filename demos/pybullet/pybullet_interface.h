@@ -1,0 +1,85 @@
+#pragma once
+
+class btDiscreteDynamicsWorld;
+
+/// Messages between a plugin and PyBullet's server: the declarations of examples/SharedMemory
+/// that a plugin needs, equal in Bullet 3.06 to master of 2025-01. Debian ships none of the
+/// headers.
+namespace ambient::pybullet {
+
+constexpr int kApiVersion = 202010061;  // SHARED_MEMORY_MAGIC_NUMBER
+
+struct Arguments {  // b3PluginArguments
+  char text[1024];
+  int int_count;
+  int ints[128];
+  int float_count;
+  double floats[128];
+};
+
+struct ReturnData {  // b3UserDataValue
+  int type;          // 2: text
+  int length;
+  const char* bytes;
+};
+
+enum NotificationType { kSimulationReset = 0, kBodyAdded = 1, kBodyRemoved = 2 };
+
+struct Notification {  // b3Notification
+  int type;
+  union {
+    int body;
+    double alignment_and_size[34];
+  };
+};
+
+// GUIHelperInterface. Slots up to the last one here have been equal since 2.89. Later slots have
+// not: addUserDebugPoints came in between with 3.22, under the same API number. So a helper of ours
+// must never stay in the server.
+struct GuiHelper {
+  virtual ~GuiHelper() = default;
+  virtual void createRigidBodyGraphicsObject(void*, const void*) = 0;
+  virtual void createCollisionObjectGraphicsObject(void*, const void*) = 0;
+  virtual void createCollisionShapeGraphicsObject(void*) = 0;
+  virtual void syncPhysicsToGraphics(const void*) = 0;
+  virtual void syncPhysicsToGraphics2(const void*) = 0;
+  virtual void syncPhysicsToGraphics2(const void*, int) = 0;
+  virtual void render(const void*) = 0;
+  virtual void createPhysicsDebugDrawer(btDiscreteDynamicsWorld* world) = 0;
+};
+
+// PhysicsCommandProcessorInterface.
+struct Server {
+  virtual ~Server() = default;
+  virtual bool connect() = 0;
+  virtual void disconnect() = 0;
+  virtual bool isConnected() const = 0;
+  virtual bool processCommand(const void*, void*, char*, int) = 0;
+  virtual bool receiveStatus(void*, char*, int) = 0;
+  virtual void renderScene(int) = 0;
+  virtual void physicsDebugDraw(int) = 0;
+  virtual void setGuiHelper(GuiHelper* helper) = 0;
+};
+
+// PhysicsClient, its first slots.
+struct Client {
+  virtual ~Client() = default;
+  virtual bool connect() = 0;
+};
+
+struct Context {  // b3PluginContext
+  Client* client;
+  void* user_pointer;
+  ReturnData* return_data;
+  const void* vr_events;
+  int vr_event_count;
+  const void* key_events;
+  int key_event_count;
+  const void* mouse_events;
+  int mouse_event_count;
+  const Notification* notifications;
+  int notification_count;
+  Server* server;  // in initPlugin and executePluginCommand only
+};
+
+}  // namespace ambient::pybullet

@@ -1,0 +1,188 @@
+"""A fluid in the world of an unmodified PyBullet, 3.1.7 and later.
+
+    import pybullet as p, bullet_ambient.pybullet
+    p.connect(p.DIRECT)
+    fluid = bullet_ambient.pybullet.Fluid()
+    fluid.water(level=0)
+
+Everything in the scene floats, sinks and is moved by the water, also what comes later. docs/pybullet.md says more.
+"""
+
+import importlib
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["Fluid", "Spectrum", "Wave", "plugin_path"]
+
+_PIECE = 1000  # bytes of a command; PyBullet takes 1023
+_Vector = Sequence[float]
+_Value = Union[str, float, Iterable[Any], None]
+
+
+class Wave(NamedTuple):
+    """A wave on deep water: amplitude [m], period [s], direction of propagation, phase at the origin at time 0 [rad]."""
+
+    amplitude: float
+    period: float
+    direction: _Vector = (1, 0, 0)
+    phase: float = 0
+
+
+class Spectrum(NamedTuple):
+    """A wind sea (JONSWAP): significant height [m], peak period [s], direction, peak enhancement, number of waves, seed."""
+
+    height: float
+    period: float
+    direction: _Vector = (1, 0, 0)
+    enhancement: float = 3.3
+    components: int = 50
+    seed: int = 1
+
+
+def plugin_path() -> str:
+    """The plugin's file, for `pybullet.loadPlugin(plugin_path(), "_ambient")`."""
+    return str(Path(__file__).parent / "libbullet_ambient_pybullet.so")
+
+
+def _text(numbers: Iterable[Any]) -> str:
+    flat: list[float] = []
+    for number in numbers:
+        flat.extend(number if isinstance(number, Iterable) else [number])
+    return ",".join(repr(float(x)) for x in flat)
+
+
+def _word(key: str, value: _Value) -> str:
+    if isinstance(value, str):
+        if any(space in value for space in " \t\n"):
+            raise ValueError(f"{key}: '{value}' has spaces, which commands of PyBullet cannot have")
+        return f"{key}={value}"
+    numbers: Iterable[Any] = value if isinstance(value, Iterable) else [value]
+    return f"{key}={_text(numbers)}"
+
+
+class Fluid:
+    """The fluid in the world of one PyBullet client.
+
+    Regions and settings survive `resetSimulation`; numbers of bodies, states and time begin anew. Bad values raise
+    ValueError with one line. Nothing is in a fluid before a region is added.
+    """
+
+    def __init__(self, client: int = 0) -> None:
+        """Loads the plugin into the server of a client, `physicsClientId`.
+
+        Where the server is another process, it loads the file of the same path. A second Fluid of a client is the first.
+        """
+        self._bullet: Any = importlib.import_module("pybullet")
+        self._client = client
+        self._plugin: int = self._bullet.loadPlugin(plugin_path(), "_ambient", physicsClientId=client)
+        if self._plugin < 0:
+            raise OSError(f"{plugin_path()}: PyBullet could not load it; is the client connected?")
+
+    def water(
+        self,
+        level: float = 0,
+        *,
+        density: Optional[float] = None,
+        viscosity: Optional[float] = None,
+        current: Optional[_Vector] = None,
+        waves: Optional[Iterable[Wave]] = None,
+        spectrum: Optional[Spectrum] = None,
+        wind: Optional[_Vector] = None,
+        bounds: Optional[_Vector] = None,
+        up: Optional[_Vector] = None,
+        priority: int = 0,
+        name: str = "water",
+    ) -> None:
+        """Water below a level [m], air above it; again with one name: changes it.
+
+        `wind` and `current` [m/s]; `waves` and `spectrum` are added up; `bounds` are the lowest and the highest corner,
+        six numbers; `up` is against gravity. Where regions overlap, the highest priority wins, then the latest.
+        """
+        wave_text = None if waves is None else ";".join(_text(Wave(*wave)) for wave in waves)
+        self._region("water", level=level, density=density, viscosity=viscosity, current=current, waves=wave_text or None,
+                     spectrum=spectrum, wind=wind, bounds=bounds, up=up, priority=priority, name=name)
+
+    def air(self, wind: Optional[_Vector] = None, *, bounds: Optional[_Vector] = None, density: Optional[float] = None,
+            priority: int = 0, name: str = "air") -> None:
+        """Air, everywhere or within bounds, and its wind [m/s]."""
+        self._region("air", wind=wind, bounds=bounds, density=density, priority=priority, name=name)
+
+    def region(self, name: str = "region", *, density: Optional[float] = None, viscosity: Optional[float] = None,
+               velocity: Optional[_Vector] = None, bounds: Optional[_Vector] = None, priority: int = 0) -> None:
+        """A fluid without a surface, everywhere or within bounds: density [kg/m^3], viscosity [Pa s], velocity [m/s]."""
+        self._region("region", name=name, density=density, viscosity=viscosity, velocity=velocity, bounds=bounds,
+                     priority=priority)
+
+    def remove(self, name: str = "water") -> None:
+        """Removes a region."""
+        self._command("remove", name=name)
+
+    def exclude(self, body: int, link: Optional[int] = None) -> None:
+        """Leaves a body out of the fluid, or one link of it; -1: the base. It moves as in stock PyBullet."""
+        self._command("exclude", [body] if link is None else [body, link])
+
+    def settings(self, *, law: Optional[str] = None, quality: Optional[str] = None, separation: Optional[float] = None,
+                 folder: Optional[str] = None) -> None:
+        """Settings of all bodies, before the first step: `law` of the pressure, `quality` "standard" (seconds for each
+        new mesh) or "instant", `separation` angle [rad], `folder` that keeps computed shapes for other runs."""
+        self._region("settings", law=law, quality=quality, separation=separation, folder=folder)
+
+    def inertia(self, body: int, link: int = -1) -> npt.NDArray[np.float64]:
+        """Total inertia of a body or link with the fluid, (6, 6), rotation first, in its frame at its centre of mass."""
+        return np.array(json.loads(self._command("inertia", [body, link])))
+
+    def mass_matrix(self, body: int) -> npt.NDArray[np.float64]:
+        """Joint-space inertia with the fluid: 6 + joints rows, spin and velocity of the base first, in world axes.
+
+        `pybullet.calculateMassMatrix` is that without a fluid.
+        """
+        return np.array(json.loads(self._command("mass_matrix", [body])))
+
+    def save(self) -> int:
+        """Keeps the state of world and fluid and returns its number. `pybullet.saveState` knows nothing of the fluid."""
+        return int(self._command("save"))
+
+    def restore(self, state: int) -> None:
+        """Puts the world back into a state of save(), from which it goes on bit for bit."""
+        self._command("restore", [state])
+
+    def status(self) -> dict[str, Any]:
+        """Names of regions, counters of what steps have done and left out, and sentences that the fluid has said."""
+        answer: dict[str, Any] = json.loads(self._command("status"))
+        return answer
+
+    def off(self) -> None:
+        """Removes all regions and leaves the world as in stock PyBullet.
+
+        In place of `pybullet.unloadPlugin`: the next `loadPlugin` after that ends PyBullet, whatever the plugin.
+        """
+        self._command("off")
+
+    def _region(self, command: str, **values: _Value) -> None:
+        self._command(command, **{key: value for key, value in values.items() if value is not None})
+
+    def _command(self, name: str, integers: Sequence[int] = (), /, **values: _Value) -> str:
+        text = " ".join([name, *(_word(key, value) for key, value in values.items())])
+        while len(text) > _PIECE:
+            self._send("+" + text[:_PIECE], ())
+            text = text[_PIECE:]
+            if text.startswith("+"):  # of a number: not the mark of a piece
+                self._send("+" + text[:1], ())
+                text = text[1:]
+        return self._send(text, integers)
+
+    def _send(self, text: str, integers: Sequence[int]) -> str:
+        answer = self._bullet.executePluginCommand(self._plugin, text, list(integers), physicsClientId=self._client)
+        if not isinstance(answer, tuple):
+            if answer < 0:
+                raise ValueError("the command failed, and PyBullet does not say why; is the client connected?")
+            return ""
+        said = bytes(answer[2]).decode()
+        if answer[0] != 0:
+            raise ValueError(said)
+        return said

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "demos/simulation/body_preparation.h"
+#include "demos/simulation/scene_body_cache.h"
+#include "demos/simulation/simulation.h"
+
+namespace ambient {
+
+/// Simulation owned by Python; one thread at a time may use it, until it is closed.
+class PythonWorld {
+ public:
+  PythonWorld(const Scene& scene, const std::filesystem::path& cache, bool takes_robots)
+      : scene_(scene), fluid_bodies_(cache, scene.threads) {
+    const pybind11::gil_scoped_release others_run;
+    simulation_ = std::make_unique<Simulation>(scene, prepare(scene), takes_robots);
+  }
+
+  const Scene& scene() const { return scene_; }
+  Simulation& simulation() const {
+    if (!simulation_) throw pybind11::value_error("the world is closed");
+    if (is_stepping_) throw std::logic_error("the world is in use by another thread");
+    return *simulation_;
+  }
+  /// Adds the robots that `scene` has more than the world. @pre the rest of it is the same
+  void addRobots(const Scene& scene) {
+    Simulation& joined = simulation();
+    const Stepping in_use(is_stepping_);
+    {
+      const pybind11::gil_scoped_release others_run;
+      joined.addRobots(scene, prepare(scene));
+    }
+    scene_ = scene;
+  }
+  MotionSample sample(std::size_t body) const { return simulation().sample()[body]; }
+  void close() { simulation_.reset(); }
+
+  /// Makes steps and calls `take` with the samples after each. Releases the interpreter's lock;
+  /// checks for keyboard interrupts every few steps.
+  template <class Take>
+  void step(long long steps, const Take& take) {
+    constexpr long long kChunk = 100;
+    Simulation& stepped = simulation();
+    const Stepping in_use(is_stepping_);
+    for (long long done = 0; done < steps;) {
+      const long long end = std::min(steps, done + kChunk);
+      stepFreely(stepped, end - done, take);
+      done = end;
+      if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+    }
+  }
+
+ private:
+  struct Stepping {
+    explicit Stepping(bool& flag) : flag_(flag) { flag_ = true; }
+    ~Stepping() { flag_ = false; }
+    bool& flag_;
+  };
+
+  template <class Take>
+  static void stepFreely(Simulation& stepped, long long steps, const Take& take) {
+    try {
+      const pybind11::gil_scoped_release others_run;
+      for (long long i = 0; i < steps; ++i) {
+        stepped.step();
+        take(stepped);
+      }
+    } catch (const std::runtime_error& error) {
+      PyErr_SetString(PyExc_FloatingPointError, error.what());
+      throw pybind11::error_already_set();
+    }
+  }
+
+  std::vector<PreparedBody> prepare(const Scene& scene) {
+    std::vector<PreparedBody> bodies = prepareBodies(scene, fluid_bodies_);
+    fluid_bodies_.save();
+    return bodies;
+  }
+
+  Scene scene_;
+  SceneBodyCache fluid_bodies_;
+  std::unique_ptr<Simulation> simulation_;
+  bool is_stepping_ = false;  // read and written with the interpreter's lock
+};
+
+}  // namespace ambient

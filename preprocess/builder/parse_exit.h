@@ -1,0 +1,49 @@
+#pragma once
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <sstream>
+
+#include "bullet_ambient/base/plain_text.h"
+
+namespace ambient {
+
+/// Exit code of a program whose command line cannot be used.
+constexpr int kBadUsage = 2;
+/// Exit code of a program that has failed otherwise.
+constexpr int kBadInput = 1;
+
+/// Prints help to standard output, or an error that begins with the program's name, which `app`
+/// has. Returns the exit code of the program: 0 after help. App and Error are CLI11's.
+template <class App, class Error>
+int exitAt(const App& app, const Error& error) {
+  std::ostringstream errors;
+  const int code = app.exit(error, std::cout, errors);
+  if (code == 0) return 0;
+  std::cerr << app.get_name() << ": " << plainText(errors.str());
+  return kBadUsage;
+}
+
+/// Runs the body of a program and returns its exit code. Prints an exception of `run`, and that
+/// standard output cannot be written, in one line that begins with the program's name.
+template <class Run>
+int runProgram(const char* name, const Run& run) {
+  // Beyond a limit of the file size, writing fails with a message in place of ending the program.
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    const int exit_code = run();
+    std::cout.flush();
+    if (exit_code != 0 || (std::cout && std::fflush(stdout) == 0)) return exit_code;
+    std::cerr << name << ": the result cannot be written to standard output\n";
+  } catch (const std::bad_alloc&) {
+    std::cerr << name << ": there is not enough memory for an input of this size\n";
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << plainLine(error.what()) << "\n";
+  }
+  return kBadInput;
+}
+
+}  // namespace ambient

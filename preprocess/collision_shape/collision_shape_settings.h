@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/collision_shape/solids/solid_union.h"
+
+namespace ambient {
+
+/// Time that making a fluid body may take.
+enum class Quality {
+  kInstant,   ///< milliseconds: few faces, added mass of the ellipsoid with the second moments
+  kStandard,  ///< seconds: the flow is solved
+};
+
+constexpr int kInstantFaces = 400;
+
+/// Settings for making a fluid body from a collision shape.
+struct CollisionShapeSettings {
+  CollisionShapeSettings();
+
+  std::string name;     ///< of the body, begins every message; empty: the shape's name
+  bool margins = true;  ///< convex hulls and cones are as large as Bullet collides with them,
+                        ///< margin included; false: as they were given
+  int faces = 1300;     ///< triangles aimed at, where the shape has no mesh of its own
+  PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
+  /// Allowed error of the few faces that carry the loads by the form law in place of all,
+  /// FormLevel::p99_error; 0: there are none. Bodies take them as far as
+  /// FlowSettings::maximum_load_error allows.
+  double load_error = 0.01;
+  /// Subdivisions of the waterline table, BuildSettings, where the quality is kStandard; spheres,
+  /// whose table all share, have none of their own.
+  int waterline_subdivisions = 0;
+  bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
+  CompoundFallback fallback = CompoundFallback::kHull;
+  /// kInstant: at most kInstantFaces faces; closed forms stay. A FluidBodyCache then goes on to
+  /// kStandard in the background.
+  Quality quality = Quality::kStandard;
+  /// Receives one line for everything a user should know about a body that was made: margins that
+  /// add more than a tenth to its volume, triangles that were turned round, children that could not
+  /// be united. Default: standard error; null: nobody.
+  std::function<void(const std::string&)> report;
+};
+
+}  // namespace ambient

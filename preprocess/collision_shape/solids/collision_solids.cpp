@@ -1,0 +1,107 @@
+#include "preprocess/collision_shape/solids/collision_solids.h"
+
+#include <algorithm>
+
+#include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/mesh/graded_grid.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/weld_vertices.h"
+
+namespace ambient {
+namespace {
+
+Solid placed(Solid solid, const Matrix3& rotation, const Vector3& translation) {
+  for (TriangleMesh* mesh : {&solid.mesh, &solid.flow, &solid.coarse_flow, &solid.cavities}) {
+    mesh->vertices = (rotation * mesh->vertices).colwise() + translation;
+  }
+  if (solid.added_mass)
+    solid.added_mass = shiftOrigin(rotateAxes(*solid.added_mass, rotation), -translation);
+  return solid;
+}
+
+/// Makes a mesh of triangles with corners of their own.
+TriangleMesh joinTriangles(const std::vector<Eigen::Vector3d>& corners) {
+  std::vector<Eigen::Vector3i> triangles;
+  for (int i = 0; i + 2 < static_cast<int>(corners.size()); i += 3) {
+    triangles.emplace_back(i, i + 1, i + 2);
+  }
+  const TriangleMesh mesh = makeTriangleMesh(corners, triangles);
+  if (corners.empty()) return mesh;
+  constexpr double kWeld = 1e-6;
+  return weldVertices(mesh, kWeld * mesh.extents().norm());
+}
+
+/// Makes the solid of each kind of shape, about its own origin.
+struct SolidMaker {
+  const SolidResolution& resolution;
+  const std::string& name;
+
+  Solid operator()(const Hull& hull) const { return makeHullSolid(hull, resolution, name); }
+
+  Solid operator()(const BallHull& hull) const {
+    if (hull.balls.size() > 1) return makeBallHullSolid(hull, resolution, name);
+    const auto& [centre, semi_axes] = hull.balls.front();
+    const bool is_sphere = semi_axes == Eigen::Vector3d::Constant(semi_axes[0]);
+    const Solid ball = is_sphere ? (*this)(Sphere{semi_axes[0]}) : (*this)(Ellipsoid{semi_axes});
+    return placed(ball, Matrix3::Identity(), centre);
+  }
+
+  Solid operator()(const TriangleSoup& soup) const {
+    CheckedMesh checked = checkMesh(joinTriangles(soup.corners), name);
+    Solid solid;
+    solid.mesh = std::move(checked.mesh);
+    solid.cavities = std::move(checked.cavities);
+    solid.warnings = std::move(checked.warnings);
+    return solid;
+  }
+
+  /// Shapes that follow from a few numbers.
+  template <class Simple>
+  Solid operator()(const Simple& shape) const {
+    requireUsualExtents(shape, 1, name);
+    const ShapeFacts facts = factsOf(shape);
+    const auto known = facts.added_mass(1);
+    Solid solid;
+    if (known && (resolution.tables || !known->is_tabulated)) solid.added_mass = known->added_mass;
+    solid.sphere_radius = facts.sphere_radius;
+    solid.margin_volume = facts.margin_volume;
+    const int faces = std::max(resolution.faces, facts.least_faces());
+    solid.mesh = facts.mesh(faces);
+    if (solid.added_mass || !facts.is_smooth || resolution.flow_faces <= faces) return solid;
+    const TriangleMesh fine = facts.mesh(resolution.flow_faces);
+    if (fine.triangleCount() <= solid.mesh.triangleCount()) return solid;
+    solid.flow = fine;
+    solid.coarse_flow = solid.mesh;
+    solid.flow_ratio =
+        static_cast<double>(fine.triangleCount()) / static_cast<double>(solid.mesh.triangleCount());
+    return solid;
+  }
+};
+
+}  // namespace
+
+std::optional<Matrix6> tabulatedAddedMass(const Shape& shape) {
+  const auto known = factsOf(shape).added_mass(1);
+  return known && known->is_tabulated ? std::optional(known->added_mass) : std::nullopt;
+}
+
+std::vector<Solid> makeSolids(const std::vector<PlacedShape>& parts,
+                              const SolidResolution& resolution) {
+  const int count = std::max(1, static_cast<int>(parts.size()));
+  constexpr int kFewestFaces = 20;  // that all kinds can be made of
+  SolidResolution each = resolution;
+  each.least_faces = std::min(resolution.least_faces,
+                              std::max(kFewestFaces, kMostOfMany * resolution.faces / count));
+  each.faces = std::max(each.least_faces, resolution.faces / count);
+  each.flow_faces = std::max(each.faces, resolution.flow_faces / count);
+  std::vector<Solid> solids;
+  for (const PlacedShape& part : parts) {
+    solids.push_back(placed(std::visit(SolidMaker{each, part.name}, part.shape), part.pose.linear(),
+                            part.pose.translation()));
+    solids.back().name = part.name;
+  }
+  return solids;
+}
+
+}  // namespace ambient

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "preprocess/collision_shape/solids/solid.h"
+#include "preprocess/shape/shapes.h"
+
+namespace ambient {
+
+/// Resolution of the triangles of solids.
+struct SolidResolution {
+  int faces = 0;        ///< triangles aimed at for the loads, of all solids together
+  int least_faces = 0;  ///< of each of them, unless that makes more than kMostOfMany allows
+  int flow_faces = 0;   ///< as `faces`, for the flow
+  bool tables = true;   ///< of the added mass, as far as they reach
+};
+
+// `name` begins the message of every std::runtime_error: sizes that are not positive and finite,
+// points in a plane.
+
+/// Makes the solid of a hull; its volume follows Steiner's formula.
+Solid makeHullSolid(const Hull& hull, const SolidResolution& resolution, const std::string& name);
+
+/// Makes the solid of the hull of several ellipsoids; its volume is extrapolated from two
+/// approximations by polyhedra.
+Solid makeBallHullSolid(const BallHull& hull, const SolidResolution& resolution,
+                        const std::string& name);
+
+/// Divides the triangles of a mesh, leaving its surface as it is. Edges get at most 2.5 times as
+/// long as those of `faces` equilateral triangles of the same area; longer, if narrow strips would
+/// make more than twice as many triangles.
+TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces);
+
+}  // namespace ambient

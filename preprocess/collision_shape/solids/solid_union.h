@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "preprocess/collision_shape/solids/solid.h"
+
+namespace ambient {
+
+/// Replacement for children of a compound that touch or overlap and cannot be united.
+enum class CompoundFallback {
+  kHull,    ///< their convex hull: the flow around it, more volume
+  kSum,     ///< the sum of what each has alone: the right volume where they only touch, no flow
+            ///< between them
+  kRefuse,  ///< nothing: an exception
+};
+
+struct UnionSettings {
+  int faces = 0;  ///< triangles aimed at
+  CompoundFallback fallback = CompoundFallback::kHull;
+};
+
+/// Solids with gaps between them, which bound the same body.
+struct SeparateSolids {
+  std::vector<Solid> solids;
+  bool has_unions = false;  ///< some of them are made of several
+  bool is_sum = false;      ///< CompoundFallback::kSum was needed: some of them touch or overlap
+};
+
+/// Unites solids that touch or overlap, or leave gaps too narrow for the flow (kLeastGap). Each
+/// keeps what of its surface lies outside the others; where that leaves no closed surface, as when
+/// they touch in an edge, they are blown up about their centres by 0.03 %, then by 0.12 %. Cost
+/// O(T P) for triangles T of one and planes P of the other.
+/// @throws std::runtime_error in one line that begins with `name` and names two of them, if they
+/// cannot be united and the settings say so.
+SeparateSolids uniteSolids(const std::vector<Solid>& solids, const UnionSettings& settings,
+                           const std::string& name);
+
+/// Applies the settings' fallback to solids that touch or overlap, and warns. For solids that could
+/// be united, but around whose union the flow could not be solved; `reason` says why.
+/// @throws std::runtime_error as uniteSolids().
+SeparateSolids replaceUnions(const std::vector<Solid>& solids, const UnionSettings& settings,
+                             const std::string& reason, const std::string& name);
+
+}  // namespace ambient

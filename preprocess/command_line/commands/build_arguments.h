@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/base/pi.h"
+#include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/command_line/input_shape.h"
+
+namespace ambient {
+
+/// Options of ambient_preprocess build; its help says what they mean.
+struct BuildArguments {
+  std::string input, output;
+  InputOptions options;
+  std::string origin = "centre-of-volume";
+  int least_faces = 0, panels = kDefaultPanels, threads = 0;
+  std::vector<int> levels;
+  double separation_angle = kPi / 2;  // [rad]
+  std::vector<double> drag;
+  std::string solver;
+  std::optional<double> memory;  // [GB]
+  int waterline = 0;             // subdivisions
+  bool no_tables = false, no_margins = false, rebuild = false, json = false;
+};
+
+/// Builds the fluid bodies of a .bullet file into a folder; returns the exit status, 1 if a shape
+/// failed or a body was left out.
+int buildWorldFile(const BuildArguments& arguments);
+
+}  // namespace ambient

@@ -1,0 +1,209 @@
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/builder/blocked_signals.h"
+#include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/reuse.h"
+#include "preprocess/builder/shape_builder.h"
+#include "preprocess/command_line/commands.h"
+#include "preprocess/command_line/commands/build_arguments.h"
+#include "preprocess/command_line/fluid_body_report.h"
+#include "preprocess/command_line/option_values.h"
+#include "preprocess/command_line/output_place.h"
+#include "preprocess/reduced_loads/form_levels.h"
+#include "preprocess/reduced_loads/reduced_loads.h"
+#include "preprocess/waterline/waterline_builder.h"
+
+namespace ambient {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<Eigen::Vector3d> parseOrigin(const std::string& text) {
+  if (text == "centre-of-volume") return std::nullopt;
+  std::istringstream stream(text);
+  Eigen::Vector3d origin;
+  char comma_1 = 0, comma_2 = 0;
+  stream >> origin.x() >> comma_1 >> origin.y() >> comma_2 >> origin.z();
+  const bool is_point = !stream.fail() && comma_1 == ',' && comma_2 == ',' &&
+                        stream.peek() == std::istringstream::traits_type::eof();
+  if (!is_point || !origin.allFinite()) {
+    raiseUsageError("--origin", "\"", text, "\" is neither centre-of-volume nor three finite ",
+                    "numbers X,Y,Z");
+  }
+  return origin;
+}
+
+ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
+  ShapeBuildSettings settings;
+  settings.name = fs::path(arguments.input).stem().string();
+  settings.origin = parseOrigin(arguments.origin);
+  settings.scale = arguments.options.scale;
+  settings.least_faces = arguments.least_faces;
+  settings.flow.max_panels = arguments.panels;
+  settings.flow.threads = arguments.threads;
+  settings.flow.solver = parseSolver(arguments.solver);
+  settings.tables = !arguments.no_tables;
+  settings.waterline_subdivisions = arguments.waterline;
+  settings.flow.memory_limit = 1e9 * arguments.memory.value_or(0);
+  return settings;
+}
+
+/// One number holds for all axes.
+Vector3 dragOf(const BuildArguments& arguments) {
+  const std::vector<double>& drag = arguments.drag;
+  if (drag.empty()) return Vector3::Zero();
+  if (drag.size() != 1 && drag.size() != 3)
+    raiseUsageError("--drag", drag.size(), " numbers are neither one nor three");
+  for (const double coefficient : drag) requirePositive("--drag", coefficient);
+  return {drag.front(), drag[drag.size() / 2], drag.back()};
+}
+
+Provenance describeBody(const ShapeDescription& shape, const ShapeBuildSettings& settings,
+                        const BuildArguments& arguments) {
+  Provenance provenance = describeShape(shape, settings);
+  std::ostringstream text;
+  text.precision(17);
+  for (const int clusters : arguments.levels)
+    text << (text.tellp() == 0 ? "; levels " : ",") << clusters;
+  if (!arguments.levels.empty())
+    text << ", separation angle " << separationAngleOf(arguments.separation_angle);
+  if (!arguments.drag.empty()) text << "; drag " << dragOf(arguments).transpose();
+  provenance.settings += text.str();
+  return provenance;
+}
+
+FluidBody buildAndWrite(const ShapeDescription& shape, ShapeBuildSettings settings,
+                        const BuildArguments& arguments) {
+  BuiltBody built;
+  {
+    ElapsedDisplay display("building " + settings.name);
+    settings.begin = [&display](const std::string& stage) { display.begin(stage); };
+    built = buildShape(shape, settings);
+    display.begin("reducing the loads");
+    built.body.levels = buildLoadLevels(built.body, arguments.levels,
+                                        separationAngleOf(arguments.separation_angle));
+    built.body.drag = dragOf(arguments);
+    if (built.body.sphere_radius > 0 && !arguments.drag.empty())
+      raiseInputError(arguments.input,
+                      "--drag needs faces: a sphere has the loads of a smooth one");
+    built.body.form_levels = buildFormLevels(built.body, arguments.levels);
+    built.body.provenance.settings = describeBody(shape, settings, arguments).settings;
+  }
+  for (const std::string& warning : built.warnings)
+    std::cerr << "warning: " << plainLine(warning) << "\n";
+  const BlockedSignals until_renamed;
+  writeFluidBody(built.body, arguments.output);
+  return built.body;
+}
+
+void requireValues(const BuildArguments& arguments) {
+  requirePositive("--scale", arguments.options.scale);
+  requireDivisions("--least-faces", arguments.least_faces);
+  requireDivisions("--panels", arguments.panels);
+  requireThreads(arguments.threads);
+  if (arguments.waterline < 0 || arguments.waterline > kMostWaterlineSubdivisions)
+    raiseUsageError("--waterline-table", "its N is not between 1 and ", kMostWaterlineSubdivisions);
+  if (arguments.memory) requirePositive("--memory", *arguments.memory, " GB");
+  for (const int clusters : arguments.levels) {
+    if (clusters < kFewestClusters || clusters > kMostClusters)
+      raiseUsageError("--levels", clusters, " clusters are not ", kFewestClusters, " to ",
+                      kMostClusters);
+  }
+  separationAngleOf(arguments.separation_angle);
+  dragOf(arguments);
+}
+
+/// Returns the exit status.
+int runBuild(const BuildArguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  requireValues(arguments);
+  if (hasExtension(arguments.input, ".bullet")) return buildWorldFile(arguments);
+  if (arguments.no_margins) raiseUsageError("--no-margins", "only worlds have margins");
+  const ShapeBuildSettings settings = settingsOf(arguments);
+  const ShapeDescription shape = describeInput(arguments.input, arguments.options);
+  requireWritablePlace(arguments.output, arguments.input);
+  requireReplaceable(arguments.output);
+  std::optional<FluidBody> body;
+  if (!arguments.rebuild) {
+    body = readIfSame(arguments.output, settings.name, describeBody(shape, settings, arguments));
+  }
+  const bool is_reused = body.has_value();
+  if (!body) body = buildAndWrite(shape, settings, arguments);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  if (is_reused && !arguments.json) {
+    std::cerr << plainLine(arguments.output) << ": nothing has changed since it was built\n";
+  }
+  std::cout << (arguments.json ? reportJson(*body, seconds.count())
+                               : reportTable(*body, arguments.output));
+  return 0;
+}
+
+/// Options of how the flow around a mesh is solved.
+void addFlowOptions(CLI::App& command, BuildArguments& arguments) {
+  addOption(command, "--panels", arguments.panels, "N",
+            "Panels for the flow, at most; the faces stay those of the mesh (default 4200; "
+            "0: the triangles of the mesh)");
+  addOption(command, "--threads", arguments.threads, "N", "0: all cores (default)");
+  addOption(command, "--solver", arguments.solver, "KIND",
+            "dense or hierarchical (default: hierarchical above 4200 panels)");
+  addOption(command, "--memory", arguments.memory, "GB",
+            "For the flow, at most (default: what the machine has available)");
+  command
+      .add_flag("--waterline-table{" + std::to_string(kDefaultWaterlineSubdivisions) + "}",
+                arguments.waterline,
+                "Solve the flow at the surface of water too, in attitudes of 4 N^2 + 2 "
+                "directions (default none; without =N: 4)")
+      ->type_name("N");
+  command.add_flag("--no-tables", arguments.no_tables,
+                   "Solve the flow around boxes, cylinders, capsules and cones too");
+}
+
+/// Options of what the body is made of and what is fitted to it.
+void addBodyOptions(CLI::App& command, BuildArguments& arguments) {
+  addInputOptions(command, arguments.options);
+  addOption(command, "--origin", arguments.origin, "centre-of-volume|X,Y,Z",
+            "Origin of the body frame in the mesh's frame (default centre-of-volume)");
+  addOption(command, "--least-faces", arguments.least_faces, "N",
+            "Divide the mesh into at least so many faces (default 0: faces as they are)");
+  addOption(command, "--levels", arguments.levels, "N,N,...",
+            "Levels of reduced loads, of so many clusters each (default none)")
+      ->delimiter(',');
+  addOption(command, "--drag", arguments.drag, "C[,C,C]",
+            "Measured drag coefficients along the axes, on the frontal areas, that the form law is "
+            "scaled to (default none)")
+      ->delimiter(',');
+  addOption(command, "--separation-angle", arguments.separation_angle, "RAD",
+            "For which the levels are fitted (default pi/2)");
+}
+
+}  // namespace
+
+void addBuild(CLI::App& app) {
+  const auto arguments = std::make_shared<BuildArguments>();
+  CLI::App& command = *app.add_subcommand("build", "Makes an .ambient file from a mesh or a shape");
+  command
+      .add_option("INPUT", arguments->input,
+                  "A mesh (OBJ, STL, PLY, glTF, ...), a JSON file with a shape, or a .bullet world")
+      ->required();
+  addOption(command, "-o,--output", arguments->output, "OUT.ambient",
+            "The .ambient file to write, of a world: the folder for them")
+      ->required();
+  addBodyOptions(command, *arguments);
+  addFlowOptions(command, *arguments);
+  command.add_flag("--no-margins", arguments->no_margins,
+                   "Worlds: convex hulls and cones without their margins");
+  command.add_flag("--rebuild", arguments->rebuild, "Build also where nothing has changed");
+  addJson(command, arguments->json);
+  command.callback([arguments] {
+    if (const int status = runBuild(*arguments); status != 0) throw CLI::RuntimeError(status);
+  });
+}
+
+}  // namespace ambient

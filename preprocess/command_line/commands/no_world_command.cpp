@@ -1,0 +1,12 @@
+#include "preprocess/command_line/commands/build_arguments.h"
+#include "preprocess/mesh/input_error.h"
+
+namespace ambient {
+
+int buildWorldFile(const BuildArguments& arguments) {
+  raiseInputError(arguments.input,
+                  "this program was built without Bullet's world importer (Debian: "
+                  "libbullet-extras-dev) and reads no .bullet files");
+}
+
+}  // namespace ambient

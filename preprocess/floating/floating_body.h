@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
+
+namespace ambient {
+
+/// A body on still water; all in frame F.
+struct FloatingBody {
+  std::shared_ptr<const FluidBody> shape;
+  double mass = 0;                    ///< [kg]
+  Vector3 centre_of_mass{0, 0, 0};    ///< [m]
+  Matrix3 inertia = Matrix3::Zero();  ///< about the centre of mass [kg m^2]
+  double density = 998;               ///< of the water [kg/m^3]
+  double gravity = 9.81;              ///< [m/s^2]
+};
+
+/// Metacentric height of a floating body for turns about one axis in the plane of the water.
+struct Metacentre {
+  Vector3 axis{0, 0, 0};  ///< unit
+  double height = 0;      ///< GM, above the centre of mass [m]
+};
+
+/// A small oscillation about a floating attitude, without the waves that it makes; the other
+/// motions are free.
+struct FloatingMode {
+  double period = 0;      ///< [s]
+  Vector3 turn{0, 0, 0};  ///< unit, of the rotation in it; zero: heave alone
+  bool is_heave = false;  ///< most of its potential energy is that of going up and down
+};
+
+/// One that a body keeps: the least energy of all attitudes near it.
+struct FloatingAttitude {
+  Vector3 up{0, 0, 1};  ///< of the water, in F
+  SurfacePlane plane;   ///< of the water about F's origin
+  WetVolume wet;
+  double draught = 0;                     ///< of the lowest point [m]
+  double height_of_mass = 0;              ///< of the centre of mass above the surface [m]
+  std::array<Metacentre, 2> metacentres;  ///< the lower one first
+  std::array<FloatingMode, 3> modes;      ///< the longest period first
+  double energy = 0;  ///< of weight and water, 0 with the centre of mass at the surface [J]
+  double share = 0;   ///< of all attitudes, of those from which the body comes here
+  int alike = 1;      ///< attitudes of the same energy: by symmetry
+};
+
+}  // namespace ambient

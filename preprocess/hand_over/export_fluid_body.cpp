@@ -1,0 +1,37 @@
+#include "preprocess/hand_over/export_fluid_body.h"
+
+#include <stdexcept>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "preprocess/hand_over/formats.h"
+
+namespace ambient {
+
+ExportFormat exportFormatOf(const std::string& name) {
+  for (const auto& [format, its_name] : kExportFormatNames)
+    if (name == its_name) return format;
+  throw std::invalid_argument("\"" + name + "\" is none of sdf, mjcf, fossen, bemio");
+}
+
+ExportedBody exportFluidBody(const std::shared_ptr<const FluidBody>& body, ExportFormat format,
+                             const ExportSettings& settings) {
+  if (settings.speed && format != ExportFormat::kFossen)
+    reject(*body, "speed [m/s]", *settings.speed, "given for fossen only");
+  if (!settings.draught && format == ExportFormat::kBemio)
+    reject(*body, "draught [m]", 0, "given for bemio, whose origin is in the surface");
+  const HandedBody handed = handedBody(body, settings);
+  switch (format) {
+    case ExportFormat::kSdf:
+      return makeSdf(handed);
+    case ExportFormat::kMjcf:
+      return makeMjcf(handed);
+    case ExportFormat::kFossen:
+      return makeFossen(handed);
+    case ExportFormat::kBemio:
+      return makeBemio(handed);
+  }
+  AMBIENT_ASSERT(false);
+  return {};
+}
+
+}  // namespace ambient

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/hand_over/export_settings.h"
+#include "preprocess/hand_over/exported_body.h"
+
+namespace ambient {
+
+/// The format of a name. @throws std::invalid_argument in one line, if there is none.
+ExportFormat exportFormatOf(const std::string& name);
+
+/// Hands a fluid body over; docs/file_format.md has frames, units and what each format loses. The
+/// same body and settings give the same bytes.
+/// @throws std::invalid_argument in one line that names the fluid body, the value and the limit, if
+/// a number is not physical, or a draught is asked for of a body without parts of its added mass.
+/// @throws std::runtime_error for BEMIO, if the library was built without HDF5.
+ExportedBody exportFluidBody(const std::shared_ptr<const FluidBody>& body, ExportFormat format,
+                             const ExportSettings& settings);
+
+}  // namespace ambient

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
+#include "preprocess/floating/restoring_stiffness.h"
+#include "preprocess/hand_over/export_settings.h"
+
+namespace ambient {
+
+/// A fluid body with mass, in one fluid at one place. In F, matrices about F's origin, rotation
+/// first.
+struct HandedBody {
+  std::shared_ptr<const FluidBody> shape;
+  ExportSettings settings;
+  std::string name;                      ///< the shape's; all but letters, digits, _ . - became _
+  PointMass weight;                      ///< [kg], [m]
+  Matrix3 inertia = Matrix3::Zero();     ///< about the centre of mass [kg m^2]
+  Matrix6 added_mass = Matrix6::Zero();  ///< [kg m^2, kg m; kg m, kg]
+  SurfacePlane plane;                    ///< the surface; gravity and density also without one
+  WetVolume wet;                         ///< in the fluid
+
+  /// Forward, left and up as columns.
+  Matrix3 axes() const;
+  /// Centre of buoyancy [m]; a sheet, which has none, gives the centre of its area.
+  Vector3 middle() const;
+  /// Inertia of the mass alone.
+  Matrix6 ownInertia() const;
+};
+
+/// Gives a fluid body mass and fluid. The added mass at a surface is that of fast motions, the
+/// potential 0 on the undisturbed surface, docs/theory.md eq. (60).
+/// @throws std::invalid_argument in one line that names the fluid body, the value and the limit.
+HandedBody handedBody(const std::shared_ptr<const FluidBody>& shape,
+                      const ExportSettings& settings);
+
+}  // namespace ambient

@@ -1,0 +1,104 @@
+#include "preprocess/mesh/defects/surface_crossing.h"
+
+#include <algorithm>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "preprocess/mesh/defects/triangle_contact.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+/// Distance below which parts touch, for a surface scaled to unit size. The scale keeps products of
+/// lengths in the range of a double, whatever the unit.
+constexpr double kTouch = 1e-6;
+
+TriangleMesh inUnitSize(TriangleMesh mesh) {
+  const Vector3d low = mesh.vertices.rowwise().minCoeff(),
+                 high = mesh.vertices.rowwise().maxCoeff();
+  mesh.vertices = (mesh.vertices.colwise() - (low + high) / 2) / (high - low).norm();
+  return mesh;
+}
+
+/// Extent of a triangle along the direction of the sweep, and its bounding box.
+struct Extent {
+  double first = 0, last = 0;
+  Vector3d low, high;
+  int triangle = 0;
+
+  bool meets(const Extent& other) const {
+    return ((low - other.high).array() <= kTouch).all() &&
+           ((other.low - high).array() <= kTouch).all();
+  }
+};
+
+std::vector<Extent> sortedExtents(const TriangleMesh& mesh) {
+  // Along no side of anything that is likely: all triangles of such a side would overlap.
+  const Vector3d direction = Vector3d(0.73, 0.55, 0.41).normalized();
+  std::vector<Extent> extents;
+  for (Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const auto along = {direction.dot(a), direction.dot(b), direction.dot(c)};
+    extents.push_back({std::min(along), std::max(along), a.cwiseMin(b).cwiseMin(c),
+                       a.cwiseMax(b).cwiseMax(c), static_cast<int>(t)});
+  }
+  std::sort(extents.begin(), extents.end(), [](const Extent& p, const Extent& q) {
+    return p.first != q.first ? p.first < q.first : p.triangle < q.triangle;
+  });
+  return extents;
+}
+
+bool haveCommonCorner(const TriangleMesh& mesh, int s, int t) {
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (mesh.triangles(i, s) == mesh.triangles(j, t)) return true;
+    }
+  }
+  return false;
+}
+
+bool edgesCross(const TriangleMesh& mesh, int s, int t) {
+  for (int k = 0; k < 3; ++k) {
+    if (crossesTriangle(mesh.corner(s, k), mesh.corner(s, (k + 1) % 3), mesh, t)) return true;
+  }
+  return false;
+}
+
+bool cornersTouch(const TriangleMesh& mesh, int s, int t) {
+  for (int k = 0; k < 3; ++k) {
+    if (distanceToTriangle(mesh.corner(s, k), mesh, t) < kTouch) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+SurfaceCrossings findSurfaceCrossings(const TriangleMesh& source, const std::vector<int>& part_of) {
+  AMBIENT_ASSERT(source.vertices.allFinite());
+  AMBIENT_ASSERT(static_cast<Eigen::Index>(part_of.size()) == source.triangleCount());
+  const TriangleMesh mesh = inUnitSize(source);
+  const std::vector<Extent> extents = sortedExtents(mesh);
+  SurfaceCrossings found;
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    const int s = extents[i].triangle;
+    for (std::size_t j = i + 1; j < extents.size() && extents[j].first <= extents[i].last + kTouch;
+         ++j) {
+      const int t = extents[j].triangle;
+      const bool same_part = part_of[s] == part_of[t];
+      if ((same_part && found.within_part) || !extents[i].meets(extents[j])) continue;
+      if (haveCommonCorner(mesh, s, t)) continue;
+      const bool cross = edgesCross(mesh, s, t) || edgesCross(mesh, t, s);
+      if (same_part) {
+        if (cross) found.within_part = TrianglePair{s, t};
+      } else if (cross || cornersTouch(mesh, s, t) || cornersTouch(mesh, t, s)) {
+        found.between_parts = TrianglePair{s, t};
+        return found;
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace ambient

@@ -1,0 +1,145 @@
+#include "preprocess/mesh/mend/mesh_mending.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "preprocess/mesh/mend/crack_mending.h"
+#include "preprocess/mesh/mesh_topology.h"
+
+namespace ambient {
+namespace {
+
+/// The side of a triangle from corner k to k + 1 that is longest.
+int longestSide(const TriangleMesh& mesh, Eigen::Index t) {
+  int longest = 0;
+  for (int k = 1; k < 3; ++k) {
+    const auto length = [&](int side) {
+      return (mesh.corner(t, (side + 1) % 3) - mesh.corner(t, side)).norm();
+    };
+    if (length(k) > length(longest)) longest = k;
+  }
+  return longest;
+}
+
+/// One round over the flat triangles of a mesh.
+class FlatFlipper {
+ public:
+  explicit FlatFlipper(TriangleMesh& mesh) : mesh_(mesh), edges_(computeMeshEdges(mesh)) {
+    for (const EdgeGroup& group : edges_.edges) {
+      const HalfEdge& half_edge = edges_.half_edges[group.first];
+      vertex_pairs_.insert({half_edge.low, half_edge.high});
+    }
+    was_changed_.assign(mesh.triangleCount(), false);
+  }
+
+  /// Returns how many were mended.
+  int flipAll() {
+    int count = 0;
+    for (const auto& [p, q] : edgePairs(edges_)) {
+      if (isFlatAcross(p)) {
+        count += static_cast<int>(flip(p, q));
+      } else if (isFlatAcross(q)) {
+        count += static_cast<int>(flip(q, p));
+      }
+    }
+    return count;
+  }
+
+ private:
+  bool isFlatAcross(const HalfEdge& edge) const {
+    return !was_changed_[edge.triangle] && heightRatio(mesh_, edge.triangle) < kLeastHeight &&
+           longestSide(mesh_, edge.triangle) == edge.side;
+  }
+
+  // The flat triangle a b c and its neighbour p q d, a b being p q or q p, become p c d and c q d,
+  // the way round that the neighbour has.
+  bool flip(const HalfEdge& flat, const HalfEdge& neighbour) {
+    if (was_changed_[neighbour.triangle]) return false;
+    const int c = mesh_.triangles((flat.side + 2) % 3, flat.triangle);
+    const int p = mesh_.triangles(neighbour.side, neighbour.triangle);
+    const int q = mesh_.triangles((neighbour.side + 1) % 3, neighbour.triangle);
+    const int d = mesh_.triangles((neighbour.side + 2) % 3, neighbour.triangle);
+    if (c == d || !vertex_pairs_.insert({std::min(c, d), std::max(c, d)}).second) return false;
+    mesh_.triangles.col(flat.triangle) << p, c, d;
+    mesh_.triangles.col(neighbour.triangle) << c, q, d;
+    was_changed_[flat.triangle] = was_changed_[neighbour.triangle] = true;
+    return true;
+  }
+
+  TriangleMesh& mesh_;
+  MeshEdges edges_;
+  std::set<std::pair<int, int>> vertex_pairs_;
+  std::vector<bool> was_changed_;
+};
+
+bool hasBoundary(const TriangleMesh& mesh) {
+  const std::vector<EdgeGroup> edges = computeMeshEdges(mesh).edges;
+  return std::any_of(edges.begin(), edges.end(),
+                     [](const EdgeGroup& edge) { return edge.size() == 1; });
+}
+
+bool hasFlatTriangle(const TriangleMesh& mesh) {
+  for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
+    if (heightRatio(mesh, t) < kLeastHeight) return true;
+  return false;
+}
+
+}  // namespace
+
+double heightRatio(const TriangleMesh& mesh, Eigen::Index triangle) {
+  const Eigen::Vector3d a = mesh.corner(triangle, 0), b = mesh.corner(triangle, 1),
+                        c = mesh.corner(triangle, 2);
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  // The edges are scaled to 1 first: the square of a tiny length may not be a number.
+  return longest > 0 ? ((b - a) / longest).cross((c - a) / longest).norm() : 0.0;
+}
+
+CheckedMesh withoutCopies(const TriangleMesh& mesh, const std::string& name) {
+  CheckedMesh result{mesh, {}};
+  const std::vector<SortedTriangle> entries = sortedByCorners(mesh);
+  if (entries.size() % 2 != 0) return result;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < entries.size(); i += 2) {
+    if (entries[i].corners != entries[i + 1].corners) return result;
+    if (!kept.empty() && entries[i].corners == entries[i - 1].corners) return result;
+    kept.push_back(entries[i].triangle);
+  }
+  std::sort(kept.begin(), kept.end());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    result.mesh.triangles.col(static_cast<Eigen::Index>(i)) = mesh.triangles.col(kept[i]);
+  result.mesh.triangles.conservativeResize(3, static_cast<Eigen::Index>(kept.size()));
+  result.warnings.push_back(name + ": every triangle stands twice, one copy of each was left out");
+  return result;
+}
+
+CheckedMesh withoutFlatTriangles(const TriangleMesh& mesh, const std::string& name) {
+  CheckedMesh result{mesh, {}};
+  constexpr int kMostRounds = 64;  // two flat neighbours could take turns
+  int count = 0;
+  for (int round = 0; round < kMostRounds && hasFlatTriangle(result.mesh); ++round) {
+    const int mended = FlatFlipper(result.mesh).flipAll();
+    if (mended == 0) break;
+    count += mended;
+  }
+  if (count > 0) {
+    result.warnings.push_back(name + ": " + std::to_string(count) +
+                              " flat triangles were joined to their neighbours");
+  }
+  return result;
+}
+
+CheckedMesh withoutTJunctions(const TriangleMesh& mesh, const std::string& name) {
+  constexpr double kOnEdge = 1e-6;  // as vertices are welded
+  if (!hasBoundary(mesh)) return {mesh, {}};
+  TriangleMesh divided = withoutCracks(mesh, kOnEdge * mesh.extents().norm());
+  if (hasBoundary(divided)) return {mesh, {}};
+  const auto more = std::to_string(divided.triangleCount() - mesh.triangleCount());
+  return {std::move(divided),
+          {name +
+           ": vertices lie on edges of other triangles (T-junctions), which were divided "
+           "there; triangles added: " +
+           more}};
+}
+
+}  // namespace ambient

@@ -1,0 +1,263 @@
+#include "preprocess/mesh/union/mesh_union.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "bullet_ambient/spatial/rotation.h"
+#include "preprocess/mesh/defects/closed_mesh.h"
+#include "preprocess/mesh/defects/mesh_orientation.h"
+#include "preprocess/mesh/graded_grid.h"
+#include "preprocess/mesh/join_meshes.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mend/crack_mending.h"
+#include "preprocess/mesh/mend/mesh_mending.h"
+#include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/polygon_triangles.h"
+#include "preprocess/mesh/union/mesh_parts.h"
+#include "preprocess/mesh/union/solid_contact.h"
+#include "preprocess/mesh/union/solid_tree.h"
+#include "preprocess/mesh/weld_vertices.h"
+
+namespace ambient {
+namespace {
+
+using Meshes = std::vector<TriangleMesh>;
+
+/// Tolerances of a union, as fractions of the size of all its parts together.
+struct Tolerances {
+  double on_plane, welded;
+};
+
+constexpr double kOnPlane = 5e-6;  // what places and sizes of a form are rounded by, with room
+constexpr Tolerances kOfForms{kOnPlane, 4 * kOnPlane};
+// Rounding error of cuts: about 1e-16 over the angle of two planes. Between triangles of
+// one flat side, given in single precision, it can be as small as 1e-8.
+constexpr Tolerances kOfCuts{1e-9, 1e-8};
+
+/// The corners at which a polygon turns. What lies between them comes back where others need it,
+/// as the end of a crack.
+std::vector<Eigen::Vector3d> turningCorners(const FlatPolygon& polygon, double tolerance) {
+  std::vector<Eigen::Vector3d> corners = polygon.corners;
+  for (std::size_t i = 0; i < corners.size() && corners.size() > 2;) {
+    const Eigen::Vector3d before = corners[(i + corners.size() - 1) % corners.size()];
+    const Eigen::Vector3d along = corners[(i + 1) % corners.size()] - before;
+    const double height = along.stableNormalized().cross(corners[i] - before).norm();
+    if (height > tolerance) {
+      ++i;
+    } else {
+      corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  return corners;
+}
+
+/// The convex polygons as triangles, vertices welded.
+TriangleMesh meshOf(const std::vector<FlatPolygon>& polygons, double weld) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for (const FlatPolygon& polygon : polygons) {
+    const std::vector<Eigen::Vector3d> corners = turningCorners(polygon, weld);
+    if (corners.size() < 3) continue;
+    const int first = static_cast<int>(points.size());
+    points.insert(points.end(), corners.begin(), corners.end());
+    for (const Eigen::Vector3i& t : dividePolygon(corners)) {
+      triangles.emplace_back(t.array() + first);
+    }
+  }
+  return weldVertices(makeTriangleMesh(points, triangles), weld);
+}
+
+/// Without triangles that have a corner twice, flat ones (which the next round of stitching
+/// replaces), and pairs on the same corners, one each way round.
+TriangleMesh withoutSlivers(const TriangleMesh& mesh) {
+  std::map<std::array<int, 3>, std::vector<int>> by_corners;
+  for (const SortedTriangle& t : sortedByCorners(mesh)) by_corners[t.corners].push_back(t.triangle);
+  std::vector<int> kept;
+  for (const auto& [corners, found] : by_corners) {
+    const bool is_sliver = corners[0] == corners[1] || corners[1] == corners[2] ||
+                           heightRatio(mesh, found.front()) < kLeastHeight;
+    if (!is_sliver && found.size() % 2 == 1) kept.push_back(found.front());
+  }
+  std::sort(kept.begin(), kept.end());
+  TriangleMesh result = mesh;
+  result.triangles = mesh.triangles(Eigen::all, kept);
+  return result;
+}
+
+TriangleMesh stitched(TriangleMesh mesh, double tolerance) {
+  constexpr int kMostRounds = 6;
+  for (int round = 0; round < kMostRounds; ++round) {
+    mesh = withoutCracks(mesh, tolerance);
+    TriangleMesh without = withoutSlivers(mesh);
+    if (without.triangleCount() == mesh.triangleCount()) break;
+    mesh = std::move(without);
+  }
+  return mesh;
+}
+
+Eigen::AlignedBox3d boundsOf(const TriangleMesh& mesh) {
+  return {mesh.vertices.rowwise().minCoeff(), mesh.vertices.rowwise().maxCoeff()};
+}
+
+/// For each part, those that may take something off it.
+std::vector<std::vector<std::size_t>> neighboursByBounds(const Meshes& parts, double reach) {
+  std::vector<Eigen::AlignedBox3d> bounds;
+  for (const TriangleMesh& part : parts) bounds.push_back(boundsOf(part));
+  std::vector<std::vector<std::size_t>> neighbours(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t j = 0; j < parts.size(); ++j)
+      if (i != j && bounds[i].exteriorDistance(bounds[j]) <= reach) neighbours[i].push_back(j);
+  }
+  return neighbours;
+}
+
+/// The surface of the union, closed if nothing went wrong.
+TriangleMesh unionSurface(const Meshes& parts, double size, const Tolerances& tolerances) {
+  const double welded = tolerances.welded * size;
+  const auto neighbours = neighboursByBounds(parts, welded);
+  std::map<std::size_t, SolidTree> trees;
+  for (const auto& of_part : neighbours) {
+    for (const std::size_t j : of_part)
+      if (trees.count(j) == 0) trees.emplace(j, SolidTree(parts[j], tolerances.on_plane * size));
+  }
+  std::vector<FlatPolygon> surface;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::vector<FlatPolygon> left = polygonsOf(parts[i]);
+    for (const std::size_t j : neighbours[i]) {
+      std::vector<FlatPolygon> next;
+      for (const FlatPolygon& polygon : left) {
+        const std::vector<FlatPolygon> pieces = trees.at(j).cutOff(polygon, i < j);
+        next.insert(next.end(), pieces.begin(), pieces.end());
+      }
+      left = std::move(next);
+    }
+    surface.insert(surface.end(), left.begin(), left.end());
+  }
+  return stitched(meshOf(surface, welded), welded);
+}
+
+TriangleMesh blownUp(TriangleMesh mesh, double share) {
+  const Eigen::Vector3d centre =
+      (mesh.vertices.rowwise().maxCoeff() + mesh.vertices.rowwise().minCoeff()) / 2;
+  mesh.vertices += share * (mesh.vertices.colwise() - centre);
+  return mesh;
+}
+
+/// Each blown up by the share to twice the share, and turned by a fiftieth of it about some axis:
+/// planes of two parts then cross at angles that cutting resolves, or lie apart.
+Meshes inGeneralPosition(const Meshes& parts, double share, std::mt19937& generator) {
+  constexpr double kTurn = 0.02;
+  const auto random = [&] { return static_cast<double>(generator()) / std::mt19937::max(); };
+  Meshes moved;
+  for (const TriangleMesh& part : parts) {
+    TriangleMesh mesh = blownUp(part, share * (1 + random()));
+    const double x = random() - 0.5, y = random() - 0.5, z = random() - 0.5;
+    const Matrix3 turn =
+        rotationFromVector(kTurn * share * Vector3(x, y, z).normalized()).toRotationMatrix();
+    const Eigen::Vector3d centre = boundsOf(part).center();
+    mesh.vertices = (turn * (mesh.vertices.colwise() - centre)).colwise() + centre;
+    moved.push_back(std::move(mesh));
+  }
+  return moved;
+}
+
+double sumOfVolumes(const Meshes& parts) {
+  double sum = 0;
+  for (const TriangleMesh& part : parts) sum += computeMassProperties(part).volume;
+  return sum;
+}
+
+void requireGaps(const TriangleMesh& mesh) {
+  const Meshes parts = componentsOf(mesh);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (areInContact(parts[i], parts[j]))
+        throw std::runtime_error("a gap between them is too narrow for the flow");
+    }
+  }
+}
+
+/// Sides that are cut off remain a surface of the right volume only if every cut was.
+void requireVolume(const TriangleMesh& mesh, const Meshes& parts) {
+  constexpr double kTolerance = 5e-3;
+  const double volume = computeMassProperties(mesh).volume;
+  double largest = 0;
+  for (const TriangleMesh& part : parts)
+    largest = std::max(largest, computeMassProperties(part).volume);
+  if (volume >= (1 - kTolerance) * largest && volume <= (1 + kTolerance) * sumOfVolumes(parts))
+    return;
+  throw std::runtime_error("the surface of their union has a volume of its own");
+}
+
+/// Outward, whichever way round it was.
+TriangleMesh orientedPart(const TriangleMesh& part, const std::string& name) {
+  TriangleMesh oriented = orientConsistently(part, computeMeshEdges(part), name).mesh;
+  if (computeMassProperties(oriented).volume < 0) {
+    for (Eigen::Index t = 0; t < oriented.triangleCount(); ++t) turnRound(oriented, t);
+  }
+  return oriented;
+}
+
+/// @throws std::runtime_error with the reason, as uniteMeshes().
+CheckedMesh unitedAsTheyAre(const Meshes& parts, const Tolerances& tolerances,
+                            const std::string& name) {
+  const double size = joinMeshes(parts).extents().norm();
+  CheckedMesh united = checkClosedMesh(unionSurface(parts, size, tolerances), name);
+  requireVolume(united.mesh, parts);
+  requireGaps(united.mesh);
+  united.warnings.clear();  // of what came of cutting
+  return united;
+}
+
+}  // namespace
+
+CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name) {
+  std::string reason;
+  const auto tryToUnite = [&](const Meshes& moved,
+                              const Tolerances& tolerances) -> std::optional<CheckedMesh> {
+    try {
+      return unitedAsTheyAre(moved, tolerances, name);
+    } catch (const std::runtime_error& error) {
+      if (reason.empty()) reason = error.what();
+      return std::nullopt;
+    }
+  };
+  for (const double share : {0.0, 3e-4, 1.2e-3}) {
+    Meshes blown_up;
+    for (const TriangleMesh& part : parts) blown_up.push_back(blownUp(part, share));
+    if (auto united = tryToUnite(blown_up, kOfForms)) return *std::move(united);
+  }
+  std::mt19937 generator;  // the same numbers everywhere
+  for (const double share : {3e-4, 6e-4, 6e-4, 6e-4}) {
+    const Meshes moved = inGeneralPosition(parts, share, generator);
+    if (auto united = tryToUnite(moved, kOfCuts)) return *std::move(united);
+  }
+  throw std::runtime_error(reason);
+}
+
+std::optional<CheckedMesh> uniteClosedParts(const TriangleMesh& mesh, const std::string& name) {
+  constexpr Eigen::Index kMostTriangles = 20000;  // takes seconds
+  if (mesh.triangleCount() > kMostTriangles) return std::nullopt;
+  Meshes parts = closedParts(mesh);
+  if (parts.size() < 2) return std::nullopt;
+  try {
+    for (TriangleMesh& part : parts) part = orientedPart(part, name);
+    CheckedMesh united = uniteMeshes(parts, name);
+    std::ostringstream warning;
+    warning.precision(4);
+    warning << name << ": " << parts.size() << " closed parts were united: volume "
+            << computeMassProperties(united.mesh).volume << " m^3, in sum they have "
+            << sumOfVolumes(parts) << " m^3";
+    united.warnings.push_back(warning.str());
+    return united;
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace ambient

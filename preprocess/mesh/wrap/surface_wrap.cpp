@@ -1,0 +1,196 @@
+#include "preprocess/mesh/wrap/surface_wrap.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "preprocess/mesh/defects/winding_number.h"
+#include "preprocess/mesh/input_error.h"
+#include "preprocess/mesh/mass_properties.h"
+#include "preprocess/mesh/mend/mesh_mending.h"
+#include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/wrap/dual_surface.h"
+#include "preprocess/mesh/wrap/hole_filling.h"
+#include "preprocess/mesh/wrap/mesh_coarsening.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+/// Without triangles that have no normal; what they leave open is a gap of no width.
+TriangleMesh withoutNeedles(const TriangleMesh& mesh) {
+  std::vector<Index> kept;
+  for (Index t = 0; t < mesh.triangleCount(); ++t)
+    if (heightRatio(mesh, t) >= kLeastHeight) kept.push_back(t);
+  return {mesh.vertices, mesh.triangles(Eigen::all, kept)};
+}
+
+double meshAreaOf(const TriangleMesh& mesh) {
+  double area = 0;
+  for (Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Vector3d a = mesh.corner(t, 0);
+    area += (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm() / 2;
+  }
+  return area;
+}
+
+/// By signed tetrahedra, whether or not the triangles are closed.
+double tetrahedraVolumeOf(const TriangleMesh& mesh) {
+  const Vector3d middle = mesh.vertices.rowwise().mean();
+  double volume = 0;
+  for (Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Vector3d a = mesh.corner(t, 0) - middle, b = mesh.corner(t, 1) - middle,
+                   c = mesh.corner(t, 2) - middle;
+    volume += a.dot(b.cross(c)) / 6;
+  }
+  return volume;
+}
+
+constexpr double kMargin = 3.377;  // steps; a box along the axes has no side on nodes
+
+Vector3d nodeCountsAround(const TriangleMesh& mesh, double step) {
+  return (mesh.extents() / step).array() + 2 * kMargin + 1;
+}
+
+CubicGrid gridAround(const TriangleMesh& mesh, double step) {
+  CubicGrid grid;
+  grid.step = step;
+  grid.origin = mesh.vertices.rowwise().minCoeff().array() - kMargin * step;
+  const Vector3d counts = nodeCountsAround(mesh, step);
+  for (std::size_t k = 0; k < 3; ++k)
+    grid.counts[k] = static_cast<std::int64_t>(std::ceil(counts[static_cast<Index>(k)]));
+  return grid;
+}
+
+void requireNodes(const TriangleMesh& mesh, double step, const std::string& name) {
+  constexpr double kMostNodes = 2e7;
+  const double nodes = gridNodesAround(mesh, step);
+  if (nodes <= kMostNodes) return;
+  raiseInputError(name, "cannot be wrapped with a size of ", step, " m: a grid of ", nodes,
+                  " nodes would be needed, at most ", kMostNodes,
+                  " are possible; give a larger size");
+}
+
+TriangleMesh fullWrap(const TriangleMesh& mesh, double step) {
+  const CubicGrid grid = gridAround(mesh, step);
+  const GridCrossings crossings(mesh, grid);
+  return makeDualSurface(mesh, grid, crossings, findSolidNodes(mesh, grid, crossings));
+}
+
+/// The triangles to wrap, and the size to do it with.
+struct WrapInput {
+  TriangleMesh mesh;
+  double size = 0;
+  int holes = 0;         ///< that were filled
+  double hole_area = 0;  ///< [m^2]
+};
+
+WrapInput usableInput(const TriangleMesh& mesh, double size, const std::string& name) {
+  if (mesh.triangleCount() > 0 && !mesh.vertices.allFinite())
+    raiseInputError(name, "a vertex has a coordinate that is not finite");
+  const FilledMesh filled = withHolesFilled(mesh);
+  WrapInput input{withoutNeedles(filled.mesh), size, filled.holes, filled.area};
+  if (input.mesh.triangleCount() == 0) raiseInputError(name, "there are no triangles with an area");
+  const double diagonal = input.mesh.extents().norm();
+  if (size == 0) input.size = kDefaultWrapSize * diagonal;
+  if (!(input.size > 0 && input.size <= diagonal)) {
+    raiseInputError(name, "cannot be wrapped with a size of ", size,
+                    " m: it must be positive and at most its diagonal of ", diagonal, " m");
+  }
+  return input;
+}
+
+/// The first of 2, 4, 8... times a size with which nearly all that the triangles enclose is inside;
+/// 0: none.
+double sufficientSize(const TriangleMesh& mesh, double size, double enclosed) {
+  constexpr double kNearlyAll = 0.9;
+  const double largest = mesh.extents().norm() / 4;
+  for (double larger = 2 * size; larger <= largest; larger *= 2)
+    if (tetrahedraVolumeOf(fullWrap(mesh, larger)) >= kNearlyAll * enclosed) return larger;
+  return 0;
+}
+
+/// Refuses a surface through whose gaps the fluid has come in.
+void requireInside(const WrapInput& input, const TriangleMesh& surface, const std::string& name) {
+  constexpr double kLeast = 0.5;
+  const double found = tetrahedraVolumeOf(surface);
+  // The tetrahedra count twice what two parts enclose, which the points do not, at a higher cost.
+  if (found >= kLeast * std::abs(tetrahedraVolumeOf(input.mesh))) return;
+  const double enclosed = enclosedVolume(input.mesh);
+  if (found >= kLeast * enclosed) return;
+  const double larger = sufficientSize(input.mesh, input.size, enclosed);
+  const std::string problem = inputMessage(
+      name, "wrapped with a size of ", input.size, " m encloses ", found, " m^3 of the ", enclosed,
+      " m^3 that its triangles surround, less than half: gaps between them are wider than that");
+  if (larger == 0) throw std::runtime_error(problem + ", and no size closes them");
+  std::ostringstream advice;
+  advice << "; a size of " << larger << " m closes them";
+  throw std::runtime_error(problem + advice.str());
+}
+
+std::string comparison(const TriangleMesh& before, const TriangleMesh& after, double size) {
+  const double volume = tetrahedraVolumeOf(after), area = meshAreaOf(after);
+  const double own_volume = std::abs(tetrahedraVolumeOf(before)), own_area = meshAreaOf(before);
+  std::ostringstream text;
+  text.precision(4);
+  text << "wrapped with a size of " << size << " m: " << after.triangleCount() << " for "
+       << before.triangleCount() << " triangles, volume " << volume << " m^3";
+  const auto change = [&](double now, double then) {
+    std::ostringstream percent;
+    percent.precision(3);
+    percent << std::showpos << 100 * (now / then - 1) << " %";
+    return percent.str();
+  };
+  if (isClosed(computeMeshEdges(before))) {
+    text << " (" << change(volume, own_volume) << ")";
+  } else {
+    text << " (the triangles enclose none, they are open)";
+  }
+  text << ", area " << area << " m^2 (" << change(area, own_area) << ")";
+  return text.str();
+}
+
+}  // namespace
+
+double gridNodesAround(const TriangleMesh& mesh, double size) {
+  return nodeCountsAround(mesh, size).prod();
+}
+
+TriangleMesh wrapped(const TriangleMesh& mesh, double size, const CoarseningSettings& settings) {
+  const TriangleMesh fine = fullWrap(mesh, size);
+  return fine.triangleCount() > 0 ? coarsened(fine, settings) : fine;
+}
+
+bool canBeWrapped(const TriangleMesh& mesh) {
+  return mesh.triangleCount() > 0 && mesh.vertices.allFinite() &&
+         withoutNeedles(mesh).triangleCount() > 0;
+}
+
+CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name) {
+  constexpr int kLeastFaces = 800, kMostFaces = 4000;
+  constexpr double kTolerance = 0.1;
+  const WrapInput input = usableInput(mesh, size, name);
+  requireNodes(input.mesh, input.size, name);
+  const TriangleMesh fine = fullWrap(input.mesh, input.size);
+  if (fine.triangleCount() == 0)
+    raiseInputError(name, "cannot be wrapped with a size of ", input.size, " m: nothing is left");
+  requireInside(input, fine, name);
+  const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
+  CheckedMesh result;
+  try {
+    result = checkMesh(coarse, name);
+  } catch (const std::runtime_error&) {
+    result = checkMesh(fine, name);  // parts of the coarser one have come to touch
+  }
+  std::vector<std::string> warnings{name + ": " + comparison(input.mesh, result.mesh, input.size)};
+  if (input.holes > 0) {
+    warnings.push_back(inputMessage(name, "holes filled before that: ", input.holes, ", of ",
+                                    input.hole_area, " m^2 in all"));
+  }
+  result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
+  return result;
+}
+
+}  // namespace ambient

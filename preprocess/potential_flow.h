@@ -1,0 +1,4 @@
+#pragma once
+
+// Added mass of a mesh by boundary elements.
+#include "preprocess/potential_flow/results/potential_flow.h"

@@ -1,0 +1,125 @@
+#include "preprocess/potential_flow/operators/far_moments.h"
+
+#include <algorithm>
+
+namespace ambient {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+using RowVector6 = Eigen::Matrix<double, 1, 6>;
+
+constexpr Index kFarBlock = 256;  // panels per sweep, small enough for the first cache
+using FarArray = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kFarBlock, 1>;
+
+Eigen::Matrix3d momentOf(const PanelArrays& a, Index t) {
+  Eigen::Matrix3d m;
+  m << a.xx[t], a.xy[t], a.xz[t], a.xy[t], a.yy[t], a.yz[t], a.xz[t], a.yz[t], a.zz[t];
+  return m;
+}
+
+/// Taylor coefficients of the kernel n_S.r/r^3 between centroids, times the source's area: a column
+/// per target panel, a row per source; zero where the near field takes over.
+struct FarKernel {
+  MatrixXd value;  ///< with both second moments
+  MatrixXd gradient_x, gradient_y, gradient_z;
+
+  FarKernel(Index sources, Index targets)
+      : value(sources, targets),
+        gradient_x(sources, targets),
+        gradient_y(sources, targets),
+        gradient_z(sources, targets) {}
+};
+
+void fillFarKernel(const PanelArrays& a, Index t, const PanelRange& sources,
+                   const std::vector<NearPanels::Entry>& near, Index column, FarKernel& kernel) {
+  for (Index first = 0; first < sources.count; first += kFarBlock) {
+    const Index count = std::min(kFarBlock, sources.count - first);
+    const auto part = [&](const ArrayXd& array) {
+      return array.segment(sources.first + first, count);
+    };
+    const auto nx = part(a.normal_x), ny = part(a.normal_y), nz = part(a.normal_z);
+    const FarArray x = a.x[t] - part(a.x), y = a.y[t] - part(a.y), z = a.z[t] - part(a.z);
+    const FarArray xx = a.xx[t] + part(a.xx), yy = a.yy[t] + part(a.yy), zz = a.zz[t] + part(a.zz);
+    const FarArray xy = a.xy[t] + part(a.xy), xz = a.xz[t] + part(a.xz), yz = a.yz[t] + part(a.yz);
+    const FarArray inverse_square = 1 / (x * x + y * y + z * z);
+    const FarArray inverse_cube = part(a.area) * inverse_square * inverse_square.sqrt();
+    const FarArray flux = nx * x + ny * y + nz * z;
+    const FarArray mx = x * xx + y * xy + z * xz, my = x * xy + y * yy + z * yz,
+                   mz = x * xz + y * yz + z * zz;
+    const FarArray along = x * mx + y * my + z * mz;
+    const FarArray second = 7.5 * flux * along * inverse_square - 1.5 * flux * (xx + yy + zz) -
+                            3 * (nx * mx + ny * my + nz * mz);
+    const FarArray steep = 3 * flux * inverse_square;
+    kernel.value.col(column).segment(first, count) =
+        inverse_cube * (flux + second * inverse_square);
+    kernel.gradient_x.col(column).segment(first, count) = inverse_cube * (nx - steep * x);
+    kernel.gradient_y.col(column).segment(first, count) = inverse_cube * (ny - steep * y);
+    kernel.gradient_z.col(column).segment(first, count) = inverse_cube * (nz - steep * z);
+  }
+  const auto end = near.end();
+  auto entry =
+      std::lower_bound(near.begin(), end, sources.first,
+                       [](const NearPanels::Entry& e, Index panel) { return e.panel < panel; });
+  for (; entry != end && entry->panel < sources.first + sources.count; ++entry)
+    for (MatrixXd* m : {&kernel.value, &kernel.gradient_x, &kernel.gradient_y, &kernel.gradient_z})
+      (*m)(entry->panel - sources.first, column) = 0;
+}
+
+}  // namespace
+
+FarMoments::FarMoments(const PanelSurface& surface, const std::vector<PanelJump>& jumps)
+    : surface_(surface), jumps_(jumps) {
+  for (MatrixXd& m : sources_) m.resize(13, surface.panelCount());
+  for (Index s = 0; s < surface.panelCount(); ++s) {
+    const Matrix36 slope = momentOf(surface.arrays, s) * jumps[s].gradient;
+    for (int k = 0; k < 3; ++k) {
+      sources_[k].col(s) << jumps[s].mean.transpose(), 1, slope.row(k).transpose();
+    }
+  }
+}
+
+void FarMoments::add(const std::vector<PanelRange>& sources, const PanelRange& targets,
+                     const std::vector<NearPanels::Entry>* near, PanelMoments& moments) const {
+  const Index count = targets.count;
+  Eigen::Matrix<double, 7, Eigen::Dynamic> by_value(7, count);
+  std::array<MatrixXd, 3> by_gradient;
+  by_value.setZero();
+  for (MatrixXd& m : by_gradient) m.setZero(13, count);
+  for (const PanelRange& range : sources) {
+    FarKernel kernel(range.count, count);
+    for (Index k = 0; k < count; ++k)
+      fillFarKernel(surface_.arrays, targets.first + k, range, near[k], k, kernel);
+    const auto part = [&](int axis) { return sources_[axis].middleCols(range.first, range.count); };
+    by_value.noalias() += part(0).topRows<7>() * kernel.value;
+    by_gradient[0].noalias() += part(0) * kernel.gradient_x;
+    by_gradient[1].noalias() += part(1) * kernel.gradient_y;
+    by_gradient[2].noalias() += part(2) * kernel.gradient_z;
+  }
+  for (Index k = 0; k < count; ++k) {
+    const Index t = targets.first + k;
+    const Panel& panel = surface_.panels[t];
+    const PanelJump& jump = jumps_[t];
+    const Eigen::Matrix3d moment = momentOf(surface_.arrays, t);
+    // phi at the centroid and its slope, both without the part of the jump that varies on this
+    // panel.
+    RowVector6 value = by_value.col(k).head<6>().transpose() - by_value(6, k) * jump.mean;
+    Matrix36 slope;
+    Vector3d kernel_slope;
+    for (int d = 0; d < 3; ++d) {
+      value -= by_gradient[d].col(k).tail<6>().transpose();
+      kernel_slope[d] = by_gradient[d](6, k);
+      slope.row(d) = by_gradient[d].col(k).head<6>().transpose() - kernel_slope[d] * jump.mean;
+    }
+    value -= (moment * kernel_slope).transpose() * jump.gradient;
+    slope -= by_value(6, k) * jump.gradient;
+    for (int a = 0; a < 3; ++a)
+      moments[t].row(a) +=
+          panel.area * (value / 3 + (moment * panel.hatGradient(a)).transpose() * slope);
+  }
+}
+
+}  // namespace ambient

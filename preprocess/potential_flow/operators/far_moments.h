@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "preprocess/potential_flow/operators/near_moments.h"
+
+namespace ambient {
+
+/// Panels `first` to `first + count - 1`.
+struct PanelRange {
+  Eigen::Index first, count;
+};
+
+/// The moments that panels of PairKind::Far cause, pair by pair, by Taylor expansion between the
+/// centroids.
+class FarMoments {
+ public:
+  static constexpr Eigen::Index kTargetsAtOnce = 16;  ///< columns of one product of matrices
+
+  FarMoments(const PanelSurface& surface, const std::vector<PanelJump>& jumps);
+
+  /// Adds to the moments on the targets, at most kTargetsAtOnce, what the panels of the sources
+  /// cause, times 4 pi. Left out are those in near[k], for the k-th target, in ascending order.
+  void add(const std::vector<PanelRange>& sources, const PanelRange& targets,
+           const std::vector<NearPanels::Entry>* near, PanelMoments& moments) const;
+
+ private:
+  const PanelSurface& surface_;
+  const std::vector<PanelJump>& jumps_;
+  /// Rows 0-5 the mean jumps, row 6 ones, and per axis rows 7-12 that component of moment times
+  /// gradient.
+  std::array<Eigen::MatrixXd, 3> sources_;
+};
+
+}  // namespace ambient

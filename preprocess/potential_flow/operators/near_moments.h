@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "preprocess/potential_flow/operators/near_panels.h"
+#include "preprocess/potential_flow/surface/quadrature_rules.h"
+
+namespace ambient {
+
+/// Moments of a function on the surface with the three hat functions of every panel: one 3 x 6
+/// matrix per panel, int h_a phi_c over the panel.
+using PanelMoments = std::vector<Eigen::Matrix<double, 3, 6>>;
+
+/// The linear jumps of a panel: values at the corners, mean, surface gradient.
+struct PanelJump {
+  Eigen::Matrix<double, 3, 6> corner;
+  Eigen::Matrix<double, 1, 6> mean;
+  Eigen::Matrix<double, 3, 6> gradient;
+};
+
+/// Returns the jumps on all panels, from the values at the vertices.
+std::vector<PanelJump> makePanelJumps(const PanelSurface& surface,
+                                      const Eigen::Matrix<double, Eigen::Dynamic, 6>& jump);
+
+/// Collects the potential that other panels cause at the nodes of a rule on one panel.
+template <std::size_t N>
+class NodePotentials {
+ public:
+  NodePotentials(const Panel& panel, const std::array<TriangleNode, N>& rule) : rule_(rule) {
+    for (std::size_t k = 0; k < N; ++k) nodes_[k] = panel.at(rule[k].barycentric);
+    potential_.setZero();
+    solid_angle_.setZero();
+  }
+
+  template <typename DoubleLayer>
+  void add(const Panel& source, const Eigen::Matrix<double, 3, 6>& jump,
+           const DoubleLayer& doubleLayer) {
+    for (std::size_t k = 0; k < N; ++k) {
+      const Eigen::Vector3d weights = doubleLayer(source, nodes_[k]);
+      potential_.row(k) += weights.transpose() * jump;
+      solid_angle_[k] += weights.sum();
+    }
+  }
+
+  /// Adds a source, given the weights of its corners at all nodes.
+  void addAll(const Eigen::Matrix<double, static_cast<int>(N), 3>& weights,
+              const Eigen::Matrix<double, 3, 6>& jump) {
+    potential_ += weights * jump;
+    solid_angle_ += weights.rowwise().sum();
+  }
+
+  /// At node k: what the jump causes, and what a jump of 1 everywhere would.
+  void add(std::size_t k, const Eigen::Matrix<double, 1, 6>& potential, double solid_angle) {
+    potential_.row(k) += potential;
+    solid_angle_[k] += solid_angle;
+  }
+
+  const Eigen::Vector3d& node(std::size_t k) const { return nodes_[k]; }
+
+  /// Moments of int (mu(y) - mu(x)) with the panel's hat functions; `jump` is its own mu.
+  Eigen::Matrix<double, 3, 6> moments(const Panel& panel,
+                                      const Eigen::Matrix<double, 3, 6>& jump) const {
+    Eigen::Matrix<double, 3, 6> sum = Eigen::Matrix<double, 3, 6>::Zero();
+    for (std::size_t k = 0; k < N; ++k) {
+      const Eigen::Map<const Eigen::Vector3d> hat(rule_[k].barycentric.data());
+      sum += (rule_[k].weight * panel.area) * hat *
+             (potential_.row(k) - solid_angle_[k] * (hat.transpose() * jump));
+    }
+    return sum;
+  }
+
+ private:
+  const std::array<TriangleNode, N>& rule_;
+  std::array<Eigen::Vector3d, N> nodes_;
+  Eigen::Matrix<double, N, 6, Eigen::RowMajor> potential_;
+  Eigen::Matrix<double, N, 1> solid_angle_;
+};
+
+/// The moments on panel t that the panels near it cause, times 4 pi.
+Eigen::Matrix<double, 3, 6> computeNearMoments(const PanelSurface& surface,
+                                               const std::vector<NearPanels::Entry>& near,
+                                               const std::vector<PanelJump>& jumps, Eigen::Index t);
+
+}  // namespace ambient

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "bullet_ambient/fluid_body/added_mass_part.h"
+
+namespace ambient {
+
+/// Contribution of one triangle to the added mass.
+struct PanelInertia {
+  Vector3 normal, centroid;
+  double area = 0;
+  Vector6 spread = Vector6::Zero();   ///< as AddedMassPart::spread
+  Matrix6 inertia = Matrix6::Zero();  ///< -int g phi^T dA, perhaps not symmetric
+};
+
+/// Joins panels that are alike in normal and place to at most 96 parts. Their sum is that of the
+/// panels, made symmetric. Independent of the unit of length. Cost: O(panels).
+std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels);
+
+/// In another unit of length and about another origin: z = length z' + centre, where z' are the
+/// coordinates that the parts have. Rounded to single precision, as files hold them.
+std::vector<AddedMassPart> placed(std::vector<AddedMassPart> parts, double length,
+                                  const Vector3& centre);
+
+}  // namespace ambient

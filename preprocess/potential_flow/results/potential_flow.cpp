@@ -1,0 +1,218 @@
+#include "preprocess/potential_flow/results/potential_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/parallel_for.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/positive_part.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/mesh/check/mesh_checks.h"
+#include "preprocess/potential_flow/results/added_mass_parts.h"
+#include "preprocess/potential_flow/results/vertex_projection.h"
+#include "preprocess/potential_flow/solvers/dense_solver.h"
+#include "preprocess/potential_flow/solvers/hierarchical_solver.h"
+#include "preprocess/potential_flow/solvers/memory_limit.h"
+#include "preprocess/potential_flow/surface/surface_refinement.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+/// Solution in the units of the solver, about the surface's centre.
+struct UnitFlow {
+  MatrixX6 potential;  ///< V x 6
+  Matrix6 inertia = Matrix6::Zero();
+  std::vector<AddedMassPart> parts;
+  double asymmetry = 0;
+  double reciprocal_condition = 0;
+  int iterations = 0;
+};
+
+double largestAsymmetry(const Matrix6& K) {
+  const double largest = K.cwiseAbs().maxCoeff();
+  return largest > 0 ? (K - K.transpose()).cwiseAbs().maxCoeff() / largest : 0;
+}
+
+Matrix6 symmetricPart(const Matrix6& K) { return 0.5 * (K + K.transpose()); }
+
+/// -B^T mu: the inertia of the fluid on both sides of the surface; symmetric.
+Matrix6 integrateEnergy(const PanelSurface& surface, const Unknowns& unknowns,
+                        const MatrixX6& jump) {
+  const MatrixX6 B = assembleNormalVelocity(surface, unknowns);
+  Matrix6 K = Matrix6::Zero();
+  for (Index v = 0; v < surface.vertexCount(); ++v)
+    if (unknowns.of_vertex[v] >= 0) K -= B.row(unknowns.of_vertex[v]).transpose() * jump.row(v);
+  return K;
+}
+
+/// -int phi_j g_i of each panel, from the potentials' moments.
+std::vector<PanelInertia> integratePanels(const PanelSurface& surface,
+                                          const PanelMoments& moments) {
+  std::vector<PanelInertia> panels(static_cast<std::size_t>(surface.panelCount()));
+  for (std::size_t t = 0; t < panels.size(); ++t) {
+    const Panel& panel = surface.panels[t];
+    const PanelArrays& arrays = surface.arrays;
+    const auto i = static_cast<Index>(t);
+    panels[t].normal = panel.normal;
+    panels[t].centroid = panel.centroid;
+    panels[t].area = panel.area;
+    panels[t].spread << arrays.xx[i], arrays.yy[i], arrays.zz[i], arrays.xy[i], arrays.xz[i],
+        arrays.yz[i];
+    for (int a = 0; a < 3; ++a) {
+      Vector6 g;
+      g << panel.corner[a].cross(panel.normal), panel.normal;
+      panels[t].inertia -= g * moments[t].row(a);
+    }
+  }
+  return panels;
+}
+
+/// The inertia by definition.
+Matrix6 sumOf(const std::vector<PanelInertia>& panels) {
+  Matrix6 K = Matrix6::Zero();
+  for (const PanelInertia& panel : panels) K += panel.inertia;
+  return K;
+}
+
+/// Returns the moments of a potential that is linear on the panels.
+PanelMoments momentsOf(const PanelSurface& surface, const MatrixX6& potential) {
+  PanelMoments moments(static_cast<std::size_t>(surface.panelCount()));
+  for (std::size_t t = 0; t < moments.size(); ++t) {
+    const Eigen::Vector3i corners = surface.triangles.col(static_cast<Index>(t));
+    Eigen::Matrix<double, 3, 6> values;
+    for (int a = 0; a < 3; ++a) values.row(a) = potential.row(corners[a]);
+    const Eigen::Matrix<double, 1, 6> sum = values.colwise().sum();
+    moments[t] = surface.panels[t].area / 12 * (values.rowwise() + sum);
+  }
+  return moments;
+}
+
+UnitFlow solveSheet(FlowSolver& solver) {
+  const PanelSurface& surface = solver.surface();
+  const Unknowns unknowns = numberUnknowns(surface);
+  UnitFlow flow;
+  const Jump jump = solver.solveJump(unknowns);
+  AMBIENT_ASSERT(jump.values.rows() == surface.vertexCount());
+  flow.potential = jump.values;
+  flow.reciprocal_condition = jump.reciprocal_condition;
+  flow.iterations = jump.iterations;
+  flow.inertia = integrateEnergy(surface, unknowns, flow.potential);
+  flow.asymmetry = largestAsymmetry(flow.inertia);
+  flow.parts = joinPanels(integratePanels(surface, momentsOf(surface, flow.potential)));
+  return flow;
+}
+
+UnitFlow solveClosed(FlowSolver& solver) {
+  const PanelSurface& surface = solver.surface();
+  const Unknowns unknowns = numberUnknowns(surface);
+  const Jump jump = solver.solveJump(unknowns);
+  const PanelMoments moments = solver.computeMoments(jump);
+  const std::vector<PanelInertia> panels = integratePanels(surface, moments);
+  AMBIENT_ASSERT(moments.size() == panels.size());
+  AMBIENT_ASSERT(jump.iterations >= 0 && jump.reciprocal_condition >= 0);
+  const Matrix6 direct = sumOf(panels);
+
+  UnitFlow flow;
+  flow.reciprocal_condition = jump.reciprocal_condition;
+  flow.iterations = jump.iterations;
+  flow.potential = projectOnVertices(surface, moments);
+  flow.parts = joinPanels(panels);
+  flow.asymmetry = largestAsymmetry(direct);
+  // The energy holds the interior flow too. In translation that moves as a solid, volume times
+  // unity and, about the centre of volume, without coupling; in rotation it is not known.
+  flow.inertia = integrateEnergy(surface, unknowns, jump.values);
+  flow.inertia.bottomRightCorner<3, 3>().diagonal().array() -= surface.volume;
+  flow.inertia.topLeftCorner<3, 3>() = direct.topLeftCorner<3, 3>();
+  return flow;
+}
+
+void requireUnknowns(const TriangleMesh& sheet) {
+  if (hasVerticesInside(sheet)) return;
+  throw std::runtime_error("potential flow: the sheet of " + std::to_string(sheet.triangleCount()) +
+                           " panels, or a part of it, has no vertex inside its boundary: it must "
+                           "be divided into more panels");
+}
+
+void requireClosed(const PanelSurface& surface) {
+  if (surface.boundary_edge_count > 0)
+    throw std::runtime_error("potential flow: the surface is open at " +
+                             std::to_string(surface.boundary_edge_count) +
+                             " edges; it must be closed, or be declared a sheet");
+  if (!(surface.volume > 0))
+    throw std::runtime_error(
+        "potential flow: the surface is inside out or encloses no volume; triangles must be "
+        "counter-clockwise seen from the fluid");
+}
+
+bool isHierarchical(FlowSolverKind solver, Index panels) {
+  return solver == FlowSolverKind::Hierarchical ||
+         (solver == FlowSolverKind::Automatic && panels > kMostDensePanels);
+}
+
+UnitFlow solveUnitFlow(const PanelSurface& surface, const PotentialFlowSettings& settings) {
+  if (!settings.sheet) requireClosed(surface);
+  const int threads = threadCount(settings.threads);
+  const double limit = memoryLimit(settings.memory_limit);
+  double bytes = 0;
+  const auto solve = [&](FlowSolver&& solver) {
+    bytes = solver.bytesNeeded();
+    return settings.sheet ? solveSheet(solver) : solveClosed(solver);
+  };
+  try {
+    return isHierarchical(settings.solver, surface.panelCount())
+               ? solve(HierarchicalSolver(surface, threads, limit))
+               : solve(DenseSolver(surface, threads, limit));
+  } catch (const std::bad_alloc&) {
+    raiseOutOfMemory(surface.panelCount(), bytes);
+  }
+}
+
+/// Makes the inertia symmetric positive semi-definite; returns the lowest eigenvalue over the
+/// largest if it was negative, else 0.
+double removeNegativePart(Matrix6& K) {
+  const auto values = symmetricEigen<6>(symmetricPart(K)).values;
+  const double lowest = values[0], largest = values[5];
+  K = positivePart(K);
+  return lowest < 0 && largest > 0 ? lowest / largest : 0;
+}
+
+}  // namespace
+
+PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  if (mesh.triangleCount() == 0)
+    throw std::runtime_error("potential flow: the mesh has 0 triangles; it needs at least 1");
+  const TriangleMesh panels = refineSurface(mesh, settings.sheet, settings.max_panels);
+  if (settings.sheet) requireUnknowns(panels);
+  const PanelSurface surface = makePanelSurface(panels, settings.sheet);
+  UnitFlow unit = solveUnitFlow(surface, settings);
+
+  PotentialFlow flow;
+  flow.panels = surface.panelCount();
+  flow.asymmetry = unit.asymmetry;
+  flow.reciprocal_condition = unit.reciprocal_condition;
+  flow.iterations = unit.iterations;
+  flow.removed_eigenvalue = removeNegativePart(unit.inertia);
+  const double size = surface.length;
+  flow.added_mass = symmetricPart(shiftOrigin(scaleShape(unit.inertia, size), -surface.centre));
+  AMBIENT_ASSERT(size > 0 && isSymmetric(flow.added_mass));
+  flow.parts = placed(std::move(unit.parts), size, surface.centre);
+  // The mesh's vertices come first. A rotation about its origin moves the centre c with w x c.
+  const auto own = unit.potential.topRows(mesh.vertexCount());
+  flow.potential.resize(mesh.vertexCount(), 6);
+  flow.potential.rightCols<3>() = size * own.rightCols<3>();
+  flow.potential.leftCols<3>() =
+      size * size * own.leftCols<3>() - flow.potential.rightCols<3>() * crossMatrix(surface.centre);
+  return flow;
+}
+
+}  // namespace ambient

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "preprocess/potential_flow/results/potential_flow.h"
+
+namespace ambient {
+
+/// The fluid's inertia of the body that a mesh stands for.
+struct RefinedFlow {
+  Matrix6 added_mass = Matrix6::Zero();  ///< per unit density, about the mesh's origin
+  std::vector<AddedMassPart> parts;      ///< as PotentialFlow::parts, without corrections
+  double asymmetry = 0;                  ///< as PotentialFlow::asymmetry
+  Eigen::Index panels = 0;               ///< the most that equations were solved on
+  /// Long triangles left too few panels across sharp edges, also of those added: some, at worst
+  /// tens of per cent of the largest entry in rotation.
+  bool is_coarse = false;
+};
+
+/// solvePotentialFlow() with corrections that cost next to nothing. Where flat faces with sharp
+/// edges are divided, the result is extrapolated from two divisions, the coarser one with about a
+/// quarter of the panels. A closed mesh of one piece without sharp edges stands for a smooth body
+/// of the same volume: to first order its triangles bulge up to it; if all of it is curved, its own
+/// triangles are the panels. A closed mesh of more than eight times as many triangles as
+/// settings.max_panels is solved inFewerTriangles(). And what the symmetries of the body forbid is
+/// removed, however its faces are cut. A mesh of long triangles on which two divisions disagree
+/// gets panels that are cut from compactSurface(), or else four times as many, unless the dense
+/// solver was asked for.
+/// @throws std::runtime_error as solvePotentialFlow().
+RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettings& settings);
+
+}  // namespace ambient

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "preprocess/potential_flow/operators/double_layer.h"
+#include "preprocess/potential_flow/operators/hypersingular.h"
+
+namespace ambient {
+
+/// Jump of the potential across the surface, and how well it is determined.
+struct Jump {
+  Eigen::Matrix<double, Eigen::Dynamic, 6> values;  ///< V x 6, 0 where there is no unknown
+  double reciprocal_condition = 0;                  ///< of the matrix, 1-norm; 0: not known
+  int iterations = 0;                               ///< 0: factorised
+};
+
+/// Interface to the integral operators of a surface, as far as the flow needs them.
+class FlowSolver {
+ public:
+  virtual ~FlowSolver() = default;
+
+  /// The surface, perhaps with its panels in another order; vertices keep their numbers.
+  virtual const PanelSurface& surface() const = 0;
+
+  /// Memory it takes at most, an estimate.
+  virtual double bytesNeeded() const = 0;
+
+  /// Solves W mu = -B; docs/theory.md eq. (8).
+  /// @throws std::runtime_error if it has no solution.
+  virtual Jump solveJump(const Unknowns& unknowns) = 0;
+
+  /// Moments of the exterior potentials on the panels of surface(); docs/theory.md eq. (11).
+  virtual PanelMoments computeMoments(const Jump& jump) = 0;
+
+ protected:
+  FlowSolver() = default;
+  FlowSolver(const FlowSolver&) = default;
+  FlowSolver& operator=(const FlowSolver&) = default;
+};
+
+}  // namespace ambient

@@ -1,0 +1,190 @@
+#include "preprocess/potential_flow/surface/panel_pair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bullet_ambient/base/elementary.h"
+#include "preprocess/potential_flow/surface/quadrature_rules.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+// Limits of q. Regular meshes have rational squares of q; these have not, so that rounding never
+// moves a pair to another class. Near reaches far enough to hold all panels that lie face to face
+// on a thin body, whose potentials have kinks.
+constexpr double kNearLimit = 1.1816;   // 2/3 sqrt(pi)
+constexpr double kCloseLimit = 1.7725;  // sqrt(pi)
+
+/// Corner numbers of the vertices that two triangles share.
+struct SharedCorners {
+  int count = 0;
+  std::array<int, 3> of_t{}, of_s{};
+};
+
+SharedCorners findSharedCorners(const PanelSurface& surface, Index t, Index s) {
+  SharedCorners shared;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      if (surface.triangles(a, t) == surface.triangles(b, s)) {
+        shared.of_t[shared.count] = a;
+        shared.of_s[shared.count++] = b;
+      }
+  return shared;
+}
+
+/// Self integral of a triangle, closed form.
+double selfIntegral(const Panel& p) {
+  const double perimeter = p.edge_length[0] + p.edge_length[1] + p.edge_length[2];
+  double sum = 0;
+  for (double l : p.edge_length) sum += 2 * portable::atanh(l / (perimeter - l)) / l;
+  return 4.0 / 3.0 * p.area * p.area * sum;
+}
+
+/// Mean of the potential of `source` over the segment from a to b.
+double meanAlong(const Panel& source, const Vector3d& a, const Vector3d& b) {
+  double mean = 0;
+  for (const SegmentNode& node : kSegmentRule)
+    mean += node.weight * computeNewtonPotential(source, a + node.position * (b - a));
+  return mean;
+}
+
+/// Mean of the potential over the segment from a to b, where a is a corner of the source. The
+/// substitution u = t^2 removes the logarithm there.
+double meanAlongFromCorner(const Panel& source, const Vector3d& a, const Vector3d& b) {
+  double mean = 0;
+  for (const SegmentNode& node : kSegmentRule) {
+    const double u = node.position * node.position;
+    mean += node.weight * 2 * node.position * computeNewtonPotential(source, a + u * (b - a));
+  }
+  return mean;
+}
+
+/// 1/r is homogeneous about the shared vertex, which leaves the two opposite edges.
+double sharedVertexIntegral(const Panel& t, int corner_t, const Panel& s, int corner_s) {
+  const double over_t = meanAlong(s, t.corner[(corner_t + 1) % 3], t.corner[(corner_t + 2) % 3]);
+  const double over_s = meanAlong(t, s.corner[(corner_s + 1) % 3], s.corner[(corner_s + 2) % 3]);
+  return 2.0 / 3.0 * (t.area * over_t + s.area * over_s);
+}
+
+/// Each end of the shared edge serves as a shared vertex; the average keeps both ends alike.
+double sharedEdgeIntegral(const Panel& t, const Panel& s, const SharedCorners& shared) {
+  const Vector3d& apex_t = t.corner[3 - shared.of_t[0] - shared.of_t[1]];
+  const Vector3d& apex_s = s.corner[3 - shared.of_s[0] - shared.of_s[1]];
+  double sum = 0;
+  for (int end = 0; end < 2; ++end) {
+    const Vector3d& p = t.corner[shared.of_t[end]];
+    sum += t.area * meanAlongFromCorner(s, p, apex_t) + s.area * meanAlongFromCorner(t, p, apex_s);
+  }
+  return sum / 3;
+}
+
+/// Closed form on one panel times points on the other, the smaller one if they differ clearly: the
+/// potential varies less there.
+template <std::size_t N>
+double analyticByPoints(const Panel& t, const Panel& s, const std::array<TriangleNode, N>& rule) {
+  constexpr double kClearlySmaller = 0.7937;
+  const bool on_s = s.radius < kClearlySmaller * t.radius;
+  const Panel& outer = on_s ? s : t;
+  const Panel& inner = on_s ? t : s;
+  double mean = 0;
+  for (const TriangleNode& node : rule)
+    mean += node.weight * computeNewtonPotential(inner, outer.at(node.barycentric));
+  return outer.area * mean;
+}
+
+double pointsByPoints(const Panel& t, const Panel& s) {
+  std::array<Vector3d, kTriangleRule6.size()> y;
+  for (std::size_t j = 0; j < y.size(); ++j) y[j] = s.at(kTriangleRule6[j].barycentric);
+  double mean = 0;
+  for (const TriangleNode& node : kTriangleRule6) {
+    const Vector3d x = t.at(node.barycentric);
+    for (std::size_t j = 0; j < y.size(); ++j)
+      mean += node.weight * kTriangleRule6[j].weight / (x - y[j]).norm();
+  }
+  return t.area * s.area * mean;
+}
+
+/// Centroids with second moments; computeFarPairIntegrals() has the same for whole rows.
+double farPairIntegral(const PanelSurface& surface, Index t, Index s) {
+  const PanelArrays& a = surface.arrays;
+  const double x = a.x[t] - a.x[s], y = a.y[t] - a.y[s], z = a.z[t] - a.z[s];
+  const double xx = a.xx[t] + a.xx[s], yy = a.yy[t] + a.yy[s], zz = a.zz[t] + a.zz[s];
+  const double xy = a.xy[t] + a.xy[s], xz = a.xz[t] + a.xz[s], yz = a.yz[t] + a.yz[s];
+  const double inverse_square = 1 / (x * x + y * y + z * z);
+  const double along =
+      x * (x * xx + 2 * (y * xy + z * xz)) + y * (y * yy + 2 * z * yz) + z * z * zz;
+  const double quadrupole = (1.5 * along * inverse_square - 0.5 * (xx + yy + zz)) * inverse_square;
+  return a.area[t] * a.area[s] * std::sqrt(inverse_square) * (1 + quadrupole);
+}
+
+}  // namespace
+
+PairKind classifyPair(const PanelSurface& surface, Index t, Index s) {
+  const Panel& a = surface.panels[t];
+  const Panel& b = surface.panels[s];
+  const double radii = a.radius + b.radius;
+  const double square = (a.centroid - b.centroid).squaredNorm();
+  if (square > kFarLimit * kFarLimit * radii * radii) return PairKind::Far;
+  switch (findSharedCorners(surface, t, s).count) {
+    case 0:
+      break;
+    case 1:
+      return PairKind::SharedVertex;
+    case 2:
+      return PairKind::SharedEdge;
+    default:
+      return PairKind::Same;
+  }
+  const double q = std::sqrt(square) / radii;
+  return q < kNearLimit ? PairKind::Near : q < kCloseLimit ? PairKind::Close : PairKind::Middle;
+}
+
+double computePairIntegral(const PanelSurface& surface, Index t, Index s) {
+  const Panel& a = surface.panels[t];
+  const Panel& b = surface.panels[s];
+  switch (classifyPair(surface, t, s)) {
+    case PairKind::Same:
+      return selfIntegral(a);
+    case PairKind::SharedEdge:
+      return sharedEdgeIntegral(a, b, findSharedCorners(surface, t, s));
+    case PairKind::SharedVertex: {
+      const SharedCorners shared = findSharedCorners(surface, t, s);
+      return sharedVertexIntegral(a, shared.of_t[0], b, shared.of_s[0]);
+    }
+    case PairKind::Near:
+      return analyticByPoints(a, b, kTriangleRule16);
+    case PairKind::Close:
+      return analyticByPoints(a, b, kTriangleRule6);
+    case PairKind::Middle:
+      return pointsByPoints(a, b);
+    case PairKind::Far:
+      break;
+  }
+  return farPairIntegral(surface, t, s);
+}
+
+void computeFarPairIntegrals(const PanelArrays& a, Index t, Index from, Eigen::ArrayXd& row) {
+  constexpr Index kBlock = 256;  // small enough for the first cache
+  using FarArray = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kBlock, 1>;
+  for (Index first = 0; first < row.size(); first += kBlock) {
+    const Index count = std::min(kBlock, row.size() - first);
+    const auto part = [&](const Eigen::ArrayXd& array) {
+      return array.segment(from + first, count);
+    };
+    const FarArray x = a.x[t] - part(a.x), y = a.y[t] - part(a.y), z = a.z[t] - part(a.z);
+    const FarArray xx = a.xx[t] + part(a.xx), yy = a.yy[t] + part(a.yy), zz = a.zz[t] + part(a.zz);
+    const FarArray inverse_square = 1 / (x * x + y * y + z * z);
+    const FarArray along =
+        x * (x * xx + 2 * (y * (a.xy[t] + part(a.xy)) + z * (a.xz[t] + part(a.xz)))) +
+        y * (y * yy + 2 * z * (a.yz[t] + part(a.yz))) + z * z * zz;
+    row.segment(first, count) =
+        a.area[t] * part(a.area) * inverse_square.sqrt() *
+        (1 + (1.5 * along * inverse_square - 0.5 * (xx + yy + zz)) * inverse_square);
+  }
+}
+
+}  // namespace ambient

@@ -1,0 +1,119 @@
+#include "preprocess/potential_flow/surface/panel_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/elementary.h"
+#include "preprocess/mesh/mesh_topology.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+struct Centroids {
+  Vector3d of_area = Vector3d::Zero(), of_volume = Vector3d::Zero();
+  double volume = 0;
+};
+
+/// Centroids of the surface and of the space it encloses, relative to `origin`.
+Centroids computeCentroids(const TriangleMesh& mesh, const Vector3d& origin) {
+  Centroids sums;
+  double area = 0;
+  for (Index t = 0; t < mesh.triangleCount(); ++t) {
+    const Vector3d a = mesh.corner(t, 0) - origin;
+    const Vector3d b = mesh.corner(t, 1) - origin;
+    const Vector3d c = mesh.corner(t, 2) - origin;
+    const Vector3d twice_area = (b - a).cross(c - a);
+    const double tetrahedron = a.dot(twice_area) / 6;
+    area += twice_area.norm() / 2;
+    sums.of_area += (a + b + c) * (twice_area.norm() / 6);
+    sums.volume += tetrahedron;
+    sums.of_volume += (a + b + c) * (tetrahedron / 4);
+  }
+  if (area > 0) sums.of_area /= area;
+  if (sums.volume != 0) sums.of_volume /= sums.volume;
+  return sums;
+}
+
+/// The reference point: summed about the area centroid, so that an origin far away costs no digits.
+void placeAndScale(const TriangleMesh& mesh, bool sheet, PanelSurface& surface) {
+  const Vector3d corner = mesh.corner(0, 0);
+  const Vector3d near = corner + computeCentroids(mesh, corner).of_area;
+  const Centroids centroids = computeCentroids(mesh, near);
+  surface.centre = sheet ? near : Vector3d(near + centroids.of_volume);
+  for (Index t = 0; t < mesh.triangleCount(); ++t)
+    for (int k = 0; k < 3; ++k)
+      surface.length = std::max(surface.length, (mesh.corner(t, k) - surface.centre).norm());
+  surface.volume = sheet ? 0 : centroids.volume / portable::pow(surface.length, 3);
+}
+
+void fillArrays(PanelSurface& surface) {
+  const Index n = surface.panelCount();
+  PanelArrays& a = surface.arrays;
+  for (Eigen::ArrayXd* array : {&a.x, &a.y, &a.z, &a.normal_x, &a.normal_y, &a.normal_z, &a.area,
+                                &a.xx, &a.yy, &a.zz, &a.xy, &a.xz, &a.yz})
+    array->resize(n);
+  for (Index t = 0; t < n; ++t) {
+    const Panel& p = surface.panels[t];
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    for (const Vector3d& corner : p.corner)
+      moment += (corner - p.centroid) * (corner - p.centroid).transpose() / 12;
+    a.x[t] = p.centroid.x(), a.y[t] = p.centroid.y(), a.z[t] = p.centroid.z();
+    a.normal_x[t] = p.normal.x(), a.normal_y[t] = p.normal.y(), a.normal_z[t] = p.normal.z();
+    a.area[t] = p.area;
+    a.xx[t] = moment(0, 0), a.yy[t] = moment(1, 1), a.zz[t] = moment(2, 2);
+    a.xy[t] = moment(0, 1), a.xz[t] = moment(0, 2), a.yz[t] = moment(1, 2);
+  }
+}
+
+/// Boundary edges, and components of the vertices: those that touch in one vertex share their
+/// constant, so triangles are joined through vertices, not edges.
+void findConnectivity(const TriangleMesh& mesh, PanelSurface& surface) {
+  surface.boundary_vertex.assign(mesh.vertexCount(), false);
+  const MeshEdges edges = computeMeshEdges(mesh);
+  DisjointSets sets(mesh.vertexCount());
+  std::vector<bool> used(mesh.vertexCount(), false);
+  for (const EdgeGroup& edge : edges.edges) {
+    const HalfEdge& side = edges.half_edges[edge.first];
+    sets.join(side.low, side.high);
+    used[side.low] = used[side.high] = true;
+    if (edge.size() != 1) continue;
+    ++surface.boundary_edge_count;
+    surface.boundary_vertex[side.low] = surface.boundary_vertex[side.high] = true;
+  }
+  surface.component.assign(mesh.vertexCount(), -1);
+  std::vector<int> number(mesh.vertexCount(), -1);
+  for (int v = 0; v < static_cast<int>(mesh.vertexCount()); ++v) {
+    if (!used[v]) continue;
+    int& of_root = number[sets.find(v)];
+    if (of_root < 0) of_root = surface.component_count++;
+    surface.component[v] = of_root;
+  }
+}
+
+}  // namespace
+
+PanelSurface makePanelSurface(const TriangleMesh& mesh, bool sheet) {
+  PanelSurface surface;
+  surface.triangles = mesh.triangles;
+  placeAndScale(mesh, sheet, surface);
+  surface.panels.reserve(mesh.triangleCount());
+  for (Index t = 0; t < mesh.triangleCount(); ++t) {
+    std::array<Vector3d, 3> p;
+    for (int k = 0; k < 3; ++k) p[k] = (mesh.corner(t, k) - surface.centre) / surface.length;
+    surface.panels.push_back(makePanel(p[0], p[1], p[2]));
+    if (!(surface.panels.back().area > 0))
+      throw std::runtime_error("potential flow: triangle " + std::to_string(t) + " has no area");
+  }
+  AMBIENT_ASSERT(surface.length > 0 && std::isfinite(surface.length));
+  fillArrays(surface);
+  findConnectivity(mesh, surface);
+  return surface;
+}
+
+}  // namespace ambient

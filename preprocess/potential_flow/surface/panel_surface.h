@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/potential_flow/surface/panel.h"
+
+namespace ambient {
+
+/// Panel data as a structure of arrays, for the loops over far panels.
+struct PanelArrays {
+  Eigen::ArrayXd x, y, z;  ///< centroids
+  Eigen::ArrayXd normal_x, normal_y, normal_z;
+  Eigen::ArrayXd area;
+  Eigen::ArrayXd xx, yy, zz, xy, xz, yz;  ///< second central moments per area
+};
+
+/// The surface in the units of the solver: moved to its centre and divided by its size.
+struct PanelSurface {
+  Eigen::Vector3d centre;  ///< of volume; of area for a sheet [m]
+  double length = 0;       ///< largest distance of a vertex from the centre [m]
+  double volume = 0;       ///< in units of length^3; 0 for a sheet
+  Eigen::Matrix3Xi triangles;
+  std::vector<Panel> panels;
+  PanelArrays arrays;
+  std::vector<int> component;         ///< of each vertex; -1: vertex without a triangle
+  std::vector<bool> boundary_vertex;  ///< on an edge with one triangle only
+  int component_count = 0;
+  int boundary_edge_count = 0;
+
+  Eigen::Index panelCount() const { return triangles.cols(); }
+  Eigen::Index vertexCount() const { return static_cast<Eigen::Index>(component.size()); }
+};
+
+/// Panels, moments and connectivity of a mesh, centred and scaled.
+/// @throws std::runtime_error for a triangle without area.
+PanelSurface makePanelSurface(const TriangleMesh& mesh, bool sheet);
+
+}  // namespace ambient

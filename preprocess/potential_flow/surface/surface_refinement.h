@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "preprocess/potential_flow/surface/edge_cuts.h"
+
+namespace ambient {
+
+/// Cuts the flat faces of a mesh into more triangles where the potential needs them. First the
+/// faces are divided into coarse triangles everywhere. Then triangles get thinner towards edges at
+/// which the flow is singular, across the edge but not along it, by a factor of 2 per level. Such
+/// edges are convex ones with an angle between the normals above 41 degrees; for a sheet creases
+/// and the boundary. The first vertices are the mesh's own. Returns at most `max_triangles`
+/// triangles, or the mesh itself if it has more. The result depends on the shape and the order of
+/// the mesh only, not on its place, size or attitude.
+TriangleMesh refineSurface(const TriangleMesh& mesh, bool sheet, int max_triangles);
+
+/// refineSurface() with what extrapolation needs.
+struct SurfaceLevels {
+  DividedSurface fine;
+  /// Edges twice as long and one level less across sharp edges; none where the faces were not
+  /// divided as a whole, or have no sharp edge.
+  std::optional<TriangleMesh> coarse;
+  /// In place of a coarse one: as the fine one, but a level less across sharp edges.
+  std::optional<TriangleMesh> less_thinned;
+};
+SurfaceLevels refineInLevels(const TriangleMesh& mesh, bool sheet, int max_triangles);
+
+/// Halves the longest edges until there are at least `least_triangles` triangles, of similar size.
+/// The surface stays the same. Vertices of the mesh come first.
+/// @pre the mesh has a triangle; every edge has one or two.
+TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles);
+
+/// Halves edges until none is longer than `longest_edge` [m]. The surface stays the same. Vertices
+/// of the mesh come first.
+/// @pre longest_edge > 0; every edge has one or two triangles.
+TriangleMesh divideLongEdges(const TriangleMesh& mesh, double longest_edge);
+
+/// Refines a mesh towards its first `vertex_count` vertices, which lie on narrow rounded edges:
+/// halves edges that end there, up to four times, as long as at most `max_triangles` result. The
+/// surface stays the same. Vertices of the mesh come first.
+TriangleMesh refineTowardsFirst(const TriangleMesh& mesh, Eigen::Index vertex_count,
+                                int max_triangles);
+
+}  // namespace ambient

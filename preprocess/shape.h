@@ -1,0 +1,4 @@
+#pragma once
+
+// Shapes as data.
+#include "preprocess/shape/shapes.h"

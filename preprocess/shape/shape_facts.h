@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "bullet_ambient/spatial/vector_types.h"
+#include "preprocess/mesh/triangle_mesh.h"
+#include "preprocess/shape/shapes.h"
+
+namespace ambient {
+
+/// The added mass of a shape, known without solving the flow around it.
+struct KnownAddedMass {
+  Matrix6 added_mass;  ///< per unit density, about the shape's origin
+  bool is_tabulated;   ///< in place of a closed form
+  std::string source;  ///< "closed form", or which tables
+};
+
+/// Everything that follows from the numbers of a simple shape. Shapes of files, hulls and triangle
+/// soups have none of it.
+struct ShapeFacts {
+  /// Half of the sizes of the bounding box along its axes [m]; of a sheet two.
+  Eigen::VectorXd half_extents = {};
+  /// Makes its mesh of at most so many triangles, with the volume (a sheet: the area) of the smooth
+  /// body. @throws std::runtime_error, if they are fewer than least_faces()
+  std::function<TriangleMesh(int faces)> mesh = nullptr;
+  std::function<int()> least_faces = [] { return 20; };
+  /// Returns the added mass of the shape with all lengths times `scale`; none outside the range of
+  /// the tables. Cost: microseconds.
+  std::function<std::optional<KnownAddedMass>(double scale)> added_mass = [](double) {
+    return std::nullopt;
+  };
+  bool is_smooth = false;    ///< without edges: errors of meshes shrink evenly as these get finer
+  double sphere_radius = 0;  ///< [m]; 0: no sphere
+  double margin_volume = 0;  ///< what its margin adds to its volume [m^3]
+};
+
+ShapeFacts factsOf(const Shape& shape);
+
+/// Checks the sizes of a shape before anything is computed of them: each extent, times `scale`,
+/// must be kSmallestSize to kLargestSize, and the longest at most 1e6 times the shortest. Shapes
+/// without facts pass: requireUsualSize() looks at their meshes.
+/// @throws std::runtime_error in one line that begins with `source`.
+void requireUsualExtents(const Shape& shape, double scale, const std::string& source);
+
+}  // namespace ambient

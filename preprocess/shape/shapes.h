@@ -1,0 +1,100 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace ambient {
+
+// Shapes in their own frame S, lengths in metres. Solids are centred at the origin, round ones have
+// their axis along z; sheets lie in the x-y plane with normal +z.
+
+struct Sphere {
+  double radius = 0;
+};
+struct Box {
+  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();
+};
+struct Ellipsoid {
+  Eigen::Vector3d semi_axes = Eigen::Vector3d::Zero();
+};
+struct Cylinder {
+  double radius = 0;
+  double height = 0;
+};
+struct Capsule {
+  double radius = 0;
+  double height = 0;  ///< of the cylindrical part; 0: a sphere
+};
+struct Cone {
+  double radius = 0;
+  double height = 0;  ///< apex at +height/2
+  double margin = 0;  ///< all points within that distance belong to it
+};
+/// The convex hull of points.
+struct Hull {
+  std::vector<Eigen::Vector3d> points;
+  double margin = 0;  ///< all points within that distance belong to it
+};
+/// The convex hull of ellipsoids along the axes of S.
+struct BallHull {
+  struct Ball {
+    Eigen::Vector3d centre, semi_axes;
+  };
+  std::vector<Ball> balls;
+};
+/// A closed surface.
+struct TriangleSoup {
+  std::vector<Eigen::Vector3d> corners;  ///< three of each triangle, counter-clockwise from outside
+};
+/// Surface that is used in place of the triangles of a file: the same, their convex hull, or a
+/// wrap.
+enum class MeshStandIn { kNone, kHull, kWrap };
+struct MeshFile {
+  std::filesystem::path file;
+  double scale = 1;
+  MeshStandIn stand_in = MeshStandIn::kNone;
+  double wrap_size = 0;              ///< with kWrap, before any scaling [m]; 0: kDefaultWrapSize
+  Eigen::Vector3d stretch{1, 1, 1};  ///< along the axes of the file, after `scale`; not 0
+};
+struct FluidBodyFile {
+  std::filesystem::path file;
+};
+struct RectangleSheet {
+  Eigen::Vector2d size = Eigen::Vector2d::Zero();
+};
+struct EllipseSheet {
+  Eigen::Vector2d semi_axes = Eigen::Vector2d::Zero();
+};
+struct MeshSheet {
+  std::filesystem::path file;
+  double scale = 1;
+};
+
+using Shape =
+    std::variant<Sphere, Box, Ellipsoid, Cylinder, Capsule, Cone, Hull, BallHull, TriangleSoup,
+                 MeshFile, FluidBodyFile, RectangleSheet, EllipseSheet, MeshSheet>;
+
+/// p_parent = pose * p_child [m].
+using RigidPose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
+
+/// A shape in the frame of what it is a part of.
+struct PlacedShape {
+  Shape shape = {};
+  RigidPose pose = RigidPose::Identity();
+  std::string name = {};  ///< begins messages: "crane: child 1: child 0 (Box)"
+};
+
+/// A shape as data/schema/shape.schema.json describes it.
+struct ShapeDescription {
+  static constexpr int kDefaultFaces = 1300;
+
+  Shape geometry;
+  int faces = kDefaultFaces;  ///< triangles aimed at, where the shape has no mesh of its own
+  std::string text;           ///< the description, as JSON on one line
+  std::string source;         ///< begins every message about it: the file, and the place therein
+};
+
+}  // namespace ambient

@@ -1,0 +1,202 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "bullet_ambient/reading.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/bodies/part_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
+
+// The wrenches that are read against the momentum of the body and the impulses that Bullet reports.
+namespace ambient::test {
+namespace {
+
+constexpr double kBalanceStep = 1.0 / 120;
+constexpr double kBalanceRounding = byPrecision(1e-11, 2e-5);  // of the largest term
+
+enum class Place { kSubmerged, kAtSurface };
+enum class Held { kFree, kByContacts, kByJoint };
+
+const std::shared_ptr<const FluidBody>& shape() {
+  static const auto made = std::make_shared<const FluidBody>(floatingEllipsoid(kUnequalAxes, 2));
+  return made;
+}
+
+/// A body of arbitrary density and motion in water that flows, and on request held by something.
+class RandomScene {
+ public:
+  RandomScene(Arbitrary& arbitrary, Place place, Held held) {
+    scene.world.setGravity({0, 0, bt(-9.81)});
+    addWater(arbitrary, place);
+    addBody(arbitrary);
+    if (held == Held::kByContacts) addGround(arbitrary);
+    if (held == Held::kByJoint) addJoint(arbitrary);
+    scene.of(*body).readWrench(true);
+  }
+  ~RandomScene() {
+    if (joint) scene.world.removeConstraint(joint.get());
+  }
+
+  void step(const Wrench& force) {
+    body->applyCentralForce(toBullet(force.force));
+    body->applyTorque(toBullet(force.torque));
+    clearSecondFrictions();
+    before = momentum();
+    scene.step(kBalanceStep);
+  }
+  Wrench momentum() const {
+    const Vector3 spin = toVector3(body->getAngularVelocity());
+    const Matrix3 R = toQuaternion(body->getWorldTransform().getRotation()).toRotationMatrix();
+    const Vector3 moments = toVector3(body->getInvInertiaDiagLocal()).cwiseInverse();
+    return {R * moments.cwiseProduct(R.transpose() * spin),
+            toVector3(body->getLinearVelocity()) / static_cast<double>(body->getInvMass())};
+  }
+  /// Wrench of the contacts and the joint, as Bullet reports them.
+  Wrench reported(const btVector3& centre) const {
+    Wrench sum;
+    for (int i = 0; i < scene.dispatcher.getNumManifolds(); ++i) {
+      btPersistentManifold& manifold = *manifoldOf(i);
+      const bool is_first = manifold.getBody0() == body;
+      for (int k = 0; k < manifold.getNumContacts(); ++k)
+        sum += reported(manifold.getContactPoint(k), is_first, centre);
+    }
+    sum = 1 / kBalanceStep * sum;
+    if (joint)
+      sum += {toVector3(feedback.m_appliedTorqueBodyA), toVector3(feedback.m_appliedForceBodyA)};
+    return sum;
+  }
+
+  FluidWorld scene;
+  btRigidBody* body = nullptr;
+  Wrench before;
+
+ private:
+  void addWater(Arbitrary& arbitrary, Place place) {
+    FluidRegion sea;
+    sea.below = water();
+    sea.below.velocity = arbitrary.vector(0.5);
+    sea.below.velocity.z() = 0;
+    sea.above = air();
+    sea.above->velocity = arbitrary.vector(5);
+    if (place == Place::kAtSurface)
+      sea.surface = std::make_shared<StillWater>(arbitrary.between(-0.1, 0.1), Vector3::UnitZ());
+    scene.fluid.addRegion(sea);
+  }
+  void addBody(Arbitrary& arbitrary) {
+    BodyDef def;
+    def.mass = arbitrary.between(0.2, 3) * 1000 * shape()->volume;
+    def.moments = ellipsoidMoments(kUnequalAxes, def.mass);
+    def.start.orientation = Quaternion(arbitrary.rotation());
+    def.start.twist = arbitrary.twist(2, 1);
+    def.shape = &box;
+    body = &scene.add(def);
+    AttachDef attach;
+    attach.fluid_body = shape();
+    scene.fluid.add(*body, attach);
+  }
+  void addGround(Arbitrary& arbitrary) {
+    btVector3 lowest, highest;
+    body->getAabb(lowest, highest);
+    BodyDef def;
+    def.mass = 0;
+    def.shape = &ground;
+    def.start.position = {0, 0, static_cast<double>(lowest.z()) - 9.96};
+    scene.add(def).setFriction(bt(arbitrary.between(0, 2)));
+    body->setFriction(1);
+    body->setLinearVelocity(body->getLinearVelocity() - btVector3(0, 0, bt(1.5)));
+  }
+  void addJoint(Arbitrary& arbitrary) {
+    joint = std::make_unique<btPoint2PointConstraint>(*body, toBullet(arbitrary.vector(0.3)));
+    joint->setJointFeedback(&feedback);
+    scene.world.addConstraint(joint.get());
+  }
+  btPersistentManifold* manifoldOf(int i) const {
+    return const_cast<btCollisionDispatcher&>(scene.dispatcher).getManifoldByIndexInternal(i);
+  }
+  // Bullet leaves the impulse of a second friction row that is no more.
+  void clearSecondFrictions() {
+    for (int i = 0; i < scene.dispatcher.getNumManifolds(); ++i)
+      for (int k = 0; k < manifoldOf(i)->getNumContacts(); ++k)
+        manifoldOf(i)->getContactPoint(k).m_appliedImpulseLateral2 = 0;
+  }
+  static Wrench reported(const btManifoldPoint& point, bool is_first, const btVector3& centre) {
+    const btVector3 impulse = point.m_appliedImpulse * point.m_normalWorldOnB +
+                              point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+                              point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+    const btVector3 at = is_first ? point.getPositionWorldOnA() : point.getPositionWorldOnB();
+    const Vector3 on_body = (is_first ? 1 : -1) * toVector3(impulse);
+    return Wrench::ofForceAt(on_body, toVector3(at - centre));
+  }
+
+  btBoxShape box{btVector3(bt(0.2), bt(0.2), bt(0.1))};
+  btBoxShape ground{btVector3(10, 10, 10)};
+  std::unique_ptr<btPoint2PointConstraint> joint;
+  btJointFeedback feedback;
+};
+
+double sizeOf(const Wrench& f) { return f.vector().norm(); }
+
+double sizeOf(const FluidWrench& f) {
+  double size = 0;
+  for (const Wrench& part :
+       {f.pressure, f.friction, f.buoyancy, f.waves, f.wind, f.added_mass, f.constraints})
+    size += sizeOf(part);
+  return size;
+}
+
+struct Case {
+  Place place;
+  Held held;
+  const char* name;
+};
+
+class Balance : public testing::TestWithParam<Case> {};
+
+// The change of the momentum is that of all parts, and the constraints are those that Bullet
+// reports: 200 cases of each kind.
+TEST_P(Balance, OfMomentumHoldsToRounding) {
+  Arbitrary arbitrary(7);
+  double held_most = 0;
+  for (int i = 0; i < 200; ++i) {
+    RandomScene scene(arbitrary, GetParam().place, GetParam().held);
+    Wrench applied{arbitrary.vector(2), arbitrary.vector(20)};
+    btVector3 centre(0, 0, 0);
+    for (int step = 0; step <= i % 3; ++step) {
+      centre = scene.body->getWorldTransform().getOrigin();
+      scene.step(applied);
+    }
+    const double mass = 1 / static_cast<double>(scene.body->getInvMass());
+    applied.force.z() += mass * static_cast<double>(scene.scene.world.getGravity().z());
+    const FluidWrench read = scene.scene.of(*scene.body).wrench();
+    Wrench change = scene.momentum();
+    const double size =
+        sizeOf(read) + sizeOf(applied) + (sizeOf(change) + sizeOf(scene.before)) / kBalanceStep;
+    change -= scene.before;
+    Wrench missing = 1 / kBalanceStep * change;
+    missing -= applied + read.total() + read.constraints;
+    EXPECT_LT(sizeOf(missing), kBalanceRounding * size) << i;
+    Wrench unreported = read.constraints;
+    unreported -= scene.reported(centre);
+    EXPECT_LT(sizeOf(unreported), kBalanceRounding * size) << i;
+    held_most = std::max(held_most, sizeOf(read.constraints) / size);
+  }
+  if (GetParam().held == Held::kFree) {
+    EXPECT_EQ(held_most, 0);
+  } else {
+    EXPECT_GT(held_most, 0.1);  // there was something to tell apart
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Reading, Balance,
+    testing::Values(Case{Place::kSubmerged, Held::kFree, "Submerged"},
+                    Case{Place::kAtSurface, Held::kFree, "AtSurface"},
+                    Case{Place::kSubmerged, Held::kByContacts, "SubmergedOnGround"},
+                    Case{Place::kAtSurface, Held::kByContacts, "AtSurfaceOnGround"},
+                    Case{Place::kAtSurface, Held::kByJoint, "AtSurfaceWithJoint"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace ambient::test

@@ -1,0 +1,194 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/reading.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/bits_of.h"
+#include "tests/support/bodies/part_bodies.h"
+
+// The wrench of the fluid where closed forms tell it, and what its reading may not do.
+namespace ambient::test {
+namespace {
+
+constexpr double kG = 9.81;
+
+struct Swimmer {
+  explicit Swimmer(double specific_gravity, const Medium& medium = {}) {
+    scene.world.setGravity({0, 0, bt(-kG)});
+    shape = std::make_shared<FluidBody>(floatingEllipsoid(kUnequalAxes, 3));
+    shape->name = "swimmer";
+    def.mass = specific_gravity * 1000 * shape->volume;
+    def.moments = ellipsoidMoments(kUnequalAxes, def.mass);
+    attach.fluid_body = shape;
+    attach.medium = medium;
+  }
+  Immersed add() {
+    body = &scene.add(def);
+    return scene.fluid.add(*body, attach);
+  }
+
+  FluidWorld scene;
+  std::shared_ptr<FluidBody> shape;
+  BodyDef def;
+  AttachDef attach;
+  btRigidBody* body = nullptr;
+};
+
+Medium stillWater() { return {1000, 1e-3, {0, 0, 0}, {0, 0, 0}}; }
+
+TEST(WrenchReading, TheWaterCarriesAFloatingBody) {
+  Swimmer swimmer(0.5);
+  swimmer.scene.fluid.addRegion(waterBelow(0));
+  const Immersed body = swimmer.add();
+  body.readWrench(true);
+  swimmer.scene.step(1.0 / 60, 3600);
+  const FluidWrench read = body.wrench();
+  EXPECT_NEAR(read.buoyancy.force.z() / (swimmer.def.mass * kG), 1, 1e-3);
+  EXPECT_NEAR(read.total().force.z() / (swimmer.def.mass * kG), 1, 1e-6);
+  EXPECT_EQ(read.constraints.vector().norm(), 0);
+}
+
+TEST(WrenchReading, DragAndBuoyancyCarryASinkingBody) {
+  Swimmer swimmer(2, stillWater());
+  const Immersed body = swimmer.add();
+  body.readWrench(true);
+  swimmer.scene.step(1.0 / 240, 4800);
+  const FluidWrench read = body.wrench();
+  const double lift = swimmer.def.mass * kG / 2;
+  EXPECT_NEAR(read.buoyancy.force.z() / lift, 1, byPrecision(1e-12, 1e-6));
+  EXPECT_NEAR((read.pressure.force + read.friction.force).z() / lift, 1, 2e-2);
+  EXPECT_GT(read.friction.force.z(), 0);
+  EXPECT_LT(read.friction.force.z(), read.pressure.force.z());
+}
+
+// Let go at rest: the added mass takes K_f / K of the force.
+TEST(WrenchReading, TheAddedMassHoldsBackABodyThatIsLetGo) {
+  Swimmer swimmer(2, stillWater());
+  const Immersed body = swimmer.add();
+  body.readWrench(true);
+  swimmer.scene.step(1e-4);
+  const double added = 1000 * swimmer.shape->added_mass(5, 5), mass = swimmer.def.mass;
+  const double expected = mass / 2 * kG * added / (mass + added);
+  EXPECT_NEAR(body.wrench().added_mass.force.z() / expected, 1, byPrecision(1e-4, 1e-3));
+}
+
+// The reaction is that of Kirchhoff's equations, -d(A x)/dt and the Munk moment, with an error of
+// second order.
+TEST(WrenchReading, TheReactionIsKirchhoffs) {
+  const auto errorAt = [](double step) {
+    Swimmer swimmer(1.5, idealFluid(1000));
+    swimmer.def.start.twist = {Vector3(1, 2, 3), Vector3(2, 0, 1)};
+    swimmer.shape->faces = {};
+    const Immersed body = swimmer.add();
+    body.readWrench(true);
+    const Vector6 added = 1000 * swimmer.shape->added_mass.diagonal();
+    const auto momentum = [&] {
+      const Matrix3 R =
+          toQuaternion(swimmer.body->getWorldTransform().getRotation()).toRotationMatrix();
+      const Vector3 l = added.head<3>().cwiseProduct(R.transpose() *
+                                                     toVector3(swimmer.body->getAngularVelocity()));
+      const Vector3 p = added.tail<3>().cwiseProduct(R.transpose() *
+                                                     toVector3(swimmer.body->getLinearVelocity()));
+      return Wrench{R * l, R * p};
+    };
+    const Wrench before = momentum();
+    const Vector3 start = toVector3(swimmer.body->getWorldTransform().getOrigin());
+    swimmer.scene.step(step);
+    const Wrench after = momentum();
+    const Vector3 way = toVector3(swimmer.body->getWorldTransform().getOrigin()) - start;
+    Wrench expected = before;
+    expected -= after;
+    expected.torque -= way.cross(before.force + after.force) / 2;
+    expected = 1 / step * expected;
+    return (body.wrench().added_mass.vector() - expected.vector()).norm() /
+           expected.vector().norm();
+  };
+  const double coarse = errorAt(0.005), fine = errorAt(0.0025);
+  EXPECT_LT(coarse, byPrecision(1e-4, 1e-3));
+  EXPECT_LT(fine, coarse / 3 + byPrecision(0, 1e-4));
+}
+
+TEST(WrenchReading, WindPushesAFloatingBody) {
+  Swimmer swimmer(0.5);
+  FluidRegion sea = waterBelow(0);
+  sea.above = air();
+  sea.above->velocity = {20, 0, 0};
+  swimmer.scene.fluid.addRegion(sea);
+  const Immersed body = swimmer.add();
+  body.readWrench(true);
+  swimmer.scene.step(1.0 / 120);
+  EXPECT_GT(body.wrench().wind.force.x(), 0);
+}
+
+TEST(WrenchReading, AnAxisThatIsLockedIsHeldByConstraints) {
+  Swimmer swimmer(2, stillWater());
+  const Immersed body = swimmer.add();
+  body.readWrench(true);
+  swimmer.body->setLinearFactor({1, 1, 0});
+  swimmer.scene.step(1.0 / 120, 2);
+  const FluidWrench read = body.wrench();
+  const double weight = swimmer.def.mass * kG;
+  EXPECT_NEAR(read.buoyancy.force.z() / weight, 0.5, 1e-6);
+  // Bullet takes the weight of a locked axis away when it is applied.
+  EXPECT_NEAR((read.total() + read.constraints).force.z() / weight, 0, 1e-6);
+}
+
+// A step moves the same bits whether the wrench is read or not.
+TEST(WrenchReading, ChangesNoMotion) {
+  const auto run = [](bool is_read) {
+    Swimmer swimmer(0.7);
+    swimmer.scene.fluid.addRegion(waterBelow(0));
+    btBoxShape shape(btVector3(bt(0.2), bt(0.2), bt(0.1)));
+    btBoxShape ground(btVector3(9, 9, 1));
+    swimmer.def.shape = &shape;
+    swimmer.def.start.twist = {Vector3(1, 2, 3), Vector3(2, 0, 1)};
+    BodyDef floor;
+    floor.mass = 0;
+    floor.shape = &ground;
+    floor.start.position = {0, 0, -1.15};
+    swimmer.scene.add(floor);
+    for (const double x : {0.0, 0.25}) {
+      swimmer.def.start.position = {x, 0, x};
+      swimmer.add().readWrench(is_read);
+    }
+    swimmer.scene.step(1.0 / 60, 60);
+    WorldState state = swimmer.scene.fluid.save();
+    state.pairs.clear();
+    state.contacts.clear();
+    return encodeState(state);
+  };
+  EXPECT_EQ(run(true), run(false));
+}
+
+TEST(WrenchReading, IsRefusedWhereNobodyHasAskedForIt) {
+  Swimmer swimmer(1, stillWater());
+  const Immersed body = swimmer.add();
+  try {
+    body.wrench();
+    FAIL();
+  } catch (const std::logic_error& error) {
+    EXPECT_STREQ(error.what(), "wrench: it is not read; call readWrench(true) before a step");
+  }
+  body.readWrench(true);
+  EXPECT_EQ(body.wrench().total().vector().norm(), 0);
+  body.readWrench(false);
+  EXPECT_THROW(body.wrench(), std::logic_error);
+}
+
+TEST(WrenchReading, StaysWhenAStateIsRestored) {
+  Swimmer swimmer(2, stillWater());
+  const Immersed body = swimmer.add();
+  body.readWrench(true);
+  const WorldState state = swimmer.scene.fluid.save();
+  swimmer.scene.fluid.restore(state);
+  swimmer.scene.step(1.0 / 120);
+  EXPECT_GT(body.wrench().buoyancy.force.z(), 0);
+}
+
+}  // namespace
+}  // namespace ambient::test

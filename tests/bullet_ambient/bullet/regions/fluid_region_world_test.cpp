@@ -1,0 +1,352 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/bullet/world/fluid.h"
+#include "tests/bullet_ambient/bullet/regions/region_world.h"
+
+// Regions of fluid, and the search for a body's region.
+namespace ambient::test {
+namespace {
+
+Medium blowing(const Vector3& velocity) {
+  Medium wind = air();
+  wind.velocity = velocity;
+  return wind;
+}
+
+bool isSame(const btRigidBody& a, const btRigidBody& b) {
+  return a.getWorldTransform() == b.getWorldTransform() &&
+         a.getLinearVelocity() == b.getLinearVelocity() &&
+         a.getAngularVelocity() == b.getAngularVelocity();
+}
+
+TEST(FluidRegions, ABodyInOneMovesAsIfTheFluidWereItsOwn) {
+  const Medium medium{300, 1e-3, {0.3, 0, 0.1}, {0, 0.2, 0}};
+  btSphereShape ball(bt(0.2));
+  btBoxShape floor_shape(btVector3(9, 9, 1));
+  const FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
+  FluidWorld own, regions;
+  regions.fluid.addRegion(filledWith(medium));
+  for (FluidWorld* scene : {&own, &regions}) {
+    scene->world.setGravity({0, 0, bt(-9.81)});
+    BodyDef floor{0, Vector3::Zero(), {}, &floor_shape};
+    floor.start.position = {0, 0, -1};
+    scene->add(floor);
+    for (const double height : {0.25, 40.0}) {
+      BodyDef def = tumblingBody({0, 0, height});
+      def.mass = 20;
+      def.shape = &ball;
+      scene->add(def, shape, scene == &own ? medium : Medium{});
+    }
+  }
+  own.step(kWorldStep, 200);
+  regions.step(kWorldStep, 200);
+  for (int i = 1; i < 3; ++i) {
+    const auto* a = btRigidBody::upcast(own.world.getCollisionObjectArray()[i]);
+    const auto* b = btRigidBody::upcast(regions.world.getCollisionObjectArray()[i]);
+    EXPECT_TRUE(isSame(*a, *b)) << i;
+    EXPECT_EQ(regions.of(*b).medium().density, medium.density);
+    EXPECT_EQ(regions.of(*b).inertia(), own.of(*a).inertia());
+  }
+  EXPECT_GT(own.fluid.counters().rows, 0);
+  EXPECT_EQ(regions.fluid.counters().rows, own.fluid.counters().rows);
+}
+
+TEST(FluidRegions, TheHighestPriorityCountsAndThenTheLastAdded) {
+  FluidWorld scene;
+  const btRigidBody& body =
+      scene.add(tumblingBody(Vector3::Zero()), facelessEllipsoid(kUnequalAxes), idealFluid(7));
+  const auto density = [&] {
+    scene.step(kWorldStep);
+    return scene.of(body).medium().density;
+  };
+  EXPECT_EQ(density(), 7);
+  const RegionId sea = scene.fluid.addRegion(filledWith(idealFluid(1)));
+  EXPECT_EQ(density(), 1);
+  const RegionId pool = scene.fluid.addRegion(filledWith(idealFluid(2)));
+  EXPECT_EQ(density(), 2);
+  FluidRegion first = filledWith(idealFluid(3));
+  first.priority = 1;
+  scene.fluid.setRegion(sea, first);
+  EXPECT_EQ(density(), 3);
+  EXPECT_EQ(scene.of(body).region(), sea);
+  first.priority = 0;
+  scene.fluid.setRegion(sea, first);
+  EXPECT_EQ(density(), 2) << "setRegion keeps its turn";
+  FluidRegion elsewhere = halfSpace(2, 100, idealFluid(4));
+  elsewhere.priority = 5;
+  scene.fluid.addRegion(elsewhere);
+  EXPECT_EQ(density(), 2);
+  EXPECT_TRUE(scene.fluid.removeRegion(pool));
+  EXPECT_FALSE(scene.fluid.removeRegion(pool));
+  EXPECT_EQ(density(), 3);
+  scene.fluid.removeRegion(sea);
+  EXPECT_EQ(density(), 7);
+  EXPECT_EQ(scene.of(body).region(), RegionId::kNone);
+}
+
+TEST(FluidRegions, ABodyThatDoesNotFollowKeepsItsOwn) {
+  FluidWorld scene;
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kUnequalAxes));
+  def.medium = idealFluid(7);
+  def.follow_regions = false;
+  btRigidBody& body = scene.add(tumblingBody(Vector3::Zero()));
+  scene.fluid.add(body, def);
+  scene.fluid.addRegion(filledWith(idealFluid(1)));
+  scene.step(kWorldStep);
+  EXPECT_EQ(scene.of(body).medium().density, 7);
+  EXPECT_EQ(scene.of(body).counters().regions_asked, 0);
+}
+
+// A body falls from a vacuum into an ideal fluid. Entry changes neither pose nor velocity; later
+// motion equals that of a body started there.
+TEST(FluidRegions, ABodyThatCrossesKeepsItsVelocity) {
+  const FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
+  FluidWorld crossing, stock, inside;
+  crossing.fluid.addRegion(halfSpace(0, 1, water()));
+  const BodyDef def = tumblingBody(Vector3::Zero());
+  btRigidBody& body = crossing.add(def, shape, Medium{});
+  btRigidBody& dry = stock.add(def);
+  int steps = 0;
+  while (!(dry.getWorldTransform().getOrigin().x() >= 1)) {
+    crossing.step(kWorldStep);
+    stock.step(kWorldStep);
+    ++steps;
+    ASSERT_TRUE(isSame(body, dry)) << steps;
+  }
+  EXPECT_GT(steps, 50);
+  EXPECT_EQ(crossing.fluid.counters().medium_changes, 0);
+  btRigidBody& put = inside.add(def, shape, water());
+  put.setWorldTransform(dry.getWorldTransform());
+  put.setLinearVelocity(dry.getLinearVelocity());
+  put.setAngularVelocity(dry.getAngularVelocity());
+  for (int i = 0; i < 20; ++i) {
+    crossing.step(kWorldStep);
+    inside.step(kWorldStep);
+    ASSERT_TRUE(isSame(body, put)) << i;
+  }
+  EXPECT_EQ(crossing.fluid.counters().medium_changes, 1);
+  EXPECT_EQ(crossing.of(body).inertia(), inside.of(put).inertia());
+}
+
+TEST(FluidRegions, AVacuumLeavesABodyToStockBullet) {
+  FluidWorld scene, stock;
+  scene.fluid.addRegion(filledWith(Medium{}));
+  btRigidBody& body =
+      scene.add(tumblingBody(Vector3::Zero()), meshedEllipsoid(kUnequalAxes, 1), water());
+  btRigidBody& dry = stock.add(tumblingBody(Vector3::Zero()));
+  scene.step(kWorldStep, 30);
+  stock.step(kWorldStep, 30);
+  EXPECT_TRUE(isSame(body, dry));
+  EXPECT_EQ(scene.of(body).inertia()(5, 5), 2);  // its mass alone
+}
+
+TEST(FluidRegions, AWindZoneBlowsInsideOnly) {
+  FluidWorld scene;
+  FluidRegion zone = filledWith(blowing({0, 5, 0}));
+  zone.bounds = RegionBounds{{0, -kFar, -kFar}, {10, kFar, kFar}};
+  scene.fluid.addRegion(zone);
+  BodyDef def = tumblingBody({5, 0, 0});
+  def.start.twist = {};
+  const FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
+  btRigidBody& inside = scene.add(def, shape, air());
+  def.start.position.x() = 11;
+  btRigidBody& outside = scene.add(def, shape, air());
+  scene.step(kWorldStep, 120);
+  EXPECT_GT(inside.getLinearVelocity().y(), bt(0.1));
+  EXPECT_EQ(outside.getLinearVelocity().y(), bt(0));
+}
+
+// Drift from the circle in a rigidly rotating fluid, for a body of equal density without faces.
+// Exact: no drift, since the fluid's acceleration acts on displaced and added mass.
+double driftOnCircle(double step) {
+  const double kRate = 1.2;
+  FluidWorld scene;
+  FluidRegion whirl = filledWith(idealFluid(1000));
+  whirl.flow = [=](const Vector3& x, double) {
+    return FlowSample{kRate * Vector3(-x.y(), x.x(), 0), -kRate * kRate * Vector3(x.x(), x.y(), 0)};
+  };
+  scene.fluid.addRegion(whirl);
+  const FluidBody shape = facelessEllipsoid(Vector3::Constant(0.1));
+  BodyDef def{1000 * shape.volume, Vector3::Constant(0.02), {}, nullptr};
+  def.start.position = {2, 0, 0};
+  def.start.twist.linear = {0, 2 * kRate, 0};
+  const btRigidBody& body = scene.add(def, shape, Medium{});
+  const int steps = static_cast<int>(std::lround(4 / step));
+  scene.step(step, steps);
+  const Vector3 exact(2 * std::cos(4 * kRate), 2 * std::sin(4 * kRate), 0);
+  return (toVector3(body.getWorldTransform().getOrigin()) - exact).norm();
+}
+
+TEST(FluidRegions, ABodyOfTheFluidsDensityGoesWithAWhirl) {
+  const double coarse = driftOnCircle(1.0 / 60), fine = driftOnCircle(1.0 / 120);
+  EXPECT_LT(fine, 0.1);
+  EXPECT_NEAR(coarse / fine, 2, 0.1);  // first order: flow sampled at the start of a step
+}
+
+TEST(FluidRegions, FlowsSeeTheTimeOfTheWorldAtTheStartOfTheStep) {
+  FluidWorld scene;
+  std::vector<double> times;
+  FluidRegion region = filledWith(idealFluid(1));
+  region.flow = [&](const Vector3&, double time) {
+    times.push_back(time);
+    return FlowSample{};
+  };
+  scene.add(tumblingBody(Vector3::Zero()), facelessEllipsoid(kUnequalAxes), Medium{});
+  scene.step(0.25, 2);
+  scene.fluid.addRegion(region);
+  scene.step(0.25, 2);
+  EXPECT_EQ(times, (std::vector<double>{0.5, 0.75}));
+  EXPECT_EQ(scene.fluid.time(), 1);
+}
+
+TEST(FluidRegions, AFlowThatIsNotFiniteIsDroppedAndCounted) {
+  FluidWorld scene;
+  std::string said;
+  scene.fluid.setReport([&](const std::string& sentence) { said += sentence; });
+  FluidRegion region = filledWith(water());
+  region.flow = [](const Vector3&, double) { return FlowSample{{std::nan(""), 0, 0}, {0, 0, 0}}; };
+  scene.fluid.addRegion(region);
+  const btRigidBody& body =
+      scene.add(tumblingBody(Vector3::Zero()), meshedEllipsoid(kUnequalAxes, 1), Medium{});
+  scene.step(kWorldStep, 5);
+  EXPECT_EQ(scene.fluid.counters().rejected, 6);  // once when it was attached
+  EXPECT_EQ(scene.of(body).medium().density, water().density);
+  EXPECT_TRUE(toVector3(body.getWorldTransform().getOrigin()).allFinite());
+  EXPECT_NE(said.find("flow or the surface of the region of fluid 0 is not finite"),
+            std::string::npos);
+}
+
+TEST(FluidRegions, ARegionThatABodyCannotMeetChangesNothing) {
+  FluidWorld scene;
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kUnequalAxes));
+  def.medium = idealFluid(7);
+  def.flow.own_law = [](const std::shared_ptr<const FluidBody>&,
+                        const LoadSettings& settings) -> std::shared_ptr<const SurfaceLoads> {
+    if (settings.density > 100) throw std::invalid_argument("too dense");
+    return nullptr;
+  };
+  btRigidBody& body = scene.add(tumblingBody(Vector3::Zero()));
+  scene.fluid.add(body, def);
+  const RegionId id = scene.fluid.addRegion(filledWith(idealFluid(8)));
+  EXPECT_THROW(scene.fluid.addRegion(filledWith(water())), std::invalid_argument);
+  EXPECT_THROW(scene.fluid.setRegion(id, filledWith(water())), std::invalid_argument);
+  EXPECT_THROW(scene.fluid.setRegion(static_cast<RegionId>(7), filledWith(air())),
+               std::invalid_argument);
+  FluidRegion wrong = filledWith(air());
+  wrong.below.density = -1;
+  const auto expectSays = [](const auto& change, const char* sentence) {
+    try {
+      change();
+      ADD_FAILURE() << "not refused: " << sentence;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_STREQ(error.what(), sentence);
+    }
+  };
+  expectSays([&] { scene.fluid.addRegion(wrong); },
+             "region of fluid 1: density of the medium [kg/m^3] is -1; must be zero or positive "
+             "and finite");
+  expectSays([&] { scene.fluid.setRegion(id, wrong); },
+             "region of fluid 0: density of the medium [kg/m^3] is -1; must be zero or positive "
+             "and finite");
+  scene.step(kWorldStep);
+  EXPECT_EQ(scene.of(body).medium().density, 8);
+}
+
+TEST(FluidRegions, OfTheirOwnMediumAndShapeBodiesInThemCanChange) {
+  FluidWorld scene;
+  scene.fluid.addRegion(halfSpace(0, 0, idealFluid(8)));
+  btRigidBody& body =
+      scene.add(tumblingBody({1, 0, 0}), facelessEllipsoid(kUnequalAxes), idealFluid(1));
+  EXPECT_EQ(scene.of(body).medium().density, 8);  // since it was attached
+  scene.of(body).setMedium(idealFluid(3));
+  EXPECT_EQ(scene.of(body).medium().density, 8);
+  const Matrix6 before = scene.of(body).inertia();
+  scene.of(body).setFluidBody(std::make_shared<FluidBody>(facelessEllipsoid(2 * kUnequalAxes)));
+  EXPECT_GT(scene.of(body).inertia()(5, 5), before(5, 5) + 1);
+  EXPECT_EQ(scene.of(body).medium().density, 8);
+  body.setWorldTransform(btTransform(btQuaternion(0, 0, 0, 1), {-1, 0, 0}));
+  scene.step(kWorldStep);
+  EXPECT_EQ(scene.of(body).medium().density, 3);
+  Medium current = idealFluid(3);
+  current.velocity = {0, 0, 1};
+  scene.of(body).setMedium(current);
+  EXPECT_EQ(scene.of(body).medium().velocity.z(), 1);
+}
+
+btRigidBody& addRestingBall(FluidWorld& scene, const Medium& medium) {
+  const FluidBody shape = facelessEllipsoid(Vector3::Constant(0.2));
+  BodyDef def{998 * shape.volume,
+              ellipsoidMoments(Vector3::Constant(0.2), 998 * shape.volume),
+              {},
+              nullptr};
+  btRigidBody& body = scene.add(def, shape, medium);
+  body.forceActivationState(ACTIVE_TAG);
+  return body;
+}
+
+TEST(FluidRegions, BodiesSleepInAndWakeUpWhenTheyChange) {
+  FluidWorld scene;
+  const RegionId id = scene.fluid.addRegion(filledWith(idealFluid(998)));
+  const btRigidBody& body = addRestingBall(scene, Medium{});
+  scene.step(1.0 / 60, 300);
+  ASSERT_FALSE(body.isActive());
+  FluidRegion current = filledWith(idealFluid(998));
+  current.below.acceleration = {1, 0, 0};
+  scene.fluid.setRegion(id, current);
+  scene.step(1.0 / 60, 2);
+  EXPECT_TRUE(body.isActive());
+  EXPECT_GT(body.getLinearVelocity().x(), bt(0));
+}
+
+TEST(FluidRegions, NobodySleepsInAFlowThatMayChange) {
+  FluidWorld scene;
+  FluidRegion region = filledWith(idealFluid(998));
+  region.flow = [](const Vector3&, double time) {
+    return FlowSample{{0, 0, 0}, {time > 4 ? 1.0 : 0.0, 0, 0}};
+  };
+  scene.fluid.addRegion(region);
+  const btRigidBody& body = addRestingBall(scene, Medium{});
+  scene.step(1.0 / 60, 300);
+  EXPECT_TRUE(body.isActive());
+  EXPECT_GT(body.getLinearVelocity().x(), bt(0.9));
+}
+
+TEST(FluidRegions, NeverLookAtABodyThatIsGone) {
+  FluidWorld scene;
+  auto body = std::make_unique<btRigidBody>(
+      btRigidBody::btRigidBodyConstructionInfo(1, nullptr, nullptr, btVector3(1, 1, 1)));
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1));
+  scene.fluid.add(*body, def);
+  body.reset();
+  const RegionId id = scene.fluid.addRegion(filledWith(air()));
+  scene.step(kWorldStep);
+  scene.fluid.setRegion(id, filledWith(water()));
+  scene.step(kWorldStep);
+  EXPECT_TRUE(scene.fluid.removeRegion(id));
+  scene.step(kWorldStep);
+}
+
+TEST(FluidRegions, AWorldWithoutAnyAsksNothing) {
+  FluidWorld scene;
+  scene.add(tumblingBody(Vector3::Zero()), meshedEllipsoid(kUnequalAxes, 1), air());
+  scene.step(kWorldStep, 10);
+  EXPECT_EQ(scene.fluid.counters().regions_asked, 0);
+  EXPECT_EQ(scene.fluid.counters().medium_changes, 0);
+  FluidRegion far_away = halfSpace(0, 1e6, water());
+  scene.fluid.addRegion(far_away);
+  scene.fluid.addRegion(far_away);
+  scene.step(kWorldStep, 10);
+  EXPECT_EQ(scene.fluid.counters().regions_asked, 10);  // both are in one box
+  EXPECT_EQ(scene.fluid.counters().medium_changes, 0);
+}
+
+}  // namespace
+}  // namespace ambient::test

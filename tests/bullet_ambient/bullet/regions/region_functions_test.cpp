@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/force/medium/water_surface.h"
+#include "tests/bullet_ambient/bullet/regions/region_world.h"
+#include "tests/support/bodies/part_bodies.h"
+
+// Calls of a fluid from functions of its regions, and the time that they are given.
+namespace ambient::test {
+namespace {
+
+struct AskedWorld : FluidWorld {
+  AskedWorld() {
+    fluid.setReport([this](const std::string& sentence) { said.push_back(sentence); });
+    FluidRegion region = filledWith(idealFluid(900));
+    region.flow = [this](const Vector3&, double time) {
+      times.push_back(time);
+      if (meddle) meddle();
+      return FlowSample{};
+    };
+    asked = fluid.addRegion(region);
+    def.fluid_body = std::make_shared<FluidBody>(floatingEllipsoid(kUnequalAxes, 1));
+    fluid.add(body, def);
+    step(kWorldStep);
+    times.clear();
+    said.clear();  // drops the warning of a light body
+  }
+
+  AttachDef def;
+  btRigidBody& body = FluidWorld::add(tumblingBody(Vector3::Zero()));
+  btRigidBody& other = FluidWorld::add(tumblingBody({3, 0, 0}));
+  RegionId asked;
+  std::function<void()> meddle;
+  std::vector<double> times;
+  std::vector<std::string> said;
+};
+
+const std::pair<const char*, void (*)(AskedWorld&)> kMeddling[] = {
+    {"add", [](AskedWorld& w) { w.fluid.add(w.other, w.def); }},
+    {"remove", [](AskedWorld& w) { w.of(w.body).remove(); }},
+    {"clear", [](AskedWorld& w) { w.fluid.clear(); }},
+    {"addRegion", [](AskedWorld& w) { w.fluid.addRegion(filledWith(air())); }},
+    {"setRegion", [](AskedWorld& w) { w.fluid.setRegion(w.asked, filledWith(air())); }},
+    {"removeRegion", [](AskedWorld& w) { w.fluid.removeRegion(w.asked); }},
+    {"setMedium", [](AskedWorld& w) { w.of(w.body).setMedium(idealFluid(1)); }},
+    {"setFluidBody", [](AskedWorld& w) { w.of(w.body).setFluidBody(w.def.fluid_body); }},
+    {"restoreState", [](AskedWorld& w) { w.fluid.restore(w.fluid.save()); }},
+};
+
+TEST(RegionFunctions, CannotChangeTheirFluid) {
+  for (const auto& [name, change] : kMeddling) {
+    AskedWorld world;
+    world.meddle = [&world, change = change] { change(world); };
+    world.step(kWorldStep, 3);
+    ASSERT_EQ(world.said.size(), 1u) << name;
+    EXPECT_EQ(
+        world.said[0],
+        std::string("bullet_ambient: the flow or the surface of a region of fluid has called ") +
+            name +
+            ", which changes what is asked for its fluid; nothing has changed: call it "
+            "between steps");
+    EXPECT_TRUE(world.fluid.find(world.body)) << name;
+    EXPECT_EQ(world.fluid.size(), 1u) << name;
+    EXPECT_EQ(world.of(world.body).medium().density, 900) << name;
+    EXPECT_EQ(world.fluid.counters().rejected, 3) << name;
+    world.meddle = nullptr;
+    change(world);
+  }
+}
+
+TEST(RegionFunctions, ThatCatchTheRefusalGoOn) {
+  AskedWorld world;
+  int refused = 0;
+  world.meddle = [&] {
+    try {
+      world.of(world.body).remove();
+    } catch (const std::logic_error&) {
+      ++refused;
+    }
+  };
+  world.step(kWorldStep, 3);
+  EXPECT_EQ(refused, 3);
+  EXPECT_EQ(world.fluid.counters().rejected, 0);
+}
+
+TEST(RegionFunctions, CannotChangeItWhileABodyIsAttached) {
+  AskedWorld world;
+  world.meddle = [&world] { world.of(world.body).remove(); };
+  world.fluid.add(world.other, world.def);
+  EXPECT_TRUE(world.fluid.find(world.body));
+  EXPECT_TRUE(world.fluid.find(world.other));
+}
+
+TEST(RegionFunctions, OfASurfaceCannotEither) {
+  AskedWorld world;
+  FluidRegion sea = filledWith(water());
+  sea.above = air();
+  sea.surface = std::make_shared<WaterSurfaceFunction>([&world](const Vector3& point, double) {
+    world.fluid.clear();
+    return WaterSample{-point.z(), {0, 0, 0}, {0, 0, 0}};
+  });
+  world.fluid.setRegion(world.asked, sea);
+  world.step(kWorldStep, 2);
+  EXPECT_EQ(world.said.size(), 1u);
+  EXPECT_EQ(world.fluid.size(), 1u);
+}
+
+TEST(RegionFunctions, MayChangeAnotherFluid) {
+  AskedWorld world, far_away;
+  world.meddle = [&far_away] { far_away.of(far_away.body).remove(); };
+  world.step(kWorldStep);
+  EXPECT_FALSE(far_away.fluid.find(far_away.body));
+  EXPECT_TRUE(world.said.empty());
+}
+
+// Bullet disables bodies in infinite steps and does not move them.
+TEST(StepsOfNoDuration, LeaveBodiesAndTimeAsTheyWere) {
+  btBoxShape floor_shape(btVector3(9, 9, 1)), box(btVector3(1, 1, 1));
+  for (const double duration : {kNotANumber, kFar}) {
+    AskedWorld world;
+    world.world.setGravity({0, 0, bt(-9.81)});
+    BodyDef floor{0, Vector3::Zero(), {}, &floor_shape};
+    floor.start.position = {50, 0, -1};
+    world.FluidWorld::add(floor);
+    BodyDef resting{900 * 9, Vector3::Constant(5000), {}, &box};
+    resting.start.position = {50, 0, 1};
+    const btRigidBody& stone = world.FluidWorld::add(resting, *world.def.fluid_body, Medium{});
+    world.step(kWorldStep, 60);
+    const btRigidBody before(world.body), stone_before(stone);
+    const long long rejected = world.fluid.counters().rejected;
+    const double time = world.fluid.time();
+    world.world.stepSimulation(static_cast<btScalar>(duration), 0);
+    for (const auto& [now, then] :
+         {std::pair<const btRigidBody*, const btRigidBody*>{&world.body, &before},
+          std::pair<const btRigidBody*, const btRigidBody*>{&stone, &stone_before}}) {
+      EXPECT_TRUE(now->getWorldTransform() == then->getWorldTransform()) << duration;
+      EXPECT_TRUE(now->getLinearVelocity() == then->getLinearVelocity()) << duration;
+      EXPECT_TRUE(now->getAngularVelocity() == then->getAngularVelocity()) << duration;
+    }
+    EXPECT_EQ(world.fluid.time(), time);
+    EXPECT_EQ(world.fluid.counters().rejected, rejected);
+    ASSERT_EQ(world.said.size(), 1u);
+    EXPECT_NE(world.said[0].find("stepped by a time that is not finite"), std::string::npos);
+    world.times.clear();
+    world.step(kWorldStep, 60);
+    if (duration == kFar) continue;
+    EXPECT_EQ(world.times.at(0), time);
+    EXPECT_NE(world.body.getWorldTransform().getOrigin(), before.getWorldTransform().getOrigin());
+    EXPECT_NEAR(stone.getWorldTransform().getOrigin().z(), 1, 0.05);
+    EXPECT_EQ(world.fluid.counters().rejected, rejected);
+    EXPECT_EQ(world.said.size(), 1u);
+  }
+}
+
+}  // namespace
+}  // namespace ambient::test

@@ -1,0 +1,219 @@
+#include "tests/bullet_ambient/bullet/robots/atlas/tree_atlas.h"
+
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "bullet_ambient/bullet/world/multibody_dynamics.h"
+#include "bullet_ambient/force/medium/water_surface.h"
+#include "bullet_ambient/force/surface/hydrostatics.h"
+#include "tests/bullet_ambient/bullet/robots/robot_world.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/bodies/part_bodies.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr double kHertz[] = {30, 60, 120, 240};
+constexpr double kColliderRadius = 0.05;  // collider of a link [m]
+constexpr double kGravity = 9.81;         // [m/s^2]
+constexpr double kLongSteps = 6;          // times those of other settings
+constexpr double kGap = 0.05;             // walls of a box to its content [m]
+
+RobotDef treeOf(Arbitrary& arbitrary) {
+  RobotDef def;
+  def.links = 1 + static_cast<int>(arbitrary.between(0, 12));
+  def.joints = static_cast<Joints>(static_cast<int>(arbitrary.between(0, 3)));
+  def.has_fixed_base = arbitrary.between(0, 1) < 0.25;
+  def.speed = std::pow(10, arbitrary.between(-1, 1)) / 2;
+  def.collider_radius = kColliderRadius;
+  return def;
+}
+
+const Vector3 kLinkAxes(0.15, 0.08, 0.05);  // ellipsoid of a link [m]
+
+void attachFluid(Arbitrary& arbitrary, RobotWorld& world, btMultiBody& body, TreeFluid fluid,
+                 bool has_surface) {
+  const double ratio = std::pow(10, arbitrary.between(-2, 2));
+  if (fluid == TreeFluid::kIdeal) putIntoFluid(arbitrary, world, body, ratio);
+  if (fluid != TreeFluid::kWater) return;
+  AttachDef def;
+  def.medium = water();
+  def.wave_damping = 0;
+  // Drag from the start on, so that what rises is not the error of a swing in air.
+  if (has_surface) def.flow.law = PressureLaw::kPublished;
+  def.fluid_body = std::make_shared<FluidBody>(has_surface ? floatingEllipsoid(kLinkAxes, 1)
+                                                           : meshedEllipsoid(kLinkAxes, 1));
+  for (int link = body.hasFixedBase() ? 0 : -1; link < body.getNumLinks(); ++link)
+    world.fluid.add(body, link, def);
+}
+
+// Joins the last link to the world by a ball joint.
+void tie(RobotWorld& world, btMultiBody& body) {
+  const int tip = body.getNumLinks() - 1;
+  const btVector3 point(bt(0.15), 0, 0);
+  auto joint = std::make_unique<btMultiBodyPoint2Point>(
+      &body, tip, static_cast<btRigidBody*>(nullptr), point,
+      body.getLink(tip).m_cachedWorldTransform * point);
+  joint->setMaxAppliedImpulse(bt(1e9));
+  world.take(std::move(joint));
+}
+
+// Adds walls around the initial places of all links.
+void addBox(RobotWorld& world, btMultiBody& body) {
+  for (int i = 0; i < 6; ++i) {
+    btVector3 normal(0, 0, 0);
+    normal[i / 2] = bt(i % 2 == 0 ? 1 : -1);
+    btScalar nearest = normal.dot(body.getBasePos());
+    for (int link = 0; link < body.getNumLinks(); ++link)
+      nearest =
+          std::min(nearest, normal.dot(body.getLink(link).m_cachedWorldTransform.getOrigin()));
+    world.addFixed(
+        std::make_unique<btStaticPlaneShape>(normal, nearest - bt(kColliderRadius + kGap)),
+        btTransform::getIdentity());
+  }
+}
+
+void fillSea(RobotWorld& world) {
+  FluidRegion sea;
+  sea.below = water();
+  sea.above = air();
+  sea.surface = std::make_shared<StillWater>(0.0, Vector3(0, 0, 1));
+  world.fluid.addRegion(sea);
+}
+
+// Weight of a tree, and energy of the still fluids displaced by its links in water.
+class TreeWeight {
+ public:
+  TreeWeight(const btMultiBody& body, TreeFluid fluid)
+      : body_(body),
+        shape_(floatingEllipsoid(kLinkAxes, 1)),
+        hull_(shape_),
+        below_(fluid == TreeFluid::kWater ? water().density : 0),
+        above_(fluid == TreeFluid::kWater ? air().density : 0) {}
+
+  double energy() const {
+    double sum = 0;
+    for (int link = first(); link < body_.getNumLinks(); ++link) sum += energyOf(link);
+    return sum;
+  }
+  /// Returns the energy of a fall by a link's length.
+  double scale() const {
+    double mass = 0;
+    for (int link = first(); link < body_.getNumLinks(); ++link)
+      mass += massOf(link) + below_ * shape_.volume;
+    return mass * kGravity * 2 * kLinkAxes.x();
+  }
+
+ private:
+  int first() const { return body_.hasFixedBase() ? 0 : -1; }
+  double massOf(int link) const {
+    return static_cast<double>(link < 0 ? body_.getBaseMass() : body_.getLinkMass(link));
+  }
+  double energyOf(int link) const {
+    const btCollisionObject* collider =
+        link < 0 ? body_.getBaseCollider() : body_.getLinkCollider(link);
+    const btTransform& place = collider->getWorldTransform();
+    const Vector3 position = toVector3(place.getOrigin());
+    const Matrix3 axes = toQuaternion(place.getRotation()).toRotationMatrix();
+    const SurfacePlane still{{0, 0, 1}, 0, below_ - above_, kGravity};
+    const SurfacePlane plane = seenFrom(still, axes, position);
+    return (massOf(link) - above_ * shape_.volume) * kGravity * position.z() +
+           hydrostaticEnergy(computeWetVolume(hull_, plane), plane);
+  }
+
+  const btMultiBody& body_;
+  FluidBody shape_;
+  PackedHull hull_;
+  double below_, above_;  ///< densities of the fluids [kg/m^3]
+};
+
+TreeResult watch(RobotWorld& world, const btMultiBody& body, double hertz,
+                 const TreeWeight* weight) {
+  const Fluid& fluid = world.fluid;
+  const auto energy_now = [&] {
+    return kineticEnergy(fluid, body) + (weight ? weight->energy() : 0);
+  };
+  const double scale = kineticEnergy(fluid, body) + (weight ? weight->scale() : 0);
+  const double start = energy_now();
+  double lowest = start;
+  TreeResult result;
+  for (int i = 0; i < std::lround(hertz); ++i) {
+    world.step(1 / hertz);
+    const double energy = energy_now();
+    if (!std::isfinite(energy)) return {false, 0, 0};
+    result.over_earlier = std::max(result.over_earlier, (energy - lowest) / scale);
+    result.over_start = std::max(result.over_start, (energy - start) / scale);
+    lowest = std::min(lowest, energy);
+  }
+  return result;
+}
+
+}  // namespace
+
+const char* nameOf(TreeSetting setting) {
+  switch (setting) {
+    case TreeSetting::kFree:
+      return "free";
+    case TreeSetting::kTethered:
+      return "on a tether";
+    case TreeSetting::kInBox:
+      return "in a box";
+    case TreeSetting::kTetheredInBox:
+      return "on a tether in a box";
+    case TreeSetting::kLong:
+      return "free, of 100 links";
+    case TreeSetting::kThroughSurface:
+      return "through a surface";
+    case TreeSetting::kInLongSteps:
+      break;
+  }
+  return "through a surface, long steps";
+}
+
+TreeResult runTree(const TreeCase& tree_case) {
+  Arbitrary arbitrary(tree_case.seed);
+  RobotWorld world;
+  world.world.getSolverInfo().m_erp = bt(0.2);  // Bullet's default
+  world.world.getSolverInfo().m_numIterations = 50;
+  const TreeSetting setting = tree_case.setting;
+  const double hertz = kHertz[static_cast<int>(arbitrary.between(0, 4))] /
+                       (setting == TreeSetting::kInLongSteps ? kLongSteps : 1);
+  RobotDef def = treeOf(arbitrary);
+  if (setting == TreeSetting::kLong) def.links = 100;
+  btMultiBody& body = world.add(arbitrary, def);
+  const bool has_surface = setting >= TreeSetting::kThroughSurface;
+  attachFluid(arbitrary, world, body, tree_case.fluid, has_surface);
+  if (setting == TreeSetting::kTethered || setting == TreeSetting::kTetheredInBox) tie(world, body);
+  if (setting == TreeSetting::kInBox || setting == TreeSetting::kTetheredInBox) addBox(world, body);
+  if (!has_surface) return watch(world, body, hertz, nullptr);
+  world.world.setGravity({0, 0, bt(-kGravity)});
+  if (tree_case.fluid == TreeFluid::kWater) fillSea(world);
+  const TreeWeight weight(body, tree_case.fluid);
+  return watch(world, body, hertz, &weight);
+}
+
+void TreeTally::add(const TreeResult& result) {
+  ++runs;
+  not_finite += !result.is_finite;
+  rose += result.over_earlier > 1e-6;
+  rose_much += result.over_earlier > 0.01;
+  largest_rise = std::max(largest_rise, result.over_earlier);
+  over_start = std::max(over_start, result.over_start);
+}
+
+TreeTable runTrees(int runs, unsigned seed) {
+  TreeTable table;
+  for (int s = 0; s < kTreeSettings; ++s)
+    for (int f = 0; f < 3; ++f) {
+      const TreeCase kind{static_cast<TreeSetting>(s), static_cast<TreeFluid>(f), seed};
+      if (kind.setting >= TreeSetting::kThroughSurface && kind.fluid == TreeFluid::kIdeal) continue;
+      for (int i = 0; i < runs; ++i)
+        table[s][f].add(runTree({kind.setting, kind.fluid, seed + static_cast<unsigned>(i)}));
+    }
+  return table;
+}
+
+}  // namespace ambient::test

@@ -1,0 +1,125 @@
+#include "bullet_ambient/force/medium/airy_waves.h"
+#include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
+#include "tests/support/bodies/part_bodies.h"
+
+// Links at the surface of water float as bodies do.
+namespace ambient::test {
+namespace {
+
+constexpr double kSurfaceHertz = 240;
+
+struct Weather {
+  double wave = 0;  ///< amplitude of waves of 3 s [m]
+  double wind = 0;  ///< along x [m/s]
+};
+
+btTransform offBalance() {
+  return btTransform(btQuaternion(btVector3(1, bt(0.5), 0), bt(0.3)), {0, 0, bt(0.05)});
+}
+
+/// A box half as dense as water, as a rigid body and as a multibody without links. Neither
+/// collides. Both are let go off balance at one place.
+class FloatingPair {
+ public:
+  explicit FloatingPair(const Weather& weather, const btTransform& place = offBalance()) {
+    world.world.setGravity({0, 0, bt(-9.81)});
+    FluidRegion sea;
+    sea.below = water();
+    sea.above = air();
+    sea.above->velocity = {weather.wind, 0, 0};
+    sea.surface = std::make_shared<AiryWaves>(
+        CalmSea{}, std::vector<WaveComponent>{{weather.wave, 3, {1, 0, 0}, 0}});
+    if (weather.wave == 0) sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
+    world.fluid.addRegion(sea);
+    rigid.setWorldTransform(place);
+    rigid.setActivationState(DISABLE_DEACTIVATION);
+    world.world.addRigidBody(&rigid);
+    multi.setLinearDamping(0);
+    multi.setAngularDamping(0);
+    multi.setCanSleep(false);
+    multi.finalizeMultiDof();
+    multi.setBasePos(place.getOrigin());
+    multi.setWorldToBaseRot(place.getRotation().inverse());
+    world.world.addMultiBody(&multi);
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(box);
+    def.medium = air();
+    world.fluid.add(rigid, def);
+    world.fluid.add(multi, -1, def);
+  }
+  ~FloatingPair() {
+    world.world.removeMultiBody(&multi);
+    world.world.removeRigidBody(&rigid);
+  }
+
+  /// Largest distance of the two in `seconds`, of centres or of corners by their turn [m].
+  double distanceIn(double seconds) {
+    double largest = 0;
+    for (int i = 0; i < seconds * kSurfaceHertz; ++i) {
+      world.step(1 / kSurfaceHertz);
+      const btTransform& a = rigid.getWorldTransform();
+      const btTransform b = multi.getBaseWorldTransform();
+      const btQuaternion turn = a.getRotation() * b.getRotation().inverse();
+      const btVector3 axis(turn.x(), turn.y(), turn.z());
+      const btScalar distance = (a.getOrigin() - b.getOrigin()).length();
+      largest = std::max(largest, static_cast<double>(distance + axis.length()));
+    }
+    return largest;
+  }
+
+  const FluidBody box = floatingBox({0.4, 0.4, 0.2});
+  const double mass = 0.5 * water().density * box.volume;
+  const btVector3 inertia = bt(mass / 12) * btVector3(bt(0.2), bt(0.2), bt(0.32));
+  RobotWorld world;
+  btEmptyShape no_shape;
+  btRigidBody rigid{
+      btRigidBody::btRigidBodyConstructionInfo(bt(mass), nullptr, &no_shape, inertia)};
+  btMultiBody multi{0, bt(mass), inertia, false, false};
+};
+
+TEST(LinksAtASurface, FloatAsABody) {
+  FloatingPair pair({});
+  EXPECT_LT(pair.distanceIn(20), byPrecision(1e-6, 1e-2));
+}
+
+TEST(LinksAtASurface, RideWavesAsABody) {
+  FloatingPair pair({0.1, 0});
+  EXPECT_LT(pair.distanceIn(20), byPrecision(1e-6, 1e-2));
+}
+
+// To rounding for 5 s. Then the two take different numbers of substeps, for rounding, and drift
+// apart: 1e-6 m after 9 s, 4e-5 m after 10 s.
+TEST(LinksAtASurface, DriftInWindAsABody) {
+  FloatingPair pair({0, 10});
+  EXPECT_LT(pair.distanceIn(5), byPrecision(1e-11, 1e-2));
+  EXPECT_LT(pair.distanceIn(3), byPrecision(1e-6, 1e-2));
+  EXPECT_GT(pair.rigid.getWorldTransform().getOrigin().x(), bt(0.1));
+}
+
+TEST(LinksAtASurface, SleepInStillWaterButNotOnASaddle) {
+  FloatingPair flat({}, btTransform(btQuaternion::getIdentity(), {0, 0, bt(0.001)}));
+  FloatingPair on_its_side({}, btTransform(btQuaternion(btVector3(0, 1, 0), SIMD_HALF_PI)));
+  for (FloatingPair* pair : {&flat, &on_its_side}) {
+    pair->multi.setCanSleep(true);
+    pair->distanceIn(3);
+  }
+  EXPECT_FALSE(flat.multi.isAwake());
+  EXPECT_TRUE(on_its_side.multi.isAwake());
+}
+
+TEST_F(Robots, SayThatALinkIsLight) {
+  btMultiBody& body = add();
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(floatingBox({1, 1, 1}));
+  def.medium = air();  // displaces 1.2 kg
+  body.getLink(0).m_mass = bt(0.7);
+  body.getLink(1).m_mass = bt(0.5);
+  world.fluid.add(body, 0, def);
+  EXPECT_TRUE(heard.empty());
+  world.fluid.add(body, 1, def);
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_NE(heard[0].find("has a mass of 0.5 kg"), std::string::npos) << heard[0];
+}
+
+}  // namespace
+}  // namespace ambient::test

@@ -1,0 +1,254 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/bullet_ambient/bullet/robots/state/robot_state_scene.h"
+
+// Saved states of worlds with robots.
+namespace ambient::test {
+namespace {
+
+constexpr int kAfter = 90;
+constexpr auto kNaN = std::numeric_limits<btScalar>::quiet_NaN();
+constexpr auto kInfinity = std::numeric_limits<btScalar>::infinity();
+
+void expectSame(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    ASSERT_TRUE(a[i] == b[i]) << "bits differ after step " << i + 1;
+}
+
+TEST(RobotState, GoesOnBitForBitInTheSameWorldAndInOneBuiltByTheSameCode) {
+  for (const RobotStateKind kind : kRobotStateKinds) {
+    for (const int before : {0, 1, 40, 133}) {
+      SCOPED_TRACE(static_cast<int>(kind) * 1000 + before);
+      RobotStateScene run(kind), other(kind);
+      run.step(before);
+      const WorldState state = run.save();
+      const std::string bytes = encodeState(state), motion = run.motion();
+      const auto motions = run.record(kAfter);
+      run.restore(state);
+      EXPECT_TRUE(run.motion() == motion);
+      expectSame(motions, run.record(kAfter));
+      other.restore(decodeState(bytes, "bytes", other.lookup()));
+      EXPECT_TRUE(other.motion() == motion);
+      expectSame(motions, other.record(kAfter));
+    }
+  }
+}
+
+TEST(RobotState, SavingChangesNothing) {
+  for (const RobotStateKind kind : kRobotStateKinds) {
+    RobotStateScene saved(kind), other(kind);
+    saved.record(40);
+    other.step(40);
+    EXPECT_TRUE(saved.motion() == other.motion());
+  }
+}
+
+// State besides positions and velocities: omission of any part must change the motion.
+TEST(RobotState, WhatIsRememberedMatters) {
+  struct Omission {
+    RobotStateKind kind;
+    std::function<void(WorldState&)> omit;
+    const char* what;
+  };
+  const Omission omissions[] = {{RobotStateKind::kMotors,
+                                 [](WorldState& s) {
+                                   for (MultiBodyJointState& joint : s.multi_body_joints)
+                                     joint.applied_impulses.clear();
+                                 },
+                                 "impulses of joints"},
+                                {RobotStateKind::kContacts,
+                                 [](WorldState& s) {
+                                   for (ContactState& contact : s.contacts) contact.points.clear();
+                                 },
+                                 "contacts"},
+                                {RobotStateKind::kContacts,
+                                 [](WorldState& s) {
+                                   for (MultiBodyState& body : s.multi_bodies)
+                                     body.turn_reserve = 0;
+                                 },
+                                 "reserve"},
+                                {RobotStateKind::kWater,
+                                 [](WorldState& s) {
+                                   for (MultiBodyState& body : s.multi_bodies)
+                                     for (LinkFluidState& fluid : body.fluids)
+                                       fluid.ambient.waves = {};
+                                 },
+                                 "waves that a link has made"}};
+  for (const Omission& omission : omissions) {
+    SCOPED_TRACE(omission.what);
+    RobotStateScene run(omission.kind);
+    run.step(omission.kind == RobotStateKind::kWater ? 40 : 100);  // at the surface, on the floor
+    WorldState state = run.save();
+    const auto motions = run.record(kAfter);
+    omission.omit(state);
+    run.restore(state);
+    EXPECT_FALSE(run.record(kAfter) == motions);
+  }
+}
+
+TEST(RobotState, ChangesAreTakenBack) {
+  RobotStateScene run(RobotStateKind::kMotors);
+  run.step(20);
+  const WorldState state = run.save();
+  const auto motions = run.record(kAfter);
+  btMultiBody& robot = run.robot(0);
+  Fluid& fluid = run.fluid();
+  const AttachDef def = state.multi_bodies[0].fluids[0].ambient.def;
+  fluid.find(robot, 1)->remove();
+  fluid.find(robot, 0)->setMedium(idealFluid(7));
+  fluid.add(run.robot(1), 2, def);
+  robot.setBaseMass(9);
+  robot.getLink(1).m_mass = 5;
+  robot.setLinearDamping(1);
+  robot.addLinkForce(2, {100, 0, 0});
+  robot.addJointTorque(0, 3);
+  robot.goToSleep();
+  run.restore(state);
+  EXPECT_FALSE(fluid.find(run.robot(1), 2));
+  EXPECT_EQ(fluid.find(robot, 0)->medium().density, 1);
+  expectSame(motions, run.record(kAfter));
+}
+
+// Sleep timers are saved, though Bullet keeps them private.
+TEST(RobotState, RobotsFallAsleepWhenTheyWouldHave) {
+  const auto rest = [](RobotStateScene& scene) {
+    for (int i = 0; i < 2; ++i) {
+      btMultiBody& robot = scene.robot(i);
+      robot.clearVelocities();
+      robot.setCanSleep(true);
+    }
+  };
+  RobotStateScene run(RobotStateKind::kTethers), other(RobotStateKind::kTethers);
+  rest(run);
+  run.step(150);
+  ASSERT_TRUE(run.robot(0).isAwake());
+  const WorldState state = run.save();
+  EXPECT_GT(state.multi_bodies[0].sleep_timer, bt(1));
+  const auto motions = run.record(2 * kAfter);
+  ASSERT_FALSE(run.robot(0).isAwake());
+  other.restore(state);
+  expectSame(motions, other.record(2 * kAfter));
+  EXPECT_FALSE(other.robot(0).isAwake());
+
+  const WorldState asleep = run.save();
+  RobotStateScene third(RobotStateKind::kTethers);
+  third.restore(asleep);
+  EXPECT_FALSE(third.robot(0).isAwake());
+  EXPECT_EQ(third.robot(0).getBaseCollider()->getActivationState(), ISLAND_SLEEPING);
+  expectSame(run.record(kAfter), third.record(kAfter));
+}
+
+TEST(RobotState, TheInertiaAtTheSurfaceIsThatBeforeSaving) {
+  RobotStateScene run(RobotStateKind::kWater), other(RobotStateKind::kWater);
+  run.step(40);
+  other.restore(run.save());
+  for (int link = -1; link < 3; ++link) {
+    const Matrix6 expected = run.fluid().find(run.robot(1), link)->inertia();
+    const Matrix6 found = other.fluid().find(other.robot(1), link)->inertia();
+    // Of the start of the last step; its plane is found again from the pose of now.
+    EXPECT_LT((found - expected).norm(), byPrecision(1e-12, 1e-4) * expected.norm());
+  }
+}
+
+std::string refusal(RobotStateScene& scene, const WorldState& state) {
+  try {
+    scene.restore(state);
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RobotState, IsRefusedByAWorldOfOtherRobots) {
+  RobotStateScene run(RobotStateKind::kMotors);
+  run.step(5);
+  const WorldState state = run.save();
+  const std::string motion = run.motion();
+  const auto expectSays = [&](const std::function<void(WorldState&)>& change, const char* words) {
+    WorldState wrong = state;
+    change(wrong);
+    EXPECT_NE(refusal(run, wrong).find(words), std::string::npos) << refusal(run, wrong);
+  };
+  using State = WorldState&;
+  expectSays([](State s) { s.multi_bodies.pop_back(); }, "1 multibodies, but the world has 2");
+  expectSays([](State s) { s.multi_body_joints.pop_back(); }, "5 joints of multibodies");
+  expectSays([](State s) { s.multi_bodies[1].links.pop_back(); },
+             "multibody 1 has 2 links, but the world's has 3");
+  expectSays([](State s) { s.multi_bodies[1].velocity.pop_back(); },
+             "multibody 1 has 8 velocities, but the world's has 9");
+  expectSays([](State s) { s.multi_bodies[0].links[1].collider.reset(); }, "collider of link 0");
+  expectSays([](State s) { s.multi_body_joints[0].applied_impulses.push_back(0); },
+             "multibody joint 0 has 2 rows, but the world's has 1");
+  expectSays([](State s) { s.multi_bodies[0].fluids[1].link = 7; }, "link 7");
+  expectSays([](State s) { s.multi_bodies[0].fluids[1].link = -1; }, "two fluids of link -1");
+  expectSays([](State s) { s.multi_bodies[0].fluids[1].ambient.def.fluid_body = nullptr; },
+             "no fluid body");
+  expectSays([](State s) { s.multi_bodies[0].fluids[1].ambient.def.flight.tolerance = 0; },
+             "flight tolerance");
+  EXPECT_TRUE(run.motion() == motion);
+  RobotStateScene spheres(RobotStateKind::kFlight);
+  WorldState turned = spheres.save();
+  turned.multi_bodies[0].links[3].joint_position = {};
+  EXPECT_NE(refusal(spheres, turned).find("not of unit length"), std::string::npos);
+}
+
+// Any of these numbers would spread through the world in the next step.
+TEST(RobotState, WithNumbersThatNoWorldCanHaveIsRefused) {
+  RobotStateScene run(RobotStateKind::kMotors);
+  run.step(5);
+  struct Forgery {
+    std::function<void(MultiBodyState&)> forge;
+    const char* words;
+  };
+  using Body = MultiBodyState&;
+  const Forgery forgeries[] = {
+      {[](Body b) { b.position.setX(kNaN); }, "number 1, whose pose or velocity"},
+      {[](Body b) { b.interpolation_position.setZ(kInfinity); }, "pose or velocity"},
+      {[](Body b) {
+         b.orientation = {0, 0, 0, 0};
+       },
+       "unit length"},
+      {[](Body b) {
+         b.interpolation_orientation = {0, 0, 0, kNaN};
+       },
+       "unit length"},
+      {[](Body b) { b.velocity[7] = kInfinity; }, "pose or velocity"},
+      {[](Body b) { b.linear_damping = -1; }, "damping"},
+      {[](Body b) { b.angular_damping = kNaN; }, "damping"},
+      {[](Body b) { b.velocity_limit = kNaN; }, "limit of velocity"},
+      {[](Body b) { b.sleep_timer = kNaN; }, "sleep"},
+      {[](Body b) { b.turn_reserve = -1; }, "reserve"},
+      {[](Body b) { b.links.clear(); }, "base is missing"},
+      {[](Body b) { b.links[1].mass = -1; }, "link 0: mass"},
+      {[](Body b) { b.links[0].inertia.setY(kNaN); }, "link -1: inertia"},
+      {[](Body b) { b.links[2].joint_position[0] = kNaN; }, "link 1: pose or position"},
+      {[](Body b) { b.links[2].pose.getOrigin().setX(kNaN); }, "link 1: pose or position"},
+      {[](Body b) { b.links[2].joint_force[0] = kNaN; }, "link 1: force"},
+      {[](Body b) { b.links[2].force.setX(kInfinity); }, "link 1: force"},
+      {[](Body b) { b.links[2].collider->activation_state = 77; }, "activation state"},
+      {[](Body b) { b.links[2].collider->pose.getOrigin().setX(kNaN); }, "link 1: pose"}};
+  const std::string motion = run.motion();
+  for (const Forgery& forgery : forgeries) {
+    WorldState wrong = run.save();
+    forgery.forge(wrong.multi_bodies[1]);
+    try {
+      decodeState(encodeState(wrong), "forged", run.lookup());
+      ADD_FAILURE() << forgery.words;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(forgery.words), std::string::npos) << error.what();
+    }
+    EXPECT_NE(refusal(run, wrong), "") << forgery.words;
+  }
+  WorldState wrong = run.save();
+  wrong.multi_body_joints[0].applied_impulses[0] = kNaN;
+  EXPECT_NE(refusal(run, wrong).find("impulse"), std::string::npos);
+  EXPECT_TRUE(run.motion() == motion);
+}
+
+}  // namespace
+}  // namespace ambient::test

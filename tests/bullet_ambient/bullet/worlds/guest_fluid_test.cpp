@@ -1,0 +1,140 @@
+// A fluid in a world that belongs to somebody else, who exchanges its solver.
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyMLCPConstraintSolver.h>
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
+#include <btBulletDynamicsCommon.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "bullet_ambient/ambient.h"
+#include "tests/support/bodies/ellipsoid_body.h"
+
+namespace ambient::test {
+namespace {
+
+constexpr btScalar kTickOfOwner = btScalar(1) / 60;
+
+std::shared_ptr<const FluidBody> ballOfOneMetre() {
+  return std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
+}
+
+class GuestFluid : public testing::Test {
+ protected:
+  GuestFluid() { world->setGravity({0, 0, -10}); }
+  // Replaces the world's solver like PyBullet's setPhysicsEngineParameter(constraintSolverType=).
+  btMultiBodyConstraintSolver* exchangeSolver(bool has_mlcp) {
+    delete world->getConstraintSolver();
+    auto* next =
+        has_mlcp ? new btMultiBodyMLCPConstraintSolver(&dantzig) : new btMultiBodyConstraintSolver;
+    world->setMultiBodyConstraintSolver(next);
+    return next;
+  }
+  void expectRise(Fluid& fluid) {
+    std::string said;
+    fluid.setReport([&](const std::string& sentence) { said = sentence; });
+    world->addRigidBody(&body);
+    const Immersed ball_in_water = fluid.add(body, {ballOfOneMetre(), water()});
+    for (int i = 0; i < 10; ++i) world->stepSimulation(kTickOfOwner, 0, kTickOfOwner);
+    EXPECT_GT(body.getLinearVelocity().z(), 0);
+    EXPECT_EQ(said, "");
+    EXPECT_TRUE(ball_in_water.remove());
+    world->removeRigidBody(&body);
+    body.setLinearVelocity({0, 0, 0});
+  }
+
+  btDantzigSolver dantzig;
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  std::unique_ptr<btMultiBodyDynamicsWorld> world = std::make_unique<btMultiBodyDynamicsWorld>(
+      &dispatcher, &broadphase, new btMultiBodyConstraintSolver, &configuration);
+  btSphereShape shape{1};
+  btRigidBody body{2500, nullptr, &shape, btVector3(1000, 1000, 1000)};
+};
+
+TEST_F(GuestFluid, TakesThePlaceOfSolversThatTheOwnerGivesTheWorld) {
+  Fluid fluid(*world, SolverOwner::kAsksWorld);
+  for (const bool has_mlcp : {true, true, false, false}) {
+    SCOPED_TRACE(has_mlcp);
+    const btConstraintSolver* next = exchangeSolver(has_mlcp);
+    fluid.refit();
+    const btConstraintSolver* fitted = world->getConstraintSolver();
+    EXPECT_NE(fitted, next);
+    fluid.refit();
+    EXPECT_EQ(world->getConstraintSolver(), fitted);
+    expectRise(fluid);
+  }
+  delete world->getConstraintSolver();
+}
+
+TEST_F(GuestFluid, DeletesTheSolversThatTheOwnerHasLost) {
+  // A solver that leaks or is deleted twice fails this test in the build with sanitizers.
+  {
+    Fluid fluid(*world, SolverOwner::kAsksWorld);
+    exchangeSolver(true);
+    fluid.refit();
+    exchangeSolver(false);
+    fluid.refit();
+    exchangeSolver(false);  // without a step after it
+  }
+  delete world->getConstraintSolver();
+}
+
+TEST_F(GuestFluid, LeavesTheSolverToAnOwnerWhoKnowsIt) {
+  btMultiBodyConstraintSolver next;
+  const std::unique_ptr<btConstraintSolver> own(world->getConstraintSolver());
+  Fluid fluid(*world);
+  delete world->getConstraintSolver();
+  world->setMultiBodyConstraintSolver(&next);
+  fluid.refit();
+  expectRise(fluid);
+}
+
+TEST_F(GuestFluid, RefusesToRefitASolverThatItDoesNotKnow) {
+  struct OtherSolver : btMultiBodyConstraintSolver {
+  } other;
+  Fluid fluid(*world, SolverOwner::kAsksWorld);
+  delete world->getConstraintSolver();
+  world->setMultiBodyConstraintSolver(&other);
+  EXPECT_THROW(fluid.refit(), std::invalid_argument);
+  EXPECT_EQ(world->getConstraintSolver(), &other);
+}
+
+TEST_F(GuestFluid, KnowsWhenItsWorldHasEnded) {
+  const std::unique_ptr<btConstraintSolver> own(world->getConstraintSolver());
+  Fluid fluid(*world, SolverOwner::kAsksWorld);
+  EXPECT_TRUE(fluid.isWorldAlive());
+  world.reset();
+  EXPECT_FALSE(fluid.isWorldAlive());
+  EXPECT_THROW(fluid.refit(), std::logic_error);
+  EXPECT_THROW(fluid.addLaterBodies(), std::logic_error);
+}
+
+struct BallSource : FluidBodySource {
+  std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape&) override { return shape; }
+  unsigned revision() const noexcept override { return 0; }
+  std::shared_ptr<const FluidBody> shape = ballOfOneMetre();
+};
+
+TEST_F(GuestFluid, AddsLaterBodiesBeforeTheirFirstSubstep) {
+  const std::unique_ptr<btConstraintSolver> own(world->getConstraintSolver());
+  BallSource source;
+  Fluid fluid(*world);
+  AttachSettings settings;
+  settings.later_bodies = true;
+  fluid.addAll(source, water(), settings);
+  world->addRigidBody(&body);
+  EXPECT_EQ(fluid.size(), 0u);
+  fluid.addLaterBodies();
+  EXPECT_EQ(fluid.size(), 1u);
+  world->stepSimulation(kTickOfOwner, 0, kTickOfOwner);
+  EXPECT_EQ(fluid.size(), 1u);
+  EXPECT_GT(body.getLinearVelocity().z(), 0);
+  world->removeRigidBody(&body);
+}
+
+}  // namespace
+}  // namespace ambient::test

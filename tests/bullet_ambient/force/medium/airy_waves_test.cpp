@@ -1,0 +1,176 @@
+#include "bullet_ambient/force/medium/airy_waves.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "bullet_ambient/base/pi.h"
+
+// Laws of waves on deep water, checked by differences between samples.
+namespace ambient::test {
+namespace {
+
+constexpr double kWaveGravity = 9.7;
+
+CalmSea slantedSea() {
+  CalmSea sea;
+  sea.level = 0.4;
+  sea.up = {0.6, 0, 0.8};
+  sea.gravity = kWaveGravity;
+  return sea;
+}
+
+std::vector<WaveComponent> threeWaves() {
+  return {
+      {0.02, 3.0, {1, 0.4, 0.1}, 0.3}, {0.01, 2.1, {-0.3, 1, 0}, 2}, {0.005, 1.3, {0, 1, 1}, -1}};
+}
+
+const Vector3 kUnderWater(1.3, -0.7, -1.2);
+constexpr double kSomeTime = 4.7, kDifference = 1e-5;
+
+Vector3 unitUp() { return {0.6, 0, 0.8}; }
+
+// Point of the mean surface at a distance along the wave.
+Vector3 onMeanLevel(double along) { return 0.4 * unitUp() + along * Vector3(0.8, 0, -0.6); }
+
+TEST(AiryWaves, AreAsLongAsDeepWaterMakesThem) {
+  const double period = 2.5, omega = 2 * kPi / period;
+  const double length = kWaveGravity * period * period / (2 * kPi);  // g T^2 / 2 pi
+  const AiryWaves waves(slantedSea(), {{0.1, period, {0.8, 0, -0.6}, 0.2}});
+  for (const double along : {0.0, 1.1, 3.0}) {
+    const WaterSample here = waves.sample(onMeanLevel(along), kSomeTime);
+    EXPECT_NEAR(waves.sample(onMeanLevel(along + length), kSomeTime).height, here.height, 1e-12);
+    EXPECT_NEAR(waves.sample(onMeanLevel(along), kSomeTime + period).height, here.height, 1e-12);
+    // Crests travel along the wave's direction.
+    const double later = kSomeTime + 0.1;
+    EXPECT_NEAR(waves.sample(onMeanLevel(along + 0.1 * length / period), later).height, here.height,
+                1e-12);
+    EXPECT_NEAR(here.height,
+                0.1 * std::cos(omega * omega / kWaveGravity * along - omega * kSomeTime + 0.2),
+                1e-12);
+  }
+}
+
+TEST(AiryWaves, AccelerationIsTheRateOfChangeOfVelocity) {
+  const AiryWaves waves(slantedSea(), threeWaves());
+  for (const double depth : {0.0, 0.3, 2.0}) {
+    const Vector3 point = onMeanLevel(1.1) - depth * unitUp();
+    const Vector3 difference = waves.sample(point, kSomeTime + kDifference).velocity -
+                               waves.sample(point, kSomeTime - kDifference).velocity;
+    const Vector3 expected = difference / (2 * kDifference);
+    EXPECT_LT((waves.sample(point, kSomeTime).acceleration - expected).norm(),
+              1e-8 * expected.norm());
+  }
+}
+
+TEST(AiryWaves, VelocityIsSolenoidalAndIrrotational) {
+  const AiryWaves waves(slantedSea(), threeWaves());
+  Matrix3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 step = kDifference * Vector3::Unit(axis);
+    gradient.col(axis) = (waves.sample(kUnderWater + step, kSomeTime).velocity -
+                          waves.sample(kUnderWater - step, kSomeTime).velocity) /
+                         (2 * kDifference);
+  }
+  const double size = gradient.norm();
+  EXPECT_GT(size, 1e-3);
+  EXPECT_NEAR(gradient.trace(), 0, 1e-8 * size);
+  EXPECT_LT((gradient - gradient.transpose()).norm(), 1e-8 * size);
+}
+
+TEST(AiryWaves, SurfaceMovesWithTheWater) {
+  const AiryWaves waves(slantedSea(), threeWaves());
+  const Vector3 point = onMeanLevel(2.2);
+  const double rate = (waves.sample(point, kSomeTime + kDifference).height -
+                       waves.sample(point, kSomeTime - kDifference).height) /
+                      (2 * kDifference);
+  EXPECT_NEAR(rate, unitUp().dot(waves.sample(point, kSomeTime).velocity), 1e-9);
+}
+
+// g - u' has no component along the surface to first order in the slope. The second-order residual
+// must fall by four when the amplitude is halved.
+TEST(AiryWaves, EffectiveGravityIsNormalToTheSurfaceToFirstOrder) {
+  const auto tilt = [](double amplitude) {
+    const AiryWaves waves(slantedSea(), {{amplitude, 2.0, {0.8, 0, -0.6}, 0}});
+    const Vector3 point = onMeanLevel(0.9);
+    const Vector3 along = kDifference * Vector3(0.8, 0, -0.6);
+    const double slope =
+        (waves.sample(point + along, 0).height - waves.sample(point - along, 0).height) /
+        (2 * kDifference);
+    const Vector3 normal = (unitUp() - slope * Vector3(0.8, 0, -0.6)).normalized();
+    const Vector3 gravity = -kWaveGravity * unitUp() - waves.sample(point, 0).acceleration;
+    return (gravity.normalized() + normal).norm();
+  };
+  EXPECT_GT(tilt(0.1), 0);
+  EXPECT_NEAR(tilt(0.05) / tilt(0.1), 0.25, 0.02);
+  EXPECT_LT(tilt(0.05), 0.01);
+}
+
+TEST(AiryWaves, FadeWithDepthAndNotAboveTheLevel) {
+  const double period = 2, k = 4 * kPi * kPi / (period * period) / kWaveGravity;
+  const AiryWaves waves(slantedSea(), {{0.1, period, {0, 1, 0}, 0.4}});
+  const double top = waves.sample(onMeanLevel(0), 0).velocity.norm();
+  EXPECT_NEAR(top, 0.1 * 2 * kPi / period, 1e-14);
+  EXPECT_NEAR(waves.sample(onMeanLevel(0) - unitUp(), 0).velocity.norm(), top * std::exp(-k),
+              1e-14);
+  EXPECT_EQ(waves.sample(onMeanLevel(0) + 3 * unitUp(), 0).velocity.norm(), top);
+}
+
+TEST(AiryWaves, RideOnTheCurrent) {
+  CalmSea sea = slantedSea();
+  const AiryWaves still(sea, threeWaves());
+  sea.current = {0.8, 0.5, -0.6};
+  const AiryWaves carried(sea, threeWaves());
+  const WaterSample a = still.sample(kUnderWater, kSomeTime);
+  const WaterSample b = carried.sample(kUnderWater + kSomeTime * sea.current, kSomeTime);
+  EXPECT_NEAR(b.height, a.height, 1e-13);
+  EXPECT_LT((b.velocity - a.velocity - sea.current).norm(), 1e-13);
+  EXPECT_LT((b.acceleration - a.acceleration).norm(), 1e-13);
+}
+
+TEST(StillWater, IsAPlane) {
+  const StillWater water(2, {0, 3, 0});
+  EXPECT_TRUE(water.isStill());
+  EXPECT_EQ(water.sample({7, 0.5, -1}, 3).height, 1.5);
+  EXPECT_EQ(water.sample({7, 3, -1}, 3).height, -1);
+  EXPECT_TRUE(water.sample({7, 3, -1}, 3).velocity.isZero(0));
+}
+
+TEST(WaterSurfaceFunction, SaysWhatTheFunctionSays) {
+  const WaterSurfaceFunction water([](const Vector3& point, double time) {
+    return WaterSample{time - point.x(), {1, 0, 0}, {0, 1, 0}};
+  });
+  EXPECT_FALSE(water.isStill());
+  EXPECT_EQ(water.sample({1, 0, 0}, 3).height, 2);
+  EXPECT_EQ(water.sample({1, 0, 0}, 3).acceleration.y(), 1);
+}
+
+std::string seaError(const CalmSea& sea, const std::vector<WaveComponent>& waves) {
+  try {
+    AiryWaves made(sea, waves);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AiryWaves, SayWhatIsWrong) {
+  const CalmSea sea;
+  EXPECT_EQ(seaError(sea, {{}, {-1, 2, {1, 0, 0}, 0}}),
+            "amplitude [m] of wave 1 is -1; must be zero or positive and finite");
+  EXPECT_EQ(seaError(sea, {{1, 0, {1, 0, 0}, 0}}),
+            "period [s] of wave 0 is 0; must be positive and finite");
+  EXPECT_EQ(seaError(sea, {{1, 1, {0, 0, 2}, 0}}),
+            "horizontal part of the direction of wave 0 is 0; must be positive and finite");
+  EXPECT_NE(seaError(sea, {{0.1, 0.5, {1, 0, 0}, 0}}).find("; must be at most 1"),
+            std::string::npos);  // 0.1 (2 pi / 0.5)^2 / 9.81 = 1.61
+  CalmSea odd;
+  odd.gravity = 0;
+  EXPECT_EQ(seaError(odd, {}), "gravity of the sea [m/s^2] is 0; must be positive and finite");
+  odd.up.setZero();
+  EXPECT_EQ(seaError(odd, {}), "the direction up of the water has no length, or is not finite");
+}
+
+}  // namespace
+}  // namespace ambient::test

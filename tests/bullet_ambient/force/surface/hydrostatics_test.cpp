@@ -1,0 +1,227 @@
+#include "bullet_ambient/force/surface/hydrostatics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/base/pi.h"
+#include "tests/support/bodies/hull_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+using test::Arbitrary;
+using test::boxBody;
+
+SurfacePlane planeAt(const Vector3& normal, double height) {
+  return {normal.normalized(), height, 1, 1};
+}
+
+/// Hull of a closed bumpy body.
+PackedHull arbitraryHull(Arbitrary& arbitrary) {
+  test::Triangulation mesh = test::geodesicSphere(2);
+  for (Vector3& v : mesh.vertices) v = arbitrary.between(0.7, 1.3) * v + Vector3(0.1, 0.2, -0.3);
+  return PackedHull(test::hullBody(mesh));
+}
+
+TEST(Hydrostatics, BothSidesOfThePlaneMakeUpABox) {
+  Arbitrary arbitrary(1);
+  for (const int divisions : {1, 4}) {
+    const PackedHull box(boxBody({2, 1, 0.5}, divisions));
+    for (int i = 0; i < 200; ++i) {
+      const SurfacePlane plane = planeAt(arbitrary.vector(), arbitrary.between(-1, 1));
+      const WetVolume wet = computeWetVolume(box, plane);
+      const WetVolume dry = computeWetVolume(box, plane.flipped());
+      EXPECT_NEAR(wet.volume + dry.volume, 1, 1e-13);
+      EXPECT_LT((wet.moment + dry.moment).norm(), 1e-13);
+      // Expects int zeta over the whole box = V h.
+      EXPECT_NEAR(wet.depth_integral - dry.depth_integral, plane.height, 1e-13);
+      EXPECT_NEAR(wet.waterplane.area, dry.waterplane.area, 1e-13);
+    }
+  }
+}
+
+TEST(Hydrostatics, UprightBoxHasItsWaterplaneAndCentreOfBuoyancy) {
+  const double draught = 0.3;
+  const PackedHull box(boxBody({2, 1, 0.5}));
+  const WetVolume wet = computeWetVolume(box, planeAt({0, 0, 1}, draught - 0.25));
+  EXPECT_NEAR(wet.volume, 2 * draught, 1e-15);
+  EXPECT_NEAR(wet.moment.z(), 2 * draught * (draught / 2 - 0.25), 1e-15);
+  EXPECT_NEAR(wet.depth_integral, 2 * draught * draught / 2, 1e-15);
+  EXPECT_NEAR(wet.waterplane.area, 2, 1e-15);
+  EXPECT_LT((wet.waterplane.centroid - Vector3(0, 0, draught - 0.25)).norm(), 1e-15);
+  Matrix3 spread = Matrix3::Zero();
+  spread.diagonal() << 2 * 4 / 12.0, 2 * 1 / 12.0, 0;
+  EXPECT_LT((wet.waterplane.spread - spread).norm(), 1e-14);
+}
+
+TEST(Hydrostatics, MetacentricHeightOfABoxIsThatOfItsWaterplane) {
+  const double draught = 0.3, angle = 1e-5;
+  const PackedHull box(boxBody({2, 1, 0.5}));
+  const SurfacePlane plane = planeAt({0, std::sin(angle), std::cos(angle)}, draught - 0.25);
+  const WetVolume wet = computeWetVolume(box, plane);
+  const double metacentre = wet.moment.y() / wet.volume / -std::tan(angle);
+  EXPECT_NEAR(metacentre, 1 / (12 * draught), 1e-6 / (12 * draught));  // B^2 / (12 T)
+}
+
+TEST(Hydrostatics, CapOfASphereHasItsClosedForm) {
+  const double R = 1.5;
+  const Vector3 centre(0.3, -0.2, 0.5);
+  Arbitrary arbitrary(2);
+  for (int i = 0; i <= 20; ++i) {
+    const double d = 2 * R * i / 20;  // depth of the lowest point
+    const Vector3 s = arbitrary.vector().normalized();
+    const SurfacePlane plane = planeAt(s, s.dot(centre) - R + d);
+    const WetVolume wet = computeWetSphere(R, centre, plane);
+    EXPECT_NEAR(wet.volume, kPi * d * d * (3 * R - d) / 3, 1e-13);
+    EXPECT_NEAR(wet.depth_integral, kPi * d * d * d * (4 * R - d) / 12, 1e-13);
+    EXPECT_NEAR(wet.waterplane.area, kPi * d * (2 * R - d), 1e-13);
+    const double along = -3 * (2 * R - d) * (2 * R - d) / (4 * (3 * R - d));
+    EXPECT_LT((wet.moment - wet.volume * (centre + along * s)).norm(), 1e-13);
+  }
+}
+
+TEST(Hydrostatics, MeshOfASphereTendsToIt) {
+  // Caps of the mesh with the sphere's volume: errors of second order in the edge length.
+  double before = 1;
+  for (const int level : {2, 3, 4}) {
+    FluidBody body = test::hullBody(test::geodesicSphere(level));
+    body.volume = 4 * kPi / 3;
+    const PackedHull hull(body);
+    double error = 0;
+    for (int i = 1; i < 20; ++i) {
+      const SurfacePlane plane = planeAt({0.3, 0.5, 0.8}, -1 + 0.1 * i);
+      const WetVolume of_mesh = computeWetVolume(hull, plane);
+      const WetVolume exact = computeWetSphere(1, {0, 0, 0}, plane);
+      error = std::max(error, std::abs(of_mesh.volume - exact.volume));
+      error = std::max(error, (of_mesh.moment - exact.moment).norm());
+      error = std::max(error, (of_mesh.waterplane.spread - exact.waterplane.spread).norm());
+    }
+    EXPECT_LT(error, before / 3.5);
+    before = error;
+  }
+  EXPECT_LT(before, 4e-3);
+}
+
+TEST(Hydrostatics, WrenchIsTheGradientOfTheEnergy) {
+  Arbitrary arbitrary(3);
+  for (int i = 0; i < 50; ++i) {
+    const PackedHull hull = arbitraryHull(arbitrary);
+    const Vector3 s = arbitrary.vector().normalized();
+    const double h = arbitrary.between(-0.8, 0.8);
+    const Twist x = arbitrary.twist();
+    // Surface plane in body axes a moment before and after, eq. (52).
+    const double moment = 1e-5;
+    const auto energyAfter = [&](double t) {
+      const SurfacePlane moved = planeAt(s + t * s.cross(x.angular), h - t * s.dot(x.linear));
+      // The moved normal has unit length to second order, which limits the difference quotient.
+      return hydrostaticEnergy(computeWetVolume(hull, moved), moved);
+    };
+    const SurfacePlane plane = planeAt(s, h);
+    const WetVolume wet = computeWetVolume(hull, plane);
+    const double rate = (energyAfter(moment) - energyAfter(-moment)) / (2 * moment);
+    EXPECT_NEAR(power(hydrostaticWrench(wet, plane), x), -rate, 1e-8);
+    const auto volumeAt = [&](double height) {
+      return computeWetVolume(hull, planeAt(s, height)).volume;
+    };
+    EXPECT_NEAR((volumeAt(h + moment) - volumeAt(h - moment)) / (2 * moment), wet.waterplane.area,
+                1e-8);
+  }
+}
+
+TEST(Hydrostatics, ExtentIsThatOfTheCornersInEveryDirection) {
+  Arbitrary arbitrary(1);
+  test::Triangulation mesh = test::geodesicSphere(3);
+  for (Vector3& v : mesh.vertices) v = arbitrary.between(0.5, 2) * v + Vector3(1, 2, 3);
+  const PackedHull hull(test::hullBody(mesh));
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 s = arbitrary.vector().normalized();
+    double low = 1e9, high = -1e9;
+    for (const Vector3& v : mesh.vertices) {
+      low = std::min(low, s.dot(v));
+      high = std::max(high, s.dot(v));
+    }
+    EXPECT_EQ(computeExtent(hull, s).first, low);
+    EXPECT_EQ(computeExtent(hull, s).second, high);
+  }
+}
+
+TEST(Hydrostatics, MovesWithTheFrame) {
+  Arbitrary arbitrary(4);
+  const PackedHull box(boxBody({2, 1, 0.5}));
+  for (int i = 0; i < 20; ++i) {
+    const FrameOffset frame{arbitrary.rotation(), arbitrary.vector()};
+    const Twist x = arbitrary.twist();
+    const SurfacePlane in_B = planeAt(arbitrary.vector(), arbitrary.between(-1, 1));
+    const SurfacePlane in_F = seenFrom(in_B, frame);
+    const WetVolume wet_F = computeWetVolume(box, in_F);
+    EXPECT_NEAR(power(hydrostaticWrench(wet_F.inB(frame), in_B), x),
+                power(hydrostaticWrench(wet_F, in_F), frame.toF(x)), 1e-12);
+    const Waterplane plane = wet_F.inB(frame).waterplane;
+    EXPECT_NEAR(plane.area > 0 ? in_B.depth(plane.centroid) : 0, 0, 1e-12);
+    EXPECT_LT((plane.spread * in_B.normal).norm(), 1e-12);
+  }
+}
+
+TEST(Hydrostatics, DryAndSubmergedBodiesAreAllOrNothing) {
+  const PackedHull box(boxBody({2, 1, 0.5}, 3));
+  const Vector3 s = Vector3(1, 2, 3).normalized();
+  EXPECT_EQ(computeWetVolume(box, planeAt(s, -2)).volume, 0);
+  EXPECT_EQ(computeWetVolume(box, planeAt(s, -2)).waterplane.area, 0);
+  const WetVolume all = computeWetVolume(box, planeAt(s, 2));
+  EXPECT_NEAR(all.volume, 1, 5e-15);
+  EXPECT_NEAR(all.depth_integral, 2, 1e-14);
+  EXPECT_LT(all.moment.norm(), 5e-15);
+  EXPECT_EQ(all.waterplane.area, 0);
+}
+
+/// Energy about its centre of a floating body of specific gravity `sg` in the attitude s. The
+/// draught is the one that displaces the body's mass.
+double floatingEnergy(const PackedHull& hull, double volume, double sg, const Vector3& s) {
+  double low = -10, high = 10;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (computeWetVolume(hull, planeAt(s, middle)).volume < sg * volume ? low : high) = middle;
+  }
+  const SurfacePlane plane = planeAt(s, (low + high) / 2);
+  return hydrostaticEnergy(computeWetVolume(hull, plane), plane) - sg * volume * plane.height;
+}
+
+TEST(Hydrostatics, CubeFloatsFlatOrCornerUp) {
+  const PackedHull cube(boxBody({1, 1, 1}));
+  const auto energy = [&](double sg, const Vector3& s) {
+    return floatingEnergy(cube, 1, sg, s.normalized());
+  };
+  Arbitrary arbitrary(5);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 s = arbitrary.vector();
+    EXPECT_GE(energy(0.2, s), energy(0.2, {0, 0, 1}) - 1e-12);
+    EXPECT_GE(energy(0.8, s), energy(0.8, {0, 0, 1}) - 1e-12);
+    EXPECT_GE(energy(0.5, s), energy(0.5, {1, 1, 1}) - 1e-12);
+  }
+  // Flat is stable where 6 sg (1 - sg) < 1: below 0.2113 and above 0.7887.
+  for (const double tilt_axis : {0.0, 0.7}) {
+    const Vector3 tilted(0.02, 0.02 * tilt_axis, 1);
+    for (const double sg : {0.209, 0.791})
+      EXPECT_GT(energy(sg, tilted), energy(sg, {0, 0, 1})) << sg;
+    for (const double sg : {0.2135, 0.7865})
+      EXPECT_LT(energy(sg, tilted), energy(sg, {0, 0, 1})) << sg;
+  }
+}
+
+TEST(Hydrostatics, LongBarFloatsEdgeUpBetweenNineAndTwentyThreeThirtySeconds) {
+  const PackedHull bar(boxBody({20, 1, 1}));
+  const auto energy = [&](double sg, double degrees) {
+    const double angle = degrees * kPi / 180;
+    return floatingEnergy(bar, 20, sg, {0, std::sin(angle), std::cos(angle)});
+  };
+  for (const double sg : {9 / 32.0 + 0.003, 0.5, 23 / 32.0 - 0.003})
+    EXPECT_GT(energy(sg, 44), energy(sg, 45)) << sg;
+  for (const double sg : {9 / 32.0 - 0.003, 23 / 32.0 + 0.003})
+    EXPECT_LT(energy(sg, 44), energy(sg, 45)) << sg;
+}
+
+}  // namespace
+}  // namespace ambient

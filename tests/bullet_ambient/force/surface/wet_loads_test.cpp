@@ -1,0 +1,270 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/packed/packed_faces.h"
+#include "bullet_ambient/fluid_body/sharpness.h"
+#include "bullet_ambient/force/kernels/face_sums.h"
+#include "bullet_ambient/force/kernels/single_sums.h"
+#include "bullet_ambient/force/loads/load_tables.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+#include "tests/support/bits_of.h"
+#include "tests/support/bodies/hull_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+using test::Arbitrary;
+
+const Medium kLiquid{1000, 1e-3, {0, 0, 0}, {0, 0, 0}};
+
+std::shared_ptr<const FluidBody> roundBody(int level) {
+  FluidBody body = test::hullBody(test::geodesicSphere(level));
+  body.faces.sharpness = computeSharpness(body);
+  return std::make_shared<const FluidBody>(body);
+}
+
+WetPart wetBelow(const Vector3& normal, double height, double share = 0.5) {
+  return {{normal.normalized(), height, 1000, 9.81}, share};
+}
+
+double sizeOf(const Wrench& load) { return load.force.norm() + load.torque.norm(); }
+
+std::vector<FlowSettings> allLaws() {
+  std::vector<FlowSettings> laws;
+  for (const PressureLaw law : {PressureLaw::kPublished, PressureLaw::kForm})
+    for (const LoadPrecision precision : {LoadPrecision::kSingle, LoadPrecision::kDouble}) {
+      laws.emplace_back();
+      laws.back().law = law;
+      laws.back().precision = precision;
+    }
+  return laws;
+}
+
+TEST(WetLoads, AreAllOrNothingFarFromTheSurface) {
+  LoadTables tables;
+  const Twist x{{0.3, -0.2, 0.5}, {1, 2, -0.7}};
+  for (const FlowSettings& flow : allLaws()) {
+    const auto loads = makeWaterlineLoads(roundBody(2), kLiquid, flow, tables);
+    const Wrench all = loads->load(x);
+    const Wrench deep = loads->wetLoad(x, wetBelow({1, 2, 3}, 1.2, 1));
+    // Form law: a body without a surface nearby takes its lee from sums made beforehand.
+    const bool is_rounded =
+        flow.law == PressureLaw::kForm && flow.precision == LoadPrecision::kSingle;
+    const double rounding = is_rounded ? 3e-6 * sizeOf(all) : 0;
+    EXPECT_LE((deep.force - all.force).norm(), rounding);
+    EXPECT_LE((deep.torque - all.torque).norm(), rounding);
+    EXPECT_EQ(sizeOf(loads->wetLoad(x, wetBelow({1, 2, 3}, -1.2, 0))), 0);
+  }
+}
+
+TEST(WetLoads, OfBothSidesOfThePlaneMakeUpTheLoad) {
+  LoadTables tables;
+  Arbitrary arbitrary(1);
+  for (const FlowSettings& flow : allLaws()) {
+    const auto loads = makeWaterlineLoads(roundBody(2), kLiquid, flow, tables);
+    for (int i = 0; i < 20; ++i) {
+      const Twist x = arbitrary.twist();
+      const Wrench all = loads->load(x);
+      WetPart wet = wetBelow(arbitrary.vector(), arbitrary.between(-1, 1));
+      Wrench sum = loads->wetLoad(x, wet);
+      wet.plane = wet.plane.flipped();
+      sum += loads->wetLoad(x, wet);
+      const double rounding = flow.precision == LoadPrecision::kSingle ? 1e-5 : 1e-13;
+      EXPECT_LT((sum.force - all.force).norm(), rounding * sizeOf(all));
+      EXPECT_LT((sum.torque - all.torque).norm(), rounding * sizeOf(all));
+    }
+  }
+}
+
+TEST(WetLoads, OfAHalfSubmergedBallAreThoseOfItsHalf) {
+  LoadTables tables;
+  FlowSettings flow;
+  flow.law = PressureLaw::kPublished;  // has no suction in the lee
+  flow.skin_friction = false;
+  const auto loads = makeWaterlineLoads(roundBody(3), kLiquid, flow, tables);
+  const WetPart half = wetBelow({0, 0, 1}, 0);
+  const Twist down{Vector3::Zero(), {0, 0, -2}}, up{Vector3::Zero(), {0, 0, 2}},
+      along{Vector3::Zero(), {2, 0, 0}};
+  // Attached flow on the lower side; faces at the waterline count half, with little pressure.
+  const double full = loads->load(down).force.z();
+  EXPECT_NEAR(loads->wetLoad(down, half).force.z(), full, 0.01 * full);
+  EXPECT_NEAR(loads->wetLoad(up, half).force.z(), 0, 0.01 * full);
+  EXPECT_NEAR(loads->wetLoad(along, half).force.x(), 0.5 * loads->load(along).force.x(),
+              1e-3 * full);
+}
+
+TEST(WetLoads, TakeEnergyAtARightAngle) {
+  LoadTables tables;
+  Arbitrary arbitrary(2);
+  FlowSettings flow;
+  flow.precision = LoadPrecision::kDouble;
+  for (int i = 0; i < 50; ++i) {
+    FluidBody body;
+    body.faces = arbitrary.body();
+    body.area = test::totalArea(body.faces);
+    const auto loads =
+        makeWaterlineLoads(std::make_shared<const FluidBody>(body), kLiquid, flow, tables);
+    const Twist x = arbitrary.twist();
+    EXPECT_LE(power(loads->wetLoad(x, wetBelow(arbitrary.vector(), arbitrary.between(-1, 1))), x),
+              0);
+  }
+}
+
+TEST(WetLoads, ChangeLittleWhereTheSurfaceMovesLittle) {
+  LoadTables tables;
+  FluidBody box = test::boxBody({1, 1, 1}, 4);
+  const auto loads =
+      makeWaterlineLoads(std::make_shared<const FluidBody>(box), kLiquid, {}, tables);
+  const Twist x{{0.1, 0, 0.2}, {0.5, 0.3, -1}};
+  const double largest = sizeOf(loads->load(x));
+  Wrench before{};
+  for (int i = -700; i <= 700; ++i) {
+    const Wrench now = loads->wetLoad(x, wetBelow({0, 0, 1}, 0.001 * i));
+    // The flat bottom gets wet over 2/100 of its face radii, 0.1 m each.
+    EXPECT_LT((now.force - before.force).norm(), 0.4 * largest) << 0.001 * i;
+    before = now;
+  }
+}
+
+TEST(WetLoads, AreSummedOverFacesWhereOthersHaveClosedFormsOrClusters) {
+  LoadTables tables;
+  FluidBody ball = *roundBody(2);
+  ball.sphere_radius = 1;
+  ball.levels.emplace_back();
+  ball.levels.back().clusters = 16;
+  ball.levels.back().separation_angle = FlowSettings{}.separation_angle;
+  ball.levels.back().even.setZero();
+  ball.levels.back().blocks.resize(1);
+  FlowSettings flow;
+  flow.law = PressureLaw::kPublished;  // its levels are clusters
+  flow.maximum_load_error = 1;
+  FluidBody other = ball;
+  other.sphere_radius = 0;
+  for (const FluidBody& body : {ball, other}) {
+    const auto shared = std::make_shared<const FluidBody>(body);
+    EXPECT_LT(makeSurfaceLoads(shared, kLiquid, flow, tables)->faces(), 17);
+    EXPECT_EQ(makeWaterlineLoads(shared, kLiquid, flow, tables)->faces(), 320);
+  }
+}
+
+TEST(WetLoads, OfAnotherLawAreTheShareOfTheVolume) {
+  struct Constant final : SurfaceLoads {
+    Wrench load(const Twist&) const noexcept override { return {{1, 2, 3}, {4, 5, 6}}; }
+  };
+  LoadTables tables;
+  FlowSettings flow;
+  flow.own_law = [](const auto&, const LoadSettings&) { return std::make_shared<Constant>(); };
+  const auto loads = makeWaterlineLoads(roundBody(0), kLiquid, flow, tables);
+  EXPECT_EQ(loads->wetLoad({}, wetBelow({0, 0, 1}, 0, 0.25)).force, Vector3(1, 1.25, 1.5));
+}
+
+TEST(WetLoads, HaveTheSameBitsWithEveryInstructionSet) {
+  if (!kSumBlocks.of(InstructionSet::kAvx2)) GTEST_SKIP() << "this processor has the baseline only";
+  FluidBody body = *roundBody(2);
+  body.faces.sharpness[3] = 0.5;
+  const FaceTable& faces = body.faces;
+  const FaceColumns columns{
+      {faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
+      {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
+      faces.area.data(),
+      faces.size(),
+      faces.sharpness.data()};
+  for (const float height : {-0.5f, 0.1f, 0.9f})
+    for (const float friction : {0.0f, 0.01f})
+      for (const float cosine_sq : {0.0f, 0.25f}) {
+        const SingleCut cut{{0.48f, 0.6f, 0.64f}, height, 0.3f};
+        SingleMotion single{
+            {0.75f, -0.5f, 0.3f}, {0.2f, 0.4f, -0.9f}, cosine_sq, 1 - cosine_sq, friction, &cut};
+        const FaceCut face_cut{{0.48, 0.6, 0.64}, height};
+        const FaceMotion motion{{0.75, -0.5, 0.3}, {0.2, 0.4, -0.9}, cosine_sq,
+                                1 - cosine_sq,     &face_cut,        PressureLaw::kForm};
+        for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+          if (!kSumBlocks.of(set)) continue;
+          for (const bool is_form : {false, true}) {
+            const PackedFaces packed =
+                is_form ? PackedFaces(faces, FormShape{}) : PackedFaces(faces);
+            single.law = is_form ? PressureLaw::kForm : PressureLaw::kPublished;
+            EXPECT_EQ(test::bitsOf(kSumBlocks.of(set)(packed.blocks(), single)),
+                      test::bitsOf(sumBlocksBaseline(packed.blocks(), single)));
+          }
+          EXPECT_EQ(test::bitsOf(kSumFaces.of(set)(columns, motion, friction > 0)),
+                    test::bitsOf(sumFacesBaseline(columns, motion, friction > 0)));
+        }
+      }
+}
+
+TEST(WetLoads, OfASphereInAttachedFlowAreFrictionAlone) {
+  // Pressure on half of a sphere would be even in the velocity, about rho v^2 R^2 pi / 4. The
+  // gradient of the added mass contains this force already.
+  FluidBody sphere = test::hullBody(test::geodesicSphere(3));
+  sphere.sphere_radius = 1;
+  const auto body = std::make_shared<const FluidBody>(sphere);
+  LoadTables tables;
+  FlowSettings flow;
+  flow.separation_angle = std::acos(-1.0);
+  const auto loads = makeWaterlineLoads(body, kLiquid, flow, tables);
+  for (const Vector3& v : {Vector3(0, 0, 2), Vector3(1, 0, -1)}) {
+    const Wrench there = loads->wetLoad({{0, 0, 0}, v}, wetBelow({0, 0, 1}, 0));
+    const Wrench back = loads->wetLoad({{0, 0, 0}, -v}, wetBelow({0, 0, 1}, 0));
+    const double pressure = 1000 * v.squaredNorm();
+    EXPECT_LT(power(there, {{0, 0, 0}, v}), 0);
+    EXPECT_LT(sizeOf(there), 0.02 * pressure);
+    EXPECT_LT(sizeOf(there + back), 1e-5 * pressure);
+  }
+  flow.skin_friction = false;
+  const auto pressure = makeWaterlineLoads(body, kLiquid, flow, tables);
+  EXPECT_EQ(sizeOf(pressure->wetLoad({{0, 0, 0}, {1, 2, 3}}, wetBelow({0, 0, 1}, 0))), 0);
+}
+
+TEST(WetLoads, InAttachedFlowHaveTheShareOfThePressureOnTheWhole) {
+  const Twist x{{0.3, -0.2, 0.5}, {1, 2, -0.7}};
+  FluidBody sphere = test::hullBody(test::geodesicSphere(3));
+  sphere.sphere_radius = 1;
+  LoadTables tables;
+  for (FlowSettings flow : allLaws()) {
+    flow.separation_angle = std::acos(-1.0);
+    for (const auto& body : {roundBody(2), std::make_shared<const FluidBody>(sphere)}) {
+      // Deep below the surface the loads are complete.
+      const auto loads = makeWaterlineLoads(body, kLiquid, flow, tables);
+      const Wrench deep = loads->wetLoad(x, wetBelow({1, 2, 3}, 1.2, 1));
+      const Wrench all = makeSurfaceLoads(body, kLiquid, flow, tables)->load(x);
+      EXPECT_LT(sizeOf(deep + -1.0 * all), (body->sphere_radius > 0 ? 0.01 : 1e-5) * sizeOf(all));
+      if (flow.law == PressureLaw::kForm && !(body->sphere_radius > 0)) continue;
+      flow.skin_friction = false;
+      const auto pressure = makeWaterlineLoads(body, kLiquid, flow, tables);
+      const Wrench whole = makeSurfaceLoads(body, kLiquid, flow, tables)->load(x);
+      const Wrench half = pressure->wetLoad(x, wetBelow({1, 2, 3}, 0.1));
+      EXPECT_GT(sizeOf(whole), 1000);
+      EXPECT_LT(sizeOf(half + -0.5 * whole), 1e-5 * sizeOf(whole));
+    }
+  }
+}
+
+// Attached flow by the form law: windward pressure of its own, slip pressure on the lee. For
+// horizontal motion the windward pressure has no vertical part on the whole body.
+TEST(WetLoads, OfTheFormLawInAttachedFlowLoseNoWindwardPressure) {
+  LoadTables tables;
+  FlowSettings attached, separated;
+  attached.law = separated.law = PressureLaw::kForm;
+  attached.separation_angle = std::acos(-1.0);
+  const WetPart half = wetBelow({0, 0, 1}, 0);
+  const auto box = std::make_shared<const FluidBody>(test::boxBody({1, 0.6, 0.4}, 6));
+  for (const auto& body : {roundBody(3), box}) {
+    const auto loads = makeWaterlineLoads(body, kLiquid, attached, tables);
+    const auto by_wake = makeWaterlineLoads(body, kLiquid, separated, tables);
+    const Twist along{Vector3::Zero(), {2, 0, 0}}, turning{{0, 0, 3}, {2, 0, 0}};
+    for (const Twist& x : {along, turning}) {
+      const Vector3 deep = loads->load(x).force, floating = loads->wetLoad(x, half).force;
+      const double rounding = 2e-5 * by_wake->load(x).force.norm();
+      EXPECT_NEAR(floating.x(), 0.5 * deep.x(), rounding);
+      EXPECT_NEAR(floating.y(), 0.5 * deep.y(), rounding);
+      EXPECT_NEAR(floating.z(), by_wake->wetLoad(x, half).force.z(), rounding);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,96 @@
+#include "bullet_ambient/motion/surface/surface_passage.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/spatial/inertia.h"
+#include "tests/support/bodies/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kHuge = 1e30;  // gravity; Froude number of any entry: 0
+
+/// Speed of a falling body of 1 kg at depth 1, added mass d^2 along z at depth d. Steps are equal
+/// in depth, so unequal in time.
+double speedAfterEntry(double gravity, double start, int steps) {
+  double speed = start;
+  const double step = 1.0 / steps;
+  for (int i = 0; i < steps; ++i) {
+    const double from = i * step, to = from + step, duration = step / speed;
+    const auto inertiaAt = [](double depth) {
+      Matrix6 K = Matrix6::Identity();
+      K(5, 5) += depth * depth;
+      return K;
+    };
+    const Matrix6 before = inertiaAt(from), after = inertiaAt(to), inverse = after.inverse();
+    Vector6 x = Vector6::Zero();
+    x[5] = -speed;
+    const double by_height = 0.5 * 2 * from * speed * speed;
+    const SurfacePassage passage{before,    after,     inverse, {{0, 0, 0}, {0, 0, -by_height}},
+                                 {0, 0, 1}, {0, 0, 0}, to,      to - 10,
+                                 gravity,   duration};
+    speed = -passSurface(passage, x).twist[5];
+  }
+  return speed;
+}
+
+TEST(SurfacePassage, KeepsMomentumWhereItIsFastAndEnergyWhereItIsSlow) {
+  // (m + K) v = m v_0 with K = 1 at the end; without inertia forces (m + K) v^2 = m v_0^2.
+  EXPECT_NEAR(speedAfterEntry(0, 2, 100), 1, 1e-12);
+  EXPECT_NEAR(speedAfterEntry(kHuge, 2, 100), std::sqrt(2), 2e-2);
+  EXPECT_NEAR(speedAfterEntry(kHuge, 2, 1000), std::sqrt(2), 2e-3);
+}
+
+TEST(SurfacePassage, NeverAddsEnergyWhateverChanges) {
+  test::Arbitrary arbitrary(1);
+  for (int i = 0; i < 300; ++i) {
+    const Matrix6 before = arbitrary.positiveDefinite(), after = arbitrary.positiveDefinite();
+    const Matrix6 inverse = after.inverse();
+    const Vector6 x = arbitrary.twist().vector();
+    const SurfacePassage passage{before,
+                                 after,
+                                 inverse,
+                                 {arbitrary.vector(10), arbitrary.vector(10)},
+                                 arbitrary.vector().normalized(),
+                                 arbitrary.vector(),
+                                 arbitrary.between(-1, 1),
+                                 arbitrary.between(-1, 1),
+                                 arbitrary.between(0, 10),
+                                 arbitrary.between(0, 1)};
+    const Vector6 end = passSurface(passage, x).twist;
+    EXPECT_LE(end.dot(after * end), x.dot(before * x) * (1 + 1e-12));
+  }
+}
+
+// Without gradient the momentum is conserved: K_1^-1 K_0 x, except for the bound.
+TEST(SurfacePassage, TellsTheEnergyThatItRemoves) {
+  test::Arbitrary arbitrary(3);
+  for (int i = 0; i < 100; ++i) {
+    const Matrix6 before = arbitrary.positiveDefinite();
+    const Matrix6 after = (i % 2 == 0 ? 0.5 : 1.5) * before;
+    const Matrix6 inverse = after.inverse();
+    const Vector6 x = arbitrary.twist().vector(), end = inverse * (before * x);
+    const double had = x.dot(before * x) / 2, gain = end.dot(after * end) / 2 - had;
+    EXPECT_EQ(gain > 0, i % 2 == 0);
+    const SurfacePassage passage{
+        before, after, inverse, {{0, 0, 0}, {0, 0, 0}}, {0, 0, 1}, {0, 0, 0}, 1, 1, 9.81, 0.01};
+    EXPECT_NEAR(passSurface(passage, x).energy_removed, std::max(0.0, gain), 1e-11 * had) << i;
+  }
+}
+
+TEST(SurfacePassage, LeavesABodyAloneWhoseInertiaStays) {
+  test::Arbitrary arbitrary(2);
+  const Matrix6 K = arbitrary.positiveDefinite(), inverse = K.inverse();
+  const Vector6 x = arbitrary.twist().vector();
+  const SurfacePassage passage{K, K,    inverse, {{1, 2, 3}, {4, 5, 6}}, {0, 0, 1}, {0, 0, 0}, 1,
+                               1, 9.81, 0.01};
+  EXPECT_EQ(passSurface(passage, x).twist, x);
+  EXPECT_EQ(passSurface(passage, x).energy_removed, 0);
+}
+
+}  // namespace
+}  // namespace ambient

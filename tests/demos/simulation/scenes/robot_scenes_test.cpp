@@ -1,0 +1,194 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "demos/simulation/output/trajectory_text.h"
+#include "demos/simulation/simulation.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
+#include "tests/reference/ellipsoid_added_mass.h"
+#include "tests/reference/three_link_swimmer.h"
+
+namespace ambient {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kStroke = 2;  // seconds
+
+/// Swimmer of data/robots/three_link_swimmer.urdf, as dense as its water, 1000 kg/m^3.
+reference::ThreeLinkSwimmer swimmerOfScene() {
+  const Eigen::Vector3d axes(0.5, 0.1, 0.2);
+  const double density = 1000, mass = density * kTwoPi * 2 / 3 * axes.prod();
+  const auto added = reference::ellipsoidAddedMass(axes);
+  return {mass + density * added[3], mass + density * added[4],
+          mass / 5 * (axes.x() * axes.x() + axes.y() * axes.y()) + density * added[2], 0.6};
+}
+
+/// Joint angles of data/scenes/three_link_swimmer.json at a time.
+reference::SwimmerShape gait(double time) {
+  const double rate = kTwoPi / kStroke;
+  const auto sine = [&](double phase) { return std::sin(rate * time + phase); };
+  const auto cosine = [&](double phase) { return rate * std::cos(rate * time + phase); };
+  return {{sine(0), sine(-kTwoPi / 4)}, {cosine(0), cosine(-kTwoPi / 4)}};
+}
+
+/// Place and direction of the middle link after one stroke.
+Eigen::Vector3d strokeOfScene(const std::string& time_step) {
+  const Scene scene = readNamedScene(
+      "three_link_swimmer", {{"duration", "2"}, {"time_step", time_step}, {"output_step", "2"}});
+  const MotionSample end = runSharing(scene).motion[0].back();
+  return {end.position.x(), end.position.y(),
+          2 * std::atan2(end.orientation.z(), end.orientation.w())};
+}
+
+// Order 2 in the time step. Lengths are some 0.2 m.
+TEST(RobotScenes, SwimmerAdvancesByItsConnection) {
+  const Eigen::Vector3d expected = reference::swim(swimmerOfScene(), gait, kStroke, 400);
+  const double coarse = (strokeOfScene("0.016") - expected).norm();
+  const double fine = (strokeOfScene("0.008") - expected).norm();
+  EXPECT_LT(coarse, 5e-4);
+  EXPECT_NEAR(coarse / fine, 4, 0.3);
+}
+
+TEST(RobotScenes, SwimmerStaysInItsPlaneAndNeutral) {
+  const Scene scene = readNamedScene("three_link_swimmer", {{"duration", "2"}});
+  for (const auto& link : runSharing(scene).motion)
+    EXPECT_LT(std::abs(link.back().position.z()), 1e-6);
+}
+
+// Waves along the swimmer from the tail, or from the head, propel in opposite directions.
+TEST(RobotScenes, MirroredGaitSwimsTheOtherWay) {
+  const auto end = [](const std::string& phase) {
+    const Scene scene = readNamedScene("three_link_swimmer",
+                                       {{"duration", "2"}, {"robots.0.motors.hip.phase", phase}});
+    return runSharing(scene).motion[0].back().position;
+  };
+  EXPECT_LT(end("-1.5707963267948966").x(), -0.15);
+  EXPECT_GT(end("1.5707963267948966").x(), 0.15);
+}
+
+TEST(RobotScenes, ArmGoesWhereItsMotorsWant) {
+  const Scene scene = readNamedScene("underwater_arm", {{"duration", "3"}});
+  const std::vector<PreparedBody> bodies = prepare(scene);
+  const RunRecord record = runPrepared(scene, bodies);
+  const RobotDef& robot = scene.robots[0];
+  std::map<std::string, double> positions;
+  for (const auto& [joint, drive] : robot.motors) positions[joint] = drive.positionAt(3);
+  const std::vector<RigidPose> poses = linkPoses(*robot.model, robot.pose(), positions);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const LinkModel& link = robot.model->links[scene.bodies[i].link->link];
+    const Vector3 wanted = poses[scene.bodies[i].link->link] * link.centre_of_mass;
+    EXPECT_LT((record.motion[i].back().position - wanted).norm(), 0.03) << scene.bodies[i].name;
+  }
+}
+
+TEST(RobotScenes, ChainTrailsBehindItsTowPoint) {
+  const RunRecord record = runSharing(readNamedScene("towed_chain"));
+  // The chain starts vertical, 0.24 m a link. It ends straight on a slope downstream, since all
+  // links have equal weight and drag.
+  const Vector3 begin = record.motion.back().front().position;
+  const Vector3 end = record.motion.back().back().position;
+  EXPECT_NEAR(begin.norm(), 7.5 * 0.24, 1e-12);
+  EXPECT_NEAR(end.norm(), 7.5 * 0.24, 0.05);
+  EXPECT_GT(end.x(), 0.5);
+  EXPECT_LT(end.z(), -0.2);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Vector3 place = record.motion[i].back().position;
+    EXPECT_LT((place - (static_cast<double>(i) + 0.5) / 7.5 * end).norm(), 0.02) << i;
+  }
+}
+
+TEST(RobotScenes, InVacuumARobotFallsAsStockBulletHasIt) {
+  const Scene scene = readNamedScene(
+      "three_link_swimmer", {{"duration", "0.5"}, {"time_step", "0.005"}, {"model", "vacuum"}});
+  const RunRecord record = runSharing(scene);
+  double height = 0;
+  for (const auto& link : record.motion) height += link.back().position.z() / 3;
+  // Fall by Euler's steps: g h^2 n (n + 1) / 2.
+  EXPECT_NEAR(height, -9.81 * 0.005 * 0.005 * 100 * 101 / 2, 1e-9);
+}
+
+TEST(RobotScenes, TrajectoryNamesRobotAndLink) {
+  const Scene scene = readNamedScene("three_link_swimmer", {{"duration", "0.04"}});
+  const std::string text = makeTrajectoryText(scene, runSharing(scene).motion);
+  EXPECT_NE(text.find("\n0,swimmer/middle,0,0,0,1,"), std::string::npos);
+  EXPECT_NE(text.find(",swimmer/tail,"), std::string::npos);
+}
+
+TEST(RobotScenes, PaddleBoatDrivesStraightAhead) {
+  const Scene scene = readNamedScene("paddle_boat", {{"duration", "3"}});
+  const RunRecord record = runSharing(scene);
+  const MotionSample& hull = record.motion[0].back();
+  EXPECT_GT(hull.position.x(), 0.4);
+  EXPECT_GT(hull.twist.linear.x(), 0.2);
+  EXPECT_LT(std::abs(hull.position.y()), 0.01);
+  EXPECT_LT(std::abs(hull.position.z()), 0.1);
+}
+
+/// Turn of the boat with a rudder about the vertical per second, after it has begun to drive.
+double turningRate(const std::string& helm) {
+  const Scene scene =
+      readNamedScene("rudder_boat", {{"duration", "6"}, {"robots.0.motors.helm.position", helm}});
+  return runSharing(scene).motion[0].back().twist.angular.z();
+}
+
+// A ship of length L that turns does so in circles of some L to 5 L: 0.36 m/s, 1.2 m.
+TEST(RobotScenes, RudderTurnsTheBoatToItsSide) {
+  const double to_left = turningRate("-0.5"), to_right = turningRate("0.5");
+  EXPECT_GT(to_left, 0.36 / (5 * 1.2));
+  EXPECT_LT(to_left, 0.36 / 1.2);
+  EXPECT_NEAR(to_right, -to_left, 0.05 * to_left);
+  EXPECT_LT(std::abs(turningRate("0")), 0.05 * to_left);
+}
+
+TEST(RobotScenes, WaderTrotsAheadUpright) {
+  const Scene scene = readNamedScene("wader", {{"duration", "4"}});
+  const RunRecord record = runSharing(scene);
+  const auto trunk = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                  [](const BodyDef& body) { return body.name == "wader/trunk"; });
+  for (const MotionSample& at : record.motion[trunk - scene.bodies.begin()]) {
+    EXPECT_GT((at.orientation * Vector3::UnitZ()).z(), 0.95);
+    EXPECT_NEAR(at.position.z(), 0.49, 0.05);
+  }
+  const MotionSample& end = record.motion[trunk - scene.bodies.begin()].back();
+  EXPECT_GT(end.position.x(), 0.6);
+  EXPECT_LT(std::abs(end.position.y()), 0.3);
+}
+
+TEST(RobotScenes, ForcesActOnLinks) {
+  const Scene scene = readNamedScene(
+      "three_link_swimmer", {{"model", "vacuum"}, {"gravity", "[0,0,0]"}, {"time_step", "0.0005"}});
+  Simulation simulation(scene, prepare(scene));
+  simulation.applyForce(1, {0, 0, 100}, simulation.sample()[1].position);
+  simulation.step();
+  Vector3 momentum = Vector3::Zero();
+  const std::vector<MotionSample> samples = simulation.sample();
+  for (std::size_t i = 0; i < 3; ++i) momentum += scene.bodies[i].mass * samples[i].twist.linear;
+  // Bullet turns links after pushing them: error of first order in the step.
+  EXPECT_NEAR(momentum.z(), 100 * scene.time_step, 0.01 * 100 * scene.time_step);
+}
+
+// Scenes with motors, and with links at the surface of water.
+TEST(RobotScenes, StatesGoOnBitForBit) {
+  for (const char* name : {"three_link_swimmer", "paddle_boat"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = readNamedScene(name);
+    const std::vector<PreparedBody> bodies = prepare(scene);
+    Simulation simulation(scene, bodies), other(scene, bodies);
+    for (int i = 0; i < 30; ++i) simulation.step();
+    other.restoreState(simulation.saveState());
+    EXPECT_EQ(other.time(), simulation.time());
+    for (int i = 0; i < 30; ++i) {
+      simulation.step();
+      other.step();
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      EXPECT_EQ(other.sample()[i].position, simulation.sample()[i].position);
+      EXPECT_EQ(other.sample()[i].twist.vector(), simulation.sample()[i].twist.vector());
+    }
+    EXPECT_TRUE(other.saveState() == simulation.saveState());
+  }
+}
+
+}  // namespace
+}  // namespace ambient

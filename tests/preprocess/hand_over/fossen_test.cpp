@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "preprocess/hand_over.h"
+#include "tests/preprocess/hand_over/handed_bodies.h"
+#include "tests/support/bodies/hull_bodies.h"
+
+namespace ambient::test {
+namespace {
+
+using nlohmann::json;
+
+Matrix6 matrixOf(const json& rows) {
+  Matrix6 matrix;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) matrix(i, j) = rows.at(i).at(j);
+  return matrix;
+}
+
+Vector6 rowOf(const json& row) {
+  Vector6 vector;
+  for (int i = 0; i < 6; ++i) vector[i] = row.at(i);
+  return vector;
+}
+
+json fossen(const std::shared_ptr<const FluidBody>& body, const ExportSettings& settings) {
+  return json::parse(exported(body, ExportFormat::kFossen, settings));
+}
+
+TEST(Fossen, ASphereCarriesHalfOfWhatItDisplaces) {
+  const double mass = 2.0 / 3 * portable::acos(-1.0) * 0.125 * kSeaDensity;
+  const json sphere = fossen(sphereBody(0.5), inSea());
+  Vector6 diagonal;
+  diagonal << mass, mass, mass, 0, 0, 0;
+  EXPECT_LT((matrixOf(sphere["M_A"]) - Matrix6(diagonal.asDiagonal())).norm(), 1e-12 * mass);
+  EXPECT_NEAR(sphere["mass"], 2 * mass, 1e-12 * mass);
+  EXPECT_EQ(sphere["order"], "u v w p q r");
+  EXPECT_FALSE(sphere.contains("D"));
+}
+
+// In SNAME's axes of bodies that look along any axis of F.
+TEST(Fossen, AddedMassHasTheKineticEnergyOfTheFluid) {
+  const PlacedEllipsoid placed;
+  const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
+  for (const auto& [forward, up] : {std::pair(x, z), std::pair(Vector3(-y), x), std::pair(z, y)}) {
+    ExportSettings settings = inSea();
+    settings.forward = forward;
+    settings.up = up;
+    OtherFrame sname;
+    sname.axes << forward, forward.cross(up), -up;
+    const json body = fossen(bodyOf(placed), settings);
+    EXPECT_LT(energyError(matrixOf(body["M_A"]) / kSeaDensity, placed, sname), 1e-13);
+  }
+}
+
+// Fossen 2011, eq. (3.44), of a mass with its centre at r_g.
+TEST(Fossen, RigidBodyMatrixIsFossens) {
+  ExportSettings settings = inSea();
+  settings.mass = 3;
+  settings.centre_of_mass = {0.1, 0.2, -0.3};
+  const json body = fossen(sphereBody(0.5), settings);
+  const Vector3 r(0.1, -0.2, 0.3);  // in SNAME's axes
+  for (int i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(body["centre_of_gravity"][i], r[i]);
+  Matrix3 cross;
+  cross << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+  Matrix6 expected;
+  expected << 3 * Matrix3::Identity(), -3 * cross, 3 * cross,
+      3 * 0.1 * Matrix3::Identity() - 3 * cross * cross;
+  EXPECT_LT((matrixOf(body["M_RB"]) - expected).norm(), 1e-14);
+}
+
+// Fossen 2011, eq. (4.24): rho g A, rho g V GM_T, rho g V GM_L.
+TEST(Fossen, RestoringForcesOfABargeAreThoseOfItsMetacentres) {
+  const double L = 4, B = 1.5, T = 0.4;
+  FluidBody barge = boxBody({L, B, 1});
+  barge.added_mass_parts.resize(1);  // a waterline is allowed; its added mass does not count here
+  barge.uniform_mass.inertia.setIdentity();
+  ExportSettings settings = inSea();
+  settings.draught = T;
+  const json body = fossen(std::make_shared<FluidBody>(barge), settings);
+  const double volume = L * B * T, weight = kSeaDensity * kSeaGravity * volume;
+  const double between = T / 2 - 0.5;  // centre of buoyancy above the centre of mass
+  Vector6 expected;
+  expected << 0, 0, weight / T, weight * (B * B / (12 * T) + between),
+      weight * (L * L / (12 * T) + between), 0;
+  EXPECT_LT((matrixOf(body["G"]) - Matrix6(expected.asDiagonal())).norm(), 1e-12 * weight);
+  EXPECT_NEAR(body["displaced_volume"], volume, 1e-14);
+  EXPECT_NEAR(body["waterplane_area"], L * B, 1e-14);
+  EXPECT_NEAR(body["centre_of_buoyancy"][2], -between, 1e-14);
+}
+
+// Below the surface only the lever between the two centres turns it back.
+TEST(Fossen, ASubmergedBodyIsTurnedBackByItsBuoyancy) {
+  ExportSettings settings = inSea();
+  settings.centre_of_mass = {0.2, -0.1, 0.1};
+  const PlacedEllipsoid placed;  // its centre is 0.3 m above
+  const json body = fossen(bodyOf(placed), settings);
+  const Vector3 buoyancy(0.2, 0.1, -0.4);  // in SNAME's axes
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(body["centre_of_buoyancy"][i], buoyancy[i], 1e-14);
+  const double weight = body["mass"].get<double>() * kSeaGravity;
+  Vector6 expected;
+  expected << 0, 0, 0, 0.3 * weight, 0.3 * weight, 0;
+  EXPECT_LT((matrixOf(body["G"]) - Matrix6(expected.asDiagonal())).norm(), 1e-12 * weight);
+}
+
+// The potential 0 at the surface is that of the sphere's image with opposite sign: half the mass of
+// heave in unbounded fluid.
+TEST(Fossen, HalfASphereHeavesWithHalfItsAddedMass) {
+  ExportSettings settings = inSea();
+  settings.draught = 0.5;
+  const Matrix6 M = matrixOf(fossen(sphereBody(0.5), settings)["M_A"]);
+  const double deep = 2.0 / 3 * portable::acos(-1.0) * 0.125 * kSeaDensity;
+  EXPECT_NEAR(M(2, 2) / deep, 0.5, 1e-4);  // of the table of spheres
+}
+
+// Forces grow with the square of the speed: D x = -2 tau along the motion, Euler; across it a
+// sphere feels the drag turn.
+TEST(Fossen, DragOfASphereIsLinearised) {
+  ExportSettings settings = inSea();
+  settings.speed = 1.5;
+  const json sphere = fossen(sphereBody(0.5), settings);
+  const Matrix6 D = matrixOf(sphere["D"]);
+  const Vector6 tau = rowOf(sphere["tau"]);
+  EXPECT_LT(tau[0], 0);
+  EXPECT_NEAR(D(0, 0) * 1.5, -2 * tau[0], 1e-7 * D(0, 0));
+  EXPECT_NEAR(D(1, 1) * 1.5, -tau[0], 1e-7 * D(0, 0));
+  EXPECT_NEAR(D(2, 2) * 1.5, -tau[0], 1e-7 * D(0, 0));
+}
+
+TEST(Fossen, DragOfABoxIsLinearised) {
+  ExportSettings settings = inSea();
+  settings.speed = 1.5;
+  settings.forward = -Vector3::UnitY();
+  FluidBody box = boxBody({0.5, 2, 1}, 4);
+  box.uniform_mass.inertia.setIdentity();
+  const json body = fossen(std::make_shared<FluidBody>(box), settings);
+  const Matrix6 D = matrixOf(body["D"]);
+  EXPECT_LT((D.col(0) * 1.5 + 2 * rowOf(body["tau"])).norm(), 1e-7 * D(0, 0));
+  EXPECT_LT(rowOf(body["tau"])[0], 0);
+  for (int i = 0; i < 6; ++i) EXPECT_GT(D(i, i), 0) << i;
+}
+
+TEST(Fossen, NamesAreTexts) {
+  const auto body = sphereBody(1);
+  body->name = "a\"b\\<\xff&\n";
+  EXPECT_EQ(fossen(body, {})["name"], "a_b_____");
+}
+
+}  // namespace
+}  // namespace ambient::test

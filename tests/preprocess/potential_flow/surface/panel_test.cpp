@@ -1,0 +1,110 @@
+#include "preprocess/potential_flow/surface/panel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bullet_ambient/base/pi.h"
+#include "tests/reference/triangle_potentials.h"
+
+namespace ambient {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kFineStep = 0.06;
+
+Panel skewPanel() { return makePanel({0.3, -0.2, 0.1}, {1.4, 0.1, 0.4}, {0.2, 0.9, -0.3}); }
+
+/// Points above, below, far, close, in the plane, above an edge's line, above a corner.
+std::vector<Vector3d> viewPoints(const Panel& p) {
+  return {p.centroid + 0.7 * p.normal,
+          p.centroid - 0.02 * p.normal,
+          Vector3d(3, -2, 1),
+          p.corner[1] + 0.05 * p.normal,
+          p.corner[0] - 0.4 * p.edge[0],
+          p.centroid + 2 * p.edge[2],
+          p.corner[2] + 0.3 * p.edge[2] + 0.1 * p.normal};
+}
+
+TEST(Panel, HasTheGeometryOfItsTriangle) {
+  const Panel p = makePanel({0, 0, 0}, {3, 0, 0}, {0, 4, 0});
+  EXPECT_DOUBLE_EQ(p.area, 6);
+  EXPECT_EQ(p.normal, Vector3d::UnitZ());
+  EXPECT_DOUBLE_EQ(p.edge_length[1], 5);
+  EXPECT_LT((p.edge_normal[1] - Vector3d(0.8, 0.6, 0)).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(p.radius, (p.corner[2] - p.centroid).norm());
+}
+
+TEST(Panel, HatFunctionsAreOneAtTheirCornerAndZeroAtTheOthers) {
+  const Panel p = skewPanel();
+  for (int a = 0; a < 3; ++a) {
+    const Vector3d opposite = p.corner[(a + 1) % 3];
+    EXPECT_NEAR(p.hatGradient(a).dot(p.corner[a] - opposite), 1, 1e-14);
+    EXPECT_NEAR(p.hatGradient(a).dot(p.edge[(a + 1) % 3]), 0, 1e-14);
+    EXPECT_NEAR(p.hatGradient(a).dot(p.normal), 0, 1e-14);
+    EXPECT_LT((p.normal.cross(p.hatGradient(a)) + p.hatCurl(a)).norm(), 1e-14);
+  }
+}
+
+TEST(NewtonPotential, EqualsItsEdgeIntegrals) {
+  const Panel p = skewPanel();
+  for (const Vector3d& x : viewPoints(p)) {
+    const double reference = reference::newtonPotential(p.corner, x);
+    EXPECT_NEAR(computeNewtonPotential(p, x) / reference, 1, 1e-11) << x.transpose();
+  }
+}
+
+TEST(NewtonPotential, EqualsTheIntegralOverTheSurface) {
+  const Panel p = skewPanel();
+  const Vector3d x = p.centroid + 0.4 * p.normal + 0.3 * p.edge[0];
+  const double reference = reference::integrateOverTriangle(
+      p.corner, [&](const Vector3d& y) { return 1 / (x - y).norm(); }, kFineStep);
+  EXPECT_NEAR(computeNewtonPotential(p, x) / reference, 1, 1e-11);
+}
+
+TEST(NewtonPotential, IsFiniteAndContinuousOnThePanelItsEdgesAndCorners) {
+  const Panel p = skewPanel();
+  for (const Vector3d& x : {p.centroid, Vector3d(p.corner[0] + 0.3 * p.edge[0]), p.corner[2]}) {
+    const double on = computeNewtonPotential(p, x);
+    EXPECT_NEAR(computeNewtonPotential(p, x + 1e-9 * p.normal) / on, 1, 1e-7);
+    EXPECT_NEAR(computeNewtonPotential(p, x - 1e-9 * p.normal) / on, 1, 1e-7);
+    EXPECT_NEAR(on / reference::newtonPotential(p.corner, x), 1, 1e-9);
+  }
+}
+
+TEST(DoubleLayer, EqualsTheIntegralOverTheSurface) {
+  const Panel p = skewPanel();
+  for (const Vector3d& x : {Vector3d(p.centroid + 0.5 * p.normal), Vector3d(3, -2, 1),
+                            Vector3d(p.corner[1] - 0.4 * p.normal + 0.2 * p.edge[1])}) {
+    const Vector3d weights = computeDoubleLayer(p, x);
+    for (int a = 0; a < 3; ++a) {
+      const double reference = reference::integrateOverTriangle(
+          p.corner,
+          [&](const Vector3d& y) {
+            const double hat = 1 + p.hatGradient(a).dot(y - p.corner[a]);
+            return hat * p.normal.dot(x - y) / std::pow((x - y).norm(), 3);
+          },
+          kFineStep);
+      EXPECT_NEAR(weights[a], reference, 1e-11) << a;
+    }
+  }
+}
+
+TEST(DoubleLayer, SumsToTheSolidAngleOfAnOctant) {
+  // Face of an octahedron, an eighth of the sphere seen from the origin.
+  const Panel p = makePanel({1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+  EXPECT_NEAR(computeDoubleLayer(p, Vector3d::Zero()).sum(), -4 * kPi / 8, 1e-14);
+  EXPECT_NEAR(computeDoubleLayer(p, Vector3d::Ones() * 2 / 3).sum(), 4 * kPi / 8, 1e-14);
+}
+
+TEST(DoubleLayer, JumpsBy4PiAcrossThePanelAndVanishesBesideIt) {
+  const Panel p = skewPanel();
+  const double above = computeDoubleLayer(p, p.centroid + 1e-9 * p.normal).sum();
+  const double below = computeDoubleLayer(p, p.centroid - 1e-9 * p.normal).sum();
+  EXPECT_NEAR(above - below, 4 * kPi, 1e-6);
+  EXPECT_NEAR(computeDoubleLayer(p, p.centroid + 3 * p.edge[0]).norm(), 0, 1e-14);
+}
+
+}  // namespace
+}  // namespace ambient

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/force/law/flow_settings.h"
+#include "bullet_ambient/force/medium/medium.h"
+
+namespace ambient {
+
+/// One body that falls or rises from rest, tilted about y. Its normal or axis is z.
+struct FallingCase {
+  std::string family;    ///< "disc", "spheroid", "strip", "plate", "card", "coin", "cube", ...
+  std::string name;      ///< the body within the family
+  double parameter = 0;  ///< I*, Froude number, h/l, mass per area, mass, or size
+  double tilt = 0;       ///< [deg]
+  std::shared_ptr<const FluidBody> body = nullptr;
+  double mass = 0;                    ///< [kg]
+  Vector3 inertia = Vector3::Zero();  ///< principal moments [kg m^2]
+  Medium medium = {};
+  double gravity = 9.81;
+  double time_step = 0;
+  double duration = 0;
+  bool keeps_path = false;
+  double depth = 0;  ///< at which the horizontal distance from the release is taken [m]; 0: nowhere
+};
+
+/// Names of groups of bodies with a measured fall: "cubes and balls", "cards", ...
+std::vector<std::string> fallingGroups();
+
+/// Returns the cases of one group; empty for an unknown group.
+std::vector<FallingCase> makeFallingCases(const std::string& group);
+
+}  // namespace ambient

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/spatial/inertia.h"
+#include "tests/reference/ellipsoid_added_mass.h"
+#include "tests/support/bodies/geodesic.h"
+
+namespace ambient::test {
+
+inline double ellipsoidVolume(const Vector3& semi_axes) {
+  return 4.0 / 3.0 * portable::acos(-1.0) * semi_axes.prod();
+}
+
+/// Moments of inertia of a homogeneous ellipsoid [kg m^2].
+inline Vector3 ellipsoidMoments(const Vector3& semi_axes, double mass) {
+  const Vector3 q = semi_axes.cwiseAbs2();
+  return mass / 5 * Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
+}
+
+/// Smooth ellipsoid: exact added mass and volume, no faces.
+inline FluidBody facelessEllipsoid(const Vector3& semi_axes) {
+  FluidBody shape;
+  shape.name = "ellipsoid";
+  shape.added_mass = reference::ellipsoidAddedMass(semi_axes).asDiagonal();
+  shape.volume = ellipsoidVolume(semi_axes);
+  shape.area = 4 * portable::acos(-1.0) * portable::pow(semi_axes.prod(), 2.0 / 3.0);
+  return shape;
+}
+
+/// Ellipsoid of exact added mass and volume with the faces of a geodesic mesh, 20 * 4^level.
+inline FluidBody meshedEllipsoid(const Vector3& semi_axes, int level) {
+  FluidBody shape = facelessEllipsoid(semi_axes);
+  shape.faces = faceTableOf(geodesicEllipsoid(semi_axes, level));
+  shape.area = totalArea(shape.faces);
+  return shape;
+}
+
+/// Nodes and weights of the Gauss rule of `count` points on [0, 1].
+inline std::vector<std::pair<double, double>> gaussRule(int count) {
+  std::vector<std::pair<double, double>> rule;
+  for (int i = 0; i < count; ++i) {
+    double x = portable::cos(portable::acos(-1.0) * (i + 0.75) / (count + 0.5));
+    double slope = 1;
+    for (int newton = 0; newton < 8; ++newton) {
+      double value = 1, before = 0;  // Legendre polynomials by their recurrence
+      for (int n = 0; n < count; ++n) {
+        const double next = ((2 * n + 1) * x * value - n * before) / (n + 1);
+        before = value;
+        value = next;
+      }
+      slope = count * (x * value - before) / (x * x - 1);
+      x -= value / slope;
+    }
+    rule.emplace_back((1 + x) / 2, 1 / ((1 - x * x) * slope * slope));
+  }
+  return rule;
+}
+
+/// Sphere with the points of a Gauss rule in cos(theta), for each hemisphere, times equal angles
+/// about z, as faces. Drag along z equals the smooth sphere's to rounding: the pressure's
+/// integrand is a polynomial on each half. A velocity 0.3 degrees off z switches the faces next
+/// to the equator. Below this angle the lateral force has the wrong sign, as on every faceted
+/// sphere.
+inline FluidBody gaussSphere(double radius) {
+  constexpr int kMeridians = 16;
+  constexpr int kLatitudes = 16;
+  FluidBody shape = facelessEllipsoid(Vector3::Constant(radius));
+  const double turn = 2 * portable::acos(-1.0) / kMeridians;
+  for (const double side : {1.0, -1.0}) {
+    for (const auto& [node, weight] : gaussRule(kLatitudes)) {
+      for (int j = 0; j < kMeridians; ++j) {
+        const double sine = std::sqrt(1 - node * node);
+        const Vector3 normal(sine * portable::cos(j * turn), sine * portable::sin(j * turn),
+                             side * node);
+        shape.faces.add(normal.normalized(), radius * normal, weight * turn * radius * radius);
+      }
+    }
+  }
+  shape.faces.sharpness.assign(shape.faces.size(), 0);  // round
+  return shape;
+}
+
+}  // namespace ambient::test

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "tests/support/bodies/geodesic.h"
+
+namespace ambient::test {
+
+/// A body with the triangles of a mesh as surface and faces, and the mesh's volume.
+inline FluidBody hullBody(const Triangulation& mesh) {
+  FluidBody body;
+  body.name = "hull";
+  for (const Vector3& v : mesh.vertices)
+    body.surface.vertices.insert(body.surface.vertices.end(), {v.x(), v.y(), v.z()});
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    body.surface.triangles.insert(body.surface.triangles.end(), {t[0], t[1], t[2]});
+    const auto corner = [&](int i) { return mesh.vertices[static_cast<std::size_t>(t[i])]; };
+    body.volume += corner(0).dot(corner(1).cross(corner(2))) / 6;
+  }
+  body.faces = faceTableOf(mesh);
+  body.area = totalArea(body.faces);
+  return body;
+}
+
+/// A box about the origin; each side has `divisions` squared rectangles of two triangles. The sides
+/// share no vertices.
+inline Triangulation boxMesh(const Vector3& size, int divisions) {
+  Triangulation mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {1, -1}) {
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3, n = divisions + 1;
+      const int base = static_cast<int>(mesh.vertices.size());
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          Vector3 p;
+          p[axis] = side * size[axis] / 2;
+          p[u] = size[u] * (static_cast<double>(i) / divisions - 0.5);
+          p[v] = size[v] * (static_cast<double>(j) / divisions - 0.5);
+          mesh.vertices.push_back(p);
+        }
+      for (int i = 0; i < divisions; ++i)
+        for (int j = 0; j < divisions; ++j) {
+          const int a = base + i * n + j, b = a + n, c = b + 1, d = a + 1;
+          if (side > 0) {
+            mesh.triangles.emplace_back(a, b, c);
+            mesh.triangles.emplace_back(a, c, d);
+          } else {
+            mesh.triangles.emplace_back(a, c, b);
+            mesh.triangles.emplace_back(a, d, c);
+          }
+        }
+    }
+  return mesh;
+}
+
+inline FluidBody boxBody(const Vector3& size, int divisions = 1) {
+  return hullBody(boxMesh(size, divisions));
+}
+
+}  // namespace ambient::test
