@@ -79,8 +79,8 @@ std::string gapingJoint(const AttachDef& def, const AttachDef* other) {
                                   ? "one with fluid body '" + other->fluid_body->name + "'"
                                   : nameOf(*other);
   return "bullet_ambient: a joint of a " + nameOf(def) + " and " + partner +
-         " comes apart: the solver's iterations do not hold it; take more iterations, " +
-         "btContactSolverInfo::m_numIterations, or shorter steps";
+         " comes apart: the solver does not hold it; take more iterations, " +
+         "btContactSolverInfo::m_numIterations, shorter steps, or a btMultiBody";
 }
 
 }  // namespace

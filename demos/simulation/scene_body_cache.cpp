@@ -6,9 +6,20 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
+#include "preprocess/collision_shape/form_body.h"
+#include "preprocess/shape/shape_facts.h"
 
 namespace ambient {
 namespace fs = std::filesystem;
+namespace {
+
+/// Whether Fluid::addAll() would find the shape as a collision shape that has a table.
+bool isTabulatedSolid(const Shape& shape) {
+  return std::holds_alternative<Box>(shape) || std::holds_alternative<Cylinder>(shape) ||
+         std::holds_alternative<Capsule>(shape) || std::holds_alternative<Cone>(shape);
+}
+
+}  // namespace
 
 SceneBodyCache::SceneBodyCache(fs::path folder, int threads)
     : folder_(std::move(folder)), threads_(threads) {}
@@ -23,13 +34,17 @@ std::shared_ptr<const FluidBody> SceneBodyCache::get(const ShapeDescription& sha
   return known;
 }
 
-std::shared_ptr<const FluidBody> SceneBodyCache::get(const btCollisionShape& shape,
-                                                     const std::string& name) {
+CollisionShapeSettings SceneBodyCache::solidSettings(const std::string& name) {
   CollisionShapeSettings settings;
   settings.name = name;
   settings.flow.threads = threads_;
-  settings.tables = false;
   settings.report = [this](const std::string& line) { warnings_.push_back(line); };
+  return settings;
+}
+
+std::shared_ptr<const FluidBody> SceneBodyCache::get(const btCollisionShape& shape,
+                                                     const std::string& name) {
+  const CollisionShapeSettings settings = solidSettings(name);
   const Provenance from = describeCollisionShape(shape, settings);
   const std::string key =
       from.source + " " + std::to_string(from.source_hash) + " " + from.settings;
@@ -53,11 +68,18 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOr(const std::string& name,
 std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescription& shape,
                                                              const std::string& name,
                                                              int waterline_subdivisions) {
+  if (isTabulatedSolid(shape.geometry)) {
+    requireUsualExtents(shape.geometry, 1, shape.source);
+    CollisionShapeSettings settings = solidSettings(name);
+    settings.faces = shape.faces;
+    settings.waterline_subdivisions = waterline_subdivisions;
+    const ShapeForm form{shape.text, {{shape.geometry, RigidPose::Identity(), name}}, 1};
+    return readOr(name, describeForm(form, settings), [&] { return makeFormBody(form, settings); });
+  }
   ShapeBuildSettings settings;
   settings.waterline_subdivisions = waterline_subdivisions;
   settings.name = name;
   settings.flow.threads = threads_;
-  settings.tables = false;  // published scenes keep their bits, even if tables change
   const auto build = [&] {
     BuiltBody built = buildShape(shape, settings);
     warnings_.insert(warnings_.end(), built.warnings.begin(), built.warnings.end());

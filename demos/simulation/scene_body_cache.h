@@ -17,8 +17,11 @@ namespace ambient {
 /// between programs, as .ambient files in a folder, like FluidBodyCache. A file is reused only if
 /// readIfSame() accepts it: an edited mesh or another revision of the solver needs a new one.
 ///
-/// Differences to FluidBodyCache: solves shapes at their own size and without tables, which keeps
-/// the bits of published scenes; accepts shapes in JSON; writes files only in save().
+/// Boxes, cylinders, capsules and cones are made as Fluid::addAll() makes them from collision
+/// shapes: their added mass is looked up, and few faces carry the loads of the form law.
+///
+/// Differences to FluidBodyCache: makes shapes at their own size; accepts shapes in JSON; writes
+/// files only in save().
 class SceneBodyCache {
  public:
   /// folder: need not exist; empty: no files. threads: threads of the solver; 0: all cores.
@@ -39,6 +42,7 @@ class SceneBodyCache {
   int solved() const { return static_cast<int>(unsaved_.size()); }
 
  private:
+  CollisionShapeSettings solidSettings(const std::string& name);
   std::shared_ptr<const FluidBody> readOrBuild(const ShapeDescription& shape,
                                                const std::string& name, int waterline_subdivisions);
   /// Reads a body from the folder, or else calls `build`, whose result save() will write.

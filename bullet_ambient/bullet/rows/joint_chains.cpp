@@ -1,6 +1,5 @@
 #include "bullet_ambient/bullet/rows/joint_chains.h"
 
-#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <limits>
 
 #include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/bullet/rows/joint_row.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -17,16 +17,6 @@ constexpr double kNoPivot = 64 * static_cast<double>(std::numeric_limits<btScala
 
 // Multiplications per row, of the factor. Bodies with dozens of joints on one of them exceed it.
 constexpr double kMostWork = 1e4;
-
-const btTypedConstraint* jointOf(const btSolverConstraint& row) {
-  return static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
-}
-
-// Others than the impulse that breaks the joint.
-bool hasBounds(const btSolverConstraint& row) {
-  const btScalar most = jointOf(row)->getBreakingImpulseThreshold();
-  return row.m_lowerLimit > -most || row.m_upperLimit < most;
-}
 
 }  // namespace
 

@@ -1,12 +1,30 @@
 #include "bullet_ambient/bullet/rows/joint_gaps.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/rows/joint_row.h"
 
 AMBIENT_BEGIN
 namespace {
+
+// Velocity along the row before the step's impulses, with that of external forces [m/s].
+btScalar velocityBefore(const btSolverConstraint& row, const btSolverBody& a,
+                        const btSolverBody& b) {
+  return row.m_contactNormal1.dot(a.m_linearVelocity + a.m_externalForceImpulse) +
+         row.m_relpos1CrossNormal.dot(a.m_angularVelocity + a.m_externalTorqueImpulse) +
+         row.m_contactNormal2.dot(b.m_linearVelocity + b.m_externalForceImpulse) +
+         row.m_relpos2CrossNormal.dot(b.m_angularVelocity + b.m_externalTorqueImpulse);
+}
+
+// Velocity that Bullet's position correction asks for: the right side without the velocity that the
+// row has to stop [m/s]. A row with bounds may be a motor, whose right side is its speed: 0.
+double correctionOf(const btSolverConstraint& row, const btSolverBody& a, const btSolverBody& b) {
+  if (hasBounds(row) || !(row.m_jacDiagABInv > 0)) return 0;
+  return std::abs(static_cast<double>(row.m_rhs / row.m_jacDiagABInv + velocityBefore(row, a, b)));
+}
 
 // Velocity along the row that it asks for and has not got [m/s]; 0 at a bound.
 double missedBy(const btSolverConstraint& row, btSolverBody& a, btSolverBody& b) {
@@ -23,13 +41,15 @@ double missedBy(const btSolverConstraint& row, btSolverBody& a, btSolverBody& b)
 
 }  // namespace
 
-void JointGaps::watch(const btConstraintArray& joints, RowBodies& ambient) noexcept {
+void JointGaps::watch(const btConstraintArray& joints, RowBodies& ambient,
+                      btAlignedObjectArray<btSolverBody>& bodies) noexcept {
   rows_.clear();
   for (int i = 0; i < joints.size(); ++i) {
     const btSolverConstraint& row = joints[i];
     const bool is_shift = !row.m_contactNormal1.isZero() || !row.m_contactNormal2.isZero();
-    if (is_shift && (ambient.find(row.m_solverBodyIdA) || ambient.find(row.m_solverBodyIdB)))
-      rows_.push_back(i);
+    const int a = row.m_solverBodyIdA, b = row.m_solverBodyIdB;
+    if (is_shift && (ambient.find(a) || ambient.find(b)))
+      rows_.push_back({i, correctionOf(row, bodies[a], bodies[b])});
   }
 }
 
@@ -38,10 +58,11 @@ void JointGaps::measure(const btConstraintArray& joints, RowBodies& ambient,
                         double time_step) const noexcept {
   if (ambient.empty()) return;
   AMBIENT_ASSERT(time_step > 0);
-  for (const int i : rows_) {
-    const btSolverConstraint& row = joints[i];
+  for (const Row& watched : rows_) {
+    const btSolverConstraint& row = joints[watched.index];
     const int a = row.m_solverBodyIdA, b = row.m_solverBodyIdB;
-    const double gap = time_step * missedBy(row, bodies[a], bodies[b]);
+    const double gap =
+        time_step * std::max(watched.correction, missedBy(row, bodies[a], bodies[b]));
     for (const int id : {a, b}) {
       RowBody* body = ambient.find(id);
       if (body && gap > body->gap) {

@@ -251,7 +251,7 @@ void SolverGroup::rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
     prepareJoinedToMultiBodies(solver_bodies, multibodies->joints);
   if (row_bodies_->empty() && !has_trees) return;
   saveFeedbackJacobians(rows.joints);
-  joint_gaps_->watch(rows.joints, *row_bodies_);
+  joint_gaps_->watch(rows.joints, *row_bodies_, solver_bodies);
   const auto rewrite = [&](btConstraintArray& pool, RowKind kind, btScalar relaxation) {
     ambient::rewriteRows(pool, kind, relaxation, *row_bodies_, solver_bodies);
   };

@@ -3,6 +3,7 @@
 #include <LinearMath/btIDebugDraw.h>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/reading/fluid_reading.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/shape_factors.h"
 #include "bullet_ambient/force/loads/face_flow.h"
@@ -69,6 +70,18 @@ void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDra
   }
 }
 
+void drawReading(const FluidReading& reading, const Vector3& place, double length_per_force,
+                 btIDebugDraw& drawer) {
+  const FluidWrench& wrench = reading.wrench;
+  const btVector3 from = toBullet(place);
+  const auto draw = [&](const Wrench& part, const btVector3& colour) {
+    drawer.drawLine(from, toBullet(Vector3(place + length_per_force * part.force)), colour);
+  };
+  draw(wrench.waves, fluid_colours::kWaves);
+  draw(wrench.wind, fluid_colours::kWind);
+  draw(wrench.added_mass, fluid_colours::kAddedMass);
+}
+
 // The point of a region's surface straight above or below a point.
 Vector3 onSurface(const DrawnSurface& surface, const Vector3& up, const Vector3& point) {
   return point + surface.region.surface->sample(point, surface.time).height * up;
@@ -79,7 +92,8 @@ Vector3 onSurface(const DrawnSurface& surface, const Vector3& up, const Vector3&
 FluidDrawing FluidDrawing::all() {
   FluidDrawing all;
   all.separation = all.slip_velocity = all.pressure = all.friction = true;
-  all.buoyancy = all.total_wrench = all.centre_of_volume = all.water_surface = true;
+  all.buoyancy = all.total_wrench = all.centre_of_volume = all.water_surface = all.read_forces =
+      true;
   return all;
 }
 
@@ -133,6 +147,8 @@ void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDra
     arrows.draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
     arrows.draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
   }
+  if (what.read_forces && ambient.reading)
+    drawReading(*ambient.reading, state.position, what.length_per_force, drawer);
   if (what.centre_of_volume) {
     arrows.drawCross(centre, what.normal_length * model.reference_length / 2,
                      fluid_colours::kBuoyancy);

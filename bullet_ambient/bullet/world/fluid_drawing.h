@@ -27,6 +27,9 @@ struct FluidDrawing {
   bool total_wrench = false;      ///< force white and torque magenta at the centre of mass
   bool centre_of_volume = false;  ///< a small cross, cyan
   bool water_surface = false;     ///< a net over each region's surface, blue
+  /// Forces of the last substep at the centre of mass of bodies that Immersed::readWrench() has
+  /// asked for: of waves violet, wind grey, added mass green-blue.
+  bool read_forces = false;
 
   double length_per_velocity = 0.1;  ///< [m per m/s]
   double length_per_force = 0.01;    ///< [m per N]; of the whole body
@@ -39,7 +42,8 @@ struct FluidDrawing {
   static FluidDrawing all();
   bool drawsFaces() const { return separation || slip_velocity || pressure || friction; }
   bool drawsAnything() const {
-    return drawsFaces() || buoyancy || total_wrench || centre_of_volume || water_surface;
+    return drawsFaces() || buoyancy || total_wrench || centre_of_volume || water_surface ||
+           read_forces;
   }
 };
 
@@ -47,12 +51,14 @@ struct FluidDrawing {
 namespace fluid_colours {
 inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
     kSlip(btScalar(0.2), btScalar(0.4), 1), kPressure(1, btScalar(0.5), 0), kFriction(1, 1, 0),
-    kBuoyancy(0, 1, 1), kForce(1, 1, 1), kTorque(1, 0, 1), kWater(0, btScalar(0.3), btScalar(0.8));
+    kBuoyancy(0, 1, 1), kForce(1, 1, 1), kTorque(1, 0, 1), kWater(0, btScalar(0.3), btScalar(0.8)),
+    kWaves(btScalar(0.5), 0, 1), kWind(btScalar(0.7), btScalar(0.7), btScalar(0.7)),
+    kAddedMass(0, btScalar(0.7), btScalar(0.5));
 }  // namespace fluid_colours
 
 /// Draws one body as it moves now. The total wrench is that of pressure, friction (after the
-/// passivity guard) and buoyancy; the inertia of the fluid is no part of it. @pre it is in a fluid,
-/// alive and dynamic.
+/// passivity guard) and buoyancy; the inertia of the fluid, waves and wind are no part of it. @pre
+/// it is in a fluid, alive and dynamic.
 void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer);
 
 /// Draws the surface of a region at a time, where gravity says what is up; nothing without it.

@@ -267,6 +267,22 @@ TEST_F(Drawing, TheTotalIsTheWrenchThatTheFlightSees) {
   EXPECT_LT((recorder.sumOf(fluid_colours::kTorque) - torque).norm(), tolerance * torque.norm());
 }
 
+TEST_F(Drawing, ForcesThatAreReadAreThoseOfTheHandle) {
+  FluidDrawing what = unitLengths();
+  what.read_forces = true;
+  draw(what);
+  EXPECT_EQ(lines(), 0u);  // nobody has asked
+  scene.of(*body).readWrench(true);
+  scene.step(1.0 / 60);
+  draw(what);
+  EXPECT_EQ(lines(), 3u);
+  const Vector3 force = scene.of(*body).wrench().added_mass.force;
+  EXPECT_GT(force.norm(), 0.1);
+  EXPECT_LT((recorder.sumOf(fluid_colours::kAddedMass) - force).norm(), tolerance * force.norm());
+  EXPECT_EQ(recorder.linesOf(fluid_colours::kWaves).size(), 1u);
+  EXPECT_EQ(recorder.linesOf(fluid_colours::kWind).size(), 1u);
+}
+
 TEST_F(Drawing, LeavesOutBodiesWithoutAFluidAndRemovedOnes) {
   draw(FluidDrawing::all());
   EXPECT_GT(lines(), 2 * faceCount());

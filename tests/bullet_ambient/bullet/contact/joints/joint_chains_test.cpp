@@ -226,5 +226,78 @@ TEST(LightBallOnAHeavyBlock, IsReportedOnceIfItComesOff) {
     EXPECT_NE(pair.complaints().front().find(word), std::string::npos) << word;
 }
 
+/// A tether of ten bodies of 0.5 m, as dense as their water, on ball joints from a fixed point down
+/// to a vehicle that is 90 kg heavier than its water.
+class Tether {
+ public:
+  Tether() {
+    scene_.world.setGravity({0, 0, bt(-9.81)});
+    scene_.fluid.setReport([this](const std::string& sentence) {
+      if (sentence.find("comes apart") != std::string::npos) complaints_.push_back(sentence);
+    });
+    const Vector3 link(0.005, 0.005, kHalf), vehicle(0.2, 0.17, 0.0774);
+    btVector3 below(0, 0, 0);  // from the body above to the joint
+    double z = 0;
+    for (int i = 0; i <= kLinks; ++i) {
+      const Vector3& axes = i < kLinks ? link : vehicle;
+      const double mass = kDensity * ellipsoidVolume(axes) + (i < kLinks ? 0 : 90);
+      z -= axes.z();
+      BodyDef def;
+      def.mass = mass;
+      def.moments = ellipsoidMoments(axes, mass);
+      def.start.position = {0, 0, z};
+      const Medium medium{kDensity, 0.001, {1.5, 0, 0}, {0, 0, 0}};
+      bodies_.push_back(&scene_.add(def, facelessEllipsoid(axes), medium));
+      z -= axes.z();
+      const btVector3 above(0, 0, bt(axes.z()));
+      if (i == 0) {
+        joints_.push_back(std::make_unique<btPoint2PointConstraint>(*bodies_[0], above));
+      } else {
+        joints_.push_back(
+            std::make_unique<btPoint2PointConstraint>(*bodies_[i - 1], *bodies_[i], below, above));
+      }
+      scene_.world.addConstraint(joints_.back().get(), true);
+      below = -above;
+    }
+  }
+  ~Tether() {
+    for (const auto& joint : joints_) scene_.world.removeConstraint(joint.get());
+  }
+
+  /// Returns the largest distance of two joined points in so many seconds [m].
+  double hang(double seconds, double rate) {
+    double gap = 0;
+    for (int i = 0; i < seconds * rate; ++i) {
+      scene_.step(1 / rate);
+      for (std::size_t k = 1; k < joints_.size(); ++k) {
+        const btVector3 apart = bodies_[k - 1]->getWorldTransform() * joints_[k]->getPivotInA() -
+                                bodies_[k]->getWorldTransform() * joints_[k]->getPivotInB();
+        gap = std::max(gap, static_cast<double>(apart.length()));
+      }
+    }
+    return gap;
+  }
+  const std::vector<std::string>& complaints() const { return complaints_; }
+
+ private:
+  static constexpr int kLinks = 10;
+  static constexpr double kHalf = 0.25, kDensity = 1000;
+
+  FluidWorld scene_;
+  std::vector<btRigidBody*> bodies_;
+  std::vector<std::unique_ptr<btPoint2PointConstraint>> joints_;
+  std::vector<std::string> complaints_;
+};
+
+// Its rows are solved together and miss nothing in a step: what position correction asks for tells.
+TEST(Tether, IsReportedWhereItsJointsGape) {
+  Tether torn;
+  EXPECT_GT(torn.hang(5, 60), 0.5);
+  EXPECT_FALSE(torn.complaints().empty());
+  Tether held;
+  EXPECT_LT(held.hang(5, 960), 0.05);
+  EXPECT_TRUE(held.complaints().empty());
+}
+
 }  // namespace
 }  // namespace ambient::test
