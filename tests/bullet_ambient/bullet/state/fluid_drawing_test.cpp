@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/reading/fluid_wrench.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/shape_factors.h"
 #include "bullet_ambient/force/medium/water_surface.h"

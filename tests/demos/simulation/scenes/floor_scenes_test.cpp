@@ -60,11 +60,12 @@ TEST(CardsInWind, LieStillWhileTheirWeightWellExceedsTheDynamicPressure) {
     for (const double way : carriedBy(part * liftingWind())) EXPECT_LT(way, 0.003) << part;
 }
 
-// The wind rises a little, so that it meets the lower side of a card that lies flat.
+// The wind rises a little, so that it meets the lower side of a card that lies flat. Below 1.3, the
+// way of a card changes from 0.1 m to 1 m with the fourth digit of the wind.
 TEST(CardsInWind, AreCarriedOffOnceItExceedsTheirWeight) {
-  for (const double part : {1.2, 1.5, 1.7, 2.0}) {
+  for (const double part : {1.2, 1.3, 1.5, 1.7, 2.0}) {
     const std::vector<double> ways = carriedBy(part * liftingWind());
-    EXPECT_GT(*std::max_element(ways.begin(), ways.end()), 0.5) << part;
+    EXPECT_GT(*std::max_element(ways.begin(), ways.end()), part < 1.3 ? 0.03 : 0.5) << part;
   }
 }
 
