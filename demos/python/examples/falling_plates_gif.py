@@ -79,7 +79,7 @@ def main(file):
         frame = Image.new("RGB", (len(falls) * WIDTH, HEIGHT), PAPER)
         for i, (fall, camera) in enumerate(zip(falls, cameras)):
             frame.paste(draw_panel(fall, camera, now), (i * WIDTH, 0))
-        frames.append(frame.quantize(24, dither=Image.Dither.NONE))
+        frames.append(frame.quantize(24, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE))
     frames[0].save(file, save_all=True, append_images=frames[1:], duration=1000 // FRAMES_PER_SECOND, loop=0, optimize=True)
 
 
