@@ -136,35 +136,6 @@ void compareFlocks(const std::string& name, const FluidBody& shape, const Plan& 
   print(scene, compare([&] { stock.step(); }, [&] { ambient.step(); }, plan.turns, 20));
 }
 
-// Ellipsoid of triangles between meridians and latitudes: 2 meridians (bands - 1) faces.
-FluidBody latticeEllipsoid(const Vector3& semi_axes, int meridians, int bands) {
-  const double pi = std::acos(-1.0);
-  Triangulation mesh;
-  for (int i = 1; i < bands; ++i)
-    for (int j = 0; j < meridians; ++j) {
-      const double theta = pi * i / bands, phi = 2 * pi * j / meridians;
-      mesh.vertices.push_back(semi_axes.cwiseProduct(Vector3(
-          std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta))));
-    }
-  const int north = static_cast<int>(mesh.vertices.size()), south = north + 1;
-  mesh.vertices.push_back({0, 0, semi_axes.z()});
-  mesh.vertices.push_back({0, 0, -semi_axes.z()});
-  const int last = (bands - 2) * meridians;
-  for (int j = 0; j < meridians; ++j) {
-    const int next = (j + 1) % meridians;
-    mesh.triangles.push_back({north, j, next});
-    mesh.triangles.push_back({south, last + next, last + j});
-    for (int row = 0; row < last; row += meridians) {
-      mesh.triangles.push_back({row + j, row + meridians + j, row + next});
-      mesh.triangles.push_back({row + next, row + meridians + j, row + meridians + next});
-    }
-  }
-  FluidBody shape = facelessEllipsoid(semi_axes);
-  shape.faces = faceTableOf(mesh);
-  shape.area = totalArea(shape.faces);
-  return shape;
-}
-
 void compareReduced(FluidBody shape, const Plan& plan) {
   const std::string faces = std::to_string(shape.faces.size()) + " faces";
   FlowSettings flow;

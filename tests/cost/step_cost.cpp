@@ -1,98 +1,30 @@
-// Cost of a step with a fluid over that of stock Bullet: many equal bodies without contacts.
+// Cost of a step with a fluid over that of stock Bullet.
 //
-//   step_cost                                   times all scenes, both worlds in turns
-//   step_cost SCENE stock|fluid BODIES STEPS    makes the steps, for a program that counts
-
-#include <btBulletDynamicsCommon.h>
+//   step_cost FOLDER [PART]                            times scenes whose name has the part, both
+//   worlds in turns step_cost FOLDER SCENE stock|fluid BODIES STEPS    makes the steps, for a
+//   program that counts step_cost FOLDER shapes                            writes the shapes of the
+//   scenes in flight
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/ambient.h"
-#include "preprocess/collision_shape/fluid_body_cache.h"
+#include "tests/cost/cost_world.h"
 
 namespace ambient::test {
 namespace {
 
-constexpr btScalar kStep = btScalar(1) / 60;
-
-struct Scene {
-  const char* name;
-  std::function<std::unique_ptr<btCollisionShape>()> shape;
-  double density;  // of the bodies [kg/m^3]
-  bool has_surface;
-};
-
-std::unique_ptr<btCollisionShape> box() {
-  return std::make_unique<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.3), btScalar(0.4)));
+std::vector<CostScene> allScenes(const std::string& folder) {
+  std::vector<CostScene> scenes = freeScenes();
+  for (const auto& more : {contactScenes(), flockScenes(folder)})
+    scenes.insert(scenes.end(), more.begin(), more.end());
+  return scenes;
 }
-std::unique_ptr<btCollisionShape> capsule() {
-  return std::make_unique<btCapsuleShape>(btScalar(0.2), btScalar(0.6));
-}
-std::unique_ptr<btCollisionShape> ball() { return std::make_unique<btSphereShape>(btScalar(0.4)); }
-
-const Scene kScenes[] = {
-    {"boxes_under_water", box, 1000, false},  {"capsules_under_water", capsule, 1000, false},
-    {"balls_under_water", ball, 1000, false}, {"boxes_afloat", box, 500, true},
-    {"capsules_afloat", capsule, 500, true},  {"balls_afloat", ball, 500, true}};
-
-double volumeOf(const btCollisionShape& shape) {
-  FluidBodyCache cache;
-  return cache.fluidBody(shape)->volume;
-}
-
-// Bodies in rows, a little turned, at rest; dry until immerse().
-class World {
- public:
-  World(const Scene& scene, int count) : scene_(scene), shape_(scene.shape()) {
-    world_.setGravity(btVector3(0, 0, btScalar(-9.81)));
-    const auto mass = static_cast<btScalar>(scene.density * volumeOf(*shape_));
-    btVector3 moments;
-    shape_->calculateLocalInertia(mass, moments);
-    for (int i = 0; i < count; ++i) addBody(i, mass, moments);
-  }
-  ~World() {
-    fluid_.reset();
-    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
-  }
-
-  void immerse() {
-    fluid_ = std::make_unique<Fluid>(world_);
-    if (scene_.has_surface) fluid_->addRegion(waterBelow(0));
-    if (!fluid_->addAll(shapes_, water()).refused.empty()) std::exit(EXIT_FAILURE);
-  }
-  void step() { world_.stepSimulation(kStep, 0, kStep); }
-
- private:
-  void addBody(int i, btScalar mass, const btVector3& moments) {
-    bodies_.push_back(std::make_unique<btRigidBody>(mass, nullptr, shape_.get(), moments));
-    btRigidBody& body = *bodies_.back();
-    const auto height = static_cast<btScalar>(scene_.has_surface ? 0.01 * (i % 7) : -50);
-    const btVector3 axis = btVector3(1, btScalar(0.3), btScalar(0.2)).normalized();
-    body.setWorldTransform(
-        btTransform(btQuaternion(axis, btScalar(0.1) + btScalar(0.01) * btScalar(i % 11)),
-                    btVector3(btScalar(4 * (i % 32)), btScalar(4 * (i / 32)), height)));
-    body.setActivationState(DISABLE_DEACTIVATION);
-    world_.addRigidBody(&body);
-  }
-
-  const Scene& scene_;
-  FluidBodyCache shapes_;
-  std::unique_ptr<btCollisionShape> shape_;
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
-  std::unique_ptr<Fluid> fluid_;
-};
 
 double secondsFor(const std::function<void()>& action) {
   const std::clock_t begin = std::clock();
@@ -101,31 +33,41 @@ double secondsFor(const std::function<void()>& action) {
 }
 
 // Least time of a step of each world.
-void timeScene(const Scene& scene) {
-  constexpr int kBodies = 1000, kWarmUp = 30, kRounds = 150;
-  World stock(scene, kBodies), fluid(scene, kBodies);
+void timeScene(const CostScene& scene) {
+  constexpr int kRounds = 150;
+  CostWorld stock, fluid;
+  for (CostWorld* world : {&stock, &fluid}) scene.fill(*world, scene.bodies);
   const double attach = secondsFor([&] { fluid.immerse(); });
   double least[2] = {1e300, 1e300};
-  for (int i = 0; i < kWarmUp + kRounds; ++i) {
+  for (int i = 0; i < scene.warm_up + kRounds; ++i) {
     const double times[2] = {secondsFor([&] { stock.step(); }), secondsFor([&] { fluid.step(); })};
     for (int k = 0; k < 2; ++k)
-      if (i >= kWarmUp) least[k] = std::min(least[k], times[k]);
+      if (i >= scene.warm_up) least[k] = std::min(least[k], times[k]);
   }
   std::printf("%-22s stock %.3f us, fluid %+.3f us per body and step: %.2f; attach %.1f ms\n",
-              scene.name, least[0] / kBodies * 1e6, (least[1] - least[0]) / kBodies * 1e6,
-              least[1] / least[0], attach * 1e3);
+              scene.name.c_str(), least[0] / scene.bodies * 1e6,
+              (least[1] - least[0]) / scene.bodies * 1e6, least[1] / least[0], attach * 1e3);
+  std::fflush(stdout);
 }
 
-int makeSteps(const std::string& name, const std::string& kind, int bodies, int steps) {
-  const auto scene = std::find_if(std::begin(kScenes), std::end(kScenes),
-                                  [&](const Scene& known) { return name == known.name; });
-  if (scene == std::end(kScenes) || (kind != "stock" && kind != "fluid") || bodies < 1 ||
-      steps < 0) {
+void timeScenes(const std::string& folder, const std::string& part) {
+  makeFlockShapes(folder);
+  for (const CostScene& scene : allScenes(folder))
+    if (scene.name.find(part) != std::string::npos) timeScene(scene);
+}
+
+int makeSteps(const std::string& folder, const std::string& name, const std::string& kind,
+              int bodies, int steps) {
+  const std::vector<CostScene> scenes = allScenes(folder);
+  const auto scene = std::find_if(scenes.begin(), scenes.end(),
+                                  [&](const CostScene& known) { return name == known.name; });
+  if (scene == scenes.end() || (kind != "stock" && kind != "fluid") || bodies < 1 || steps < 0) {
     std::fprintf(stderr, "step_cost: no scene '%s', or no world '%s'\n", name.c_str(),
                  kind.c_str());
     return EXIT_FAILURE;
   }
-  World world(*scene, bodies);
+  CostWorld world;
+  scene->fill(world, bodies);
   if (kind == "fluid") world.immerse();
   for (int i = 0; i < steps; ++i) world.step();
   return EXIT_SUCCESS;
@@ -134,13 +76,22 @@ int makeSteps(const std::string& name, const std::string& kind, int bodies, int 
 }  // namespace
 }  // namespace ambient::test
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace ambient::test;
-  if (argc == 5) return makeSteps(argv[1], argv[2], std::atoi(argv[3]), std::atoi(argv[4]));
-  if (argc != 1) {
-    std::fprintf(stderr, "usage: %s [SCENE stock|fluid BODIES STEPS]\n", argv[0]);
+  if (argc == 6)
+    return makeSteps(argv[1], argv[2], argv[3], std::atoi(argv[4]), std::atoi(argv[5]));
+  if (argc == 3 && std::string(argv[2]) == "shapes") {
+    makeFlockShapes(argv[1]);
+    return EXIT_SUCCESS;
+  }
+  if (argc != 2 && argc != 3) {
+    std::fprintf(stderr, "usage: %s FOLDER [shapes | PART | SCENE stock|fluid BODIES STEPS]\n",
+                 argv[0]);
     return EXIT_FAILURE;
   }
-  for (const Scene& scene : kScenes) timeScene(scene);
+  timeScenes(argv[1], argc == 3 ? argv[2] : "");
   return EXIT_SUCCESS;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "step_cost: %s\n", error.what());
+  return EXIT_FAILURE;
 }

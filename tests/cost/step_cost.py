@@ -9,50 +9,73 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
-BODIES, FEW, MANY = 64, 20, 60
 # Functions of the C library that do not depend on the processor: its fills by "rep stosb" count each byte.
 FIXED = {"BULLET_AMBIENT_KERNELS": "avx2", "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-ERMS,-FSRM,-AVX2,-FMA,-AVX512F,-AVX512VL"}
-SCENES = ("boxes_under_water", "capsules_under_water", "balls_under_water", "boxes_afloat", "capsules_afloat",
-          "balls_afloat")
+# Bodies, and steps of the shorter and the longer run.
+SCENES = {
+    "boxes_under_water": (64, 20, 60), "capsules_under_water": (64, 20, 60), "balls_under_water": (64, 20, 60),
+    "boxes_afloat": (64, 20, 60), "capsules_afloat": (64, 20, 60), "balls_afloat": (64, 20, 60),
+    "pile_in_water": (64, 30, 60), "block_in_water": (64, 30, 60), "stacks_in_water": (91, 30, 60),
+    "figures_in_water": (44, 30, 60),
+    "flight_without_faces": (100, 20, 60), "flight_with_500_faces": (100, 20, 60), "flight_with_5120_faces": (100, 20, 60)}
 
 
-def instructions(program: str, scene: str, world: str, steps: int) -> int:
-    """Runs the steps; returns the number of instructions of the whole run."""
-    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, scene, world, str(BODIES),
-               str(steps)]
-    run = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **FIXED})
-    counted = re.search(r"Collected : (\d+)", run.stderr)
-    if run.returncode != 0 or not counted:
-        sys.exit(f"step_cost.py: {' '.join(command)} failed: {run.stderr.strip().splitlines()[-1]}")
-    return int(counted.group(1))
+class Counter:
+    """Runs the program under valgrind."""
+
+    def __init__(self, program: str, shapes: str) -> None:
+        self.command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, shapes]
+        subprocess.run([program, shapes, "shapes"], check=True)
+
+    def instructions(self, *arguments: object) -> int:
+        """Makes the steps; returns the number of instructions of the whole run."""
+        command = self.command + [str(argument) for argument in arguments]
+        run = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **FIXED})
+        counted = re.search(r"Collected : (\d+)", run.stderr)
+        if run.returncode != 0 or not counted:
+            sys.exit(f"step_cost.py: {' '.join(command)} failed: {run.stderr.strip().splitlines()[-1]}")
+        return int(counted.group(1))
+
+    def per_body_and_step(self, scene: str, world: str) -> int:
+        bodies, few, many = SCENES[scene]
+        counts = [self.instructions(scene, world, bodies, steps) for steps in (few, many)]
+        return round((counts[1] - counts[0]) / (bodies * (many - few)))
 
 
-def per_body_and_step(program: str, scene: str, world: str) -> int:
-    difference = instructions(program, scene, world, MANY) - instructions(program, scene, world, FEW)
-    return round(difference / (BODIES * (MANY - FEW)))
+def count(program: str, part: str) -> dict[str, int]:
+    """Counts all scenes whose names have the part."""
+    counts = {}
+    with tempfile.TemporaryDirectory() as shapes:
+        counter = Counter(program, shapes)
+        for scene in SCENES:
+            if part not in scene:
+                continue
+            stock = counter.per_body_and_step(scene, "stock")
+            counts[scene] = counter.per_body_and_step(scene, "fluid") - stock
+            print(f"{scene:24s} stock {stock:6d}, fluid +{counts[scene]:6d}: {1 + counts[scene] / stock:.2f}", flush=True)
+    return counts
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program", help="step_cost")
+    parser.add_argument("--scene", default="", help="only scenes whose names contain this")
     parser.add_argument("--recorded", type=Path, default=Path(__file__).with_name("instructions.json"))
     parser.add_argument("--record", action="store_true", help="write the counts instead of comparing them")
     parser.add_argument("--within", type=float, default=0.05, help="largest relative difference (default: 0.05)")
     arguments = parser.parse_args()
-    counts = {}
-    for scene in SCENES:
-        stock = per_body_and_step(arguments.program, scene, "stock")
-        counts[scene] = per_body_and_step(arguments.program, scene, "fluid") - stock
-        print(f"{scene:22s} stock {stock:6d}, fluid +{counts[scene]:6d}", flush=True)
+    counts = count(arguments.program, arguments.scene)
+    recorded = json.loads(arguments.recorded.read_text()) if arguments.recorded.exists() else {}
     if arguments.record:
-        arguments.recorded.write_text(json.dumps(counts, indent=1) + "\n")
+        arguments.recorded.write_text(json.dumps({**recorded, **counts}, indent=1) + "\n")
         return 0
-    recorded = json.loads(arguments.recorded.read_text())
-    far = [scene for scene, count in counts.items() if abs(count / recorded[scene] - 1) > arguments.within]
+    far = [scene for scene, count in counts.items()
+           if scene not in recorded or abs(count - recorded[scene]) > arguments.within * abs(recorded[scene])]
     for scene in far:
-        print(f"{scene}: {counts[scene]} instructions per body and step, recorded are {recorded[scene]}; "
+        print(f"{scene}: {counts[scene]} instructions per body and step, recorded are {recorded.get(scene)}; "
               f"if that is meant, run {sys.argv[0]} {arguments.program} --record", file=sys.stderr)
     return 1 if far else 0
 

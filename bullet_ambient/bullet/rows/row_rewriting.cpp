@@ -3,6 +3,8 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/core/four_numbers.h"
+#include "bullet_ambient/bullet/rows/quick_rows.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -14,18 +16,63 @@ struct Party {
   RowSide side;
 };
 
-// J (change of velocity outside the rows), less what the row has been set up with. Stock friction
-// rows leave the spin out; joints see all of it.
-btScalar unseenChange(RowKind kind, const Party& party) {
-  if (!party.ambient || kind == RowKind::kJoint) return 0;
-  const RowBody& body = *party.ambient;
-  const btVector3 spin = kind == RowKind::kContact ? -body.spin_aside : body.spin_change;
-  return party.side.angular.dot(spin) - party.side.linear.dot(body.velocity_aside);
+// v M = M^T v, a combination of the rows of M.
+AMBIENT_INLINE Four product(const btVector3& v, const btMatrix3x3& M) {
+  return v.m_floats[0] * load(M[0]) + v.m_floats[1] * load(M[1]) + v.m_floats[2] * load(M[2]);
 }
 
-btScalar inverseEffectiveMass(const Party& party) {
-  return party.ambient ? changeBasis(*party.ambient, party.side)
-                       : inverseEffectiveMass(party.solver_body, party.side);
+// Products of the two parts of J with what the row has not seen of the change of velocity outside
+// the rows: their sums are part of its velocity. Stock friction rows leave the spin out; joints see
+// all of it.
+struct PartProducts {
+  Four angular, linear;
+};
+
+AMBIENT_INLINE PartProducts unseenProducts(RowKind kind, const Party& party) {
+  if (!party.ambient) return {Four{}, Four{}};
+  const RowBody& body = *party.ambient;
+  const btVector3 spin = kind == RowKind::kContact ? -body.spin_aside : body.spin_change;
+  return {load(party.side.angular) * load(spin),
+          load(party.side.linear) * load(body.velocity_aside)};
+}
+
+// J times the change of velocity outside the rows, less what the row has been set up with.
+AMBIENT_INLINE btScalar unseenChange(RowKind kind, const Party& a, const Party& b) {
+  if (kind == RowKind::kJoint) return 0;
+  const PartProducts of_a = unseenProducts(kind, a), of_b = unseenProducts(kind, b);
+  const Four sums = sumsOfThree(of_a.angular, of_a.linear, of_b.angular, of_b.linear);
+  return (sums[0] - sums[1]) + (sums[2] - sums[3]);
+}
+
+// J' = J T, and products whose sums are parts of J' D J'^T, the linear ones without the mass.
+AMBIENT_INLINE PartProducts changedProducts(const RowBody& body, const RowSide& side) {
+  const WorldBasis& T = body.basis;
+  Four linear = product(side.linear, T.linear);
+  if (body.has_coupling) linear = linear + product(side.angular, T.coupling);
+  const Four angular = product(side.angular, T.angular);
+  store(side.linear, linear);
+  store(side.angular, angular);
+  const Four component = product(side.angular, body.inverse_inertia_T);
+  store(side.angular_component, component);
+  return {angular * component, linear * linear};
+}
+
+AMBIENT_INLINE PartProducts responseProducts(const Party& party) {
+  const RowSide& side = party.side;
+  if (party.ambient) return changedProducts(*party.ambient, side);
+  const Four linear = load(side.linear);
+  return {load(side.angular) * load(side.angular_component),
+          linear * (linear * load(party.solver_body.m_invMass))};
+}
+
+// J' D J'^T of both sides; changes their bases.
+AMBIENT_INLINE btScalar inverseEffectiveMass(const Party& a, const Party& b) {
+  const PartProducts of_a = responseProducts(a), of_b = responseProducts(b);
+  const Four sums = sumsOfThree(of_a.linear, of_a.angular, of_b.linear, of_b.angular);
+  const auto massOf = [](const Party& party) {
+    return party.ambient ? party.ambient->inverse_mass : btScalar(1);
+  };
+  return (sums[0] * massOf(a) + sums[1]) + (sums[2] * massOf(b) + sums[3]);
 }
 
 btScalar diagonal(const RowBody& body, const RowSide& side) {
@@ -49,7 +96,7 @@ btScalar pointAlongLockedAxes(const Party& party) {
   const RowSide& side = party.side;
   side.angular = body.root_inertia * (side.angular * body.locked_angular);
   side.linear = side.linear * body.locked_linear / btSqrt(body.inverse_mass);
-  side.angular_component = times(side.angular, body.inverse_inertia_T);
+  store(side.angular_component, product(side.angular, body.inverse_inertia_T));
   return diagonal(body, side);
 }
 
@@ -92,8 +139,7 @@ void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a, const Par
                 btScalar relaxation) {
   const btScalar old_inverse = row.m_jacDiagABInv;
   if (!(old_inverse > 0)) {  // Bullet has switched it off: its Jacobian is as good as zero
-    inverseEffectiveMass(a);
-    inverseEffectiveMass(b);
+    inverseEffectiveMass(a, b);
     return;
   }
   // Contact rows hold their softness inside the effective mass, all others apart from it.
@@ -108,9 +154,8 @@ void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a, const Par
       return;
     }
   }
-  const btScalar unseen = unseenChange(kind, a) + unseenChange(kind, b);
-  const btScalar new_inverse =
-      share * relaxation / (inverseEffectiveMass(a) + inverseEffectiveMass(b) + cfm);
+  const btScalar unseen = unseenChange(kind, a, b);
+  const btScalar new_inverse = share * relaxation / (inverseEffectiveMass(a, b) + cfm);
   const btScalar ratio = new_inverse / old_inverse;
   row.m_jacDiagABInv = new_inverse;
   // By the ratio only: spring rows may hold infinite right-hand sides.
@@ -135,12 +180,7 @@ RowBody& RowBodies::add(int solver_body) {
 }
 
 btScalar changeBasis(const RowBody& body, RowSide side) noexcept {
-  const WorldBasis& T = body.basis;
-  const btVector3 angular = times(side.angular, T.angular);
-  side.linear = times(side.linear, T.linear);
-  if (body.has_coupling) side.linear += times(side.angular, T.coupling);
-  side.angular = angular;
-  side.angular_component = times(angular, body.inverse_inertia_T);
+  changedProducts(body, side);
   return diagonal(body, side);
 }
 
@@ -172,16 +212,12 @@ void reapplyImpulses(const btConstraintArray& rows, RowBodies& bodies,
     const btSolverConstraint& row = rows[i];
     const btScalar impulse = row.m_appliedImpulse;
     if (impulse == 0) continue;
-    if (bodies.find(row.m_solverBodyIdA)) {
-      btSolverBody& a = solver_bodies[row.m_solverBodyIdA];
-      a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA,
-                             impulse);
-    }
-    if (bodies.find(row.m_solverBodyIdB)) {
-      btSolverBody& b = solver_bodies[row.m_solverBodyIdB];
-      b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB,
-                             impulse);
-    }
+    if (bodies.find(row.m_solverBodyIdA))
+      applyImpulse(solver_bodies[row.m_solverBodyIdA], row.m_contactNormal1,
+                   row.m_angularComponentA, impulse);
+    if (bodies.find(row.m_solverBodyIdB))
+      applyImpulse(solver_bodies[row.m_solverBodyIdB], row.m_contactNormal2,
+                   row.m_angularComponentB, impulse);
   }
 }
 

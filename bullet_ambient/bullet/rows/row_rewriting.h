@@ -95,15 +95,6 @@ struct RowSide {
 /// Part of the response without fluid below which a row of a locked body has none: rounding of T.
 constexpr btScalar kNoResponse = 64 * SIMD_EPSILON;
 
-/// v M = M^T v, a combination of the rows of M: four numbers at a time.
-inline btVector3 times(const btVector3& v, const btMatrix3x3& M) noexcept {
-  const btScalar *x = M[0].m_floats, *y = M[1].m_floats, *z = M[2].m_floats;
-  const btScalar vx = v.m_floats[0], vy = v.m_floats[1], vz = v.m_floats[2];
-  btVector3 sum;
-  for (int i = 0; i < 4; ++i) sum.m_floats[i] = (x[i] * vx + y[i] * vy) + z[i] * vz;
-  return sum;
-}
-
 /// J' = J T for an ambient body, docs/theory.md eq. (27). Returns J' D J'^T [1/kg].
 btScalar changeBasis(const RowBody& body, RowSide side) noexcept;
 

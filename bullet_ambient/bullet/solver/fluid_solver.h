@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/bullet/rows/quick_rows.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
 #include "bullet_ambient/bullet/solver/tree_group.h"
 
@@ -119,12 +120,27 @@ class FluidSolver : public Base {
                                              const btContactSolverInfo& info,
                                              btIDebugDraw* debug_drawer) override {
     btContactSolverInfo once = info;
+    useQuickRows();
     // One iteration takes what rounding has left, unless a residual is asked for.
     const bool is_enough = isSolved() && !(info.m_leastSquaresResidualThreshold > 0);
     once.m_leastSquaresResidualThreshold = BT_LARGE_FLOAT;
     return Base::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count,
                                                    constraints, constraint_count,
                                                    is_enough ? once : info, debug_drawer);
+  }
+
+  btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
+                                btPersistentManifold** manifolds, int manifold_count,
+                                btTypedConstraint** constraints, int constraint_count,
+                                const btContactSolverInfo& info,
+                                btIDebugDraw* debug_drawer) override {
+    constexpr int kOtherOrders =
+        SOLVER_RANDMIZE_ORDER | SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
+    if constexpr (std::is_same_v<Base, btSequentialImpulseConstraintSolver>)
+      if (hasQuickRows() && !(info.m_solverMode & kOtherOrders))
+        return iterate(iteration, constraints, constraint_count, info);
+    return Base::solveSingleIteration(iteration, bodies, body_count, manifolds, manifold_count,
+                                      constraints, constraint_count, info, debug_drawer);
   }
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
@@ -135,6 +151,69 @@ class FluidSolver : public Base {
   }
 
  private:
+  // In place of Bullet's plain ones; others stay: of another build of Bullet, or a program's own.
+  void useQuickRows() {
+    const QuickRows& quick = quickRows();
+    if (this->m_resolveSingleConstraintRowGeneric == this->getScalarConstraintRowSolverGeneric())
+      this->m_resolveSingleConstraintRowGeneric = quick.generic;
+    if (this->m_resolveSingleConstraintRowLowerLimit ==
+        this->getScalarConstraintRowSolverLowerLimit())
+      this->m_resolveSingleConstraintRowLowerLimit = quick.lower_limit;
+  }
+
+  bool hasQuickRows() const {
+    return this->m_resolveSingleConstraintRowGeneric == quickRows().generic &&
+           this->m_resolveSingleConstraintRowLowerLimit == quickRows().lower_limit;
+  }
+
+  // Bullet's iteration in its plain order: joints, contacts, frictions.
+  btScalar iterate(int iteration, btTypedConstraint** constraints, int constraint_count,
+                   const btContactSolverInfo& info) {
+    btAlignedObjectArray<btSolverBody>& bodies = this->m_tmpSolverBodyPool;
+    const btConstraintArray& joints = this->m_tmpSolverNonContactConstraintPool;
+    const btConstraintArray& contacts = this->m_tmpSolverContactConstraintPool;
+    const auto solve = [&](const btSolverConstraint& row, btScalar largest) {
+      const btScalar residual = this->resolveSingleConstraintRowGeneric(
+          bodies[row.m_solverBodyIdA], bodies[row.m_solverBodyIdB], row);
+      return btMax(largest, residual * residual);
+    };
+    btScalar largest = 0;
+    for (int i = 0; i < joints.size(); ++i) {
+      const btSolverConstraint& row = joints[this->m_orderNonContactConstraintPool[i]];
+      if (iteration < row.m_overrideNumSolverIterations) largest = solve(row, largest);
+    }
+    if (iteration >= info.m_numIterations) return largest;
+    solveObsolete(constraints, constraint_count, info.m_timeStep);
+    const QuickRows& quick = quickRows();
+    largest = quick.contacts({contacts, this->m_orderTmpConstraintPool, bodies}, largest);
+    largest = quick.frictions({this->m_tmpSolverContactFrictionConstraintPool,
+                               this->m_orderFrictionConstraintPool, bodies},
+                              contacts, largest);
+    btConstraintArray& rolling = this->m_tmpSolverContactRollingFrictionConstraintPool;
+    for (int i = 0; i < rolling.size(); ++i) {
+      btSolverConstraint& row = rolling[i];
+      const btScalar pressed = contacts[row.m_frictionIndex].m_appliedImpulse;
+      if (!(pressed > 0)) continue;
+      const btScalar most = row.m_friction * pressed;
+      row.m_upperLimit = most > row.m_friction ? row.m_friction : most;
+      row.m_lowerLimit = -row.m_upperLimit;
+      largest = solve(row, largest);
+    }
+    return largest;
+  }
+
+  // What joints of a program's own may do in each iteration.
+  void solveObsolete(btTypedConstraint** constraints, int count, btScalar time_step) {
+    for (int i = 0; i < count; ++i) {
+      btTypedConstraint& constraint = *constraints[i];
+      if (!constraint.isEnabled()) continue;
+      const int a = this->getOrInitSolverBody(constraint.getRigidBodyA(), time_step);
+      const int b = this->getOrInitSolverBody(constraint.getRigidBodyB(), time_step);
+      constraint.solveConstraintObsolete(this->m_tmpSolverBodyPool[a], this->m_tmpSolverBodyPool[b],
+                                         time_step);
+    }
+  }
+
   // On a face that is aslant to the push, one friction row per contact holds the push, but the
   // iterations do not get to the end of what pushes along the normal do across it.
   void addSecondFrictions(const btContactSolverInfo& info) {

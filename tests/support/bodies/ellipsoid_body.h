@@ -40,6 +40,36 @@ inline FluidBody meshedEllipsoid(const Vector3& semi_axes, int level) {
   return shape;
 }
 
+/// Ellipsoid of triangles between meridians and latitudes: 2 meridians (bands - 1) faces.
+inline FluidBody latticeEllipsoid(const Vector3& semi_axes, int meridians, int bands) {
+  const double pi = portable::acos(-1.0);
+  Triangulation mesh;
+  for (int i = 1; i < bands; ++i)
+    for (int j = 0; j < meridians; ++j) {
+      const double theta = pi * i / bands, phi = 2 * pi * j / meridians;
+      mesh.vertices.push_back(semi_axes.cwiseProduct(
+          Vector3(portable::sin(theta) * portable::cos(phi),
+                  portable::sin(theta) * portable::sin(phi), portable::cos(theta))));
+    }
+  const int north = static_cast<int>(mesh.vertices.size()), south = north + 1;
+  mesh.vertices.push_back({0, 0, semi_axes.z()});
+  mesh.vertices.push_back({0, 0, -semi_axes.z()});
+  const int last = (bands - 2) * meridians;
+  for (int j = 0; j < meridians; ++j) {
+    const int next = (j + 1) % meridians;
+    mesh.triangles.push_back({north, j, next});
+    mesh.triangles.push_back({south, last + next, last + j});
+    for (int row = 0; row < last; row += meridians) {
+      mesh.triangles.push_back({row + j, row + meridians + j, row + next});
+      mesh.triangles.push_back({row + next, row + meridians + j, row + meridians + next});
+    }
+  }
+  FluidBody shape = facelessEllipsoid(semi_axes);
+  shape.faces = faceTableOf(mesh);
+  shape.area = totalArea(shape.faces);
+  return shape;
+}
+
 /// Nodes and weights of the Gauss rule of `count` points on [0, 1].
 inline std::vector<std::pair<double, double>> gaussRule(int count) {
   std::vector<std::pair<double, double>> rule;

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/ambient.h"
+#include "preprocess/collision_shape/fluid_body_cache.h"
+
+namespace ambient::test {
+
+/// A world of stock Bullet that a fluid can fill. Owns all that is in it.
+class CostWorld {
+ public:
+  CostWorld();
+  ~CostWorld();
+  CostWorld(const CostWorld&) = delete;
+  CostWorld& operator=(const CostWorld&) = delete;
+
+  /// Adds a body; density [kg/m^3], 0: it cannot move.
+  btRigidBody& add(std::shared_ptr<btCollisionShape> shape, double density,
+                   const btTransform& start);
+  /// Adds a body of given mass [kg] and moments of inertia [kg m^2].
+  btRigidBody& addBody(std::shared_ptr<btCollisionShape> shape, double mass,
+                       const btVector3& moments, const btTransform& start);
+  void addJoint(std::unique_ptr<btTypedConstraint> joint);
+
+  /// Fills the world with fluid.
+  void immerse();
+  void step();
+
+  double duration = 1.0 / 60;  ///< of a step [s]
+  bool has_surface = false;    ///< the water ends at height 0
+  /// Puts the bodies into the fluid; default: all of them into water.
+  std::function<void(Fluid&, const std::vector<std::unique_ptr<btRigidBody>>&)> attach;
+
+ private:
+  FluidBodyCache shapes_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::vector<std::shared_ptr<btCollisionShape>> collision_shapes_;
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+  std::unique_ptr<Fluid> fluid_;
+};
+
+/// A scene whose cost is of interest.
+struct CostScene {
+  std::string name;
+  int bodies;   ///< when its time is taken
+  int warm_up;  ///< steps before its time is taken
+  std::function<void(CostWorld&, int bodies)> fill;
+};
+
+/// Equal bodies without contacts, under water and afloat.
+std::vector<CostScene> freeScenes();
+/// Bodies in contacts and joints under water: a pile, and scenes in the manner of Bullet's
+/// examples.
+std::vector<CostScene> contactScenes();
+/// Bodies in flight in air, without faces and with as many as their name says. `shapes`: folder of
+/// makeFlockShapes().
+std::vector<CostScene> flockScenes(const std::string& shapes);
+/// Writes the fluid bodies of flockScenes() into a folder, which takes longer than their steps.
+void makeFlockShapes(const std::string& folder);
+
+}  // namespace ambient::test
