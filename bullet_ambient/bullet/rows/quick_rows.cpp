@@ -1,6 +1,8 @@
 #include "bullet_ambient/bullet/rows/quick_rows.h"
 
 #include "bullet_ambient/base/instruction_set.h"
+#include "bullet_ambient/bullet/core/four_numbers.h"
+#include "bullet_ambient/bullet/rows/row_impulse.h"
 
 AMBIENT_BEGIN
 namespace {

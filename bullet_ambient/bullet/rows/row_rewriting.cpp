@@ -4,7 +4,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/four_numbers.h"
-#include "bullet_ambient/bullet/rows/quick_rows.h"
+#include "bullet_ambient/bullet/rows/row_impulse.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -1,5 +1,6 @@
 #include "bullet_ambient/bullet/rows/quick_rows.h"
 
+#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
