@@ -99,17 +99,17 @@ struct Limb {
   bool is_hinge;  // else a cone
 };
 
-constexpr std::array<Limb, 11> kFigure = {{{-1, 0.15, 0.20, 0, 1.00, 0, false},
-                                           {0, 0.15, 0.25, 0, 1.32, 1.15, true},
+constexpr std::array<Limb, 11> kFigure = {{{-1, 0.15, 0.22, 0, 1.00, 0, false},
+                                           {0, 0.15, 0.22, 0, 1.32, 1.15, true},
                                            {1, 0.10, 0.08, 0, 1.68, 1.57, false},
-                                           {0, 0.07, 0.40, -0.2, 0.62, 0.88, false},
-                                           {3, 0.06, 0.36, -0.2, 0.22, 0.40, true},
-                                           {0, 0.07, 0.40, 0.2, 0.62, 0.88, false},
-                                           {5, 0.06, 0.36, 0.2, 0.22, 0.40, true},
-                                           {1, 0.05, 0.28, -0.3, 1.25, 1.42, false},
-                                           {7, 0.04, 0.26, -0.3, 0.92, 1.08, true},
-                                           {1, 0.05, 0.28, 0.3, 1.25, 1.42, false},
-                                           {9, 0.04, 0.26, 0.3, 0.92, 1.08, true}}};
+                                           {0, 0.07, 0.38, -0.2, 0.62, 0.88, false},
+                                           {3, 0.07, 0.38, -0.2, 0.22, 0.40, true},
+                                           {0, 0.07, 0.38, 0.2, 0.62, 0.88, false},
+                                           {5, 0.07, 0.38, 0.2, 0.22, 0.40, true},
+                                           {1, 0.05, 0.27, -0.3, 1.25, 1.42, false},
+                                           {7, 0.05, 0.27, -0.3, 0.92, 1.08, true},
+                                           {1, 0.05, 0.27, 0.3, 1.25, 1.42, false},
+                                           {9, 0.05, 0.27, 0.3, 0.92, 1.08, true}}};
 
 btTransform frameAt(const btRigidBody& body, const btVector3& point, const btQuaternion& axes) {
   return body.getWorldTransform().inverse() * btTransform(axes, point);

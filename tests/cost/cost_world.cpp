@@ -4,6 +4,24 @@
 #include <utility>
 
 namespace ambient::test {
+namespace {
+
+// Volume of a simple shape [m^3].
+double volumeOf(const btCollisionShape& shape) {
+  if (shape.getShapeType() == BOX_SHAPE_PROXYTYPE) {
+    const btVector3 half = static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin();
+    return 8 * static_cast<double>(half.x() * half.y() * half.z());
+  }
+  if (shape.getShapeType() == CAPSULE_SHAPE_PROXYTYPE) {
+    const auto& capsule = static_cast<const btCapsuleShape&>(shape);
+    const auto r = static_cast<double>(capsule.getRadius());
+    return SIMD_PI * r * r * (2 * static_cast<double>(capsule.getHalfHeight()) + 4 * r / 3);
+  }
+  const auto r = static_cast<double>(static_cast<const btSphereShape&>(shape).getRadius());
+  return 4 * SIMD_PI * r * r * r / 3;
+}
+
+}  // namespace
 
 CostWorld::CostWorld() { world_.setGravity(btVector3(0, 0, btScalar(-9.81))); }
 
@@ -16,7 +34,7 @@ CostWorld::~CostWorld() {
 btRigidBody& CostWorld::add(std::shared_ptr<btCollisionShape> shape, double density,
                             const btTransform& start) {
   double mass = 0;
-  if (density > 0) mass = density * shapes_.fluidBody(*shape)->volume;
+  if (density > 0) mass = density * volumeOf(*shape);
   btVector3 moments(0, 0, 0);
   if (mass > 0) shape->calculateLocalInertia(static_cast<btScalar>(mass), moments);
   return addBody(std::move(shape), mass, moments, start);

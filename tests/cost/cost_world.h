@@ -20,7 +20,7 @@ class CostWorld {
   CostWorld(const CostWorld&) = delete;
   CostWorld& operator=(const CostWorld&) = delete;
 
-  /// Adds a body; density [kg/m^3], 0: it cannot move.
+  /// Adds a box, a capsule or a ball; density [kg/m^3], 0: anything that cannot move.
   btRigidBody& add(std::shared_ptr<btCollisionShape> shape, double density,
                    const btTransform& start);
   /// Adds a body of given mass [kg] and moments of inertia [kg m^2].
