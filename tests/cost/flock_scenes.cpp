@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "preprocess/reduced_loads/reduced_loads.h"
+#include "preprocess/reduced_loads/form_levels.h"
 #include "tests/cost/cost_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 
@@ -9,6 +9,7 @@ namespace ambient::test {
 namespace {
 
 const Vector3 kSemiAxes(0.3, 0.2, 0.1);
+constexpr double kError = 0.01;  // of loads
 
 struct FlockShape {
   const char* scene;
@@ -34,7 +35,7 @@ void fillFlock(CostWorld& world, const std::string& file, int count) {
     def.fluid_body = std::make_shared<FluidBody>(file.empty() ? facelessEllipsoid(kSemiAxes)
                                                               : readFluidBody(file));
     def.medium = air();
-    def.flow.maximum_load_error = 0.01;
+    def.flow.maximum_load_error = kError;
     for (const auto& body : bodies) fluid.add(*body, def);
   };
 }
@@ -56,7 +57,7 @@ std::vector<CostScene> flockScenes(const std::string& shapes) {
 void makeFlockShapes(const std::string& folder) {
   FluidBody coarse = latticeEllipsoid(kSemiAxes, 25, 11), fine = meshedEllipsoid(kSemiAxes, 4);
   for (FluidBody* shape : {&coarse, &fine}) {
-    shape->levels = buildLoadLevels(*shape, {48, 96, 144, 200});
+    if (const auto level = smallestFormLevel(*shape, kError)) shape->form_levels = {*level};
     writeFluidBody(
         *shape, std::filesystem::path(folder) / (std::to_string(shape->faces.size()) + ".ambient"));
   }
