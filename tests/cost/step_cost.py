@@ -20,7 +20,8 @@ SCENES = {
     "boxes_afloat": (64, 20, 60), "capsules_afloat": (64, 20, 60), "balls_afloat": (64, 20, 60),
     "pile_in_water": (64, 30, 60), "block_in_water": (64, 30, 60), "stacks_in_water": (91, 30, 60),
     "figures_in_water": (44, 30, 60),
-    "flight_without_faces": (100, 20, 60)}
+    "flight_without_faces": (100, 20, 60), "flight_with_500_faces": (24, 20, 60),
+    "flight_with_5120_faces": (24, 20, 60)}
 
 
 class Counter:
