@@ -63,14 +63,11 @@ json toJson(const PathSummary& path) {
   return text;
 }
 
-json toJson(const FlightWork& work) {
-  return {{"substeps", work.substeps},
-          {"load_evaluations", work.load_evaluations},
-          {"guarded", work.guarded},
-          {"coarse", work.coarse},
-          {"too_long", work.too_long},
-          {"halted", work.halted},
-          {"energy_removed", work.energy_removed}};
+json toJson(const AmbientCounters& work) {
+  json text;
+  for (const auto& [name, count] : kWorkCounts) text[name] = work.*count;
+  text["energy_removed"] = work.energy_removed;
+  return text;
 }
 
 json toJson(const FluidBody& body) {
