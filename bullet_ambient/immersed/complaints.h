@@ -64,6 +64,9 @@ class Complaints {
 
  private:
   bool wasSaid(Complaint complaint) const noexcept;
+  /// Says what make() returns, which is asked for only if the complaint is new.
+  template <class MakeSentence>
+  void sayMade(Complaint complaint, const MakeSentence& make) noexcept;
 
   std::atomic<bool> was_said_[static_cast<int>(Complaint::kCount)] = {};
   std::recursive_mutex telling_;  // recursive: a report may attach or detach, and that may say more

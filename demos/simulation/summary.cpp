@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bullet_ambient/base/names.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/analysis/falling_mode.h"
 #include "demos/analysis/path_summary.h"
@@ -82,12 +83,12 @@ std::string makeSummary(const Scene& scene, const std::vector<PreparedBody>& bod
                         const RunRecord& record) {
   json summary = {{"scene", scene.name},
                   {"description", scene.description},
-                  {"model", modelName(scene.model)},
+                  {"model", wordOf(kFluidModelNames, scene.model)},
                   {"steps", record.steps},
                   {"time_step", scene.time_step},
                   {"duration", scene.duration},
                   {"output_step", scene.output_step},
-                  {"integrator", integratorName(scene.flight.integrator)},
+                  {"integrator", wordOf(kIntegratorNames, scene.flight.integrator)},
                   {"gravity", toJson(scene.gravity)},
                   {"wall_seconds_simulation", record.wall_seconds},
                   {"bodies", json::array()}};

@@ -41,9 +41,8 @@ FaceTable facesOf(const TriangleMesh& mesh, bool sheet) {
   faces.reserve(static_cast<std::size_t>(mesh.triangleCount()) * (sheet ? 2 : 1));
   const auto addSide = [&](double side) {
     for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-      const Eigen::Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-      const Eigen::Vector3d twice_area = (b - a).cross(c - a);
-      faces.add(side * twice_area.normalized(), (a + b + c) / 3, twice_area.norm() / 2);
+      const Eigen::Vector3d twice_area = mesh.twiceArea(t);
+      faces.add(side * twice_area.normalized(), mesh.barycentre(t), twice_area.norm() / 2);
     }
   };
   addSide(1);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
@@ -30,6 +32,9 @@ MeshProperties computeMassProperties(const TriangleMesh& mesh);
 /// O(T). Centres and moments are not finite if the area is 0, as it is by underflow on a sheet that
 /// requireUsualSize() refuses.
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh);
+
+/// Sum of the volumes inside closed meshes [m^3]; what two of them share counts twice.
+double sumOfVolumes(const std::vector<TriangleMesh>& meshes);
 
 /// Scales a closed mesh about its centre of volume, to a volume [m^3].
 TriangleMesh withVolume(TriangleMesh mesh, double volume);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 
+#include "bullet_ambient/base/names.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/robot/urdf_text.h"
@@ -266,8 +267,7 @@ class ModelReader {
   }
 
   PressureLaw lawOf(const std::string& word, const std::string& element) const {
-    for (const auto& [law, name] : kPressureLawNames)
-      if (word == name) return law;
+    if (const auto law = valueOf(kPressureLawNames, word)) return *law;
     refuse(element + " law is \"" + word + "\"; must be published or form");
   }
 

@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "bullet_ambient/base/names.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/spatial/vector_types.h"
@@ -171,9 +172,7 @@ void transferChoice(Stream& stream, Enum& value, const Names& names) {
   stream.number(byte);
   if constexpr (Stream::kReads) {
     value = static_cast<Enum>(byte);
-    for (const auto& [known, name] : names)
-      if (known == value) return;
-    stream.fail("has a choice that does not exist");
+    if (!wordOf(names, value)) stream.fail("has a choice that does not exist");
   }
 }
 
