@@ -23,18 +23,12 @@ std::string libraryVersion();
 /// The triangles of a mesh as a fluid body holds them.
 Surface surfaceOf(const TriangleMesh& mesh);
 
-/// Settings for making a fluid body from a mesh.
-struct BuildSettings {
-  std::string name;    ///< of the body
-  std::string source;  ///< begins every message: the file it comes from; empty: the name
-  /// Origin of the fluid body frame F in the mesh's frame [m]; none: the centre of volume, of a
-  /// sheet the centre of its area.
+/// Settings for making a fluid body, from a mesh or from a shape.
+struct CommonBuildSettings {
+  std::string name;  ///< name of the fluid body
+  /// Origin of the fluid body frame F in the frame of the mesh or shape [m]; none: the centre of
+  /// volume, of a sheet the centre of its area.
   std::optional<Eigen::Vector3d> origin;
-  TriangleMesh cavities;  ///< closed surfaces inside, as in CheckedMesh: empty in the uniform mass
-  double sphere_radius = 0;  ///< of a mesh that stands for a sphere [m]; 0: any other shape
-  /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
-  std::optional<Matrix6> added_mass;
-  std::vector<AddedMassPart> added_mass_parts;  ///< with it, about the mesh's origin; may be empty
   int least_faces = 0;  ///< the mesh is divided into at least so many triangles for the loads
   /// The flow is solved on up to max_panels, finer than the mesh where that helps, and on four
   /// times as many where long triangles need them; the faces remain those of the mesh.
@@ -42,11 +36,22 @@ struct BuildSettings {
   /// Subdivisions of the table for the surface of water, makeWaterlineTable(), 1 to
   /// kMostWaterlineSubdivisions; 0: no table. Neither a sheet nor a sphere can have one.
   int waterline_subdivisions = 0;
+  /// Is told what is done from now on; null: nobody.
+  std::function<void(const std::string& stage)> begin = nullptr;
+};
+
+/// Settings for making a fluid body from a mesh.
+struct BuildSettings : CommonBuildSettings {
+  std::string source;     ///< begins every message: the file of the mesh; empty: the name
+  TriangleMesh cavities;  ///< closed surfaces inside, as in CheckedMesh: empty in the uniform mass
+  double sphere_radius = 0;  ///< of a mesh that stands for a sphere [m]; 0: any other shape
+  /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
+  std::optional<Matrix6> added_mass;
+  /// Parts of that added mass, about the mesh's origin; may be empty.
+  std::vector<AddedMassPart> added_mass_parts;
   Provenance provenance;  ///< copied; an empty generator becomes this library and its version
   /// Receives in one line what is doubtful about the result; null: nothing is said.
   std::function<void(const std::string&)> warn = nullptr;
-  /// Is told what is done from now on; null: nobody.
-  std::function<void(const std::string& stage)> begin = nullptr;
 };
 
 /// Everything the fluid needs to know of a shape: mass properties, added mass, faces. The axes of F
