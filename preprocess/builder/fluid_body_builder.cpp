@@ -25,10 +25,6 @@ const std::string& sourceOf(const BuildSettings& settings) {
   return settings.source.empty() ? settings.name : settings.source;
 }
 
-MeshProperties massPropertiesOf(const TriangleMesh& mesh, bool sheet) {
-  return sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
-}
-
 /// Uniform density between the surface and the cavities.
 MassDistribution uniformMassOf(const TriangleMesh& mesh, const MeshProperties& properties,
                                const TriangleMesh& cavities) {
@@ -131,7 +127,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   requireUsualSize(source_mesh, settings.flow.sheet, sourceOf(settings));
   requireWaterline(settings);
   TriangleMesh mesh = divideTriangles(source_mesh, settings.least_faces);
-  const MeshProperties properties = massPropertiesOf(mesh, settings.flow.sheet);
+  const MeshProperties properties = computeMassProperties(mesh, settings.flow.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
   requireNearOrigin(mesh, origin, sourceOf(settings));
   const MassDistribution uniform_mass = uniformMassOf(mesh, properties, settings.cavities);

@@ -33,6 +33,10 @@ MeshProperties computeMassProperties(const TriangleMesh& mesh);
 /// requireUsualSize() refuses.
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh);
 
+/// Computes the properties of a closed mesh or, if `sheet`, of an open sheet.
+inline MeshProperties computeMassProperties(const TriangleMesh& mesh, bool sheet) {
+  return sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
+}
 /// Sum of the volumes inside closed meshes [m^3]; what two of them share counts twice.
 double sumOfVolumes(const std::vector<TriangleMesh>& meshes);
 

@@ -12,6 +12,17 @@ struct Jump {
   int iterations = 0;                               ///< 0: factorised
 };
 
+/// Values at all vertices from those of the unknowns, U x 6; 0 where there is no unknown.
+inline Eigen::Matrix<double, Eigen::Dynamic, 6> atVertices(
+    const Unknowns& unknowns, const Eigen::Matrix<double, Eigen::Dynamic, 6>& of_unknowns) {
+  const auto vertices = static_cast<Eigen::Index>(unknowns.of_vertex.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> values;
+  values.setZero(vertices, 6);
+  for (Eigen::Index v = 0; v < vertices; ++v)
+    if (const int i = unknowns.of_vertex[v]; i >= 0) values.row(v) = of_unknowns.row(i);
+  return values;
+}
+
 /// Interface to the integral operators of a surface, as far as the flow needs them.
 class FlowSolver {
  public:
