@@ -18,7 +18,7 @@ struct ShapeBuildSettings : CommonBuildSettings {
   bool tables = true;
 };
 
-/// A fluid body, and what a user should know about its mesh, one line each.
+/// A fluid body, and warnings about its mesh, one line each.
 struct BuiltBody {
   FluidBody body;
   std::vector<std::string> warnings;

@@ -19,10 +19,10 @@ struct FloatingPose {
 /// @pre 0 < mass < density times the volume of the hull.
 FloatingPose floatAt(const FloatingBody& body, const PackedHull& hull, const Vector3& up);
 
-/// Goes down to the least energy near an attitude.
+/// Descends to a local minimum of the energy near an attitude.
 FloatingPose settle(const FloatingBody& body, const PackedHull& hull, const Vector3& up);
 
-/// The body about a floating attitude: draught, metacentres, periods.
+/// Describes a floating attitude: draught, metacentres, periods.
 FloatingAttitude describe(const FloatingBody& body, const PackedHull& hull,
                           const FloatingPose& pose);
 
