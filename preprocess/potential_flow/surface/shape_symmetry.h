@@ -8,9 +8,9 @@
 namespace ambient {
 
 /// Finds mirrors and half turns about the centre that map a solid to itself, however its flat faces
-/// are cut into triangles: every edge at which the surface bends maps to such an edge between the
-/// images of its faces, to 1e-7 of the size. Tests the axes of the mesh and the principal axes of
-/// its vertices. Cost O(T log T).
+/// are cut into triangles: every edge at which the surface bends must land on such an edge, with
+/// the normals of its faces, to 1e-7 of the size. Tests the axes of the mesh and the principal axes
+/// of its vertices. Cost O(T log T).
 std::vector<Eigen::Matrix3d> findSymmetries(const TriangleMesh& mesh,
                                             const Eigen::Vector3d& centre);
 
