@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/base/names.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "demos/analysis/motion_sample.h"
 
 namespace ambient {

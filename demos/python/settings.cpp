@@ -1,6 +1,6 @@
 #include <stdexcept>
 
-#include "bullet_ambient/base/names.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "demos/python/bindings.h"

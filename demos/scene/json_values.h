@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bullet_ambient/base/names.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/law/pressure_law.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bullet_ambient/base/names.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/analysis/falling_mode.h"
 #include "demos/analysis/path_summary.h"

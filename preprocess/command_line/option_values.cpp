@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "bullet_ambient/base/names.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/polar/polar.h"
 

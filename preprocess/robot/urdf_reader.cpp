@@ -7,7 +7,6 @@
 #include <mutex>
 #include <set>
 
-#include "bullet_ambient/base/names.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/robot/urdf_text.h"

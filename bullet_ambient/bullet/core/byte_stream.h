@@ -12,7 +12,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "bullet_ambient/base/names.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/spatial/vector_types.h"

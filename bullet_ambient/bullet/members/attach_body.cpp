@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "bullet_ambient/base/names.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/immersed/region_following.h"
 
