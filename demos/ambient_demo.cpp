@@ -175,8 +175,9 @@ RunRecord runShown(const Scene& scene, const std::vector<PreparedBody>& bodies,
 }
 
 long long bodiesWithLongSteps(const RunRecord& record) {
-  return std::accumulate(record.work.begin(), record.work.end(), 0LL,
-                         [](long long sum, const FlightWork& work) { return sum + work.too_long; });
+  return std::accumulate(
+      record.work.begin(), record.work.end(), 0LL,
+      [](long long sum, const AmbientCounters& work) { return sum + work.too_long; });
 }
 
 void runAndWrite(const Arguments& arguments) {

@@ -15,9 +15,7 @@ namespace {
 
 void writeTable(const CasesArguments& arguments) {
   const ResultTable table = collectCases(arguments.cases, arguments.out);
-  OutputFile file(arguments.collect);
-  file.write(makeTableText(table));
-  file.commit();
+  writeFile(arguments.collect, makeTableText(table));
   if (!arguments.quiet)
     std::printf("%s: %zu rows of %zu columns, %d cases are not done\n",
                 plainLine(arguments.collect).c_str(), table.rows.size(), table.columns.size(),

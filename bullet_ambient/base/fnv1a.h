@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace ambient {
@@ -13,6 +14,13 @@ constexpr std::uint64_t fnv1a64(std::string_view bytes) noexcept {
   std::uint64_t hash = kOffsetBasis;
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * kPrime;
   return hash;
+}
+
+/// A hash as 16 hexadecimal digits.
+inline std::string hashText(std::uint64_t hash) {
+  std::string text(16, '0');
+  for (std::size_t i = text.size(); i-- > 0; hash >>= 4) text[i] = "0123456789abcdef"[hash & 15];
+  return text;
 }
 
 }  // namespace ambient

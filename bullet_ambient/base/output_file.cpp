@@ -70,4 +70,10 @@ void OutputFile::commit() {
   partial_.clear();
 }
 
+void writeFile(const fs::path& file, std::string_view text) {
+  OutputFile output(file);
+  output.write(text);
+  output.commit();
+}
+
 }  // namespace ambient

@@ -32,6 +32,9 @@ class OutputFile {
   int error_ = 0;  // errno of the first write that failed; 0: none
 };
 
+/// Writes a file completely or not at all. @throws std::runtime_error as OutputFile
+void writeFile(const std::filesystem::path& file, std::string_view text);
+
 /// Follows symbolic links to their target, which need not exist; other paths stay as they are.
 std::filesystem::path linkTarget(const std::filesystem::path& file);
 

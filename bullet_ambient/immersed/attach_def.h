@@ -18,34 +18,39 @@ struct AttachDef {
   /// setLocalScaling(), which Bullet tells nobody, call Immersed::setFluidBody().
   std::shared_ptr<const FluidBody> fluid_body = nullptr;
   Medium medium = {};  ///< default: vacuum, in which the body moves as in stock Bullet
-  /// Whether the fluid is that of the region with the highest priority that holds the centre of
-  /// mass, and `medium` only where there is none; Fluid::addRegion().
+  /// True: the fluid is that of the region with the highest priority that holds the centre of mass;
+  /// `medium` counts only where there is no region. See Fluid::addRegion().
   bool follow_regions = true;
   /// Factor on the damping of a floating body by the waves that it makes; docs/water.md.
   double wave_damping = 1;
   FlowSettings flow = {};
   FlightSettings flight = {};
   FrameOffset fluid_frame = {};  ///< F in the btRigidBody's frame (centre of mass)
-  /// In reports and errors. Empty: that of Fluid::setNaming(), or the fluid body's.
+  /// Name in reports and errors. Empty: the name from Fluid::setNaming(), else that of the fluid
+  /// body.
   std::string name = {};
 };
 
-/// Counts what was computed for one body since it was attached. Counts that a tree has once are at
-/// its first link.
+/// Counts of what was computed for one body or link since it was added to its fluid. Counts that
+/// belong to a whole multibody are with its first link.
 struct AmbientCounters {
-  long long substeps = 0;  ///< of free flight
+  long long substeps = 0;  ///< substeps of free flight
   long long load_evaluations = 0;
-  long long faces = 0;    ///< faces or clusters summed in them; a sphere has none
+  long long faces = 0;    ///< faces or clusters summed in these evaluations; a sphere has none
   long long guarded = 0;  ///< load evaluations in which the passivity guard acted
   long long coarse = 0;   ///< steps whose error stayed too large at the most substeps or retries
   long long halted = 0;   ///< steps at the surface that ended early, docs/theory.md eq. (64)
-  /// By bounds on the energy of steps, docs/theory.md eq. (25a), (31a), (64), (68), (68a) [J].
+  /// Energy removed by bounds on the energy of a step, docs/theory.md eq. (25a), (31a), (64), (68),
+  /// (68a) [J].
   double energy_removed = 0;
-  long long rows = 0;        ///< constraint rows rewritten
-  long long joint_rows = 0;  ///< of these, solved together before the solver's iterations
-  long long rejected = 0;    ///< results of steps, and samples of regions, not finite and left out
-  long long regions_asked = 0;   ///< whether bounds of one, or around several, hold the body
-  long long medium_changes = 0;  ///< to another density or viscosity, by regions
+  long long rows = 0;  ///< constraint rows rewritten
+  long long joint_rows =
+      0;  ///< rewritten rows that were solved together before the solver's iterations
+  long long rejected =
+      0;  ///< results of steps, and samples of regions, that were not finite and not used
+  long long regions_asked =
+      0;  ///< tests of the body against the bounds of one region or of several
+  long long medium_changes = 0;  ///< changes by regions to another density or viscosity
   long long too_long = 0;  ///< bodies whose errors add up: steps are too long for their motion
 
   AmbientCounters& operator+=(const AmbientCounters& other);

@@ -105,31 +105,26 @@ void Complaints::say(Complaint complaint, const char* sentence) noexcept {
   }
 }
 
-void Complaints::sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept {
-  if (wasSaid(Complaint::kSwing)) return;
+template <class MakeSentence>
+void Complaints::sayMade(Complaint complaint, const MakeSentence& make) noexcept {
+  if (wasSaid(complaint)) return;
   try {
-    say(Complaint::kSwing, coarseSwing(def, 2 * kPi / frequency, step).c_str());
+    say(complaint, make().c_str());
   } catch (...) {
     // A failure to make the sentence must not unwind through the step.
   }
+}
+
+void Complaints::sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept {
+  sayMade(Complaint::kSwing, [&] { return coarseSwing(def, 2 * kPi / frequency, step); });
 }
 
 void Complaints::sayGaping(const AttachDef& def, const AttachDef* other) noexcept {
-  if (wasSaid(Complaint::kGaping)) return;
-  try {
-    say(Complaint::kGaping, gapingJoint(def, other).c_str());
-  } catch (...) {
-    // A failure to make the sentence must not unwind through the step.
-  }
+  sayMade(Complaint::kGaping, [&] { return gapingJoint(def, other); });
 }
 
 void Complaints::sayTooLong(const AttachDef& def) noexcept {
-  if (wasSaid(Complaint::kTooLong)) return;
-  try {
-    say(Complaint::kTooLong, tooLong(def).c_str());
-  } catch (...) {
-    // A failure to make the sentence must not unwind through the step.
-  }
+  sayMade(Complaint::kTooLong, [&] { return tooLong(def); });
 }
 
 void Complaints::tell(const std::string& sentence) noexcept {

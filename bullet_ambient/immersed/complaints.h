@@ -19,7 +19,7 @@ AMBIENT_BEGIN
 /// @pre it has a fluid body
 std::string nameOf(const AttachDef& def);
 
-/// Kinds of reports: something cannot be right.
+/// Kinds of reports about what cannot be right. Each is said once.
 enum class Complaint {
   kNoAction,
   kNoSolver,
@@ -45,25 +45,29 @@ enum class Complaint {
 /// hears one after the other. Takes a lock only where a complaint is said for the first time.
 class Complaints {
  public:
-  /// In a sentence that fits all bodies, or in one that names the body.
+  /// Says a complaint, in a sentence that fits all bodies or in the given one.
   void say(Complaint complaint) noexcept;
   void say(Complaint complaint, const char* sentence) noexcept;
   /// Names the first body whose steps are too long; AmbientCounters::too_long counts them.
   void sayTooLong(const AttachDef& def) noexcept;
-  /// Reports a floating body that rows move, for whose natural frequency [rad/s] the step [s] is
-  /// too long for.
+  /// Names a floating body moved by constraint rows whose step [s] is too long for its natural
+  /// frequency [rad/s].
   void sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept;
-  /// Names a body whose joint comes apart and the other body, null if that has no fluid.
+  /// Names a body whose joint comes apart, and the other body of the joint; null: that one has no
+  /// fluid.
   void sayGaping(const AttachDef& def, const AttachDef* other) noexcept;
 
-  /// Passes a sentence to the report, each time. Drops what the report throws, which must not
-  /// unwind through Bullet's step.
+  /// Passes a sentence to the report function, every time. Drops exceptions of that function, which
+  /// must not unwind through Bullet's step.
   void tell(const std::string& sentence) noexcept;
-  /// Between steps. Null: nobody hears.
+  /// Sets the report function. Call between steps; null: reports are dropped.
   void setReport(std::function<void(const std::string&)> report) { report_ = std::move(report); }
 
  private:
   bool wasSaid(Complaint complaint) const noexcept;
+  /// Says what make() returns, which is asked for only if the complaint is new.
+  template <class MakeSentence>
+  void sayMade(Complaint complaint, const MakeSentence& make) noexcept;
 
   std::atomic<bool> was_said_[static_cast<int>(Complaint::kCount)] = {};
   std::recursive_mutex telling_;  // recursive: a report may attach or detach, and that may say more

@@ -10,34 +10,34 @@
 
 AMBIENT_BEGIN
 
-/// The regions of one fluid. Changed between steps only; any thread may read them in a step.
+/// All regions of one Fluid. Changed between steps only; in a step any thread may read them.
 class FluidRegions {
  public:
   using Entry = RegionEntry;
 
   bool empty() const noexcept { return entries_.empty(); }
   const std::map<RegionId, Entry>& all() const noexcept { return entries_; }
-  /// The region that counts at a point, null: none. The highest priority first; of equal ones the
-  /// last added. `asked`: as RegionIndex::find().
+  /// Finds the region that holds a point: the one of highest priority, of equal ones the last
+  /// added; null: none. Adds the number of tests to `asked`, see RegionIndex::find().
   const Entry* find(const Vector3& point_W, long long& asked) const noexcept;
   /// @throws std::invalid_argument if there is no such region.
   const FluidRegion& require(RegionId id) const;
 
-  /// The fluids of all regions.
+  /// Returns the fluids of all regions, each once.
   RegionFluids fluids() const;
-  /// Returns the fluids of a region that no region here has.
+  /// Returns those fluids of `region` that no region of this object has.
   RegionFluids missing(const FluidRegion& region) const;
 
-  /// The number of the next region that is added.
+  /// Number that the next add() will give.
   RegionId next() const noexcept { return static_cast<RegionId>(next_); }
   /// @pre checkRegion() has passed.
   RegionId add(FluidRegion region);
   void set(RegionId id, FluidRegion region);
-  /// False if there is none.
+  /// Removes a region. Returns false if there is none of that number.
   bool remove(RegionId id);
 
-  double time = 0;           ///< that the world was stepped with its action [s]
-  bool has_changed = false;  ///< bodies that sleep have yet to hear of it
+  double time = 0;           ///< sum of all steps of the world so far [s]
+  bool has_changed = false;  ///< true: regions have changed, and sleeping bodies were not woken yet
 
  private:
   void insert(Entry& entry);

@@ -6,8 +6,8 @@ AMBIENT_BEGIN
 
 class FluidRegions;
 
-/// Marks, while it lives, that functions of these regions run on this thread: whose regions and
-/// bodies must not change meanwhile.
+/// Guard object: while it exists, user functions of these regions (flow, surface) run on this
+/// thread. Regions and bodies of that fluid must not change meanwhile.
 class RegionCall {
  public:
   explicit RegionCall(const FluidRegions& regions) noexcept;
@@ -15,10 +15,10 @@ class RegionCall {
   RegionCall(const RegionCall&) = delete;
   RegionCall& operator=(const RegionCall&) = delete;
 
-  /// The innermost one of these regions on this thread; null: none.
+  /// Innermost RegionCall of these regions on this thread; null: none.
   static RegionCall* current(const FluidRegions& regions) noexcept;
 
-  bool was_refused = false;  ///< a function has tried to change them
+  bool was_refused = false;  ///< true: a function has tried to change regions or bodies
 
  private:
   const FluidRegions& regions_;

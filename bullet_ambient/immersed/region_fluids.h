@@ -9,7 +9,8 @@
 
 AMBIENT_BEGIN
 
-/// The properties of a medium on which loads depend.
+/// Properties of a medium on which surface loads depend. Media that differ in velocity only share
+/// their loads.
 struct FluidKind {
   double density = 0;    ///< [kg/m^3]
   double viscosity = 0;  ///< [Pa s]
@@ -21,24 +22,24 @@ struct FluidKind {
   friend bool operator<(const FluidKind& a, const FluidKind& b) {
     return std::tie(a.density, a.viscosity) < std::tie(b.density, b.viscosity);
   }
-  /// At rest.
+  /// Returns the medium at rest with these properties.
   Medium medium() const { return {density, viscosity, Vector3::Zero(), Vector3::Zero()}; }
 };
 
-/// Returns whether a fluid above a surface has a velocity.
+/// True if a fluid above a water surface moves, so that it is wind.
 inline bool mayBlow(const Medium& medium) { return !medium.velocity.isZero(0); }
 
-/// The properties of two fluids, parted by a surface, on which a body there depends.
+/// Properties of the two fluids at a water surface on which the model of a body there depends.
 struct SurfaceKind {
   FluidKind below;
-  std::optional<FluidKind> above;  ///< unset: differs from body to body
-  bool may_blow;                   ///< the region's fluid above may move
+  std::optional<FluidKind> above;  ///< unset: unnamedAbove() decides for each body
+  bool may_blow;                   ///< true: the region's fluid above may move
 
   explicit SurfaceKind(const FluidRegion& region)
       : below(region.below), may_blow(region.flow || (region.above && mayBlow(*region.above))) {
     if (region.above) above.emplace(*region.above);
   }
-  /// For a body whose own medium is `own`.
+  /// Returns the fluid above for a body whose own medium is `own`.
   Medium mediumAbove(const Medium& own) const {
     return above ? above->medium() : unnamedAbove(below.density, own);
   }
@@ -50,7 +51,7 @@ struct SurfaceKind {
   }
 };
 
-/// Some of the fluids of some regions; each once.
+/// A set of fluids of regions, each once.
 struct RegionFluids {
   std::vector<FluidKind> media;
   std::vector<SurfaceKind> surfaces;

@@ -9,42 +9,43 @@
 
 AMBIENT_BEGIN
 
-/// Loads and models of one body in some fluids.
+/// Loads and surface models of one body for a set of fluids.
 struct KnownFluids {
   std::vector<MediumLoads> media;
-  std::vector<SurfaceMedia> surfaces;  ///< of unit mass and inertia until its model is built
+  std::vector<SurfaceMedia> surfaces;  ///< with mass 1 kg and inertia 1 kg m^2 until buildModel()
 };
 
-/// The loads of a body in its own medium.
+/// Makes the loads of a body in its own medium.
 /// @throws std::invalid_argument as makeSurfaceLoads().
 MediumLoads makeOwnLoads(const AttachDef& def, LoadTables& tables);
 
-/// Makes them for a body in the fluids of regions, but for its own medium; none, if it follows no
-/// regions.
+/// Makes loads and surface models of a body for the fluids of regions, its own medium excepted.
+/// Returns none if the body follows no regions.
 /// @throws std::invalid_argument as makeSurfaceLoads() and makeSurfaceModel().
 KnownFluids makeKnownFluids(const AttachDef& def, const RegionFluids& fluids, LoadTables& tables);
 
-/// Between steps, before regions have fluids that the body does not know. Its model is stale then,
-/// if there are new surfaces.
+/// Adds fluids that the body does not know yet. Call between steps, before a region has them. New
+/// surfaces make the model stale.
 void learnFluids(AmbientBody& ambient, KnownFluids fluids);
 
-/// Between steps, after no region has these fluids any more. The body stays at its surface, if that
-/// is not among them.
+/// Removes fluids that no region has any more. Call between steps. The body stays at its surface
+/// unless that one is removed.
 void forgetFluids(AmbientBody& ambient, const RegionFluids& fluids);
 
-/// Puts a body into a medium whose loads it has; the model is stale then, if density or viscosity
-/// are others than before. False if it has none. Allocates nothing.
+/// Puts a body into a medium for which it has loads. A new density or viscosity makes the model
+/// stale. Returns false, and changes nothing, if the body has no loads for the medium. Allocates
+/// nothing.
 bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& medium) noexcept;
 
-/// At the start of a step of `duration` [s]: finds the medium around a body that follows regions.
-/// Cost: RegionIndex::find(), and a call of the functions of its region. Allocates nothing. Whether
-/// density or viscosity are others than before: the model is stale then.
+/// Finds the medium around a body that follows regions, at the start of a step of `duration` [s].
+/// Returns true if density or viscosity have changed; the model is then stale. Cost:
+/// RegionIndex::find(), and one call of each function of the region. Allocates nothing.
 bool followRegions(AmbientBody& ambient, const FluidRegions& regions, double duration,
                    Complaints& complaints) noexcept;
 
-/// Makes the loads in all media that the body may meet, puts it into its own, and builds the model
-/// if it is dynamic at present, or else when it next is: until then, it has one of unit mass and
-/// inertia. What throws changes nothing.
+/// Makes the loads in all media that the body may meet, puts the body into its own medium, and
+/// builds the model. A body that is not dynamic at present gets buildUnitModel(). If this throws,
+/// nothing has changed.
 /// @throws std::invalid_argument as makeSurfaceLoads() and makeBodyModel().
 void refreshModel(AmbientBody& ambient, const FluidRegions& regions, LoadTables& tables);
 

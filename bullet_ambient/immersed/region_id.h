@@ -4,15 +4,14 @@
 
 AMBIENT_BEGIN
 
-/// Names a region of one Fluid. Numbered from 0 in the order in which they were added; none is
-/// given twice.
+/// Number of a region of one Fluid: from 0, in the order of addition; never used twice.
 enum class RegionId : int { kNone = -1 };
 
 /// Place of a body among the regions at the start of its last step.
 struct RegionPlace {
   RegionId region = RegionId::kNone;
-  bool is_above = false;       ///< the region's surface
-  bool is_at_surface = false;  ///< the surface cuts it, or is near
+  bool is_above = false;       ///< true: the body is above the region's surface
+  bool is_at_surface = false;  ///< true: the surface cuts the body or is near
 
   friend bool operator==(const RegionPlace& a, const RegionPlace& b) {
     return a.region == b.region && a.is_above == b.is_above && a.is_at_surface == b.is_at_surface;

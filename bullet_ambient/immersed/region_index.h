@@ -11,31 +11,33 @@
 
 AMBIENT_BEGIN
 
-/// Priority and number: of the regions that hold a point, the one of the highest rank counts.
+/// Priority and number of a region. Among regions that hold a point, the highest rank wins.
 using RegionRank = std::pair<int, int>;
 
-/// A region of a fluid.
+/// A region with its number.
 struct RegionEntry {
   RegionId id = RegionId::kNone;
   FluidRegion region;
-  std::size_t leaf = 0;  ///< where RegionIndex has it
+  std::size_t leaf = 0;  ///< place in RegionIndex
 
   RegionRank rank() const noexcept { return {region.priority, static_cast<int>(id)}; }
 };
 
-/// Finds the region that counts at a point. A forest of boxes in boxes, one binary tree for each
-/// digit 1 of the number of leaves, so that an added region rebuilds as many leaves as an increment
-/// carries digits. Knows regions by their addresses.
+/// Finds the region of highest rank at a point, by binary trees of bounding boxes. There is one
+/// tree for each binary digit 1 of the number of leaves: adding a region rebuilds only small trees,
+/// as adding 1 to a number changes only its last digits. Holds addresses of regions, which must not
+/// move.
 class RegionIndex {
  public:
-  /// Cost: O(log^2 n) in the mean over n additions.
+  /// Adds a region. Cost: O(log^2 n) on average over n additions.
   void add(RegionEntry& entry);
-  /// Cost: O(log n); in the mean as add(), for the leaf is left empty until half of all are.
+  /// Removes a region; its leaf stays empty until half of all leaves are. Cost: O(log n); on
+  /// average that of add().
   /// @pre the region was added and has the bounds and rank that it had then.
   void remove(const RegionEntry& entry);
 
-  /// Null: no region holds the point. Adds to `asked` how many boxes it was compared with, those of
-  /// regions and those around several. Cost: O(log n) where few regions overlap. Allocates nothing.
+  /// Finds the region of highest rank that holds the point; null: none. Adds the number of tested
+  /// boxes to `asked`. Cost: O(log n) where few regions overlap. Allocates nothing.
   const RegionEntry* find(const Vector3& point_W, long long& asked) const noexcept;
 
  private:

@@ -4,7 +4,7 @@
 
 AMBIENT_BEGIN
 
-/// Sum E of the errors of a body's steps, like those of a random walk that forgets:
+/// Accumulated error E of a body's steps, as of a random walk that forgets old steps:
 ///
 ///   E^2 <- (1 - 1/n) E^2 + e^2
 ///
@@ -12,11 +12,12 @@ AMBIENT_BEGIN
 ///   n  steps that count
 class StepErrors {
  public:
-  /// Above it the motion is wrong to the eye: a box in water that chatters at 1/60 s has 0.06 and
-  /// is 4 per cent off its way in 3 s; a winged seed has 0.036 and is off by 0.6 per cent.
+  /// Limit of E above which the motion is visibly wrong. A box in water that chatters at 1/60 s has
+  /// 0.06, and its path is off by 4 % after 3 s; a winged seed has 0.036 and is off by 0.6 %.
   static constexpr double kLargest = 0.05;
 
-  /// Adds a step. True for the first one by which the sum is too large.
+  /// Adds the error of a step. Returns true once: for the first step after which E exceeds
+  /// kLargest.
   bool add(double error) noexcept {
     squares_ += error * error - squares_ / kSteps;
     if (was_large_ || !(squares_ > kLargest * kLargest)) return false;

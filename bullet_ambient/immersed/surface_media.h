@@ -13,7 +13,7 @@
 
 AMBIENT_BEGIN
 
-/// Loads on the part of a body that is in the water, for the moment that it was last told of.
+/// Loads on the wet part of a body; setPart() says which part is wet at present.
 class LoadsAtSurface final : public SurfaceLoads {
  public:
   explicit LoadsAtSurface(std::shared_ptr<const SurfaceLoads> loads) : loads_(std::move(loads)) {}
@@ -28,25 +28,27 @@ class LoadsAtSurface final : public SurfaceLoads {
   WetPart part_;
 };
 
-/// A body between two fluids of a region.
+/// Model and loads of a body at the surface between two fluids.
 struct SurfaceMedia {
   SurfaceKind kind;
   SurfaceModel model;
-  std::shared_ptr<LoadsAtSurface> loads;  ///< this body's own; null: there are none
-  SurfaceStand stand;                     ///< the last one; see standAt()
-  bool has_stand = false;                 ///< of the model as it is
+  std::shared_ptr<LoadsAtSurface>
+      loads;               ///< loads of this body alone, not shared; null: there are none
+  SurfaceStand stand;      ///< last result of standAt()
+  bool has_stand = false;  ///< true: `stand` belongs to the present model
 };
 
 /// Encounter of a body with a surface in one step.
 struct SurfaceEncounter {
-  int media = -1;        ///< which of AmbientBody::surfaces; -1: the surface is far
-  SurfacePlane plane_W;  ///< at the start of the step
+  int media = -1;        ///< index into AmbientBody::surfaces; -1: no surface is near
+  SurfacePlane plane_W;  ///< surface at the start of the step
   Vector3 velocity_above = Vector3::Zero();
-  WaveMemory waves;                             ///< that the body has made
-  WaveMemory waves_with_rows;                   ///< after the step, if rows move the body
-  Vector6 twist_before_rows = Vector6::Zero();  ///< in B, relative to the water
-  /// In B, at the pose where the last flight or step with rows ended: not where Bullet has rounded
-  /// it to.
+  WaveMemory waves;            ///< waves that the body has made
+  WaveMemory waves_with_rows;  ///< waves after the step, if rows move the body
+  Vector6 twist_before_rows =
+      Vector6::Zero();  ///< velocity in B, relative to the water, that constraint rows start from
+  /// Plane of the surface in B at the exact pose where the last flight or step with rows ended,
+  /// before Bullet rounded it.
   std::optional<SurfacePlane> met_B;
 };
 

@@ -101,20 +101,6 @@ Vector3 settledVelocity(const std::vector<MotionSample>& samples) {
 
 }  // namespace
 
-std::string fallingModeName(FallingMode mode) {
-  switch (mode) {
-    case FallingMode::kSteady:
-      return "steady";
-    case FallingMode::kFlutter:
-      return "flutter";
-    case FallingMode::kTumbling:
-      return "tumbling";
-    case FallingMode::kMixed:
-      return "mixed";
-  }
-  return "";
-}
-
 Fall analyseFall(const std::vector<MotionSample>& samples, const Vector3& normal,
                  const Vector3& gravity) {
   AMBIENT_ASSERT(gravity.norm() > 0);

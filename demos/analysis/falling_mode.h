@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bullet_ambient/base/plain_text.h"
 #include "demos/analysis/motion_sample.h"
 
 namespace ambient {
@@ -15,8 +18,13 @@ enum class FallingMode {
   kMixed,     ///< swings and overturns; "chaotic" in the literature
 };
 
-/// "steady", "flutter", "tumbling" or "mixed".
-std::string fallingModeName(FallingMode mode);
+/// Names of the modes in summaries.
+constexpr std::array<std::pair<FallingMode, const char*>, 4> kFallingModeNames{
+    {{FallingMode::kSteady, "steady"},
+     {FallingMode::kFlutter, "flutter"},
+     {FallingMode::kTumbling, "tumbling"},
+     {FallingMode::kMixed, "mixed"}}};
+inline std::string fallingModeName(FallingMode mode) { return wordOf(kFallingModeNames, mode); }
 
 /// Smallest departure from broadside for which a swing counts [rad].
 constexpr double kLeastSwing = 0.17453292519943295;  // 10 degrees

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
@@ -17,5 +19,12 @@ struct MotionSample {
            twist.linear.allFinite();
   }
 };
+
+/// Appends a sample, with the sign of its quaternion that is nearer to the one before.
+inline void appendSample(std::vector<MotionSample>& motion, MotionSample sample) {
+  if (!motion.empty() && sample.orientation.dot(motion.back().orientation) < 0)
+    sample.orientation.coeffs() *= -1;
+  motion.push_back(sample);
+}
 
 }  // namespace ambient

@@ -16,12 +16,6 @@ int countPieces(const MotionSample& from, const MotionSample& to) {
   return std::max(1, static_cast<int>(std::ceil(spin * (to.time - from.time) / kLargestTurn)));
 }
 
-void append(std::vector<MotionSample>& keys, MotionSample key) {
-  if (!keys.empty() && key.orientation.dot(keys.back().orientation) < 0)
-    key.orientation.coeffs() *= -1;
-  keys.push_back(key);
-}
-
 }  // namespace
 
 std::vector<MotionSample> makeMotionKeys(const std::vector<MotionSample>& motion) {
@@ -31,9 +25,10 @@ std::vector<MotionSample> makeMotionKeys(const std::vector<MotionSample>& motion
     AMBIENT_ASSERT(from.time < to.time);
     const int pieces = countPieces(from, to);
     for (int k = 0; k < pieces; ++k)
-      append(keys, interpolateMotion(from, to, from.time + (to.time - from.time) * k / pieces));
+      appendSample(keys,
+                   interpolateMotion(from, to, from.time + (to.time - from.time) * k / pieces));
   }
-  if (!motion.empty()) append(keys, motion.back());
+  if (!motion.empty()) appendSample(keys, motion.back());
   return keys;
 }
 

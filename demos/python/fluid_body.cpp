@@ -18,7 +18,6 @@ namespace {
 
 namespace py = pybind11;
 using FluidBodyPtr = std::shared_ptr<FluidBody>;
-using NoGil = py::call_guard<py::gil_scoped_release>;
 
 /// Vertices (V, 3) and faces (F, 3) of a mesh object of several libraries, or of two arrays.
 std::pair<InputArray, py::array_t<std::int64_t>> meshArrays(const py::object& mesh,
@@ -65,9 +64,9 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
     if (word == "origin")
       settings.origin = vectorFrom(py::cast<InputArray>(value), word);
     else if (word == "panels")
-      settings.panels = value.cast<int>();
+      settings.flow.max_panels = value.cast<int>();
     else if (word == "threads")
-      settings.threads = value.cast<int>();
+      settings.flow.threads = value.cast<int>();
     else if (word == "waterline_table")
       settings.waterline_subdivisions = value.cast<int>();
     else if (word == "cache")
@@ -79,8 +78,14 @@ SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
   return settings;
 }
 
-/// Issues the warnings of a build as Python warnings; returns the fluid body.
-FluidBodyPtr withWarnings(BuiltBody built) {
+/// Builds while other threads of Python run; issues the warnings of the build as Python warnings.
+template <class Make>
+FluidBodyPtr build(const Make& make) {
+  BuiltBody built;
+  {
+    const py::gil_scoped_release others_run;
+    built = make();
+  }
   for (const std::string& warning : built.warnings)
     if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
   return std::make_shared<FluidBody>(std::move(built.body));
@@ -90,12 +95,7 @@ FluidBodyPtr fromMesh(const py::object& mesh, const py::object& faces, bool shee
                       const std::string& name, const py::kwargs& given) {
   const TriangleMesh triangles = meshFrom(mesh, faces);
   const SourceSettings settings = settingsFrom(name, given);
-  BuiltBody built;
-  {
-    const py::gil_scoped_release others_run;
-    built = buildFromMesh(triangles, sheet, settings);
-  }
-  return withWarnings(std::move(built));
+  return build([&] { return buildFromMesh(triangles, sheet, settings); });
 }
 
 FluidBodyPtr fromShape(const py::object& shape, const std::string& name, const py::object& folder,
@@ -103,12 +103,7 @@ FluidBodyPtr fromShape(const py::object& shape, const std::string& name, const p
   const std::string json = jsonFrom(shape);
   const std::filesystem::path where = pathFrom(folder);
   const SourceSettings settings = settingsFrom(name, given);
-  BuiltBody built;
-  {
-    const py::gil_scoped_release others_run;
-    built = buildFromShape(json, where, settings);
-  }
-  return withWarnings(std::move(built));
+  return build([&] { return buildFromShape(json, where, settings); });
 }
 
 FluidBodyPtr read(const py::object& path) {

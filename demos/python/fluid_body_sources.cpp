@@ -43,7 +43,7 @@ Provenance provenanceOf(const TriangleMesh& mesh, bool sheet, const SourceSettin
     text << settings.origin->x() << "," << settings.origin->y() << "," << settings.origin->z();
   else
     text << "centre-of-volume";
-  text << ", panels " << settings.panels;
+  text << ", panels " << settings.flow.max_panels;
   if (settings.waterline_subdivisions != 0)
     text << ", waterline " << settings.waterline_subdivisions;
   Provenance provenance;
@@ -59,13 +59,8 @@ Provenance provenanceOf(const TriangleMesh& mesh, bool sheet, const SourceSettin
 
 BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettings& settings) {
   BuildSettings build;
-  build.name = settings.name;
-  build.source = settings.name;
-  build.origin = settings.origin;
+  static_cast<CommonBuildSettings&>(build) = settings;
   build.flow.sheet = sheet;
-  build.flow.max_panels = settings.panels;
-  build.flow.threads = settings.threads;
-  build.waterline_subdivisions = settings.waterline_subdivisions;
   build.provenance = provenanceOf(mesh, sheet, settings);
   return buildOnce(settings, build.provenance, [&]() -> BuiltBody {
     CheckedMesh checked = checkMesh(mesh, settings.name, {sheet});
@@ -80,11 +75,7 @@ BuiltBody buildFromShape(const std::string& json, const fs::path& folder,
                          const SourceSettings& settings) {
   const ShapeDescription shape = readShape(parseJson(json, settings.name), folder, settings.name);
   ShapeBuildSettings build;
-  build.name = settings.name;
-  build.origin = settings.origin;
-  build.flow.max_panels = settings.panels;
-  build.flow.threads = settings.threads;
-  build.waterline_subdivisions = settings.waterline_subdivisions;
+  static_cast<CommonBuildSettings&>(build) = settings;
   if (std::holds_alternative<FluidBodyFile>(shape.geometry)) return buildShape(shape, build);
   return buildOnce(settings, describeShape(shape, build), [&] { return buildShape(shape, build); });
 }

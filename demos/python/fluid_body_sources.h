@@ -11,15 +11,9 @@
 
 namespace ambient {
 
-/// Settings of building a fluid body, and the folder in which fluid bodies are kept.
-struct SourceSettings {
-  std::string name;
-  std::optional<Eigen::Vector3d>
-      origin;  ///< origin of F in the mesh's frame [m]; none: centre of volume
-  int panels = kDefaultPanels;
-  int threads = 0;
-  int waterline_subdivisions = 0;  ///< see BuildSettings
-  std::filesystem::path cache;     ///< folder of .ambient files; empty: no cache
+/// Settings for building a fluid body in Python.
+struct SourceSettings : CommonBuildSettings {
+  std::filesystem::path cache;  ///< folder of .ambient files; empty: no cache
 };
 
 /// Builds a fluid body of a mesh in memory; `sheet`: the mesh is a sheet of zero thickness.

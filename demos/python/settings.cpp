@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "demos/python/bindings.h"
@@ -10,19 +11,14 @@ namespace ambient {
 // Outside the anonymous namespace: templates of record.h find these overloads by their argument.
 
 static pybind11::object toPython(const PressureLaw& law) {
-  for (const auto& [value, name] : kPressureLawNames)
-    if (value == law) return pybind11::str(name);
-  return pybind11::none();
+  return pybind11::str(wordOf(kPressureLawNames, law));
 }
 
 static void fromPython(pybind11::handle from, PressureLaw& to) {
   const auto word = from.cast<std::string>();
-  for (const auto& [value, name] : kPressureLawNames) {
-    if (word != name) continue;
-    to = value;
-    return;
-  }
-  throw std::invalid_argument("law is \"" + word + "\"; must be form or published");
+  const auto law = valueOf(kPressureLawNames, word);
+  if (!law) throw std::invalid_argument("law is \"" + word + "\"; must be form or published");
+  to = *law;
 }
 
 void bindSettings(pybind11::module_& module) {

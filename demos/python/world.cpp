@@ -83,14 +83,9 @@ py::dict robotsOf(const std::shared_ptr<PythonWorld>& world) {
 }
 
 py::dict workOf(const PythonBody& body) {
-  const FlightWork work = body.world->simulation().work(body.index);
+  const AmbientCounters work = body.world->simulation().work(body.index);
   py::dict counts;
-  counts["substeps"] = work.substeps;
-  counts["load_evaluations"] = work.load_evaluations;
-  counts["guarded"] = work.guarded;
-  counts["coarse"] = work.coarse;
-  counts["too_long"] = work.too_long;
-  counts["halted"] = work.halted;
+  for (const auto& [name, count] : kWorkCounts) counts[name] = work.*count;
   counts["energy_removed"] = work.energy_removed;
   return counts;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/force/medium/airy_waves.h"
@@ -28,9 +30,13 @@ enum class FluidModel {
   kGwtf,     ///< WindwardFlux, a stand-in for Soliman et al. 2024
 };
 
-/// Words of scene files.
-std::string modelName(FluidModel model);
-std::string integratorName(Integrator integrator);
+/// Words of scene files; integrators and laws have kIntegratorNames and kPressureLawNames.
+constexpr std::array<std::pair<FluidModel, const char*>, 5> kFluidModelNames{
+    {{FluidModel::kAmbient, "ambient"},
+     {FluidModel::kIdeal, "ideal"},
+     {FluidModel::kVacuum, "vacuum"},
+     {FluidModel::kUwrbd, "uwrbd"},
+     {FluidModel::kGwtf, "gwtf"}}};
 
 enum class MassKind { kUniform, kSurface };
 

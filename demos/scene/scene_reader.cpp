@@ -1,12 +1,12 @@
 #include "demos/scene/scene_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "bullet_ambient/base/pi.h"
+#include "demos/scene/json_values.h"
 #include "demos/scene/scene_checks.h"
 #include "demos/scene/scene_robots.h"
 #include "demos/scene/scene_schema.h"
@@ -19,15 +19,6 @@ namespace {
 
 using nlohmann::json;
 
-Vector3 toVector(const json& v) {
-  return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
-}
-
-Vector3 vectorOr(const json& parent, const char* key, const Vector3& absent) {
-  const auto found = parent.find(key);
-  return found == parent.end() ? absent : toVector(*found);
-}
-
 /// Symmetric matrix of the array xx, yy, zz, xy, xz, yz.
 Matrix3 toInertia(const json& v) {
   Matrix3 inertia;
@@ -35,32 +26,11 @@ Matrix3 toInertia(const json& v) {
   return inertia;
 }
 
-// Words of the schema.
-constexpr std::array<std::pair<FluidModel, const char*>, 5> kModels{
-    {{FluidModel::kAmbient, "ambient"},
-     {FluidModel::kIdeal, "ideal"},
-     {FluidModel::kVacuum, "vacuum"},
-     {FluidModel::kUwrbd, "uwrbd"},
-     {FluidModel::kGwtf, "gwtf"}}};
-
-/// Value of a word. @pre the schema has accepted the word
-template <class Words>
-auto valueOf(const std::string& word, const Words& words) {
-  const auto names_it = [&](const auto& entry) { return word == entry.second; };
-  return std::find_if(words.begin(), words.end(), names_it)->first;
-}
-
-template <class Value, class Words>
-std::string wordOf(Value value, const Words& words) {
-  const auto has_it = [&](const auto& entry) { return value == entry.first; };
-  return std::find_if(words.begin(), words.end(), has_it)->second;
-}
-
 FlightSettings toFlightSettings(const json& scene) {
   FlightSettings settings;
   const auto found = scene.find("integrator");
   if (found == scene.end()) return settings;
-  settings.integrator = valueOf(found->value("method", "leapfrog"), kIntegratorNames);
+  settings.integrator = valueOf(kIntegratorNames, found->value("method", "leapfrog")).value();
   settings.tolerance = found->value("tolerance", settings.tolerance);
   settings.max_substeps = found->value("max_substeps", settings.max_substeps);
   return settings;
@@ -76,11 +46,7 @@ void readMassProperties(const json& from, BodyDef& body) {
 
 void readMotion(const json& from, BodyDef& body) {
   body.position = vectorOr(from, "position", Vector3::Zero());
-  if (from.contains("orientation")) {
-    const json& q = from.at("orientation");
-    body.orientation =
-        Quaternion(q[0].get<double>(), q[1].get<double>(), q[2].get<double>(), q[3].get<double>());
-  }
+  body.orientation = orientationIn(from);
   body.linear_velocity = vectorOr(from, "linear_velocity", Vector3::Zero());
   body.angular_velocity = vectorOr(from, "angular_velocity", Vector3::Zero());
 }
@@ -89,7 +55,7 @@ BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path
   const std::size_t index = scene.bodies.size();
   BodyDef body;
   FlowSettings& flow = body.attach.flow;
-  flow.law = scene.law;
+  flow.law = lawOr(from, scene.law);
   body.name = from.value("name", "body_" + std::to_string(index));
   body.shape = readShape(from.at("shape"), file.parent_path(),
                          file.string() + ": bodies[" + std::to_string(index) + "].shape");
@@ -97,7 +63,6 @@ BodyDef toBody(const json& from, const Scene& scene, const std::filesystem::path
   readMassProperties(from, body);
   readMotion(from, body);
   flow.separation_angle = from.value("separation_angle", kPi / 2);
-  if (from.contains("law")) flow.law = valueOf(from.at("law"), kPressureLawNames);
   flow.stall_lag = from.value("stall_lag", flow.stall_lag);
   flow.skin_friction = from.value("skin_friction", true);
   flow.maximum_load_error = from.value("maximum_load_error", flow.maximum_load_error);
@@ -131,11 +96,11 @@ Scene toScene(const json& from, const std::filesystem::path& file) {
   if (from.contains("water")) scene.water = toWater(from.at("water"), scene.gravity);
   if (from.contains("regions"))
     for (const json& region : from.at("regions")) scene.regions.push_back(toRegion(region));
-  scene.model = valueOf(from.value("model", "ambient"), kModels);
+  scene.model = valueOf(kFluidModelNames, from.value("model", "ambient")).value();
   scene.linear_drag_speed = from.value("linear_drag_speed", scene.linear_drag_speed);
   scene.flight = toFlightSettings(from);
   scene.threads = from.value("threads", 0);
-  if (from.contains("law")) scene.law = valueOf(from.at("law"), kPressureLawNames);
+  scene.law = lawOr(from, scene.law);
   if (from.contains("bodies"))
     for (const json& body : from.at("bodies")) scene.bodies.push_back(toBody(body, scene, file));
   if (from.contains("robots"))
@@ -156,10 +121,6 @@ void removeRounding(Scene& scene) {
 }
 
 }  // namespace
-
-std::string modelName(FluidModel model) { return wordOf(model, kModels); }
-
-std::string integratorName(Integrator integrator) { return wordOf(integrator, kIntegratorNames); }
 
 Scene readScene(const std::filesystem::path& file, const std::vector<SceneOverride>& overrides) {
   return parseScene(readBytes(file), file, overrides);

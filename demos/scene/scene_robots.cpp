@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "demos/scene/json_values.h"
 #include "demos/scene/scene_checks.h"
 #include "demos/scene/scene_water.h"
 #include "preprocess/mesh/input_error.h"
@@ -48,17 +49,6 @@ RobotModel readModel(const json& from, const std::filesystem::path& scene_file) 
   return model;
 }
 
-void readPlacement(const json& from, RobotDef& robot) {
-  if (from.contains("position")) {
-    const auto p = from.at("position").get<std::vector<double>>();
-    robot.position = Vector3(p[0], p[1], p[2]);
-  }
-  if (from.contains("orientation")) {
-    const auto q = from.at("orientation").get<std::vector<double>>();
-    robot.orientation = Quaternion(q[0], q[1], q[2], q[3]);
-  }
-}
-
 /// Medium named by <ambient medium=.../>; none: that of the robot.
 std::optional<Medium> namedMedium(const std::string& name) {
   if (name == "water") return water();
@@ -67,9 +57,7 @@ std::optional<Medium> namedMedium(const std::string& name) {
 }
 
 void readFlow(const json& from, PressureLaw law, FlowSettings& flow) {
-  flow.law = law;
-  for (const auto& [named, word] : kPressureLawNames)
-    if (from.value("law", "") == word) flow.law = named;
+  flow.law = lawOr(from, law);
   flow.separation_angle = from.value("separation_angle", flow.separation_angle);
   flow.skin_friction = from.value("skin_friction", flow.skin_friction);
 }
@@ -151,7 +139,8 @@ void addRobot(const json& from, Scene& scene) {
   RobotDef robot;
   robot.name = from.value("name", "robot_" + std::to_string(index));
   robot.model = std::make_shared<const RobotModel>(readModel(from, scene.file));
-  readPlacement(from, robot);
+  robot.position = vectorOr(from, "position", robot.position);
+  robot.orientation = orientationIn(from);
   const double norm = robot.orientation.norm();
   if (!(std::abs(norm - 1) <= kQuaternionTolerance))
     raiseInputError(place + "orientation", "has norm ", norm, "; must be 1 within ",

@@ -7,17 +7,12 @@
 #include <string>
 
 #include "bullet_ambient/force/medium/wave_spectrum.h"
+#include "demos/scene/json_values.h"
 
 namespace ambient {
 namespace {
 
 using nlohmann::json;
-
-Vector3 vectorAt(const json& parent, const char* key, const Vector3& absent) {
-  const auto found = parent.find(key);
-  if (found == parent.end()) return absent;
-  return {found->at(0).get<double>(), found->at(1).get<double>(), found->at(2).get<double>()};
-}
 
 /// Reads a corner [m]; a coordinate that is null becomes `open`.
 Vector3 cornerAt(const json& bounds, const char* key, double open) {
@@ -42,7 +37,7 @@ WaveComponent toWave(const json& from) {
   WaveComponent wave;
   wave.amplitude = from.at("amplitude").get<double>();
   wave.period = from.at("period").get<double>();
-  wave.direction = vectorAt(from, "direction", wave.direction);
+  wave.direction = vectorOr(from, "direction", wave.direction);
   wave.phase = from.value("phase", wave.phase);
   return wave;
 }
@@ -52,7 +47,7 @@ WaveSpectrum toSpectrum(const json& from) {
   spectrum.significant_height = from.at("significant_height").get<double>();
   spectrum.peak_period = from.at("peak_period").get<double>();
   spectrum.peak_enhancement = from.value("peak_enhancement", spectrum.peak_enhancement);
-  spectrum.direction = vectorAt(from, "direction", spectrum.direction);
+  spectrum.direction = vectorOr(from, "direction", spectrum.direction);
   spectrum.components = from.value("components", spectrum.components);
   spectrum.seed = from.value("seed", spectrum.seed);
   return spectrum;
@@ -98,8 +93,8 @@ Medium toMedium(const json& from, const Medium& absent) {
   Medium medium;
   medium.density = from.value("density", absent.density);
   medium.viscosity = from.value("viscosity", absent.viscosity);
-  medium.velocity = vectorAt(from, "velocity", absent.velocity);
-  medium.acceleration = vectorAt(from, "acceleration", absent.acceleration);
+  medium.velocity = vectorOr(from, "velocity", absent.velocity);
+  medium.acceleration = vectorOr(from, "acceleration", absent.acceleration);
   return medium;
 }
 
@@ -109,7 +104,7 @@ WaterDef toWater(const json& from, const Vector3& gravity) {
   def.sea.level = from.at("level").get<double>();
   def.sea.up = -gravity;
   def.sea.gravity = gravity.norm();
-  def.sea.current = vectorAt(from, "current", def.sea.current);
+  def.sea.current = vectorOr(from, "current", def.sea.current);
   def.waves = toWaves(from);
   def.bounds = toBounds(from);
   return def;

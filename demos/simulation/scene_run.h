@@ -19,7 +19,7 @@ struct RunRecord {
   double wall_seconds = 0;                        ///< wall-clock time of all steps [s]
   std::vector<std::vector<MotionSample>> motion;  ///< [body][output time]
   std::vector<std::vector<std::string>> log;      ///< fluidLogRow() likewise; empty: not asked for
-  std::vector<FlightWork> work;                   ///< one entry per body
+  std::vector<AmbientCounters> work;              ///< one entry per body
   std::string warning;                            ///< last report of the library; empty: none
 };
 

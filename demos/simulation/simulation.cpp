@@ -1,14 +1,43 @@
 #include "demos/simulation/simulation.h"
 
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include <algorithm>
 #include <cstring>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/state/world_state.h"
-#include "demos/simulation/simulation_world.h"
+#include "demos/rivals/rival_laws.h"
+#include "demos/scene/scene_water.h"
+#include "demos/simulation/joint.h"
+#include "preprocess/mesh/input_error.h"
 
 namespace ambient {
 namespace {
+
+/// Load law of the scene's model; empty: this library's own.
+LoadLaw loadLawOf(const Scene& scene) {
+  if (scene.model == FluidModel::kIdeal)
+    return [](const auto&, const auto&) { return std::shared_ptr<const SurfaceLoads>(); };
+  if (scene.model == FluidModel::kUwrbd) return linearDrag(scene.linear_drag_speed);
+  if (scene.model == FluidModel::kGwtf) return windwardFlux();
+  return nullptr;
+}
+
+AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBody& prepared,
+                        const Matrix3& R_SB, const LoadLaw& own_law) {
+  AttachDef attach = def.attach;
+  attach.fluid_body = prepared.fluid_body;
+  attach.flow.own_law = own_law;
+  attach.flight = scene.flight;
+  attach.fluid_frame.rotation = R_SB.transpose();
+  attach.fluid_frame.translation =
+      R_SB.transpose() * (prepared.fluid_origin - prepared.centre_of_mass);
+  return attach;
+}
 
 /// Sets the law of all bodies: the bytes of a state cannot hold a function.
 void setLaw(WorldState& state, const LoadLaw& law) {
@@ -18,91 +47,205 @@ void setLaw(WorldState& state, const LoadLaw& law) {
     for (LinkFluidState& fluid : body.fluids) fluid.ambient.def.flow.own_law = law;
 }
 
-}  // namespace
-
-Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& bodies,
-                       bool takes_robots)
-    : world_(std::make_unique<SimulationWorld>(scene, bodies, takes_robots)) {}
-
-Simulation::~Simulation() = default;
-
-bool Simulation::takesRobots() const { return world_->bullet.multi_body_world != nullptr; }
-
-void Simulation::addRobots(const Scene& scene, const std::vector<PreparedBody>& bodies) {
-  world_->addRobots(scene, bodies);
+[[noreturn]] void throwNotFinite(const std::string& scene, const std::string& body, double time) {
+  std::ostringstream text;
+  text << scene << ": body \"" << body << "\": its state is not finite at t = " << time
+       << " s; a smaller time_step may help";
+  throw std::runtime_error(text.str());
 }
 
-SceneRobot& Simulation::robot(std::size_t index) const { return *world_->robots.at(index); }
+}  // namespace
 
-void Simulation::step() { world_->step(); }
+Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prepared,
+                       bool takes_robots)
+    : bullet_(makeBulletWorld(takes_robots || !scene.robots.empty(), dispatcher_, broadphase_,
+                              configuration_)),
+      fluid_(*bullet_.world),
+      own_law_(loadLawOf(scene)),
+      time_step_(scene.time_step),
+      file_(scene.file.string()) {
+  fluid_.setReport([this](const std::string& sentence) { warning_ = sentence; });
+  bullet_.world->setGravity(toBullet(scene.gravity));
+  for (FluidRegion& region : makeRegions(scene)) fluid_.addRegion(std::move(region));
+  addRobots(scene, prepared);
+  for (const JointDef& joint : scene.joints) add(joint);
+}
 
-double Simulation::time() const { return world_->time(); }
+Simulation::~Simulation() {
+  for (const auto& joint : joints_) bullet_.world->removeConstraint(joint.get());
+  fluid_.clear();
+  for (const WorldBody& body : bodies_)
+    if (body.body) bullet_.world->removeRigidBody(body.body.get());
+  robots_.clear();
+}
+
+void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared) {
+  if (def.link) {
+    bodies_.push_back(makeWorldLink(def, prepared, robots_[def.link->robot]->robot()));
+  } else {
+    bodies_.push_back(makeWorldBody(def, prepared));
+    bullet_.world->addRigidBody(bodies_.back().body.get());
+  }
+  WorldBody& added = bodies_.back();
+  if (scene.model == FluidModel::kVacuum || prepared.mass == 0 || !prepared.fluid_body) return;
+  try {
+    const AttachDef attach = makeAttachDef(scene, def, prepared, added.R_SB, own_law_);
+    added.immersed = added.link ? fluid_.add(multiBodyOf(added), added.linkNumber(), attach)
+                                : fluid_.add(*added.body, attach);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(inputMessage(file_, "body \"", def.name, "\": ", error.what()));
+  }
+}
+
+void Simulation::add(const RobotDef& def) {
+  robots_.push_back(std::make_unique<SceneRobot>(def));
+  robots_.back()->robot().addTo(*bullet_.multi_body_world);
+}
+
+void Simulation::add(const JointDef& def) {
+  btRigidBody* second = def.bodies.size() > 1 ? &find(def.bodies[1]) : nullptr;
+  try {
+    joints_.push_back(makeJoint(def, find(def.bodies[0]), second));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(inputMessage(file_, error.what()));
+  }
+  constexpr bool kWithoutCollisions = true;
+  bullet_.world->addConstraint(joints_.back().get(), kWithoutCollisions);
+}
+
+bool Simulation::takesRobots() const { return bullet_.multi_body_world != nullptr; }
+
+// Links are the last bodies of a scene.
+void Simulation::addRobots(const Scene& scene, const std::vector<PreparedBody>& prepared) {
+  const std::size_t had = robots_.size();
+  for (std::size_t i = had; i < scene.robots.size(); ++i) add(scene.robots[i]);
+  // Adds all motors to the world now: restoring a saved state requires the same constraints.
+  for (std::size_t i = had; i < robots_.size(); ++i) robots_[i]->prepareStep(time(), time_step_);
+  for (std::size_t i = bodies_.size(); i < prepared.size(); ++i)
+    add(scene, scene.bodies[i], prepared[i]);
+}
+
+void Simulation::step() {
+  for (const auto& robot : robots_) robot->prepareStep(time(), time_step_);
+  // 0 substeps: Bullet makes exactly one step of this length.
+  bullet_.world->stepSimulation(static_cast<btScalar>(time_step_), 0);
+  ++steps_;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (work(i).rejected > 0 || !sample(bodies_[i]).isFinite())
+      throwNotFinite(file_, bodies_[i].name, time());
+}
+
+btMultiBody& Simulation::multiBodyOf(const WorldBody& link) const {
+  return robots_[link.link->robot]->robot().multiBody();
+}
+
+btRigidBody& Simulation::find(const std::string& name) const {
+  const auto found = std::find_if(bodies_.begin(), bodies_.end(),
+                                  [&](const WorldBody& body) { return body.name == name; });
+  return *found->body;
+}
+
+std::shared_ptr<const FluidBody> Simulation::findFluidBody(const std::string& name) const {
+  const auto found = std::find_if(bodies_.begin(), bodies_.end(), [&](const WorldBody& body) {
+    return body.fluid_body && body.fluid_body->name == name;
+  });
+  return found == bodies_.end() ? nullptr : found->fluid_body;
+}
+
+MotionSample Simulation::sample(const WorldBody& of) const {
+  if (steps_ == 0) return of.start;
+  MotionSample now;
+  if (of.link) {
+    now = robots_[of.link->robot]->sample(of.link->link);
+  } else {
+    const btTransform& pose = of.body->getWorldTransform();
+    now.position = toVector3(pose.getOrigin());
+    now.orientation = toQuaternion(pose.getRotation()) * Quaternion(Matrix3(of.R_SB.transpose()));
+    now.twist = {toVector3(of.body->getAngularVelocity()), toVector3(of.body->getLinearVelocity())};
+  }
+  now.time = time();
+  return now;
+}
 
 std::vector<MotionSample> Simulation::sample() const {
   std::vector<MotionSample> samples;
-  for (const WorldBody& body : world_->bodies) samples.push_back(world_->sample(body));
+  for (const WorldBody& body : bodies_) samples.push_back(sample(body));
   return samples;
 }
 
+AmbientCounters Simulation::work(std::size_t body) const {
+  const auto& immersed = bodies_.at(body).immersed;
+  return immersed ? immersed->counters() : AmbientCounters{};
+}
+
+void Simulation::readWrench(std::size_t body, bool is_read) {
+  if (const auto& immersed = bodies_.at(body).immersed) immersed->readWrench(is_read);
+}
+
+FluidWrench Simulation::wrench(std::size_t body) const {
+  const auto& immersed = bodies_.at(body).immersed;
+  return immersed ? immersed->wrench() : FluidWrench{};
+}
+
+WetState Simulation::wet(std::size_t body) const {
+  const auto& immersed = bodies_.at(body).immersed;
+  return immersed ? immersed->wet() : WetState{};
+}
+
+void Simulation::apply(const WorldBody& to, const Wrench& wrench) {
+  const btVector3 force = toBullet(wrench.force), torque = toBullet(wrench.torque);
+  if (!to.link) {
+    to.body->applyCentralForce(force);
+    to.body->applyTorque(torque);
+    return;
+  }
+  btMultiBody& body = multiBodyOf(to);
+  const int number = to.linkNumber();
+  if (number < 0) {
+    body.addBaseForce(force);
+    body.addBaseTorque(torque);
+  } else {
+    body.addLinkForce(number, force);
+    body.addLinkTorque(number, torque);
+  }
+}
+
 void Simulation::applyForce(std::size_t body, const Vector3& force, const Vector3& point) {
-  const WorldBody& of = world_->bodies.at(body);
-  const Vector3 arm = point - world_->sample(of).position;
-  world_->apply(of, {arm.cross(force), force});
+  const WorldBody& of = bodies_.at(body);
+  apply(of, Wrench::ofForceAt(force, point - sample(of).position));
 }
 
 void Simulation::applyTorque(std::size_t body, const Vector3& torque) {
-  world_->apply(world_->bodies.at(body), {torque, Vector3::Zero()});
+  apply(bodies_.at(body), {torque, Vector3::Zero()});
 }
 
 void Simulation::setMedium(std::size_t body, const Medium& medium) {
-  const WorldBody& of = world_->bodies.at(body);
+  const WorldBody& of = bodies_.at(body);
   try {
-    world_->setMedium(of, medium);
+    if (!of.immersed) throw std::invalid_argument("it is in no fluid");
+    of.immersed->setMedium(medium);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("body \"" + of.name + "\": " + error.what());
   }
 }
 
-void Simulation::readWrench(std::size_t body, bool is_read) {
-  if (const auto& immersed = world_->bodies.at(body).immersed) immersed->readWrench(is_read);
-}
-
-FluidWrench Simulation::wrench(std::size_t body) const {
-  const auto& immersed = world_->bodies.at(body).immersed;
-  return immersed ? immersed->wrench() : FluidWrench{};
-}
-
-WetState Simulation::wet(std::size_t body) const {
-  const auto& immersed = world_->bodies.at(body).immersed;
-  return immersed ? immersed->wet() : WetState{};
-}
-
 std::string Simulation::saveState() const {
-  std::string bytes(sizeof world_->steps, '\0');
-  std::memcpy(bytes.data(), &world_->steps, sizeof world_->steps);
-  return bytes + encodeState(world_->fluid.save());
+  std::string bytes(sizeof steps_, '\0');
+  std::memcpy(bytes.data(), &steps_, sizeof steps_);
+  return bytes + encodeState(fluid_.save());
 }
 
 void Simulation::restoreState(std::string_view bytes) {
-  SimulationWorld& w = *world_;
   const std::string source = "saved state";
-  if (bytes.size() < sizeof w.steps) throw std::runtime_error(source + ": is cut short");
+  if (bytes.size() < sizeof steps_) throw std::runtime_error(source + ": is cut short");
   long long steps = 0;
   std::memcpy(&steps, bytes.data(), sizeof steps);
   if (steps < 0) throw std::runtime_error(source + ": is damaged: its steps are below 0");
-  const auto lookup = [&w](const std::string& name) { return w.findFluidBody(name); };
+  const auto lookup = [this](const std::string& name) { return findFluidBody(name); };
   WorldState state = decodeState(bytes.substr(sizeof steps), source, lookup);
-  setLaw(state, w.own_law);
-  w.fluid.restore(state);
-  w.steps = steps;
-}
-
-const std::string& Simulation::warning() const { return world_->report; }
-
-FlightWork Simulation::work(std::size_t body) const {
-  const AmbientCounters counters = world_->counters(world_->bodies.at(body));
-  return {counters.substeps, counters.load_evaluations, counters.guarded,       counters.coarse,
-          counters.too_long, counters.halted,           counters.energy_removed};
+  setLaw(state, own_law_);
+  fluid_.restore(state);
+  steps_ = steps;
 }
 
 }  // namespace ambient

@@ -1,32 +1,34 @@
 #pragma once
 
+#include <btBulletDynamicsCommon.h>
+
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/bullet/reading/fluid_wrench.h"
 #include "bullet_ambient/bullet/reading/wet_state.h"
+#include "bullet_ambient/bullet/world/fluid.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
+#include "demos/simulation/scene_robot.h"
+#include "demos/simulation/world_body.h"
 
 namespace ambient {
 
-class SceneRobot;
-class SimulationWorld;
-
-/// Work done for one body by the fluid; zero for bodies without fluid.
-struct FlightWork {
-  long long substeps = 0;
-  long long load_evaluations = 0;
-  long long guarded = 0;  ///< evaluations in which the passivity guard acted
-  long long coarse = 0;   ///< steps that stayed above the integrator's tolerance
-  /// 1 if the errors of the steps add up: the time step is too long for the motion.
-  long long too_long = 0;
-  long long halted = 0;       ///< steps at a water surface that ended early, docs/theory.md (64)
-  double energy_removed = 0;  ///< energy removed by bounds on the energy of steps [J]
-};
+/// Counts of Simulation::work() that summaries and Python show, by their names there;
+/// AmbientCounters::energy_removed follows them.
+constexpr std::array<std::pair<const char*, long long AmbientCounters::*>, 6> kWorkCounts{
+    {{"substeps", &AmbientCounters::substeps},
+     {"load_evaluations", &AmbientCounters::load_evaluations},
+     {"guarded", &AmbientCounters::guarded},
+     {"coarse", &AmbientCounters::coarse},
+     {"too_long", &AmbientCounters::too_long},
+     {"halted", &AmbientCounters::halted}}};
 
 /// Bullet world with the bodies of a scene in their fluid.
 class Simulation {
@@ -45,19 +47,20 @@ class Simulation {
   /// of prepareBodies() for `scene`. @pre takesRobots(), and the rest of the scene is the same
   void addRobots(const Scene& scene, const std::vector<PreparedBody>& bodies);
   /// A robot, in the order of the scene.
-  SceneRobot& robot(std::size_t index) const;
+  SceneRobot& robot(std::size_t index) const { return *robots_.at(index); }
 
   /// Makes one step of scene.time_step.
   /// @throws std::runtime_error naming the scene's file, body and time if a state is not finite.
   void step();
 
   /// Number of steps made so far times scene.time_step [s].
-  double time() const;
+  double time() const { return static_cast<double>(steps_) * time_step_; }
 
   /// Present motion of all bodies, in the order of the scene.
   std::vector<MotionSample> sample() const;
 
-  FlightWork work(std::size_t body) const;
+  /// Work done for one body by the fluid; zero for a body without fluid.
+  AmbientCounters work(std::size_t body) const;
 
   /// Whether the wrench of the fluid on a body is kept, as Immersed::readWrench(). Without effect
   /// on a body without fluid.
@@ -87,10 +90,32 @@ class Simulation {
   void restoreState(std::string_view bytes);
 
   /// Last report of the library, one sentence; empty: none.
-  const std::string& warning() const;
+  const std::string& warning() const { return warning_; }
 
  private:
-  std::unique_ptr<SimulationWorld> world_;
+  void add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared);
+  void add(const RobotDef& def);
+  void add(const JointDef& def);
+  btRigidBody& find(const std::string& name) const;
+  btMultiBody& multiBodyOf(const WorldBody& link) const;
+  std::shared_ptr<const FluidBody> findFluidBody(const std::string& name) const;
+  MotionSample sample(const WorldBody& of) const;
+  /// Applies a wrench during the next step: about the centre of mass, axes of W.
+  void apply(const WorldBody& to, const Wrench& wrench);
+
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  BulletWorld bullet_;
+  Fluid fluid_;
+  std::vector<WorldBody> bodies_;
+  std::vector<std::unique_ptr<SceneRobot>> robots_;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+  LoadLaw own_law_;  ///< law of all bodies; empty: this library's law
+  double time_step_;
+  std::string file_;  ///< file of the scene; begins every message
+  std::string warning_;
+  long long steps_ = 0;
 };
 
 }  // namespace ambient

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "demos/analysis/falling_mode.h"
 #include "demos/analysis/path_summary.h"
@@ -63,14 +64,11 @@ json toJson(const PathSummary& path) {
   return text;
 }
 
-json toJson(const FlightWork& work) {
-  return {{"substeps", work.substeps},
-          {"load_evaluations", work.load_evaluations},
-          {"guarded", work.guarded},
-          {"coarse", work.coarse},
-          {"too_long", work.too_long},
-          {"halted", work.halted},
-          {"energy_removed", work.energy_removed}};
+json toJson(const AmbientCounters& work) {
+  json text;
+  for (const auto& [name, count] : kWorkCounts) text[name] = work.*count;
+  text["energy_removed"] = work.energy_removed;
+  return text;
 }
 
 json toJson(const FluidBody& body) {
@@ -85,12 +83,12 @@ std::string makeSummary(const Scene& scene, const std::vector<PreparedBody>& bod
                         const RunRecord& record) {
   json summary = {{"scene", scene.name},
                   {"description", scene.description},
-                  {"model", modelName(scene.model)},
+                  {"model", wordOf(kFluidModelNames, scene.model)},
                   {"steps", record.steps},
                   {"time_step", scene.time_step},
                   {"duration", scene.duration},
                   {"output_step", scene.output_step},
-                  {"integrator", integratorName(scene.flight.integrator)},
+                  {"integrator", wordOf(kIntegratorNames, scene.flight.integrator)},
                   {"gravity", toJson(scene.gravity)},
                   {"wall_seconds_simulation", record.wall_seconds},
                   {"bodies", json::array()}};

@@ -1,6 +1,5 @@
 #include "demos/sweep/case_file.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -93,9 +92,7 @@ std::string keyOf(const Scene& scene) {
     const fs::path file = fileOf(body.shape);
     if (!file.empty()) content += "\n" + std::to_string(fnv1a64(readBytes(file)));
   }
-  char key[17];
-  std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(fnv1a64(content)));
-  return key;
+  return hashText(fnv1a64(content));
 }
 
 }  // namespace ambient

@@ -64,12 +64,6 @@ void removePartialFiles(const fs::path& folder) {
     if (entry.path().extension() == ".partial") fs::remove(entry.path());
 }
 
-void writeFile(const fs::path& file, const std::string& text) {
-  OutputFile output(file);
-  output.write(text);
-  output.commit();
-}
-
 void writeResult(const SweepRun& run, const CaseSettings& settings, const std::string& key) {
   const fs::path folder = settings.out / key;
   OutputFolder made(folder);

@@ -1,9 +1,10 @@
 #include "demos/sweep/result_table.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "demos/simulation/output/digits.h"
 
 namespace ambient {
 namespace {
@@ -71,10 +72,7 @@ std::string cellText(const TableCell& cell) {
     return quoted + "\"";
   }
   const double value = std::get<double>(cell);
-  if (std::isnan(value)) return "nan";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
+  return std::isnan(value) ? "nan" : digits17(value);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include "demos/sweep/sweep.h"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <system_error>
 #include <thread>
+
+#include "bullet_ambient/base/parallel_for.h"
 
 namespace ambient {
 namespace {
@@ -19,52 +20,44 @@ class RunningSweep {
         settings_(settings),
         fluid_bodies_(settings.fluid_bodies, settings.threads) {}
 
-  /// Starts the threads, calls watch() and joins the threads. Without threads does the work itself.
+  /// Runs all scenes while this thread calls watch(). Without another thread runs them first.
   SweepFailures run() {
-    std::vector<std::thread> threads = startThreads();
+    const auto run_all = [this] {
+      parallelFor(threadCount(settings_.threads), count(),
+                  [this](std::ptrdiff_t i) { tryOne(static_cast<int>(i)); });
+    };
+    std::thread worker;
     try {
-      if (threads.empty()) work();
+      worker = std::thread(run_all);
+    } catch (const std::system_error&) {
+      run_all();
+    }
+    try {
       watch();
     } catch (...) {
       is_stopped_ = true;
-      for (std::thread& thread : threads) thread.join();
+      if (worker.joinable()) worker.join();
       throw;
     }
-    for (std::thread& thread : threads) thread.join();
+    if (worker.joinable()) worker.join();
     return std::move(failures_);
   }
 
  private:
   int count() const { return static_cast<int>(scenes_.size()); }
 
-  int threadCount() const {
-    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    return std::min(settings_.threads > 0 ? settings_.threads : cores, count());
-  }
-
-  /// Starts the threads; fewer if the system refuses more.
-  std::vector<std::thread> startThreads() {
-    std::vector<std::thread> threads;
+  void tryOne(int i) noexcept {
+    if (is_stopped_) return;
+    std::string failure;
     try {
-      for (int i = 0; i < threadCount(); ++i) threads.emplace_back([this] { work(); });
-    } catch (const std::system_error&) {
+      runOne(i);
+    } catch (const std::exception& error) {
+      failure = error.what();
     }
-    return threads;
-  }
-
-  void work() noexcept {
-    for (int i = next_++; i < count() && !is_stopped_; i = next_++) {
-      std::string failure;
-      try {
-        runOne(i);
-      } catch (const std::exception& error) {
-        failure = error.what();
-      }
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (!failure.empty() && !is_stopped_) failures_.emplace(i, failure);
-      ++ended_;
-      changed_.notify_one();
-    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!failure.empty() && !is_stopped_) failures_.emplace(i, failure);
+    ++ended_;
+    changed_.notify_one();
   }
 
   void runOne(int i) {
@@ -98,7 +91,6 @@ class RunningSweep {
   const SweepSettings& settings_;
   std::mutex preparing_;
   SceneBodyCache fluid_bodies_;
-  std::atomic<int> next_{0};
   std::atomic<bool> is_stopped_{false};
   std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;

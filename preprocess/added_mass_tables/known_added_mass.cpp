@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "preprocess/added_mass_tables/table_data.h"
 #include "preprocess/added_mass_tables/table_places.h"
@@ -25,6 +26,7 @@ std::optional<Matrix6> lookUp(const RoundTable& table, const RoundPlace& round) 
 std::string addedMassTablesName() { return "added mass tables " + std::to_string(kTableRevision); }
 
 std::optional<Matrix6> boxAddedMass(const Vector3& half_sizes) {
+  AMBIENT_ASSERT(half_sizes.minCoeff() > 0 && half_sizes.allFinite());
   const BoxTable& table = boxTable();
   Matrix6 K = Matrix6::Zero();
   for (int k = 0; k < 3; ++k) {

@@ -6,16 +6,17 @@ namespace ambient {
 
 // Generated: tests/preprocess/table_generator writes table_data.cpp.
 
-/// Raised with every change of the tables; part of a fluid body's provenance.
+/// Revision of the tables, part of a fluid body's provenance. Raise it with every change.
 constexpr int kTableRevision = 1;
 
-/// Over the scales of BoxAxis; of the translation the logarithm.
+/// Rotation and logarithm of translation, over the scales of BoxAxis.
 struct BoxTable {
   ChebyshevSeries rotation, translation;
 };
 const BoxTable& boxTable();
 
-/// Over the scales of RoundPlace, of the translations the logarithms; without rows where it is 0.
+/// Entries over the scales of RoundPlace; of v_z and v_x the logarithms. A series without rows is
+/// 0.
 struct RoundTable {
   ChebyshevSeries v_z, v_x, w_y, coupling;
 };

@@ -5,10 +5,10 @@
 
 namespace ambient {
 
-/// Longest over shortest extent of the shapes in the tables; of a capsule the cylindrical part over
-/// the diameter.
+/// Largest ratio of longest to shortest extent in the tables; for a capsule: cylindrical part over
+/// diameter.
 constexpr double kLargestRatio = 100;
-/// Rounding of a cone over itself plus its thickness, r h / (r + h).
+/// Largest rounding of a cone over rounding plus thickness r h / (r + h).
 constexpr double kLargestRounding = 0.9;
 
 /// Place of a shape in its table: logarithms of its ratios, mapped to [-1, 1]^2.
@@ -18,9 +18,9 @@ struct TablePlace {
   bool isInside() const { return x >= -1 && x <= 1 && y >= -1 && y <= 1; }
 };
 
-// Tables hold an added mass over a simple scale that has its limits (plates, rods, balls), so that
-// it is smooth and bounded; in translation the logarithm. Scales have no zeros near real ratios:
-// they decide how fast the series converge. docs/theory.md eq. (73) and (74).
+// Tables hold the added mass divided by a simple scale with the same limits (plates, rods, balls),
+// which is smooth and bounded; for translation the logarithm of that. Scales have no zeros near
+// real ratios, so that the series converge fast. docs/theory.md eq. (73) and (74).
 
 /// A box and one of its axes: half size a along it, b and c across [m]. Symmetric in b and c, so
 /// that one table serves three axes.

@@ -8,8 +8,8 @@
 
 namespace ambient {
 
-/// One thread that does tasks in the order in which they come. It starts with the first task; when
-/// this is destroyed, it finishes the one that it is at and drops the others.
+/// One background thread that does tasks in order. The thread starts with the first task. The
+/// destructor waits for the present task and drops the others.
 class BackgroundWork {
  public:
   BackgroundWork() = default;
@@ -24,7 +24,7 @@ class BackgroundWork {
   void finish();
 
  private:
-  /// Starts it with the first task.
+  /// Starts the thread if there is none; false if the system grants none.
   bool hasThread();
   void run();
 

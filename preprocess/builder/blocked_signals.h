@@ -4,8 +4,8 @@
 
 namespace ambient {
 
-/// Holds back SIGINT, SIGTERM and SIGHUP while it lives, so that a file is either renamed into
-/// place or not begun. They arrive at its end.
+/// Blocks SIGINT, SIGTERM and SIGHUP while it exists, so that files are renamed either all or not
+/// at all. Blocked signals arrive when it is destroyed.
 class BlockedSignals {
  public:
   BlockedSignals() {

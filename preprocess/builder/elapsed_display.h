@@ -9,10 +9,9 @@
 
 namespace ambient {
 
-/// Shows on standard error, while it lives, that work goes on: "label: stage, 3 s", or "label:
-/// stage, 42 %" once it is told the share. On a terminal it is one line from the second second on,
-/// wiped at the end; elsewhere a line every `interval`. Silent if `quiet`, or if the system gives
-/// no thread.
+/// Shows progress on standard error while it exists: "label: stage, 3 s", or "label: stage, 42 %"
+/// after update(). On a terminal: one line, first after one second, erased at the end; elsewhere a
+/// line every `interval`. Silent if `quiet`, or if the system grants no thread.
 class ElapsedDisplay {
  public:
   explicit ElapsedDisplay(const std::string& label, bool quiet = false,
@@ -21,9 +20,9 @@ class ElapsedDisplay {
   ElapsedDisplay(const ElapsedDisplay&) = delete;
   ElapsedDisplay& operator=(const ElapsedDisplay&) = delete;
 
-  /// Names what is done from now on; its share is 0.
+  /// Names the present stage; resets its share to 0.
   void begin(const std::string& stage);
-  /// Sets the share of the work that is done, from 0 to 1.
+  /// Sets the finished share of the stage, 0 to 1.
   void update(double share) { share_ = share; }
 
  private:

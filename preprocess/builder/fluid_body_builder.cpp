@@ -25,10 +25,6 @@ const std::string& sourceOf(const BuildSettings& settings) {
   return settings.source.empty() ? settings.name : settings.source;
 }
 
-MeshProperties massPropertiesOf(const TriangleMesh& mesh, bool sheet) {
-  return sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
-}
-
 /// Uniform density between the surface and the cavities.
 MassDistribution uniformMassOf(const TriangleMesh& mesh, const MeshProperties& properties,
                                const TriangleMesh& cavities) {
@@ -41,9 +37,8 @@ FaceTable facesOf(const TriangleMesh& mesh, bool sheet) {
   faces.reserve(static_cast<std::size_t>(mesh.triangleCount()) * (sheet ? 2 : 1));
   const auto addSide = [&](double side) {
     for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-      const Eigen::Vector3d a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-      const Eigen::Vector3d twice_area = (b - a).cross(c - a);
-      faces.add(side * twice_area.normalized(), (a + b + c) / 3, twice_area.norm() / 2);
+      const Eigen::Vector3d twice_area = mesh.twiceArea(t);
+      faces.add(side * twice_area.normalized(), mesh.barycentre(t), twice_area.norm() / 2);
     }
   };
   addSide(1);
@@ -132,7 +127,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   requireUsualSize(source_mesh, settings.flow.sheet, sourceOf(settings));
   requireWaterline(settings);
   TriangleMesh mesh = divideTriangles(source_mesh, settings.least_faces);
-  const MeshProperties properties = massPropertiesOf(mesh, settings.flow.sheet);
+  const MeshProperties properties = computeMassProperties(mesh, settings.flow.sheet);
   const Eigen::Vector3d origin = settings.origin.value_or(properties.uniform.centre);
   requireNearOrigin(mesh, origin, sourceOf(settings));
   const MassDistribution uniform_mass = uniformMassOf(mesh, properties, settings.cavities);

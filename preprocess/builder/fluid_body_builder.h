@@ -10,31 +10,26 @@
 
 namespace ambient {
 
-/// Faces or panels that a mesh can be divided into; a finer mesh is solved on its own triangles.
+/// Largest number of faces or panels that a mesh is divided into; a finer mesh keeps its own
+/// triangles.
 constexpr int kMostDivisions = 1000000;
 
 /// Panels into which the flow around a mesh is divided by default: a box of 12 triangles comes out
 /// within 1 % of the largest entry of each block of the added mass, in one to two seconds.
 constexpr int kDefaultPanels = 4200;
 
-/// This library, its version and the revision of its solver, as fluid bodies name it.
+/// Name of this library with version and revision of the solver, for Provenance::generator.
 std::string libraryVersion();
 
-/// The triangles of a mesh as a fluid body holds them.
+/// Converts a mesh to the surface of a fluid body.
 Surface surfaceOf(const TriangleMesh& mesh);
 
-/// Settings for making a fluid body from a mesh.
-struct BuildSettings {
-  std::string name;    ///< of the body
-  std::string source;  ///< begins every message: the file it comes from; empty: the name
-  /// Origin of the fluid body frame F in the mesh's frame [m]; none: the centre of volume, of a
-  /// sheet the centre of its area.
+/// Settings for making a fluid body, from a mesh or from a shape.
+struct CommonBuildSettings {
+  std::string name;  ///< name of the fluid body
+  /// Origin of the fluid body frame F in the frame of the mesh or shape [m]; none: the centre of
+  /// volume, of a sheet the centre of its area.
   std::optional<Eigen::Vector3d> origin;
-  TriangleMesh cavities;  ///< closed surfaces inside, as in CheckedMesh: empty in the uniform mass
-  double sphere_radius = 0;  ///< of a mesh that stands for a sphere [m]; 0: any other shape
-  /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
-  std::optional<Matrix6> added_mass;
-  std::vector<AddedMassPart> added_mass_parts;  ///< with it, about the mesh's origin; may be empty
   int least_faces = 0;  ///< the mesh is divided into at least so many triangles for the loads
   /// The flow is solved on up to max_panels, finer than the mesh where that helps, and on four
   /// times as many where long triangles need them; the faces remain those of the mesh.
@@ -42,17 +37,27 @@ struct BuildSettings {
   /// Subdivisions of the table for the surface of water, makeWaterlineTable(), 1 to
   /// kMostWaterlineSubdivisions; 0: no table. Neither a sheet nor a sphere can have one.
   int waterline_subdivisions = 0;
-  Provenance provenance;  ///< copied; an empty generator becomes this library and its version
-  /// Receives in one line what is doubtful about the result; null: nothing is said.
-  std::function<void(const std::string&)> warn = nullptr;
-  /// Is told what is done from now on; null: nobody.
+  /// Called with the name of each stage of the work when it begins; null: no calls.
   std::function<void(const std::string& stage)> begin = nullptr;
 };
 
-/// Everything the fluid needs to know of a shape: mass properties, added mass, faces. The axes of F
-/// are those of the mesh. The two sides of a sheet are faces of their own, the front of all
-/// triangles first, and both count in its area; its volume is 0. Cost: that of
-/// solvePotentialFlow().
+/// Settings for making a fluid body from a mesh.
+struct BuildSettings : CommonBuildSettings {
+  std::string source;     ///< begins every message: the file of the mesh; empty: the name
+  TriangleMesh cavities;  ///< closed surfaces inside, as in CheckedMesh: empty in the uniform mass
+  double sphere_radius = 0;  ///< of a mesh that stands for a sphere [m]; 0: any other shape
+  /// Added mass per unit density about the mesh's origin, if it is known: the flow is not solved.
+  std::optional<Matrix6> added_mass;
+  /// Parts of that added mass, about the mesh's origin; may be empty.
+  std::vector<AddedMassPart> added_mass_parts;
+  Provenance provenance;  ///< copied; an empty generator becomes this library and its version
+  /// Receives warnings about the result, one line each; null: no warnings.
+  std::function<void(const std::string&)> warn = nullptr;
+};
+
+/// Makes a fluid body from a mesh: mass properties, added mass, faces. The axes of F are those of
+/// the mesh. Both sides of a sheet are faces, first the front of all triangles, then the back; both
+/// count in its area; its volume is 0. Cost: that of solvePotentialFlow().
 /// @pre the mesh passed checkMesh() as a body or as a sheet.
 /// @throws std::runtime_error in one line that begins with the source, if the mesh is smaller than
 /// 1e-9 m or larger than 1e9 m or too narrow, the flow cannot be solved or needs more memory

@@ -1,6 +1,5 @@
 #include "preprocess/builder/reuse.h"
 
-#include <cstdio>
 #include <stdexcept>
 
 #include "bullet_ambient/base/fnv1a.h"
@@ -30,10 +29,7 @@ std::string keptFileName(const std::string& name, const Provenance& provenance) 
   const std::string text = name + '\n' + provenance.source + '\n' +
                            std::to_string(provenance.source_hash) + '\n' + provenance.settings +
                            '\n' + provenance.generator;
-  char file_name[32];
-  std::snprintf(file_name, sizeof file_name, "%016llx.ambient",
-                static_cast<unsigned long long>(fnv1a64(text)));
-  return file_name;
+  return hashText(fnv1a64(text)) + ".ambient";
 }
 
 }  // namespace ambient

@@ -8,13 +8,13 @@
 
 namespace ambient {
 
-/// The fluid body of a file, if it can be read, has that name, and was made by the same program,
-/// version and revision of the solver from the same source with the same settings, so that building
-/// it anew would give the same.
+/// Reads a fluid body if a build would give the same: the file can be read and has the name,
+/// source, settings, program, version and solver revision given by `name` and `provenance`. Else
+/// none.
 std::optional<FluidBody> readIfSame(const std::filesystem::path& file, const std::string& name,
                                     const Provenance& provenance);
 
-/// Name of the .ambient file in which caches keep it: a hash of all that readIfSame() compares.
+/// Name of the .ambient file for a cache: a hash of all that readIfSame() compares.
 std::string keptFileName(const std::string& name, const Provenance& provenance);
 
 }  // namespace ambient

@@ -175,9 +175,8 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   CheckedMesh checked = makeShapeMesh(shape, settings.scale);
   warnOfFaces(checked, shape, settings.least_faces);
   BuildSettings build;
-  build.name = settings.name;
+  static_cast<CommonBuildSettings&>(build) = settings;
   build.source = shape.source;
-  build.origin = settings.origin;
   build.cavities = checked.cavities;
   const ShapeFacts facts = factsOf(shape.geometry);
   if (const auto known = knownAddedMass(shape, settings)) {
@@ -191,10 +190,6 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   } else {
     warnOfPanels(checked, shape, settings.flow.max_panels);
   }
-  build.least_faces = settings.least_faces;
-  build.waterline_subdivisions = settings.waterline_subdivisions;
-  build.begin = settings.begin;
-  build.flow = settings.flow;
   build.flow.sheet = isSheet(shape);
   build.sphere_radius = settings.scale * facts.sphere_radius;
   build.provenance = describeShape(shape, settings);

@@ -11,21 +11,14 @@
 
 namespace ambient {
 
-/// Settings for making a fluid body from a shape.
-struct ShapeBuildSettings {
-  std::string name;                       ///< of the body
-  std::optional<Eigen::Vector3d> origin;  ///< as in BuildSettings, in the shape's frame
-  double scale = 1;                       ///< multiplies all lengths of the shape
-  int least_faces = 0;                    ///< as in BuildSettings
-  int waterline_subdivisions = 0;         ///< as in BuildSettings
-  bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
-  /// Settings of BuildSettings; whether it is a sheet, the shape says.
-  PotentialFlowSettings flow{false, kDefaultPanels};
-  /// Is told what is done from now on; null: nobody.
-  std::function<void(const std::string& stage)> begin = nullptr;
+/// Settings for making a fluid body from a shape, which tells itself whether it is a sheet.
+struct ShapeBuildSettings : CommonBuildSettings {
+  double scale = 1;  ///< multiplies all lengths of the shape
+  /// Whether tables of the added mass are used as far as they reach; false: the flow is solved.
+  bool tables = true;
 };
 
-/// A fluid body, and what a user should know about its mesh, one line each.
+/// A fluid body, and warnings about its mesh, one line each.
 struct BuiltBody {
   FluidBody body;
   std::vector<std::string> warnings;

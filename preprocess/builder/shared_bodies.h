@@ -11,13 +11,13 @@
 
 namespace ambient {
 
-/// Fluid bodies by key, for any number of threads.
+/// Fluid bodies by key; may be used by any number of threads.
 class SharedBodies {
  public:
   using Body = std::shared_ptr<const FluidBody>;
 
-  /// The body of that key, made by the first thread that asks; others wait for it. What `make`
-  /// throws, all of them get, now and later.
+  /// Returns the body of a key. The first thread that asks calls make(); others wait for it. An
+  /// exception of make() goes to all callers with this key, now and later.
   Body get(const std::string& key, const std::function<Body()>& make);
 
  private:

@@ -14,7 +14,7 @@ struct WorldBuildSettings {
   bool margins = true;                                ///< as in CollisionShapeSettings
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
   bool tables = true;                                 ///< as in CollisionShapeSettings
-  bool reuse = true;  ///< keep a file that was made from the same geometry and settings
+  bool reuse = true;  ///< true: keep a file that was made from the same geometry and settings
 };
 
 /// Result for one shape.
@@ -36,8 +36,8 @@ struct WorldShapeResult {
 /// Results for a world.
 struct WorldBuild {
   std::vector<WorldShapeResult> shapes;
-  int lost_bodies = 0;  ///< whose shape Bullet's importer does not know
-  int multibodies = 0;  ///< that the importer does not read
+  int lost_bodies = 0;  ///< bodies whose shape Bullet's importer does not know
+  int multibodies = 0;  ///< multibodies, which the importer does not read
 };
 
 /// Makes `folder`/<name>.ambient of every distinct collision shape of a dynamic body in a .bullet

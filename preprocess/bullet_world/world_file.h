@@ -11,7 +11,7 @@
 
 AMBIENT_BEGIN
 
-/// A collision shape of a world and the dynamic bodies that have it.
+/// A collision shape of a world, and the dynamic bodies with this shape.
 struct WorldShape {
   std::string name;  ///< unique in the file, fit for a file name
   const btCollisionShape* shape = nullptr;
@@ -30,8 +30,8 @@ class WorldFile {
   WorldFile(const WorldFile&) = delete;
   WorldFile& operator=(const WorldFile&) = delete;
 
-  /// Every distinct shape of a body with mass, in the order of the bodies. A shape is named after
-  /// its body if there is one only, else after itself, else after its first body.
+  /// Distinct shapes of bodies with mass, in the order of the bodies. A shape is named after its
+  /// body if there is only one, else by its own name, else after its first body.
   const std::vector<WorldShape>& dynamicShapes() const { return shapes_; }
 
   /// Bodies that Bullet's importer left out because it does not know their shape.

@@ -8,11 +8,11 @@
 
 AMBIENT_BEGIN
 
-/// The fluid body of a collision shape, whose frame F is that of the shape: a btRigidBody with the
-/// shape needs no offset. Spheres and ellipsoids have closed forms; boxes, cylinders, capsules and
-/// cones tables, as far as these reach; all else is solved.
+/// Makes the fluid body of a collision shape. Its frame F is that of the shape: a btRigidBody with
+/// this shape needs no offset. Spheres and ellipsoids have closed forms; boxes, cylinders, capsules
+/// and cones tables, as far as these reach; all else is solved.
 ///
-/// Takes spheres, boxes, cylinders, capsules, cones, convex hulls, tetrahedra, multi-spheres,
+/// Accepts spheres, boxes, cylinders, capsules, cones, convex hulls, tetrahedra, multi-spheres,
 /// btGImpactMeshShape (a closed mesh), btUniformScalingShape, and btCompoundShape of these, nested;
 /// children that touch or overlap are united. Local scalings count. docs/preprocessor.md says what
 /// margins do. Added mass is within 0.5 % of the largest entry of its block, for convex hulls

@@ -20,7 +20,7 @@ constexpr int kInstantFaces = 400;
 struct CollisionShapeSettings {
   CollisionShapeSettings();
 
-  std::string name;     ///< of the body, begins every message; empty: the shape's name
+  std::string name;     ///< name of the body, begins every message; empty: the shape's name
   bool margins = true;  ///< convex hulls and cones are as large as Bullet collides with them,
                         ///< margin included; false: as they were given
   int faces = 1300;     ///< triangles aimed at, where the shape has no mesh of its own
@@ -32,7 +32,8 @@ struct CollisionShapeSettings {
   /// Subdivisions of the waterline table, BuildSettings, where the quality is kStandard; spheres,
   /// whose table all share, have none of their own.
   int waterline_subdivisions = 0;
-  bool tables = true;  ///< of the added mass, as far as they reach; false: the flow is solved
+  bool tables = true;  ///< true: tables of the added mass are used as far as they reach; false: the
+                       ///< flow is solved
   CompoundFallback fallback = CompoundFallback::kHull;
   /// kInstant: at most kInstantFaces faces; closed forms stay. A FluidBodyCache then goes on to
   /// kStandard in the background.

@@ -1,7 +1,6 @@
 #include "preprocess/collision_shape/fluid_body_cache.h"
 
 #include <atomic>
-#include <cstdio>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -22,14 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using SharedBody = SharedBodies::Body;
-
-// Tells the fluid bodies of one kind of shape apart, the same in all programs.
-std::string nameFor(const std::string& kind, const std::string& content) {
-  char number[18];
-  std::snprintf(number, sizeof number, " %016llx",
-                static_cast<unsigned long long>(fnv1a64(content)));
-  return kind + number;
-}
 
 std::string withSize(std::string content, double size) {
   return content.append(reinterpret_cast<const char*>(&size), sizeof size);
@@ -160,7 +151,8 @@ SharedBody FluidBodyCache::fluidBody(const btCollisionShape& shape) {
     const SharedBody unit = forms.get(
         content, [&] { return is_guess ? store.guess(form, content) : store.readOrMake(form); });
     FluidBody body = form.size == 1 ? *unit : scaled(*unit, form.size);
-    body.name = nameFor(unit->name, sized);
+    // Tells the fluid bodies of one kind of shape apart, the same in all programs.
+    body.name = unit->name + " " + hashText(fnv1a64(sized));
     return store.remember(std::make_shared<const FluidBody>(std::move(body)));
   });
 }

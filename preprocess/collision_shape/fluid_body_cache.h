@@ -9,12 +9,12 @@
 
 AMBIENT_BEGIN
 
-/// The fluid bodies of collision shapes, each made once: shapes of equal numbers are one, wherever
-/// they are in memory, and those that differ by their size alone are solved once and scaled. May be
-/// shared by worlds and threads, whose shapes must not change meanwhile.
+/// Makes and keeps the fluid bodies of collision shapes. Shapes with equal numbers share one fluid
+/// body; shapes that differ in size alone are solved once and scaled. May be shared by worlds and
+/// threads; shapes must not change during a call.
 ///
-/// A form is solved at a size of 1 and its numbers rounded to a millionth, so that what a shape
-/// gets depends on the shape alone, not on those that came before.
+/// A form is solved at size 1, with its numbers rounded to a millionth: the result depends on the
+/// shape alone, not on earlier shapes.
 class FluidBodyCache : public FluidBodySource {
  public:
   struct Counts {
@@ -23,38 +23,39 @@ class FluidBodyCache : public FluidBodySource {
     int instant = 0;  ///< forms that were guessed first, Quality::kInstant
   };
 
-  /// When what was computed in the background takes the place of what was guessed.
+  /// When a solution from the background replaces the first guess.
   enum class Replacement {
-    kWhenReady,  ///< in whichever step that is
-    kWhenAsked,  ///< after finish() alone: the same step in every run
+    kWhenReady,  ///< as soon as it is ready, in whichever step that is
+    kWhenAsked,  ///< only after finish(): in the same step in every run
   };
 
-  /// `folder`: where .ambient files of the forms are kept, for other runs and other programs; made
-  /// when it is first needed; empty: none. A file that is damaged, foreign or of another version is
-  /// made anew; that it cannot be written is told to settings.report. settings.report is called by
-  /// the threads that ask and, of Quality::kInstant, by the one in the background.
+  /// `folder`: folder of .ambient files of the forms, for other runs and programs; made when first
+  /// needed; empty: none. Damaged, foreign or outdated files are made again; a file that cannot be
+  /// written is reported to settings.report. settings.report is called by the asking threads and,
+  /// for Quality::kInstant, by the background thread.
   explicit FluidBodyCache(CollisionShapeSettings settings = {}, std::filesystem::path folder = {},
                           Replacement replacement = Replacement::kWhenReady);
-  /// Waits for the solution that the background is at; others are dropped.
+  /// Waits for the present background solution; drops the others.
   ~FluidBodyCache() override;
 
-  /// In the shape's frame, named after its kind, or as the settings say, and a number that belongs
-  /// to this shape alone and is the same in all programs. Equal shapes get the same object. A
-  /// thread that asks for a shape in the making waits for it. Cost if it is known: that of reading
-  /// the shape's numbers.
-  /// @throws std::runtime_error as makeFluidBody(), each time.
+  /// Returns the fluid body of a shape, in the shape's frame. Its name is the kind of the shape (or
+  /// settings.name) and a number that is unique to the shape and the same in all programs. Equal
+  /// shapes get the same object. If another thread is making the fluid body, waits for it. Cost if
+  /// it is known: that of reading the shape's numbers. @throws std::runtime_error as
+  /// makeFluidBody(), in every call.
   ///
-  /// Of Quality::kInstant the first answer is the guess, within milliseconds, and a thread goes on
-  /// to kStandard; later answers are that, and revision() tells. Bodies of Fluid::addAll() then
-  /// get it at the end of a substep. settings.flow.threads says how many cores that may take.
+  /// With Quality::kInstant the first result is a guess, within milliseconds, and a background
+  /// thread solves the flow (kStandard). Later calls return the solution, and revision() changes;
+  /// bodies of Fluid::addAll() get it at the end of a substep. settings.flow.threads limits the
+  /// cores of the background.
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override;
   unsigned revision() const noexcept override;
 
-  /// The last answer of fluidBody() with this name; null: none. What decodeState() asks for.
+  /// Finds the last result of fluidBody() with a name; null: none. A FluidBodyLookup for
+  /// decodeState().
   std::shared_ptr<const FluidBody> find(const std::string& name) const;
 
-  /// Waits for all that is computed in the background. From then on, it is what fluidBody() answers
-  /// with.
+  /// Waits for all background solutions. From then on fluidBody() returns them.
   void finish();
 
   Counts counts() const;

@@ -6,8 +6,8 @@
 
 namespace ambient {
 
-/// The fluid body of a form at size 1, in the shape's frame; what is reported tells its volumes at
-/// its own size.
+/// Makes the fluid body of a form at size 1, in the shape's frame; reports give volumes at the size
+/// of the shape.
 /// @throws std::runtime_error as makeFluidBody() of a collision shape.
 FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& settings);
 
@@ -15,8 +15,8 @@ FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& sett
 /// result.
 Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& settings);
 
-/// Refuses settings that cannot be, in one line that begins with `name`.
-/// @throws std::runtime_error
+/// Checks the settings. @throws std::runtime_error in one line that begins with `name`, if a value
+/// is out of range
 void requireUsable(const CollisionShapeSettings& settings, const std::string& name);
 
 }  // namespace ambient

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/mesh/usual_size.h"
@@ -16,12 +17,6 @@ using nlohmann::ordered_json;
 
 ordered_json massJson(const MassDistribution& mass) {
   return {{"centre", vectorJson(mass.centre)}, {"inertia", matrixJson(mass.inertia)}};
-}
-
-std::string hashText(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
 }
 
 ordered_json levelsJson(const std::vector<LoadLevel>& levels) {

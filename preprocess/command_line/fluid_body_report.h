@@ -7,8 +7,8 @@
 
 namespace ambient {
 
-/// One JSON object about a fluid body, numbers so that reading them back gives the same bits;
-/// `seconds` that it took to build it, if it was built just now.
+/// Returns one JSON object about a fluid body; numbers have all digits that the same bits need.
+/// `seconds`: duration of the build, if it was built just now.
 std::string reportJson(const FluidBody& body, std::optional<double> seconds);
 
 /// Returns a table of the same facts for people, headed by the file's name.

@@ -9,22 +9,22 @@
 
 namespace ambient {
 
-/// Whether a file name ends with an extension, ".json", in letters of either case.
+/// True if a file name ends with an extension, such as ".json", in upper or lower case.
 bool hasExtension(const std::filesystem::path& file, const std::string& extension);
 
 /// Options that say how an INPUT is used.
 struct InputOptions {
-  bool sheet = false;               ///< an open surface of zero thickness
-  bool hull = false;                ///< the convex hull stands for it
-  std::optional<std::string> wrap;  ///< a closed surface around it does, of that size [m]
-  double scale = 1;                 ///< that multiplies all lengths of the result
+  bool sheet = false;  ///< an open surface of zero thickness
+  bool hull = false;   ///< true: use the convex hull
+  std::optional<std::string>
+      wrap;          ///< use a closed surface around the mesh; value: its size [m] as text
+  double scale = 1;  ///< factor on all lengths of the result
 };
 
 /// Adds --scale, --sheet, --hull and --wrap [SIZE].
 void addInputOptions(CLI::App& command, InputOptions& options);
 
-/// The shape that an INPUT of the command line stands for: a mesh file, or a JSON file with a
-/// shape.
+/// Reads the shape of an INPUT of the command line: a mesh file, or a JSON file with a shape.
 /// @throws UsageError for options that exclude each other.
 /// @throws std::runtime_error in one line that names the file.
 ShapeDescription describeInput(const std::filesystem::path& input, const InputOptions& options);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/polar/polar.h"
 
@@ -62,8 +63,7 @@ double separationAngleOf(double angle) {
 }
 
 PressureLaw lawOf(const std::string& name) {
-  for (const auto& [law, its_name] : kPressureLawNames)
-    if (name == its_name) return law;
+  if (const auto law = valueOf(kPressureLawNames, name)) return *law;
   raiseUsageError("--law", "\"", name, "\" is neither published nor form");
 }
 

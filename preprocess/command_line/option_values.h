@@ -26,9 +26,9 @@ template <class... Parts>
 
 void requirePositive(const char* option, double value, const char* unit = "");
 void requireNotNegative(const char* option, double value, const char* unit = "");
-/// 0 (all cores) to 256.
+/// Requires 0 (all cores) to 256.
 void requireThreads(int threads);
-/// 0 (no division) to kMostDivisions.
+/// Requires 0 (no division) to kMostDivisions.
 void requireDivisions(const char* option, int count);
 
 /// Value of --wrap if no size is given.

@@ -28,22 +28,23 @@ struct Metacentre {
 /// motions are free.
 struct FloatingMode {
   double period = 0;      ///< [s]
-  Vector3 turn{0, 0, 0};  ///< unit, of the rotation in it; zero: heave alone
-  bool is_heave = false;  ///< most of its potential energy is that of going up and down
+  Vector3 turn{0, 0, 0};  ///< unit axis of the rotation; zero: heave alone
+  bool is_heave = false;  ///< true: most of its potential energy is that of heave
 };
 
-/// One that a body keeps: the least energy of all attitudes near it.
+/// Stable floating attitude: a local minimum of the energy.
 struct FloatingAttitude {
-  Vector3 up{0, 0, 1};  ///< of the water, in F
-  SurfacePlane plane;   ///< of the water about F's origin
+  Vector3 up{0, 0, 1};  ///< upward normal of the water, in F
+  SurfacePlane plane;   ///< surface of the water in F
   WetVolume wet;
-  double draught = 0;                     ///< of the lowest point [m]
-  double height_of_mass = 0;              ///< of the centre of mass above the surface [m]
-  std::array<Metacentre, 2> metacentres;  ///< the lower one first
+  double draught = 0;                     ///< depth of the lowest point [m]
+  double height_of_mass = 0;              ///< height of the centre of mass above the surface [m]
+  std::array<Metacentre, 2> metacentres;  ///< the smaller height first
   std::array<FloatingMode, 3> modes;      ///< the longest period first
-  double energy = 0;  ///< of weight and water, 0 with the centre of mass at the surface [J]
-  double share = 0;   ///< of all attitudes, of those from which the body comes here
-  int alike = 1;      ///< attitudes of the same energy: by symmetry
+  double energy = 0;  ///< energy of weight and water [J]; reference: centre of mass at the surface,
+                      ///< no water displaced
+  double share = 0;   ///< share of all attitudes from which the body comes to this one
+  int alike = 1;      ///< number of attitudes of the same energy, equal by symmetry
 };
 
 }  // namespace ambient

@@ -37,14 +37,7 @@ Matrix3 projector(const Vector3& normal) {
 
 }  // namespace
 
-std::array<Vector3, 2> planeAxes(const Vector3& normal) {
-  Eigen::Index least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  const Vector3 first = Vector3::Unit(least).cross(normal).normalized();
-  return {first, normal.cross(first)};
-}
-
-PlaneEigen planeEigen(const Matrix3& matrix, const std::array<Vector3, 2>& axes) {
+PlaneEigen planeEigen(const Matrix3& matrix, const PlaneAxes& axes) {
   const auto& [e, f] = axes;
   const double a = e.dot(matrix * e), b = e.dot(matrix * f), d = f.dot(matrix * f);
   const double angle = 0.5 * portable::atan2(2 * b, a - d);
@@ -79,7 +72,7 @@ FloatingPose settle(const FloatingBody& body, const PackedHull& hull, const Vect
   const double scale = body.mass * body.gravity * (high - low);
   for (int i = 0; i < kMostSteps; ++i) {
     if (pose.gradient.norm() <= 1e-10 * scale) break;
-    const PlaneEigen eigen = planeEigen(pose.stiffness, planeAxes(pose.plane.normal));
+    const PlaneEigen eigen = planeEigen(pose.stiffness, PlaneAxes(pose.plane.normal));
     Vector3 step = Vector3::Zero();
     for (std::size_t k = 0; k < 2; ++k) {
       const double stiffness = std::max(std::abs(eigen.values[k]), 1e-3 * scale);

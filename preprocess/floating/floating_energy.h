@@ -19,22 +19,19 @@ struct FloatingPose {
 /// @pre 0 < mass < density times the volume of the hull.
 FloatingPose floatAt(const FloatingBody& body, const PackedHull& hull, const Vector3& up);
 
-/// Goes down to the least energy near an attitude.
+/// Descends to a local minimum of the energy near an attitude.
 FloatingPose settle(const FloatingBody& body, const PackedHull& hull, const Vector3& up);
 
-/// The body about a floating attitude: draught, metacentres, periods.
+/// Describes a floating attitude: draught, metacentres, periods.
 FloatingAttitude describe(const FloatingBody& body, const PackedHull& hull,
                           const FloatingPose& pose);
 
-/// Two unit vectors that make a right-handed frame with a third one.
-std::array<Vector3, 2> planeAxes(const Vector3& normal);
-
-/// Eigenvalues in ascending order, and eigenvectors, of a symmetric matrix that maps the plane of
-/// two unit vectors into itself.
+/// Eigenvalues in ascending order, and unit eigenvectors, of a symmetric matrix that maps a plane
+/// into itself.
 struct PlaneEigen {
   std::array<double, 2> values;
   std::array<Vector3, 2> vectors;
 };
-PlaneEigen planeEigen(const Matrix3& matrix, const std::array<Vector3, 2>& axes);
+PlaneEigen planeEigen(const Matrix3& matrix, const PlaneAxes& axes);
 
 }  // namespace ambient

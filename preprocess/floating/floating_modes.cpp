@@ -20,7 +20,7 @@ namespace {
 // Heave along the normal and turns about two axes of the plane, about the centre of mass.
 struct Floaters {
   Vector3 up;
-  std::array<Vector3, 2> axes;
+  PlaneAxes axes;
 };
 
 using Motions = Eigen::Matrix<double, 6, 3>;
@@ -28,8 +28,8 @@ using Motions = Eigen::Matrix<double, 6, 3>;
 // Twists about the centre of mass, in columns.
 Motions motionsOf(const Floaters& of) {
   Motions motions;
-  motions << stack(Vector3::Zero(), of.up), stack(of.axes[0], Vector3::Zero()),
-      stack(of.axes[1], Vector3::Zero());
+  motions << stack(Vector3::Zero(), of.up), stack(of.axes.first, Vector3::Zero()),
+      stack(of.axes.second, Vector3::Zero());
   return motions;
 }
 
@@ -60,7 +60,7 @@ FloatingMode modeOf(const Eigen::Vector3d& q, double square, const Eigen::Matrix
                     const Floaters& of) {
   FloatingMode mode;
   mode.period = square > 0 ? 2 * kPi / std::sqrt(square) : HUGE_VAL;
-  const Vector3 turn = q[1] * of.axes[0] + q[2] * of.axes[1];
+  const Vector3 turn = q[1] * of.axes.first + q[2] * of.axes.second;
   if (turn.norm() > 0) mode.turn = turn.normalized();
   mode.is_heave = 2 * q[0] * q[0] * stiffness(0, 0) > q.dot(stiffness * q);
   if (mode.is_heave) mode.turn.setZero();
@@ -69,7 +69,7 @@ FloatingMode modeOf(const Eigen::Vector3d& q, double square, const Eigen::Matrix
 
 std::array<FloatingMode, 3> modesOf(const FloatingBody& body, const PackedHull& hull,
                                     const FloatingPose& pose) {
-  const Floaters of{pose.plane.normal, planeAxes(pose.plane.normal)};
+  const Floaters of{pose.plane.normal, PlaneAxes(pose.plane.normal)};
   const Motions motions = motionsOf(of);
   const Eigen::Matrix3d K = stiffnessOf(body, pose, motions);
   const Eigen::Matrix3d M = inertiaOf(body, hull, pose, motions);
@@ -97,7 +97,7 @@ FloatingAttitude describe(const FloatingBody& body, const PackedHull& hull,
   attitude.draught = pose.plane.height - computeExtent(hull, pose.plane.normal).first;
   attitude.height_of_mass = -pose.plane.depth(body.centre_of_mass);
   // Turned about an axis a, the normal moves along a x s, in which the stiffness is given.
-  const PlaneEigen eigen = planeEigen(pose.stiffness, planeAxes(pose.plane.normal));
+  const PlaneEigen eigen = planeEigen(pose.stiffness, PlaneAxes(pose.plane.normal));
   for (std::size_t i = 0; i < 2; ++i)
     attitude.metacentres[i] = {eigen.vectors[i].cross(attitude.up),
                                eigen.values[i] / (body.mass * body.gravity)};

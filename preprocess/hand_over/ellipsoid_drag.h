@@ -15,15 +15,15 @@ struct EllipsoidDrag {
   double blunt = 0.5, slender = 0.25, angular = 1.5;  ///< defaults: MuJoCo's
 };
 
-/// Drag [N] at 1 m/s along the axes of the ellipsoid and torques [N m] at 1 rad/s about them, in a
-/// fluid of density 1 kg/m^3; rotation first.
+/// Computes MuJoCo's drag at 1 m/s along the axes of the ellipsoid [N] and its torque at 1 rad/s
+/// about them [N m], in a fluid of density 1 kg/m^3; rotation first.
 Vector6 unitDrag(const EllipsoidDrag& drag, const Vector3& semi_axes);
 
-/// Computes these drags of the body by the form law without friction: means of both directions.
+/// Computes the same of a body by the form law without friction, averaged over both directions.
 Vector6 unitDrag(const HandedBody& body, const EllipsoidFit& fit);
 
-/// Coefficients, none below 0, that come nearest to these drags: least squares of the differences,
-/// each relative to its drag or to 1 % of the largest.
+/// Fits coefficients >= 0 to such drags: least squares of the differences, each relative to its
+/// drag or to 1 % of the largest.
 EllipsoidDrag fitDrag(const Vector6& unit_drag, const Vector3& semi_axes);
 
 }  // namespace ambient

@@ -4,21 +4,21 @@
 
 namespace ambient {
 
-/// Semi-axes [m] of the ellipsoid that has these added masses against translation along its axes,
-/// per unit density [m^3]. Any three positive ones are those of exactly one ellipsoid. A mass below
-/// 1e-5 of the largest, as of sheets, counts as that.
+/// Computes the semi-axes [m] of the ellipsoid with given added masses against translation along
+/// its axes, per unit density [m^3]. Any three positive added masses belong to exactly one
+/// ellipsoid. One below 1e-5 of the largest, as of a sheet, is raised to that.
 Vector3 semiAxesOf(const Vector3& added_mass);
 
-/// The ellipsoid with the added mass that comes nearest to one.
+/// Ellipsoid whose added mass approximates a given one.
 struct EllipsoidFit {
   Vector3 semi_axes{0, 0, 0};          ///< [m]
   Vector3 centre{0, 0, 0};             ///< [m]
-  Matrix3 axes = Matrix3::Identity();  ///< its axes, as columns
+  Matrix3 axes = Matrix3::Identity();  ///< axes of the ellipsoid, as columns
 };
 
-/// Fits to an added mass per unit density: axes and sizes are those of its translation block, the
-/// centre is where rotation and translation couple least, by the sum of squares, and nearest to
-/// `middle` [m] where that leaves a choice, as for sheets.
+/// Fits an ellipsoid to an added mass per unit density. Axes and sizes follow from the translation
+/// block. The centre is where rotation and translation couple least (sum of squares); where that
+/// leaves a choice, as for sheets, nearest to `middle` [m].
 EllipsoidFit fitEllipsoid(const Matrix6& added_mass, const Vector3& middle);
 
 }  // namespace ambient

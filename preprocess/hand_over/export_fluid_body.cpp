@@ -3,15 +3,18 @@
 #include <stdexcept>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/output_file.h"
+#include "bullet_ambient/base/plain_text.h"
 #include "preprocess/hand_over/formats.h"
 
 namespace ambient {
 
 ExportFormat exportFormatOf(const std::string& name) {
-  for (const auto& [format, its_name] : kExportFormatNames)
-    if (name == its_name) return format;
+  if (const auto format = valueOf(kExportFormatNames, name)) return *format;
   throw std::invalid_argument("\"" + name + "\" is none of sdf, mjcf, fossen, bemio");
 }
+
+void ExportedBody::write(const std::filesystem::path& file) const { writeFile(file, bytes); }
 
 ExportedBody exportFluidBody(const std::shared_ptr<const FluidBody>& body, ExportFormat format,
                              const ExportSettings& settings) {

@@ -9,11 +9,11 @@
 
 namespace ambient {
 
-/// The format of a name. @throws std::invalid_argument in one line, if there is none.
+/// Returns the format with a name. @throws std::invalid_argument in one line, if there is none.
 ExportFormat exportFormatOf(const std::string& name);
 
-/// Hands a fluid body over; docs/file_format.md has frames, units and what each format loses. The
-/// same body and settings give the same bytes.
+/// Converts a fluid body to the format of another program; docs/file_format.md has frames, units
+/// and what each format loses. The same body and settings give the same bytes.
 /// @throws std::invalid_argument in one line that names the fluid body, the value and the limit, if
 /// a number is not physical, or a draught is asked for of a body without parts of its added mass.
 /// @throws std::runtime_error for BEMIO, if the library was built without HDF5.

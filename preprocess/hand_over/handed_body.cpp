@@ -4,9 +4,11 @@
 #include <cmath>
 #include <tuple>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/invariants.h"
 #include "preprocess/polar/polar.h"
 
 namespace ambient {
@@ -134,6 +136,7 @@ HandedBody handedBody(const std::shared_ptr<const FluidBody>& shape,
   }
   putMass(body);
   checkFinite(body);
+  AMBIENT_ASSERT(isSymmetric(body.added_mass, 1e-9) && isSymmetric(body.inertia, 1e-9));
   return body;
 }
 

@@ -10,8 +10,8 @@
 
 namespace ambient {
 
-/// A fluid body with mass, in one fluid at one place. In F, matrices about F's origin, rotation
-/// first.
+/// A fluid body with mass, in one fluid at one place. Vectors in F; matrices about F's origin,
+/// rotation first.
 struct HandedBody {
   std::shared_ptr<const FluidBody> shape;
   ExportSettings settings;
@@ -19,12 +19,13 @@ struct HandedBody {
   PointMass weight;                      ///< [kg], [m]
   Matrix3 inertia = Matrix3::Zero();     ///< about the centre of mass [kg m^2]
   Matrix6 added_mass = Matrix6::Zero();  ///< [kg m^2, kg m; kg m, kg]
-  SurfacePlane plane;                    ///< the surface; gravity and density also without one
-  WetVolume wet;                         ///< in the fluid
+  SurfacePlane
+      plane;      ///< plane of the surface; its gravity and density count without a surface, too
+  WetVolume wet;  ///< wet volume in the fluid
 
-  /// Forward, left and up as columns.
+  /// Forward, left and up in F, as columns.
   Matrix3 axes() const;
-  /// Centre of buoyancy [m]; a sheet, which has none, gives the centre of its area.
+  /// Centre of buoyancy [m]; for a sheet, which has no volume, the centre of its area.
   Vector3 middle() const;
   /// Inertia of the mass alone.
   Matrix6 ownInertia() const;

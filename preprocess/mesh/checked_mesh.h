@@ -8,8 +8,8 @@
 
 namespace ambient {
 
-/// A mesh that has passed a check, possibly with triangles turned round or vertices left out, and
-/// what a user should know about that, one line each.
+/// A mesh that has passed a check, perhaps with triangles turned round or vertices removed, and
+/// warnings about such changes, one line each.
 struct CheckedMesh {
   TriangleMesh mesh;
   std::vector<std::string> warnings;

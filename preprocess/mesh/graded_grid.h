@@ -32,12 +32,12 @@ void appendGridTriangles(int rows, int columns, VertexAt vertex,
   }
 }
 
-/// The mesh made of these vertices and triangles.
+/// Makes a mesh of vertices and triangles.
 TriangleMesh makeTriangleMesh(const std::vector<Eigen::Vector3d>& vertices,
                               const std::vector<Eigen::Vector3i>& triangles);
 
-/// The mesh made of these triangles and the vertices that they use, which are numbered anew as they
-/// first appear. @param vertices columns
+/// Makes a mesh of triangles and the vertices that they use, numbered in the order of first use.
+/// @param vertices one per column
 TriangleMesh withUsedVertices(const Eigen::Matrix3Xd& vertices,
                               const std::vector<Eigen::Vector3i>& triangles);
 

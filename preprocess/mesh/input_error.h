@@ -9,7 +9,7 @@
 
 namespace ambient {
 
-/// "source: parts" in one line: control characters of what is quoted are shown, see plainLine().
+/// Returns "source: parts" in one line; control characters are shown, see plainLine().
 template <class... Parts>
 std::string inputMessage(const std::string& source, const Parts&... parts) {
   std::ostringstream message;
@@ -26,7 +26,8 @@ template <class... Parts>
   throw std::runtime_error(inputMessage(source, parts...));
 }
 
-/// Refuses what is missing, a folder, or a pipe or device, which may never end; `kind` of file.
+/// Refuses a file that is missing, a folder, a pipe or a device, which may never end. `kind`: kind
+/// of file, for the message.
 /// @throws std::runtime_error in one line that names the file.
 inline void requireRegularFile(const std::filesystem::path& file, const char* kind) {
   std::error_code error;

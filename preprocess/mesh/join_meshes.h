@@ -6,7 +6,7 @@
 
 namespace ambient {
 
-/// All parts as one mesh, one after the other; nothing is welded.
+/// Joins parts to one mesh, one after the other; welds nothing.
 TriangleMesh joinMeshes(const std::vector<TriangleMesh>& parts);
 
 }  // namespace ambient

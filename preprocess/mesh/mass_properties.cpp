@@ -96,8 +96,7 @@ Eigen::Matrix3d withoutRounding(const Eigen::Matrix3d& spread) {
 // need no subtraction, and finds what rounding has left of the first.
 template <class MomentsOf>
 MassAndDistribution distributionOf(const TriangleMesh& mesh, MomentsOf momentsOf) {
-  const Eigen::Vector3d middle =
-      (mesh.vertices.rowwise().minCoeff() + mesh.vertices.rowwise().maxCoeff()) / 2;
+  const Eigen::Vector3d middle = mesh.bounds().center();
   const Moments about_middle = sumMoments(mesh, middle, momentsOf);
   const Eigen::Vector3d centre = middle + about_middle.first / about_middle.mass;
   const Moments moments = sumMoments(mesh, centre, momentsOf);
@@ -122,6 +121,12 @@ MeshProperties computeMassProperties(const TriangleMesh& mesh) {
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh) {
   const MassAndDistribution sheet = distributionOf(mesh, triangleMoments);
   return {0, sheet.mass, sheet.distribution, distributionOf(mesh, barycentreMoments).distribution};
+}
+
+double sumOfVolumes(const std::vector<TriangleMesh>& meshes) {
+  double sum = 0;
+  for (const TriangleMesh& mesh : meshes) sum += computeMassProperties(mesh).volume;
+  return sum;
 }
 
 TriangleMesh withVolume(TriangleMesh mesh, double volume) {

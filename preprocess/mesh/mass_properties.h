@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/mesh/triangle_mesh.h"
 
@@ -7,8 +9,8 @@ namespace ambient {
 
 /// Geometric properties of a mesh, in the mesh's frame.
 struct MeshProperties {
-  double volume = 0;  ///< enclosed by a closed mesh [m^3]; 0 for a sheet
-  double area = 0;    ///< of all triangles, each counted once [m^2]
+  double volume = 0;  ///< volume inside a closed mesh [m^3]; 0 for a sheet
+  double area = 0;    ///< area of all triangles, each counted once [m^2]
   /// Uniform density inside, per unit mass; its centre is the centre of volume. For a sheet:
   /// uniform mass per area.
   MassDistribution uniform;
@@ -18,11 +20,11 @@ struct MeshProperties {
 };
 
 /// Exact integrals over the polyhedron that a closed mesh bounds: signed tetrahedra on its faces.
-/// They are taken about the mesh itself, so that a far-off origin costs no digits beyond those the
-/// coordinates have lost already; centres that differ from the origin or from the middle of the
-/// bounding box, and products of inertia that differ from zero, by rounding only do not. Mirtich,
-/// "Fast and accurate computation of polyhedral mass properties", 1996, treats the same integrals
-/// by projection. Cost O(T).
+/// Integrals are computed about the mesh itself, so that a far origin costs no further digits.
+/// Centres that equal the origin or the middle of the bounding box up to rounding, and products of
+/// inertia that are zero up to rounding, are set to these values. Mirtich, "Fast and accurate
+/// computation of polyhedral mass properties", 1996, treats the same integrals by projection. Cost
+/// O(T).
 /// @pre the mesh is closed, outward oriented and encloses a volume (checkMesh()).
 MeshProperties computeMassProperties(const TriangleMesh& mesh);
 
@@ -30,6 +32,13 @@ MeshProperties computeMassProperties(const TriangleMesh& mesh);
 /// O(T). Centres and moments are not finite if the area is 0, as it is by underflow on a sheet that
 /// requireUsualSize() refuses.
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh);
+
+/// Computes the properties of a closed mesh or, if `sheet`, of an open sheet.
+inline MeshProperties computeMassProperties(const TriangleMesh& mesh, bool sheet) {
+  return sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
+}
+/// Sum of the volumes inside closed meshes [m^3]; what two of them share counts twice.
+double sumOfVolumes(const std::vector<TriangleMesh>& meshes);
 
 /// Scales a closed mesh about its centre of volume, to a volume [m^3].
 TriangleMesh withVolume(TriangleMesh mesh, double volume);

@@ -10,26 +10,26 @@ namespace ambient {
 
 /// One side of a triangle.
 struct HalfEdge {
-  int low = 0, high = 0;  ///< its two vertices, low < high
+  int low = 0, high = 0;  ///< vertices of the edge, low < high
   int triangle = 0;
   int side = 0;          ///< from corner `side` to corner (side + 1) % 3
-  bool forward = false;  ///< runs from low to high
+  bool forward = false;  ///< true: runs from low to high
 };
 
-/// The half edges that share two vertices: [first, last) of MeshEdges::half_edges.
+/// Half edges of one edge: [first, last) of MeshEdges::half_edges.
 struct EdgeGroup {
   std::size_t first = 0, last = 0;
 
   std::size_t size() const { return last - first; }
 };
 
-/// All half edges of a mesh, sorted so that those of one edge stand together.
+/// All half edges of a mesh, sorted by edge.
 struct MeshEdges {
   std::vector<HalfEdge> half_edges;
   std::vector<EdgeGroup> edges;
 };
 
-/// Cost O(T log T), independent of the order of the triangles up to their numbers.
+/// Lists the edges of a mesh. Cost O(T log T).
 MeshEdges computeMeshEdges(const TriangleMesh& mesh);
 
 using EdgePair = std::pair<HalfEdge, HalfEdge>;
@@ -37,18 +37,19 @@ using EdgePair = std::pair<HalfEdge, HalfEdge>;
 /// The half edges of all edges that have exactly two triangles, in the order of `edges`.
 std::vector<EdgePair> edgePairs(const MeshEdges& edges);
 
-/// A triangle by its corners in the order of their numbers.
+/// Corners of a triangle in ascending order.
 struct SortedTriangle {
   std::array<int, 3> corners{};
   int triangle = 0;
 };
 
-/// All triangles, those on the same corners side by side. Cost O(T log T).
+/// Lists all triangles sorted by their corners, so that triangles on the same corners are
+/// neighbours. Cost O(T log T).
 std::vector<SortedTriangle> sortedByCorners(const TriangleMesh& mesh);
 
-/// Every edge has one or two triangles.
+/// True if every edge has one or two triangles.
 bool isManifold(const MeshEdges& edges);
-/// Every edge has two triangles, which run along it in opposite directions.
+/// True if every edge has two triangles, which run along it in opposite directions.
 bool isClosed(const MeshEdges& edges);
 
 /// Disjoint sets over 0 .. n - 1.

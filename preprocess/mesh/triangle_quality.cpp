@@ -14,24 +14,16 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-Vector3d barycentreOf(const TriangleMesh& mesh, Index t) {
-  return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3;
-}
-
-Vector3d twiceAreaOf(const TriangleMesh& mesh, Index t) {
-  return (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
-}
-
 TriangleQuality qualityOf(const TriangleMesh& mesh, Index t) {
   std::array<double, 3> edges{};
   for (int k = 0; k < 3; ++k) edges[k] = (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)).norm();
   std::sort(edges.begin(), edges.end());
-  const double twice_area = twiceAreaOf(mesh, t).norm();
+  const double twice_area = mesh.twiceArea(t).norm();
   TriangleQuality quality;
   quality.triangle = static_cast<int>(t);
   quality.aspect = edges[2] * edges[2] / twice_area;
   quality.smallest_angle = portable::asin(std::min(1.0, twice_area / (edges[1] * edges[2])));
-  quality.barycentre = barycentreOf(mesh, t);
+  quality.barycentre = mesh.barycentre(t);
   return quality;
 }
 
@@ -54,10 +46,10 @@ double distanceAlong(const Vector3d& origin, const Vector3d& direction, const Tr
 }
 
 double thicknessAt(const TriangleMesh& mesh, Index t) {
-  const Vector3d origin = barycentreOf(mesh, t), inwards = -twiceAreaOf(mesh, t).normalized();
+  const Vector3d origin = mesh.barycentre(t), inwards = -mesh.twiceArea(t).normalized();
   double nearest = -1;
   for (Index s = 0; s < mesh.triangleCount(); ++s) {
-    if (s == t || twiceAreaOf(mesh, s).dot(inwards) <= 0) continue;
+    if (s == t || mesh.twiceArea(s).dot(inwards) <= 0) continue;
     const double distance = distanceAlong(origin, inwards, mesh, s);
     if (distance > 0 && (nearest < 0 || distance < nearest)) nearest = distance;
   }
@@ -84,7 +76,7 @@ std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh) {
   for (Index t = 0; t < mesh.triangleCount(); t += step) {
     const double thickness = thicknessAt(mesh, t);
     if (thickness < 0 || (thinnest && thinnest->thickness <= thickness)) continue;
-    thinnest = Thickness{thickness, static_cast<int>(t), barycentreOf(mesh, t)};
+    thinnest = Thickness{thickness, static_cast<int>(t), mesh.barycentre(t)};
   }
   return thinnest;
 }

@@ -15,18 +15,18 @@ struct TriangleQuality {
   Eigen::Vector3d barycentre = Eigen::Vector3d::Zero();  ///< [m]
 };
 
-/// The triangles of largest aspect, worst first. Cost O(T log T).
+/// Finds the triangles of largest aspect, worst first. Cost O(T log T).
 std::vector<TriangleQuality> findWorstTriangles(const TriangleMesh& mesh, int count);
 
 /// The thinnest place of a body.
 struct Thickness {
-  double thickness = 0;  ///< from a barycentre straight inwards to the other side [m]
+  double thickness = 0;  ///< distance from a barycentre straight inwards to the other side [m]
   int triangle = 0;
   Eigen::Vector3d barycentre = Eigen::Vector3d::Zero();  ///< [m]
 };
 
-/// The least thickness over the barycentres of at most some 2000 triangles, evenly chosen; none if
-/// no ray meets another side. Cost O(T) per ray.
+/// Finds the least thickness over the barycentres of at most some 2000 triangles, evenly chosen;
+/// none if no ray meets another side. Cost O(T) per ray.
 /// @pre closed and outward oriented.
 std::optional<Thickness> findThinnestPart(const TriangleMesh& mesh);
 

@@ -56,8 +56,7 @@ void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& s
     if (!std::isfinite(size)) raiseInputError(source, what, "not finite", limits);
     raiseInputError(source, what, size, " m", limits);
   }
-  requireUsualWidth(sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh), size,
-                    sheet, source);
+  requireUsualWidth(computeMassProperties(mesh, sheet), size, sheet, source);
 }
 
 }  // namespace ambient

@@ -6,21 +6,22 @@
 
 namespace ambient {
 
-/// Far beyond these sizes areas, volumes and moments leave the range of a double [m].
+/// Smallest and largest size of a mesh [m]. Far beyond them, areas, volumes and moments leave the
+/// range of a double.
 constexpr double kSmallestSize = 1e-9, kLargestSize = 1e9;
 
-/// Checks that a mesh has a size that can be computed with: neither tiny nor huge, and so wide and
-/// thick that its triangles have normals. Cost O(T).
+/// Checks that a mesh is neither tiny nor huge, and wide and thick enough for its triangles to have
+/// normals. Cost O(T).
 /// @throws std::runtime_error in one line that begins with `source`, if its diagonal is not
 /// kSmallestSize to kLargestSize, its area over the diagonal's square is below 1e-12 or, unless it
 /// is a sheet, its volume over its area^1.5 below 1e-6.
 void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& source);
 
-/// "1 x 2 x 3 m"
+/// Text of extents [m]: "1 x 2 x 3 m".
 std::string extentsText(const Eigen::Vector3d& extents);
 
-/// One line that begins with `source`, if the longest extent is above 10 m or below 1 mm: a
-/// mesh in millimetres looks like that. Else empty.
+/// Returns one line that begins with `source` if the longest extent is above 10 m or below 1 mm, as
+/// of a mesh in millimetres; else empty.
 std::string unlikelySizeWarning(const TriangleMesh& mesh, const std::string& source);
 
 }  // namespace ambient

@@ -4,8 +4,8 @@
 
 namespace ambient {
 
-/// A mesh whose vertices closer than `tolerance` [m] are one (chains too), in place of the first of
-/// them, without the triangles that lost a corner by it. Order is kept. Cost O(V + T).
+/// Joins vertices closer than `tolerance` [m], also along chains, at the place of the first of
+/// them, and removes triangles that lose a corner. Order is kept. Cost O(V + T).
 /// @pre coordinates are finite, tolerance >= 0; 0 joins equal vertices only.
 TriangleMesh weldVertices(const TriangleMesh& mesh, double tolerance);
 

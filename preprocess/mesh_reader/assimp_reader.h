@@ -6,8 +6,8 @@
 
 namespace ambient {
 
-/// The polygons of a scene, each as often and where its nodes place it, and one line for the user,
-/// if the reader of the format has turned the axes.
+/// Polygons of a scene, placed by its nodes, once per node, and a warning line if the reader of the
+/// format has turned the axes.
 struct AssimpScene {
   PolygonCollector polygons;
   std::string warning;

@@ -5,16 +5,16 @@
 
 namespace ambient {
 
-/// Everything in a file. @throws std::runtime_error if it cannot be read.
+/// Reads a file. @throws std::runtime_error if it cannot be read.
 std::string readText(const std::string& file);
 
-/// "obj" of "Thing.OBJ".
+/// Extension of a file in small letters: "obj" for "Thing.OBJ".
 std::string extensionOf(const std::string& file);
 
-/// The text of an OBJ or COLLADA file without what has nothing to do with its geometry but makes
-/// assimp 5.2 refuse it: texture coordinates and normals at the corners of faces, of which it loses
-/// count where a file has normals only, and effects, whose images may have no source. Nothing for
-/// files of other formats.
+/// Returns the text of an OBJ or COLLADA file without parts that are not geometry and that make
+/// assimp 5.2 refuse the file: texture coordinates and normals at the corners of faces, which it
+/// miscounts if a file has normals only; effects, whose images may have no source. None for files
+/// of other formats.
 std::optional<std::string> geometryText(const std::string& file);
 
 }  // namespace ambient

@@ -7,7 +7,7 @@
 
 namespace ambient {
 
-/// The polygons of one file after the other, divided into triangles.
+/// Collects the polygons of a file, divided into triangles.
 class PolygonCollector {
  public:
   /// Begins a list of vertices: the corners of polygons count from here on.

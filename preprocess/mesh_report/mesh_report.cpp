@@ -68,9 +68,7 @@ std::optional<BuildEstimate> estimateBuild(const TriangleMesh& mesh,
 
 MeshReport makeMeshReport(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
   MeshReport report;
-  const MeshProperties properties =
-      settings.sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
-  report.origin = properties.uniform.centre;
+  report.origin = computeMassProperties(mesh, settings.sheet).uniform.centre;
   TriangleMesh centred = mesh;
   centred.vertices.colwise() -= report.origin;
   report.worst_triangles = findWorstTriangles(mesh, 3);

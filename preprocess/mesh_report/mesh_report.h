@@ -28,22 +28,22 @@ struct BuildEstimate {
   double rotation_error = 0, translation_error = 0;
 };
 
-/// Report on a mesh, to be read before its fluid body is trusted.
+/// Report on the accuracy to expect of the fluid body of a mesh.
 struct MeshReport {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< centre of volume, of a sheet of area [m]
-  FlowLevel built;                                   ///< the plain solution on so many panels
-  /// Another one on fewer or, if the mesh itself is too fine for that, on more panels.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< centre of volume, for a sheet of area [m]
+  FlowLevel built;                                   ///< plain solution on settings.max_panels
+  /// Solution on fewer panels or, if the mesh itself is too fine for that, on more.
   std::optional<FlowLevel> other;
   /// Estimated error of `built` over the largest entry of the block, from both levels, the error
   /// taken as inverse to the number of panels [1]. It knows the polyhedron only, not the smooth
   /// body that the mesh may stand for.
   double rotation_error = 0, translation_error = 0;
   Matrix6 extrapolated = Matrix6::Zero();  ///< `built` corrected by that error
-  /// Estimate of a build; none where it solves on the mesh's own triangles: a smooth or a fine
-  /// mesh.
+  /// Estimate of a build; none if the build solves on the mesh's own triangles, as for a smooth or
+  /// fine mesh.
   std::optional<BuildEstimate> build;
   std::vector<TriangleQuality> worst_triangles;
-  std::optional<Thickness> thinnest;  ///< of a body, not of a sheet
+  std::optional<Thickness> thinnest;  ///< thinnest part of a body; none for a sheet
 };
 
 /// Makes the report for settings.max_panels, as for the fluid body. Lists three worst triangles.

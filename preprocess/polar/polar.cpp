@@ -3,8 +3,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/spatial/invariants.h"
 
 namespace ambient {
 namespace {
@@ -41,6 +43,7 @@ Matrix3 flightAxes(const Vector3& forward, const Vector3& up) {
   axes.col(0) = forward;
   axes.col(1) = up.cross(forward);
   axes.col(2) = up;
+  AMBIENT_ASSERT(isRotation(axes));
   return axes;
 }
 
@@ -50,6 +53,7 @@ PolarReference usualReference(const FluidBody& body, const Matrix3& axes) {
 
 PolarCoefficients polarCoefficients(const BodyLoads& loads, const PolarFlight& flight,
                                     double attack, double side_slip) {
+  AMBIENT_ASSERT(isRotation(flight.axes));
   const double ca = portable::cos(attack), sa = portable::sin(attack);
   const double cb = portable::cos(side_slip), sb = portable::sin(side_slip);
   const Vector3 motion(ca * cb, -sb, -sa * cb), lift(sa, 0, ca);

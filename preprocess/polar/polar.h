@@ -25,17 +25,19 @@ struct PolarFlight {
 /// C_L, C_D, C_Y (to the right), C_l, C_m, C_n about F's origin, as a pilot counts them.
 using PolarCoefficients = std::array<double, 6>;
 
-/// An axis of F by its name: x, -y, +z.
+/// Returns the axis of F with a name: x, -y, +z.
 /// @throws std::invalid_argument for any other text.
 Vector3 axisNamed(const std::string& name);
 
 /// @pre the two are perpendicular unit vectors
 Matrix3 flightAxes(const Vector3& forward, const Vector3& up);
 
-/// The silhouette along `up` of a convex body or a flat sheet, and the extent along `forward`.
+/// Returns the silhouette along `up` (right for convex bodies and flat sheets) and the extent along
+/// `forward`.
 PolarReference usualReference(const FluidBody& body, const Matrix3& axes);
 
-/// The coefficients at angles of attack and side-slip [rad]. Cost: one evaluation of the loads.
+/// Computes the coefficients at angles of attack and side-slip [rad]. Cost: one evaluation of the
+/// loads.
 PolarCoefficients polarCoefficients(const BodyLoads& loads, const PolarFlight& flight,
                                     double attack, double side_slip);
 

@@ -4,7 +4,8 @@
 
 namespace ambient {
 
-/// Faces about the centre of their area, in units of their root mean square distance from it.
+/// Faces relative to the centroid of the surface, in units of their root mean square distance from
+/// it.
 struct CentredFaces {
   Vector3 centre{0, 0, 0};  ///< in the frame of the source [m]
   double length = 0;        ///< [m]
@@ -13,7 +14,7 @@ struct CentredFaces {
   /// @throws std::invalid_argument naming the body, if no faces that are apart have an area.
   CentredFaces(const FluidBody& body, const FaceTable& source);
 
-  /// Faces in these units to the frame of the source.
+  /// Converts faces of a level from these units to the frame of the source.
   void moveBack(FaceTable& of_level) const;
 };
 

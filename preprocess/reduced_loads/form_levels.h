@@ -7,16 +7,17 @@
 
 namespace ambient {
 
-/// Reduced faces for the form law, one level per number of faces that is below that of the faces
-/// the law is summed over; docs/theory.md eq. (51a). Clusters of faces alike in normal and place
-/// become one face each, which takes energy as each of them does; areas are fitted to the loads.
-/// Mirrors of the body along the axes of F are kept. The same bits on every run. Cost: 10 us per
-/// face.
+/// Makes reduced faces for the form law: one level per number in `faces` that is below the number
+/// of faces of the full sum; docs/theory.md eq. (51a). Each cluster of faces with similar normal
+/// and place becomes one face, which only takes energy, as its faces do; areas are fitted to the
+/// loads. Mirror symmetries of the body along the axes of F are kept. The same bits on every run.
+/// Cost: 10 us per face.
 /// @throws std::invalid_argument as buildLoadLevels() and formLawFaces().
 std::vector<FormLevel> buildFormLevels(const FluidBody& body, const std::vector<int>& faces);
 
-/// The smallest level of up to 256 faces whose error is at most `p99_error`; none: there is no such
-/// one below the number of all faces. Cost: 30 us per face. @throws as buildFormLevels().
+/// Finds the smallest level of up to 256 faces whose error is at most `p99_error`; none if no level
+/// with fewer faces than the full sum reaches that. Cost: 30 us per face. @throws as
+/// buildFormLevels().
 std::optional<FormLevel> smallestFormLevel(const FluidBody& body, double p99_error);
 
 }  // namespace ambient

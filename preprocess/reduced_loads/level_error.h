@@ -4,8 +4,9 @@
 
 namespace ambient {
 
-/// Error of a level against all faces, both in the faces' units about their origin: over motions
-/// that the fit did not see, and after local ascent from the worst of them. Not a bound.
+/// Measures the error of a level against the sum over all faces, both in the faces' units about
+/// their origin. Uses motions that the fit did not use, and local ascent from the worst of them.
+/// The result is not a bound.
 LoadLevelError measureError(const LoadLevel& level, const FaceTable& faces);
 
 }  // namespace ambient

@@ -6,7 +6,7 @@
 
 namespace ambient {
 
-/// Arbitrary numbers, the same on every machine.
+/// Pseudo-random numbers, the same on every machine.
 class ArbitraryNumbers {
  public:
   explicit ArbitraryNumbers(std::uint64_t seed) : state_(seed) {}
@@ -17,8 +17,8 @@ class ArbitraryNumbers {
   std::uint64_t state_;
 };
 
-/// A motion (w, v) with |w|^2 + |v|^2 = 1 in units of a level: v and w in independent directions,
-/// uniform over the sphere, and atan(|w| / |v|) uniform from 0 to pi/2.
+/// Samples a motion (w, v) with |w|^2 + |v|^2 = 1 in units of a level: v and w in independent
+/// directions, uniform over the sphere, and atan(|w| / |v|) uniform from 0 to pi/2.
 Vector6 sampleMotion(ArbitraryNumbers& numbers);
 
 }  // namespace ambient

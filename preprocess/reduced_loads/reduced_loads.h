@@ -7,11 +7,11 @@
 
 namespace ambient {
 
-/// Clusters of a level: from one block of the kernel to where all faces of usual meshes are
-/// cheaper.
+/// Least and largest number of clusters of a level: from one block of the kernel to where the sum
+/// over all faces of usual meshes is cheaper.
 constexpr int kFewestClusters = 16, kMostClusters = 1024;
 
-/// Reduced levels of a shape's loads at a separation angle [rad], one per number of clusters,
+/// Makes reduced levels of a shape's loads at a separation angle [rad], one per number of clusters,
 /// with their errors; docs/theory.md section "Reduced loads". A level does not get more clusters
 /// than there are faces. The same bits on every run. Cost: about 1 s for 200 clusters, growing with
 /// the square of the clusters and with the faces.

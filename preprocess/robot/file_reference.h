@@ -6,10 +6,10 @@
 
 namespace ambient {
 
-/// Folders of packages by name, for package:// references.
+/// Folders of packages by name, for references package://NAME/...
 using PackageFolders = std::map<std::string, std::filesystem::path>;
 
-/// The file that a reference in `file` means:
+/// Finds the file that a reference in `file` means:
 ///
 ///     meshes/hull.stl          beside the file
 ///     /data/hull.stl           as it is; file:///data/hull.stl is the same

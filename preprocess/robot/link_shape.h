@@ -14,18 +14,20 @@ AMBIENT_BEGIN
 /// and its axes along the principal axes of inertia.
 struct LinkShape {
   std::vector<std::unique_ptr<btCollisionShape>> parts;
-  std::unique_ptr<btCompoundShape> in_body;  ///< in B: the shape of the link's collider
-  std::unique_ptr<btCompoundShape> in_link;  ///< in the link's frame, to make fluid bodies of
+  std::unique_ptr<btCompoundShape> in_body;  ///< shape of the link's collider, in B
+  std::unique_ptr<btCompoundShape>
+      in_link;  ///< the same shape in the link's frame, for fluid bodies
 
   bool isEmpty() const { return parts.empty(); }
 };
 
-/// Spheres, boxes, ellipsoids, cylinders and capsules as they are; of a mesh the convex hull. The
-/// margin is one percent of the least size. Cost: that of reading the mesh files.
+/// Makes the collision shapes of a link: spheres, boxes, ellipsoids, cylinders and capsules as they
+/// are; a mesh becomes its convex hull. The margin is one per cent of the least size. Cost: that of
+/// reading the mesh files.
 /// @throws std::runtime_error in one line that names the file.
 LinkShape makeLinkShape(const LinkModel& link, const RigidPose& link_in_body);
 
-/// The pose of the link's frame in B, and the moments of inertia in B [kg m^2].
+/// Pose of the link's frame in B, and principal moments of inertia [kg m^2].
 struct LinkMassFrame {
   RigidPose link_in_body = RigidPose::Identity();
   Vector3 moments{0, 0, 0};

@@ -16,8 +16,8 @@
 
 AMBIENT_BEGIN
 
-/// Bullet's convex primitive of a shape that is one, in the shape's own frame; a visitor. Those who
-/// have other shapes too derive from it.
+/// Visitor that makes Bullet's convex primitive of a simple shape, in the shape's frame. Derive
+/// from it to handle other shapes.
 struct PrimitiveMaker {
   using Made = std::unique_ptr<btConvexInternalShape>;
 
@@ -43,8 +43,8 @@ struct PrimitiveMaker {
                       std::min(s.radius, s.height / 2));
   }
 
-  /// A margin shrinks the core of all but spheres and capsules. Bullet's default of 4 cm is larger
-  /// than many bodies: here it is a hundredth of a size.
+  /// Returns a margin of a hundredth of a size [m]. A margin shrinks the core of all shapes but
+  /// spheres and capsules; Bullet's default of 4 cm is larger than many bodies.
   static btScalar margin(double size) { return static_cast<btScalar>(0.01 * size); }
   static Made withMargin(Made shape, double size) {
     shape->setMargin(margin(size));

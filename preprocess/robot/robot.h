@@ -19,16 +19,18 @@ class RobotJoints;
 
 /// Initial state and settings of a robot.
 struct RobotSettings {
-  RigidPose pose = RigidPose::Identity();  ///< of the robot's frame, the root link's, in W
+  RigidPose pose =
+      RigidPose::Identity();  ///< pose of the robot's frame, that of the root link, in W
   bool fixed_base = false;
-  std::map<std::string, double> positions;  ///< of revolute and prismatic joints; others: 0
-  bool self_collision = false;              ///< between links that no joint connects
+  std::map<std::string, double>
+      positions;  ///< positions of revolute and prismatic joints by name [rad, m]; others: 0
+  bool self_collision = false;  ///< true: links that no joint connects collide
   bool can_sleep = false;
 };
 
-/// A btMultiBody made from a model, and all that belongs to it: shapes, colliders, limits, mimics,
-/// motors. Bullet's own damping of multibodies is off: the fluid's is ours. Joints' friction and
-/// damping never turn a velocity round.
+/// A btMultiBody made from a model, with its shapes, colliders, limits, mimics and motors. Bullet's
+/// own damping of multibodies is off; the fluid damps. Friction and damping of joints never reverse
+/// a velocity.
 class Robot {
  public:
   /// For fewer links: withoutFixedJoints(model).
@@ -49,7 +51,7 @@ class Robot {
   btMultiBody& multiBody() { return *body_; }
   const btMultiBody& multiBody() const { return *body_; }
 
-  /// Bullet's number of a link, or of the one that it was merged into; -1: the base.
+  /// Bullet's number of a link, or of the link that it was merged into; -1: the base.
   /// @throws std::runtime_error with the known names.
   int linkNumber(const std::string& link) const { return model_.linkIndex(link) - 1; }
   /// Bullet's number of the link below a joint. @throws as linkNumber()
@@ -80,11 +82,12 @@ class Robot {
   /// @throws std::runtime_error if a joint is not revolute or prismatic, or as linkNumber()
   void requireAxial(const std::string& joint) const;
 
-  /// Drives a revolute or prismatic joint from now on; effort 0: no longer. Mimics follow.
+  /// Drives a revolute or prismatic joint from now on; effort 0 ends that. Mimic joints follow.
   /// @throws std::runtime_error for another joint or numbers that are not finite.
   void setMotor(const std::string& joint, const MotorTarget& target);
 
-  /// Before each step of the world (or substep), with its length [s]: turns efforts into impulses.
+  /// Call before each step (or substep) of the world, with its length [s]: converts efforts to
+  /// impulses.
   void prepareStep(double time_step);
 
  private:

@@ -9,9 +9,9 @@
 
 AMBIENT_BEGIN
 
-/// Puts the links of a robot into a fluid, all that collide and move: with the medium, the law and
-/// the fluid body that their `ambient` elements name, else those of `def` and what the source has
-/// for their collision shapes.
+/// Puts all links of a robot that collide and move into a fluid: with the medium, law and fluid
+/// body that their `ambient` elements name, else with those of `def` and the fluid body that the
+/// source has for the collision shape.
 ///
 ///     Robot robot(withoutFixedJoints(readUrdf("rover.urdf")));
 ///     robot.addTo(world);
@@ -25,8 +25,8 @@ AMBIENT_BEGIN
 std::vector<std::string> attachRobot(Fluid& fluid, Robot& robot, FluidBodySource& source,
                                      const AttachDef& def);
 
-/// The pose of a fluid body in the frame of a link of the btMultiBody, where the fluid body has the
-/// axes and the origin of the URDF's link.
+/// Returns the pose of F in Bullet's body frame of a link, for a fluid body whose frame F is the
+/// URDF link's frame.
 FrameOffset linkFluidFrame(const Robot& robot, int number);
 
 AMBIENT_END

@@ -20,7 +20,7 @@ class RobotJoints {
   void leaveWorld();
   void setMotor(int number, const MotorTarget& target);
   void prepareStep(double time_step);
-  /// Torque or force of a motor in the last step; 0 without one.
+  /// Torque [N m] or force [N] of the motor in the last step; 0: the joint has no motor.
   double motorEffort(int number) const;
 
  private:
@@ -41,7 +41,7 @@ class RobotJoints {
   std::map<int, std::unique_ptr<btMultiBodyJointMotor>> brakes_;  // by link
   std::map<int, Motor> motors_;
   btMultiBodyDynamicsWorld* world_ = nullptr;
-  double time_step_ = 0;  ///< of prepareStep(); 0: none yet
+  double time_step_ = 0;  ///< step length given to prepareStep() [s]; 0: none yet
 };
 
 AMBIENT_END

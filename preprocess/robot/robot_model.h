@@ -29,10 +29,11 @@ struct JointModel {
   /// Pose of the joint's frame in the parent link's frame; of the root link: in the robot's frame.
   /// The link's frame equals it at position 0.
   RigidPose origin = RigidPose::Identity();
-  Vector3 axis{1, 0, 0};  ///< of length 1 in the joint's frame; of a plane its normal
+  Vector3 axis{1, 0,
+               0};  ///< unit axis in the joint's frame; for a planar joint the normal of the plane
   double lower = -kUnlimited, upper = kUnlimited;
-  double effort = kUnlimited;    ///< that motors may use
-  double velocity = kUnlimited;  ///< that motors may ask for
+  double effort = kUnlimited;    ///< largest effort of motors
+  double velocity = kUnlimited;  ///< largest velocity that motors may ask for
   double damping = 0;            ///< force per velocity
   double friction = 0;           ///< force
   struct Mimic {
@@ -41,12 +42,13 @@ struct JointModel {
   };
   std::optional<Mimic> mimic;  ///< position = multiplier * that of the joint + offset
 
-  /// Whether its position is one number.
+  /// True if the position of the joint is one number.
   bool isAxial() const {
     return kind == UrdfJointKind::kRevolute || kind == UrdfJointKind::kPrismatic;
   }
   bool hasAxis() const { return isAxial() || kind == UrdfJointKind::kPlanar; }
-  /// Pose of the link against its place at position 0; of a joint that is not axial: there.
+  /// Pose of the link at a joint position, relative to that at position 0; the identity for a joint
+  /// that is not axial.
   RigidPose motion(double position) const {
     RigidPose motion = RigidPose::Identity();
     if (kind == UrdfJointKind::kRevolute)
@@ -66,18 +68,19 @@ struct LinkFluid {
 /// A rigid part of a robot; without a mass it moves nothing by itself.
 struct LinkModel {
   std::string name;
-  int parent = -1;                                   ///< index, less than its own; -1: the root
-  JointModel joint;                                  ///< to the parent
-  double mass = 0;                                   ///< [kg]
-  Vector3 centre_of_mass{0, 0, 0};                   ///< in the link's frame [m]
-  Matrix3 inertia{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};  ///< about that, link's axes [kg m^2]
+  int parent = -1;                  ///< index, less than its own; -1: the root
+  JointModel joint;                 ///< joint to the parent link
+  double mass = 0;                  ///< [kg]
+  Vector3 centre_of_mass{0, 0, 0};  ///< in the link's frame [m]
+  Matrix3 inertia{
+      {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};  ///< about the centre of mass, link's axes [kg m^2]
   std::vector<PlacedShape> collisions;
   std::optional<LinkFluid> fluid;
   /// Links that were merged into this one: their poses in its frame, by name.
   std::map<std::string, RigidPose> merged;
 };
 
-/// A tree of links, parents first. Plain data: nothing of it knows Bullet.
+/// A tree of links, parents first. Plain data, independent of Bullet.
 struct RobotModel {
   std::string name;
   std::string source;  ///< the file; begins every message
@@ -91,8 +94,8 @@ struct RobotModel {
   int jointIndex(const std::string& joint) const;
 };
 
-/// Refuses what cannot move: a link that moves without mass or with moments of inertia that are not
-/// positive, joints in a place where they cannot be. `fixed_base`: the root need not have a mass.
+/// Checks that a robot can move: moving links need a mass and positive moments of inertia, and
+/// joints must be in allowed places. `fixed_base`: the root needs no mass.
 /// @throws std::runtime_error in one line that names file, link or joint, value and limit.
 void checkRobot(const RobotModel& model, bool fixed_base);
 
@@ -101,8 +104,8 @@ void checkRobot(const RobotModel& model, bool fixed_base);
 /// collisions is removed if its only child floats.
 RobotModel withoutFixedJoints(const RobotModel& model);
 
-/// Poses of the links' frames, from that of the robot and the positions of revolute and prismatic
-/// joints by name; others are at 0.
+/// Computes the poses of the links' frames from that of the robot and the positions of revolute and
+/// prismatic joints by name; other joints are at 0.
 std::vector<RigidPose> linkPoses(const RobotModel& model, const RigidPose& robot,
                                  const std::map<std::string, double>& positions = {});
 

@@ -266,8 +266,7 @@ class ModelReader {
   }
 
   PressureLaw lawOf(const std::string& word, const std::string& element) const {
-    for (const auto& [law, name] : kPressureLawNames)
-      if (word == name) return law;
+    if (const auto law = valueOf(kPressureLawNames, word)) return *law;
     refuse(element + " law is \"" + word + "\"; must be published or form");
   }
 

@@ -6,7 +6,7 @@
 
 namespace ambient {
 
-/// data/schema/shape.schema.json as it was when the program was built.
+/// Content of data/schema/shape.schema.json, compiled into the program.
 const nlohmann::json& shapeSchema();
 
 /// A schema that JSON values are checked against: the part of JSON Schema draft 7 that data/schema
@@ -23,9 +23,9 @@ class JsonSchema {
   /// value and what the schema wants.
   void check(const nlohmann::json& value, const std::string& source) const;
 
-  /// Empty if the schema knows a place, such as {"bodies", "0", "mass"}, under some condition; else
-  /// a sentence about the first part that it does not know and the keys that are there. Any index
-  /// is known in an array.
+  /// Returns empty if the schema knows a place, such as {"bodies", "0", "mass"}, under some
+  /// condition; else a sentence about the first unknown part and the known keys there. In an array
+  /// any index is known.
   std::string unknownKey(const std::vector<std::string>& path) const;
 
   /// "bodies[0].mass" for {"bodies", "0", "mass"}, the subject for {}.
@@ -36,7 +36,7 @@ class JsonSchema {
   std::string subject_;
 };
 
-/// Whether a part of a path is an index into an array.
+/// True if a part of a path is an index into an array.
 bool isIndex(const std::string& part);
 
 }  // namespace ambient

@@ -6,7 +6,7 @@
 
 namespace ambient {
 
-/// The bytes of a file.
+/// Reads a file.
 /// @throws std::runtime_error in one line that names the file, if it cannot be read.
 std::string readBytes(const std::filesystem::path& file);
 

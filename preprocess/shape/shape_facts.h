@@ -10,20 +10,20 @@
 
 namespace ambient {
 
-/// The added mass of a shape, known without solving the flow around it.
+/// Added mass of a shape, known without solving the flow.
 struct KnownAddedMass {
   Matrix6 added_mass;  ///< per unit density, about the shape's origin
-  bool is_tabulated;   ///< in place of a closed form
+  bool is_tabulated;   ///< true: from a table; false: closed form
   std::string source;  ///< "closed form", or which tables
 };
 
-/// Everything that follows from the numbers of a simple shape. Shapes of files, hulls and triangle
-/// soups have none of it.
+/// Everything that follows from the numbers of a simple shape. Empty for shapes of files, hulls and
+/// triangle soups.
 struct ShapeFacts {
   /// Half of the sizes of the bounding box along its axes [m]; of a sheet two.
   Eigen::VectorXd half_extents = {};
-  /// Makes its mesh of at most so many triangles, with the volume (a sheet: the area) of the smooth
-  /// body. @throws std::runtime_error, if they are fewer than least_faces()
+  /// Makes a mesh of at most `faces` triangles, with the volume (for a sheet the area) of the
+  /// smooth body. @throws std::runtime_error, if they are fewer than least_faces()
   std::function<TriangleMesh(int faces)> mesh = nullptr;
   std::function<int()> least_faces = [] { return 20; };
   /// Returns the added mass of the shape with all lengths times `scale`; none outside the range of
@@ -31,9 +31,10 @@ struct ShapeFacts {
   std::function<std::optional<KnownAddedMass>(double scale)> added_mass = [](double) {
     return std::nullopt;
   };
-  bool is_smooth = false;    ///< without edges: errors of meshes shrink evenly as these get finer
+  bool is_smooth = false;  ///< true: the shape has no edges; errors of its meshes shrink evenly as
+                           ///< these get finer
   double sphere_radius = 0;  ///< [m]; 0: no sphere
-  double margin_volume = 0;  ///< what its margin adds to its volume [m^3]
+  double margin_volume = 0;  ///< volume that the margin adds [m^3]
 };
 
 ShapeFacts factsOf(const Shape& shape);

@@ -6,19 +6,18 @@
 
 namespace ambient {
 
-/// Whether the shape is an open surface of zero thickness.
+/// True if the shape is an open surface of zero thickness.
 bool isSheet(const ShapeDescription& shape);
 
-/// The file with the shape's mesh or fluid body; empty for the others.
+/// Returns the file with the mesh or fluid body of a shape; empty for other shapes.
 std::filesystem::path fileOf(const ShapeDescription& shape);
 
-/// The triangles of a shape in its frame S. Meshes are read and checked; the others are made, round
-/// ones with the volume of the smooth body (elliptic sheets: the area) instead of vertices on its
-/// surface: a ball of 1280 triangles would displace 1 % too little, and carry so much less added
-/// mass.
-/// Where a mesh is refused as a body that wrapSurface() would make one of, the message says so.
-/// All lengths are multiplied by `scale`; a file whose mesh is then of a size that another unit
-/// than the metre would explain is warned of.
+/// Makes the triangles of a shape in its frame S. Meshes are read from their files and checked;
+/// other shapes are generated. Round shapes get the volume of the smooth body (elliptic sheets: the
+/// area), not vertices on its surface: a ball of 1280 triangles would otherwise have 1 % too little
+/// volume and added mass. If a mesh is refused that wrapSurface() could make a body of, the message
+/// says so. All lengths are multiplied by `scale`. Warns of a mesh file whose size suggests another
+/// unit than the metre.
 /// @pre the shape is not a FluidBodyFile; the scale is positive and finite
 /// @throws std::runtime_error in one line that begins with the shape's source.
 CheckedMesh makeShapeMesh(const ShapeDescription& shape, double scale = 1);

@@ -33,12 +33,12 @@ struct Cone {
   double height = 0;  ///< apex at +height/2
   double margin = 0;  ///< all points within that distance belong to it
 };
-/// The convex hull of points.
+/// Convex hull of points.
 struct Hull {
   std::vector<Eigen::Vector3d> points;
   double margin = 0;  ///< all points within that distance belong to it
 };
-/// The convex hull of ellipsoids along the axes of S.
+/// Convex hull of ellipsoids whose axes are those of S.
 struct BallHull {
   struct Ball {
     Eigen::Vector3d centre, semi_axes;
@@ -47,10 +47,9 @@ struct BallHull {
 };
 /// A closed surface.
 struct TriangleSoup {
-  std::vector<Eigen::Vector3d> corners;  ///< three of each triangle, counter-clockwise from outside
+  std::vector<Eigen::Vector3d> corners;  ///< three per triangle, counter-clockwise from outside [m]
 };
-/// Surface that is used in place of the triangles of a file: the same, their convex hull, or a
-/// wrap.
+/// Surface that is used for a mesh file: its own triangles, their convex hull, or a wrap.
 enum class MeshStandIn { kNone, kHull, kWrap };
 struct MeshFile {
   std::filesystem::path file;
@@ -80,7 +79,7 @@ using Shape =
 /// p_parent = pose * p_child [m].
 using RigidPose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
-/// A shape in the frame of what it is a part of.
+/// A shape with its pose in the frame of the whole.
 struct PlacedShape {
   Shape shape = {};
   RigidPose pose = RigidPose::Identity();

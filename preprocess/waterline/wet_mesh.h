@@ -4,16 +4,18 @@
 
 namespace ambient {
 
-/// The part of a closed mesh below the plane z = 0: open at the waterline, whose vertices have z =
-/// 0 exactly, or closed if no triangle reaches it. A side in the plane counts as above it. Vertices
-/// closer to each other than a thousandth of the mesh are joined. No triangles of a dry mesh.
+/// Returns the part of a closed mesh below the plane z = 0: open at the waterline, whose vertices
+/// have exactly z = 0, or closed if no triangle reaches the plane. A side in the plane counts as
+/// above it. Vertices closer than a thousandth of the size are joined. A dry mesh gives no
+/// triangles.
 TriangleMesh wetPartOf(const TriangleMesh& body);
 
 /// A mesh below the plane z = 0 with its mirror image above, joined where z = 0. The triangles of
 /// the mesh come first, those of the image follow in the same order, turned round.
 struct MirroredMesh {
   TriangleMesh mesh;
-  Eigen::VectorXi image;  ///< of each vertex of the wet part; itself on the waterline
+  Eigen::VectorXi image;  ///< number of the image of each vertex of the wet part; the vertex itself
+                          ///< on the waterline
 };
 MirroredMesh withImage(const TriangleMesh& wet);
 

@@ -14,33 +14,32 @@ class AmbientBodies;
 /// How the owner of a world deletes its solver.
 enum class SolverOwner {
   kKeepsPointer,  ///< by a pointer of its own
-  /// By the pointer that it finds in the world, like PyBullet where another type of solver is asked
-  /// for. If that is the fluid's, nobody else knows the one that it stands for: the fluid deletes
+  /// By the pointer that it finds in the world, as PyBullet does when asked for another type of
+  /// solver. If that is the fluid's solver, nobody else knows the replaced one: the fluid deletes
   /// it.
   kAsksWorld,
 };
 
-/// The solvers of a fluid that take the place of a world's plain ones: one, or those of a pool and
-/// the one for large islands of a multithreaded world. They go on with the random numbers of the
-/// plain ones.
+/// Solvers of a fluid that replace a world's plain ones: one solver, or a pool, and the one for
+/// large islands of a multithreaded world. They continue the random numbers of the replaced ones.
 class FittedSolvers {
  public:
-  /// Makes them; the world stays as it is.
+  /// Makes the solvers; does not change the world.
   /// @throws std::invalid_argument, in one sentence that names makeSolver(), if the world has
   /// another solver than Bullet's plain ones, or a pool of others.
   FittedSolvers(btDiscreteDynamicsWorld& world, const std::shared_ptr<AmbientBodies>& members,
                 SolverOwner owner);
-  /// Deletes those that nobody else has deleted.
+  /// Deletes the solvers that nobody else has deleted.
   ~FittedSolvers();
   FittedSolvers(const FittedSolvers&) = delete;
   FittedSolvers& operator=(const FittedSolvers&) = delete;
 
-  /// Gives them to the world.
+  /// Gives the solvers to the world.
   void install(btDiscreteDynamicsWorld& world);
-  /// Gives the world its own solvers back in place of these. Another solver that it has been given
-  /// meanwhile stays.
+  /// Gives the world its own solvers back. A solver that somebody has given the world meanwhile
+  /// stays.
   void giveBack(btDiscreteDynamicsWorld& world);
-  /// Whether the world solves with them. Compares an address and whether it is alive.
+  /// True if the world solves with these solvers. Cost: a comparison of addresses.
   bool areIn(btDiscreteDynamicsWorld& world) const;
 
  private:

@@ -16,9 +16,9 @@ class FittedSolvers;
 enum class SolverOwner;
 struct WorldLife;
 
-/// Gives a world the solvers that fit it and an action, and takes both back when it is destroyed.
-/// World, solvers and connection may be destroyed in any order: Bullet destroys its island manager
-/// with its world, so that one of a derived class tells when that is.
+/// Gives a world fitting solvers and an action, and takes both back on destruction. World, solvers
+/// and connection may be destroyed in any order: Bullet destroys the island manager with the world,
+/// and one of a derived class reports that.
 class WorldConnection {
  public:
   /// @throws std::invalid_argument with one sentence that begins with "Fluid: "; the world is then
@@ -30,7 +30,7 @@ class WorldConnection {
   WorldConnection& operator=(const WorldConnection&) = delete;
 
   bool isWorldAlive() const;
-  /// Fits solvers to the one that the world has been given since, if it has.
+  /// Fits new solvers if somebody has given the world another solver since.
   /// @throws as the constructor; world() if the world was destroyed
   void refit();
 

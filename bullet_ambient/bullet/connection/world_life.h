@@ -11,18 +11,19 @@ AMBIENT_BEGIN
 
 class AmbientBodies;
 
-/// Whether a world is alive. Its end is the end of what is in its fluid.
+/// Says whether a world is alive. When the world is destroyed, all members leave their fluid.
 struct WorldLife {
   std::weak_ptr<AmbientBodies> members;
   btSimulationIslandManager* given = nullptr;  ///< the world's own island manager
   bool has_ended = false;
 };
 
-/// Watches a world by an island manager that works as its own does.
+/// Begins to watch a world: replaces its island manager by one that works alike and reports its
+/// destruction.
 /// @throws std::invalid_argument if the world has an island manager of a class of its own.
 void watch(btDiscreteDynamicsWorld& world, const std::shared_ptr<WorldLife>& life);
 
-/// Gives the world its own island manager back. @pre it is alive
+/// Gives the world its own island manager back. @pre the world is alive
 void stopWatching(btDiscreteDynamicsWorld& world, WorldLife& life);
 
 AMBIENT_END

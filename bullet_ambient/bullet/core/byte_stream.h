@@ -18,10 +18,10 @@
 
 AMBIENT_BEGIN
 
-// transfer(stream, field) serves for all directions: a stream writes bytes, reads them, or
-// looks at numbers.
+// transfer(stream, field) is written once for all directions: the stream writes bytes, reads them,
+// or checks numbers.
 
-/// Appends numbers, little-endian.
+/// Appends numbers and texts to bytes, little-endian.
 class ByteWriter {
  public:
   static constexpr bool kReads = false;
@@ -45,7 +45,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads them back. @throws std::runtime_error that begins with `source`, in all functions.
+/// Reads the bytes of a ByteWriter. All functions throw std::runtime_error, beginning with
+/// `source`, if the bytes end too early.
 class ByteReader {
  public:
   static constexpr bool kReads = true;
@@ -136,8 +137,8 @@ void transfer(Stream& stream, std::array<btScalar, kSize>& numbers) {
   for (btScalar& number : numbers) stream.number(number);
 }
 
-/// Transfers a length, then each entry by transfer_entry(entry). A list that is read grows with its
-/// bytes, whatever its length says.
+/// Transfers a length, then each entry by transfer_entry(entry). A reader adds entries one by one
+/// as their bytes come: a wrong length cannot exhaust memory.
 template <class Stream, class Entry, class TransferEntry>
 void transferList(Stream& stream, std::vector<Entry>& list, const TransferEntry& transfer_entry) {
   auto size = static_cast<std::uint32_t>(list.size());
@@ -153,7 +154,8 @@ void transfer(Stream& stream, std::vector<btScalar>& numbers) {
   transferList(stream, numbers, [&stream](btScalar& number) { stream.number(number); });
 }
 
-/// Transfers whether an optional field is there, and makes one that is read to be there.
+/// Transfers whether an optional field has a value; a reader creates the value. Returns true if
+/// there is one.
 template <class Stream, class Value>
 bool transferPresence(Stream& stream, std::optional<Value>& field) {
   bool is_there = field.has_value();
@@ -164,16 +166,14 @@ bool transferPresence(Stream& stream, std::optional<Value>& field) {
   return is_there;
 }
 
-/// Transfers an enumerator as one byte, that of a value which has a name.
+/// Transfers an enumerator as one byte; a reader refuses one that `names` does not have.
 template <class Stream, class Enum, class Names>
 void transferChoice(Stream& stream, Enum& value, const Names& names) {
   auto byte = static_cast<std::uint8_t>(value);
   stream.number(byte);
   if constexpr (Stream::kReads) {
     value = static_cast<Enum>(byte);
-    for (const auto& [known, name] : names)
-      if (known == value) return;
-    stream.fail("has a choice that does not exist");
+    if (!wordOf(names, value)) stream.fail("has a choice that does not exist");
   }
 }
 

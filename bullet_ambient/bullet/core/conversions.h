@@ -19,19 +19,21 @@ inline btVector3 toBullet(const Vector3& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
 }
 
-/// The least velocity [m/s] or [rad/s] that reaches Bullet. Below it the square of half the turn in
-/// a step is a subnormal number, on which processors compute many times slower.
+/// Smallest velocity [m/s] or [rad/s] that is given to Bullet. Below it, the square of half the
+/// turn in a step is a subnormal number, with which processors compute many times slower.
 inline double leastVelocity(double time_step) {
   return 2 * std::sqrt(static_cast<double>(std::numeric_limits<btScalar>::min())) / time_step;
 }
-/// Without components below leastVelocity(). What is not finite stays.
+/// Returns a velocity change with components below leastVelocity() set to 0. Keeps components that
+/// are not finite.
 inline Twist withoutTraces(const Twist& change, double time_step) {
   const double least = leastVelocity(time_step);
   const auto pick = [&](double a) { return std::abs(a) < least ? 0 : a; };
   return {change.angular.unaryExpr(pick), change.linear.unaryExpr(pick)};
 }
 
-/// Unit to double rounding, also from float32 quaternions.
+/// Converts and normalises: the length is 1 to the rounding of a double, for float quaternions,
+/// too.
 inline Quaternion toQuaternion(const btQuaternion& q) {
   return Quaternion(static_cast<double>(q.w()), static_cast<double>(q.x()),
                     static_cast<double>(q.y()), static_cast<double>(q.z()))

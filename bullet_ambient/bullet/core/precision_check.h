@@ -1,10 +1,10 @@
 #pragma once
 
 // Bullet is built for float or for double, and nothing in its binaries tells which: mixing them
-// corrupts memory without a word. Every header of this box includes this one, and declares
-// what it has between AMBIENT_BEGIN and AMBIENT_END, in an inline namespace of `ambient` that names
-// the precision. So a mixture fails: in the compiler with a sentence below, or in the linker with
-// the namespace's name in the missing symbol.
+// corrupts memory without a word. Every header of this box includes this one, and makes its
+// declarations between AMBIENT_BEGIN and AMBIENT_END: in an inline namespace of `ambient` that
+// names the precision. A mixture then fails in the compiler with a sentence below, or in the linker
+// with the namespace's name in the missing symbol.
 
 #if !defined(BULLET_AMBIENT_FLOAT64)
 #error \

@@ -20,11 +20,12 @@ struct WorldBasis {
   btMatrix3x3 linear = btMatrix3x3::getIdentity();     ///< v from v'
 };
 WorldBasis toWorld(const Matrix6& basis_B, const Matrix3& rotation_WB);
-/// Turns a diagonal basis into world axes.
+/// Rotates a diagonal basis into world axes.
 WorldBasis toWorld(const Vector6& basis_B, const Matrix3& rotation_WB);
 
-/// T in world axes for a body with locked axes: T D T^T = K_eff^-1 of docs/theory.md eq. (30). It
-/// is not constant in body axes, and singular: locked axes of u' do not move the body.
+/// T in world axes for a body with locked axes: T D T^T = K_eff^-1 of docs/theory.md eq. (30). T is
+/// not constant in body axes, and it is singular: components of u' along locked axes do not move
+/// the body.
 WorldBasis makeLockedBasis(const BodyModel& model, const Matrix3& root_inertia_W,
                            const Matrix3& rotation_WB, const AxisFactors& factors);
 

@@ -9,7 +9,8 @@
 
 AMBIENT_BEGIN
 
-/// The rigid bodies of a world in the order of its array: that in which a .bullet file has them.
+/// Lists the rigid bodies of a world in the order of its array, which is also their order in a
+/// .bullet file.
 inline std::vector<btRigidBody*> rigidBodiesOf(btCollisionWorld& world) {
   std::vector<btRigidBody*> bodies;
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();

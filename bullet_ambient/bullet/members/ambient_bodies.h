@@ -22,31 +22,33 @@ class TaskRunner;
 
 AMBIENT_BEGIN
 
-/// The number that Bullet gives to each btRigidBody when it is constructed. It tells a body from a
-/// later one at the same address. @pre the body is alive.
+/// Number that Bullet gives to each btRigidBody on construction. Distinguishes a body from a later
+/// one at the same address. @pre the body is alive
 int instanceNumber(const btRigidBody& body) noexcept;
 
-/// All that is in one Fluid: bodies, links, regions. Solvers of the fluid keep it alive; handles of
-/// its members do not.
+/// All members of one Fluid: bodies, links, regions, and what they share. Solvers of the fluid keep
+/// this object alive; handles (Immersed) do not.
 class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
  public:
   std::size_t size() const { return bodies_.size(); }
-  /// In the order of attachment. They may have been destroyed.
+  /// Bodies in the order of addition. Their btRigidBody may have been destroyed.
   const std::list<std::unique_ptr<AmbientBody>>& all() const { return bodies_; }
-  /// The body that was attached, never another one at its address; null if there is none.
+  /// Finds the body that was added, never another one at the same address; null: none.
   /// @pre the body is alive, or nothing was attached at its address.
   AmbientBody* find(const btCollisionObject* body) const;
-  /// Whether what is at the address of an attached body is still that one. @pre it is an object.
+  /// True if the object at the address of an added body is still that body. @pre there is a
+  /// collision object at that address
   static bool isSame(const AmbientBody& ambient);
-  /// Takes over a body with a model, in place of what is attached at its address. If that is the
-  /// same body, its name and its reading stay.
+  /// Adds a body with its model, in place of an entry for the same address. If that entry is for
+  /// the same body, its name and its reading are kept.
   void insert(std::unique_ptr<AmbientBody> ambient);
-  /// By its address alone. False if nothing was attached there.
+  /// Removes the entry for an address, whatever is there now. Returns false if there is no entry.
   bool erase(const btRigidBody& body);
   void clear();
-  /// The end of their Fluid: clears, and forgets regions, report and task runner.
+  /// Called when the Fluid ends: removes members, regions, report function and task runner.
   void close();
-  /// Calls visit(AmbientBody&) for bodies and links; they may have been destroyed.
+  /// Calls visit(AmbientBody&) for all bodies and links; the Bullet objects may have been
+  /// destroyed.
   template <class Visit>
   void forEach(const Visit& visit) const {
     for (const auto& ambient : bodies_) visit(*ambient);
@@ -54,23 +56,24 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
       for (const auto& link : tree->links) visit(link->ambient);
   }
 
-  /// @throws std::logic_error that names the function, and says so once, if a region is being asked
-  /// for its fluid on this thread.
+  /// Refuses changes while a function of a region runs on this thread. @throws std::logic_error
+  /// that names `function`; reports it once, too.
   void requireChangeable(const char* function);
 
-  /// The solver meets the body, on any thread.
+  /// Notes that the solver has met the body in this substep. May be called from any thread.
   void meet(AmbientBody& ambient) noexcept;
-  /// Takes the bodies that were met since the last call, linked by next_met; null: none.
+  /// Takes the list of bodies that the solver has met since the last call, linked by
+  /// AmbientBody::next_met; null: none.
   AmbientBody* takeMet() noexcept { return met_.exchange(nullptr); }
 
   MemberSlots slots;
   AmbientTrees trees{slots};
   Complaints complaints;
   FluidRegions regions;
-  LoadTables load_tables;  ///< what the loads of bodies share
+  LoadTables load_tables;  ///< data that loads of several bodies share
   TaskRunner* task_runner = nullptr;
   std::function<std::string(const btCollisionObject&)> naming;  ///< Fluid::setNaming()
-  std::atomic<unsigned> solved{0};  ///< groups, by any solver of these bodies
+  std::atomic<unsigned> solved{0};  ///< number of groups solved so far by all solvers of this fluid
   bool is_closed = false;           ///< Fluid or world were destroyed
 
  private:

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/immersed/region_following.h"
 
@@ -48,8 +49,7 @@ void checkFlight(const std::string& who, const FlightSettings& flight) {
 
 template <class Choice, class Names>
 void checkChoice(const std::string& who, const char* what, Choice choice, const Names& names) {
-  for (const auto& [known, name] : names)
-    if (known == choice) return;
+  if (wordOf(names, choice)) return;
   throw std::invalid_argument(who + " has " + what + " number " +
                               std::to_string(static_cast<int>(choice)) + "; there are 0 to " +
                               std::to_string(names.size() - 1));

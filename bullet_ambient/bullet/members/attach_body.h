@@ -13,33 +13,36 @@ struct AmbientBody;
 class AmbientBodies;
 class Complaints;
 
-/// Body and displaced medium.
+/// Mass of a body, and mass of the medium that it displaces.
 struct DisplacedMass {
   double body = 0;    ///< [kg]
   double medium = 0;  ///< [kg]
 
   bool isLighter() const { return body < medium; }
-  /// So much that it rises at a good part of g, which hardly anybody means in air.
+  /// True if the body has less than half the mass of the medium and so rises fast, which is hardly
+  /// meant in air.
   bool isMuchLighter() const { return 2 * body < medium; }
 };
 
-/// In the medium around it now. @pre the body is dynamic.
+/// Computes both masses in the medium around the body now. A body in a region with a water surface
+/// counts as floating: its displaced mass is 0. @pre the body is dynamic
 DisplacedMass displacedMass(const AmbientBody& ambient);
 
-/// Loads and model, in the medium where the body is now. What throws changes neither.
+/// Makes loads and model of a body again, in the medium around it now. If this throws, nothing has
+/// changed.
 /// @throws std::invalid_argument as refreshModel().
 void refresh(AmbientBody& ambient, AmbientBodies& bodies);
 
-/// @throws std::invalid_argument that begins with `who` if there is no such way to meet a fluid.
-/// What shape and medium can be, refresh() checks.
+/// Checks the flight settings and enumerators of a definition; refresh() checks shape and medium.
+/// @throws std::invalid_argument that begins with `who`.
 void checkDef(const std::string& who, const AttachDef& def);
 
-/// Does what Fluid::add() does for a body, without the warning of light bodies.
+/// Implements Fluid::add() for a body, except the warning about light bodies.
 /// @throws std::invalid_argument as Fluid::add().
 AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def);
 
-/// Warns once of bodies that are much lighter than the fluid that they displace: `def` and `mass`
-/// are those of the lightest, `count` is how many there are.
+/// Warns once of bodies much lighter than the medium that they displace. `def`, `mass`: of the
+/// lightest body in proportion; `count`: number of such bodies.
 void warnOfLightBody(Complaints& complaints, const AttachDef& def, const DisplacedMass& mass,
                      int count);
 

@@ -13,20 +13,21 @@ AMBIENT_BEGIN
 struct AmbientLink;
 class AmbientBodies;
 
-/// A link of a btMultiBody; -1 is its base.
+/// A link of a btMultiBody by Bullet's number; -1: the base.
 struct LinkOf {
   btMultiBody& multi_body;
   int link;
 };
 
-/// Gives the stand-in the mass of its link, and the world's gravity.
+/// Gives the stand-in body of a link the mass of the link and the gravity of the world.
 void standIn(AmbientLink& link, const btMultiBody& multi_body, const btVector3& gravity) noexcept;
 
-/// Fluid::add() of a link. @throws std::invalid_argument as that.
+/// Implements Fluid::add() for a link, except the warning about light links. @throws
+/// std::invalid_argument as Fluid::add()
 AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& link,
                         AttachDef def);
 
-/// Wakes it, as btCollisionObject::activate() does with bodies.
+/// Wakes a multibody and its colliders, like btCollisionObject::activate() for bodies.
 void wake(btMultiBody& multi_body) noexcept;
 
 AMBIENT_END

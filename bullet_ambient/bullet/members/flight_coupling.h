@@ -7,28 +7,29 @@
 
 AMBIENT_BEGIN
 
-/// The solver meets the body: begins its outcome, reports an action that is missing, and says
-/// whether the fluid acts on it, by prepareFluid().
+/// Begins the substep of a body that the solver meets: resets its outcome, reports a missing
+/// action, calls prepareFluid(). Returns true if the fluid acts on the body.
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
 
-/// Finds its region among those of `bodies`, and rebuilds a stale model. Whether the fluid acts.
+/// Finds the region of the body among those of `bodies`, and rebuilds a stale model. Returns true
+/// if the fluid acts on the body.
 bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;
 
-/// The solver meets the body in a substep whose duration is not finite: Bullet must not move it.
+/// Disables the body for a substep whose duration is not finite, in which Bullet must not move it.
 void hold(AmbientBody& ambient, AmbientBodies& bodies) noexcept;
 
-/// After that substep: the body goes on as it was.
+/// Restores the activation state of the body after such a substep.
 void release(AmbientBody& ambient) noexcept;
 
-/// Stops a body whose velocity is not finite, before rows carry it to others. Counts and reports
-/// it.
+/// Sets a velocity that is not finite to zero, before constraint rows carry it to other bodies.
+/// Counts and reports it.
 void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
 
 /// Keeps Bullet from putting a body to sleep that drifts freely: it may rest only when it moves by
 /// less than a hundredth of its size within Bullet's two seconds.
 void keepAwakeWhileMoving(AmbientBody& ambient) noexcept;
 
-/// Keeps a body awake around which the fluid changes with time.
+/// Keeps a body awake if the fluid around it changes with time.
 void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept;
 
 /// Flies up to kFlightsTogether bodies over `time_step` [s] and keeps where they end. Writes the

@@ -9,31 +9,31 @@ AMBIENT_BEGIN
 struct AmbientBody;
 struct AmbientTree;
 
-/// Names a body or a link that was put into a fluid. No two are ever equal in one fluid.
+/// Identifier of a body or link in one fluid; never used twice.
 struct MemberId {
   int slot = -1;
   unsigned generation = 0;
 };
 
-/// A body in its fluid, or a link in its fluid and its tree.
+/// Entry of a body, or of a link and its tree.
 struct Member {
-  AmbientBody* ambient = nullptr;  ///< null: there is none
-  AmbientTree* tree = nullptr;     ///< null: a rigid body
+  AmbientBody* ambient = nullptr;  ///< null: there is no such member
+  AmbientTree* tree = nullptr;     ///< tree of the link; null: the member is a rigid body
 };
 
-/// Finds members by their names, in constant time. A slot that is free again is given to the next
-/// member with the next generation, so that the names of earlier ones find nothing.
+/// Finds members by their MemberId, in constant time. A slot is used again with the next
+/// generation, so that identifiers of removed members find nothing.
 class MemberSlots {
  public:
-  /// Gives the member a slot, and notes the slot in AmbientBody::slot.
+  /// Gives a member a slot, and writes its number to AmbientBody::slot.
   void enter(const Member& member);
-  /// Puts a member into the slot of another one, whose name finds it from now on.
+  /// Puts a member into the slot of another one, whose identifier finds the new member from now on.
   void replace(AmbientBody& old, const Member& member) noexcept;
-  /// Frees the slot of a member; without harm if it has none.
+  /// Frees the slot of a member; does nothing if it has none.
   void leave(AmbientBody& ambient) noexcept;
 
   MemberId nameOf(const AmbientBody& ambient) const noexcept;
-  /// Empty if the member has left.
+  /// Returns the member; empty if it was removed.
   Member find(const MemberId& id) const noexcept;
 
  private:

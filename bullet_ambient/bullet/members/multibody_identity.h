@@ -11,13 +11,13 @@ AMBIENT_BEGIN
 // btMultiBody zeroes this room, so that a new one at an old address has no number. Nothing but
 // Bullet's RK4 integration reads or writes there.
 
-/// The number that a btMultiBody was given; 0: none. @pre it is alive and finalized
+/// Reads the number that a btMultiBody was given; 0: none. @pre it is alive and finalized
 int instanceNumber(const btMultiBody& multi_body) noexcept;
 
-/// Writes a number again, after RK4 integration has overwritten it.
+/// Writes a number that RK4 integration has overwritten.
 void setInstanceNumber(btMultiBody& multi_body, int number) noexcept;
 
-/// The number of a btMultiBody. Gives it one that no other has, if it has none.
+/// Returns the number of a btMultiBody; gives it a new, unique one if it has none.
 int giveInstanceNumber(btMultiBody& multi_body) noexcept;
 
 AMBIENT_END

@@ -9,33 +9,35 @@ class btMultiBody;
 
 AMBIENT_BEGIN
 
-/// Links and joints of a btMultiBody, link 0 its base; without fluid.
+/// Copies links and joints of a btMultiBody to a LinkTree without fluid; link 0 is the base.
 LinkTree makeLinkTree(const btMultiBody& multi_body);
 
-/// Whether it has these links and joints. Another one at its address rarely has. Masses may differ.
+/// True if a btMultiBody has the links and joints of a tree; masses may differ. Detects most cases
+/// of another multibody at the same address.
 bool hasLinksOf(const btMultiBody& multi_body, const LinkTree& tree) noexcept;
 
-/// Takes what may change between steps: masses, damping, applied forces and torques, with the
-/// weight, and what is kinematic. Allocates nothing.
+/// Copies what may change between steps: masses, damping, applied forces and torques including
+/// weight, and which links are kinematic. Allocates nothing.
 void readLinks(const btMultiBody& multi_body, LinkTree& tree) noexcept;
 
-/// Allocates nothing if `pose` has the size.
+/// Copies the pose. Allocates nothing if `pose` has the right size.
 void readPose(const btMultiBody& multi_body, TreePose& pose) noexcept;
 
 void readVelocity(const btMultiBody& multi_body, CoordinatesOut u) noexcept;
 /// Reads the change of the velocity by rows in this substep.
 void readChange(const btMultiBody& multi_body, CoordinatesOut change) noexcept;
 
-/// Within the limit of the btMultiBody's coordinate velocity.
+/// Sets the velocity, each coordinate limited by btMultiBody::getMaxCoordinateVelocity().
 void writeVelocity(btMultiBody& multi_body, const CoordinatesIn& u) noexcept;
 void addVelocity(btMultiBody& multi_body, const CoordinatesIn& change) noexcept;
 void addChange(btMultiBody& multi_body, const CoordinatesIn& change) noexcept;
 void clearChange(btMultiBody& multi_body) noexcept;
 
-/// Whether Bullet takes the multibody for asleep: one link that sleeps is enough.
+/// True if Bullet treats the multibody as asleep: at least one collider sleeps.
 bool isAsleep(const btMultiBody& multi_body) noexcept;
 
-/// Pose of a link in W, -1: the base, by the positions of the joints now. Cost: its ancestors.
+/// Computes the pose of a link in W from the present joint positions; -1: the base. Cost: O(number
+/// of ancestors).
 btTransform linkTransform(const btMultiBody& multi_body, int link);
 
 AMBIENT_END

@@ -7,15 +7,19 @@
 
 AMBIENT_BEGIN
 
-// A rigid body whose wrench is read, in the order of a substep. @pre it has a reading
+// Functions for a rigid body whose wrench is read, in the order of calls in a substep. @pre
+// AmbientBody::reading is set
 
-/// When the solver has met it. With locked axes the impulse of its rows is not known.
+/// Begins the substep once the solver has met the body. With locked axes the impulse of its rows is
+/// not known.
 void beginBodyReading(AmbientBody& ambient, bool is_locked) noexcept;
 
-/// After the iterations, with their changes of velocity in world axes.
+/// Reads the impulse of rows from their velocity changes (world axes), after the solver's
+/// iterations.
 void readRows(AmbientBody& ambient, btSolverBody& solver_body) noexcept;
 
-/// After the action has changed its velocity; `before_W`: that before the action.
+/// Computes the wrenches after the action has set the velocity; `before_W`: velocity before the
+/// action.
 void finishBodyReading(AmbientBody& ambient, Outcome kind, const Twist& before_W,
                        double time_step) noexcept;
 

@@ -6,36 +6,38 @@
 
 AMBIENT_BEGIN
 
-/// Kept for a body or link whose wrench is read; others have none.
+/// Data of a body or link whose wrench is read: results, and quantities of the present substep.
 struct FluidReading {
   FluidWrench wrench;
 
-  // Quantities of the substep under way.
-  RigidState start;  ///< before it
+  // Quantities of the present substep.
+  RigidState start;  ///< state before the substep
   Surroundings surroundings;
   SurfacePlane plane_W;
   WaveMemory waves;
-  Twist moved_W;               ///< by which Bullet moves it
-  RigidState end;              ///< of a link, after it
-  BodyModel model;             ///< of a link, as the substep has it
-  Wrench impulse_W;            ///< of rows [N m s, N s]
-  bool knows_impulse = false;  ///< else what the balance leaves to it
+  Twist moved_W;               ///< velocity by which Bullet moves the body, world axes
+  RigidState end;              ///< links only: state after the substep
+  BodyModel model;             ///< links only: model in the substep
+  Wrench impulse_W;            ///< impulse of constraint rows [N m s, N s]
+  bool knows_impulse = false;  ///< true: impulse_W is known; false: the balance of momentum gives
+                               ///< the constraint wrench
   Wrench passage_W;            ///< impulse on a link by the change of its added mass [N m s, N s]
 };
 
-/// At the start of a substep in a fluid, once the place of the surface is known.
+/// Begins a substep in a fluid, once the water surface near the body is known.
 void beginReading(const AmbientBody& ambient, const RigidState& start,
                   const Surroundings& surroundings, FluidReading& reading) noexcept;
 
-/// End of a substep.
+/// A completed substep.
 struct ReadStep {
-  const RigidState& middle;  ///< of the way, with the mean twist
+  const RigidState& middle;  ///< state in the middle of the path, with the mean twist
   const RigidState& end;
-  const BodyModel& model;  ///< frozen at a surface, if rows or joints have moved it
-  bool has_flown;          ///< at a surface the model is not frozen
-  double duration;         ///< [s]
+  const BodyModel&
+      model;  ///< model; at a water surface, if rows or joints have moved the body, the frozen one
+  bool has_flown;   ///< true: the body has flown, and at a surface `model` is not the frozen one
+  double duration;  ///< [s]
 };
-/// Computes the wrenches. Allocates nothing. Cost: an evaluation or two of the loads.
+/// Computes FluidReading::wrench. Allocates nothing. Cost: one or two evaluations of the loads.
 void finishReading(const AmbientBody& ambient, const ReadStep& step,
                    FluidReading& reading) noexcept;
 

@@ -5,12 +5,13 @@
 
 AMBIENT_BEGIN
 
-// Links whose wrenches are read. Without such links, one test for each.
+// Functions for links whose wrenches are read. Cost without such links: one test per link.
 
-/// At the start of a substep, after its links were prepared; `step` has their pose and velocity.
+/// Begins a substep, after the links were prepared and AmbientTree::step has pose and velocity.
 void beginTreeReading(AmbientTree& tree) noexcept;
 
-/// After the action has given the tree its velocity. Changes `step.pose`.
+/// Computes the wrenches after the action has set the velocity of the tree; duration [s]. Changes
+/// AmbientTree::step.pose.
 void finishTreeReading(AmbientTree& tree, double duration) noexcept;
 
 AMBIENT_END

@@ -9,18 +9,20 @@ AMBIENT_BEGIN
 struct AmbientBody;
 class FluidRegions;
 
-/// Part of a body or link that is in its fluid, and with a surface near, in the fluid below that.
+/// Wet part of a body or link: the part in its fluid; near a water surface the part in the fluid
+/// below.
 struct WetState {
-  double volume = 0;   ///< [m^3]
-  double share = 0;    ///< of its volume; of a sheet, which has none, of its height
-  double draught = 0;  ///< depth of its lowest point [m]; 0: dry; infinite: no surface
+  double volume = 0;  ///< [m^3]
+  double share = 0;  ///< share of the volume that is wet [1]; for a sheet, whose volume is 0, share
+                     ///< of its height
+  double draught = 0;  ///< depth of the lowest point [m]; 0: dry; infinite: no surface is near
   double area = 0;     ///< [m^2]
-  /// In W [m]. Of a dry body its centre of volume.
+  /// Centre of the wet volume in W [m]; for a dry body its centre of volume.
   Vector3 centre_of_buoyancy{0, 0, 0};
   RegionId region = RegionId::kNone;
 };
 
-/// Asks the regions at the pose of now.
+/// Computes the wet part at the present pose, from the region there.
 WetState wetStateOf(const AmbientBody& ambient, const FluidRegions& regions);
 
 AMBIENT_END

@@ -9,22 +9,24 @@
 
 AMBIENT_BEGIN
 
-/// The fluid of a body or a link.
+/// Saves the fluid of a body or link.
 AmbientState saveAmbient(const AmbientBody& ambient);
 
-/// Saves the fluids of the links of a tree and its memory, without its motion.
+/// Saves the fluids of the links of a tree, and the memory of its flight; not its motion.
 void saveFluids(const AmbientTree& tree, MultiBodyState& state);
 
-/// A body in its fluid, as saved; `body`: of its mass and inertia, to which `ambient.body` points.
+/// Makes the entry of a body in its fluid from a saved state. `body` has the mass and inertia; the
+/// entry points to it.
 /// @throws std::invalid_argument if the fluid body is missing or a number is not physical.
 AmbientBody makeAmbient(const AmbientState& saved, btRigidBody& body, AmbientBodies& registered);
 
-/// The links in fluid of a multibody of this state, as saved. Changes nothing.
+/// Makes the entries of all links of a multibody that are in a fluid, from a saved state. Does not
+/// add them.
 /// @throws std::invalid_argument as makeAmbient(), or if there is no such link.
 std::vector<std::unique_ptr<AmbientLink>> makeLinks(const MultiBodyState& state,
                                                     AmbientBodies& registered);
 
-/// Attaches the links of makeLinks(), in place of those that are attached.
+/// Adds the links of makeLinks() in place of the present ones.
 /// @pre the multibody is of this state
 void insertLinks(const MultiBodyState& state, std::vector<std::unique_ptr<AmbientLink>> links,
                  btMultiBodyDynamicsWorld& world, btMultiBody& body, AmbientBodies& registered);

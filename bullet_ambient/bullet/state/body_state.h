@@ -5,14 +5,14 @@
 
 AMBIENT_BEGIN
 
-/// Last: whatever else is done to an object may wake it.
+/// Restores the sleep of an object. Call it last: other setters may wake the object.
 void restoreSleep(const ObjectState& state, btCollisionObject& object);
 
-/// Mass, inertia and gravity. A body that has them already is not touched: Bullet's weight depends
-/// to a rounding on the order in which they were set.
+/// Restores mass, inertia and gravity. Does not touch a body that has them already: the weight
+/// depends, to rounding, on the order in which Bullet's setters are called.
 void restoreMass(const BodyState& state, btRigidBody& body);
 
-/// All but mass, sleep and fluid. @pre restoreMass() was called.
+/// Restores everything except mass, sleep and fluid. @pre restoreMass() was called
 void restoreBody(const BodyState& state, btRigidBody& body);
 
 AMBIENT_END

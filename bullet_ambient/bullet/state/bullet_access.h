@@ -9,20 +9,20 @@ AMBIENT_BEGIN
 // Getters and setters of stored fields in Bullet's objects, where Bullet has no pair of
 // functions for one.
 
-/// Picks the const one of two functions of a name.
+/// Selects the const overload of a getter.
 template <class Result, class Object>
 constexpr auto constant(Result (Object::*get)() const) {
   return get;
 }
 
-/// Leaves a field to the function that restores it together with others.
+/// Setter of a field that is restored together with others, by the named function; does nothing.
 struct SetElsewhere {
   template <class Object, class Field>
   void operator()(Object&, const Field&) const {}
 };
 constexpr SetElsewhere kByRestoreMass{}, kByRestoreForces{}, kByRestoreSleep{};
 
-/// Numbers as Bullet keeps them.
+/// An array of numbers in an object of Bullet.
 struct Numbers {
   btScalar* first;
   int count;
@@ -36,19 +36,21 @@ struct LinkPlace {
   LinkPlace(btMultiBody& of, int number)
       : body(of), link(number < 0 ? nullptr : &of.getLink(number)) {}
 
-  /// Numbers of the joint, of which it uses the first; a base has none.
+  /// Returns the first numbers of an array of the joint, as many as the joint uses; none for a
+  /// base.
   template <std::size_t kSize>
   Numbers joint(btScalar (btMultibodyLink::*numbers)[kSize], int btMultibodyLink::*count) const {
     return link ? Numbers{link->*numbers, link->*count} : Numbers{nullptr, 0};
   }
 };
 
-/// Velocities of base and joints. Bullet writes there itself (btMultiBodyDynamicsWorld, RK4).
+/// Velocities of base and joints, to be written as Bullet does itself (btMultiBodyDynamicsWorld,
+/// RK4).
 inline Numbers velocitiesOf(btMultiBody& body) {
   return {const_cast<btScalar*>(body.getVelocityVector()), 6 + body.getNumDofs()};
 }
 
-/// Memory of the sleep of a multibody, which has no public getters.
+/// Sleep data of a multibody, for which Bullet has no public getters.
 struct MultiBodySleep {
   btScalar &timer, &threshold, &timeout;
 };

@@ -10,7 +10,7 @@
 
 AMBIENT_BEGIN
 
-/// Takes fields from an object of Bullet.
+/// Visitor that copies fields from an object of Bullet.
 template <class Object>
 struct FromBullet : FieldVisitor {
   explicit FromBullet(Object& from) : object(from) {}
@@ -34,7 +34,7 @@ struct FromBullet : FieldVisitor {
   Object& object;
 };
 
-/// Gives an object of Bullet the fields that can be set alone, in their order.
+/// Visitor that sets the fields of an object of Bullet, in order; skips those with SetElsewhere.
 template <class Object>
 struct ToBullet : FieldVisitor {
   explicit ToBullet(Object& to) : object(to) {}

@@ -7,16 +7,16 @@ class btCollisionWorld;
 
 AMBIENT_BEGIN
 
-/// Overlapping pairs in the order in which Bullet keeps them.
+/// Saves the overlapping pairs in Bullet's order.
 std::vector<PairState> savePairs(btCollisionWorld& world);
 
-/// Contact points in the order in which Bullet keeps them.
+/// Saves the contact points in Bullet's order.
 std::vector<ContactState> saveContacts(btCollisionWorld& world);
 
-/// Adds the saved pairs to those that overlap, lets its collision detection make the places for
-/// their contact points, and fills in the saved points; both in the saved order. All other places
-/// become empty. @pre the bodies are where they were. Leaves dynamic ones
-/// awake.
+/// Restores pairs and contact points, both in the saved order: adds the saved pairs to the
+/// overlapping ones, runs the world's collision detection to make manifolds, and fills in the saved
+/// points. All other manifolds become empty. Leaves dynamic bodies awake. @pre the bodies have
+/// their saved poses
 void restoreContacts(const std::vector<PairState>& pairs, const std::vector<ContactState>& contacts,
                      btCollisionWorld& world);
 

@@ -15,24 +15,24 @@ AMBIENT_BEGIN
 std::vector<btMultiBody*> multiBodiesOf(btCollisionWorld& world);
 std::vector<btMultiBodyConstraint*> multiBodyJointsOf(btCollisionWorld& world);
 
-/// All but its fluids.
+/// Saves a multibody without its fluids.
 MultiBodyState saveMultiBody(btMultiBody& body);
 MultiBodyJointState saveJoint(btMultiBodyConstraint& joint);
 
-/// @throws std::invalid_argument with one sentence if the state is of other links, colliders or
-/// joints, or a position of a joint is none. `number`: in the world, for that sentence.
+/// @throws std::invalid_argument with one sentence if links, colliders or joints differ from those
+/// of the state, or a joint position is invalid. `number`: index in the world, for the message.
 void requireFits(const MultiBodyState& state, const btMultiBody& body, std::size_t number);
 void requireFits(const MultiBodyJointState& state, const btMultiBodyConstraint& joint,
                  std::size_t number);
 
-/// All but sleep and fluids. @pre it fits
+/// Restores everything except sleep and fluids. @pre requireFits() has passed
 void restoreMultiBody(const MultiBodyState& state, btMultiBody& body);
 void restoreJoint(const MultiBodyJointState& state, btMultiBodyConstraint& joint);
 
 /// Restores sleep of a multibody and its colliders. Call it last: other setters wake them.
 void restoreSleep(const MultiBodyState& state, btMultiBody& body);
 
-/// Has Bullet's collision detection take its colliders for awake.
+/// Makes Bullet's collision detection treat the colliders as awake.
 void wakeColliders(btMultiBody& body);
 
 AMBIENT_END

@@ -11,15 +11,15 @@
 
 AMBIENT_BEGIN
 
-// The stored fields, once for all that is done with them: written, read, checked, taken from Bullet
-// and given back to it. Their order is that of the bytes. To add a field, add it to the structure
-// and here, and raise the version.
+// All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
+// to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
+// and raise the version.
 constexpr std::uint32_t kStateVersion = 11;
 
-/// Rule for each number of a field, and the words for one that is not: they follow the name of
-/// what holds the field. The value follows them if they end with a blank.
+/// Condition that each number of a field must meet, and the words of the message if one does not.
+/// The message begins with the name of the object; the value follows if the words end with a blank.
 struct Rule {
-  bool (*holds)(double) = nullptr;  ///< null: whatever it is
+  bool (*holds)(double) = nullptr;  ///< null: no condition
   const char* fault = "";
 };
 constexpr Rule kAny;
@@ -40,20 +40,21 @@ constexpr Rule number(const char* fault) {
   return {[](double x) { return !std::isnan(x); }, fault};
 }
 
-/// A visitor of fields, with v(field, rule), v(field, rule, get, set) of the object of Bullet that
-/// has the field, or v(field, rule, get) if `get` returns Numbers. It passes by all else.
+/// Base of visitors of fields; does nothing. A visitor defines v(field, rule); v(field, rule, get,
+/// set) with getter and setter of Bullet's object; and v(field, rule, get) if `get` returns
+/// Numbers.
 struct FieldVisitor {
-  /// An enumerator, one of those that have a name.
+  /// Visits an enumerator; `names`: table of the valid ones.
   template <class Enum, class Names>
   void choice(Enum&, const Names&) {}
   void fluidBody(std::shared_ptr<const FluidBody>&) {}
-  /// A structure that may be absent.
+  /// Visits a structure that may be absent.
   template <class State>
   void optional(std::optional<State>&) {}
-  /// Structures; name(index) leads the words of their faults.
+  /// Visits a list of structures; name(index) begins the messages about an entry.
   template <class State, class Name>
   void list(std::vector<State>&, const Name&) {}
-  /// Checks what must hold of several fields together.
+  /// Checks a condition on several fields together.
   template <class Words, class Holds>
   void check(const Words&, const Holds&) {}
 };

@@ -18,12 +18,12 @@
 
 AMBIENT_BEGIN
 
-// Content of a saved state. Each field stands once more, in world_state_fields.h.
+// Content of a saved state. world_state_fields.h lists each field once more.
 
-/// A body in its fluid, and what its flight remembers.
+/// A body in its fluid, with the memory of its flight.
 struct AmbientState {
   AttachDef def;
-  Medium medium;  ///< around it now
+  Medium medium;  ///< medium around the body now
   RegionPlace place;
   FlightMemory memory;
   WaveMemory waves;
@@ -33,7 +33,7 @@ struct AmbientState {
   AmbientCounters counters;
 };
 
-/// A btCollisionObject: place, sleep, and the properties that its contacts depend on.
+/// A btCollisionObject: pose, sleep, and the properties that its contacts depend on.
 struct ObjectState {
   btTransform pose = btTransform::getIdentity();
   btTransform interpolation_pose = btTransform::getIdentity();
@@ -61,10 +61,10 @@ struct MultiBodyLinkState {
   btScalar mass = 0;
   btVector3 inertia{0, 0, 0};
   btVector3 force{0, 0, 0}, torque{0, 0, 0};  ///< applied since the last step, world axes
-  std::array<btScalar, 7> joint_position{};   ///< as Bullet has it: the last ones may be unused
+  std::array<btScalar, 7> joint_position{};   ///< as in Bullet: the last entries may be unused
   std::array<btScalar, 7> interpolation_position{};
   std::array<btScalar, 6> joint_force{};          ///< applied since the last step
-  btTransform pose = btTransform::getIdentity();  ///< as Bullet remembers it
+  btTransform pose = btTransform::getIdentity();  ///< as cached by Bullet
   std::optional<ObjectState> collider;
 };
 
@@ -85,7 +85,8 @@ struct MultiBodyState {
   btScalar sleep_timer = 0, sleep_threshold = 0, sleep_timeout = 0;
   bool is_awake = true, can_sleep = false, can_wake_up = true, has_gyroscopic_term = true;
   std::vector<LinkFluidState> fluids;  ///< in the order of attachment
-  double turn_reserve = 0;             ///< of energy, docs/theory.md eq. (31a) [J]
+  double turn_reserve =
+      0;  ///< energy lost by earlier turning corrections, docs/theory.md eq. (31a) [J]
 };
 
 /// Two objects whose bounding boxes overlap, or did: Bullet forgets them late, and until then they
@@ -98,7 +99,7 @@ struct PairState {
 /// The contact points that Bullet keeps between two objects from step to step.
 struct ContactState {
   PairState pair;
-  int part = 0;  ///< which of the pair's: shapes of several parts have more than one
+  int part = 0;  ///< index of the manifold of the pair: shapes of several parts have more than one
   std::vector<btManifoldPoint> points;  // at most MANIFOLD_CACHE_SIZE
 };
 
@@ -109,7 +110,7 @@ struct JointState {
 
 /// A btMultiBodyConstraint: a motor, a limit, a joint to another body.
 struct MultiBodyJointState {
-  std::vector<btScalar> applied_impulses;  ///< of its rows; empty before its first step
+  std::vector<btScalar> applied_impulses;  ///< impulses of the rows; empty before the first step
 };
 
 /// Everything of a world of rigid bodies and multibodies that changes from step to step.
@@ -121,7 +122,7 @@ struct WorldState {
   std::vector<JointState> joints;
   std::vector<MultiBodyJointState> multi_body_joints;
   double time = 0;                ///< Fluid::time() [s]
-  std::uint64_t random_seed = 0;  ///< of a solver that shuffles its rows
+  std::uint64_t random_seed = 0;  ///< random seed of a solver that shuffles its rows
 };
 
 AMBIENT_END

@@ -22,7 +22,7 @@ constexpr int kAmbientChunkCode = BT_MAKE_ID('A', 'M', 'B', 'I');
 /// again, and brings back what Bullet's format leaves out, like velocities.
 class AmbientSerializer : public btDefaultSerializer {
  public:
-  /// The fluid of the world that is serialized; it must outlive the serializer.
+  /// `fluid`: the Fluid of the serialized world; must outlive the serializer.
   explicit AmbientSerializer(const Fluid& fluid) : fluid_(fluid) {}
 
   void finishSerialization() override;
@@ -31,9 +31,9 @@ class AmbientSerializer : public btDefaultSerializer {
   const Fluid& fluid_;
 };
 
-/// The saved state in the bytes of a .bullet file of this machine's byte order and pointer size;
-/// `source` stands for the file in messages.
-/// @throws std::runtime_error if there is none, and as decodeState().
+/// Reads the saved state from the bytes of a .bullet file of this machine's byte order and pointer
+/// size; messages name `source`. @throws std::runtime_error if the file holds no saved state, and
+/// as decodeState().
 WorldState readAmbientChunk(std::string_view file, const std::string& source,
                             const FluidBodyLookup& lookup);
 

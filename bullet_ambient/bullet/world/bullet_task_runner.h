@@ -7,9 +7,9 @@
 
 AMBIENT_BEGIN
 
-/// Runs tasks by Bullet's own task scheduler, the one given to btSetTaskScheduler(). A Bullet that
-/// was built without BT_THREADSAFE, as Debian's, has none that works: they then run one after
-/// another, and ambient::ThreadPool serves better.
+/// Runs tasks by Bullet's own task scheduler, set by btSetTaskScheduler(). If Bullet was built
+/// without BT_THREADSAFE, as Debian's is, its scheduler does not work: tasks then run one after
+/// another; use ambient::ThreadPool.
 class BulletTaskRunner : public TaskRunner {
  public:
   void runAll(const Task& task, int count) noexcept override {

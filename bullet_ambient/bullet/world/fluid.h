@@ -32,18 +32,18 @@ class FluidAction;
 class WorldConnection;
 struct WorldState;
 
-/// The fluids of one world and what is in them.
+/// The fluids of one Bullet world, and the bodies and links in them.
 ///
 ///     ambient::Fluid fluid(world);
 ///     fluid.addRegion(waterBelow(0));
 ///     fluid.add(body, {loadFluidBody("plate.ambient"), air()});
 ///
-/// Change it between steps only; it uses neither user pointers nor callbacks of the world. What a
-/// region's flow or surface tries to change while it is asked is refused: std::logic_error, and
-/// nothing has changed.
+/// Call its functions between steps only. It uses neither user pointers nor callbacks of the world.
+/// The flow or surface function of a region must not change the fluid: such a call throws
+/// std::logic_error and changes nothing.
 ///
-/// Fluid, world, solvers and bodies may be destroyed in any order. With its world the fluid ends:
-/// what is in it is removed, and functions that need the world throw std::logic_error.
+/// Fluid, world, solvers and bodies may be destroyed in any order. When the world is destroyed, all
+/// members are removed, and functions that need the world throw std::logic_error.
 class Fluid {
  public:
   /// Gives a btDiscreteDynamicsWorld, btMultiBodyDynamicsWorld, btSoftRigidDynamicsWorld or one
@@ -51,18 +51,18 @@ class Fluid {
   /// btSequentialImpulseConstraintSolver, btMultiBodyConstraintSolver,
   /// btMultiBodyMLCPConstraintSolver or a pool of plain ones, and an action. For other solvers see
   /// makeSolver(). A world without bodies in a fluid moves bit for bit as before.
-  /// @throws std::invalid_argument, in one sentence, if this kind of world cannot carry the fluid
-  /// or has another solver; it is then as it was.
+  /// @throws std::invalid_argument, in one sentence, if this kind of world is not supported or has
+  /// another solver; the world is then unchanged.
   explicit Fluid(btDynamicsWorld& world, SolverOwner owner = SolverOwner::kKeepsPointer);
-  /// Takes everything out of its fluid, and gives the world its own solver back.
+  /// Removes all members, and gives the world its own solver back.
   ~Fluid();
   Fluid(const Fluid&) = delete;
   Fluid& operator=(const Fluid&) = delete;
 
-  /// Whether its world has not been destroyed.
+  /// True until the world is destroyed.
   bool isWorldAlive() const;
-  /// Takes the place of a solver that somebody else has given the world since. To be called before
-  /// each step of a world whose owner does that: costs a comparison where nothing has changed.
+  /// Replaces a solver that somebody else has given the world since. Call before each step if the
+  /// owner of the world does that. Cost if nothing has changed: a comparison.
   /// @throws as the constructor; std::logic_error if the world was destroyed.
   void refit();
 
@@ -79,80 +79,76 @@ class Fluid {
   /// uses RK4.
   Immersed add(btMultiBody& multi_body, int link, AttachDef def);
   Immersed add(btMultiBody* multi_body, int link, AttachDef def);
-  /// Puts all dynamic bodies of the world into a fluid, whatever their mass, and links of its
+  /// Puts all dynamic bodies of the world into a fluid, whatever their mass, and all links of its
   /// multibodies that have a collider:
   ///
   ///     FluidBodyCache shapes;
   ///     const AttachReport report = fluid.addAll(shapes, water());
   ///
-  /// Bodies that were added before stay as they are, so that several calls with filters may share
-  /// out a world. What cannot be added is in the report. The source must outlive the fluid, or the
-  /// next clear().
+  /// Bodies that were added before do not change: several calls with filters may divide a world.
+  /// The report lists what could not be added. `shapes` must outlive the fluid or the next clear().
   AttachReport addAll(FluidBodySource& shapes, const Medium& medium, AttachSettings settings = {});
-  /// Adds at once, before their first substep, bodies that have come since an addAll() with
-  /// AttachSettings::later_bodies. Reports what is refused as a substep does.
+  /// Adds bodies that have come to the world since an addAll() with AttachSettings::later_bodies,
+  /// at once, before their first substep. Refusals go to the report function, as at the end of a
+  /// substep.
   /// @throws std::logic_error if the world was destroyed.
   void addLaterBodies();
 
-  /// The body or link if it was added: the one that is alive, never an earlier one at its address.
+  /// Finds a body or link that was added; never confuses it with an earlier one at the same
+  /// address.
   std::optional<Immersed> find(const btRigidBody& body) const;
   std::optional<Immersed> find(const btMultiBody& multi_body, int link) const;
-  /// Bodies and links.
+  /// Number of bodies and links in the fluid.
   std::size_t size() const;
-  /// Takes out all bodies and links, alive or not, and forgets the sources of addAll(). Regions
-  /// stay.
+  /// Removes all bodies and links, alive or not, and forgets the sources of addAll(). Regions stay.
   void clear();
 
   /// Fills a part of the world, or all of it, with a fluid, or with water below a surface and air
-  /// above. Bodies whose AttachDef follows regions find it by themselves at the start of each step,
-  /// and wake up at the end of the next. Regions that stay cost a body some comparisons of bounds,
-  /// whose number grows like the logarithm of that of regions; without any, nothing. Cost: some
-  /// microseconds; a fluid that no other region has is made known to every body that follows
-  /// regions.
+  /// above. Bodies with AttachDef::follow_regions find their region at the start of each step;
+  /// sleeping ones wake up at the end of the next step. Cost per body and step: O(log(number of
+  /// regions)) comparisons of bounds. Cost of this call: some microseconds; if no other region has
+  /// this fluid, also new loads for every body that follows regions.
   /// @throws std::invalid_argument, naming value and limit, if bounds or media are not physical, or
   /// as add() for a body that may meet them; then nothing has changed.
   RegionId addRegion(FluidRegion region);
-  /// Replaces a region, say to move it. @throws as addRegion(), or if there is none.
+  /// Replaces a region, for example to move it. @throws as addRegion(), or if there is no such
+  /// region.
   void setRegion(RegionId id, FluidRegion region);
-  /// False if there is none.
+  /// Removes a region. Returns false if there is no such region.
   bool removeRegion(RegionId id);
 
-  /// Takes a picture of the world and its fluids between two steps; saved_state.h says what is in
-  /// it.
+  /// Copies the state of the world and its fluids between two steps; saveState() lists what is
+  /// included.
   WorldState save() const;
-  /// Puts the world back into a saved state, of which docs/bullet_step.md says when it then goes on
-  /// bit for bit. The world has the same bodies, multibodies and joints in the same order: it is
-  /// the same one, or was built by the same code, or loaded from a file. Adds and removes as
-  /// needed; an Immersed of what is in the fluid before and after stays valid. Runs Bullet's
-  /// collision detection once, with its callbacks, so that contacts have their places.
-  /// @throws std::invalid_argument if the numbers of bodies, links or joints differ, a number is
-  /// none that a world can have, a fluid body is missing or a medium is not physical; the world is
-  /// then unchanged.
+  /// Restores a saved state, see restoreState(). Adds and removes members as needed; the Immersed
+  /// of a member that is in the fluid before and after stays valid.
+  /// @throws std::invalid_argument as restoreState(); the world is then unchanged.
   void restore(const WorldState& state);
 
-  /// Choice of what world.debugDrawWorld() draws, after the first step. Nothing by default;
-  /// costs nothing until then.
+  /// Selects what world.debugDrawWorld() draws after the first step. Default: nothing, without
+  /// cost.
   FluidDrawing drawing;
 
-  /// Time for which the world was stepped [s], which regions' functions are given.
+  /// Sum of all steps of the world so far [s]; the time that functions of regions get.
   double time() const;
   /// Sums the counters of all bodies and links.
   AmbientCounters counters() const;
 
-  /// Receives one sentence the first time something cannot be right: the world has another solver,
-  /// a step's result was not finite, a body was added whose moments of inertia no rigid body has,
-  /// whose fluid body is empty, or that has less than half the mass of the medium it displaces,
-  /// steps are so long that its motion is wrong by some per cent, or a joint of a body came apart
-  /// step after step because the solver's iterations do not hold it; and one of each body that came
-  /// later and was refused. Solvers on several threads report one after the other. What it throws
-  /// is dropped. Default: standard error.
+  /// Sets the function that receives reports. It gets one sentence the first time each of these
+  /// happens: the world has another solver; the result of a step is not finite; a body is added
+  /// whose moments of inertia no rigid body can have, whose fluid body is empty, or that has less
+  /// than half the mass of the medium it displaces; steps are so long that the motion is wrong by
+  /// some per cent; a joint comes apart step after step because the solver's iterations do not hold
+  /// it. It also gets one sentence for each later body that is refused. Solvers on several threads
+  /// report one after the other. Exceptions of the function are dropped. Default: standard error.
   void setReport(std::function<void(const std::string&)> report);
-  /// Names a btRigidBody, or the collider of a link, in reports and errors: asked once for each
-  /// body that is added later without AttachDef::name. Null (default), or an empty answer: bodies
-  /// are called by their fluid body. What it throws comes out of add().
+  /// Sets the function that names a btRigidBody, or the collider of a link, in reports and errors.
+  /// It is called once for each body that is added from now on without AttachDef::name. Null
+  /// (default), or an empty name: the body is called by its fluid body. Its exceptions pass through
+  /// add().
   void setNaming(std::function<std::string(const btCollisionObject&)> naming);
-  /// Flies the bodies of one group of the solver on the runner's threads; they end with the same
-  /// bits. Null (default): on the solver's thread. The runner must outlive its use here.
+  /// Spreads the flights of free bodies over the threads of a runner; results have the same bits.
+  /// Null (default): flights run on the thread of the solver. The runner must outlive its use here.
   void setTaskRunner(TaskRunner* runner);
 
  private:
@@ -165,8 +161,8 @@ class Fluid {
   const std::unique_ptr<WorldConnection> connection_;
 };
 
-/// Makes a solver of the user's choice for the world of a fluid, or for a pool of it; arguments go
-/// to Base. It may outlive the fluid, and then solves as Base does:
+/// Makes a solver of the user's choice for the world of a fluid, or for a solver pool; `args` go to
+/// the constructor of Base. The solver may outlive the fluid, and then solves as Base does:
 ///
 ///     auto solver = makeSolver<btNNCGConstraintSolver>(fluid);
 ///     world.setConstraintSolver(solver.get());

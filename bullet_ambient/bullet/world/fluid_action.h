@@ -24,11 +24,11 @@ class FluidAction : public btActionInterface {
   void updateAction(btCollisionWorld* world, btScalar time_step) override;
   void debugDraw(btIDebugDraw* drawer) override;
 
-  /// Keeps the world's bodies attached: WorldAttachment::update() at the end of every substep.
+  /// Calls WorldAttachment::update() at the end of every substep from now on.
   void follow(std::unique_ptr<WorldAttachment> attachment);
-  /// Attaches what has come to the world, as updateAction() does at its end.
+  /// Adds bodies that have come to the world, as updateAction() does at its end.
   void attachLater(btCollisionWorld& world);
-  /// Forgets all that it follows.
+  /// Ends all follow().
   void followNothing() { followed_.clear(); }
 
  private:
@@ -37,9 +37,9 @@ class FluidAction : public btActionInterface {
   AmbientBodies& bodies_;
   const FluidDrawing& drawing_;
   std::vector<std::unique_ptr<WorldAttachment>> followed_;
-  unsigned solved_ = 0;  // groups, until the last step
+  unsigned solved_ = 0;  // AmbientBodies::solved at the last step
   bool was_missing_ = false;
-  const btCollisionWorld* world_ = nullptr;  // of the last step
+  const btCollisionWorld* world_ = nullptr;  // world of the last step
 };
 
 AMBIENT_END

@@ -13,18 +13,19 @@ struct FluidBody;
 
 AMBIENT_BEGIN
 
-/// Whoever knows the fluid bodies of collision shapes: FluidBodyCache makes them by the
-/// preprocessor, which the runtime does not link; a program may have a table of its own.
+/// Interface for finding the fluid body of a collision shape. FluidBodyCache makes fluid bodies by
+/// the preprocessor, which the runtime does not link; a program may derive from this class and use
+/// its own table.
 class FluidBodySource {
  public:
   virtual ~FluidBodySource() = default;
 
-  /// The fluid body of a shape, in the shape's frame, which is that of a btRigidBody with it.
-  /// @throws std::exception with one line that says why there is none.
+  /// Returns the fluid body of a shape, in the frame of the shape, which is also that of a
+  /// btRigidBody with this shape. @throws std::exception with one line that says why there is none.
   virtual std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) = 0;
 
-  /// Changes when fluidBody() has come to know a better answer for a shape that it was asked for.
-  /// Asked in every substep: cheap, and from the thread that steps the world.
+  /// Number that changes when fluidBody() would now return a better fluid body for a shape that it
+  /// was asked for. Called in every substep, on the thread that steps the world: must be cheap.
   virtual unsigned revision() const noexcept { return 0; }
 };
 

@@ -15,9 +15,9 @@ AMBIENT_BEGIN
 
 struct AmbientBody;
 
-/// Choice of what is drawn of bodies in a fluid, through the world's btIDebugDraw. Arrows are
-/// lines from the place where the vector acts: of forces on the body, and of the fluid's velocity
-/// along the wall.
+/// Selection of what is drawn for bodies in a fluid, through the world's btIDebugDraw. Vectors are
+/// drawn as lines from the point where they act: forces on the body, and velocities of the fluid
+/// along its wall.
 struct FluidDrawing {
   bool separation = false;        ///< a short normal per face: green attached, red separated
   bool slip_velocity = false;     ///< per attached face, blue
@@ -32,12 +32,13 @@ struct FluidDrawing {
   bool read_forces = false;
 
   double length_per_velocity = 0.1;  ///< [m per m/s]
-  double length_per_force = 0.01;    ///< [m per N]; of the whole body
-  /// [m per N] of single faces, whose forces are smaller the more faces there are.
+  double length_per_force = 0.01;    ///< [m per N]; for forces on the whole body
+  /// [m per N]; for forces on single faces, which are smaller the more faces there are.
   double length_per_face_force = 1;
   double length_per_torque = 0.1;  ///< [m per N m]
-  double surface_extent = 10;      ///< of the net over a region without bounds, from the origin [m]
-  double normal_length = 0.05;     ///< of the normals and the cross, in sqrt(wetted area) [1]
+  /// Half size of the net over a region without bounds, about the origin [m].
+  double surface_extent = 10;
+  double normal_length = 0.05;  ///< length of normals and cross over sqrt(wetted area) [1]
 
   static FluidDrawing all();
   bool drawsFaces() const { return separation || slip_velocity || pressure || friction; }
@@ -47,7 +48,7 @@ struct FluidDrawing {
   }
 };
 
-/// The colours of FluidDrawing, red, green and blue.
+/// Colours of FluidDrawing: red, green, blue.
 namespace fluid_colours {
 inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
     kSlip(btScalar(0.2), btScalar(0.4), 1), kPressure(1, btScalar(0.5), 0), kFriction(1, 1, 0),
@@ -56,17 +57,18 @@ inline const btVector3 kAttached(0, 1, 0), kSeparated(1, 0, 0),
     kAddedMass(0, btScalar(0.7), btScalar(0.5));
 }  // namespace fluid_colours
 
-/// Draws one body as it moves now. The total wrench is that of pressure, friction (after the
+/// Draws one body for its present motion. The total wrench is that of pressure, friction (after the
 /// passivity guard) and buoyancy; the inertia of the fluid, waves and wind are no part of it. @pre
-/// it is in a fluid, alive and dynamic.
+/// the body is in a fluid, alive and dynamic
 void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDraw& drawer);
 
-/// Draws the surface of a region at a time, where gravity says what is up; nothing without it.
+/// Water surface of a region at a time.
 struct DrawnSurface {
   const FluidRegion& region;
   btVector3 gravity;
   double time;  ///< [s]
 };
+/// Draws a water surface as a net; nothing without gravity, which says what is up.
 void drawSurface(const DrawnSurface& surface, const FluidDrawing& what, btIDebugDraw& drawer);
 
 AMBIENT_END

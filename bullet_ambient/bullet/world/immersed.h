@@ -17,57 +17,59 @@ AMBIENT_BEGIN
 
 class AmbientBodies;
 
-/// A rigid body, or a link of a btMultiBody, in the fluid that Fluid::add() has put it into. Copies
-/// name the same one. To be used between steps.
+/// Handle of a rigid body, or of a link of a btMultiBody, that Fluid::add() has put into a fluid.
+/// Copies refer to the same member. Use it between steps.
 ///
-/// All functions but isValid() and remove() throw std::logic_error, in one line, if it was removed,
-/// or if the Fluid or its world was destroyed. They need the body to be alive; a body that is
-/// destroyed without remove() leaves an entry that nothing reads, and that the next body at its
-/// address replaces.
+/// All functions but isValid() and remove() throw std::logic_error, in one line, if the member was
+/// removed, or if the Fluid or its world was destroyed. They need the body to be alive. A body that
+/// is destroyed without remove() leaves an unused entry, which the next body at its address
+/// replaces.
 class Immersed {
  public:
-  /// Whether it is still in the fluid. Does not look at the body.
+  /// True if the member is still in the fluid. Does not access the body.
   bool isValid() const noexcept;
 
-  /// Changes the fluid around it, AttachDef::medium; its velocity stays, and it wakes up if
-  /// anything did change. Cheap where density and viscosity stay: a current may be given in every
-  /// step. @throws std::invalid_argument if the medium is not physical; then nothing has changed.
+  /// Changes the fluid around the body, AttachDef::medium. The velocity of the body stays; the body
+  /// wakes up if the medium differs. Cheap if density and viscosity stay: a current may be set in
+  /// every step. @throws std::invalid_argument if the medium is not physical; then nothing has
+  /// changed.
   void setMedium(const Medium& medium) const;
-  /// Changes its shape, say to scaled() of the old one after setLocalScaling() of its collision
-  /// shape. `fluid_frame` as in AttachDef; without it, it stays. Set new mass properties before.
-  /// @throws std::invalid_argument as Fluid::add(); it then keeps its shape.
+  /// Changes the fluid body, for example to scaled() of the old one after setLocalScaling() of the
+  /// collision shape. `fluid_frame`: as in AttachDef; without this argument it stays. Set new mass
+  /// properties before. @throws std::invalid_argument as Fluid::add(); then nothing has changed.
   void setFluidBody(std::shared_ptr<const FluidBody> fluid_body) const;
   void setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
                     const FrameOffset& fluid_frame) const;
 
-  /// The fluid around it, that of its region or its own: when it was added, or at the start of its
-  /// last step.
+  /// Returns the fluid around the body, that of its region or its own, at the start of its last
+  /// step; before the first step, when it was added.
   Medium medium() const;
-  /// The region of that fluid; kNone: its own.
+  /// Returns the region of medium(); kNone: the own medium of the body.
   RegionId region() const;
-  /// Total inertia K in the frame of the body or link; docs/theory.md eq. (3).
+  /// Returns the total inertia K of body and fluid, in the frame of the body or link, rotation
+  /// first; docs/theory.md eq. (3).
   Matrix6 inertia() const;
   AmbientCounters counters() const;
 
-  /// Whether the wrench of the fluid is kept from the next substep on. At first it is not: then
-  /// nothing of it is computed or stored.
+  /// Switches the reading of the wrench on or off, from the next substep on. Off at first: then
+  /// nothing is computed or stored for it.
   void readWrench(bool is_read) const;
-  /// The wrench by part, of reading.h, in its last substep, while it was awake; zero before the
-  /// first one, and in no fluid.
+  /// Returns the wrench of the fluid by part (reading.h) in the last substep in which the body was
+  /// awake; zero before the first one, and outside of any fluid.
   /// @throws std::logic_error if it is not read.
   FluidWrench wrench() const;
-  /// Its wet part where it is now. Asks its region, and takes a sum over the triangles of its
-  /// shape.
+  /// Returns the wet part at the present pose. Cost: functions of the region, and a sum over the
+  /// triangles of the shape.
   WetState wet() const;
 
-  /// Changes its velocity by an impulse, torque [N m s] and force [N s] at its centre of mass, both
-  /// in world axes; as contacts and joints do, by the inverse of the total inertia, or of that of
-  /// all links of its btMultiBody. Wakes it.
-  /// @throws std::invalid_argument if its mass properties are not physical.
+  /// Changes the velocity by an impulse at the centre of mass, world axes: torque part [N m s],
+  /// force part [N s]. Uses the inverse of the total inertia, as contacts and joints do; for a
+  /// link, that of its whole btMultiBody. Wakes the body.
+  /// @throws std::invalid_argument if the mass properties of the body are not physical.
   void applyImpulse(const Wrench& impulse) const;
 
-  /// Takes it out of its fluid; it then moves as in stock Bullet. False if it was removed before.
-  /// Does not look at the body, which may have been destroyed.
+  /// Removes the member from its fluid; the body then moves as in stock Bullet. Returns false if it
+  /// was removed before. Does not access the body, which may have been destroyed.
   bool remove() const;
 
  private:
@@ -75,7 +77,7 @@ class Immersed {
   friend class WorldAttachment;
   Immersed(AmbientBodies& bodies, const AmbientBody& ambient);
 
-  /// The fluid, while it lives.
+  /// Members of the fluid while it exists, and the entry of this handle.
   struct Held {
     std::shared_ptr<AmbientBodies> bodies;
     Member member;

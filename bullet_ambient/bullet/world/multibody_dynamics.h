@@ -10,21 +10,22 @@ AMBIENT_BEGIN
 
 class Fluid;
 
-// Dynamics of a btMultiBody and the fluid around its links, as it moves between two steps, for
-// controllers and planners. Generalized velocities are those of btMultiBody::getVelocityVector():
-// spin and velocity of the base in world axes, then the rates of the joints. Without attached
-// links, those of the dry btMultiBody.
+// Dynamics of a btMultiBody and the fluid around its links, for its present pose and velocity
+// between two steps; for controllers and planners. Generalized velocities u are those of
+// btMultiBody::getVelocityVector(): angular and linear velocity of the base in world axes, then the
+// joint rates. If no link is in a fluid, results are those of the dry btMultiBody.
 
-/// H: symmetric; rows and columns of a fixed base are those of the identity.
+/// Computes the mass matrix H, symmetric; rows and columns of a fixed base are those of the
+/// identity.
 Eigen::MatrixXd ambientMassMatrix(const Fluid& fluid, const btMultiBody& multi_body);
 
-/// Forces of the joints, and wrench at the base, that give it the acceleration du/dt, besides
-/// weight, buoyancy and surface loads.
+/// Computes the joint forces, and the wrench at the base, that give the acceleration du/dt together
+/// with weight, buoyancy and surface loads.
 /// @throws std::invalid_argument if `acceleration` has not one entry for each coordinate.
 Eigen::VectorXd ambientInverseDynamics(const Fluid& fluid, const btMultiBody& multi_body,
                                        const Eigen::VectorXd& acceleration);
 
-/// Kinetic energy of links, and of fluid relative to its flow [J].
+/// Computes the kinetic energy of the links, and of the fluid relative to the ambient flow [J].
 double kineticEnergy(const Fluid& fluid, const btMultiBody& multi_body);
 
 AMBIENT_END

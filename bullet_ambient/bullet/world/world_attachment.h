@@ -26,14 +26,14 @@ struct AttachSettings {
   FlightSettings flight = {};
   /// Chooses among the dynamic rigid bodies; empty: all.
   std::function<bool(const btRigidBody&)> filter = nullptr;
-  /// Changes what a body is attached with: another medium, law or fluid body, or none, and then it
-  /// is left out.
+  /// Changes the definition of a body: another medium, law or fluid body. A body whose fluid body
+  /// is set to null is left out.
   std::function<void(const btRigidBody&, AttachDef&)> adjust = nullptr;
-  /// Chooses among links of multibodies that have a collider, by their number; -1: the base.
+  /// Chooses among links with a collider, by Bullet's number; -1: the base. Empty: all.
   std::function<bool(const btMultiBody&, int)> filter_link = nullptr;
   std::function<void(const btMultiBody&, int, AttachDef&)> adjust_link = nullptr;
-  /// Attaches bodies that are added to the world later, at the end of the first substep that they
-  /// are in; in that one they move as in stock Bullet.
+  /// True: bodies that come to the world later are added, too, at the end of their first substep;
+  /// in that substep they move as in stock Bullet.
   bool later_bodies = false;
 };
 
@@ -50,35 +50,35 @@ struct AttachReport {
   };
 
   int attached = 0;
-  int fluid_bodies = 0;     ///< distinct ones, which these share
-  int attached_before = 0;  ///< left as they are
+  int fluid_bodies = 0;     ///< number of distinct fluid bodies of these
+  int attached_before = 0;  ///< bodies that were in the fluid before; unchanged
   std::vector<Refusal> refused;
   std::vector<LightBody> light;  ///< lighter than the medium that they displace
 
-  /// One line of numbers, and one for each body that was refused: "body 3 (Box): ...".
+  /// Returns one line of numbers, and one line for each refused body: "body 3 (Box): ...".
   std::string text() const;
 };
 
-/// Attaches the dynamic rigid bodies of a world, and the links of its multibodies that have a
-/// collider and a mass, whatever it is, each with the fluid body that a source has for its
-/// collision shape, in its frame.
+/// Implements Fluid::addAll(): adds the dynamic rigid bodies of a world, and the links of its
+/// multibodies that have a collider and a mass, each with the fluid body that a source has for its
+/// collision shape.
 class WorldAttachment {
  public:
-  /// Bodies and source must outlive it.
+  /// `bodies` and `source` must outlive this object.
   WorldAttachment(AmbientBodies& bodies, FluidBodySource& source, const Medium& medium,
                   AttachSettings settings);
 
-  /// Attaches those that it has not met. Cost: that of fluid bodies that the source has to make.
+  /// Adds the objects that this attachment has not met before. Cost: that of the fluid bodies that
+  /// the source has to make.
   AttachReport attachNew(btCollisionWorld& world);
 
-  /// Between two steps: attaches bodies that have come since, and gives all of them what the source
-  /// has come to know better. Without news it allocates nothing, takes no lock and costs a
-  /// comparison for each object of the world. What cannot be attached is told to the fluid's
-  /// report.
+  /// Adds bodies that have come since, and replaces fluid bodies for which the source has better
+  /// ones. Call between two steps. Without news it allocates nothing, takes no lock and costs one
+  /// comparison per object of the world. Refusals go to the fluid's report function.
   void update(btCollisionWorld& world) noexcept;
 
  private:
-  // An object as it was met, and the fluid body that it was given.
+  // An object of the world, and the fluid body that it was given.
   struct Met {
     const btCollisionObject* object = nullptr;
     int instance = -1;
@@ -86,7 +86,7 @@ class WorldAttachment {
   };
 
   bool hasMetAll(const btCollisionWorld& world) const noexcept;
-  // The objects that it has not met before, null in place of all others.
+  // Returns the objects that were not met before; null in place of all others.
   std::vector<btCollisionObject*> meetAll(const btCollisionWorld& world);
   const AmbientBody* attach(btCollisionObject& object, Met& met, AttachReport& report);
   const AmbientBody* attachBody(btRigidBody& body, Met& met, AttachReport& report);

@@ -10,10 +10,10 @@ AMBIENT_BEGIN
 class AmbientBodies;
 struct FluidDrawing;
 
-/// Whether the world has one that is awake and in a fluid.
+/// True if the world has a multibody that is awake and in a fluid.
 bool hasAwakeTree(const btCollisionWorld& world, const AmbientBodies& bodies) noexcept;
 
-/// Wakes those that the world has and that follow regions.
+/// Wakes the multibodies of the world that follow regions.
 void wakeFollowingTrees(const btCollisionWorld& world, const AmbientBodies& bodies) noexcept;
 
 /// Calls drawFluid() for the links of all trees that the world has.

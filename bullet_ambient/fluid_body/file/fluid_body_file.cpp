@@ -63,10 +63,7 @@ std::shared_ptr<const FluidBody> loadFluidBody(const std::string& file) {
 }
 
 void writeFluidBody(const FluidBody& body, const fs::path& file) {
-  const std::string bytes = encodeFluidBody(body, file.string());
-  OutputFile output(file);
-  output.write(bytes);
-  output.commit();
+  writeFile(file, encodeFluidBody(body, file.string()));
 }
 
 }  // namespace ambient

@@ -6,13 +6,13 @@
 
 namespace ambient {
 
-// The laws of the pressure on a face, for all sums over faces and for single ones. Each has
+// Laws of the pressure on a face, for all sums over faces and for single faces. Each law has
 //   of<kRightAngle>(face)
 // which returns the FacePressure of a FaceState. `kRightAngle`: the flow separates at alpha = pi/2.
-// A law needs a place in withPressure() besides.
+// withPressure() must list the law, too.
 
-/// Motion of a face, and what a law may ask for besides. `Real`: a number or a vector of them.
-/// Functions: only laws that need a value compute it.
+/// Motion of a face, and further quantities as functions, which only laws that need them call.
+/// `Real`: a number or a vector of numbers.
 template <class Real, class Speed, class Factors, class Wing>
 struct FaceState {
   Real normal_speed;  ///< n.u, the velocity into the fluid [m/s]
@@ -26,18 +26,21 @@ struct FaceState {
 template <class Real, class Speed, class Factors, class Wing>
 FaceState(Real, Real, Real, Real, Speed, Factors, Wing) -> FaceState<Real, Speed, Factors, Wing>;
 
-/// q A of the whole pressure rho/2 q, and of the lift of attached flow in it.
+/// q A for the pressure rho/2 q on a face of area A: total, and the part that is lift of attached
+/// flow.
 template <class Real>
 struct FacePressure {
   Real total, lift;
 };
 
-/// Docs/theory.md eq. (14).
+/// Pressure of the slip, docs/theory.md eq. (14).
 struct PublishedPressure {
-  static constexpr bool kPressesLee = false;  ///< what faces that the flow leaves feel
-  static constexpr bool kIsSlender = false;   ///< `speed` is speedAcross()
+  static constexpr bool kPressesLee =
+      false;  ///< true: faces on the lee side, which the flow has left, feel pressure
+  static constexpr bool kIsSlender = false;  ///< `speed` is speedAcross()
   static constexpr bool kLifts = false;
-  using Windward = PublishedPressure;  ///< at a right angle, but for the lee that is summed apart
+  using Windward = PublishedPressure;  ///< the law at a right angle without the lee side, which is
+                                       ///< summed separately
 
   template <bool kRightAngle, class Real, class... Functions>
   static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
@@ -64,7 +67,8 @@ inline Real withSlip(const FaceState<Real, Functions...>& face, const Real& sepa
   return (separated - face.slip_share * separated) + slip;
 }
 
-/// Eq. (43) and (44): blocks; with `kSlender` smooth slender bodies that are no wings.
+/// Form law of eq. (43) and (44) for blocks; `kSlender`: for smooth slender bodies that are no
+/// wings.
 template <bool kSlender>
 struct FormPressure {
   static constexpr bool kPressesLee = true;
@@ -79,8 +83,8 @@ struct FormPressure {
   }
 };
 
-/// Eq. (43) to (43d), wings; `kLee`: with the lee side that addEvenPart() sums for a whole body;
-/// `kSlender`: those that are slender, too.
+/// Form law of eq. (43) to (43d) for wings. `kLee`: with the lee side, which addEvenPart() can sum
+/// for a whole body; `kSlender`: for wings that are slender, too.
 template <bool kLee, bool kSlender>
 struct WingPressure {
   static constexpr bool kPressesLee = kLee;
@@ -113,8 +117,8 @@ struct WingPressure {
   }
 };
 
-/// Calls sum(Law{}) with the law of this name. `wing`: of the shape; null of a block, and of the
-/// published law.
+/// Calls sum(Law{}) with the law for a setting and a shape. `wing`: factors of the shape; null for
+/// a block and for the published law.
 template <class Number, class Sum>
 auto withPressure(PressureLaw law, const WingFactors<Number>* wing, const Sum& sum) {
   if (law != PressureLaw::kForm) return sum(PublishedPressure{});

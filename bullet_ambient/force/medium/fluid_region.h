@@ -47,7 +47,7 @@ FluidRegion waterBelow(double level);
 /// Makes a region of air that moves with a velocity [m/s] within bounds.
 FluidRegion windZone(const RegionBounds& bounds, const Vector3& velocity);
 
-/// Whether what moves in it is always the same: no function and no moving surface.
+/// True if the fluid of a region does not change with time: no flow function and no moving surface.
 inline bool isSteady(const FluidRegion& region) {
   return !region.flow && (!region.surface || region.surface->isStill());
 }
@@ -66,12 +66,13 @@ struct RegionSample {
   bool isAbove() const { return !(height > 0); }  ///< true if the point is dry
   const Medium& here() const { return isAbove() ? above : below; }
 };
-/// For a body whose own medium is `own`.
+/// Samples surface and flow of a region at a point and time [s], for a body whose own medium is
+/// `own`.
 RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, double time,
                           const Medium& own = {}) noexcept;
 
-/// @throws std::invalid_argument, naming value and limit, if bounds or media are not physical, or
-/// below a surface is a vacuum.
+/// Checks a region. @throws std::invalid_argument, naming value and limit, if bounds or media are
+/// not physical, or the medium below a surface is a vacuum.
 void checkRegion(const FluidRegion& region);
 
 }  // namespace ambient

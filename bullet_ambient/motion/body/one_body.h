@@ -3,8 +3,8 @@
 #include "bullet_ambient/motion/body/dual_pair.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// One body by the arithmetic of several: it is in all lanes, and the result is read from the first.
-// For ordinary sources; the instruction set is the baseline.
+// Conversions to use the arithmetic of several bodies for one: the body is in all lanes, and the
+// result is read from the first. For ordinary sources; the instruction set is the baseline.
 
 namespace ambient {
 namespace {

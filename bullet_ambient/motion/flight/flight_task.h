@@ -55,11 +55,11 @@ double fallScale(const FlightTask& task);
 /// Place of a body in a frame that moves with the fluid.
 struct WayFromStart {
   Matrix3 to_world;  ///< B to W
-  Vector3 way_W;     ///< of the centre of mass since the motion began [m]
+  Vector3 way_W;     ///< displacement of the centre of mass since the motion began, world axes [m]
 };
 
-/// Energy of place, docs/theory.md eq. (64) without T: `of_water`, that of a surface and of waves,
-/// less the work of constant forces on the way [J].
+/// Computes the potential energy of docs/theory.md eq. (64) without T: `of_water`, energy of
+/// surface and waves, minus the work of constant forces on the way [J].
 double energyOfPlace(const BodyModel& model, const Surroundings& surroundings,
                      const WayFromStart& place, double of_water);
 

@@ -6,7 +6,8 @@ namespace ambient {
 
 // Arithmetic of bodies at a water surface, several at once. Plain data only, as in flight_lanes.h.
 
-/// Bodies at one pose each against the surface of the water: input and output of stand(); in B.
+/// Positions of bodies relative to the water surface: input and output of SurfaceKernel::stand();
+/// in B.
 struct alignas(64) StandLanes {
   FlightLane active;  ///< 1: stand() treats the body
 
@@ -28,22 +29,21 @@ struct alignas(64) StandLanes {
   FlightLane stiffness[3];                   ///< of heave and tilts
   FlightLane second_moment[2];               ///< of tilts
   FlightLane strength[3], loss[3], rate[3];  ///< WaveMode, of heave and tilts
-  FlightLane swing;                          ///< the largest natural frequency [1/s]
+  FlightLane swing;                          ///< largest natural frequency [1/s]
 };
 
 /// Bodies in flight near a surface. `flight` has pose, motion, forces and loads; its inertia is
-/// that of the last stand that the motion has come to. Each kernel treats the bodies that are
-/// active in `flight`.
+/// that of the last stand. Each kernel treats the bodies that are active in `flight`.
 struct alignas(64) SurfaceLanes {
   FlightLanes flight;
   StandLanes stand;
 
-  FlightLane normal_W[3], height_W;  ///< the plane, from where the step began
-  FlightLane is_stiff;               ///< 1: fall() takes the stiffness of the buoyancy along
-  FlightLane wind_W[3];              ///< velocity of the water less that of the fluid above
+  FlightLane normal_W[3], height_W;  ///< plane of the surface at the start of the step, in W
+  FlightLane is_stiff;               ///< 1: fall() includes the stiffness of buoyancy
+  FlightLane wind_W[3];  ///< velocity of the water minus that of the fluid above, in W [m/s]
 
-  FlightLane gradient[6];     ///< F_K of docs/theory.md eq. (66), where the flow begins
-  FlightLane draught, cover;  ///< of the lowest and of the highest point [m]
+  FlightLane gradient[6];     ///< F_K of docs/theory.md eq. (66) at the start of the flow
+  FlightLane draught, cover;  ///< depth of the lowest and of the highest point [m]
   FlightLane centre_of_buoyancy[3];
 
   FlightLane wave_heave[2], heave_energy, wave_tilt_W[2][3], tilt_energy;  ///< WaveMemory
@@ -54,25 +54,29 @@ struct alignas(64) SurfaceLanes {
 /// Kernels of one instruction set; bits as those of FlightKernel. Kicks are halves of
 /// flight.kick_time.
 struct SurfaceKernel {
-  /// K^-1, restoring modes, waves and swing of the bodies that are active in the stand.
+  /// Computes K^-1, restoring modes, waves and swing of the bodies that are active in the stand.
   void (*stand)(StandLanes&) noexcept;
-  /// Sets normal and height of the stand: the plane as seen from the pose of now.
+  /// Sets normal and height of the stand: the plane seen from the present pose.
   void (*see)(SurfaceLanes&) noexcept;
-  /// Passage from the inertia of the flight to that of the stand, eq. (66) to (68), over flow_time.
+  /// Applies the passage from the inertia of the flight to that of the stand, over flow_time; eq.
+  /// (66) to (68).
   void (*pass)(SurfaceLanes&) noexcept;
-  /// Weight, applied forces and buoyancy. Sets flight.momentum_B.
+  /// Applies weight, applied forces and buoyancy for half a kick. Sets flight.momentum_B.
   void (*fall)(SurfaceLanes&) noexcept;
-  /// Waves meet the modes of the stand, and act, eq. (71), (72).
+  /// Converts the waves to the modes of the stand, and lets them act for half a kick; eq. (71),
+  /// (72).
   void (*exchangeWaves)(SurfaceLanes&) noexcept;
-  /// Load of the last kick, flight.load_W, eq. (23).
+  /// Applies the load of the last kick, flight.load_W; eq. (23).
   void (*keepLoad)(SurfaceLanes&) noexcept;
-  /// Motion in the middle of the kick by the last load: flight.sample_twist and guess_B.
+  /// Predicts the motion in the middle of the kick from the last load: sets flight.sample_twist and
+  /// guess_B.
   void (*sampleLoad)(SurfaceLanes&) noexcept;
-  /// flight.load_B, evaluated there; sets load_W and error, eq. (23) to (25).
+  /// Applies flight.load_B, evaluated at flight.sample_twist; sets load_W and error; eq. (23) to
+  /// (25).
   void (*takeLoad)(SurfaceLanes&) noexcept;
-  /// Twist as seen from the fluid above: flight.sample_twist.
+  /// Sets flight.sample_twist to the twist relative to the fluid above.
   void (*meetWind)(SurfaceLanes&) noexcept;
-  /// flight.load_B of the fluid above, evaluated there.
+  /// Applies flight.load_B, the load of the fluid above at flight.sample_twist.
   void (*takeWind)(SurfaceLanes&) noexcept;
   /// Sets kinetic2 and potential.
   void (*measure)(SurfaceLanes&) noexcept;

@@ -6,10 +6,10 @@
 
 namespace ambient {
 
-/// Computes from the place of a stand what follows from it.
+/// Computes the fields of a SurfaceStand that follow from its SurfacePlace.
 void completeStand(const SurfaceModel& model, SurfaceStand& stand) noexcept;
-/// The stand at a place; `plane_B` with the density and gravity that count. Cost: 1 us for a hull
-/// of some hundred triangles.
+/// Computes the stand of a body for a plane in B, whose density and gravity count. Cost: 1 us for a
+/// hull of some hundred triangles.
 SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
 
 constexpr Kernels<const SurfaceKernel*> kSurfaceKernels{&kSurfaceKernelBaseline,
@@ -21,18 +21,18 @@ const SurfaceKernel& fastestSurfaceKernel() noexcept;
 /// Writes a place into lane `body`, as input of computeStands().
 void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
               const SurfacePlace& place) noexcept;
-/// Writes into lane `body` what a flight reads of a stand.
+/// Writes into lane `body` the fields of a stand that a flight reads.
 void setStand(StandLanes& lanes, int body, const SurfaceStand& stand) noexcept;
-/// Writes into a stand what computeStands() has found at its place.
+/// Copies the result of computeStands() from lane `body` to a stand.
 void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept;
 
-/// A body in a lane. The place gets another inertia where its own is not positive definite.
+/// A body in a lane. computeStands() may replace the inertia of the place, see there.
 struct BodyInLane {
   const SurfaceModel* model;
   SurfacePlace* place;
 };
-/// SurfaceKernel::stand() for the active lanes. Where K is not positive definite, positiveInertia()
-/// takes its place.
+/// Calls SurfaceKernel::stand() for the active lanes. Replaces a K that is not positive definite by
+/// positiveInertia(), in the place of the body, too.
 void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexcept;
 
 }  // namespace ambient

@@ -9,15 +9,15 @@ namespace ambient {
 /// One body near a water surface over one step.
 struct SurfaceTask {
   const SurfaceModel& model;
-  /// Plane of the surface at the start of the step, in W: normal and height count; it moves with
-  /// the water. Its normal is against gravity as the water feels it.
+  /// Plane of the surface at the start of the step, in W; only normal and height count. The plane
+  /// moves with the water; the normal is against gravity as the water feels it.
   const SurfacePlane& plane_W;
   /// Gravity, forces, and velocity and acceleration of the fluid below at the body.
   const Surroundings& surroundings;
-  Vector3 velocity_above;  ///< of the fluid above [m/s]
+  Vector3 velocity_above;  ///< velocity of the fluid above, world axes [m/s]
   const FlightSettings& settings;
   double duration;        ///< [s], > 0
-  double load_share = 1;  ///< of the loads below, docs/theory.md eq. (51d)
+  double load_share = 1;  ///< factor on the loads of the fluid below, docs/theory.md eq. (51d)
 };
 
 /// Task and state of a body: at the start of the step before flyAtSurface(), at its end afterwards.
@@ -25,16 +25,16 @@ struct SurfaceFlight {
   SurfaceTask task;
   FlightResult& body;  ///< twist absolute, in B
   WaveMemory& waves;
-  SurfaceStand& stand;  ///< at the pose of `body`
+  SurfaceStand& stand;  ///< stand at the pose of `body`
 };
 
-/// Integrates the motion of up to kFlightsTogether bodies that the surface of the water cuts, or is
-/// near of: Kirchhoff's equations with an inertia that depends on the pose, docs/theory.md eq. (62)
-/// to (72). Between bodies above and below the surface and these there is no jump. In still water
-/// without wind and applied torque the energy never grows, however long the step: where no number
-/// of substeps keeps it, the motion ends early, FlightCount::halted. Bits of a body do not depend
-/// on the others. Allocates nothing. The result is not finite if the input or a load is not: check
-/// before use.
+/// Integrates the motion of up to kFlightsTogether bodies that the surface of the water cuts or is
+/// near: Kirchhoff's equations with an inertia that depends on the pose, docs/theory.md eq. (62) to
+/// (72). Far above and below the surface the motion passes into that of fly() without a jump. In
+/// still water without wind and applied torque the energy never grows, however long the step: if no
+/// number of substeps keeps it, the motion ends early, FlightCount::halted. The bits of a body do
+/// not depend on the other bodies. Allocates nothing. The result is not finite if the input or a
+/// load is not: check before use.
 void flyAtSurface(SurfaceFlight* const* flights, int count) noexcept;
 
 }  // namespace ambient

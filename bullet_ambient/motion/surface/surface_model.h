@@ -10,59 +10,62 @@ namespace ambient {
 
 class LoadTables;
 
-/// A body and the two fluids that it may be between.
+/// Definition of a body and of the two fluids at a water surface.
 struct SurfaceModelDef {
   std::shared_ptr<const FluidBody> shape;
-  FrameOffset fluid_frame;  ///< F in B
+  FrameOffset fluid_frame;  ///< pose of F in B
   MassProperties mass;
   Medium above, below;
   FlowSettings flow{};
   double wave_damping = 1;  ///< factor on the waves that the body makes, docs/theory.md eq. (69)
 };
 
-/// Loads of one of the fluids on the part of the body that is in it.
+/// Loads of one fluid on the part of the body in it.
 struct PartLoads {
   std::shared_ptr<const SurfaceLoads> loads;  ///< null: there are none
-  FrameOffset frame;                          ///< theirs, in B
+  FrameOffset frame;                          ///< pose in B of the frame of the loads
 };
 
-/// All that the motion near a water surface needs to know of one body; constant between changes of
-/// body or media. Frame: body frame B, but for what is named otherwise.
+/// Parameters of the motion of one body near a water surface; constant between changes of body or
+/// media. Frame: body frame B, unless the name says otherwise.
 struct SurfaceModel {
-  BodyModel above, below;  ///< all of the body in one of the fluids
+  BodyModel above, below;  ///< models of the whole body in one of the fluids
   FrameOffset fluid_frame;
-  double excess_density = 0;  ///< of the fluid below over that above [kg/m^3]
+  double excess_density = 0;  ///< density of the fluid below minus that of the fluid above [kg/m^3]
   std::shared_ptr<const FluidBody> shape;
   std::shared_ptr<const PackedHull> hull;  ///< null for a sphere
   std::shared_ptr<const WettedInertia> wetted;
   PartLoads loads_above, loads_below;
-  double radius = 0;        ///< of a sphere about the centre of mass that holds the body [m]
+  double radius = 0;  ///< radius of a sphere about the centre of mass that contains the body [m]
   double heave_factor = 1;  ///< c of docs/theory.md eq. (69)
   double wave_damping = 1;
 };
 
-/// Cost: makeBodyModel() twice, and the tables of the shape if they are new. Loads of the fluid
-/// above are made if its density is a hundredth of the other or if it moves.
+/// Makes the model. Makes loads of the fluid above only if its density is at least a hundredth of
+/// that of the fluid below, or if it moves. Cost: makeBodyModel() twice, and the tables of the
+/// shape if they are new.
 /// @throws std::invalid_argument, naming value and limit, as makeBodyModel() and
 /// makeSurfaceLoads(); if the fluid above is the denser one; if the body has a volume and no
 /// triangles.
 SurfaceModel makeSurfaceModel(const SurfaceModelDef& def, LoadTables& tables);
 
-/// Side of the surface on which a body is.
+/// Position of a body relative to the surface.
 enum class SurfaceSide { kAbove, kAt, kBelow };
 
-/// Whether the surface matters to a body that moves by at most `travel` [m]: at kAbove and kBelow
-/// it moves as in one of the fluids alone. The plane in B. Cost: 5 ns where the surface is far.
+/// Decides whether the surface matters to a body that moves by at most `travel` [m]: kAbove and
+/// kBelow mean that the body moves as in one fluid alone. `plane_B`: plane in B. Cost: 5 ns if the
+/// surface is far.
 SurfaceSide sideOf(const SurfaceModel& model, const SurfacePlane& plane_B, double travel) noexcept;
 
-/// In F, for a plane in B.
+/// Computes the immersion in F, for a plane in B.
 Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
 
-/// Total inertia of body and fluids in B at an immersion; docs/theory.md eq. (63). Positive
-/// definite but for errors of the wetted part.
+/// Computes the total inertia K of body and fluids in B at an immersion; docs/theory.md eq. (63).
+/// Errors of the wetted part may make it indefinite, see positiveInertia().
 Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept;
 
-/// A total inertia without what makes it indefinite: the wetted part loses its negative part.
+/// Returns a total inertia with the negative part of the wetted added mass removed, so that it is
+/// positive definite.
 Matrix6 positiveInertia(const SurfaceModel& model, const Matrix6& inertia) noexcept;
 
 }  // namespace ambient

@@ -4,9 +4,8 @@
 
 namespace ambient {
 
-/// The waves that a floating body has made, as far as they act on it: two states each of its heave
-/// and of its tilt about the horizontal axes; docs/theory.md eq. (69). In still water nothing else
-/// is remembered of the past.
+/// Waves that a floating body has made, as far as they act on it: two states each for heave and for
+/// tilt about the horizontal axes; docs/theory.md eq. (69).
 struct WaveMemory {
   double heave[2] = {0, 0};                    ///< [m]
   Vector3 tilt_W[2] = {{0, 0, 0}, {0, 0, 0}};  ///< horizontal [rad]

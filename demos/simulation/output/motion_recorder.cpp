@@ -11,12 +11,6 @@ namespace {
 // Relative tolerance for comparing times: multiples of a decimal step are rounded.
 constexpr double kTimeRounding = 1e-9;
 
-/// Returns the sample with the sign of its quaternion that is nearer to the sample before.
-MotionSample withContinuousSign(MotionSample sample, const MotionSample& before) {
-  if (sample.orientation.dot(before.orientation) < 0) sample.orientation.coeffs() *= -1;
-  return sample;
-}
-
 }  // namespace
 
 MotionRecorder::MotionRecorder(std::vector<double> times, double time_step)
@@ -36,9 +30,7 @@ void MotionRecorder::record(std::size_t body, const MotionSample& now) {
   const bool at_step = std::abs(time - now.time) <= tolerance_;
   MotionSample sample = at_step ? now : interpolateMotion(last_[body], now, time);
   sample.time = time;
-  std::vector<MotionSample>& motion = motion_[body];
-  if (!motion.empty()) sample = withContinuousSign(sample, motion.back());
-  motion.push_back(sample);
+  appendSample(motion_[body], sample);
 }
 
 std::vector<double> timesOf(double begin, double duration, double step) {

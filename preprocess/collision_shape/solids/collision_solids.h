@@ -7,14 +7,16 @@
 
 namespace ambient {
 
-/// Triangles that many solids have together at most, over those aimed at, as far as they can.
+/// Largest number of triangles of many solids together, over the number aimed at, as far as their
+/// kinds allow.
 constexpr int kMostOfMany = 6;
 
-/// The added mass of a part about its own origin, in its axes, per unit density, if the tables of
-/// simple shapes have it.
+/// Returns the added mass of a part about its own origin, in its axes, per unit density; none if
+/// the tables of simple shapes do not have it.
 std::optional<Matrix6> tabulatedAddedMass(const Shape& shape);
 
-/// The solids that the parts of a shape are, in its frame. Solids share the faces.
+/// Makes the solids of the parts of a shape, in the frame of the shape. The number of faces is
+/// divided among them.
 /// @throws std::runtime_error in one line that begins with the part's name, for one that cannot be
 /// a body in a fluid.
 std::vector<Solid> makeSolids(const std::vector<PlacedShape>& parts,

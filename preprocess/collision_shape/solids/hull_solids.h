@@ -9,14 +9,14 @@ namespace ambient {
 
 /// Resolution of the triangles of solids.
 struct SolidResolution {
-  int faces = 0;        ///< triangles aimed at for the loads, of all solids together
-  int least_faces = 0;  ///< of each of them, unless that makes more than kMostOfMany allows
-  int flow_faces = 0;   ///< as `faces`, for the flow
+  int faces = 0;        ///< number of triangles for the loads, of all solids together
+  int least_faces = 0;  ///< least number per solid, unless that makes more than kMostOfMany allows
+  int flow_faces = 0;   ///< number of triangles for the flow, of all solids together
   bool tables = true;   ///< of the added mass, as far as they reach
 };
 
-// `name` begins the message of every std::runtime_error: sizes that are not positive and finite,
-// points in a plane.
+// Functions below throw std::runtime_error, beginning with `name`, if sizes are not positive and
+// finite or points lie in a plane.
 
 /// Makes the solid of a hull; its volume follows Steiner's formula.
 Solid makeHullSolid(const Hull& hull, const SolidResolution& resolution, const std::string& name);

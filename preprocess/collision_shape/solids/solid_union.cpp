@@ -25,12 +25,6 @@ namespace {
 
 using Meshes = std::vector<TriangleMesh>;
 
-double volumeOf(const Meshes& parts) {
-  double sum = 0;
-  for (const TriangleMesh& part : parts) sum += computeMassProperties(part).volume;
-  return sum;
-}
-
 /// Solids that hang together by contacts, in their order.
 std::vector<std::vector<Solid>> contactGroups(const std::vector<Solid>& solids) {
   DisjointSets sets(solids.size());
@@ -81,7 +75,7 @@ Solid uniteGroup(const std::vector<Solid>& group, int faces, const std::string& 
   solid.cavities = joinMeshes(cavities);
   // Scales the sum to the volume of the union, where space inside two parts counts once.
   solid.parts_added_mass =
-      parts_added_mass * (computeMassProperties(united.mesh).volume / volumeOf(parts));
+      parts_added_mass * (computeMassProperties(united.mesh).volume / sumOfVolumes(parts));
   return solid;
 }
 
@@ -97,7 +91,7 @@ Solid hullOf(const std::vector<Solid>& group, const UnionSettings& settings,
              const std::string& reason, const std::string& name) {
   Meshes meshes;
   for (const Solid& solid : group) meshes.push_back(solid.mesh);
-  const double sum = volumeOf(meshes);
+  const double sum = sumOfVolumes(meshes);
   Solid hull;
   hull.mesh = evenlyDivided(cleanHull(joinMeshes(meshes), name), settings.faces);
   std::ostringstream text;

@@ -9,9 +9,9 @@ namespace ambient {
 
 /// Replacement for children of a compound that touch or overlap and cannot be united.
 enum class CompoundFallback {
-  kHull,    ///< their convex hull: the flow around it, more volume
-  kSum,     ///< the sum of what each has alone: the right volume where they only touch, no flow
-            ///< between them
+  kHull,    ///< their convex hull: a real flow, but more volume
+  kSum,     ///< the sum of the added masses of each alone: right volume if they only touch, no
+            ///< interaction
   kRefuse,  ///< nothing: an exception
 };
 
@@ -20,11 +20,11 @@ struct UnionSettings {
   CompoundFallback fallback = CompoundFallback::kHull;
 };
 
-/// Solids with gaps between them, which bound the same body.
+/// Solids with gaps between them, made of the solids of one shape.
 struct SeparateSolids {
   std::vector<Solid> solids;
-  bool has_unions = false;  ///< some of them are made of several
-  bool is_sum = false;      ///< CompoundFallback::kSum was needed: some of them touch or overlap
+  bool has_unions = false;  ///< true: some of them are unions
+  bool is_sum = false;  ///< true: CompoundFallback::kSum was needed; some of them touch or overlap
 };
 
 /// Unites solids that touch or overlap, or leave gaps too narrow for the flow (kLeastGap). Each

@@ -153,9 +153,7 @@ MeshDiagnosis diagnoseInput(const ReadInput& input, const ShapeDescription& shap
 
 void writeObj(const MeshDiagnosis& diagnosis, const std::string& file) {
   const BlockedSignals until_renamed;
-  OutputFile obj(file);
-  obj.write(defectsAsObj(diagnosis));
-  obj.commit();
+  writeFile(file, defectsAsObj(diagnosis));
 }
 
 /// Returns the exit status: 1 if the input cannot be built.

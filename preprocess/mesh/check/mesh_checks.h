@@ -25,8 +25,8 @@ struct MeshCheckSettings {
 CheckedMesh checkMesh(const TriangleMesh& mesh, const std::string& name,
                       const MeshCheckSettings& settings = {});
 
-/// Whether every part of a sheet has a vertex inside its boundary: the flow around a sheet is
-/// solved for there. Cost O(T log T).
+/// True if every part of a sheet has a vertex inside its boundary; the flow around a sheet has its
+/// unknowns there. Cost O(T log T).
 bool hasVerticesInside(const TriangleMesh& sheet);
 
 }  // namespace ambient

@@ -5,7 +5,7 @@
 
 namespace ambient {
 
-/// All that is wrong with a mesh.
+/// All defects of a mesh.
 struct MeshDiagnosis {
   /// Result of checkMesh() if there are no defects; else the mesh as far as it could be mended.
   /// Triangle numbers of the defects refer to it.
@@ -13,12 +13,13 @@ struct MeshDiagnosis {
   std::vector<MeshDefect> defects;
 };
 
-/// checkMesh() and requireUsualSize() that look for all defects in place of refusing the first one.
-/// Those that only a closed surface can have are not looked for in others. Cost as checkMesh().
+/// Finds all defects that checkMesh() and requireUsualSize() refuse, instead of the first one only.
+/// Defects that only a closed surface can have are not looked for in open ones. Cost: that of
+/// checkMesh().
 MeshDiagnosis diagnoseMesh(const TriangleMesh& mesh, const std::string& name,
                            const MeshCheckSettings& settings = {});
 
-/// The triangles of each defect as an object of an OBJ file, named after its kind.
+/// Text of an OBJ file with one object per defect, named after its kind, that has its triangles.
 std::string defectsAsObj(const MeshDiagnosis& diagnosis);
 
 }  // namespace ambient

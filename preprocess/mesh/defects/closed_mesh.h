@@ -14,7 +14,7 @@ namespace ambient {
 /// out of range, a flat triangle that cannot be mended.
 CheckedMesh mendTriangles(const TriangleMesh& mesh, const std::string& name);
 
-/// A mesh as the surface of a body, oriented if there are no defects.
+/// Result of judgeBody(): the mesh, oriented if there are no defects, and the defects.
 struct BodyVerdict {
   CheckedMesh checked;
   std::vector<MeshDefect> defects;

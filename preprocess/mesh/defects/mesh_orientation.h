@@ -7,7 +7,7 @@
 
 namespace ambient {
 
-/// "(x, y, z)" for messages.
+/// Text "(x, y, z)" for messages.
 std::string pointText(const Eigen::Vector3d& point);
 
 void turnRound(TriangleMesh& mesh, Eigen::Index triangle);

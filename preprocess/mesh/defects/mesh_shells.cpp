@@ -45,14 +45,10 @@ void measure(const TriangleMesh& mesh, Shell& shell) {
   }
 }
 
-Eigen::Vector3d barycentre(const TriangleMesh& mesh, int t) {
-  return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3;
-}
-
 // Parts that only cross each other are left to findContradictions().
 bool surrounds(const TriangleMesh& mesh, const Shell& outer, const Shell& inner) {
   if (!outer.bounds.contains(inner.bounds)) return false;
-  const Eigen::Vector3d point = barycentre(mesh, inner.triangles.front());
+  const Eigen::Vector3d point = mesh.barycentre(inner.triangles.front());
   double angle = 0;
   for (const int t : outer.triangles) angle += solidAngle(mesh, t, point);
   return std::abs(angle) > kFullSphere / 2;
@@ -132,8 +128,7 @@ std::vector<int> evenSample(const TriangleMesh& mesh, int count) {
   std::vector<double> area_up_to;
   double area = 0;
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Eigen::Vector3d a = mesh.corner(t, 0);
-    area += (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm() / 2;
+    area += mesh.twiceArea(t).norm() / 2;
     area_up_to.push_back(area);
   }
   std::vector<int> sample;
@@ -148,7 +143,7 @@ std::vector<int> evenSample(const TriangleMesh& mesh, int count) {
 /// Returns how often the surface encloses the body side of a triangle, at its barycentre. On a
 /// surface that bounds a body once, the principal value of the winding number is 1/2 there.
 double timesEnclosed(const TriangleMesh& mesh, int triangle) {
-  const Eigen::Vector3d point = barycentre(mesh, triangle);
+  const Eigen::Vector3d point = mesh.barycentre(triangle);
   double angle = 0;
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t) {
     if (t != triangle) angle += solidAngle(mesh, t, point);
@@ -178,7 +173,7 @@ Defects findContradictions(const TriangleMesh& mesh) {
   defect.text =
       defectText("the volume contradicts itself on ", std::round(1000 * share) / 10,
                  " % of the area: at triangle ", example, " near ",
-                 pointText(barycentre(mesh, example)), " the surface encloses the body side ",
+                 pointText(mesh.barycentre(example)), " the surface encloses the body side ",
                  std::round(2 * times_at_example) / 2 + 0.0,  // not -0
                  " times, must be 1 on all but ", 100 * kMostOfArea,
                  " % (parts overlap or touch, or the surface crosses itself)");
@@ -216,7 +211,7 @@ void takeOutCavities(CheckedMesh& checked, const std::vector<Shell>& shells,
 }
 
 std::string placeOf(const TriangleMesh& mesh, int t) {
-  return "triangle " + std::to_string(t) + " at " + pointText(barycentre(mesh, t));
+  return "triangle " + std::to_string(t) + " at " + pointText(mesh.barycentre(t));
 }
 
 Defects findOverlaps(const TriangleMesh& mesh, const SurfaceCrossings& crossings) {

@@ -9,7 +9,7 @@
 
 namespace ambient {
 
-/// A mesh whose normals point out of the body, as far as it has no defects.
+/// Result of orientShells(): the mesh with normals out of the body, if there are no defects.
 struct OrientedShells {
   CheckedMesh checked;
   std::vector<MeshDefect> defects;

@@ -7,12 +7,12 @@
 
 namespace ambient {
 
-/// Two triangles without a common corner that meet.
+/// Numbers of two triangles that meet without a common corner.
 struct TrianglePair {
   int first = 0, second = 0;
 };
 
-/// One example of each kind, if there is any.
+/// One example of each kind of crossing, if there is any.
 struct SurfaceCrossings {
   std::optional<TrianglePair> between_parts, within_part;
 };

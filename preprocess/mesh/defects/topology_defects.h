@@ -7,21 +7,21 @@
 
 namespace ambient {
 
-// Each of these finds all triangles that have a defect, in one entry for each kind; the text has
-// their number and one example. Cost O(T log T).
+// Each function finds all triangles with a defect, one entry per kind of defect; the text has their
+// number and one example. Cost O(T log T).
 
-/// No triangles, coordinates that are not finite, indices out of range. Nothing else can be looked
-/// for before.
+/// Finds missing triangles, coordinates that are not finite, indices out of range. Call it first:
+/// the other functions need valid values.
 std::vector<MeshDefect> findValueDefects(const TriangleMesh& mesh);
 
-/// Height below kLeastHeight of the longest edge.
+/// Finds triangles whose height is below kLeastHeight of the longest edge.
 std::vector<MeshDefect> findFlatTriangles(const TriangleMesh& mesh);
 
-/// On the same corners as another one.
+/// Finds triangles on the same corners as another one.
 std::vector<MeshDefect> findDoubleTriangles(const TriangleMesh& mesh);
 
-/// Boundary edges, unless it is a sheet; edges of more than two triangles; vertices at which
-/// separate parts touch; closed parts of a sheet.
+/// Finds edges of more than two triangles, and vertices at which separate parts touch; on a body
+/// also boundary edges, on a sheet closed parts.
 std::vector<MeshDefect> findTopologyDefects(const TriangleMesh& mesh, const MeshEdges& edges,
                                             bool sheet);
 

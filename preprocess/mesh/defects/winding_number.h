@@ -11,8 +11,8 @@ double solidAngle(const TriangleMesh& mesh, Eigen::Index triangle, const Eigen::
 
 /// Volume [m^3] of the points around which the triangles wind more than half, whether or not they
 /// are closed; what several surfaces enclose counts once (Jacobson, Kavan and Sorkine-Hornung
-/// 2013). By 8^3 to 24^3 points of the bounding box, fewer for many triangles: to some per cent.
-/// Cost 512 T solid angles, or 2e8 if that is more.
+/// 2013). Samples 8^3 to 24^3 points of the bounding box, fewer for many triangles; accuracy some
+/// per cent. Cost 512 T solid angles, or 2e8 if that is more.
 double enclosedVolume(const TriangleMesh& mesh);
 
 }  // namespace ambient

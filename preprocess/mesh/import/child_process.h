@@ -8,7 +8,7 @@ namespace ambient {
 /// Exit status and output of a child process.
 struct ChildResult {
   int exit_code = 0;
-  int signal = 0;      ///< that ended it; 0: none
+  int signal = 0;      ///< signal that ended the process; 0: none
   std::string output;  ///< standard output
 };
 

@@ -8,10 +8,10 @@
 
 namespace ambient {
 
-/// Distance, over the diagonal of the bounding box, up to which the vertices of a file are one.
+/// Distance up to which vertices of a file are joined, over the diagonal of the bounding box [1].
 constexpr double kWeldTolerance = 1e-6;
 
-/// A mesh as a file holds it, and what a user should know about it, one line each.
+/// A mesh as in its file, and warnings for the user, one line each.
 struct ImportedMesh {
   TriangleMesh mesh;
   std::vector<std::string> warnings;

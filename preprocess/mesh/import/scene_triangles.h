@@ -11,7 +11,7 @@ namespace ambient {
 /// The triangles of a mesh file in its own frame, with one vertex list per mesh and node.
 struct SceneTriangles {
   TriangleMesh mesh;
-  std::int64_t points_and_lines = 0;  ///< that were left out
+  std::int64_t points_and_lines = 0;  ///< number of points and lines that were left out
   std::string warning;                ///< for the user, without the file's name; mostly empty
 };
 

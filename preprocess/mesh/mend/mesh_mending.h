@@ -11,21 +11,21 @@ constexpr double kLeastHeight = 1e-7;
 /// Height of a triangle over its longest edge; 0 if it is a point.
 double heightRatio(const TriangleMesh& mesh, Eigen::Index triangle);
 
-/// A mesh in which every triangle stands exactly twice, whichever way round, without the second
-/// copies, with a warning; any other mesh as it is. Cost O(T log T).
+/// If every triangle of a mesh exists exactly twice, in either orientation, removes the second
+/// copies, with a warning. Returns any other mesh unchanged. Cost O(T log T).
 /// @pre indices are in range.
 CheckedMesh withoutCopies(const TriangleMesh& mesh, const std::string& name);
 
-/// Flat triangles (height below kLeastHeight of the longest edge) lose their longest edge to the
-/// two edges that run beside it: with the one neighbour across it they are divided along the other
-/// diagonal, which opens no hole; with a warning. What that cannot mend stays as it is. Cost
-/// O(T log T) for each round; a round mends all flat triangles that are not neighbours.
+/// Mends flat triangles (height below kLeastHeight of the longest edge) by an edge flip: a flat
+/// triangle and its one neighbour across the longest edge are divided along the other diagonal,
+/// which opens no hole. Adds a warning. Triangles that cannot be mended so stay. Cost O(T log T)
+/// for each round; a round mends all flat triangles that are not neighbours.
 /// @pre indices are in range, coordinates finite.
 CheckedMesh withoutFlatTriangles(const TriangleMesh& mesh, const std::string& name);
 
-/// A mesh whose boundary edges are all T-junctions, where vertices lie on the edges of others
-/// within 1e-6 of its size, with the triangles of these divided there, with a warning; any other
-/// mesh as it is. Cost that of withoutCracks().
+/// If all boundary edges of a mesh are T-junctions (a vertex lies on the edge of another triangle
+/// within 1e-6 of the size), divides triangles there and adds a warning. Returns any other mesh
+/// unchanged. Cost: that of withoutCracks().
 /// @pre indices are in range, coordinates finite.
 CheckedMesh withoutTJunctions(const TriangleMesh& mesh, const std::string& name);
 

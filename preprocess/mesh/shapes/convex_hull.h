@@ -6,14 +6,14 @@
 
 namespace ambient {
 
-/// Lattice of hulls whose points are known to rounding or to those of a float only: points closer
-/// to the hull than 2^-14 of its extent may be left out, and no side is thinner than that.
+/// Bits of the lattice for hulls of points that are known to the rounding of a float only: points
+/// closer to the hull than 2^-14 of its extent may be left out, and no side is thinner than that.
 constexpr int kCoarseHullBits = 14;
 
-/// Triangles of the convex hull of points [m], outward; the vertices are points of the list. Points
-/// are rounded to 2^-bits of the extent along each axis, and which side of a plane they lie on is
-/// then exact: no order of the points leaves a hull that is not closed. Expected cost O(n log n)
-/// (Barber, Dobkin and Huhdanpaa, "The quickhull algorithm for convex hulls", 1996).
+/// Computes the convex hull of points [m], triangles outward; vertices are points of the list.
+/// Points are rounded to 2^-bits of the extent along each axis; sides of planes are then computed
+/// exactly, so that the hull is always closed. Expected cost O(n log n) (Barber, Dobkin and
+/// Huhdanpaa, "The quickhull algorithm for convex hulls", 1996).
 /// @pre bits <= 30
 /// @throws std::runtime_error in one line that begins with `name`: fewer than 4 points, a
 /// coordinate that is not finite, points in a plane.

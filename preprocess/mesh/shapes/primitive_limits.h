@@ -12,7 +12,8 @@ void requirePositiveSize(const std::string& shape, const std::string& what, doub
 /// @throws std::runtime_error naming the shape, the number and the limit.
 void requireFaces(const std::string& shape, int faces, int least);
 
-/// The least number of triangles of makeCylinderMesh() and so on: the more slender, the more.
+/// Least number of triangles of makeCylinderMesh(), makeCapsuleMesh() and makeConeMesh(); larger
+/// for slender shapes.
 int leastCylinderFaces(double radius, double height);
 int leastCapsuleFaces(double radius, double height);
 int leastConeFaces(double radius, double height);

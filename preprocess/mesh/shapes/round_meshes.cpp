@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <vector>
 
 #include "bullet_ambient/base/elementary.h"
@@ -218,15 +219,26 @@ double arcVolume(double offset, double rounding, double from, double to) {
   return kPi * rounding * (integral(to) - integral(from));
 }
 
+/// A size of a round shape, by its name in messages [m].
+struct NamedSize {
+  const char* name;
+  double size;
+};
+
+/// The finest mesh of a shape through the rings make(n) within `faces` triangles.
+template <class MakeRings>
+TriangleMesh latheMesh(const char* shape, std::initializer_list<NamedSize> sizes, int faces,
+                       const MakeRings& make) {
+  for (const NamedSize& named : sizes) requirePositiveSize(shape, named.name, named.size);
+  requireFaces(shape, faces, static_cast<int>(triangleCount(make(1))));
+  return Lathe(finestRings(faces, make)).mesh();
+}
+
 }  // namespace
 
 TriangleMesh makeRoundedConeMesh(double radius, double height, double rounding, int faces) {
-  requirePositiveSize("rounded cone", "radius", radius);
-  requirePositiveSize("rounded cone", "height", height);
-  requirePositiveSize("rounded cone", "rounding", rounding);
-  const auto make = [&](int n) { return roundedConeRings(radius, height, rounding, n); };
-  requireFaces("rounded cone", faces, static_cast<int>(triangleCount(make(1))));
-  return Lathe(finestRings(faces, make)).mesh();
+  return latheMesh("rounded cone", {{"radius", radius}, {"height", height}, {"rounding", rounding}},
+                   faces, [&](int n) { return roundedConeRings(radius, height, rounding, n); });
 }
 
 double roundedConeVolume(double radius, double height, double rounding) {
@@ -241,11 +253,8 @@ int leastCylinderFaces(double radius, double height) {
 }
 
 TriangleMesh makeCylinderMesh(double radius, double height, int faces) {
-  requirePositiveSize("cylinder", "radius", radius);
-  requirePositiveSize("cylinder", "height", height);
-  const auto make = [&](int n) { return cylinderRings(radius, height, n); };
-  requireFaces("cylinder", faces, leastCylinderFaces(radius, height));
-  return Lathe(finestRings(faces, make)).mesh();
+  return latheMesh("cylinder", {{"radius", radius}, {"height", height}}, faces,
+                   [&](int n) { return cylinderRings(radius, height, n); });
 }
 
 int leastCapsuleFaces(double radius, double height) {
@@ -253,11 +262,8 @@ int leastCapsuleFaces(double radius, double height) {
 }
 
 TriangleMesh makeCapsuleMesh(double radius, double height, int faces) {
-  requirePositiveSize("capsule", "radius", radius);
-  requirePositiveSize("capsule", "height", height);
-  const auto make = [&](int n) { return capsuleRings(radius, height, n); };
-  requireFaces("capsule", faces, leastCapsuleFaces(radius, height));
-  return Lathe(finestRings(faces, make)).mesh();
+  return latheMesh("capsule", {{"radius", radius}, {"height", height}}, faces,
+                   [&](int n) { return capsuleRings(radius, height, n); });
 }
 
 int leastConeFaces(double radius, double height) {
@@ -265,23 +271,18 @@ int leastConeFaces(double radius, double height) {
 }
 
 TriangleMesh makeConeMesh(double radius, double height, int faces) {
-  requirePositiveSize("cone", "radius", radius);
-  requirePositiveSize("cone", "height", height);
-  const auto make = [&](int n) { return coneRings(radius, height, n); };
-  requireFaces("cone", faces, leastConeFaces(radius, height));
-  return Lathe(finestRings(faces, make)).mesh();
+  return latheMesh("cone", {{"radius", radius}, {"height", height}}, faces,
+                   [&](int n) { return coneRings(radius, height, n); });
 }
 
 TriangleMesh makeEllipticSheetMesh(double semi_axis_x, double semi_axis_y, int faces) {
-  requirePositiveSize("elliptic sheet", "semi-axis x", semi_axis_x);
-  requirePositiveSize("elliptic sheet", "semi-axis y", semi_axis_y);
-  requireFaces("elliptic sheet", faces, kSectors);
-  const std::vector<Ring> rings = finestRings(faces, [](int n) {
-    std::vector<Ring> disc;
-    for (int k = 0; k <= n; ++k) disc.push_back({gradedRadius(1, k, n), 0, k});
-    return disc;
-  });
-  TriangleMesh mesh = Lathe(rings).mesh();
+  const auto disc = [](int n) {
+    std::vector<Ring> rings;
+    for (int k = 0; k <= n; ++k) rings.push_back({gradedRadius(1, k, n), 0, k});
+    return rings;
+  };
+  TriangleMesh mesh = latheMesh(
+      "elliptic sheet", {{"semi-axis x", semi_axis_x}, {"semi-axis y", semi_axis_y}}, faces, disc);
   mesh.vertices.row(0) *= semi_axis_x;
   mesh.vertices.row(1) *= semi_axis_y;
   return mesh;

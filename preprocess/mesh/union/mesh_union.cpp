@@ -100,14 +100,10 @@ TriangleMesh stitched(TriangleMesh mesh, double tolerance) {
   return mesh;
 }
 
-Eigen::AlignedBox3d boundsOf(const TriangleMesh& mesh) {
-  return {mesh.vertices.rowwise().minCoeff(), mesh.vertices.rowwise().maxCoeff()};
-}
-
 /// For each part, those that may take something off it.
 std::vector<std::vector<std::size_t>> neighboursByBounds(const Meshes& parts, double reach) {
   std::vector<Eigen::AlignedBox3d> bounds;
-  for (const TriangleMesh& part : parts) bounds.push_back(boundsOf(part));
+  for (const TriangleMesh& part : parts) bounds.push_back(part.bounds());
   std::vector<std::vector<std::size_t>> neighbours(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t j = 0; j < parts.size(); ++j)
@@ -142,8 +138,7 @@ TriangleMesh unionSurface(const Meshes& parts, double size, const Tolerances& to
 }
 
 TriangleMesh blownUp(TriangleMesh mesh, double share) {
-  const Eigen::Vector3d centre =
-      (mesh.vertices.rowwise().maxCoeff() + mesh.vertices.rowwise().minCoeff()) / 2;
+  const Eigen::Vector3d centre = mesh.bounds().center();
   mesh.vertices += share * (mesh.vertices.colwise() - centre);
   return mesh;
 }
@@ -159,17 +154,11 @@ Meshes inGeneralPosition(const Meshes& parts, double share, std::mt19937& genera
     const double x = random() - 0.5, y = random() - 0.5, z = random() - 0.5;
     const Matrix3 turn =
         rotationFromVector(kTurn * share * Vector3(x, y, z).normalized()).toRotationMatrix();
-    const Eigen::Vector3d centre = boundsOf(part).center();
+    const Eigen::Vector3d centre = part.bounds().center();
     mesh.vertices = (turn * (mesh.vertices.colwise() - centre)).colwise() + centre;
     moved.push_back(std::move(mesh));
   }
   return moved;
-}
-
-double sumOfVolumes(const Meshes& parts) {
-  double sum = 0;
-  for (const TriangleMesh& part : parts) sum += computeMassProperties(part).volume;
-  return sum;
 }
 
 void requireGaps(const TriangleMesh& mesh) {

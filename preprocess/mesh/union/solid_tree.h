@@ -12,7 +12,7 @@ struct FlatPolygon {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
 
-/// The triangles of a mesh as polygons, but for those without a normal.
+/// Converts the triangles of a mesh to polygons; leaves out triangles without a normal.
 std::vector<FlatPolygon> polygonsOf(const TriangleMesh& mesh);
 
 /// The inside of a closed mesh as a tree of half spaces: Naylor, Amanatides, Thibault, "Merging BSP

@@ -8,12 +8,12 @@ namespace ambient {
 
 /// Nodes at the corners of equal cubes, numbered with x fastest.
 struct CubicGrid {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of node 0 [m]
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< place of node 0 [m]
   double step = 1;                                   ///< side of a cube [m]
-  std::array<std::int64_t, 3> counts{};              ///< of nodes along the axes
+  std::array<std::int64_t, 3> counts{};              ///< numbers of nodes along the axes
 
   std::int64_t nodeCount() const { return counts[0] * counts[1] * counts[2]; }
-  /// From a node to the next one along an axis.
+  /// Difference of numbers from a node to the next one along an axis.
   std::int64_t stride(int axis) const {
     return axis == 0 ? 1 : axis == 1 ? counts[0] : counts[0] * counts[1];
   }
@@ -29,7 +29,7 @@ struct CubicGrid {
                                            static_cast<double>(place[1]),
                                            static_cast<double>(place[2]));
   }
-  /// In steps from node 0.
+  /// Converts a point [m] to steps from node 0.
   Eigen::Vector3d inSteps(const Eigen::Vector3d& point) const { return (point - origin) / step; }
 };
 

@@ -13,10 +13,10 @@ struct LineCrossing {
   int triangle = 0;
 };
 
-/// The first and the last one between two nodes.
+/// First and last crossing between two nodes.
 struct LineCrossings {
   LineCrossing first, last;
-  bool is_gap = false;  ///< no triangle is there, but one ends within half a step
+  bool is_gap = false;  ///< true: no triangle crosses, but one ends within half a step
 };
 
 /// All crossings of the lines of a grid with the triangles of a mesh. Where an edge has no partner,
@@ -27,7 +27,7 @@ class GridCrossings {
   /// @pre coordinates are finite, and the mesh lies inside the grid.
   GridCrossings(const TriangleMesh& mesh, const CubicGrid& grid);
 
-  /// Null: none between this node and the next one along the axis.
+  /// Returns the crossings between a node and the next one along an axis; null: none.
   const LineCrossings* find(std::int64_t node, int axis) const {
     const auto found = on_line_.find(3 * node + axis);
     return found == on_line_.end() ? nullptr : &found->second;

@@ -4,11 +4,11 @@
 
 namespace ambient {
 
-/// A mesh and what was added to it.
+/// A mesh with filled holes.
 struct FilledMesh {
   TriangleMesh mesh;
   int holes = 0;
-  double area = 0;  ///< of the triangles that fill them [m^2]
+  double area = 0;  ///< area of the triangles that fill them [m^2]
 };
 
 /// Fills the loops of open edges with triangles on their vertices. A surface with a loop that would

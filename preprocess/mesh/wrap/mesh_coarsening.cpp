@@ -48,7 +48,7 @@ struct Contraction {
 class MeshCoarsener {
  public:
   explicit MeshCoarsener(const TriangleMesh& mesh)
-      : middle_((mesh.vertices.rowwise().minCoeff() + mesh.vertices.rowwise().maxCoeff()) / 2),
+      : middle_(mesh.bounds().center()),
         vertices_(mesh.vertices.colwise() - middle_),
         around_(static_cast<std::size_t>(mesh.vertexCount())),
         quadrics_(around_.size()),

@@ -6,13 +6,14 @@ namespace ambient {
 
 /// Limits of coarsening.
 struct CoarseningSettings {
-  int least_faces = 0;   ///< no further than to these
-  int most_faces = 0;    ///< to these whatever it costs
-  double tolerance = 0;  ///< between both: as long as planes are missed by less (rms) [m]
+  int least_faces = 0;  ///< coarsening stops at this number of triangles
+  int most_faces = 0;   ///< coarsening goes on to this number, whatever the error
+  double tolerance =
+      0;  ///< between both numbers: limit of the rms distance from the original planes [m]
 };
 
-/// A closed mesh of fewer triangles of about the same surface: edges are contracted, those first
-/// by which it moves least (Garland and Heckbert, "Surface simplification using quadric error
+/// Reduces the triangles of a closed mesh with about the same surface: contracts edges, first those
+/// that move the surface least (Garland and Heckbert, "Surface simplification using quadric error
 /// metrics", 1997), unless a triangle would turn or become a sliver, or the surface would change
 /// its topology. Flat sides and sharp edges stay in place. Cost O(T log T).
 /// @pre closed and manifold.

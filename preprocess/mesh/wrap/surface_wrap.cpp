@@ -29,10 +29,7 @@ TriangleMesh withoutNeedles(const TriangleMesh& mesh) {
 
 double meshAreaOf(const TriangleMesh& mesh) {
   double area = 0;
-  for (Index t = 0; t < mesh.triangleCount(); ++t) {
-    const Vector3d a = mesh.corner(t, 0);
-    area += (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm() / 2;
-  }
+  for (Index t = 0; t < mesh.triangleCount(); ++t) area += mesh.twiceArea(t).norm() / 2;
   return area;
 }
 

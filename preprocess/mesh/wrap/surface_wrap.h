@@ -7,14 +7,13 @@
 
 namespace ambient {
 
-/// Step of the grid over the diagonal of the bounding box, where no size is given.
+/// Default step of the grid, over the diagonal of the bounding box [1].
 constexpr double kDefaultWrapSize = 0.01;
 
-/// A closed surface around anything with triangles: open, overlapping, doubled, crossing itself, in
-/// any number of parts, turned whichever way. Holes are filled first (withHolesFilled()), with a
-/// warning. Lengths are resolved by cubes of `size` [m] (0: kDefaultWrapSize): gaps narrower than
-/// that are closed, what is thinner and encloses nothing gets 1.5 times that thickness, what is
-/// enclosed is filled. Elsewhere the surface is that of the
+/// Makes a closed surface around any triangles: open, overlapping, doubled, crossing, in any number
+/// of parts, of any orientation. First fills holes (withHolesFilled()), with a warning. The
+/// resolution is `size` [m] (0: kDefaultWrapSize): narrower gaps are closed, thinner open parts
+/// get 1.5 times that thickness, enclosed space is filled. Elsewhere the surface is that of the
 /// triangles, with their sharp edges, to a tenth of the size. It is coarsened to 800 to 4000
 /// triangles. The warning compares volume and area with those of the triangles. Axes and place are
 /// those of the mesh. Cost O(T + (diagonal / size)^3): half a second by default.
@@ -24,14 +23,14 @@ constexpr double kDefaultWrapSize = 0.01;
 /// triangles surround, with both volumes and a size that closes the gaps.
 CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name);
 
-/// Nodes of the grid that wraps a mesh with cubes of that size.
+/// Number of nodes of the grid that wrapSurface() uses for a mesh and a size [m].
 double gridNodesAround(const TriangleMesh& mesh, double size);
 
-/// The surface that wrapSurface() finds, coarsened as told and not checked.
+/// Makes the surface of wrapSurface(), coarsened by `settings` and not checked.
 /// @pre triangles have an area, and the grid some 1e8 nodes at most.
 TriangleMesh wrapped(const TriangleMesh& mesh, double size, const CoarseningSettings& settings);
 
-/// Whether wrapSurface() may make a body of a mesh: coordinates are finite, triangles have areas.
+/// True if wrapSurface() accepts a mesh: coordinates are finite, triangles have areas.
 bool canBeWrapped(const TriangleMesh& mesh);
 
 }  // namespace ambient

@@ -5,9 +5,10 @@
 
 namespace ambient {
 
-/// Expansions of several fields in the clusters of a tree: what leaves the panels of a cluster
-/// (multipoles), and what far clusters cause in it (locals), each about its centre in units of its
-/// radius. Blocks of one matrix, (p + 1)^2 rows, per cluster `fields` columns.
+/// Expansions of several fields in the clusters of a tree: multipoles (fields of the panels of a
+/// cluster, seen from far) and locals (fields of far clusters, seen in the cluster), each about the
+/// centre of the cluster in units of its radius. One matrix has all: (p + 1)^2 rows, and `fields`
+/// columns per cluster.
 class ClusterExpansions {
  public:
   ClusterExpansions(const PanelTree& tree, const ClusterPairs& pairs, int degree, int threads)
@@ -15,8 +16,8 @@ class ClusterExpansions {
 
   const SolidHarmonics& harmonics() const { return harmonics_; }
 
-  /// From the multipoles of the leaves, the others not being used, to the locals of the leaves;
-  /// docs/theory.md eq. (33). The same bits for every number of threads.
+  /// Computes the locals of the leaves from the multipoles of the leaves; docs/theory.md eq. (33).
+  /// Overwrites the other multipoles. The same bits for every number of threads.
   void computeLocals(Eigen::MatrixXf& multipoles, Eigen::Index fields,
                      Eigen::MatrixXf& locals) const;
 

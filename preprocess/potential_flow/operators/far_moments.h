@@ -12,16 +12,16 @@ struct PanelRange {
   Eigen::Index first, count;
 };
 
-/// The moments that panels of PairKind::Far cause, pair by pair, by Taylor expansion between the
-/// centroids.
+/// Computes the moments that panels of PairKind::Far cause on each other, pair by pair, by Taylor
+/// expansion between the centroids.
 class FarMoments {
  public:
   static constexpr Eigen::Index kTargetsAtOnce = 16;  ///< columns of one product of matrices
 
   FarMoments(const PanelSurface& surface, const std::vector<PanelJump>& jumps);
 
-  /// Adds to the moments on the targets, at most kTargetsAtOnce, what the panels of the sources
-  /// cause, times 4 pi. Left out are those in near[k], for the k-th target, in ascending order.
+  /// Adds to the moments of the targets (at most kTargetsAtOnce) the contributions of the source
+  /// panels, times 4 pi. Leaves out the panels in near[k], ascending, for the k-th target.
   void add(const std::vector<PanelRange>& sources, const PanelRange& targets,
            const std::vector<NearPanels::Entry>* near, PanelMoments& moments) const;
 

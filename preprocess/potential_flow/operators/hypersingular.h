@@ -15,18 +15,19 @@ struct Unknowns {
 
 Unknowns numberUnknowns(const PanelSurface& surface);
 
-/// W (U x U, only the lower triangle is filled, positive semi-definite with the constants of every
-/// closed component as kernel): W_ij = 1/(4 pi) sum over panels t at i, s at j of
-/// (curl h_i . curl h_j) int_t int_s 1/r; docs/theory.md eq. (8), (9).
-/// Cost: O(panels^2) time, U^2 numbers of memory.
+/// Assembles W (U x U, positive semi-definite; its kernel: constants on each closed component);
+/// fills only the lower triangle: W_ij = 1/(4 pi) sum over panels t at i, s at j of (curl h_i .
+/// curl h_j) int_t int_s 1/r; docs/theory.md eq. (8), (9). Cost: O(panels^2) time, U^2 numbers of
+/// memory.
 Eigen::MatrixXd assembleHypersingular(const PanelSurface& surface, const Unknowns& unknowns,
                                       const NearPanels& near, int threads);
 
-/// Adds s m m^T for the constants m of every closed component, one whose vertices all carry an
-/// unknown: the kernel of W. s is of the size of W's diagonal.
+/// Makes W regular: adds s m m^T for the constant m on each closed component, whose vertices all
+/// carry an unknown. s is of the size of W's diagonal.
 void fillKernel(const PanelSurface& surface, const Unknowns& unknowns, Eigen::MatrixXd& W);
 
-/// B (U x 6): int h_i n.(v + w x z) for the six unit motions, rotation first, exact; eq. (8).
+/// Assembles B (U x 6): int h_i n.(v + w x z) for the six unit motions, rotation first, exact;
+/// docs/theory.md eq. (8).
 Eigen::Matrix<double, Eigen::Dynamic, 6> assembleNormalVelocity(const PanelSurface& surface,
                                                                 const Unknowns& unknowns);
 

@@ -12,7 +12,7 @@ namespace ambient {
 /// matrix per panel, int h_a phi_c over the panel.
 using PanelMoments = std::vector<Eigen::Matrix<double, 3, 6>>;
 
-/// The linear jumps of a panel: values at the corners, mean, surface gradient.
+/// Linear jumps on a panel, for the six motions: values at the corners, mean, surface gradient.
 struct PanelJump {
   Eigen::Matrix<double, 3, 6> corner;
   Eigen::Matrix<double, 1, 6> mean;
@@ -50,7 +50,7 @@ class NodePotentials {
     solid_angle_ += weights.rowwise().sum();
   }
 
-  /// At node k: what the jump causes, and what a jump of 1 everywhere would.
+  /// Adds at node k the potential of a jump, and that of a jump of 1 everywhere, the solid angle.
   void add(std::size_t k, const Eigen::Matrix<double, 1, 6>& potential, double solid_angle) {
     potential_.row(k) += potential;
     solid_angle_[k] += solid_angle;
@@ -77,7 +77,7 @@ class NodePotentials {
   Eigen::Matrix<double, N, 1> solid_angle_;
 };
 
-/// The moments on panel t that the panels near it cause, times 4 pi.
+/// Computes the moments on panel t that the panels near it cause, times 4 pi.
 Eigen::Matrix<double, 3, 6> computeNearMoments(const PanelSurface& surface,
                                                const std::vector<NearPanels::Entry>& near,
                                                const std::vector<PanelJump>& jumps, Eigen::Index t);

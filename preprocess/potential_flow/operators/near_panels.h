@@ -6,7 +6,8 @@
 
 namespace ambient {
 
-/// For every panel the others (and itself) that its far field does not cover, in ascending order.
+/// Lists for every panel the near panels, itself included, ascending: those that the far-field
+/// formula does not cover.
 struct NearPanels {
   struct Entry {
     int panel;
@@ -16,7 +17,7 @@ struct NearPanels {
   std::vector<std::vector<Entry>> of_panel;
 };
 
-/// Cost: all pairs are looked at, the near ones integrated once.
+/// Finds the near panels and integrates each near pair once. Cost: O(panels^2) tests.
 NearPanels findNearPanels(const PanelSurface& surface, int threads);
 
 }  // namespace ambient

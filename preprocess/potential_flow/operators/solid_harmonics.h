@@ -16,18 +16,18 @@ class SolidHarmonics {
 
   int count() const { return (degree_ + 1) * (degree_ + 1); }
 
-  /// Regular harmonics R(a), real and imaginary parts for orders m >= 0, by degree.
+  /// Computes the regular harmonics R(a): real and imaginary parts for orders m >= 0, by degree.
   void evaluateRegular(const Eigen::Vector3d& a, Eigen::VectorXd& harmonics) const;
 
-  /// Derivative of R at a along a direction.
+  /// Computes the derivative of R at a along a direction.
   void evaluateSlope(const Eigen::Vector3d& a, const Eigen::Vector3d& direction,
                      Eigen::VectorXd& harmonics) const;
 
-  /// The matrix Q with R(a) = Q R(a'), a = (x - c) / s, a' = (x - c') / s', of the expansion about
-  /// c: Q of shift = (c' - c) / s and ratio s' / s.
+  /// Computes the matrix Q with R(a) = Q R(a') for a change of centre and scale: a = (x - c) / s,
+  /// a' = (x - c') / s', shift = (c' - c) / s, ratio = s' / s.
   void fillShift(const Eigen::Vector3d& shift, double ratio, Eigen::MatrixXf& matrix) const;
 
-  /// transfer(): the offset is from the source's centre to the target's.
+  /// Computes transfer(); `offset`: from the source's centre to the target's.
   void fillTransfer(const Eigen::Vector3d& offset, double target_scale, double source_scale,
                     Eigen::MatrixXf& matrix) const;
 

@@ -14,12 +14,12 @@ struct PanelInertia {
   Matrix6 inertia = Matrix6::Zero();  ///< -int g phi^T dA, perhaps not symmetric
 };
 
-/// Joins panels that are alike in normal and place to at most 96 parts. Their sum is that of the
-/// panels, made symmetric. Independent of the unit of length. Cost: O(panels).
+/// Joins panels with similar normal and place to at most 96 parts. The sum of the parts is that of
+/// the panels, made symmetric. Independent of the unit of length. Cost: O(panels).
 std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels);
 
-/// In another unit of length and about another origin: z = length z' + centre, where z' are the
-/// coordinates that the parts have. Rounded to single precision, as files hold them.
+/// Converts parts to another unit of length and another origin: z = length z' + centre, where z'
+/// are the coordinates of the given parts. Rounds to single precision, as in files.
 std::vector<AddedMassPart> placed(std::vector<AddedMassPart> parts, double length,
                                   const Vector3& centre);
 

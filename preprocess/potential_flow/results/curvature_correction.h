@@ -13,7 +13,8 @@ struct CurvatureCorrection {
   double volume = 0;                     ///< [m^3]
 };
 
-/// @param mesh whose triangles stand for a smooth surface
+/// Computes the correction.
+/// @param mesh mesh whose triangles approximate a smooth surface
 /// @param bulges estimateBulges() of the mesh
 /// @param panels the same flat surface, divided
 /// @param potential V x 6 of the panels' vertices, outside, of unit motions about the mesh's origin

@@ -7,9 +7,9 @@
 
 namespace ambient {
 
-/// Added mass of an ellipsoid about its centre, per unit density: diagonal in its axes, rotation
-/// first. Semi-axes [m]. Closed form of Lamb, Hydrodynamics, 6th ed., art. 114 and 115, its
-/// integrals by Carlson's duplication (1979), to rounding.
+/// Computes the added mass of an ellipsoid about its centre, per unit density: the diagonal in its
+/// axes, rotation first. Semi-axes [m]. Closed form of Lamb, Hydrodynamics, 6th ed., art. 114 and
+/// 115, its integrals by Carlson's duplication (1979), to rounding.
 /// @pre semi-axes positive and finite
 Vector6 ellipsoidAddedMass(const Vector3& semi_axes);
 
@@ -17,9 +17,9 @@ Vector6 ellipsoidAddedMass(const Vector3& semi_axes);
 /// potentials are linear in translation and bilinear in rotation (art. 114, 115).
 std::vector<PanelInertia> ellipsoidPanels(const TriangleMesh& mesh, const Vector3& semi_axes);
 
-/// An estimate of the same for any body about its centre, whose added mass has the diagonal K: in
-/// translation potentials as linear as an ellipsoid's, in rotation bilinear ones with the sign that
-/// a turning side gives them. The diagonal of their sum is K.
+/// Estimates the contributions of the triangles of any body, about its centre, from the diagonal K
+/// of its added mass. Assumes potentials that are linear in translation, as for an ellipsoid, and
+/// bilinear in rotation. The diagonal of the sum is K.
 std::vector<PanelInertia> simplePanels(const TriangleMesh& mesh, const Vector6& K);
 
 }  // namespace ambient

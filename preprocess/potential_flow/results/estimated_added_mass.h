@@ -8,7 +8,7 @@
 
 namespace ambient {
 
-/// The ellipsoid with the second moments of a body, for a first guess of its added mass.
+/// Ellipsoid with the second moments of a body, for a first guess of its added mass.
 struct EquivalentEllipsoid {
   /// Added mass per unit density, about the origin of the body's mesh: the ellipsoid's, increased
   /// by the volume that the body lacks in the ellipsoid, as a box or a disc does. No coupling about
@@ -21,8 +21,8 @@ struct EquivalentEllipsoid {
 /// @pre the volume is positive.
 EquivalentEllipsoid equivalentEllipsoid(const MeshProperties& properties);
 
-/// Estimates what the parts of a closed mesh have of its added mass, both about the mesh's origin,
-/// where no flow was solved, by simplePanels().
+/// Estimates the parts of a known added mass for a closed mesh whose flow was not solved, by
+/// simplePanels(); all about the mesh's origin.
 std::vector<AddedMassPart> estimateParts(TriangleMesh mesh, const Matrix6& added_mass);
 
 }  // namespace ambient

@@ -28,16 +28,6 @@ namespace {
 using Eigen::Index;
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
-/// Solution in the units of the solver, about the surface's centre.
-struct UnitFlow {
-  MatrixX6 potential;  ///< V x 6
-  Matrix6 inertia = Matrix6::Zero();
-  std::vector<AddedMassPart> parts;
-  double asymmetry = 0;
-  double reciprocal_condition = 0;
-  int iterations = 0;
-};
-
 double largestAsymmetry(const Matrix6& K) {
   const double largest = K.cwiseAbs().maxCoeff();
   return largest > 0 ? (K - K.transpose()).cwiseAbs().maxCoeff() / largest : 0;
@@ -97,22 +87,24 @@ PanelMoments momentsOf(const PanelSurface& surface, const MatrixX6& potential) {
   return moments;
 }
 
-UnitFlow solveSheet(FlowSolver& solver) {
+// The solutions below are in the units of the solver, about the surface's centre.
+
+PotentialFlow solveSheet(FlowSolver& solver) {
   const PanelSurface& surface = solver.surface();
   const Unknowns unknowns = numberUnknowns(surface);
-  UnitFlow flow;
+  PotentialFlow flow;
   const Jump jump = solver.solveJump(unknowns);
   AMBIENT_ASSERT(jump.values.rows() == surface.vertexCount());
   flow.potential = jump.values;
   flow.reciprocal_condition = jump.reciprocal_condition;
   flow.iterations = jump.iterations;
-  flow.inertia = integrateEnergy(surface, unknowns, flow.potential);
-  flow.asymmetry = largestAsymmetry(flow.inertia);
+  flow.added_mass = integrateEnergy(surface, unknowns, flow.potential);
+  flow.asymmetry = largestAsymmetry(flow.added_mass);
   flow.parts = joinPanels(integratePanels(surface, momentsOf(surface, flow.potential)));
   return flow;
 }
 
-UnitFlow solveClosed(FlowSolver& solver) {
+PotentialFlow solveClosed(FlowSolver& solver) {
   const PanelSurface& surface = solver.surface();
   const Unknowns unknowns = numberUnknowns(surface);
   const Jump jump = solver.solveJump(unknowns);
@@ -122,7 +114,7 @@ UnitFlow solveClosed(FlowSolver& solver) {
   AMBIENT_ASSERT(jump.iterations >= 0 && jump.reciprocal_condition >= 0);
   const Matrix6 direct = sumOf(panels);
 
-  UnitFlow flow;
+  PotentialFlow flow;
   flow.reciprocal_condition = jump.reciprocal_condition;
   flow.iterations = jump.iterations;
   flow.potential = projectOnVertices(surface, moments);
@@ -130,9 +122,9 @@ UnitFlow solveClosed(FlowSolver& solver) {
   flow.asymmetry = largestAsymmetry(direct);
   // The energy holds the interior flow too. In translation that moves as a solid, volume times
   // unity and, about the centre of volume, without coupling; in rotation it is not known.
-  flow.inertia = integrateEnergy(surface, unknowns, jump.values);
-  flow.inertia.bottomRightCorner<3, 3>().diagonal().array() -= surface.volume;
-  flow.inertia.topLeftCorner<3, 3>() = direct.topLeftCorner<3, 3>();
+  flow.added_mass = integrateEnergy(surface, unknowns, jump.values);
+  flow.added_mass.bottomRightCorner<3, 3>().diagonal().array() -= surface.volume;
+  flow.added_mass.topLeftCorner<3, 3>() = direct.topLeftCorner<3, 3>();
   return flow;
 }
 
@@ -159,7 +151,7 @@ bool isHierarchical(FlowSolverKind solver, Index panels) {
          (solver == FlowSolverKind::Automatic && panels > kMostDensePanels);
 }
 
-UnitFlow solveUnitFlow(const PanelSurface& surface, const PotentialFlowSettings& settings) {
+PotentialFlow solveUnitFlow(const PanelSurface& surface, const PotentialFlowSettings& settings) {
   if (!settings.sheet) requireClosed(surface);
   const int threads = threadCount(settings.threads);
   const double limit = memoryLimit(settings.memory_limit);
@@ -194,20 +186,15 @@ PotentialFlow solvePotentialFlow(const TriangleMesh& mesh, const PotentialFlowSe
   const TriangleMesh panels = refineSurface(mesh, settings.sheet, settings.max_panels);
   if (settings.sheet) requireUnknowns(panels);
   const PanelSurface surface = makePanelSurface(panels, settings.sheet);
-  UnitFlow unit = solveUnitFlow(surface, settings);
-
-  PotentialFlow flow;
+  PotentialFlow flow = solveUnitFlow(surface, settings);
   flow.panels = surface.panelCount();
-  flow.asymmetry = unit.asymmetry;
-  flow.reciprocal_condition = unit.reciprocal_condition;
-  flow.iterations = unit.iterations;
-  flow.removed_eigenvalue = removeNegativePart(unit.inertia);
+  flow.removed_eigenvalue = removeNegativePart(flow.added_mass);
   const double size = surface.length;
-  flow.added_mass = symmetricPart(shiftOrigin(scaleShape(unit.inertia, size), -surface.centre));
+  flow.added_mass = symmetricPart(shiftOrigin(scaleShape(flow.added_mass, size), -surface.centre));
   AMBIENT_ASSERT(size > 0 && isSymmetric(flow.added_mass));
-  flow.parts = placed(std::move(unit.parts), size, surface.centre);
+  flow.parts = placed(std::move(flow.parts), size, surface.centre);
   // The mesh's vertices come first. A rotation about its origin moves the centre c with w x c.
-  const auto own = unit.potential.topRows(mesh.vertexCount());
+  const MatrixX6 own = flow.potential.topRows(mesh.vertexCount());
   flow.potential.resize(mesh.vertexCount(), 6);
   flow.potential.rightCols<3>() = size * own.rightCols<3>();
   flow.potential.leftCols<3>() =

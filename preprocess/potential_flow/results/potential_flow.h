@@ -10,18 +10,19 @@ namespace ambient {
 /// Method of solving the linear system: by factorisation, or iteratively with a tree of panels.
 enum class FlowSolverKind { Automatic, Dense, Hierarchical };
 
-/// Panels up to which Automatic means Dense: as many as a build divides a mesh into by default.
-/// The other one is quicker from 1300 (sphere) to 3000 (thin ellipsoid) on.
+/// Largest number of panels for which Automatic means Dense: that into which a build divides a mesh
+/// by default. The hierarchical solver is faster above 1300 (sphere) to 3000 (thin ellipsoid)
+/// panels.
 constexpr Eigen::Index kMostDensePanels = 4200;
 
 /// Settings for solving the six exterior Neumann problems.
 struct PotentialFlowSettings {
   bool sheet = false;  ///< the mesh is an open surface of zero thickness
-  int max_panels = 0;  ///< the flat faces are cut into up to so many panels where the flow needs
-                       ///< them, see refineSurface(); 0: every face is a panel
+  int max_panels = 0;  ///< largest number of panels that flat faces are cut into where the flow
+                       ///< needs them, see refineSurface(); 0: every face is a panel
   int threads = 0;     ///< 0: all cores; the result does not depend on it, bit for bit
   FlowSolverKind solver = FlowSolverKind::Automatic;
-  double memory_limit = 0;  ///< bytes; 0: what the machine has available
+  double memory_limit = 0;  ///< [bytes]; 0: the memory available on the machine
 };
 
 /// Potentials of the six unit motions and the fluid's inertia, per unit density, about the mesh's
@@ -43,11 +44,11 @@ struct PotentialFlow {
   /// body of revolution about its axis): they are set to zero. The lowest eigenvalue before that,
   /// or 0, over the largest; in the same units [1].
   double removed_eigenvalue = 0;
-  Eigen::Index panels = 0;  ///< how many the equations were solved on
-  /// Estimate for the matrix of the linear system, in the 1-norm [1]; 0 where it was not
-  /// factorised.
+  Eigen::Index panels = 0;  ///< number of panels of the solution
+  /// Estimated reciprocal condition number of the linear system, in the 1-norm [1]; 0: the matrix
+  /// was not factorised.
   double reciprocal_condition = 0;
-  int iterations = 0;  ///< of the hierarchical solver; 0 where the matrix was factorised
+  int iterations = 0;  ///< iterations of the hierarchical solver; 0: the matrix was factorised
 };
 
 /// Solves the six exterior Neumann problems dphi/dn = n.(v + w x z) by a Galerkin boundary element

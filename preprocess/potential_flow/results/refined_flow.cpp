@@ -62,8 +62,7 @@ bool isSmooth(const std::vector<FaceBulge>& bulges) {
 /// Without what the mirrors and half turns of a body forbid, and stretched about its centre.
 Matrix6 withSymmetriesOf(const TriangleMesh& mesh, bool sheet, double stretch,
                          const Matrix6& added_mass) {
-  const MeshProperties properties =
-      sheet ? computeSheetMassProperties(mesh) : computeMassProperties(mesh);
+  const MeshProperties properties = computeMassProperties(mesh, sheet);
   const Eigen::Vector3d& centre = properties.uniform.centre;
   const double size = std::sqrt(properties.area);
   AMBIENT_ASSERT(properties.area > 0 && stretch > 0);

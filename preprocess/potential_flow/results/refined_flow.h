@@ -4,14 +4,14 @@
 
 namespace ambient {
 
-/// The fluid's inertia of the body that a mesh stands for.
+/// Added mass of the body that a mesh approximates.
 struct RefinedFlow {
   Matrix6 added_mass = Matrix6::Zero();  ///< per unit density, about the mesh's origin
   std::vector<AddedMassPart> parts;      ///< as PotentialFlow::parts, without corrections
   double asymmetry = 0;                  ///< as PotentialFlow::asymmetry
-  Eigen::Index panels = 0;               ///< the most that equations were solved on
-  /// Long triangles left too few panels across sharp edges, also of those added: some, at worst
-  /// tens of per cent of the largest entry in rotation.
+  Eigen::Index panels = 0;               ///< largest number of panels of all solutions
+  /// True: long triangles left too few panels across sharp edges, even after a refinement. Rotation
+  /// entries may then be wrong by some, at worst tens of per cent of the largest one.
   bool is_coarse = false;
 };
 
@@ -20,8 +20,8 @@ struct RefinedFlow {
 /// quarter of the panels. A closed mesh of one piece without sharp edges stands for a smooth body
 /// of the same volume: to first order its triangles bulge up to it; if all of it is curved, its own
 /// triangles are the panels. A closed mesh of more than eight times as many triangles as
-/// settings.max_panels is solved inFewerTriangles(). And what the symmetries of the body forbid is
-/// removed, however its faces are cut. A mesh of long triangles on which two divisions disagree
+/// settings.max_panels is solved inFewerTriangles(). Entries that the symmetries of the body forbid
+/// are removed, however its faces are cut. A mesh of long triangles on which two divisions disagree
 /// gets panels that are cut from compactSurface(), or else four times as many, unless the dense
 /// solver was asked for.
 /// @throws std::runtime_error as solvePotentialFlow().

@@ -10,7 +10,6 @@
 namespace ambient {
 namespace {
 
-using Eigen::Index;
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
 constexpr double kDenseBytesPerPanel =
@@ -42,10 +41,7 @@ Jump DenseSolver::solveJump(const Unknowns& unknowns) {
                              "close for the size of "
                              "its triangles: use more triangles, a sheet, or build --wrap");
   const MatrixX6 solution = factors.solve(-assembleNormalVelocity(surface_, unknowns));
-  Jump jump{MatrixX6::Zero(surface_.vertexCount(), 6), factors.rcond(), 0};
-  for (Index v = 0; v < surface_.vertexCount(); ++v)
-    if (unknowns.of_vertex[v] >= 0) jump.values.row(v) = solution.row(unknowns.of_vertex[v]);
-  return jump;
+  return {atVertices(unknowns, solution), factors.rcond(), 0};
 }
 
 PanelMoments DenseSolver::computeMoments(const Jump& jump) {

@@ -5,14 +5,26 @@
 
 namespace ambient {
 
-/// Jump of the potential across the surface, and how well it is determined.
+/// Jump of the potential across the surface, and data on its solution.
 struct Jump {
   Eigen::Matrix<double, Eigen::Dynamic, 6> values;  ///< V x 6, 0 where there is no unknown
-  double reciprocal_condition = 0;                  ///< of the matrix, 1-norm; 0: not known
-  int iterations = 0;                               ///< 0: factorised
+  double reciprocal_condition =
+      0;               ///< reciprocal condition number of the matrix, 1-norm; 0: not known
+  int iterations = 0;  ///< iterations; 0: the matrix was factorised
 };
 
-/// Interface to the integral operators of a surface, as far as the flow needs them.
+/// Values at all vertices from those of the unknowns, U x 6; 0 where there is no unknown.
+inline Eigen::Matrix<double, Eigen::Dynamic, 6> atVertices(
+    const Unknowns& unknowns, const Eigen::Matrix<double, Eigen::Dynamic, 6>& of_unknowns) {
+  const auto vertices = static_cast<Eigen::Index>(unknowns.of_vertex.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> values;
+  values.setZero(vertices, 6);
+  for (Eigen::Index v = 0; v < vertices; ++v)
+    if (const int i = unknowns.of_vertex[v]; i >= 0) values.row(v) = of_unknowns.row(i);
+  return values;
+}
+
+/// Interface of the solvers: the integral operators of a surface that the flow needs.
 class FlowSolver {
  public:
   virtual ~FlowSolver() = default;
@@ -20,7 +32,7 @@ class FlowSolver {
   /// The surface, perhaps with its panels in another order; vertices keep their numbers.
   virtual const PanelSurface& surface() const = 0;
 
-  /// Memory it takes at most, an estimate.
+  /// Estimate of the memory that the solver needs [bytes].
   virtual double bytesNeeded() const = 0;
 
   /// Solves W mu = -B; docs/theory.md eq. (8).

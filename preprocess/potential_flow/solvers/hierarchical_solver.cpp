@@ -8,8 +8,6 @@
 namespace ambient {
 namespace {
 
-using Eigen::Index;
-
 // The energy, quadratic in the jump, comes out within 1e-5. The rotation block is linear in the
 // double layer, of whose two sides a thin body leaves little: a degree of 5 would leave 1e-4 of it.
 constexpr int kLeafSize = 64;
@@ -40,11 +38,7 @@ double HierarchicalSolver::bytesNeeded() const {
 Jump HierarchicalSolver::solveJump(const Unknowns& unknowns) {
   const PairIntegrals integrals(tree_, pairs_, kDegree, threads_);
   const IterativeJump solved = solveIteratively(tree_.surface, unknowns, integrals, threads_);
-  Jump jump{Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(tree_.surface.vertexCount(), 6), 0,
-            solved.iterations};
-  for (Index v = 0; v < tree_.surface.vertexCount(); ++v)
-    if (const int i = unknowns.of_vertex[v]; i >= 0) jump.values.row(v) = solved.values.row(i);
-  return jump;
+  return {atVertices(unknowns, solved.values), 0, solved.iterations};
 }
 
 PanelMoments HierarchicalSolver::computeMoments(const Jump& jump) {

@@ -11,9 +11,9 @@ struct IterativeJump {
   int iterations = 0;
 };
 
-/// Conjugate gradients, the six motions side by side; preconditioned by the single layer, whose
-/// product with W is a fourth of unity; docs/theory.md eq. (34). The same bits for every number of
-/// threads.
+/// Solves by conjugate gradients, all six motions side by side. Preconditioner: the single layer,
+/// whose product with W is about a fourth of unity; docs/theory.md eq. (34). The same bits for
+/// every number of threads.
 /// @throws std::runtime_error if they do not converge.
 IterativeJump solveIteratively(const PanelSurface& surface, const Unknowns& unknowns,
                                const PairIntegrals& integrals, int threads);

@@ -8,10 +8,11 @@ namespace ambient {
 struct MatrixBlock {
   const float* first;
   std::ptrdiff_t rows, columns;
-  std::ptrdiff_t row_stride, column_stride;  ///< from one row, or column, to the next
+  std::ptrdiff_t row_stride,
+      column_stride;  ///< distance in memory from one row, or column, to the next
 };
 
-/// Fields are stored side by side, in whole groups of so many.
+/// Number of fields in a group; fields are stored side by side in whole groups.
 constexpr int kFieldGroup = 8;
 
 }  // namespace ambient

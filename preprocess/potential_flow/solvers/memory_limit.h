@@ -4,13 +4,14 @@
 
 namespace ambient {
 
-/// Bytes that may be used: the setting, or what the machine has available when it is 0.
+/// Returns the memory limit [bytes]: the setting, or the available memory if the setting is 0.
 double memoryLimit(double setting);
 
 /// @throws std::runtime_error in one line with both numbers if `bytes` is above `limit`.
 void requireMemory(Eigen::Index panels, double bytes, double limit);
 
-/// Says what was needed, if that is known, when it was not there.
+/// Reports that memory was not available. @throws std::runtime_error in one line, with the needed
+/// `bytes` if above 0.
 [[noreturn]] void raiseOutOfMemory(Eigen::Index panels, double bytes);
 
 }  // namespace ambient

@@ -12,13 +12,14 @@ class PairIntegrals {
  public:
   PairIntegrals(const PanelTree& tree, const ClusterPairs& pairs, int degree, int threads);
 
-  /// I x for several columns at once, at most 24; the same bits for every number of threads.
+  /// Computes I x for several columns at once, at most 24; the same bits for every number of
+  /// threads.
   Eigen::MatrixXf apply(const Eigen::MatrixXf& x) const;
 
-  /// I(t, s). @pre their leaves are near, as those of panels that touch are.
+  /// Returns I(t, s). @pre the leaves of both panels are near, as for panels that touch
   double entry(Eigen::Index t, Eigen::Index s) const;
 
-  /// Bytes that the entries of near leaves take.
+  /// Memory of the entries between near leaves [bytes].
   static double nearBytes(const PanelTree& tree, const ClusterPairs& pairs);
 
  private:

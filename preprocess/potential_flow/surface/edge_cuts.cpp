@@ -98,11 +98,7 @@ class Cutter {
 
 }  // namespace
 
-Vector3d normalOf(const TriangleMesh& mesh, Index t) {
-  return (mesh.corner(t, 1) - mesh.corner(t, 0))
-      .cross(mesh.corner(t, 2) - mesh.corner(t, 0))
-      .normalized();
-}
+Vector3d normalOf(const TriangleMesh& mesh, Index t) { return mesh.twiceArea(t).normalized(); }
 
 DividedSurface undivided(const TriangleMesh& mesh) {
   DividedSurface surface{mesh, std::vector<int>(mesh.triangleCount())};

@@ -6,24 +6,25 @@
 
 namespace ambient {
 
-/// A surface and a finer one of the same flat faces.
+/// A surface whose triangles are parts of the flat faces of another, coarser surface.
 struct DividedSurface {
   TriangleMesh mesh;
-  std::vector<int> face;  ///< per triangle: the triangle of the first surface that it is part of
+  std::vector<int>
+      face;  ///< per triangle: number of the triangle of the coarser surface that it is a part of
 };
 
-/// Cosine of the angle between the normals at an edge from which on the edge is sharp; no regular
-/// polygon turns by it, so that rounding does not decide.
+/// Largest cosine of the angle between the normals at a sharp edge (41 degrees). No regular polygon
+/// has this angle, so that rounding does not decide.
 constexpr double kSharpCosine = 0.75;
 
 /// Unit normal of a triangle.
 Eigen::Vector3d normalOf(const TriangleMesh& mesh, Eigen::Index t);
 
-/// The surface as its own division.
+/// Returns a surface as its own division.
 DividedSurface undivided(const TriangleMesh& mesh);
 
-/// Cuts triangles along marked edges (by number in MeshEdges::edges) in the middle; neighbours stay
-/// matched because they share the marks. Vertices of the surface come first.
+/// Cuts marked edges (by number in MeshEdges::edges) in the middle, and their triangles with them.
+/// Neighbours stay matched because they share the marks. Vertices of the surface come first.
 DividedSurface cutEdges(const DividedSurface& surface, const MeshEdges& edges,
                         const std::vector<bool>& marks);
 

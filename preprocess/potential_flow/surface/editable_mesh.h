@@ -22,11 +22,11 @@ class EditableMesh {
   /// (Delaunay 1934; Lawson 1977); returns how many.
   int flipFlatEdges();
 
-  /// Whether triangles that are not coplanar, or two edges at which the surface bends or ends, meet
-  /// at less than an angle of that cosine: parts of something round.
+  /// True if triangles that are not coplanar, or two edges at which the surface bends or ends, meet
+  /// at an angle smaller than that of `sharp_cosine`: the mesh approximates something round.
   bool hasSmoothBends(double sharp_cosine) const;
 
-  /// The triangles as they are now; vertices without a triangle stay.
+  /// Returns the present triangles; keeps vertices without a triangle.
   TriangleMesh mesh() const;
 
  private:
@@ -45,7 +45,8 @@ class EditableMesh {
   /// Returns the neighbours to which a vertex can be moved without changing the surface, folds
   /// aside.
   std::vector<int> contractionTargets(int v) const;
-  /// Least height over longest edge of the triangles that would be left; below 0: not allowed.
+  /// Least height over longest edge of the remaining triangles after a contraction; below 0: not
+  /// allowed.
   double qualityAfterContraction(int v, int target) const;
   void contract(int v, int target);
   /// @pre the edge has two triangles.

@@ -13,9 +13,7 @@ constexpr double kSkinny = 50;    // longest edge over height; graded meshes sta
 constexpr int kLeastPanels = 20;  // per large triangle, to resolve its edges
 
 EditableMesh merged(const TriangleMesh& mesh, double highest_shape) {
-  const double size =
-      (mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff()).norm();
-  EditableMesh result(mesh, kFlat * size);
+  EditableMesh result(mesh, kFlat * mesh.extents().norm());
   result.flipFlatEdges();
   while (result.contractFlatVertices(highest_shape) > 0) result.flipFlatEdges();
   return result;

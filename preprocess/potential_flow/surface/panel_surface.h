@@ -18,7 +18,7 @@ struct PanelArrays {
 
 /// The surface in the units of the solver: moved to its centre and divided by its size.
 struct PanelSurface {
-  Eigen::Vector3d centre;  ///< of volume; of area for a sheet [m]
+  Eigen::Vector3d centre;  ///< centre of volume, for a sheet of area [m]
   double length = 0;       ///< largest distance of a vertex from the centre [m]
   double volume = 0;       ///< in units of length^3; 0 for a sheet
   Eigen::Matrix3Xi triangles;
@@ -33,7 +33,7 @@ struct PanelSurface {
   Eigen::Index vertexCount() const { return static_cast<Eigen::Index>(component.size()); }
 };
 
-/// Panels, moments and connectivity of a mesh, centred and scaled.
+/// Makes panels, moments and connectivity of a mesh, centred and scaled.
 /// @throws std::runtime_error for a triangle without area.
 PanelSurface makePanelSurface(const TriangleMesh& mesh, bool sheet);
 

@@ -7,22 +7,22 @@
 
 namespace ambient {
 
-/// Mirrors and half turns about the centre that map the solid to itself, whichever way its flat
-/// faces are cut into triangles: every edge that bends goes to one with the same faces, to 1e-7 of
-/// the size. Looked for along the axes of the mesh and the principal axes of its vertices. Cost
-/// O(T log T).
+/// Finds mirrors and half turns about the centre that map a solid to itself, however its flat faces
+/// are cut into triangles: every edge at which the surface bends must land on such an edge, with
+/// the normals of its faces, to 1e-7 of the size. Tests the axes of the mesh and the principal axes
+/// of its vertices. Cost O(T log T).
 std::vector<Eigen::Matrix3d> findSymmetries(const TriangleMesh& mesh,
                                             const Eigen::Vector3d& centre);
 
-/// The inertia of the body mapped by a mirror or a turn about the origin, rotation first.
+/// Returns the inertia of the body after a mirror or turn about the origin, rotation first.
 Matrix6 turned(const Matrix6& inertia, const Eigen::Matrix3d& turn);
 
-/// The inertia about that centre, rotation first, without what the symmetries forbid: the mean over
-/// each of them and none.
+/// Returns an inertia about the centre, rotation first, without entries that the symmetries forbid:
+/// for each symmetry, the mean of the inertia and its image.
 Matrix6 symmetrised(Matrix6 inertia, const std::vector<Eigen::Matrix3d>& symmetries);
 
-/// The added mass about the mesh's origin, which somebody has extrapolated or found on another mesh
-/// of the body, without what the symmetries of this one forbid.
+/// Returns an added mass about the mesh's origin without entries that the symmetries of the mesh
+/// forbid; for values that were extrapolated or found on another mesh of the body.
 Matrix6 symmetrisedAddedMass(const Matrix6& added_mass, const TriangleMesh& mesh);
 
 }  // namespace ambient

@@ -15,13 +15,13 @@ namespace ambient {
 /// the mesh only, not on its place, size or attitude.
 TriangleMesh refineSurface(const TriangleMesh& mesh, bool sheet, int max_triangles);
 
-/// refineSurface() with what extrapolation needs.
+/// Result of refineSurface(), and a coarser division for extrapolation.
 struct SurfaceLevels {
   DividedSurface fine;
   /// Edges twice as long and one level less across sharp edges; none where the faces were not
   /// divided as a whole, or have no sharp edge.
   std::optional<TriangleMesh> coarse;
-  /// In place of a coarse one: as the fine one, but a level less across sharp edges.
+  /// If there is no coarse one: like the fine one, with one level less across sharp edges.
   std::optional<TriangleMesh> less_thinned;
 };
 SurfaceLevels refineInLevels(const TriangleMesh& mesh, bool sheet, int max_triangles);

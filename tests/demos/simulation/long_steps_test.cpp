@@ -19,8 +19,9 @@ Scene sceneInSteps(const std::string& name, double step) {
 RunRecord runAt60Hz(const std::string& name) { return runSharing(sceneInSteps(name, 1.0 / 60)); }
 
 long long bodiesWithLongSteps(const RunRecord& record) {
-  return std::accumulate(record.work.begin(), record.work.end(), 0LL,
-                         [](long long sum, const FlightWork& work) { return sum + work.too_long; });
+  return std::accumulate(
+      record.work.begin(), record.work.end(), 0LL,
+      [](long long sum, const AmbientCounters& work) { return sum + work.too_long; });
 }
 
 TEST(LongSteps, AreNoneForFallingPlates) {
@@ -31,7 +32,7 @@ TEST(LongSteps, AreNoneForFallingPlates) {
 TEST(LongSteps, AreNotToldWhereFewAreCoarse) {
   const RunRecord record = runAt60Hz("leaves");
   long long coarse = 0;
-  for (const FlightWork& work : record.work) coarse += work.coarse;
+  for (const AmbientCounters& work : record.work) coarse += work.coarse;
   EXPECT_GT(coarse, 0);
   EXPECT_EQ(record.warning, "");
   EXPECT_EQ(bodiesWithLongSteps(record), 0);

@@ -34,7 +34,7 @@ PrecisionRun runOnce(const Scene& scene, const std::vector<PreparedBody>& bodies
     run.finite = false;
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const FlightWork work = simulation.work(i);
+    const AmbientCounters work = simulation.work(i);
     run.load_evaluations += static_cast<double>(work.load_evaluations);
     run.coarse += static_cast<double>(work.coarse);
   }

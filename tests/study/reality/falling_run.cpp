@@ -76,7 +76,7 @@ FallingRun runFall(const FallingCase& c, PressureLaw law) {
   }
   const std::vector<MotionSample> late(run.motion.begin() + steps / 2, run.motion.end());
   run.fall = analyseFall(late, kUp, -c.gravity * kUp);
-  const FlightWork work = simulation.work(0);
+  const AmbientCounters work = simulation.work(0);
   run.substeps = static_cast<double>(work.substeps) / static_cast<double>(steps);
   run.coarse = static_cast<double>(work.coarse) / static_cast<double>(steps);
   return run;

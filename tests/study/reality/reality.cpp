@@ -23,12 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr PressureLaw kLaws[] = {PressureLaw::kPublished, PressureLaw::kForm};
 
-void writeFile(const fs::path& file, const std::string& text) {
-  OutputFile out(file);
-  out.write(text);
-  out.commit();
-}
-
 /// Shapes made so far, by type and size.
 using MadeShapes = std::map<std::pair<std::string, double>, FluidBody>;
 

@@ -8,7 +8,7 @@
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 
-// What docs/thrusters.md says of thrusters and tethers.
+// Thrusters and tethers as docs/thrusters.md describes them.
 namespace ambient::test {
 namespace {
 

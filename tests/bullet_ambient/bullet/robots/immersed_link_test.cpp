@@ -21,7 +21,7 @@ TEST(ImmersedLink, StaysValidWhenAStateIsRestored) {
   EXPECT_FALSE(leaves.isValid());
 }
 
-// The same as H^-1 J^T of the dense mass matrix; J^T of the base is the identity.
+// Compares with H^-1 J^T of the dense mass matrix H; J^T of the base is the identity.
 TEST(ImmersedLink, AnImpulseMovesAllLinksOfATree) {
   Arbitrary arbitrary(9);
   RobotWorld robots;

@@ -28,7 +28,8 @@ struct DenseRobot {
   int ground() const { return static_cast<int>(bodies.size()) - 1; }
 };
 
-/// As it stands and moves now; links in fluid with the inertia that the fluid tells.
+/// Copies the robot with its present pose and motion; links in fluid with the inertia that the
+/// fluid reports.
 /// @pre its colliders and cached transforms are those of now
 DenseRobot denseRobot(const btMultiBody& body, const Fluid& fluid);
 

@@ -163,7 +163,7 @@ TEST_F(Robots, AreNotTakenForOthersAtTheirAddress) {
   second->~btMultiBody();
 }
 
-// Of the same links, at the address of one that was destroyed and whose memory it may have.
+// Makes a robot with the same links at the address of a destroyed one.
 TEST_F(Robots, OfTheSameLinksAreNotTakenForDestroyedOnes) {
   alignas(btMultiBody) unsigned char place[sizeof(btMultiBody)];
   const auto make = [&place] {
@@ -194,7 +194,7 @@ TEST_F(Robots, OfTheSameLinksAreNotTakenForDestroyedOnes) {
   second->~btMultiBody();
 }
 
-// What is known of one that left the world and came back is its own.
+// A robot that left the world and came back keeps its own data.
 TEST_F(Robots, MayLeaveTheWorldAndComeBack) {
   btMultiBody& body = add();
   const Immersed link = world.fluid.add(body, 1, fluidOf(body, 1));

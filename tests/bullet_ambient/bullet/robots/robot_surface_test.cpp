@@ -17,7 +17,7 @@ btTransform offBalance() {
   return btTransform(btQuaternion(btVector3(1, bt(0.5), 0), bt(0.3)), {0, 0, bt(0.05)});
 }
 
-/// What floats: a box half as dense as water, at rest.
+/// A floating box, half as dense as water, at rest.
 struct Floater {
   FluidBody shape = floatingBox({0.4, 0.4, 0.2});
   double specific_gravity = 0.5;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bullet_ambient/bullet/world/immersed.h"
+#include "demos/analysis/motion_sample.h"
+#include "demos/simulation/collision_shape.h"
+#include "preprocess/robot/robot.h"
+
+namespace ambient {
+
+/// One body in the world of a scene. B: Bullet's body frame, origin at the centre of mass,
+/// principal axes. S: frame of the shape.
+struct WorldBody {
+  std::string name;
+  MotionSample start;                  ///< motion at t = 0
+  Matrix3 R_SB = Matrix3::Identity();  ///< rotation from B's axes to S's
+  CollisionShape shape;
+  std::unique_ptr<btRigidBody> body;  ///< null: the body is a link of a robot
+  std::optional<SceneLink> link;      ///< none: the body is a rigid body
+  std::shared_ptr<const FluidBody> fluid_body;
+  std::optional<Immersed> immersed;  ///< none: the fluid does not act on the body
+
+  /// Bullet's number of the link; -1: the base. @pre the body is a link
+  int linkNumber() const { return static_cast<int>(link->link) - 1; }
+};
+
+/// Makes a rigid body that never falls asleep; adds it to no world and no fluid.
+WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared);
+/// Describes a link of a robot, which has its shape and its Bullet body.
+WorldBody makeWorldLink(const BodyDef& def, const PreparedBody& prepared, const Robot& robot);
+
+/// Bullet's world and solver of a scene: a btMultiBodyDynamicsWorld if it takes robots.
+struct BulletWorld {
+  std::unique_ptr<btConstraintSolver> solver;
+  std::unique_ptr<btDiscreteDynamicsWorld> world;
+  btMultiBodyDynamicsWorld* multi_body_world = nullptr;  ///< the world; null: it takes no robots
+};
+
+BulletWorld makeBulletWorld(bool takes_robots, btCollisionDispatcher& dispatcher,
+                            btBroadphaseInterface& broadphase,
+                            btCollisionConfiguration& configuration);
+
+}  // namespace ambient
