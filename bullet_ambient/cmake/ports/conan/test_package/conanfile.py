@@ -1,10 +1,10 @@
-"""A program of somebody else, tests/consumer: it builds with the package, and runs."""
+"""A program of somebody else: it builds with the package, and runs."""
 
 import os
 
 from conan import ConanFile
 from conan.tools.build import can_run
-from conan.tools.cmake import CMake, CMakeToolchain, CMakeDeps, cmake_layout
+from conan.tools.cmake import CMake, CMakeDeps, CMakeToolchain, cmake_layout
 
 
 class BulletAmbientTest(ConanFile):
@@ -31,4 +31,4 @@ class BulletAmbientTest(ConanFile):
 
     def test(self):
         if can_run(self):
-            self.run(os.path.join(self.cpp.build.bindir, "sphere"), env="conanrun")
+            self.run(os.path.join(self.cpp.build.bindir, "package_test"), env="conanrun")
