@@ -37,4 +37,4 @@ for second in (0.5, 1.0):
     print("after %.1f s: first joint at %.2f rad/s in water, %.2f in air" % (second, *rates))
 print("inertia of the first joint [kg m^2]: %.3f in water, %.3f in air" % tuple(fluid.mass_matrix(arm)[6, 6] for arm in arms))
 
-picture.save(arguments.picture, [0.3, -3.2, 1.4], [0, 0, 0.5])
+picture.save(arguments.picture, [0.2, -2.2, 1.0], [0, 0, 0.6])
