@@ -13,6 +13,7 @@ int main() {
   btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
   const ambient::Fluid fluid(world);
   world.stepSimulation(btScalar(1) / 240, 0);
-  std::printf("Bullet %d with a fluid of density %g kg/m^3\n", btGetVersion(), ambient::water().density);
+  std::printf("Bullet %d with a fluid of density %g kg/m^3\n", btGetVersion(),
+              ambient::water().density);
   return world.getConstraintSolver() == &solver ? 1 : 0;
 }
