@@ -10,6 +10,7 @@
 #include <typeinfo>
 #include <utility>
 
+#include "bullet_ambient/reading.h"
 #include "bullet_ambient/robot_dynamics.h"
 #include "demos/pybullet/region_command.h"
 #include "demos/pybullet/server_world.h"
@@ -68,6 +69,8 @@ const FluidPlugin::NamedAnswer FluidPlugin::kCommands[] = {
     {"exclude", &FluidPlugin::exclude},
     {"inertia", &FluidPlugin::inertia},
     {"mass_matrix", &FluidPlugin::massMatrix},
+    {"wrench", &FluidPlugin::wrench},
+    {"wet", &FluidPlugin::wet},
     {"save", &FluidPlugin::save},
     {"restore", &FluidPlugin::restore},
     {"status", &FluidPlugin::status},
@@ -183,6 +186,33 @@ std::string FluidPlugin::massMatrix(Command& command) {
   command.finish();
   WorldFluid& fluid = requireCurrent();
   return text(ambientMassMatrix(fluid.fluid(), fluid.multiBody(command.body())));
+}
+
+// Kept from the first call on.
+std::string FluidPlugin::wrench(Command& command) {
+  command.finish();
+  const Immersed one = requireCurrent().require(command.body(), command.link(-1));
+  one.readWrench(true);
+  const FluidWrench parts = one.wrench();
+  json answer;
+  for (const auto& [name, part] : kWrenchParts) {
+    const Vector6 numbers = (parts.*part).vector();
+    answer[name] = std::vector<double>(numbers.begin(), numbers.end());
+  }
+  return answer.dump();
+}
+
+std::string FluidPlugin::wet(Command& command) {
+  command.finish();
+  const WetState wet = requireCurrent().require(command.body(), command.link(-1)).wet();
+  const Vector3& centre = wet.centre_of_buoyancy;
+  json answer;
+  answer["volume"] = wet.volume;
+  answer["share"] = wet.share;
+  answer["draught"] = wet.draught;  // null: no surface
+  answer["area"] = wet.area;
+  answer["centre_of_buoyancy"] = {centre.x(), centre.y(), centre.z()};
+  return answer.dump();
 }
 
 std::string FluidPlugin::save(Command& command) {

@@ -36,6 +36,8 @@ class FluidPlugin {
   std::string exclude(Command& command);
   std::string inertia(Command& command);
   std::string massMatrix(Command& command);
+  std::string wrench(Command& command);
+  std::string wet(Command& command);
   std::string save(Command& command);
   std::string restore(Command& command);
   std::string status(Command& command);

@@ -7,24 +7,16 @@
 #include <cstring>
 #include <typeinfo>
 
+#include "demos/pybullet/silent_helper.h"
+
 namespace ambient::pybullet {
 namespace {
 
 // A helper that the server is shown for one call: its setGuiHelper() calls
 // createPhysicsDebugDrawer() with its world, and nothing else.
-class Probe final : public GuiHelper {
- public:
+struct Probe final : SilentHelper {
   btDiscreteDynamicsWorld* world = nullptr;
   void createPhysicsDebugDrawer(btDiscreteDynamicsWorld* its) override { world = its; }
-
- private:
-  void createRigidBodyGraphicsObject(void*, const void*) override {}
-  void createCollisionObjectGraphicsObject(void*, const void*) override {}
-  void createCollisionShapeGraphicsObject(void*) override {}
-  void syncPhysicsToGraphics(const void*) override {}
-  void syncPhysicsToGraphics2(const void*) override {}
-  void syncPhysicsToGraphics2(const void*, int) override {}
-  void render(const void*) override {}
 };
 
 // With a window the server has a helper of its own. The drawer that it gave to the world knows it:

@@ -18,7 +18,7 @@ from blocks import COMMANDS, ROOT, all_blocks, pages
 
 BUILD = None
 REFERENCE = ROOT / "docs/file_format.md"  # its forms have all options
-OTHERS = "build/crates cd cp ctest npm parallel sbatch seq snakemake tar".split()
+OTHERS = "build/crates cd conan cp ctest npm parallel sbatch seq snakemake tar vcpkg".split()
 INLINE = re.compile(r"`((?:ambient_(?:demo|preprocess) |build/\w+/bin/|demos/run|tests/run|cmake |ctest )[^`]*)`")
 OPTION = re.compile(r"(?<![\w:=-])--?[a-z][a-z_-]*")
 

@@ -15,6 +15,9 @@
 AMBIENT_BEGIN
 namespace {
 
+// MULTIBODY_CONSTRAINT_SPHERICAL_LIMIT, which Bullet has from 3.22 on.
+constexpr int kSphericalLimit = MULTIBODY_CONSTRAINT_FIXED + 1;
+
 // Rows of a tree's own joints: their Jacobians stay as they are while it moves.
 bool isOfJoints(int constraint_type) {
   switch (constraint_type) {
@@ -22,7 +25,7 @@ bool isOfJoints(int constraint_type) {
     case MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR:
     case MULTIBODY_CONSTRAINT_GEAR:
     case MULTIBODY_CONSTRAINT_SPHERICAL_MOTOR:
-    case MULTIBODY_CONSTRAINT_SPHERICAL_LIMIT:
+    case kSphericalLimit:
       return true;
     default:
       return false;

@@ -4,15 +4,15 @@
 import argparse
 from pathlib import Path
 
-import matplotlib.image
 import numpy as np
+import picture
 import pybullet as p
 
 from bullet_ambient.pybullet import Fluid
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("picture", nargs="?", default="out/pybullet_pool.png", type=Path)
-picture = parser.parse_args().picture
+arguments = parser.parse_args()
 
 p.connect(p.DIRECT)
 p.setGravity(0, 0, -9.81)
@@ -38,12 +38,4 @@ for box, density in zip(boxes, densities):
     z = p.getBasePositionAndOrientation(box)[0][2]
     print("%5.0f kg/m^3: centre at %6.3f m" % (density, z))
 
-# The surface is drawn as a line around the pool: TinyRenderer has no glass.
-rim = p.createVisualShape(p.GEOM_BOX, halfExtents=[2, 0.008, 0.008], rgbaColor=[0.1, 0.3, 0.8, 1])
-for y in (-1, 1):
-    p.createMultiBody(0, -1, rim, basePosition=[0, y, 0])
-view = p.computeViewMatrix([0, -4.2, 0.7], [0, 0, -0.4], [0, 0, 1])
-lens = p.computeProjectionMatrixFOV(40, 2, 0.1, 20)
-pixels = p.getCameraImage(800, 400, view, lens, renderer=p.ER_TINY_RENDERER, shadow=1, lightDirection=[1, -2, 3])[2]
-picture.parent.mkdir(parents=True, exist_ok=True)
-matplotlib.image.imsave(picture, np.reshape(pixels, (400, 800, 4)).astype(np.uint8))
+picture.save(arguments.picture, [0, -4.2, 0.7], [0, 0, -0.4], lambda: picture.add_surface([-2, -1], [2, 1]))

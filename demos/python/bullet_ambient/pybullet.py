@@ -143,6 +143,26 @@ class Fluid:
         """
         return np.array(json.loads(self._command("mass_matrix", [body])))
 
+    def wrench(self, body: int, link: int = -1) -> dict[str, npt.NDArray[np.float64]]:
+        """Wrench of the fluid on a body or link in its last substep, by part: torque about the centre of mass [N m], then
+        force [N], in world axes.
+
+        The parts are "pressure", "friction", "buoyancy", "waves", "wind" and "added_mass", besides "constraints", which are
+        not the fluid's. They are kept from the first call on, which answers zeros.
+        """
+        parts = json.loads(self._command("wrench", [body, link]))
+        return {name: np.array(part) for name, part in parts.items()}
+
+    def wet(self, body: int, link: int = -1) -> dict[str, Any]:
+        """What of a body or link is in its fluid, and with a surface near, below that: "volume" [m^3], "share", "draught" [m]
+        (None without a surface), "area" [m^2], "centre_of_buoyancy"."""
+        answer: dict[str, Any] = json.loads(self._command("wet", [body, link]))
+        return answer
+
+    def wet_volume(self, body: int, link: int = -1) -> float:
+        """Volume of a body or link that is in its fluid [m^3]."""
+        return float(self.wet(body, link)["volume"])
+
     def save(self) -> int:
         """Keeps the state of world and fluid and returns its number. `pybullet.saveState` knows nothing of the fluid."""
         return int(self._command("save"))

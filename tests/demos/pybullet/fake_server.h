@@ -9,20 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "demos/pybullet/pybullet_interface.h"
+#include "demos/pybullet/silent_helper.h"
 
 namespace ambient::pybullet::test {
-
-struct DummyHelper : GuiHelper {
-  void createRigidBodyGraphicsObject(void*, const void*) override {}
-  void createCollisionObjectGraphicsObject(void*, const void*) override {}
-  void createCollisionShapeGraphicsObject(void*) override {}
-  void syncPhysicsToGraphics(const void*) override {}
-  void syncPhysicsToGraphics2(const void*) override {}
-  void syncPhysicsToGraphics2(const void*, int) override {}
-  void render(const void*) override {}
-  void createPhysicsDebugDrawer(btDiscreteDynamicsWorld*) override {}
-};
 
 /// PyBullet's server, its plugin manager and that one's client, towards one plugin: PyBullet's
 /// calls in PyBullet's order. Numbers in the source are lines of examples/SharedMemory of 3.24,
@@ -83,7 +72,7 @@ class FakeServer : public Server, public Client {
   btMultiBodyConstraintSolver* solver_ = nullptr;
   std::unique_ptr<btMultiBodyDynamicsWorld> world_;
   std::vector<btMultiBody*> bodies_;
-  DummyHelper dummy_;
+  SilentHelper dummy_;
   GuiHelper* helper_ = &dummy_;
   void* plugin_ = nullptr;
   void* user_pointer_ = nullptr;

@@ -31,6 +31,12 @@ class PyBulletPlugin : public testing::Test {
     for (int column = 0; column < 3; ++column) at = answer.find(',', at + 1);
     return std::stod(answer.substr(at + 1));
   }
+  // The number that stands behind a key of the answer.
+  double number(const std::string& command, int body, const std::string& key) {
+    const std::string answer = server.command(command, {body});
+    const std::size_t at = answer.find('"' + key + "\":");
+    return at == std::string::npos ? NAN : std::stod(answer.substr(at + key.size() + 3));
+  }
   FakeServer server;
 };
 
@@ -125,6 +131,22 @@ TEST_F(PyBulletPlugin, RestoresItsStates) {
   EXPECT_EQ(server.command("restore", {1}).rfind("-1 ", 0), 0u);
   server.reset();
   EXPECT_EQ(server.command("restore", {0}).rfind("-1 ", 0), 0u);
+}
+
+TEST_F(PyBulletPlugin, TellsWhatIsWetAndWhatTheFluidDoes) {
+  server.command("water level=-1 density=1000");
+  const int body = server.add(0.1, 4);  // its centre at the surface
+  EXPECT_NEAR(number("wet", body, "volume"), 0.004, 1e-6);
+  EXPECT_NEAR(number("wet", body, "share"), 0.5, 1e-3);
+  EXPECT_NEAR(number("wet", body, "draught"), 0.1, 1e-6);
+  server.command("wrench", {body});
+  server.step(1);
+  const std::string parts = server.command("wrench", {body});
+  const std::size_t buoyancy = parts.find("\"buoyancy\":[");
+  ASSERT_NE(buoyancy, std::string::npos) << parts;
+  std::size_t at = buoyancy;
+  for (int i = 0; i < 5; ++i) at = parts.find(',', at + 1);
+  EXPECT_NEAR(std::stod(parts.substr(at + 1)), 1000 * 9.81 * 0.004, 0.4);
 }
 
 TEST_F(PyBulletPlugin, GoesOffAndOn) {

@@ -99,6 +99,21 @@ class MotionTest(Case):
                 self.steps(1)
                 self.assertAlmostEqual(self.speed(body) / (100 / 240 / mass), 1, delta=5e-5)
 
+    def test_wet_volume_and_wrench(self):
+        self.fluid.water(level=0, density=1000)
+        self.gravity()
+        body, deep = self.box(position=(0, 0, 0)), self.box(position=(5, 0, -2))
+        self.assertAlmostEqual(self.fluid.wet_volume(body), 0.004, delta=1e-6)
+        self.assertAlmostEqual(self.fluid.wet_volume(deep), 0.008, delta=1e-6)
+        self.assertAlmostEqual(self.fluid.wet(body)["draught"], 0.1, delta=1e-6)
+        self.assertEqual(abs(self.fluid.wrench(deep)["buoyancy"]).max(), 0)
+        self.steps(1)
+        wrench = self.fluid.wrench(deep)
+        self.assertAlmostEqual(wrench["buoyancy"][5], 1000 * 9.81 * 0.008, delta=0.1)
+        momentum = 4 * p.getBaseVelocity(deep, physicsClientId=self.client)[0][2] * 240
+        fluid = sum(part for name, part in wrench.items() if name != "constraints")
+        self.assertAlmostEqual(fluid[5] + wrench["constraints"][5] - 4 * 9.81, momentum, delta=1e-3)
+
     def test_a_motor_turns_a_joint_with_the_fluid(self):
         self.fluid.region(density=RHO)
         for motor in ({"controlMode": p.TORQUE_CONTROL}, {"controlMode": p.VELOCITY_CONTROL, "targetVelocity": 1}):

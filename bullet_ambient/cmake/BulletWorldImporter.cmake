@@ -1,0 +1,23 @@
+# bullet_ambient_find_world_importer(float32|float64): makes the target bullet_world_importer-float32 or -float64, Bullet's
+# loader of .bullet files, if it stands beside the Bullet that was found. It is in Bullet's extras (Debian:
+# libbullet-extras-dev).
+function(bullet_ambient_find_world_importer precision)
+  set(target bullet_world_importer-${precision})
+  if(TARGET ${target})
+    return()
+  endif()
+  get_target_property(includes BulletAmbient::bullet-${precision} INTERFACE_INCLUDE_DIRECTORIES)
+  get_target_property(libraries BulletAmbient::bullet-${precision} INTERFACE_LINK_LIBRARIES)
+  find_path(include BulletWorldImporter/btBulletWorldImporter.h PATHS ${includes} NO_DEFAULT_PATH NO_CACHE)
+  list(FILTER libraries INCLUDE REGEX "BulletDynamics[^/]*$")
+  string(REPLACE BulletDynamics BulletWorldImporter importer "${libraries}")
+  string(REPLACE BulletDynamics BulletFileLoader loader "${libraries}")
+  foreach(library IN LISTS importer loader)
+    if(NOT include OR NOT (EXISTS "${library}" OR TARGET "${library}"))
+      return()
+    endif()
+  endforeach()
+  add_library(${target} INTERFACE)
+  target_include_directories(${target} SYSTEM INTERFACE ${include})
+  target_link_libraries(${target} INTERFACE ${importer} ${loader} BulletAmbient::bullet-${precision})
+endfunction()
