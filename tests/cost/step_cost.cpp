@@ -32,15 +32,21 @@ struct Scene {
 std::unique_ptr<btCollisionShape> box() {
   return std::make_unique<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.3), btScalar(0.4)));
 }
+std::unique_ptr<btCollisionShape> plate() {
+  return std::make_unique<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.05), btScalar(0.4)));
+}
 std::unique_ptr<btCollisionShape> capsule() {
   return std::make_unique<btCapsuleShape>(btScalar(0.2), btScalar(0.6));
 }
 std::unique_ptr<btCollisionShape> ball() { return std::make_unique<btSphereShape>(btScalar(0.4)); }
 
-const Scene kScenes[] = {
-    {"boxes_under_water", box, 1000, false},  {"capsules_under_water", capsule, 1000, false},
-    {"balls_under_water", ball, 1000, false}, {"boxes_afloat", box, 500, true},
-    {"capsules_afloat", capsule, 500, true},  {"balls_afloat", ball, 500, true}};
+const Scene kScenes[] = {{"boxes_under_water", box, 1000, false},
+                         {"plates_under_water", plate, 1000, false},
+                         {"capsules_under_water", capsule, 1000, false},
+                         {"balls_under_water", ball, 1000, false},
+                         {"boxes_afloat", box, 500, true},
+                         {"capsules_afloat", capsule, 500, true},
+                         {"balls_afloat", ball, 500, true}};
 
 double volumeOf(const btCollisionShape& shape) {
   FluidBodyCache cache;

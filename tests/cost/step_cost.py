@@ -14,8 +14,8 @@ from pathlib import Path
 BODIES, FEW, MANY = 64, 20, 60
 # Functions of the C library that do not depend on the processor: its fills by "rep stosb" count each byte.
 FIXED = {"BULLET_AMBIENT_KERNELS": "avx2", "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-ERMS,-FSRM,-AVX2,-FMA,-AVX512F,-AVX512VL"}
-SCENES = ("boxes_under_water", "capsules_under_water", "balls_under_water", "boxes_afloat", "capsules_afloat",
-          "balls_afloat")
+SCENES = ("boxes_under_water", "plates_under_water", "capsules_under_water", "balls_under_water", "boxes_afloat",
+          "capsules_afloat", "balls_afloat")
 
 
 def instructions(program: str, scene: str, world: str, steps: int) -> int:
