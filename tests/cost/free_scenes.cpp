@@ -8,6 +8,9 @@ using MakeShape = std::function<std::shared_ptr<btCollisionShape>()>;
 std::shared_ptr<btCollisionShape> box() {
   return std::make_shared<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.3), btScalar(0.4)));
 }
+std::shared_ptr<btCollisionShape> plate() {
+  return std::make_shared<btBoxShape>(btVector3(btScalar(0.5), btScalar(0.05), btScalar(0.4)));
+}
 std::shared_ptr<btCollisionShape> capsule() {
   return std::make_shared<btCapsuleShape>(btScalar(0.2), btScalar(0.6));
 }
@@ -31,8 +34,10 @@ void fillRows(CostWorld& world, const MakeShape& make, bool is_afloat, int count
 std::vector<CostScene> freeScenes() {
   std::vector<CostScene> scenes;
   for (const bool is_afloat : {false, true}) {
-    for (const auto& [name, make] :
-         {std::pair<std::string, MakeShape>("boxes", box), {"capsules", capsule}, {"balls", ball}})
+    for (const auto& [name, make] : {std::pair<std::string, MakeShape>("boxes", box),
+                                     {"plates", plate},
+                                     {"capsules", capsule},
+                                     {"balls", ball}})
       scenes.push_back({name + (is_afloat ? "_afloat" : "_under_water"), 1000, 30,
                         [make = make, is_afloat](CostWorld& world, int count) {
                           fillRows(world, make, is_afloat, count);

@@ -16,7 +16,7 @@ from pathlib import Path
 FIXED = {"BULLET_AMBIENT_KERNELS": "avx2", "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-ERMS,-FSRM,-AVX2,-FMA,-AVX512F,-AVX512VL"}
 # Bodies, and steps of the shorter and the longer run.
 SCENES = {
-    "boxes_under_water": (64, 20, 60), "capsules_under_water": (64, 20, 60), "balls_under_water": (64, 20, 60),
+    "boxes_under_water": (64, 20, 60), "plates_under_water": (64, 20, 60), "capsules_under_water": (64, 20, 60), "balls_under_water": (64, 20, 60),
     "boxes_afloat": (64, 20, 60), "capsules_afloat": (64, 20, 60), "balls_afloat": (64, 20, 60),
     "pile_in_water": (64, 30, 60), "block_in_water": (64, 30, 60), "stacks_in_water": (91, 30, 60),
     "figures_in_water": (44, 30, 60),

@@ -23,15 +23,12 @@ struct alignas(64) FaceBounds {
   float reach[6][kBlocks];  ///< largest distance from the middle
 };
 
-/// FormFactors of the faces of one block, for the form law.
+/// FormFactors of the faces of one block, for the form law; their arms in pitching,
+/// FormShape::pitchingArm(), in units of length, 0 unless the shape is a wing.
 struct alignas(64) FormBlock {
   float by_normal[FaceBlock::kFaces];
   float by_speed[FaceBlock::kFaces];
   float by_lee[FaceBlock::kFaces];
-};
-
-/// Arms of the faces of one block in pitching, FormShape::pitchingArm(), in units of length.
-struct alignas(64) PitchBlock {
   float arm[FaceBlock::kFaces];
 };
 
@@ -39,19 +36,13 @@ struct alignas(64) PitchBlock {
 struct FaceBlocks {
   const FaceBlock* blocks;
   const FaceBounds* bounds;
-  std::size_t count;                  ///< number of blocks
-  const FormBlock* form = nullptr;    ///< one per block; null: the published law
-  const double* lee = nullptr;        ///< 6 x 21, lee side of the form law: see addEvenPart()
-  const PitchBlock* pitch = nullptr;  ///< one per block; null: no wing
+  std::size_t count;                ///< number of blocks
+  const FormBlock* form = nullptr;  ///< one per block; null: the published law
+  const double* lee = nullptr;      ///< 6 x 21, lee side of the form law: see addEvenPart()
 
   /// Returns the blocks from number `block` on, without bounds.
   FaceBlocks from(std::size_t block) const {
-    return {blocks + block,
-            nullptr,
-            count - block,
-            form ? form + block : nullptr,
-            lee,
-            pitch ? pitch + block : nullptr};
+    return {blocks + block, nullptr, count - block, form ? form + block : nullptr, lee};
   }
 };
 

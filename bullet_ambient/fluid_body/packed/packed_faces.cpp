@@ -53,8 +53,7 @@ PackedFaces::PackedFaces(const FaceTable& faces)
 }
 
 PackedFaces::PackedFaces(const FaceTable& faces, const FormShape& shape) : PackedFaces(faces) {
-  packForm(faces);
-  if (shape.isWing()) packPitch(faces, shape);
+  packForm(faces, shape);
 }
 
 FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) const {
@@ -72,27 +71,22 @@ FaceBlock PackedFaces::packBlock(const FaceTable& faces, std::size_t block) cons
   return packed;
 }
 
-void PackedFaces::packForm(const FaceTable& faces) {
+void PackedFaces::packForm(const FaceTable& faces, const FormShape& shape) {
   AMBIENT_ASSERT(faces.sharpness.size() == size());
   form_.resize(blocks_.size());  // all zero
   lee_.resize(6 * 21);
   for (std::size_t i = 0; i < size(); ++i) {
-    const auto sharpness = static_cast<float>(faces.sharpness[order_[i]]);
-    const FormFactors<float> factors = formFactors<float>(sharpness);
+    const std::size_t face = order_[i], at = i % FaceBlock::kFaces;
+    const FormFactors<float> factors =
+        formFactors<float>(static_cast<float>(faces.sharpness[face]));
     FormBlock& block = form_[i / FaceBlock::kFaces];
-    block.by_normal[i % FaceBlock::kFaces] = factors.by_normal;
-    block.by_speed[i % FaceBlock::kFaces] = factors.by_speed;
-    block.by_lee[i % FaceBlock::kFaces] = factors.by_lee;
-    addLee(faces, order_[i], static_cast<double>(factors.by_lee));
-  }
-}
-
-void PackedFaces::packPitch(const FaceTable& faces, const FormShape& shape) {
-  pitch_.resize(blocks_.size());  // all zero
-  for (std::size_t i = 0; i < size(); ++i) {
-    const std::size_t face = order_[i];
-    const double arm = shape.pitchingArm(faces.normal(face), faces.centroid(face)) / length_unit_;
-    pitch_[i / FaceBlock::kFaces].arm[i % FaceBlock::kFaces] = static_cast<float>(arm);
+    block.by_normal[at] = factors.by_normal;
+    block.by_speed[at] = factors.by_speed;
+    block.by_lee[at] = factors.by_lee;
+    addLee(faces, face, static_cast<double>(factors.by_lee));
+    if (!shape.isWing()) continue;
+    const double arm = shape.pitchingArm(faces.normal(face), faces.centroid(face));
+    block.arm[at] = static_cast<float>(arm / length_unit_);
   }
 }
 

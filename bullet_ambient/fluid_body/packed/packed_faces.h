@@ -12,7 +12,7 @@ namespace ambient {
 /// Faces of a shape for loads in single precision: 47 bytes per face, in frame F. Units are powers
 /// of two: shapes whose sizes differ by a power of two have the same bits. Faces with similar
 /// normal and place share a block. A block is skipped if the flow is detached from all its faces.
-/// The factors of the form law take 12 bytes more, the arms of wings 4.
+/// The factors of the form law take 16 bytes more.
 class PackedFaces {
  public:
   /// Packs for the published law. Cost: O(F log F), 0.1 us per face.
@@ -21,9 +21,8 @@ class PackedFaces {
   PackedFaces(const FaceTable& faces, const FormShape& shape);
 
   FaceBlocks blocks() const {
-    return {blocks_.data(), bounds_.data(),
-            blocks_.size(), form_.empty() ? nullptr : form_.data(),
-            lee_.data(),    pitch_.empty() ? nullptr : pitch_.data()};
+    return {blocks_.data(), bounds_.data(), blocks_.size(), form_.empty() ? nullptr : form_.data(),
+            lee_.data()};
   }
   std::size_t size() const { return order_.size(); }
   double lengthUnit() const { return length_unit_; }  ///< [m]
@@ -32,15 +31,13 @@ class PackedFaces {
  private:
   FaceBlock packBlock(const FaceTable& faces, std::size_t block) const;
   void setBounds(std::size_t block);
-  void packForm(const FaceTable& faces);
-  void packPitch(const FaceTable& faces, const FormShape& shape);
+  void packForm(const FaceTable& faces, const FormShape& shape);
   void addLee(const FaceTable& faces, std::size_t face, double by_lee);
 
   std::vector<std::uint32_t> order_;  ///< index into FaceTable of each face in the blocks
   std::vector<FaceBlock> blocks_;
   std::vector<FaceBounds> bounds_;
   std::vector<FormBlock> form_;
-  std::vector<PitchBlock> pitch_;
   std::vector<double> lee_;  ///< 6 x 21, column by column
   double length_unit_ = 1, area_unit_ = 1;
 };

@@ -3,6 +3,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/force/kernels/double_lanes.h"
+#include "bullet_ambient/force/kernels/wing_lanes.h"
 #include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 #include "bullet_ambient/force/law/wet_share.h"
@@ -21,9 +22,7 @@ using Bits = std::uint64_t __attribute__((vector_size(kWidth * sizeof(std::uint6
 inline Vectors load(const double* const columns[3], std::size_t i) {
   return {load(columns[0] + i), load(columns[1] + i), load(columns[2] + i)};
 }
-inline Vectors broadcast(const double v[3]) {
-  return {Doubles{} + v[0], Doubles{} + v[1], Doubles{} + v[2]};
-}
+inline Vectors broadcast(const double (&v)[3]) { return inAllLanes<Doubles>(v); }
 
 /// Partial sums of a wrench, one per lane.
 struct WrenchLanes {
@@ -80,26 +79,10 @@ inline Doubles strengthWhereAttached(Doubles normal_speed, Doubles strength, Dou
   return excess > zero ? strength : zero;
 }
 
-/// Constants of a shape, the same in all lanes; zero but for laws that ask for them.
-struct Wings {
-  Vectors facing = {}, span = {}, slender = {}, pitching = {}, centre = {};
-  Doubles pitching_rate = {}, slip_share = {};
-
-  explicit Wings(const FaceMotion& motion) {
-    slip_share = slip_share + motion.slip_share;
-    if (!motion.wing) return;
-    facing = broadcast(motion.wing->facing);
-    span = broadcast(motion.wing->span);
-    slender = broadcast(motion.wing->slender);
-    pitching = broadcast(motion.pitching);
-    centre = broadcast(motion.centre);
-    pitching_rate = pitching_rate + motion.pitching_rate;
-  }
-  /// mu of eq. (43d).
-  Doubles arm(const Vectors& n, const Vectors& c) const {
-    return dot(pitching, cross(c - centre, n));
-  }
-};
+/// mu of eq. (43d).
+inline Doubles pitchingArm(const FaceMotion& motion, const Vectors& n, const Vectors& c) {
+  return dot(broadcast(motion.pitching), cross(c - broadcast(motion.centre), n));
+}
 
 /// Wet share of faces, eq. (59).
 inline Doubles wetShare(const FaceCut& cut, const Vectors& n, const Vectors& c,
@@ -117,7 +100,7 @@ void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t
                  std::size_t end, int lane, PressureLanes& sums, BlockSlip& slip) {
   const Vectors w = broadcast(motion.angular);
   const Vectors v = broadcast(motion.linear);
-  const Wings wings(motion);
+  const WingLanes<Doubles> wings(motion);
   WrenchSum sum(sums, lane);
   Doubles pitch = load(sums.pitch + lane);
   int k = 0;
@@ -140,11 +123,12 @@ void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t
     };
     const auto factors = [&] { return formFactors<double>(load(faces.sharpness + i)); };
     const auto wing = [&](const auto& law) {
-      const Doubles arm = wings.arm(n, c), zero = {};
-      const Doubles whole_sq = normal_speed * normal_speed + speed_sq;
-      const WingFlow<Doubles> flow{dot(wings.facing, u), dot(wings.span, u),
-                                   normal_speed - wings.pitching_rate * arm, whole_sq,
-                                   whole_sq > zero ? 1 / root(whole_sq) : zero};
+      constexpr double kLeast = 1e-200;  // at rest its inverse is finite
+      const Doubles arm = pitchingArm(motion, n, c);
+      const Doubles whole_sq = (normal_speed * normal_speed + kLeast) + speed_sq;
+      const WingFlow<PlainArithmetic<Doubles>> flow{dot(wings.facing, u), dot(wings.span, u),
+                                                    normal_speed - wings.pitching_rate * arm,
+                                                    whole_sq, root(whole_sq)};
       const FacePressure<Doubles> pressure = law(flow, *motion.wing);
       pitch = pitch + pressure.lift * arm;
       return pressure;

@@ -14,6 +14,11 @@ template <class Lanes>
 struct VectorsOf {
   Lanes x, y, z;
 };
+/// Returns a vector of numbers in all lanes.
+template <class Lanes, class Number>
+inline VectorsOf<Lanes> inAllLanes(const Number (&v)[3]) {
+  return {Lanes{} + v[0], Lanes{} + v[1], Lanes{} + v[2]};
+}
 template <class Lanes>
 inline VectorsOf<Lanes> operator+(const VectorsOf<Lanes>& a, const VectorsOf<Lanes>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};

@@ -84,6 +84,23 @@ inline Floats root(Floats x) {
 }
 #endif
 
+/// x, or 0 where it is not positive.
+#if defined(__AVX512F__)
+inline Floats positivePart(Floats x) { return _mm512_max_ps(x, Floats{}); }
+#elif defined(__AVX2__)
+inline Floats positivePart(Floats x) { return _mm256_max_ps(x, Floats{}); }
+#else
+inline Floats positivePart(Floats x) { return x > 0.0f ? x : Floats{}; }
+#endif
+
+/// As PlainArithmetic, with one rounding.
+struct FusedArithmetic {
+  using Real = Floats;
+  static Floats plus(Floats c, Floats a, Floats b) { return plusProduct(c, a, b); }
+  static Floats less(Floats c, Floats a, Floats b) { return lessProduct(c, a, b); }
+  static Floats positive(Floats x) { return positivePart(x); }
+};
+
 /// 1 / sqrt(x) for normal x > 0, relative error 8e-7, without a division; finite for x = 0.
 inline Floats inverseRoot(Floats x) {
   Ints bits;
@@ -102,9 +119,7 @@ using Vectors = VectorsOf<Floats>;
 inline Vectors load(const float (&columns)[3][kLanes], int lane) {
   return {load(columns[0] + lane), load(columns[1] + lane), load(columns[2] + lane)};
 }
-inline Vectors broadcast(const float v[3]) {
-  return {Floats{} + v[0], Floats{} + v[1], Floats{} + v[2]};
-}
+inline Vectors broadcast(const float (&v)[3]) { return inAllLanes<Floats>(v); }
 inline Vectors plusProduct(Vectors c, Floats s, Vectors a) {
   return {plusProduct(c.x, s, a.x), plusProduct(c.y, s, a.y), plusProduct(c.z, s, a.z)};
 }

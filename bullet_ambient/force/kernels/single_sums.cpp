@@ -5,6 +5,7 @@
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/force/kernels/even_part.h"
 #include "bullet_ambient/force/kernels/single_lanes.h"
+#include "bullet_ambient/force/kernels/wing_lanes.h"
 #include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/force/law/wet_share.h"
 
@@ -49,74 +50,117 @@ struct Cuts {
   }
 };
 
-/// Constants of a shape and its motion, the same in all lanes; zero but for laws that ask for them.
-struct Wings {
-  Vectors facing = {}, span = {}, slender = {};
-  Floats pitching_rate = {}, slip_share = {};
+/// |u|^2, and a little more: at rest its inverse is finite.
+inline Floats squareOf(const Vectors& u) {
+  constexpr float kLeast = 1e-30f;
+  return plusProduct(plusProduct(plusProduct(Floats{} + kLeast, u.x, u.x), u.y, u.y), u.z, u.z);
+}
 
-  explicit Wings(const SingleMotion& motion) {
-    slip_share = slip_share + motion.slip_share;
-    if (!motion.wing) return;
-    facing = broadcast(motion.wing->facing);
-    span = broadcast(motion.wing->span);
-    slender = broadcast(motion.wing->slender);
-    pitching_rate = pitching_rate + motion.pitching_rate;
-  }
+/// Constants of a run of blocks, the same in all lanes.
+struct RunMotion {
+  const FaceBlocks& faces;
+  const SingleMotion& motion;
+  Vectors angular, linear;
+  Cuts cuts;
+  WingLanes<Floats> wings;
+  int lane;
+
+  RunMotion(const FaceBlocks& blocks, const SingleMotion& all, const SingleCut* cut, int first)
+      : faces(blocks),
+        motion(all),
+        angular(broadcast(all.angular)),
+        linear(broadcast(all.linear)),
+        cuts(cut),
+        wings(all),
+        lane(first) {}
 };
 
-/// kWidth lanes of a run of chosen blocks; docs/theory.md eq. (12) to (17), (43) to (44), (59).
+/// What kWidth faces of a block feel.
+struct FaceFlow {
+  Vectors velocity;     ///< u
+  Floats normal_speed;  ///< n.u
+  Floats slip_sq;       ///< |t|^2
+  Floats strength;      ///< |t|^2 A where the flow is attached, else 0
+  Floats pressure;      ///< q A
+};
+
+/// Computes it for kWidth faces of a block; docs/theory.md eq. (12) to (15), (43) to (44), (59).
+/// Adds the lift of wings times its arm to `pitch`.
+template <class Law, bool kRightAngle, bool kCut>
+inline FaceFlow flowOn(const RunMotion& run, int block, Floats& pitch) {
+  const int lane = run.lane;
+  const FaceBlock& geometry = run.faces.blocks[block];
+  const Vectors n = load(geometry.normal, lane), c = load(geometry.centroid, lane);
+  const WingLanes<Floats>& wings = run.wings;
+  const Vectors u = plusCross(run.linear, run.angular, c);
+  const Floats normal_speed = dot(n, u), whole_sq = squareOf(u);
+  const Vectors t = lessProduct(u, normal_speed, n);
+  const Floats slip_sq =
+      Law::kLifts ? positivePart(lessProduct(whole_sq, normal_speed, normal_speed)) : dot(t, t);
+  Floats area = load(geometry.area + lane);
+  if (kCut) area = area * run.cuts.wetShare(n, c, area);
+  const Floats strength =
+      strengthWhereAttached<kRightAngle>(normal_speed, area * slip_sq, slip_sq, run.motion);
+  const auto speed = [&] {
+    const Floats whole = root(plusProduct(slip_sq, normal_speed, normal_speed));
+    if constexpr (!Law::kIsSlender) return whole;
+    const Floats along = dot(wings.slender, t), across_sq = lessProduct(slip_sq, along, along);
+    return speedAcross(normal_speed, across_sq, whole);
+  };
+  const auto factors = [&] {
+    const FormBlock& form = run.faces.form[block];
+    return FormFactors<Floats>{load(form.by_normal + lane), load(form.by_speed + lane),
+                               load(form.by_lee + lane)};
+  };
+  const auto wing = [&](const auto& law) {
+    const Floats arm = load(run.faces.form[block].arm + lane);
+    const WingFlow<FusedArithmetic> flow{dot(wings.facing, u), dot(wings.span, u),
+                                         lessProduct(normal_speed, wings.pitching_rate, arm),
+                                         whole_sq, root(whole_sq)};
+    const FacePressure<Floats> pressure = law(flow, *run.motion.wing);
+    pitch = plusProduct(pitch, pressure.lift, arm);
+    return pressure;
+  };
+  const FaceState state{normal_speed, area, strength, wings.slip_share, speed, factors, wing};
+  return {u, normal_speed, slip_sq, strength, Law::template of<kRightAngle>(state).total};
+}
+
+/// The same block to read again. The compiler does not see that it is the same: it would keep what
+/// it has read, for which there are too few registers.
+inline const FaceBlock& reread(const FaceBlock& block) {
+  const FaceBlock* again = &block;
+  asm("" : "+r"(again));
+  return *again;
+}
+
+/// Force on faces: pressure and friction, eq. (15) to (17).
+template <class Law>
+inline Vectors forceOf(const FaceFlow& flow, const Vectors& n, const SingleMotion& motion) {
+  const Floats along = (flow.strength * motion.friction) * slipPower(flow.slip_sq);
+  if (Law::kLifts)
+    return plusProduct(lessProduct(flow.pressure, along, flow.normal_speed) * n, along,
+                       flow.velocity);
+  return plusProduct(flow.pressure * n, along, lessProduct(flow.velocity, flow.normal_speed, n));
+}
+
+/// kWidth lanes of a run of chosen blocks.
 template <class Law, bool kRightAngle, bool kFriction, bool kCut>
 void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
             int lane, WrenchLanes& sums) {
-  const Vectors w = broadcast(motion.angular);
-  const Vectors v = broadcast(motion.linear);
-  const Cuts cuts(kCut ? motion.cut : nullptr);
-  const Wings wings(motion);
+  const RunMotion run(faces, motion, kCut ? motion.cut : nullptr, lane);
   Vectors torque = {}, force = {};
   Floats pitch = {};
   for (int k = 0; k < count; ++k) {
     const FaceBlock& block = faces.blocks[chosen[k]];
-    const Vectors n = load(block.normal, lane);
-    const Vectors c = load(block.centroid, lane);
-    const Vectors u = plusCross(v, w, c);
-    const Floats normal_speed = dot(n, u);
-    const Vectors t = lessProduct(u, normal_speed, n);
-    const Floats speed_sq = dot(t, t);
-    Floats area = load(block.area + lane);
-    if (kCut) area = area * cuts.wetShare(n, c, area);
-    const Floats strength =
-        strengthWhereAttached<kRightAngle>(normal_speed, area * speed_sq, speed_sq, motion);
-    const auto speed = [&] {
-      const Floats whole = root(plusProduct(speed_sq, normal_speed, normal_speed));
-      if constexpr (!Law::kIsSlender) return whole;
-      const Floats along = dot(wings.slender, t), across_sq = lessProduct(speed_sq, along, along);
-      return speedAcross(normal_speed, across_sq, whole);
-    };
-    const auto factors = [&] {
-      const FormBlock& form = faces.form[chosen[k]];
-      return FormFactors<Floats>{load(form.by_normal + lane), load(form.by_speed + lane),
-                                 load(form.by_lee + lane)};
-    };
-    const auto wing = [&](const auto& law) {
-      const Floats arm = load(faces.pitch[chosen[k]].arm + lane);
-      const Floats whole_sq = plusProduct(speed_sq, normal_speed, normal_speed);
-      const WingFlow<Floats> flow{dot(wings.facing, u), dot(wings.span, u),
-                                  lessProduct(normal_speed, wings.pitching_rate, arm), whole_sq,
-                                  inverseRoot(whole_sq)};
-      const FacePressure<Floats> pressure = law(flow, *motion.wing);
-      pitch = plusProduct(pitch, pressure.lift, arm);
-      return pressure;
-    };
-    const FaceState state{normal_speed, area, strength, wings.slip_share, speed, factors, wing};
-    const Floats pressure = Law::template of<kRightAngle>(state).total;
+    const FaceFlow flow = flowOn<Law, kRightAngle, kCut>(run, chosen[k], pitch);
+    const FaceBlock& again = Law::kLifts ? reread(block) : block;
     if (kFriction) {
-      const Floats along = (strength * motion.friction) * slipPower(speed_sq);
-      const Vectors f = plusProduct(pressure * n, along, t);
+      const Vectors f = forceOf<Law>(flow, load(again.normal, lane), motion);
       force = force + f;
-      torque = plusCross(torque, c, f);
+      torque = plusCross(torque, load(again.centroid, lane), f);
     } else {
-      force = plusProduct(force, pressure, n);
-      torque = plusProduct(torque, pressure, load(block.moment, lane));
+      force = plusProduct(force, flow.pressure, load(again.normal, lane));
+      torque = plusProduct(torque, flow.pressure, load(again.moment, lane));
     }
   }
   sums.set(torque, force, lane);

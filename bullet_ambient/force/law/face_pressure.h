@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "bullet_ambient/force/law/form_pressure.h"
 #include "bullet_ambient/force/law/pressure_law.h"
 #include "bullet_ambient/force/law/wing_pressure.h"
@@ -95,25 +97,29 @@ struct WingPressure {
   template <bool kRightAngle, class Real, class... Functions>
   static FacePressure<Real> of(const FaceState<Real, Functions...>& face) {
     return face.wing([&](const auto& flow, const auto& numbers) {
-      const Real zero = {}, u = face.normal_speed;
+      using Sum = typename std::decay_t<decltype(flow)>::Arithmetic;
+      const AttachedFlow<Real> attached = attachedFlow(face.normal_speed, flow, numbers);
       const auto factors = face.factors();
-      const Real attached = attachedShare(u, flow, numbers);
-      const Real windward = windwardPressure(u, speedOf(face, flow), factors);
-      const Real lee = (factors.by_lee * u) * u;
-      const Real lost = u > zero ? attached * (windward - lee) : zero;
-      const Real kept = (kLee ? windward - lee : windward) - lost;
-      const Real lift = face.area * (attached * liftPressure(flow, numbers));
-      const Real separated = face.area * kept + lift;
-      if constexpr (kRightAngle) return FacePressure<Real>{separated, lift};
-      return FacePressure<Real>{withSlip(face, separated), lift - face.slip_share * lift};
+      const Real zero = {}, u = Sum::positive(face.normal_speed);
+      const Real whole = Sum::plus(factors.by_speed * speedOf(face, flow), factors.by_normal, u);
+      const Real flat = Sum::less(whole, factors.by_lee, u);
+      const Real kept = Sum::less(kLee ? flat : whole, attached.share, flat);
+      const Real lift = face.area * attached.lift;
+      Real pressure = Sum::plus(lift, face.area * u, kept);
+      if constexpr (kLee) {
+        const Real lee = face.normal_speed < zero ? face.normal_speed : zero;
+        pressure = Sum::less(pressure, (face.area * factors.by_lee) * lee, lee);
+      }
+      if constexpr (kRightAngle) return FacePressure<Real>{pressure, lift};
+      return FacePressure<Real>{withSlip(face, pressure), lift - face.slip_share * lift};
     });
   }
 
  private:
-  template <class Face, class Real>
-  static Real speedOf(const Face& face, const WingFlow<Real>& flow) {
+  template <class Face, class Flow>
+  static auto speedOf(const Face& face, const Flow& flow) {
     if constexpr (kSlender) return face.speed();
-    return flow.speed_sq * flow.inverse_speed;
+    return flow.speed;
   }
 };
 
@@ -123,7 +129,7 @@ template <class Number, class Sum>
 auto withPressure(PressureLaw law, const WingFactors<Number>* wing, const Sum& sum) {
   if (law != PressureLaw::kForm) return sum(PublishedPressure{});
   if (!wing) return sum(FormPressure<false>{});
-  if (!(wing->wing > 0)) return sum(FormPressure<true>{});
+  if (!wing->is_wing) return sum(FormPressure<true>{});
   return wing->is_slender ? sum(WingPressure<true, true>{}) : sum(WingPressure<true, false>{});
 }
 

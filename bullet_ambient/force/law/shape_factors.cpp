@@ -13,14 +13,19 @@ template <class Number>
 WingFactors<Number> wingFactorsOf(const FormShape& shape) {
   WingFactors<Number> factors;
   const double sigma = stallSine(shape.aspect), slope = normalForceSlope(shape.aspect);
-  factors.wing = static_cast<Number>(shape.wing);
+  constexpr double kLeastWing = 1e-12;  // of W: keeps the inverse of k finite
+  const double root = std::sqrt(std::max(shape.wing, kLeastWing));
+  const double stall = std::sqrt(root) / (4 * sigma * sigma);
+  factors.is_wing = shape.isWing();
   factors.is_slender = shape.isSlender();
-  factors.per_stall = static_cast<Number>(1 / (4 * sigma * sigma));
-  factors.slope = static_cast<Number>(slope);
-  factors.further_slope = static_cast<Number>(normalForceSlope(1 / shape.aspect) - slope);
+  const double along = slope - normalForceSlope(1 / shape.aspect);
+  const double span = std::sqrt(std::max(along, 0.0) / stall);
+  factors.wing_root = static_cast<Number>(root);
+  factors.stall = static_cast<Number>(stall);
+  factors.slope = static_cast<Number>(slope / stall);
   for (int axis = 0; axis < 3; ++axis) {
     factors.facing[axis] = static_cast<Number>(shape.facing[axis]);
-    factors.span[axis] = static_cast<Number>(shape.span[axis]);
+    factors.span[axis] = static_cast<Number>(span * shape.span[axis]);
     factors.slender[axis] = static_cast<Number>(shape.slender[axis]);
   }
   return factors;

@@ -3,54 +3,64 @@
 namespace ambient {
 
 // Pressure of the form law on wings, docs/theory.md eq. (43a) to (43c). The code serves numbers and
-// vectors of numbers with the same roundings: the same bits everywhere.
+// vectors of numbers: the same bits everywhere with the same Arithmetic.
 
-/// Constants of a shape in these equations. Plain data, for kernels; `Number`: float or double.
+/// Constants of a shape in these equations, folded so that a face needs few operations; with
+/// k = W^(1/4) / (4 sigma^2). Plain data, for kernels; `Number`: float or double.
 template <class Number>
 struct WingFactors {
-  Number wing = 0;           ///< W
-  Number per_stall = 0;      ///< 1 / (4 sigma^2)
-  Number slope = 0;          ///< K(L)
-  Number further_slope = 0;  ///< K(1/L) - K(L)
-  Number facing[3] = {};     ///< z
-  Number span[3] = {};       ///< h
-  Number slender[3] = {};    ///< m
-  bool is_slender = false;   ///< m is not 0
+  Number wing_root = 0;     ///< sqrt(W)
+  Number stall = 0;         ///< k
+  Number slope = 0;         ///< K(L) / k
+  Number facing[3] = {};    ///< z
+  Number span[3] = {};      ///< sqrt((K(L) - K(1/L)) / k) h
+  Number slender[3] = {};   ///< m
+  bool is_wing = false;     ///< W is not 0
+  bool is_slender = false;  ///< m is not 0
+};
+
+/// Sums of products with two roundings. Kernels that fuse have functions of the same names.
+template <class Number>
+struct PlainArithmetic {
+  using Real = Number;
+  static Real plus(const Real& c, const Real& a, const Real& b) { return c + a * b; }
+  static Real less(const Real& c, const Real& a, const Real& b) { return c - a * b; }
+  static Real positive(const Real& x) { return x > Real{} ? x : Real{}; }
 };
 
 /// Motion of a face against the fluid, as far as it decides on lift.
-template <class Real>
+template <class Sums>
 struct WingFlow {
-  Real facing;         ///< z.u [m/s]
-  Real span;           ///< h.u [m/s]
-  Real lifting;        ///< nu [m/s]
-  Real speed_sq;       ///< |u|^2
-  Real inverse_speed;  ///< 1 / |u|; any finite number at rest
+  using Arithmetic = Sums;
+  using Real = typename Sums::Real;
+  Real facing;    ///< z.u [m/s]
+  Real span;      ///< WingFactors::span . u
+  Real lifting;   ///< nu [m/s]
+  Real speed_sq;  ///< |u|^2; at rest any positive number whose inverse is finite
+  Real speed;     ///< its root
 };
 
-/// W A: share of the face that the flow has not left, eq. (43a). `normal_speed`: n.u [m/s].
-template <class Real, class Number>
-inline Real attachedShare(const Real& normal_speed, const WingFlow<Real>& flow,
-                          const WingFactors<Number>& factors) {
-  const Real zero = {};
-  const Real incidence = (normal_speed * normal_speed + flow.facing * flow.facing) *
-                         (flow.inverse_speed * flow.inverse_speed) * factors.per_stall;
-  const Real left = static_cast<Number>(1) - incidence * incidence;
-  const Real attached = left > zero ? left : zero;
-  return (factors.wing * attached) * attached;
-}
+/// Attached flow on a face.
+template <class Real>
+struct AttachedFlow {
+  Real share;  ///< W A, eq. (43a)
+  Real lift;   ///< its q_L, eq. (43b): what turns the flow, and the vortices of the edges
+};
 
-/// q of attached flow over its share, eq. (43b): what turns the flow, and the vortices of the
-/// edges.
-template <class Real, class Number>
-inline Real liftPressure(const WingFlow<Real>& flow, const WingFactors<Number>& factors) {
+/// Computes eq. (43a) and (43b). `normal_speed`: n.u [m/s].
+template <class Flow, class Real, class Number>
+inline AttachedFlow<Real> attachedFlow(const Real& normal_speed, const Flow& flow,
+                                       const WingFactors<Number>& factors) {
+  using Sum = typename Flow::Arithmetic;
   constexpr auto kVortices = static_cast<Number>(3.14159265358979323846);
-  const Real zero = {};
-  const Real in_plane = flow.speed_sq - flow.facing * flow.facing;
-  const Real in_plane_sq = in_plane > zero ? in_plane : zero;
-  const Real turned = factors.slope * in_plane_sq + factors.further_slope * (flow.span * flow.span);
-  const Real lifting = flow.lifting > zero ? flow.lifting : zero;
-  return lifting * (turned * flow.inverse_speed + kVortices * lifting);
+  const Real inverse = factors.stall / flow.speed_sq;
+  const Real across_sq = Sum::plus(normal_speed * normal_speed, flow.facing, flow.facing);
+  const Real incidence = across_sq * inverse;
+  const Real root = Sum::positive(Sum::less(Real{} + factors.wing_root, incidence, incidence));
+  const Real in_plane_sq = Sum::positive(Sum::less(flow.speed_sq, flow.facing, flow.facing));
+  const Real turned = Sum::less(factors.slope * in_plane_sq, flow.span, flow.span);
+  const Real lifting = Sum::positive(flow.lifting), share = root * root;
+  return {share, (share * lifting) * Sum::plus(kVortices * lifting, turned * flow.speed, inverse)};
 }
 
 }  // namespace ambient

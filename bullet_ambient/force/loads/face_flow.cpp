@@ -27,9 +27,13 @@ double pressureOn(const FaceTable& faces, std::size_t face, const Twist& x, doub
     const FormShape& shape = factors->shape;
     const double rate = shape.pitching.dot(x.angular);
     const double arm = shape.pitchingArm(n, faces.centroid(face));
-    const WingFlow<double> flow{shape.facing.dot(u), shape.span.dot(u), normal_speed - rate * arm,
-                                whole_sq, whole_sq > 0 ? 1 / std::sqrt(whole_sq) : 0};
-    return law(flow, factors->in_double);
+    const WingFactors<double>& numbers = factors->in_double;
+    const double(&h)[3] = numbers.span;
+    constexpr double kLeast = 1e-200;  // at rest its inverse is finite
+    const WingFlow<PlainArithmetic<double>> flow{
+        shape.facing.dot(u), Vector3(h[0], h[1], h[2]).dot(u), normal_speed - rate * arm,
+        whole_sq + kLeast, std::sqrt(whole_sq)};
+    return law(flow, numbers);
   };
   const auto of_face = [&] { return formFactors<double>(faces.sharpness[face]); };
   const FaceState state{normal_speed, 1.0, strength, slip_share, speed, of_face, wing};

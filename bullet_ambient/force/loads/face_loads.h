@@ -53,11 +53,11 @@ FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                            const SurfacePlane* plane = nullptr) noexcept;
 
 /// Total of computeFaceLoads() in single precision, with the same arguments. Cost on large meshes:
-/// 0.45 ns per face with AVX2, 0.7 with friction, 1.2 times as much by the form law. At alpha =
-/// pi/2 blocks of faces in the lee are skipped. Rounding errors grow with the velocity of the
-/// faces, not with their slip: about 1e-6 of 1/2 rho sum A_i |u_s,i| |u_i|. A face close to the
-/// separation angle may be classified otherwise. The motion is scaled before it is rounded, so that
-/// nothing overflows. The same bits on every machine.
+/// 0.45 ns per face with AVX2, 0.7 with friction, 1.2 times as much by the form law, and 1.3 times
+/// that on wings with friction. At alpha = pi/2 blocks of faces in the lee are skipped. Rounding
+/// errors grow with the velocity of the faces, not with their slip: about 1e-6 of 1/2 rho sum A_i
+/// |u_s,i| |u_i|. A face close to the separation angle may be classified otherwise. The motion is
+/// scaled before it is rounded, so that nothing overflows. The same bits on every machine.
 /// @pre `faces` were packed for settings.law and settings.shape
 Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
                        const Twist& relative_twist, const LoadSettings& settings,

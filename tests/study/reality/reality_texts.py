@@ -129,6 +129,10 @@ chord ahead of its middle, `glider` with spans of 1, 3 and 7 chords.
 | $\\xi_w$ in (49a): the whole lag | 0.370 | 85 | gliders of 7 : 1 do not glide |
 | $f_0$ in (49a): 1 in its place | 0.370 | 88 | no glider glides |
 | the lower branch of (49a) | 0.370 | 82 | cards fall 1.4 times as fast |
+
+**W per face**, from the thickness of the body under it, would give pitched blades more lift. The most it can give is $W = 1$ on all
+faces: so tried, the toy propeller climbs 0.59 m in place of 0.51 m, not the 0.68 m of the published law, and sheets, which have $W = 1$,
+stay as they are. It was not made; fins of one mesh with their hull have the hull's $W$.
 """
 
 DRAWN = """\

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "bullet_ambient/force/kernels/lane_vectors.h"
+
+namespace ambient {
+namespace {
+
+/// Constants of a shape and its motion that the form law asks for, the same in all lanes; zero
+/// without a wing. The motion: FaceMotion or SingleMotion.
+template <class Lanes>
+struct WingLanes {
+  VectorsOf<Lanes> facing = {}, span = {}, slender = {};
+  Lanes pitching_rate = {}, slip_share = {};
+
+  template <class Motion>
+  explicit WingLanes(const Motion& motion) {
+    slip_share = slip_share + motion.slip_share;
+    if (!motion.wing) return;
+    facing = inAllLanes<Lanes>(motion.wing->facing);
+    span = inAllLanes<Lanes>(motion.wing->span);
+    slender = inAllLanes<Lanes>(motion.wing->slender);
+    pitching_rate = pitching_rate + motion.pitching_rate;
+  }
+};
+
+}  // namespace
+}  // namespace ambient
