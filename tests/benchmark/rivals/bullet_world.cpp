@@ -28,7 +28,7 @@ std::unique_ptr<btCollisionShape> shapeOf(const Solid& solid) {
 }  // namespace
 
 BulletWorld::BulletWorld(const Scene& scene) : scene_(scene) {
-  world_.setGravity({0, 0, btScalar(-kGravity)});
+  world_.setGravity({0, 0, btScalar(-scene.gravity)});
   shapes_.push_back(shapeOf(scene.solid));
   const double mass = scene.solid.density * volumeOf(scene.solid);
   btVector3 moments;

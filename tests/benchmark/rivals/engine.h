@@ -43,6 +43,7 @@ struct Scene {
   Solid solid;
   std::vector<Motion> starts;
   double step = 1.0 / 60;           ///< [s]
+  double gravity = kGravity;        ///< along -z [m/s^2]
   bool has_surface = false;         ///< water below z = 0 only
   bool is_ideal = false;            ///< water without drag and friction
   std::optional<double> room = {};  ///< floor at z = 0, walls at this distance from the z axis [m]

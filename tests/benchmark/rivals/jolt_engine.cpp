@@ -148,7 +148,7 @@ class JoltWorld : public World {
 
   const Scene scene_;
   const bool has_fluid_;
-  const JPH::Vec3 gravity_{0, 0, float(-kGravity)};
+  const JPH::Vec3 gravity_{0, 0, float(-scene_.gravity)};
   const JPH::RVec3 surface_{0, 0, scene_.has_surface ? 0.0f : 1000.0f};
   const float buoyancy_ = float(kWaterDensity / scene_.solid.density);
   const float linear_drag_ = scene_.is_ideal ? 0 : 0.5f,

@@ -53,7 +53,7 @@ void writeBodies(std::ostream& out, const Scene& scene, bool has_fluid) {
 std::string modelOf(const Scene& scene, bool has_fluid) {
   std::ostringstream out;
   out.precision(17);
-  out << "<mujoco><option timestep='" << scene.step << "' gravity='0 0 " << -kGravity
+  out << "<mujoco><option timestep='" << scene.step << "' gravity='0 0 " << -scene.gravity
       << "' density='" << (has_fluid ? kWaterDensity : 0) << "' viscosity='"
       << (has_fluid && !scene.is_ideal ? kWaterViscosity : 0) << "'/>\n<size memory='1G'/>\n"
       << "<default><geom fluidshape='" << (has_fluid ? "ellipsoid" : "none") << "' friction='0.5'"
