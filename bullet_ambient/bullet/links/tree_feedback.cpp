@@ -54,6 +54,7 @@ void writeJointForces(AmbientTree& tree, const TreeTask& task) noexcept {
   dynamics.setPose(step.pose);
   dynamics.setVelocity(step.moved);
   addOuterWrenches(tree, task.duration);
+  dynamics.setPose(step.pose);  // takes these
   step.change = (step.end - step.start) / task.duration;
   dynamics.inverseDynamics(step.moved, step.change, step.spare);
   const btContactSolverInfo& info = task.bodies.trees.world()->getSolverInfo();

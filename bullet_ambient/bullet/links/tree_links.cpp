@@ -92,7 +92,8 @@ Vector3 flowAround(const LinkTree& tree) noexcept {
 bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept {
   readLinks(*tree.multi_body, tree.tree);
   for (const auto& link : tree.links) standIn(*link, *tree.multi_body, task.gravity);
-  if (!task.bodies.regions.empty() || hasWakes(tree)) placeStandIns(tree, tree.step.start);
+  if (!task.bodies.regions.empty() || tree.tree.size() == 1 || hasWakes(tree))
+    placeStandIns(tree, tree.step.start);
   bool is_in_fluid = false;
   for (const auto& link : tree.links) {
     prepareLink(*link, tree, task);

@@ -5,8 +5,8 @@
 
 AMBIENT_BEGIN
 
-/// Brings links, their fluids and forces up to date at the start of a substep. False if no link is
-/// in a fluid. Allocates nothing.
+/// Brings links, their fluids and forces up to date at the start of a substep, and the stand-ins of
+/// a tree without joints to where it is. False if no link is in a fluid. Allocates nothing.
 bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept;
 
 /// The flow from which the motion of a tree is seen: that of its links, if it is one and the base

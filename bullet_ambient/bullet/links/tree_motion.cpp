@@ -84,6 +84,7 @@ bool prepareRows(AmbientTree& tree, double h) {
   addCount(result.count, tree);
   if (!result.is_finite) return false;
   step.outcome = TreeOutcome::kRows;
+  for (const auto& link : tree.links) link->ambient.memory = {};
   step.end = flight.rowVelocity();
   step.moved = step.end;
   subtractFlow(tree.tree, step.moved);
@@ -202,11 +203,6 @@ void keepIntegrals(AmbientTree& tree, double h) {
 bool begin(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   if (!step.was_awake) return prepareWoken(tree);
-  if (!step.turns_rows && flyAsBody(tree, task)) {
-    step.outcome = TreeOutcome::kFlown;
-    step.reserve = 0;
-    return true;
-  }
   if (isAtSurface(tree)) {
     step.surface.start = step.start;
     kickAtSurface(tree, task);
@@ -215,29 +211,60 @@ bool begin(AmbientTree& tree, const TreeTask& task) {
   return step.turns_rows ? prepareRows(tree, task.duration) : fly(tree, task);
 }
 
+void beginAlone(AmbientTree& tree, const TreeTask& task) {
+  if (!begin(tree, task)) {
+    giveUp(tree, task.bodies);
+    return;
+  }
+  const TreeStep& step = tree.step;
+  writeVelocity(*tree.multi_body, step.outcome == TreeOutcome::kFlown ? step.end : step.moved);
+}
+
+// It is at the end of a flight as a body.
+void arriveAsBody(AmbientTree& tree) {
+  TreeStep& step = tree.step;
+  step.outcome = TreeOutcome::kFlown;
+  step.reserve = 0;
+  const RigidState& end = tree.links.front()->ambient.outcome.flight.state;
+  step.pose.orientation = end.orientation;
+  step.pose.position = end.position;
+  tree.flight.stay(step.pose, step.end);
+  writeVelocity(*tree.multi_body, step.end);
+}
+
 }  // namespace
 
-void meetTree(AmbientTree& tree, const TreeTask& task) noexcept {
+bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept {
   AMBIENT_ASSERT(task.duration > 0 && !tree.links.empty());
   TreeStep& step = tree.step;
   btMultiBody& body = *tree.multi_body;
-  if (isAsleep(body)) return;
+  if (isAsleep(body)) return true;
   step.outcome = TreeOutcome::kStock;
   step.meets_surface = false;
   readPose(body, step.pose);
   stopIfNotFinite(tree, task.bodies);
-  if (!prepareLinks(tree, task)) return;
+  if (!prepareLinks(tree, task)) return true;
   beginTreeReading(tree);
   if (body.isUsingRK4Integration()) {
     task.bodies.complaints.say(Complaint::kRungeKutta);
     body.setPosUpdated(false);
     setInstanceNumber(body, tree.instance);
   }
-  if (!begin(tree, task)) {
-    giveUp(tree, task.bodies);
-    return;
+  if (fliesAsBody(tree)) return false;
+  beginAlone(tree, task);
+  return true;
+}
+
+void meetAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept {
+  bool have_flown[kFlightsTogether] = {};
+  flyAsBodies(trees, count, task, have_flown);
+  for (int i = 0; i < count; ++i) {
+    if (have_flown[i]) {
+      arriveAsBody(*trees[i]);
+    } else {
+      beginAlone(*trees[i], task);
+    }
   }
-  writeVelocity(body, step.outcome == TreeOutcome::kFlown ? step.end : step.moved);
 }
 
 void finishTree(AmbientTree& tree, const TreeTask& task) noexcept {

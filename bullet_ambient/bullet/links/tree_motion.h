@@ -24,9 +24,13 @@ AMBIENT_BEGIN
 // as eq. (31) does it with bodies. Its energy stays within (31a), whatever the turn: more than that
 // only if turns in the steps before have lost as much.
 
-/// Before the rows: gives it the velocity that they are solved against. @pre its velocity before
-/// the substep is kept in `step`
-void meetTree(AmbientTree& tree, const TreeTask& task) noexcept;
+/// Before the rows: gives it the velocity that they are solved against. False if that is left to
+/// meetAsBodies(). @pre its velocity before the substep is kept in `step`
+bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept;
+
+/// The same for up to kFlightsTogether trees without joints, which meetTree() has left: they fly
+/// side by side.
+void meetAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
 
 /// After them: the velocity by which Bullet is to move it.
 void finishTree(AmbientTree& tree, const TreeTask& task) noexcept;

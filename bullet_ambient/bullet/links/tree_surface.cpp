@@ -1,11 +1,9 @@
 #include "bullet_ambient/bullet/links/tree_surface.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "bullet_ambient/bullet/links/tree_energy.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
-#include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
@@ -33,10 +31,6 @@ Vector6 endTwist(const LinkDynamics& dynamics, int link, const Medium& water, do
   const Vector3 flow = water.velocity + duration * water.acceleration;
   twist.linear -= dynamics.rotation(link).transpose() * flow;
   return twist.vector();
-}
-
-bool fliesAsBody(const AmbientTree& tree) {
-  return tree.tree.size() == 1 && !tree.tree.links.front().keeps_velocity && isAtSurface(tree);
 }
 
 }  // namespace
@@ -79,37 +73,6 @@ void passSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   const double removed = arriveAtSurface(tree);
   const bool has_rows = step.outcome == TreeOutcome::kRows || !step.change.isZero(0);
   countEnergyRemoved(removed + (has_rows ? 0 : boundEnergy(tree, task.duration)), tree);
-}
-
-bool flyAsBody(AmbientTree& tree, const TreeTask& task) noexcept {
-  if (!fliesAsBody(tree)) return false;
-  TreeStep& step = tree.step;
-  placeStandIns(tree, step.start);
-  AmbientLink& base = *tree.links.front();
-  const Wrench applied = tree.flight.dynamics().appliedWrench(0);
-  base.stand_in.clearForces();
-  base.stand_in.applyCentralForce(toBullet(applied.force));
-  base.stand_in.applyTorque(toBullet(applied.torque));
-  AmbientBody* const bodies[] = {&base.ambient};
-  Twist change_W;
-  const FlightMemory memory = base.ambient.memory;
-  const SurfaceEncounter encounter = base.ambient.encounter;
-  beginFlights(bodies, 1, task.duration, &change_W);
-  const FlightEnd& end = base.ambient.outcome.flight;
-  const bool has_flown =
-      std::exchange(base.ambient.outcome.kind, Outcome::kNotMet) == Outcome::kFlown;
-  if (has_flown) {
-    step.moved = stack(end.effective_W.angular, end.effective_W.linear);
-    step.end = stack(end.twist_W.angular, end.twist_W.linear);
-  }
-  if (!has_flown || turnsTooFastForBullet(tree.tree, step.moved, task.duration)) {
-    base.ambient.memory = memory;
-    base.ambient.encounter = encounter;
-    return false;
-  }
-  base.ambient.left_W = end.twist_W;
-  if (end.is_too_long) task.bodies.complaints.sayTooLong(base.ambient.def);
-  return true;
 }
 
 AMBIENT_END

@@ -28,8 +28,4 @@ double arriveAtSurface(AmbientTree& tree) noexcept;
 /// have moved it.
 void passSurface(AmbientTree& tree, const TreeTask& task) noexcept;
 
-/// Flies a tree without joints, at a surface, as a body. False if it is none, or turns so fast that
-/// Bullet would not bring it to the end of the flight. @pre prepareLinks()
-bool flyAsBody(AmbientTree& tree, const TreeTask& task) noexcept;
-
 AMBIENT_END

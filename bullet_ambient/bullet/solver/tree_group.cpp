@@ -7,10 +7,13 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include <utility>
+
 #include "bullet_ambient/bullet/links/tree_motion.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_link.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
+#include "bullet_ambient/motion/flight/flight_task.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -96,8 +99,14 @@ void TreeGroup::meet(const btContactSolverInfo& info) noexcept {
   bodies_.solved.fetch_add(1, std::memory_order_relaxed);
   markTurningRows();
   const TreeTask task = taskOf(bodies_, info.m_timeStep);
-  forEachTree(*bodies_.trees.world(), bodies_.trees,
-              [&task](AmbientTree& tree) { meetTree(tree, task); });
+  AmbientTree* lone[kFlightsTogether];
+  int count = 0;
+  forEachTree(*bodies_.trees.world(), bodies_.trees, [&](AmbientTree& tree) {
+    if (meetTree(tree, task)) return;
+    lone[count++] = &tree;
+    if (count == kFlightsTogether) meetAsBodies(lone, std::exchange(count, 0), task);
+  });
+  if (count > 0) meetAsBodies(lone, count, task);
 }
 
 const AmbientTrees* TreeGroup::met() const noexcept {

@@ -78,9 +78,13 @@ double jointSpin(const Joint& joint, const double* velocity) noexcept {
   }
 }
 
-FrameOffset linkOffset(const Joint& joint, const JointPosition& position) noexcept {
+Matrix3 zeroAxes(const Joint& joint) noexcept {
   AMBIENT_ASSERT(!(std::abs(joint.zero_rotation.squaredNorm() - 1) > 1e-3));
-  const Matrix3 from_zero = joint.zero_rotation.toRotationMatrix().transpose();
+  return joint.zero_rotation.toRotationMatrix().transpose();
+}
+
+FrameOffset linkOffset(const Joint& joint, const Matrix3& from_zero,
+                       const JointPosition& position) noexcept {
   FrameOffset offset{from_zero, joint.parent_to_pivot};
   switch (joint.kind) {
     case JointKind::kFixed:

@@ -48,8 +48,15 @@ struct Joint {
 /// Speed of turning about a joint with these velocities along its axes [rad/s].
 double jointSpin(const Joint& joint, const double* velocity) noexcept;
 
-/// Pose of the link in its parent's frame.
-FrameOffset linkOffset(const Joint& joint, const JointPosition& position) noexcept;
+/// Axes of the link in its parent's, where the position is zero.
+Matrix3 zeroAxes(const Joint& joint) noexcept;
+
+/// Pose of the link in its parent's frame. `zero_axes`: zeroAxes() of the joint.
+FrameOffset linkOffset(const Joint& joint, const Matrix3& zero_axes,
+                       const JointPosition& position) noexcept;
+inline FrameOffset linkOffset(const Joint& joint, const JointPosition& position) noexcept {
+  return linkOffset(joint, zeroAxes(joint), position);
+}
 
 /// Position that the joint reaches in time h [s] with constant velocities along its axes: the link
 /// turns and slides along one screw.

@@ -1,42 +1,33 @@
 #include "bullet_ambient/motion/links/link_dynamics.h"
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/body/kirchhoff.h"
 
 namespace ambient {
 namespace {
 
-// Twist of the base in its frame from u, and back.
-Twist baseTwist(const Matrix3& rotation_W, const double* u) {
-  const Vector3 w(u[0], u[1], u[2]), v(u[3], u[4], u[5]);
-  return {rotation_W.transpose() * w, rotation_W.transpose() * v};
-}
-void putInWorld(const Matrix3& rotation_W, const Vector3& a, const Vector3& b, double* u) {
-  const Vector3 a_W = rotation_W * a, b_W = rotation_W * b;
-  for (int i = 0; i < 3; ++i) {
-    u[i] = a_W[i];
-    u[3 + i] = b_W[i];
-  }
-}
+static_assert(sizeof(LinkState::axis) == kMaxJointAxes * sizeof(AxisPair));
 
-// S q' of a joint.
-Twist jointTwist(const LinkState& link, const double* velocity) {
-  Twist x{Vector3::Zero(), Vector3::Zero()};
-  for (int i = 0; i < link.axes; ++i) {
-    x.angular += velocity[i] * link.axis[i].angular;
-    x.linear += velocity[i] * link.axis[i].linear;
-  }
-  return x;
+void put(const Vector3& a, AxisRow& row) { row = {{a[0], a[1], a[2], 0}}; }
+template <class Block>
+void put(const Block& m, AxisMatrix& matrix) {
+  for (int j = 0; j < 3; ++j) matrix.column[j] = {{m(0, j), m(1, j), m(2, j), 0}};
+}
+void put(const Wrench& f, AxisPair& pair) {
+  put(f.torque, pair.angular);
+  put(f.force, pair.linear);
+}
+void put(const FrameOffset& offset, LinkState& link) {
+  put(offset.rotation, link.offset);
+  put(offset.rotation.transpose(), link.offset_transposed);
+  put(offset.translation, link.translation);
 }
 
-Twist plus(const Twist& a, const Twist& b) { return {a.angular + b.angular, a.linear + b.linear}; }
-
-// V x S q', the acceleration of a link by the turn of its axes.
-Twist crossTwist(const Twist& V, const Twist& s) {
-  return {V.angular.cross(s.angular), V.linear.cross(s.angular) + V.angular.cross(s.linear)};
+const LinkKernel& fastestKernel() {
+  static const LinkKernel& fastest = *kLinkKernels.fastest();
+  return fastest;
 }
 
-// Bullet's damping of the dry mass.
+// Bullet's damping of the dry mass, in the link's frame.
 Wrench dampingWrench(const LinkTree& tree, const Link& link, const Twist& V) {
   const double linear = tree.linear_damping * (1 + V.linear.norm());
   const double angular = tree.angular_damping * (1 + V.angular.norm());
@@ -45,7 +36,7 @@ Wrench dampingWrench(const LinkTree& tree, const Link& link, const Twist& V) {
 
 }  // namespace
 
-LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree) {
+LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree), kernel_(fastestKernel()) {
   checkTree(tree);
   coordinates_ = coordinateCount(tree);
   missing_.resize(coordinates_);
@@ -56,163 +47,201 @@ LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree) {
     LinkState& state = links_[l];
     state.parent = link.parent;
     state.first = first[l];
-    state.axes = l == 0 ? 0 : axisCount(link.joint.kind);
-    for (int i = 0; i < state.axes; ++i) state.axis[i] = Twist::fromVector(link.joint.axes[i]);
+    state.axis_count = l == 0 ? 0 : axisCount(link.joint.kind);
+    for (int i = 0; i < state.axis_count; ++i)
+      put(Wrench::fromVector(link.joint.axes[i]), state.axis[i]);
+    zero_axes_.push_back(zeroAxes(link.joint));
   }
+}
+
+TreeHabits LinkDynamics::habits() const {
+  return {tree_.linear_damping, tree_.angular_damping, tree_.has_gyroscopic_term};
 }
 
 void LinkDynamics::setPose(const TreePose& pose) noexcept {
+  for (int l = 0; l < count(); ++l) takeModel(tree_.links[l], links_[l]);
+  moveTo(pose);
+}
+
+void LinkDynamics::moveTo(const TreePose& pose) noexcept {
   AMBIENT_ASSERT(static_cast<int>(pose.joints.size()) == tree_.size());
-  for (int l = 0; l < tree_.size(); ++l) {
-    const Link& link = tree_.links[l];
-    LinkState& state = links_[l];
-    if (l == 0) {
-      state.offset = {pose.orientation.toRotationMatrix(), pose.position};
-      state.rotation_W = state.offset.rotation;
-      state.position_W = pose.position;
-      state.is_kept = link.keeps_velocity;
-    } else {
-      const LinkState& parent = links_[state.parent];
-      state.offset = linkOffset(link.joint, pose.joints[l]);
-      state.rotation_W = parent.rotation_W * state.offset.rotation;
-      state.position_W = parent.position_W + parent.rotation_W * state.offset.translation;
-      state.is_kept = link.keeps_velocity && parent.is_kept;
-    }
-    takeModel(link, state);
-  }
+  put(FrameOffset{pose.orientation.toRotationMatrix(), pose.position}, links_[0]);
+  for (int l = 1; l < count(); ++l)
+    put(linkOffset(tree_.links[l].joint, zero_axes_[l], pose.joints[l]), links_[l]);
+  kernel_.place(links_.data(), count());
 }
 
 void LinkDynamics::takeModel(const Link& link, LinkState& state) noexcept {
+  const Surroundings& s = link.surroundings;
+  state.is_kept = link.keeps_velocity && (state.parent < 0 || links_[state.parent].is_kept);
+  state.mass = link.mass;
+  put(link.inertia, state.moments);
+  Wrench applied = s.applied;
   if (link.model) {
-    state.inertia = LinkInertia::fromMatrix(link.model->inertia);
-    state.flow = state.rotation_W.transpose() * link.surroundings.ambient_velocity;
+    const BodyModel& model = *link.model;
+    const auto coupling = model.inertia.topRightCorner<3, 3>();
+    put(model.inertia.topLeftCorner<3, 3>(), state.inertia.rotation);
+    put(coupling, state.inertia.coupling);
+    put(coupling.transpose(), state.coupling_transposed);
+    put(model.inertia.bottomRightCorner<3, 3>(), state.inertia.translation);
+    applied.force -= model.mass * s.ambient_acceleration;
+    put(Vector3(-model.displaced_mass * (s.gravity - s.ambient_acceleration)), state.buoyancy_W);
+    put(model.centre_of_volume, state.centre_of_volume);
+    put(s.ambient_velocity, state.flow_W);
+    put(s.ambient_acceleration, state.flow_acceleration_W);
+    state.accelerates_flow = !s.ambient_acceleration.isZero(0);
   } else {
-    state.inertia = LinkInertia::ofBody(link.mass, link.inertia);
-    state.flow.setZero();
+    put(Matrix3(link.inertia.asDiagonal()), state.inertia.rotation);
+    put(Matrix3(Matrix3::Zero()), state.inertia.coupling);
+    state.coupling_transposed = state.inertia.coupling;
+    put(Matrix3(link.mass * Matrix3::Identity()), state.inertia.translation);
+    state.buoyancy_W = state.centre_of_volume = state.flow_W = state.flow_acceleration_W = {};
+    state.accelerates_flow = false;
   }
+  put(applied, state.applied_W);
+}
+
+Matrix3 LinkDynamics::rotation(int link) const {
+  const AxisMatrix& from = links_[link].rotation_W;
+  Matrix3 R;
+  for (int j = 0; j < 3; ++j) R.col(j) = vectorOf(from.column[j]);
+  return R;
 }
 
 void LinkDynamics::setVelocity(const CoordinatesIn& u) noexcept {
   AMBIENT_ASSERT(u.size() == coordinates_);
-  for (LinkState& link : links_) {
-    link.twist = link.parent < 0 ? baseTwist(link.rotation_W, u.data())
-                                 : plus(link.offset.toF(links_[link.parent].twist),
-                                        jointTwist(link, u.data() + link.first));
-  }
+  kernel_.setVelocity(links_.data(), count(), u.data());
 }
 
-// V, A and f of eq. (76), (77) with the given du/dt, null for none.
-void LinkDynamics::computeForces(const double* u, const double* acceleration) noexcept {
-  for (int l = 0; l < tree_.size(); ++l) {
-    LinkState& link = links_[l];
-    if (l == 0) {
-      link.twist = baseTwist(link.rotation_W, u);
-      link.acceleration = {Vector3::Zero(), Vector3::Zero()};
-      if (!link.is_kept) link.acceleration.linear = link.twist.linear.cross(link.twist.angular);
-      if (acceleration)
-        link.acceleration = plus(link.acceleration, baseTwist(link.rotation_W, acceleration));
-    } else {
-      const LinkState& parent = links_[link.parent];
-      const Twist relative = jointTwist(link, u + link.first);
-      link.twist = plus(link.offset.toF(parent.twist), relative);
-      link.acceleration =
-          plus(link.offset.toF(parent.acceleration), crossTwist(link.twist, relative));
-      if (acceleration)
-        link.acceleration = plus(link.acceleration, jointTwist(link, acceleration + link.first));
-    }
-    link.force = forceOn(tree_.links[l], link);
-  }
-}
-
-// f of one link: what accelerates it, less what acts on it.
-Wrench LinkDynamics::forceOn(const Link& link, const LinkState& state) const noexcept {
-  const Twist V_r{state.twist.angular, state.twist.linear - state.flow};
-  const Twist A_r{state.acceleration.angular,
-                  state.acceleration.linear + state.twist.angular.cross(state.flow)};
-  Wrench f = state.inertia.wrench(A_r);
-  f -= gyroscopicWrench(state.inertia.momentum(V_r), V_r);
-  f -= appliedOn(link, state);
-  return f;
-}
-
-// Returns the wrench of the surroundings and of Bullet's own forces on a link, in its frame.
-Wrench LinkDynamics::appliedOn(const Link& link, const LinkState& state) const noexcept {
-  const Surroundings& s = link.surroundings;
-  const auto to_link = state.rotation_W.transpose();
-  Wrench f = link.model ? externalWrench(*link.model, s, state.rotation_W)
-                        : Wrench{to_link * s.applied.torque, to_link * s.applied.force};
-  if (link.model && s.ambient_acceleration != Vector3::Zero())
-    f += state.inertia.wrench({Vector3::Zero(), to_link * s.ambient_acceleration});
-  if (tree_.linear_damping != 0 || tree_.angular_damping != 0)
-    f += dampingWrench(tree_, link, state.twist);
-  if (!tree_.has_gyroscopic_term) {
-    const Vector3& w = state.twist.angular;
-    f.torque += w.cross(link.inertia.cwiseProduct(w));
-  }
-  return f;
-}
+void LinkDynamics::measure() noexcept { kernel_.measure(links_.data(), count()); }
 
 Wrench LinkDynamics::appliedWrench(int link) const noexcept {
-  const LinkState& state = links_[link];
-  const Wrench damping = dampingWrench(tree_, tree_.links[link], state.twist);
+  const Matrix3 R = rotation(link);
+  const Wrench damping = dampingWrench(tree_, tree_.links[link], twist(link));
   const Wrench& applied = tree_.links[link].surroundings.applied;
-  return {applied.torque + state.rotation_W * damping.torque,
-          applied.force + state.rotation_W * damping.force};
+  return {applied.torque + R * damping.torque, applied.force + R * damping.force};
+}
+
+bool LinkDynamics::factor() noexcept {
+  return kernel_.articulate(links_.data(), count(), nullptr, base_);
+}
+
+bool LinkDynamics::factor(const std::vector<double>& drag) noexcept {
+  AMBIENT_ASSERT(drag.size() == links_.size());
+  return kernel_.articulate(links_.data(), count(), drag.data(), base_);
+}
+
+double LinkDynamics::roughNormSquared(const CoordinatesIn& u) const noexcept {
+  const auto trace = [](const AxisMatrix& m) {
+    return m.column[0].at[0] + m.column[1].at[1] + m.column[2].at[2];
+  };
+  const LinkState& base = links_[0];
+  double sum = 0;
+  if (!base.is_kept) {
+    sum = (trace(base.articulated.rotation) * u.head<3>().squaredNorm() +
+           trace(base.articulated.translation) * u.segment<3>(3).squaredNorm()) /
+          3;
+  }
+  for (const LinkState& link : links_) {
+    if (link.is_kept) continue;
+    for (int i = 0; i < link.axis_count; ++i)
+      sum += link.weight[i] * u[link.first + i] * u[link.first + i];
+  }
+  return sum;
+}
+
+void LinkDynamics::accelerations(const CoordinatesIn& u, CoordinatesOut result) noexcept {
+  AMBIENT_ASSERT(u.size() == coordinates_ && result.size() == coordinates_);
+  kernel_.computeForces(links_.data(), count(), habits(), u.data(), nullptr);
+  takeJointForces();
+  solve(result.data());
+}
+
+void LinkDynamics::correctAccelerations(const CoordinatesIn& u,
+                                        CoordinatesOut accelerations) noexcept {
+  AMBIENT_ASSERT(u.size() == coordinates_ && accelerations.size() == coordinates_);
+  kernel_.computeForces(links_.data(), count(), habits(), u.data(), accelerations.data());
+  takeJointForces();
+  solve(missing_.data());
+  accelerations += missing_;
+}
+
+void LinkDynamics::takeJointForces() noexcept {
+  for (std::size_t l = 1; l < links_.size(); ++l)
+    for (int i = 0; i < links_[l].axis_count; ++i)
+      links_[l].rest[i] = tree_.links[l].joint_force[i];
+}
+
+void LinkDynamics::respond(const CoordinatesIn& force, CoordinatesOut response) noexcept {
+  AMBIENT_ASSERT(force.size() == coordinates_ && response.size() == coordinates_);
+  for (LinkState& link : links_) {
+    link.force = {};
+    for (int i = 0; i < link.axis_count; ++i) link.rest[i] = force[link.first + i];
+  }
+  const Matrix3 to_base = rotation(0).transpose();
+  put(Wrench{to_base * -force.head<3>(), to_base * -force.segment<3>(3)}, links_[0].force);
+  solve(response.data());
+}
+
+void LinkDynamics::respond(const std::vector<Wrench>& wrenches, CoordinatesOut response) noexcept {
+  AMBIENT_ASSERT(wrenches.size() == links_.size());
+  AMBIENT_ASSERT(response.size() == coordinates_);
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    put(-1.0 * wrenches[l], links_[l].force);
+    for (double& rest : links_[l].rest) rest = 0;
+  }
+  solve(response.data());
+}
+
+void LinkDynamics::solve(double* result) noexcept {
+  kernel_.solve(links_.data(), count(), base_, result);
 }
 
 void LinkDynamics::inverseDynamics(const CoordinatesIn& u, const CoordinatesIn& acceleration,
                                    CoordinatesOut force) noexcept {
   AMBIENT_ASSERT(u.size() == coordinates_ && acceleration.size() == coordinates_);
-  computeForces(u.data(), acceleration.data());
-  sumForces(force.data());
-}
-
-// Subtree sums of the links' forces, and what they are along the coordinates.
-void LinkDynamics::sumForces(double* force) noexcept {
-  for (int l = tree_.size() - 1; l > 0; --l) {
-    const LinkState& link = links_[l];
-    for (int i = 0; i < link.axes; ++i) force[link.first + i] = power(link.force, link.axis[i]);
-    links_[link.parent].force += link.offset.toB(link.force);
-  }
-  const LinkState& base = links_[0];
-  putInWorld(base.rotation_W, base.force.torque, base.force.force, force);
+  kernel_.computeForces(links_.data(), count(), habits(), u.data(), acceleration.data());
+  kernel_.sumForces(links_.data(), count(), force.data());
 }
 
 void LinkDynamics::momentum(const CoordinatesIn& u, CoordinatesOut result) noexcept {
   AMBIENT_ASSERT(result.size() == coordinates_);
   setVelocity(u);
-  for (LinkState& link : links_) {
-    link.force = link.inertia.wrench(link.twist);
-  }
-  sumForces(result.data());
+  kernel_.computeMomenta(links_.data(), count());
+  kernel_.sumForces(links_.data(), count(), result.data());
 }
 
 double LinkDynamics::normSquared(const CoordinatesIn& u) noexcept {
   setVelocity(u);
-  double sum = 0;
-  for (const LinkState& link : links_) sum += power(link.inertia.wrench(link.twist), link.twist);
-  return sum;
+  return kernel_.norm(links_.data(), count());
 }
 
 double LinkDynamics::kineticEnergy(const CoordinatesIn& u) noexcept {
   setVelocity(u);
+  measure();
   double twice = 0;
-  for (int l = 0; l < tree_.size(); ++l) {
-    const Twist V_r = relativeTwist(l);
-    const Vector3& v = links_[l].twist.linear;
-    twice += power(links_[l].inertia.wrench(V_r), V_r) +
-             tree_.links[l].mass * (v.squaredNorm() - V_r.linear.squaredNorm());
-  }
+  for (int l = 0; l < tree_.size(); ++l)
+    twice += relativeEnergy(l) + tree_.links[l].mass * (twist(l).linear.squaredNorm() -
+                                                        relativeTwist(l).linear.squaredNorm());
   return 0.5 * twice;
 }
 
 void LinkDynamics::appliedForces(CoordinatesOut result) noexcept {
   AMBIENT_ASSERT(result.size() == coordinates_);
-  for (int l = 0; l < tree_.size(); ++l) links_[l].force = appliedOn(tree_.links[l], links_[l]);
-  sumForces(result.data());
+  kernel_.computeApplied(links_.data(), count(), habits());
+  kernel_.sumForces(links_.data(), count(), result.data());
   for (int l = 1; l < tree_.size(); ++l)
-    for (int i = 0; i < links_[l].axes; ++i)
+    for (int i = 0; i < links_[l].axis_count; ++i)
       result[links_[l].first + i] += tree_.links[l].joint_force[i];
+}
+
+void LinkDynamics::holdJoints() noexcept { kernel_.holdJoints(links_.data(), count(), held_); }
+
+Vector6 LinkDynamics::answerHeld(const Vector6& momentum) const noexcept {
+  const Matrix3 R = rotation(0);
+  Vector6 result = stack(R.transpose() * momentum.head<3>(), R.transpose() * momentum.tail<3>());
+  kernel_.answer(held_, result.data());
+  return stack(R * result.head<3>(), R * result.tail<3>());
 }
 
 Eigen::MatrixXd LinkDynamics::massMatrix() {
@@ -220,7 +249,7 @@ Eigen::MatrixXd LinkDynamics::massMatrix() {
   for (int i = 0; i < coordinates_; ++i) momentum(Eigen::VectorXd::Unit(coordinates_, i), H.col(i));
   for (const LinkState& link : links_) {
     if (!link.is_kept) continue;
-    const int count = link.parent < 0 ? 6 : link.axes;
+    const int count = link.parent < 0 ? 6 : link.axis_count;
     H.middleRows(link.first, count).setZero();
     H.middleCols(link.first, count).setZero();
     H.block(link.first, link.first, count, count).setIdentity();

@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "bullet_ambient/motion/links/link_state.h"
+#include "bullet_ambient/motion/links/link_kernel.h"
 #include "bullet_ambient/motion/links/link_tree.h"
-#include "bullet_ambient/spatial/cholesky.h"
 
 namespace ambient {
 
@@ -16,9 +15,9 @@ namespace ambient {
 ///   V_l  twist of a link in its frame, V_rl relative to its ambient flow
 ///
 /// H is not formed: it is factored by articulated inertias, in time and memory proportional to the
-/// links. All but the constructor is free of allocation. A result is not finite where an input is
-/// not: check before use. Velocities that are kept (Link::keeps_velocity) have zero in
-/// accelerations and responses.
+/// links, by kernels with the same bits on every instruction set. All but the constructor is free
+/// of allocation. A result is not finite where an input is not: check before use. Velocities that
+/// are kept (Link::keeps_velocity) have zero in accelerations and responses.
 class LinkDynamics {
  public:
   /// `tree` has to live as long. Its models and what is set in each step may change; links and
@@ -30,14 +29,14 @@ class LinkDynamics {
   /// First coordinate of the link's joint in u: 6 + btMultibodyLink::m_dofOffset; 0 for the base.
   int firstCoordinate(int link) const { return links_[link].first; }
 
-  /// Takes pose, models and flows; all that follows is for these. Cost: O(links).
+  /// Takes pose, models, flows and forces; all that follows is for these. Cost: O(links).
   void setPose(const TreePose& pose) noexcept;
+  /// Takes another pose, with the models, flows and forces of the last setPose().
+  void moveTo(const TreePose& pose) noexcept;
 
   /// Axes of a link, its frame to W, and its centre of mass in W [m].
-  const Matrix3& rotation(int link) const { return links_[link].rotation_W; }
-  const Vector3& position(int link) const { return links_[link].position_W; }
-
-  const LinkInertia& inertia(int link) const { return links_[link].inertia; }  ///< K
+  Matrix3 rotation(int link) const;
+  Vector3 position(int link) const { return vectorOf(links_[link].position_W); }
 
   /// Makes the articulated inertias that accelerations and responses need. False if H is not
   /// positive definite, or not finite. Cost: O(links).
@@ -68,16 +67,26 @@ class LinkDynamics {
   /// After inverseDynamics(): what the joint of `link` transmits from its parent, about the link's
   /// centre of mass in its axes. Surface loads and wrenches of constraints count if they are in
   /// surroundings.applied.
-  const Wrench& jointWrench(int link) const { return links_[link].force; }
+  Wrench jointWrench(int link) const { return wrenchOf(links_[link].force); }
 
   /// V_l of all links. accelerations() and inverseDynamics() do so too.
   void setVelocity(const CoordinatesIn& u) noexcept;
-  const Twist& twist(int link) const { return links_[link].twist; }
+  Twist twist(int link) const {
+    const AxisPair& x = links_[link].twist;
+    return {vectorOf(x.angular), vectorOf(x.linear)};
+  }
   /// Relative to the ambient flow.
   Twist relativeTwist(int link) const {
-    const LinkState& state = links_[link];
-    return {state.twist.angular, state.twist.linear - state.flow};
+    const Twist x = twist(link);
+    return {x.angular, x.linear - vectorOf(links_[link].flow)};
   }
+  /// Sets momentum and energy of the motion of all links relative to their flows. @pre
+  /// setVelocity()
+  void measure() noexcept;
+  /// K V_rl. @pre measure()
+  Wrench relativeMomentum(int link) const { return wrenchOf(links_[link].force); }
+  /// V_rl.K V_rl: twice the energy [J]. @pre measure()
+  double relativeEnergy(int link) const { return links_[link].energy; }
 
   /// Forces of surroundings and of Bullet's damping on a link, without buoyancy, in W about its
   /// centre of mass. @pre setPose(), setVelocity()
@@ -96,7 +105,7 @@ class LinkDynamics {
   /// does not accelerate with the flow. @pre setPose(), setVelocity()
   void appliedForces(CoordinatesOut result) noexcept;
 
-  /// Factors the inertia of a tree with all its joints held, in place of H.
+  /// Factors the inertia of a tree with all its joints held. The factor of H stays.
   void holdJoints() noexcept;
   /// Velocity that a momentum gives to the base of such a tree: both about its centre of mass, in
   /// W, rotation first. @pre holdJoints(), a base that does not keep its velocity
@@ -107,21 +116,22 @@ class LinkDynamics {
   Eigen::MatrixXd massMatrix();
 
  private:
-  static void takeModel(const Link& link, LinkState& state) noexcept;
-  void computeForces(const double* u, const double* acceleration) noexcept;
-  Wrench forceOn(const Link& link, const LinkState& state) const noexcept;
-  Wrench appliedOn(const Link& link, const LinkState& state) const noexcept;
-  void sumForces(double* force) noexcept;
-  bool articulate() noexcept;
-  static bool takeOutJoint(LinkState& link) noexcept;
+  static Vector3 vectorOf(const AxisRow& a) { return {a.at[0], a.at[1], a.at[2]}; }
+  static Wrench wrenchOf(const AxisPair& f) { return {vectorOf(f.angular), vectorOf(f.linear)}; }
+
+  int count() const { return static_cast<int>(links_.size()); }
+  TreeHabits habits() const;
+  void takeModel(const Link& link, LinkState& state) noexcept;
   void takeJointForces() noexcept;
   void solve(double* result) noexcept;
-  void solveBase(double* result) noexcept;
 
   const LinkTree& tree_;
   int coordinates_ = 0;
   std::vector<LinkState> links_;
-  Cholesky<6> base_;     // of its articulated inertia
+  std::vector<Matrix3> zero_axes_;  // of links in their parents' axes, at position zero
+  const LinkKernel& kernel_;
+  BaseFactor base_;      // of its articulated inertia
+  BaseFactor held_;      // of holdJoints()
   Coordinates missing_;  // of correctAccelerations()
 };
 

@@ -83,7 +83,7 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
     integrals_.addForces(dynamics_, mean_, h);
     movePose(tree_, end_pose_, mean_, h, end_pose_);
     double excess = std::max(converges ? 1.0 : 2.0, std::ceil(h * largestSpin() / kLargestTurn));
-    dynamics_.setPose(end_pose_);
+    dynamics_.moveTo(end_pose_);
     count.energy_removed += integrals_.impose(dynamics_, end_, is_last && excess > 1);
     double error = excess > 1 ? 1 : 0;  // 1: not known
     if (has_loads) {
@@ -128,7 +128,7 @@ bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexce
   double rest = 0, motion = 0;  // squares; rest: of what further iterations would change
   for (int i = 0; i < settings.max_iterations; ++i) {
     movePose(tree_, end_pose_, mean_, h / 2, middle_);
-    dynamics_.setPose(middle_);
+    dynamics_.moveTo(middle_);
     dynamics_.correctAccelerations(mean_, rate_);
     end_ = start_ + h / 2 * rate_ - mean_;
     mean_ += end_;
@@ -146,18 +146,17 @@ bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexce
 // ones. Returns the error of those.
 double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
   rate_ = end_;
-  kick_.kick(dynamics_, h / 2, rate_);
+  kick_.foresee(dynamics_, h / 2, rate_);
   countUp(kick_.sample(dynamics_, rate_), count);
-  const double error = kick_.error(dynamics_, h);
   kick_.kick(dynamics_, h / 2, end_);
-  return error;
+  return kick_.error(dynamics_, h);
 }
 
 double LinkFlight::arriveAt(const TreePose& reached, bool has_rows,
                             Coordinates& velocity) noexcept {
   dynamics_.setPose(end_pose_);
   integrals_.take(dynamics_, end_);
-  dynamics_.setPose(reached);
+  dynamics_.moveTo(reached);
   if (!has_rows) return integrals_.impose(dynamics_, velocity, true);
   integrals_.imposeMomentum(dynamics_, velocity);
   return 0;

@@ -35,6 +35,7 @@ Wrench LinkKick::Sample::at(const Wrench& momentum, double its_speed) const {
 FlightCount LinkKick::sample(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept {
   FlightCount count;
   dynamics.setVelocity(u);
+  dynamics.measure();
   for (int l = 0; l < tree_.size(); ++l) {
     Sample& sample = samples_[l];
     const Sample last = sample;
@@ -44,8 +45,8 @@ FlightCount LinkKick::sample(LinkDynamics& dynamics, const CoordinatesIn& u) noe
     const SurfaceLoad load = computeSurfaceLoad(*tree_.links[l].model, y);
     ++count.load_evaluations;
     count.guarded += load.guarded;
-    const Wrench momentum = dynamics.inertia(l).wrench(y);
-    const double energy = power(momentum, y);
+    const Wrench momentum = dynamics.relativeMomentum(l);
+    const double energy = dynamics.relativeEnergy(l);
     if (!(energy > 0)) continue;
     const double along = power(load.wrench, y) / energy;
     sample = {std::max(0.0, -along), std::sqrt(energy), load.wrench + -along * momentum};
@@ -74,14 +75,14 @@ double LinkKick::error(LinkDynamics& dynamics, double h) noexcept {
 void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {
   AMBIENT_ASSERT(h > 0 && u.size() == change_.size());
   dynamics.setVelocity(u);
+  dynamics.measure();
   for (int l = 0; l < tree_.size(); ++l) {
     const Sample& sample = samples_[l];
     drags_[l] = 0;
     drag_impulses_[l] = lift_impulses_[l] = {};
     if (!(sample.speed > 0)) continue;
-    const Twist x = dynamics.relativeTwist(l);
-    const Wrench momentum = dynamics.inertia(l).wrench(x);
-    const double ratio = std::sqrt(power(momentum, x)) / sample.speed;
+    const Wrench momentum = dynamics.relativeMomentum(l);
+    const double ratio = std::sqrt(dynamics.relativeEnergy(l)) / sample.speed;
     drags_[l] = h * ratio * sample.drag;
     drag_impulses_[l] = -drags_[l] * momentum;
     lift_impulses_[l] = h * ratio * ratio * sample.lift;
@@ -90,6 +91,23 @@ void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept
   dynamics.respond(drag_impulses_, change_);
   u += change_;
   applyLift(dynamics, u);
+}
+
+void LinkKick::foresee(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {
+  AMBIENT_ASSERT(h > 0 && u.size() == change_.size());
+  dynamics.setVelocity(u);
+  dynamics.measure();
+  for (int l = 0; l < tree_.size(); ++l) {
+    const Sample& sample = samples_[l];
+    drag_impulses_[l] = {};
+    if (!(sample.speed > 0)) continue;
+    const double ratio = std::sqrt(dynamics.relativeEnergy(l)) / sample.speed;
+    const double drag = h * ratio * sample.drag, left = 1 / (1 + drag), speed = ratio * left;
+    drag_impulses_[l] =
+        -drag * left * dynamics.relativeMomentum(l) + h * speed * speed * sample.lift;
+  }
+  dynamics.respond(drag_impulses_, change_);
+  u += change_;
 }
 
 // Lift does no work: where all links are in one flow, the energy relative to it is that after the
@@ -107,11 +125,9 @@ void LinkKick::applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept {
   }
   const double lift = dynamics.normSquared(change_);
   dynamics.setVelocity(u);
+  dynamics.measure();
   double motion = 0;
-  for (int l = 0; l < tree_.size(); ++l) {
-    const Twist x = dynamics.relativeTwist(l);
-    motion += power(dynamics.inertia(l).wrench(x), x);
-  }
+  for (int l = 0; l < tree_.size(); ++l) motion += dynamics.relativeEnergy(l);
   if (motion > 0) u += change_ / std::sqrt(1 + lift / motion);
 }
 

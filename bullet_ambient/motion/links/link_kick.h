@@ -20,13 +20,17 @@ class LinkKick {
   FlightCount sample(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
   /// By how much the last sample differed from what the one before it made expect, as a change of
   /// velocity in the time h over the motion: the error of docs/theory.md eq. (25). @pre kick()
-  /// before that sample, at its pose
+  /// after that sample, at its pose
   double error(LinkDynamics& dynamics, double h) noexcept;
 
   /// u after the time h [s] under the loads of the last sample alone, in place. They grow with the
   /// square of each link's speed. In one flow that the tree can follow, the energy relative to it
   /// does not grow, however long the time. `dynamics` is left without factor().
   void kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
+  /// Approximates kick(), for the next sample: drag slows each link down as if it was alone, and
+  /// the tree takes the motion nearest to that, as in eq. (81a). @pre factor(), of H at a pose
+  /// nearby
+  void foresee(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
 
  private:
   /// Load of a link at its twist y relative to the flow, in its frame: -drag K y + lift.

@@ -1,0 +1,66 @@
+// Flights of trees without joints.
+#include <utility>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/links/tree_flight.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/motion/flight/flight_task.h"
+
+AMBIENT_BEGIN
+namespace {
+
+AmbientLink& baseOf(const AmbientTree& tree) { return *tree.links.front(); }
+
+// Gives the stand-in the forces on the base.
+void applyForces(AmbientTree& tree) {
+  btRigidBody& stand_in = baseOf(tree).stand_in;
+  const Wrench applied = tree.flight.dynamics().appliedWrench(0);
+  stand_in.clearForces();
+  stand_in.applyCentralForce(toBullet(applied.force));
+  stand_in.applyTorque(toBullet(applied.torque));
+}
+
+// Takes the end of the flight of the stand-in. False if the tree cannot get there.
+bool takeFlight(AmbientTree& tree, const TreeTask& task) {
+  TreeStep& step = tree.step;
+  AmbientBody& ambient = baseOf(tree).ambient;
+  const FlightEnd& end = ambient.outcome.flight;
+  if (std::exchange(ambient.outcome.kind, Outcome::kNotMet) != Outcome::kFlown) return false;
+  step.moved << end.effective_W.angular, end.effective_W.linear;
+  if (turnsTooFastForBullet(tree.tree, step.moved, task.duration)) return false;
+  step.end << end.twist_W.angular, end.twist_W.linear;
+  ambient.left_W = end.twist_W;
+  if (end.is_too_long) task.bodies.complaints.sayTooLong(ambient.def);
+  return true;
+}
+
+}  // namespace
+
+bool fliesAsBody(const AmbientTree& tree) noexcept {
+  return tree.tree.size() == 1 && !tree.tree.links.front().keeps_velocity &&
+         tree.tree.has_gyroscopic_term && tree.step.was_awake && !tree.step.turns_rows;
+}
+
+void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task,
+                 bool* have_flown) noexcept {
+  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
+  AmbientBody* bodies[kFlightsTogether] = {};
+  FlightMemory memories[kFlightsTogether];
+  Twist changes_W[kFlightsTogether];
+  for (int i = 0; i < count; ++i) {
+    AmbientLink& base = baseOf(*trees[i]);
+    applyForces(*trees[i]);
+    bodies[i] = &base.ambient;
+    memories[i] = base.ambient.memory;
+    if (base.ambient.surface()) base.met = base.ambient.encounter;
+  }
+  beginFlights(bodies, count, task.duration, changes_W);
+  for (int i = 0; i < count; ++i) {
+    have_flown[i] = takeFlight(*trees[i], task);
+    if (have_flown[i]) continue;
+    bodies[i]->memory = memories[i];
+    if (bodies[i]->surface()) bodies[i]->encounter = baseOf(*trees[i]).met;
+  }
+}
+
+AMBIENT_END

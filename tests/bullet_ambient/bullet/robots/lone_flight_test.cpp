@@ -1,0 +1,106 @@
+#include "bullet_ambient/bullet/world/multibody_dynamics.h"
+#include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
+#include "tests/support/bodies/part_bodies.h"
+
+// Multibodies without joints fly as rigid bodies do, several side by side.
+namespace ambient::test {
+namespace {
+
+constexpr double kLoneHertz = 240;
+constexpr double kLoneMass = 60;
+const Vector3 kLoneSize(0.5, 0.3, 0.4);
+
+btVector3 momentsOfBox() {
+  const Vector3 squares = kLoneSize.cwiseAbs2();
+  return bt(kLoneMass / 12) * toBullet(Vector3(squares.sum() * Vector3::Ones() - squares));
+}
+
+AttachDef loneInWater() {
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(floatingBox(kLoneSize));
+  def.medium = water();
+  return def;
+}
+
+// Start of the box with a number.
+btTransform placeAt(int number) {
+  return btTransform(btQuaternion(btVector3(1, bt(0.5), 0), bt(0.3 * number)),
+                     {bt(3 * number), 0, 0});
+}
+btVector3 spinAt(int number) { return {bt(0.2 * number), bt(-0.3), bt(0.1)}; }
+btVector3 velocityAt(int number) { return {bt(0.5), bt(0.1 * number), 0}; }
+
+/// Boxes without joints and colliders in water, under gravity.
+class LoneBoxes {
+ public:
+  explicit LoneBoxes(const std::vector<int>& numbers) {
+    world.world.setGravity({0, 0, bt(-9.81)});
+    for (const int number : numbers) add(number);
+  }
+  ~LoneBoxes() {
+    for (const auto& box : boxes) world.world.removeMultiBody(box.get());
+  }
+
+  RobotWorld world;
+  std::vector<std::unique_ptr<btMultiBody>> boxes;
+
+ private:
+  void add(int number) {
+    boxes.push_back(std::make_unique<btMultiBody>(0, bt(kLoneMass), momentsOfBox(), false, false));
+    btMultiBody& box = *boxes.back();
+    box.setLinearDamping(0);
+    box.setAngularDamping(0);
+    box.finalizeMultiDof();
+    box.setBasePos(placeAt(number).getOrigin());
+    box.setWorldToBaseRot(placeAt(number).getRotation().inverse());
+    box.setBaseOmega(spinAt(number));
+    box.setBaseVel(velocityAt(number));
+    world.world.addMultiBody(&box);
+    world.fluid.add(box, -1, loneInWater());
+  }
+};
+
+TEST(MultibodiesWithoutJoints, FlyAsBodies) {
+  LoneBoxes lone({2});
+  btEmptyShape no_shape;
+  btRigidBody rigid(
+      btRigidBody::btRigidBodyConstructionInfo(bt(kLoneMass), nullptr, &no_shape, momentsOfBox()));
+  rigid.setWorldTransform(placeAt(2));
+  rigid.setAngularVelocity(spinAt(2));
+  rigid.setLinearVelocity(velocityAt(2));
+  lone.world.world.addRigidBody(&rigid);
+  lone.world.fluid.add(rigid, loneInWater());
+  lone.world.step(1 / kLoneHertz, static_cast<int>(5 * kLoneHertz));
+  const btTransform a = rigid.getWorldTransform(), b = lone.boxes[0]->getBaseWorldTransform();
+  EXPECT_LT((a.getOrigin() - b.getOrigin()).length(), bt(byPrecision(1e-10, 1e-3)));
+  EXPECT_LT(a.getRotation().angleShortestPath(b.getRotation()), bt(byPrecision(1e-7, 1e-2)));
+  EXPECT_GT((a.getOrigin() - placeAt(2).getOrigin()).length(), bt(0.3));
+  EXPECT_EQ(lone.world.fluid.find(rigid)->counters().substeps,
+            lone.world.fluid.find(*lone.boxes[0], -1)->counters().substeps);
+  lone.world.world.removeRigidBody(&rigid);
+}
+
+TEST(MultibodiesWithoutJoints, HaveTheSameBitsInAnyCompany) {
+  LoneBoxes all({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}), alone({9});
+  for (LoneBoxes* boxes : {&all, &alone}) boxes->world.step(1 / kLoneHertz, 100);
+  EXPECT_EQ(all.boxes[9]->getBasePos(), alone.boxes[0]->getBasePos());
+  EXPECT_EQ(velocityOf(*all.boxes[9]), velocityOf(*alone.boxes[0]));
+}
+
+// In an ideal fluid, turning by more in a step than Bullet turns a multibody.
+TEST(MultibodiesWithoutJoints, KeepTheirEnergyThroughFastTurns) {
+  LoneBoxes lone({1});
+  btMultiBody& box = *lone.boxes[0];
+  lone.world.fluid.clear();
+  AttachDef def = loneInWater();
+  def.flow.own_law = [](const auto&, const auto&) { return nullptr; };
+  lone.world.fluid.add(box, -1, def);
+  lone.world.world.setGravity({0, 0, 0});
+  box.setBaseOmega({bt(1), bt(2), bt(100)});
+  const double energy = kineticEnergy(lone.world.fluid, box);
+  lone.world.step(1 / 60.0, 30);
+  EXPECT_NEAR(kineticEnergy(lone.world.fluid, box) / energy, 1, byPrecision(1e-6, 1e-3));
+}
+
+}  // namespace
+}  // namespace ambient::test
