@@ -74,8 +74,8 @@ struct Cost {
   double dry = 1e300, wet = 1e300;
 };
 
-/// The same bodies without fluid. Apart from each other they are weightless, as most are in water:
-/// bodies that fall ever faster would cost the broad phase more.
+/// The same bodies without fluid. Apart from each other they are weightless, as most are in water,
+/// so that both worlds move alike.
 Scene dryOf(const Scene& scene) {
   Scene dry = scene;
   if (!scene.room) dry.gravity = 0;
