@@ -1,5 +1,7 @@
 #pragma once
 
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
 
 #include <functional>
@@ -15,7 +17,8 @@ namespace ambient::test {
 /// A world of stock Bullet that a fluid can fill. Owns all that is in it.
 class CostWorld {
  public:
-  CostWorld();
+  /// `has_robots`: the world takes multibodies.
+  explicit CostWorld(bool has_robots = false);
   ~CostWorld();
   CostWorld(const CostWorld&) = delete;
   CostWorld& operator=(const CostWorld&) = delete;
@@ -27,6 +30,10 @@ class CostWorld {
   btRigidBody& addBody(std::shared_ptr<btCollisionShape> shape, double mass,
                        const btVector3& moments, const btTransform& start);
   void addJoint(std::unique_ptr<btTypedConstraint> joint);
+  /// Adds a multibody of a base and so many links in a chain, all of one shape and density, on
+  /// hinges that turn. @pre has_robots
+  void addRobot(const std::shared_ptr<btCollisionShape>& shape, double density, int links,
+                const btTransform& start);
 
   /// Fills the world with fluid.
   void immerse();
@@ -34,19 +41,25 @@ class CostWorld {
 
   double duration = 1.0 / 60;  ///< of a step [s]
   bool has_surface = false;    ///< the water ends at height 0
+  bool has_loads = true;       ///< the fluid is not ideal
   /// Puts the bodies into the fluid; default: all of them into water.
   std::function<void(Fluid&, const std::vector<std::unique_ptr<btRigidBody>>&)> attach;
 
  private:
+  void addCollider(btMultiBody& robot, int link, btCollisionShape& shape);
+
   FluidBodyCache shapes_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  btMultiBodyConstraintSolver robot_solver_;
+  std::unique_ptr<btDiscreteDynamicsWorld> world_;
   std::vector<std::shared_ptr<btCollisionShape>> collision_shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+  std::vector<std::unique_ptr<btMultiBody>> robots_;
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::unique_ptr<Fluid> fluid_;
 };
 
@@ -56,6 +69,7 @@ struct CostScene {
   int bodies;   ///< when its time is taken
   int warm_up;  ///< steps before its time is taken
   std::function<void(CostWorld&, int bodies)> fill;
+  bool has_robots = false;
 };
 
 /// Equal bodies without contacts, under water and afloat.
@@ -63,6 +77,8 @@ std::vector<CostScene> freeScenes();
 /// Bodies in contacts and joints under water: a pile, and scenes in the manner of Bullet's
 /// examples.
 std::vector<CostScene> contactScenes();
+/// Multibodies without contacts, under water and afloat: bases alone, pairs, robots of 11 boxes.
+std::vector<CostScene> robotScenes();
 /// Bodies in flight in air, without faces and with as many as their name says. `shapes`: folder of
 /// makeFlockShapes().
 std::vector<CostScene> flockScenes(const std::string& shapes);

@@ -1,9 +1,8 @@
 // Cost of a step with a fluid over that of stock Bullet.
 //
-//   step_cost FOLDER [PART]                            times scenes whose name has the part, both
-//   worlds in turns step_cost FOLDER SCENE stock|fluid BODIES STEPS    makes the steps, for a
-//   program that counts step_cost FOLDER shapes                            writes the shapes of the
-//   scenes in flight
+// step_cost FOLDER [PART]: times scenes whose name has the part, both worlds in turns.
+// step_cost FOLDER SCENE stock|fluid BODIES STEPS: makes the steps, for a program that counts.
+// step_cost FOLDER shapes: writes the shapes of the scenes in flight.
 
 #include <algorithm>
 #include <cstdio>
@@ -21,7 +20,7 @@ namespace {
 
 std::vector<CostScene> allScenes(const std::string& folder) {
   std::vector<CostScene> scenes = freeScenes();
-  for (const auto& more : {contactScenes(), flockScenes(folder)})
+  for (const auto& more : {robotScenes(), contactScenes(), flockScenes(folder)})
     scenes.insert(scenes.end(), more.begin(), more.end());
   return scenes;
 }
@@ -35,7 +34,7 @@ double secondsFor(const std::function<void()>& action) {
 // Least time of a step of each world.
 void timeScene(const CostScene& scene) {
   constexpr int kRounds = 150;
-  CostWorld stock, fluid;
+  CostWorld stock(scene.has_robots), fluid(scene.has_robots);
   for (CostWorld* world : {&stock, &fluid}) scene.fill(*world, scene.bodies);
   const double attach = secondsFor([&] { fluid.immerse(); });
   double least[2] = {1e300, 1e300};
@@ -66,7 +65,7 @@ int makeSteps(const std::string& folder, const std::string& name, const std::str
                  kind.c_str());
     return EXIT_FAILURE;
   }
-  CostWorld world;
+  CostWorld world(scene->has_robots);
   scene->fill(world, bodies);
   if (kind == "fluid") world.immerse();
   for (int i = 0; i < steps; ++i) world.step();
