@@ -28,8 +28,8 @@ AMBIENT_BEGIN
 /// meetAsBodies(). @pre its velocity before the substep is kept in `step`
 bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept;
 
-/// The same for up to kFlightsTogether trees without joints, which meetTree() has left: they fly
-/// side by side.
+/// Gives up to kFlightsTogether trees without joints, which meetTree() has left, the velocity of
+/// their flight, side by side.
 void meetAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
 
 /// After them: the velocity by which Bullet is to move it.

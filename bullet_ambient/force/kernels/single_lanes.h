@@ -86,7 +86,7 @@ inline Floats root(Floats x) {
 
 /// x, or 0 where it is not positive.
 #if defined(__AVX512F__)
-inline Floats positivePart(Floats x) { return _mm512_max_ps(x, Floats{}); }
+inline Floats positivePart(Floats x) { return _mm512_maskz_max_ps(0xffff, x, Floats{}); }
 #elif defined(__AVX2__)
 inline Floats positivePart(Floats x) { return _mm256_max_ps(x, Floats{}); }
 #else
