@@ -55,6 +55,7 @@ std::vector<CostScene> flockScenes(const std::string& shapes) {
 }
 
 void makeFlockShapes(const std::string& folder) {
+  std::filesystem::create_directories(folder);
   FluidBody coarse = latticeEllipsoid(kSemiAxes, 25, 11), fine = meshedEllipsoid(kSemiAxes, 4);
   for (FluidBody* shape : {&coarse, &fine}) {
     if (const auto level = smallestFormLevel(*shape, kError)) shape->form_levels = {*level};
