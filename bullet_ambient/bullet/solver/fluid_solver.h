@@ -129,6 +129,7 @@ class FluidSolver : public Base {
                                                    is_enough ? once : info, debug_drawer);
   }
 
+  // NOLINTNEXTLINE(readability-function-size): Bullet's parameters
   btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
                                 btPersistentManifold** manifolds, int manifold_count,
                                 btTypedConstraint** constraints, int constraint_count,

@@ -65,7 +65,8 @@ struct RunMotion {
   WingLanes<Floats> wings;
   int lane;
 
-  RunMotion(const FaceBlocks& blocks, const SingleMotion& all, const SingleCut* cut, int first)
+  [[gnu::always_inline]] RunMotion(const FaceBlocks& blocks, const SingleMotion& all,
+                                   const SingleCut* cut, int first)
       : faces(blocks),
         motion(all),
         angular(broadcast(all.angular)),
@@ -135,7 +136,8 @@ inline const FaceBlock& reread(const FaceBlock& block) {
 
 /// Force on faces: pressure and friction, eq. (15) to (17).
 template <class Law>
-inline Vectors forceOf(const FaceFlow& flow, const Vectors& n, const SingleMotion& motion) {
+[[gnu::always_inline]] inline Vectors forceOf(const FaceFlow& flow, const Vectors& n,
+                                              const SingleMotion& motion) {
   const Floats along = (flow.strength * motion.friction) * slipPower(flow.slip_sq);
   if (Law::kLifts)
     return plusProduct(lessProduct(flow.pressure, along, flow.normal_speed) * n, along,
