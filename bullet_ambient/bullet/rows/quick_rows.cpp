@@ -66,7 +66,8 @@ AMBIENT_INLINE btScalar solveFrictions(const RowPass& pass, const btConstraintAr
   return largest;
 }
 
-// The same functions for two instruction sets.
+// Functions of a struct for one instruction set.
+// NOLINTBEGIN(bugprone-macro-parentheses): an attribute takes none
 #define AMBIENT_QUICK_ROWS(name, target)                                               \
   struct name {                                                                        \
     target static btScalar generic(btSolverBody& a, btSolverBody& b,                   \
@@ -86,6 +87,7 @@ AMBIENT_INLINE btScalar solveFrictions(const RowPass& pass, const btConstraintAr
     }                                                                                  \
     static constexpr QuickRows kAll{generic, lowerLimit, contacts, frictions};         \
   };
+// NOLINTEND(bugprone-macro-parentheses)
 
 AMBIENT_QUICK_ROWS(Baseline, )
 #if defined(__x86_64__)
