@@ -9,10 +9,10 @@ namespace {
 
 // Inverse of a symmetric matrix of `n` rows; false if it is not positive definite.
 inline bool invert(const double (&D)[3][3], int n, double (&inverse)[3][3]) {
-  double lower[3][3], per_pivot[3];
+  double lower[3][3] = {}, per_pivot[3] = {};
   bool is_positive = true;
   for (int i = 0; i < n; ++i) {
-    double scaled[3], pivot = D[i][i];
+    double scaled[3] = {}, pivot = D[i][i];
     for (int j = 0; j < i; ++j) {
       scaled[j] = D[i][j];
       for (int k = 0; k < j; ++k) scaled[j] -= scaled[k] * lower[j][k];

@@ -148,7 +148,7 @@ bool takeOutJoint(LinkState& link, Inertia& I) {
   if (link.axis_count == 0) return true;
   const Matrix coupling_transposed = transposed(I.coupling);
   Spatial push[3];
-  double D[3][3];
+  double D[3][3] = {};
   for (int i = 0; i < link.axis_count; ++i) {
     push[i] = times(I, coupling_transposed, load(link.axis[i]));
     store(link.push[i], push[i]);
@@ -225,13 +225,11 @@ void solve(LinkState* links, int count, const BaseFactor& base, double* result) 
   for (int l = 1; l < count; ++l) {
     LinkState& link = links[l];
     Spatial a = toLink(link, load(links[link.parent].acceleration));
-    double rest[3];
-    for (int i = 0; i < link.axis_count; ++i)
-      rest[i] = link.is_kept ? 0 : link.rest[i] - dot(load(link.push[i]), a);
+    for (int i = 0; i < link.axis_count; ++i) link.rest[i] -= dot(load(link.push[i]), a);
     for (int i = 0; i < link.axis_count; ++i) {
       double q = 0;
       if (!link.is_kept)
-        for (int j = 0; j < link.axis_count; ++j) q += link.inverse[i][j] * rest[j];
+        for (int j = 0; j < link.axis_count; ++j) q += link.inverse[i][j] * link.rest[j];
       result[link.first + i] = q;
       a = a + q * load(link.axis[i]);
     }
