@@ -32,7 +32,7 @@ struct QuickRows {
   btScalar (*frictions)(const RowPass& pass, const btConstraintArray& contacts, btScalar largest);
 };
 
-/// Those of the processor's instruction set.
+/// Returns the row functions for the processor's instruction set.
 const QuickRows& quickRows() noexcept;
 
 AMBIENT_END

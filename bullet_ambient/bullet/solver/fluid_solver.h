@@ -203,7 +203,7 @@ class FluidSolver : public Base {
     return largest;
   }
 
-  // What joints of a program's own may do in each iteration.
+  // Lets joints of a program's own solve themselves, as Bullet does in each iteration.
   void solveObsolete(btTypedConstraint** constraints, int count, btScalar time_step) {
     for (int i = 0; i < count; ++i) {
       btTypedConstraint& constraint = *constraints[i];

@@ -93,7 +93,7 @@ inline Floats positivePart(Floats x) { return _mm256_max_ps(x, Floats{}); }
 inline Floats positivePart(Floats x) { return x > 0.0f ? x : Floats{}; }
 #endif
 
-/// As PlainArithmetic, with one rounding.
+/// Arithmetic like PlainArithmetic whose sums of products are rounded once.
 struct FusedArithmetic {
   using Real = Floats;
   static Floats plus(Floats c, Floats a, Floats b) { return plusProduct(c, a, b); }

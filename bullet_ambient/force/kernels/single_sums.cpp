@@ -76,7 +76,7 @@ struct RunMotion {
         lane(first) {}
 };
 
-/// What kWidth faces of a block feel.
+/// Flow at kWidth faces of a block.
 struct FaceFlow {
   Vectors velocity;     ///< u
   Floats normal_speed;  ///< n.u
@@ -126,8 +126,8 @@ inline FaceFlow flowOn(const RunMotion& run, int block, Floats& pitch) {
   return {u, normal_speed, slip_sq, strength, Law::template of<kRightAngle>(state).total};
 }
 
-/// The same block to read again. The compiler does not see that it is the same: it would keep what
-/// it has read, for which there are too few registers.
+/// Returns the block, to be read again. The compiler does not see that it is the same: it would
+/// keep what it has read, for which there are too few registers.
 inline const FaceBlock& reread(const FaceBlock& block) {
   const FaceBlock* again = &block;
   asm("" : "+r"(again));
