@@ -14,7 +14,7 @@ AMBIENT_BEGIN
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 11;
+constexpr std::uint32_t kStateVersion = 12;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -232,8 +232,6 @@ void fields(V& v, MultiBodyLinkState& s) {
       });
   v(s.joint_position, kPosition,
     [](Place& l) { return l.joint(&Link::m_jointPos, &Link::m_posVarCount); });
-  v(s.interpolation_position, kPosition,
-    [](Place& l) { return l.joint(&Link::m_jointPos_interpolate, &Link::m_posVarCount); });
   v(s.joint_force, kForce,
     [](Place& l) { return l.joint(&Link::m_jointTorque, &Link::m_dofCount); });
   // After the joints: their caches follow them, and so would the pose.

@@ -60,9 +60,8 @@ struct BodyState : ObjectState {
 struct MultiBodyLinkState {
   btScalar mass = 0;
   btVector3 inertia{0, 0, 0};
-  btVector3 force{0, 0, 0}, torque{0, 0, 0};  ///< applied since the last step, world axes
-  std::array<btScalar, 7> joint_position{};   ///< as in Bullet: the last entries may be unused
-  std::array<btScalar, 7> interpolation_position{};
+  btVector3 force{0, 0, 0}, torque{0, 0, 0};      ///< applied since the last step, world axes
+  std::array<btScalar, 7> joint_position{};       ///< as in Bullet: the last entries may be unused
   std::array<btScalar, 6> joint_force{};          ///< applied since the last step
   btTransform pose = btTransform::getIdentity();  ///< as cached by Bullet
   std::optional<ObjectState> collider;
