@@ -10,20 +10,11 @@
 namespace ambient {
 namespace {
 
-using reference::RevolutionAddedMass;
+using test::alongAxis;
 using test::coarse;
 using test::kScalarRounding;
 using test::rotationError;
 using test::translationError;
-
-/// Added mass of a body of revolution about an axis, without coupling.
-Matrix6 alongAxis(const RevolutionAddedMass& about_z, int axis) {
-  Vector6 diagonal;
-  diagonal << Vector3::Constant(about_z.w_y), Vector3::Constant(about_z.v_x);
-  diagonal[axis] = 0;
-  diagonal[3 + axis] = about_z.v_z;
-  return diagonal.asDiagonal();
-}
 
 TEST(ConvexShape, SphereHasTheClosedForm) {
   const FluidBody ball = makeFluidBody(btSphereShape(btScalar(0.75)));
@@ -69,21 +60,6 @@ TEST(ConvexShape, CapsuleIsWithinItsTolerance) {
   EXPECT_NEAR(capsule.volume / (10 * kPi / 3), 1, 1e-12);
   EXPECT_LT(rotationError(capsule.added_mass, exact), 4e-4);
   EXPECT_LT(translationError(capsule.added_mass, exact), 1e-4);
-}
-
-TEST(ConvexShape, WithoutTablesTheSolverIsWithinItsTolerance) {
-  CollisionShapeSettings settings;
-  settings.tables = false;
-  const FluidBody cylinder = makeFluidBody(btCylinderShapeZ(btVector3(1, 1, 1)), settings);
-  const Matrix6 round = alongAxis(reference::cylinderAddedMass(), 2);
-  // Measured 3.7e-3 and 4e-4.
-  EXPECT_LT(rotationError(cylinder.added_mass, round), 5e-3);
-  EXPECT_LT(translationError(cylinder.added_mass, round), 1e-3);
-  const FluidBody capsule = makeFluidBody(btCapsuleShapeX(1, 2), settings);
-  const Matrix6 smooth = alongAxis(reference::capsuleAddedMass(), 0);
-  // Measured 1.0e-4 and 4e-6.
-  EXPECT_LT(rotationError(capsule.added_mass, smooth), 5e-4);
-  EXPECT_LT(translationError(capsule.added_mass, smooth), 5e-5);
 }
 
 // Memory too small for any solver; tables need none.
@@ -149,17 +125,6 @@ TEST(ConvexShape, ScaledSphereOfAMultiSphereIsAnEllipsoid) {
   EXPECT_LT(test::differenceOf(ellipsoid.added_mass, exact), 1e-13);
 }
 
-TEST(ConvexShape, TwoEqualSpheresOfAMultiSphereAreACapsule) {
-  const btVector3 centres[2] = {btVector3(0, -1, 0), btVector3(0, 1, 0)};
-  const btScalar radii[2] = {1, 1};
-  const FluidBody capsule = makeFluidBody(btMultiSphereShape(centres, radii, 2));
-  const Matrix6 exact = alongAxis(reference::capsuleAddedMass(), 1);
-  EXPECT_NEAR(capsule.volume / (10 * kPi / 3), 1, 1e-4);  // extrapolated
-  // Measured 4e-5 and 1.4e-4.
-  EXPECT_LT(rotationError(capsule.added_mass, exact), 1e-3);
-  EXPECT_LT(translationError(capsule.added_mass, exact), 5e-4);
-}
-
 /// Checks that K of a shape about axis x or y is K about z with permuted axes.
 template <class AlongX, class AlongY, class AlongZ>
 void expectSameAlongAllAxes(const AlongX& x, const AlongY& y, const AlongZ& z) {
@@ -204,23 +169,6 @@ TEST(ConvexShape, ConeHasItsApexUpAndItsMarginOnTop) {
   const double curvature = kPi * (kPi - std::atan2(2.0, 1.0)) + kPi * 2;
   const double volume = 2 * kPi / 3 + m * area + m * m * curvature + 4 * kPi / 3 * m * m * m;
   EXPECT_NEAR(makeFluidBody(cone, coarse()).volume / volume, 1, 1e-6);
-}
-
-TEST(ConvexShape, RoundedConeIsWithinHalfAPercentOfFinerOnes) {
-  btConeShapeZ cone(1, 2);
-  cone.setMargin(btScalar(0.1));
-  CollisionShapeSettings settings, finer;
-  settings.tables = finer.tables = false;
-  finer.faces = 1800;
-  finer.flow.max_panels = 5000;
-  const Matrix6 exact = makeFluidBody(cone, finer).added_mass;
-  const Matrix6 K = makeFluidBody(cone, settings).added_mass;
-  EXPECT_LT(rotationError(K, exact), 3e-3);
-  EXPECT_LT(translationError(K, exact), 2e-3);
-  // All meshes have three rows of triangles around the rim: measured 1.4e-2 and 8e-3.
-  const Matrix6 tabulated = makeFluidBody(cone).added_mass;
-  EXPECT_LT(rotationError(K, tabulated), 2e-2);
-  EXPECT_LT(translationError(K, tabulated), 1e-2);
 }
 
 TEST(ConvexShape, LocalScalingCounts) {

@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
+#include "tests/reference/body_added_mass.h"
 
 namespace ambient::test {
 
@@ -38,6 +39,15 @@ inline double translationError(const Matrix6& K, const Matrix6& reference) {
 /// about 1.
 inline double differenceOf(const Matrix6& K, const Matrix6& reference) {
   return (K - reference).cwiseAbs().maxCoeff() / reference.cwiseAbs().maxCoeff();
+}
+
+/// Added mass of a body of revolution about an axis, without coupling.
+inline Matrix6 alongAxis(const reference::RevolutionAddedMass& about_z, int axis) {
+  Vector6 diagonal;
+  diagonal << Vector3::Constant(about_z.w_y), Vector3::Constant(about_z.v_x);
+  diagonal[axis] = 0;
+  diagonal[3 + axis] = about_z.v_z;
+  return diagonal.asDiagonal();
 }
 
 }  // namespace ambient::test
