@@ -83,7 +83,7 @@ int main(int argc, char** argv) try {
     makeFlockShapes(argv[1]);
     return EXIT_SUCCESS;
   }
-  if (argc != 2 && argc != 3) {
+  if ((argc != 2 && argc != 3) || argv[1][0] == '-') {
     std::fprintf(stderr, "usage: %s FOLDER [shapes | PART | SCENE stock|fluid BODIES STEPS]\n",
                  argv[0]);
     return EXIT_FAILURE;
