@@ -21,10 +21,11 @@ AMBIENT_BEGIN
 
 class AmbientBodies;
 
-/// A stock constraint solver whose contacts and joints feel the full 6x6 inertia of ambient bodies,
-/// by a change of velocity basis; docs/bullet_step.md. A world without ambient bodies moves bit for
-/// bit as with Base. Base: btSequentialImpulseConstraintSolver or a class derived from it. Must be
-/// compiled against the same Bullet headers and precision as the library.
+/// Constraint solver of Bullet, derived from Base, whose contacts and joints feel the full 6x6
+/// inertia of ambient bodies by a change of velocity basis; docs/bullet_step.md. A world without
+/// ambient bodies moves bit for bit as with Base. Base: btSequentialImpulseConstraintSolver or a
+/// class derived from it. Must be compiled with the same Bullet headers and precision as the
+/// library.
 template <class Base = btSequentialImpulseConstraintSolver>
 class FluidSolver : public Base {
   static_assert(std::is_base_of_v<btSequentialImpulseConstraintSolver, Base>,
@@ -35,17 +36,18 @@ class FluidSolver : public Base {
                 "together with deformable ones in a way that cannot be rewritten; use "
                 "btSoftRigidDynamicsWorld or btMultiBodyDynamicsWorld");
   static constexpr bool kHasMultiBodies = std::is_base_of_v<btMultiBodyConstraintSolver, Base>;
-  // Solvers that solve all rows together themselves.
+  // True: Base solves all rows together, by complementarity.
   static constexpr bool kSolvesAtOnce = std::is_base_of_v<btMLCPSolver, Base> ||
                                         std::is_base_of_v<btMultiBodyMLCPConstraintSolver, Base>;
-  // Solvers that infer the number of rows from the sizes of their pools, or keep their own pools.
+  // True: Base takes no second friction row at single contacts, because it infers the number of
+  // rows from the sizes of its pools, or keeps its own pools.
   static constexpr bool kHasEvenFrictions =
       std::is_base_of_v<btMLCPSolver, Base> ||
       std::is_base_of_v<btSequentialImpulseConstraintSolverMt, Base>;
 
  public:
-  /// Solves with the members of a fluid; makeSolver() has them of a Fluid. Further arguments go to
-  /// Base. Once the fluid is destroyed, it solves as Base does.
+  /// `members`: bodies and trees of a fluid; makeSolver() takes them from a Fluid. Passes all
+  /// further arguments to Base. Solves like Base once the fluid is destroyed.
   template <class... Args>
   explicit FluidSolver(std::shared_ptr<AmbientBodies> members, Args&&... args)
       : Base(std::forward<Args>(args)...),
@@ -53,7 +55,7 @@ class FluidSolver : public Base {
         group_(*members_),
         trees_(*members_) {}
 
-  /// Expires when the solver is destroyed, by whomever.
+  /// Returns a pointer that expires when the solver is destroyed, whoever destroys it.
   std::weak_ptr<const void> life() const { return life_; }
 
   void prepareSolve(int body_count, int manifold_count) override {
@@ -89,7 +91,7 @@ class FluidSolver : public Base {
     group_.begin(this->m_tmpSolverBodyPool);
   }
 
-  // The last stock conversion: joints and contacts are rows by now.
+  // Bullet calls this last in its setup: afterwards all rows exist, and are rewritten.
   void convertContacts(btPersistentManifold** manifolds, int manifold_count,
                        const btContactSolverInfo& info) override {
     group_.showPush(this->m_tmpSolverBodyPool, SolverGroup::Push::kEven);
@@ -121,7 +123,8 @@ class FluidSolver : public Base {
                                              btIDebugDraw* debug_drawer) override {
     btContactSolverInfo once = info;
     useQuickRows();
-    // One iteration takes what rounding has left, unless a residual is asked for.
+    // If all rows are solved already, a threshold that any residual meets ends the iterations after
+    // the first one, which removes rounding errors. A threshold that the program has set stays.
     const bool is_enough = isSolved() && !(info.m_leastSquaresResidualThreshold > 0);
     once.m_leastSquaresResidualThreshold = BT_LARGE_FLOAT;
     return Base::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count,
@@ -152,7 +155,8 @@ class FluidSolver : public Base {
   }
 
  private:
-  // In place of Bullet's plain ones; others stay: of another build of Bullet, or a program's own.
+  // Replaces Bullet's scalar row solvers by quick ones. Keeps row solvers with SSE of other builds
+  // of Bullet, and those that the program has set.
   void useQuickRows() {
     const QuickRows& quick = quickRows();
     if (this->m_resolveSingleConstraintRowGeneric == this->getScalarConstraintRowSolverGeneric())
@@ -167,7 +171,8 @@ class FluidSolver : public Base {
            this->m_resolveSingleConstraintRowLowerLimit == quickRows().lower_limit;
   }
 
-  // Bullet's iteration in its plain order: joints, contacts, frictions.
+  // Repeats btSequentialImpulseConstraintSolver::solveSingleIteration() in its default order:
+  // joints, contacts, frictions. Returns the largest squared residual [m^2/s^2].
   btScalar iterate(int iteration, btTypedConstraint** constraints, int constraint_count,
                    const btContactSolverInfo& info) {
     btAlignedObjectArray<btSolverBody>& bodies = this->m_tmpSolverBodyPool;
@@ -203,7 +208,8 @@ class FluidSolver : public Base {
     return largest;
   }
 
-  // Lets joints of a program's own solve themselves, as Bullet does in each iteration.
+  // Calls solveConstraintObsolete() of all joints, by which joint classes of a program may solve
+  // themselves, as Bullet does in each iteration.
   void solveObsolete(btTypedConstraint** constraints, int count, btScalar time_step) {
     for (int i = 0; i < count; ++i) {
       btTypedConstraint& constraint = *constraints[i];
@@ -215,8 +221,10 @@ class FluidSolver : public Base {
     }
   }
 
-  // On a face that is aslant to the push, one friction row per contact holds the push, but the
-  // iterations do not get to the end of what pushes along the normal do across it.
+  // Adds second friction rows to contacts for which SolverGroup::holdsSlope() is true,
+  // docs/theory.md section 7. One row along the push holds the push itself. The sideways slip that
+  // normal impulses cause needs a row across the first, because the iterations end before this slip
+  // is zero.
   void addSecondFrictions(const btContactSolverInfo& info) {
     constexpr int kEvenModes =
         SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
@@ -227,6 +235,8 @@ class FluidSolver : public Base {
       if (group_.holdsSlope(this->m_tmpSolverBodyPool, contacts[i])) addSecondFriction(i, info);
   }
 
+  // Adds a row across the first friction row of contact `index`, as Bullet does with
+  // SOLVER_USE_2_FRICTION_DIRECTIONS.
   void addSecondFriction(int index, const btContactSolverInfo& info) {
     const btSolverConstraint& contact = this->m_tmpSolverContactConstraintPool[index];
     auto& point = *static_cast<btManifoldPoint*>(contact.m_originalContactPoint);
@@ -251,7 +261,8 @@ class FluidSolver : public Base {
         is_given ? point.m_frictionCFM : btScalar(0));
   }
 
-  // Reports them to the contact points like Bullet's mode of two directions.
+  // Writes the impulses of second friction rows into the contact points, as Bullet does with
+  // SOLVER_USE_2_FRICTION_DIRECTIONS.
   void reportSecondFrictions() {
     const btConstraintArray& frictions = this->m_tmpSolverContactFrictionConstraintPool;
     for (int i = first_frictions_; i < frictions.size(); ++i) {
@@ -262,7 +273,7 @@ class FluidSolver : public Base {
     }
   }
 
-  // All rows of the group are.
+  // True if solveJoints() has solved all rows of the group.
   bool isSolved() const {
     if (solved_joints_ == 0) return false;
     if constexpr (kHasMultiBodies)
@@ -283,8 +294,8 @@ class FluidSolver : public Base {
   const std::shared_ptr<const void> life_ = std::make_shared<char>();
   SolverGroup group_;
   TreeGroup trees_;
-  int first_frictions_ = 0;  // those that Bullet has made
-  int solved_joints_ = 0;    // rows
+  int first_frictions_ = 0;  // number of friction rows that Bullet has made; second ones follow
+  int solved_joints_ = 0;    // number of joint rows solved before the iterations
   GroupInput input_;
 };
 

@@ -10,14 +10,14 @@
 AMBIENT_BEGIN
 namespace {
 
-// A velocity that others changed by more than this part since the last flight makes its history
-// worthless.
+// Relative change of the velocity by others, in the norm of K, beyond which the load kept from the
+// last flight is not used.
 constexpr double kSameVelocity = 1e-3;
 constexpr double kBulletMaxTurn = kPi / 4;  // [rad] per step in integrateTransform
 
-// Bodies before their flight.
+// State of up to kFlightsTogether bodies before their flights.
 struct Departures {
-  Twist twists_W[kFlightsTogether];  // as Bullet has them
+  Twist twists_W[kFlightsTogether];  // velocities in Bullet
   RigidState states[kFlightsTogether];
   Surroundings surroundings[kFlightsTogether];
 };
@@ -47,6 +47,7 @@ bool isWithinRounding(const Vector3& a, const Vector3& b) {
   return (a - b).squaredNorm() <= kRounding * kRounding * b.squaredNorm();
 }
 
+// True if the velocity `now` (world axes) differs from the one that the last flight left.
 bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start, const Twist& now) {
   if (isWithinRounding(now.angular, ambient.left_W.angular) &&
       isWithinRounding(now.linear, ambient.left_W.linear)) {
@@ -81,7 +82,7 @@ void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int coun
   for (int i = 0; i < count; ++i) bodies[i]->encounter.met_B = bodies[i]->surface()->stand.plane;
 }
 
-// Flies bodies at a surface together, and all others.
+// Flies the bodies at a water surface side by side, and then all others side by side.
 void flyAll(AmbientBody* const* bodies, Flight* const* flights, int count) {
   AmbientBody* at_surface[kFlightsTogether];
   Flight *near[kFlightsTogether], *free[kFlightsTogether];
@@ -98,7 +99,7 @@ void flyAll(AmbientBody* const* bodies, Flight* const* flights, int count) {
   if (free_count > 0) flyTogether(free, free_count);
 }
 
-// Twists in world axes: at the end, and the mean one.
+// Twists at the end of the flights, and mean twists u_eff of docs/theory.md eq. (29); world axes.
 struct Arrivals {
   Twist ends_W[kFlightsTogether];
   Twist means_W[kFlightsTogether];
@@ -138,7 +139,8 @@ void add(const FlightCount& count, AmbientBody& ambient) {
   ambient.counters.halted += count.halted;
 }
 
-// Keeps the end of a flight if it is one.
+// Stores the end of a flight in the outcome of the body. An end that is not finite in Bullet's
+// precision is dropped and counted: the body is adrift.
 void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, double length_scale,
           AmbientBody& ambient) {
   add(flight.count, ambient);
@@ -164,14 +166,16 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, d
   end.length_scale = length_scale;
 }
 
-// Bullet bounds the turn of a step. From half a turn on, the turn is the small rest of a large
-// spin, whose rounding would turn the body away from its angular momentum.
+// True if Bullet does not reach the end orientation: it limits the rotation per step. Also true
+// from half a turn on: u_eff contains the rotation modulo a turn only, and its rounding would
+// change the angular momentum.
 bool turnsTooFarForBullet(const FlightEnd& flight, double time_step) {
   return flight.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) ||
          flight.twist_W.angular.norm() * time_step > kPi;
 }
 
-// Within rounding of where the flight ends, or did a continuous collision stop the body on its way?
+// True if the body is at the end of its flight to rounding; false if continuous collision detection
+// has stopped it on its way.
 bool reachedEnd(const AmbientBody& ambient) {
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   const double rounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());

@@ -1,5 +1,4 @@
-// Selects the bodies of a group that Bullet's solver has to know, before they are
-// converted.
+// Selects the bodies of a group that Bullet has to convert to solver bodies.
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
@@ -30,7 +29,8 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   }
   findMembers(bodies);
   if (members_.empty()) return bodies;
-  // For all of them: how many the solver knows changes from step to step.
+  // Reserves for all bodies of the group: the number of converted ones changes from step to step,
+  // and later steps must not allocate.
   converted_.reserve(static_cast<std::size_t>(bodies.count));
   member_of_solver_body_.reserve(static_cast<std::size_t>(bodies.count));
   row_bodies_->reserve(bodies.count);
@@ -39,7 +39,8 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   return all_stay ? bodies : withoutIsolatedBodies(bodies);
 }
 
-// Bullet's companion number, which it sets when it converts a body, tells the member until then.
+// Fills members_. Stores the index of each member in the companion id of its body, which Bullet
+// overwrites when it converts the body.
 void SolverGroup::findMembers(const GroupBodies& bodies) noexcept {
   for (int i = 0; i < bodies.count; ++i) {
     btCollisionObject& object = *bodies.first[i];
@@ -53,7 +54,7 @@ void SolverGroup::findMembers(const GroupBodies& bodies) noexcept {
   }
 }
 
-// Disables the ambient bodies, so that Bullet does not move them. Returns whether there are any.
+// Disables the ambient bodies, so that Bullet does not move them. Returns true if there are any.
 bool SolverGroup::holdAll(const GroupBodies& bodies) noexcept {
   bool is_any = false;
   for (int i = 0; i < bodies.count; ++i) {
@@ -65,6 +66,7 @@ bool SolverGroup::holdAll(const GroupBodies& bodies) noexcept {
   return is_any;
 }
 
+// Marks the members in contact manifolds and joints.
 void SolverGroup::markPairs(const GroupInput& input) noexcept {
   for (int i = 0; i < input.manifold_count; ++i) {
     const btPersistentManifold& manifold = *input.manifolds[i];
@@ -85,12 +87,14 @@ void SolverGroup::mark(const btCollisionObject& body, bool has_rows, bool is_hel
   const int id = body.getCompanionId();
   if (id < 0 || static_cast<std::size_t>(id) >= members_.size()) return;
   Member& member = members_[id];
-  if (member.ambient->body != &body) return;  // a number of another group
+  if (member.ambient->body != &body) return;  // a companion id of another group
   member.is_near = true;
   member.has_rows = member.has_rows || has_rows;
   member.is_held = member.is_held || is_held;
 }
 
+// Returns the bodies of a group without members that no row can move; sets their companion ids to
+// kAlone. @pre members_ are in the order of `bodies`
 GroupBodies SolverGroup::withoutIsolatedBodies(const GroupBodies& bodies) noexcept {
   converted_.clear();
   std::size_t next = 0;
@@ -107,7 +111,8 @@ GroupBodies SolverGroup::withoutIsolatedBodies(const GroupBodies& bodies) noexce
   return {converted_.data(), static_cast<int>(converted_.size())};
 }
 
-// Says it of the first body whose joint the iterations have not held for some steps.
+// Counts the steps in a row in which a joint of the body misses by more than kWideGap of its size.
+// Reports the body after kLongGape steps.
 void SolverGroup::noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept {
   const double size = ambient.metric().reference_length;
   const bool is_wide = size > 0 && row_body.gap > kWideGap * size;

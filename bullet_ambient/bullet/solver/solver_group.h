@@ -23,13 +23,13 @@ class JointGaps;
 class RowBodies;
 struct RowBody;
 
-/// The bodies of a group.
+/// Bodies of a group.
 struct GroupBodies {
   btCollisionObject** first = nullptr;
   int count = 0;
 };
 
-/// Contacts and joints that Bullet hands to the solver for one group, before their conversion.
+/// Contacts and joints that Bullet hands to the solver for one group, before it makes rows of them.
 struct GroupInput {
   btPersistentManifold** manifolds = nullptr;
   int manifold_count = 0;
@@ -37,9 +37,9 @@ struct GroupInput {
   int constraint_count = 0;
 };
 
-/// The ambient bodies of the group that a solver works on, from convertBodies to the write-back.
-/// Not a template: the part of FluidSolver that does not depend on its base. Reuses its memory
-/// from step to step.
+/// Ambient bodies of the group that a solver works on, from convertBodies() to the write-back of
+/// velocities. Holds the part of FluidSolver that does not depend on its base class. Reuses its
+/// memory from step to step.
 class SolverGroup {
  public:
   using SolverBodies = btAlignedObjectArray<btSolverBody>;
@@ -47,58 +47,62 @@ class SolverGroup {
   explicit SolverGroup(AmbientBodies& bodies);
   ~SolverGroup();
 
-  /// Before the stock conversion of the bodies: finds the ambient ones among them, and returns
-  /// those that the solver has to know. What floats alone, without a contact, a joint or anything
-  /// near, is not among them: no row can move it. `all_stay`: rows may come from elsewhere.
+  /// Call before Bullet converts the bodies. Finds the ambient bodies, and returns the bodies that
+  /// Bullet has to convert. Leaves out ambient bodies without contact, joint, pair in the
+  /// broadphase or locked axis, because no row can move them. `all_stay`: returns all bodies,
+  /// because rows of multibodies may move any of them.
   GroupBodies select(const GroupBodies& bodies, const GroupInput& input, btScalar time_step,
                      bool all_stay) noexcept;
 
-  /// After it: gives those with contacts or joints the velocity that their rows are solved against,
-  /// docs/theory.md eq. (28).
+  /// Call after Bullet has converted the bodies. Sets the velocity changes k + X of docs/theory.md
+  /// eq. (28), against which rows are solved, for bodies with contacts, joints or locked axes; sets
+  /// zero for the other ambient bodies.
   void begin(SolverBodies& solver_bodies) noexcept;
 
-  /// Whether there is no ambient body.
+  /// True if the group has no ambient body.
   bool empty() const { return members_.empty(); }
 
-  /// Around the stock conversion of contacts: shows it the push of forces and loads as an even
-  /// response takes it, k' of eq. (28b), so that friction lies along the force.
+  /// Call around Bullet's conversion of contacts. Sets the velocity change by forces and loads that
+  /// Bullet reads there: kEven, that of a body with isotropic inertia, k' + X, so that Bullet lays
+  /// friction along the force, eq. (28b); kTrue, k + X again.
   enum class Push { kEven, kTrue };
   void showPush(SolverBodies& solver_bodies, Push push) noexcept;
 
-  /// False: no contact does what holdsSlope() asks.
+  /// False: holdsSlope() is false for all contacts of the group.
   bool mayHoldSlopes() const { return may_hold_slopes_; }
 
-  /// While it is shown: whether a contact is pushed along its face, by no more than friction can
-  /// hold, and a push along its normal makes a body slip across it by its fluid.
+  /// True if a contact needs a second friction row: its bodies are pushed along its face, by no
+  /// more than friction can hold, and a push along its normal also moves one of them sideways,
+  /// because of its added mass. @pre showPush(kEven) is in effect
   bool holdsSlope(const SolverBodies& solver_bodies,
                   const btSolverConstraint& contact) const noexcept;
 
-  /// After the stock conversion of joints and contacts: rewrites every row that touches an ambient
-  /// body, and applies the impulses of warm starting in the new bases. `multibodies`: null for
-  /// solvers without.
+  /// Call after Bullet has made rows of joints and contacts. Rewrites every row that touches an
+  /// ambient body, eq. (27), and applies the impulses of warm starting in the velocity bases.
+  /// `multibodies`: null if the solver knows none.
   void rewriteRows(SolverBodies& solver_bodies, const RowPools& rows,
                    const MultiBodyRows* multibodies, const btContactSolverInfo& info) noexcept;
 
-  /// After that: solves rows of joints together, from which the iterations go on. Returns how many;
-  /// joint_chains.h.
+  /// Call after rewriteRows(). Solves rows of joints without loops together, eq. (27a); the
+  /// iterations go on from their impulses. Returns the number of rows solved.
   int solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
 
-  /// Before the stock write-back: velocity changes back into Bullet's basis; bodies that no row has
-  /// moved fly freely.
+  /// Call after the iterations, before Bullet writes velocities back. Maps velocity changes from
+  /// the bases to world axes, du = T du', and flies bodies that no row has moved.
   void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
 
  private:
-  static constexpr int kAlone = -1;  // in place of a number in the solver's pool
+  static constexpr int kAlone = -1;  // Member::solver_body of a body that Bullet does not convert
 
   struct Member {
     AmbientBody* ambient;
     bool is_locked;
-    bool is_near = false;  // to another body: Bullet converts it with the pair
+    bool is_near = false;  // true: has a joint, or a pair with another body in the broadphase
     bool has_rows = false;
-    bool is_held = false;      // by joints, or by what cannot move
-    int solver_body = kAlone;  // the solver does not know it
+    bool is_held = false;      // true: has a joint, or a contact with a body that cannot move
+    int solver_body = kAlone;  // index in the solver's pool
   };
-  // The Jacobian of a joint row with feedback, as the joint made it.
+  // Jacobian of a joint row before it is rewritten; Bullet computes joint feedback from it.
   struct SavedJacobian {
     int row;
     btVector3 angular_a, linear_a, angular_b, linear_b;
@@ -126,10 +130,10 @@ class SolverGroup {
   AmbientBodies& bodies_;
   double time_step_ = 0;
   bool may_hold_slopes_ = false;
-  bool is_held_ = false;  // the group has ambient bodies, and its time step is not finite
+  bool is_held_ = false;  // true: the time step is not finite, and no body of the group may move
   std::vector<Member> members_;
-  std::vector<btCollisionObject*> converted_;  // those that the solver has to know
-  std::vector<int> member_of_solver_body_;     // -1: not ambient
+  std::vector<btCollisionObject*> converted_;  // bodies that Bullet has to convert
+  std::vector<int> member_of_solver_body_;     // index in members_; -1: not ambient
   std::vector<const Member*> free_members_;    // members that no row has moved
   std::unique_ptr<RowBodies> row_bodies_;
   std::unique_ptr<JointChains> joint_chains_;

@@ -18,10 +18,11 @@
 AMBIENT_BEGIN
 namespace {
 
-// MULTIBODY_CONSTRAINT_SPHERICAL_LIMIT, which Bullet has from 3.22 on.
+// Value of MULTIBODY_CONSTRAINT_SPHERICAL_LIMIT, which Bullet has since 3.22.
 constexpr int kSphericalLimit = MULTIBODY_CONSTRAINT_FIXED + 1;
 
-// Rows of a tree's own joints: their Jacobians stay as they are while it moves.
+// True for limits, motors and gears of a tree's own joints, whose Jacobians do not change while the
+// tree moves.
 bool isOfJoints(int constraint_type) {
   switch (constraint_type) {
     case MULTIBODY_CONSTRAINT_LIMIT:

@@ -11,30 +11,33 @@ AMBIENT_BEGIN
 class AmbientBodies;
 class AmbientTrees;
 
-/// The multibodies in fluid that a solver works on, in the order of its calls in one substep. The
-/// part of FluidSolver that gives them the velocities that they have in their fluid, in place of
-/// those of Bullet's articulated bodies. Costs one comparison where there are none.
+/// Multibodies in fluid (trees) that a solver works on. Replaces the velocities that Bullet
+/// computes for dry multibodies by those in fluid. Functions are declared in the order in which
+/// FluidSolver calls them in a substep. Without trees each call costs one comparison.
 class TreeGroup {
  public:
   explicit TreeGroup(AmbientBodies& bodies);
 
-  /// Before Bullet's own pass: keeps the velocities with which the substep begins.
+  /// Call before Bullet's articulated-body pass. Stores the velocities at the start of the substep,
+  /// because that pass overwrites them.
   void begin() noexcept;
-  /// Before the first group is solved: flies all that have not rows that turn with them, and gives
-  /// all of them the velocity that rows are solved against.
+  /// Call before the first group is solved; later calls in the substep do nothing. Flies trees on
+  /// which only rows of their own joints act. Sets the velocity of each tree to the one that its
+  /// rows are solved against, docs/theory.md section 14.
   void meet(const btContactSolverInfo& info) noexcept;
-  /// Returns the trees whose rows are to be rewritten; null: none.
+  /// Returns the trees whose rows have to be rewritten; null: none.
   const AmbientTrees* met() const noexcept;
-  /// After all groups: the velocity that Bullet moves each of them by.
+  /// Call after all groups are solved. Sets the velocity that Bullet moves each tree by.
   void finish(const btContactSolverInfo& info) noexcept;
 
  private:
   /// Detaches trees whose multibody was replaced or has other links than when it was added.
   void detachReplacedTrees() noexcept;
+  /// Sets TreeStep::turns_rows of trees with contacts or joints to other bodies.
   void markTurningRows() noexcept;
 
   AmbientBodies& bodies_;
-  bool is_begun_ = false;  // and no group was solved since
+  bool is_begun_ = false;  // true from begin() until the first group is solved
 };
 
 AMBIENT_END

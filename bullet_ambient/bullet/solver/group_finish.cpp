@@ -1,0 +1,174 @@
+// Ends the solver's work on a group: maps velocity changes by rows back, flies bodies that no row
+// has moved.
+#include <algorithm>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/task_runner.h"
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/bullet/reading/body_reading.h"
+#include "bullet_ambient/bullet/rows/joint_gaps.h"
+#include "bullet_ambient/bullet/rows/row_motion.h"
+#include "bullet_ambient/bullet/rows/row_rewriting.h"
+#include "bullet_ambient/bullet/solver/external_impulse.h"
+#include "bullet_ambient/bullet/solver/solver_group.h"
+#include "bullet_ambient/motion/flight/row_velocity.h"
+
+AMBIENT_BEGIN
+namespace {
+
+bool isZero(const btVector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; }
+
+// True if no row has changed the velocity of the body or, by split impulses, its position.
+bool isUntouched(btSolverBody& b) {
+  return isZero(b.internalGetDeltaLinearVelocity()) &&
+         isZero(b.internalGetDeltaAngularVelocity()) && isZero(b.internalGetPushVelocity()) &&
+         isZero(b.internalGetTurnVelocity());
+}
+
+// Maps a velocity change from the basis T to world axes, in place.
+void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
+  angular = T.angular * angular + T.coupling * linear;
+  linear = T.linear * linear;
+}
+
+// Adds a velocity change to a body that Bullet does not write back, in the same arithmetic.
+void addVelocity(btRigidBody& body, const Twist& change_W) {
+  body.setAngularVelocity(body.getAngularVelocity() + toBullet(change_W.angular));
+  body.setLinearVelocity(body.getLinearVelocity() + toBullet(change_W.linear));
+}
+
+// True if the velocity and the position correction that Bullet will write back are finite.
+bool isFinite(btSolverBody& b) {
+  const btVector3 linear =
+      b.m_linearVelocity + b.internalGetDeltaLinearVelocity() + b.m_externalForceImpulse;
+  const btVector3 angular =
+      b.m_angularVelocity + b.internalGetDeltaAngularVelocity() + b.m_externalTorqueImpulse;
+  return toVector3(linear).allFinite() && toVector3(angular).allFinite() &&
+         toVector3(b.internalGetPushVelocity()).allFinite() &&
+         toVector3(b.internalGetTurnVelocity()).allFinite();
+}
+
+// Sets all changes by rows and forces to zero.
+void dropRows(btSolverBody& b) {
+  for (btVector3* change :
+       {&b.internalGetDeltaLinearVelocity(), &b.internalGetDeltaAngularVelocity(),
+        &b.internalGetPushVelocity(), &b.internalGetTurnVelocity(), &b.m_externalForceImpulse,
+        &b.m_externalTorqueImpulse})
+    change->setZero();
+}
+
+// Maps the velocity changes by rows to world axes, and prepares the motion after the rows, eq.
+// (31). Returns false, and drops the changes, if they are not finite.
+bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, double time_step) {
+  const bool is_adrift = isUntouched(b);
+  ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
+  if (!is_adrift) {
+    fromBasis(row_body.basis, b.internalGetDeltaAngularVelocity(),
+              b.internalGetDeltaLinearVelocity());
+    fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
+  }
+  ambient.memory = {};
+  if (ambient.surface()) ambient.encounter.waves = ambient.encounter.waves_with_rows;
+  if (!isFinite(b)) {
+    dropRows(b);
+    ++ambient.counters.rejected;
+    return false;
+  }
+  beginRowMotion(ambient, row_body, b, time_step);
+  if (ambient.reading) readRows(ambient, b);
+  return true;
+}
+
+// Task that calls fly(item). Keeps a reference to `fly` and allocates nothing.
+template <class Fly>
+class FlightTasks final : public Task {
+ public:
+  explicit FlightTasks(const Fly& fly) : fly_(fly) {}
+  void run(int item) const noexcept override { fly_(item); }
+
+ private:
+  const Fly& fly_;
+};
+
+}  // namespace
+
+void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+  joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
+  restoreFeedbackJacobians(joints);
+  if (is_held_)
+    for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
+  for (const Member& member : members_) {
+    if (member.solver_body == kAlone) {
+      free_members_.push_back(&member);
+      continue;
+    }
+    btSolverBody& solver_body = solver_bodies[member.solver_body];
+    const RowBody* row_body = row_bodies_->find(member.solver_body);
+    // Rows were solved against the velocity k + X of eq. (28). In a fast turn the flight goes
+    // elsewhere, and could pass through what the rows keep apart.
+    const bool may_fly = !row_body || (!member.is_locked && row_body->extent <= kSlowTurn);
+    if (row_body) {
+      member.ambient->counters.rows += row_body->rows;
+      member.ambient->counters.joint_rows += row_body->joint_rows;
+      noteGap(*member.ambient, *row_body);
+    }
+    if (may_fly && isUntouched(solver_body)) {
+      free_members_.push_back(&member);
+    } else {
+      // Rows have moved the body; every body with rows has a RowBody since begin() or
+      // rewriteRows().
+      AMBIENT_ASSERT(row_body);
+      if (!finishRows(*member.ambient, *row_body, solver_body, time_step_))
+        bodies_.complaints.say(Complaint::kNotFinite);
+    }
+  }
+  flyFreely(solver_bodies);
+  members_.clear();
+}
+
+// Flies free_members_. A flight changes its own body only, so that any thread may compute it.
+// kFlightsTogether flights side by side are quickest on one thread; few bodies are spread over the
+// threads in smaller groups.
+void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
+  constexpr int kLeastGroups = 8;  // groups to make before a group is filled
+  const int count = static_cast<int>(free_members_.size());
+  TaskRunner* runner = bodies_.task_runner;
+  const int together =
+      runner ? std::clamp(count / kLeastGroups, 1, kFlightsTogether) : kFlightsTogether;
+  const auto fly = [&](int group) {
+    const int first = group * together;
+    flyTogether(first, std::min(together, count - first), solver_bodies);
+  };
+  const FlightTasks flights(fly);
+  const int groups = (count + together - 1) / together;
+  if (runner) {
+    runner->runAll(flights, groups);
+  } else {
+    for (int i = 0; i < groups; ++i) flights.run(i);
+  }
+  for (const Member* member : free_members_) {
+    const SubstepOutcome& outcome = member->ambient->outcome;
+    if (outcome.kind != Outcome::kFlown) bodies_.complaints.say(Complaint::kNotFinite);
+    if (outcome.flight.is_too_long) bodies_.complaints.sayTooLong(member->ambient->def);
+  }
+  free_members_.clear();
+}
+
+void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept {
+  AmbientBody* bodies[kFlightsTogether] = {};
+  Twist changes_W[kFlightsTogether];
+  const Member* const* members = free_members_.data() + first;
+  for (int i = 0; i < count; ++i) bodies[i] = members[i]->ambient;
+  beginFlights(bodies, count, time_step_, changes_W);
+  for (int i = 0; i < count; ++i) {
+    const Member& member = *members[i];
+    if (member.solver_body == kAlone) {
+      addVelocity(*member.ambient->body, changes_W[i]);
+    } else {
+      setExternalImpulse(solver_bodies[member.solver_body], changes_W[i]);
+    }
+  }
+}
+
+AMBIENT_END
