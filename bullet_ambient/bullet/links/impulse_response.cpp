@@ -40,7 +40,7 @@ void applyImpulseToLink(const AmbientTrees& trees, const AmbientTree& tree, int 
     throw std::invalid_argument(
         "applyImpulse: the masses of this btMultiBody have no inverse; they must be positive");
   }
-  const int number = link + 1;  // the base is 0
+  const int number = link + 1;  // index in the tree: the base is 0
   const Matrix3 to_link = dynamics.rotation(number).transpose();
   std::vector<Wrench> wrenches(static_cast<std::size_t>(dynamics.tree().size()));
   wrenches[static_cast<std::size_t>(number)] = {to_link * impulse.torque, to_link * impulse.force};

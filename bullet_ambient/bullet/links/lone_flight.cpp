@@ -1,4 +1,4 @@
-// Flights of trees without joints.
+// Flights of trees without joints, as rigid bodies.
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
@@ -11,7 +11,7 @@ namespace {
 
 AmbientLink& baseOf(const AmbientTree& tree) { return *tree.links.front(); }
 
-// Gives the stand-in the forces on the base.
+// Applies the forces on the base to the stand-in.
 void applyForces(AmbientTree& tree) {
   btRigidBody& stand_in = baseOf(tree).stand_in;
   const Wrench applied = tree.flight.dynamics().appliedWrench(0);
@@ -20,7 +20,8 @@ void applyForces(AmbientTree& tree) {
   stand_in.applyTorque(toBullet(applied.torque));
 }
 
-// Takes the end of the flight of the stand-in. False if the tree cannot get there.
+// Copies the end of the stand-in's flight to the step of the tree. Returns false if the flight has
+// failed or Bullet cannot move the tree to its end.
 bool takeFlight(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   AmbientBody& ambient = baseOf(tree).ambient;

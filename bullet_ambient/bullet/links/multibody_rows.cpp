@@ -9,12 +9,12 @@
 AMBIENT_BEGIN
 namespace {
 
-// One side of a row: a multibody, which is a tree in fluid or dry, an ambient body, or another
-// rigid body. Without either: nothing.
+// One side of a row: a multibody (in fluid, if `tree` is set), an ambient body, another rigid body,
+// or nothing (all pointers null).
 struct MultiBodyParty {
   btMultiBody* multibody = nullptr;
-  int jacobian = 0;  // where the multibody's Jacobian begins
-  int change = 0;    // and its change of velocity
+  int jacobian = 0;  // index in m_jacobians at which the multibody's Jacobian begins
+  int change = 0;    // index in m_deltaVelocities at which its velocity change begins
   AmbientTree* tree = nullptr;
   RowBody* ambient = nullptr;
   const btSolverBody* solver_body = nullptr;
@@ -23,13 +23,15 @@ struct MultiBodyParty {
   bool isInFluid() const { return tree || ambient; }
 };
 
+// Rows of multibodies of one group, and what is needed to rewrite them.
 class RowSet {
  public:
   RowSet(const MultiBodyRows& rows, RowBodies& bodies,
          const btAlignedObjectArray<btSolverBody>& solver_bodies)
       : data_(rows.data), trees_(rows.trees), bodies_(bodies), solver_bodies_(solver_bodies) {}
 
-  // `time_step`: of the applied forces that the rows have seen; 0 if none.
+  // Rewrites all rows of a pool. `time_step` [s]: Bullet has included the dry body's velocity
+  // change by applied forces in this time; 0: it has included none.
   void rewrite(btMultiBodyConstraintArray& rows, btScalar relaxation, btScalar time_step) {
     for (int i = 0; i < rows.size(); ++i) {
       btMultiBodySolverConstraint& row = rows[i];
@@ -67,7 +69,8 @@ class RowSet {
     }
   }
 
-  // H^-1 J^T in place of the response without fluid, of which warm starting has used `impulse`.
+  // Replaces the response of a dry tree by H^-1 J^T. Warm starting has applied `impulse` with the
+  // dry response: applies it with the difference, too.
   void respond(const MultiBodyParty& party, btScalar impulse) {
     TreeStep& step = party.tree->step;
     Coordinates &force = step.change, &response = step.spare;
@@ -88,6 +91,8 @@ class RowSet {
     addChange(*party.multibody, force);
   }
 
+  // Returns the response of one side to a unit impulse along its row, J H^-1 J^T or J' D J'^T;
+  // brings an ambient body's side into its basis. `impulse`: that of warm starting.
   btScalar responseOf(const MultiBodyParty& party, btScalar impulse) {
     if (party.tree) respond(party, impulse);
     if (party.multibody) {
@@ -101,13 +106,14 @@ class RowSet {
     return party.solver_body ? inverseEffectiveMass(*party.solver_body, party.side) : btScalar(0);
   }
 
-  // Returns the change of velocity in the step that the rows must see and have not seen.
+  // Returns the velocity change along the row by forces and fluid, outside the rows, that the
+  // right-hand side does not contain yet.
   static btScalar unseenChange(const MultiBodyParty& party, btScalar time_step) {
     if (!party.ambient) return 0;
     const RowSide& side = party.side;
     const btScalar change = side.angular.dot(party.ambient->spin_change) +
                             side.linear.dot(party.ambient->velocity_change);
-    // Rows about an axis, as of rolling friction, see no forces.
+    // Bullet includes no forces in rows about an axis, such as rolling friction.
     if (time_step == 0 || side.linear.length2() == 0) return change;
     const btRigidBody& body = *party.solver_body->m_originalBody;
     const btVector3 spin = body.getInvInertiaTensorWorld() * body.getTotalTorque();
@@ -119,8 +125,8 @@ class RowSet {
     return party.ambient && party.ambient->is_locked;
   }
 
-  // A row that only pulls at locked axes, against a multibody that cannot move. The solver divides
-  // by the effective mass: that remains what it was.
+  // Switches off a row along locked axes only, whose other side is a multibody that cannot move.
+  // Keeps the effective mass, by which the solver divides.
   static void suspendRow(btMultiBodySolverConstraint& row, const MultiBodyParty& a,
                          const MultiBodyParty& b) {
     for (const MultiBodyParty* party : {&a, &b}) {

@@ -9,17 +9,18 @@
 
 AMBIENT_BEGIN
 
-/// Brings the rigid side of all rows that touch an ambient body into its velocity basis, as
-/// rewriteRows() does: J' = J T; effective mass, right-hand side and softness rescaled. Bullet lets
-/// these rows see applied forces without fluid, or none: they are made to see the change of
-/// velocity that the fluid body really has. Trees in fluid keep J, and get the response H^-1 J^T;
-/// their velocity is that in the fluid when Bullet makes the rows.
+/// Rewrites rows of multibodies that touch an ambient body or a tree in fluid, and rescales their
+/// effective masses, right-hand sides and softness. The side of an ambient body is brought into its
+/// velocity basis, J' = J T, docs/theory.md eq. (27). Bullet computes its velocity in these rows
+/// with the dry body's forces, or without forces: the difference to k + X of eq. (28) is added. The
+/// side of a tree keeps J and gets the response H^-1 J^T, docs/theory.md section 14; TreeGroup has
+/// set its velocity before Bullet made the rows.
 void rewriteMultiBodyRows(const MultiBodyRows& rows, const btContactSolverInfo& info,
                           RowBodies& bodies,
                           const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
 
-/// Calls visit(solver body id) for the rigid sides of rows that join multibodies to rigid bodies:
-/// Bullet does not tell these bodies before the rows are made.
+/// Calls visit(solver body id) for the rigid sides of rows that join multibodies to rigid bodies.
+/// These bodies are known only once Bullet has made the rows.
 template <class Visit>
 void forEachJoinedBody(const btMultiBodyConstraintArray& joints, const Visit& visit) {
   for (int i = 0; i < joints.size(); ++i) {
@@ -28,7 +29,7 @@ void forEachJoinedBody(const btMultiBodyConstraintArray& joints, const Visit& vi
   }
 }
 
-/// Applies the impulses that rows begin with to ambient bodies, in their bases.
+/// Applies the warm-starting impulses of rewritten rows to their ambient bodies.
 void reapplyMultiBodyImpulses(const btMultiBodyConstraintArray& rows, RowBodies& bodies,
                               btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
 

@@ -11,11 +11,13 @@
 AMBIENT_BEGIN
 namespace {
 
+// True if the fluid above the surface loads the link and moves relative to the water.
 bool hasWind(const AmbientBody& ambient) {
   return ambient.surface()->model.loads_above.loads &&
          ambient.encounter.velocity_above != ambient.medium.velocity;
 }
 
+// True if a torque, a joint force or an accelerating flow acts on a link.
 bool isDriven(const Link& link) {
   const auto& forces = link.joint_force;
   return !link.surroundings.applied.torque.isZero(0) ||
@@ -23,7 +25,7 @@ bool isDriven(const Link& link) {
          (link.model && !link.surroundings.ambient_acceleration.isZero(0));
 }
 
-// Whether nothing but weight and water moves a tree.
+// True if nothing but weight and water moves a tree, in one flow that it can follow.
 bool isLeftToWater(AmbientTree& tree) {
   bool has_wind = false;
   forEachAtSurface(
@@ -33,6 +35,8 @@ bool isLeftToWater(AmbientTree& tree) {
          findFlow(tree.tree, tree.step.surface.start, tree.step.spare);
 }
 
+// Returns twice the kinetic energy of `u` relative to the flow [J], and leaves the velocity
+// relative to the flow in `step.spare`.
 double twiceKinetic(AmbientTree& tree, const CoordinatesIn& u) {
   Coordinates& x = tree.step.spare;
   x = u;
@@ -40,8 +44,9 @@ double twiceKinetic(AmbientTree& tree, const CoordinatesIn& u) {
   return tree.flight.dynamics().normSquared(x);
 }
 
-// Energy of place where the dynamics are; of_water(AmbientBody&, index in the tree) is that of the
-// surface and waves.
+// Returns the potential energy at the pose of the dynamics [J], with positions relative to
+// `origin_W`. Adds of_water(AmbientBody&, index in the tree) for each link at a surface: the energy
+// of water and waves.
 template <class OfWater>
 double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfWater& of_water) {
   const LinkDynamics& dynamics = tree.flight.dynamics();
@@ -63,13 +68,13 @@ double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfW
   return sum;
 }
 
-// Energy of the water around a link where it stood last, docs/theory.md eq. (64) [J].
+// Returns the energy rho g W of docs/theory.md eq. (64) at the last pose of a link [J].
 double energyOfWater(const AmbientBody& ambient) {
   const SurfaceStand& stand = ambient.surface()->stand;
   return hydrostaticEnergy(stand.wet, stand.plane);
 }
 
-// Energy that the rounding of Bullet's poses changes.
+// Returns the largest change of the energy by rounding of Bullet's poses [J].
 double roundingOf(const AmbientTree& tree) {
   constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
   double sum = 0;
@@ -82,6 +87,7 @@ double roundingOf(const AmbientTree& tree) {
   return kRounding * sum;
 }
 
+// Returns the origin of displacements, which moves with the flow, `time` after the start.
 Vector3 originAfter(const AmbientTree& tree, double time) {
   return tree.step.surface.origin_W + time * flowAround(tree.tree);
 }
@@ -112,7 +118,7 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
   const Vector3 flow = flowAround(tree.tree);
   dynamics.setVelocity(tree.step.moved);
   bool is_stiff = false;
-  double most = 0;  // work of a buoyancy that changes by that of a disc as wide as the link
+  double most = 0;  // right-hand side of eq. (81b) [J]
   forEachAtSurface(tree, [&](const AmbientBody& ambient, int link) {
     const SurfaceModel& model = ambient.surface()->model;
     const SurfacePlane& plane = ambient.encounter.plane_W;

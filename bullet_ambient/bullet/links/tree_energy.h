@@ -5,13 +5,13 @@
 
 AMBIENT_BEGIN
 
-// Energy of a tree at a water surface, docs/theory.md eq. (64): that of its motion relative to the
-// flow, of weight and water, and of the waves that its links have made.
+// Energy of a tree at a water surface, docs/theory.md eq. (64): kinetic energy relative to the
+// flow, potential energy of weight and water, and energy of the waves that its links have made.
 
-/// Whether a surface is near a link.
+/// True if a water surface is near a link.
 bool isAtSurface(const AmbientTree& tree) noexcept;
 
-/// Calls visit(AmbientBody&, index in the tree) for links that a surface is near.
+/// Calls visit(AmbientBody&, index in the tree) for links near a water surface.
 template <class Visit>
 void forEachAtSurface(const AmbientTree& tree, const Visit& visit) {
   for (const auto& link : tree.links)
@@ -19,20 +19,24 @@ void forEachAtSurface(const AmbientTree& tree, const Visit& visit) {
       visit(link->ambient, link->link + 1);
 }
 
-/// Before a step: keeps the energy of `step.surface.start`, if nothing but weight and water can
-/// change it. @pre the dynamics are at the pose, without stiffness
+/// Call before a step. Stores the energy of the tree with the velocity `step.surface.start`. If
+/// wind, applied torques or joint forces act, stores that there is no bound. @pre the dynamics are
+/// at the pose, with inertias that are not stiffened
 void keepEnergy(AmbientTree& tree) noexcept;
 
-/// Docs/theory.md eq. (81b): whether a flight with the mean velocity `step.moved` that ended with
-/// `step.end` may have come to where the energy of place is more than all energy before: false if
-/// the motion has more than the buoyancy can err by on its way. Cost: O(links).
+/// Returns false if a flight with mean velocity `step.moved` and end velocity `step.end` cannot
+/// have reached a pose with more potential energy than the stored energy: the kinetic energy at the
+/// end exceeds the largest error of the work of buoyancy, docs/theory.md eq. (81b). `duration` [s].
+/// Cost: O(links).
 bool mayGainEnergy(AmbientTree& tree, double duration) noexcept;
 
-/// Whether it has come there: at a pose of the dynamics, a time since the step began [s].
+/// True if the potential energy at the pose of the dynamics exceeds the stored energy, a time
+/// `since_start` [s] after the start of the step.
 bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept;
 
-/// Scales `step.end`, after the tree has arrived, to the energy before the step of `duration` [s].
-/// Returns the energy removed [J].
+/// Scales `step.end` relative to the flow, so that the energy does not exceed the one that
+/// keepEnergy() stored. `duration` of the step [s]. Returns the energy removed [J]. @pre
+/// arriveAtSurface()
 double boundEnergy(AmbientTree& tree, double duration) noexcept;
 
 AMBIENT_END

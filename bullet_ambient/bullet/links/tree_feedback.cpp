@@ -9,8 +9,8 @@
 AMBIENT_BEGIN
 namespace {
 
-// Surface loads, the forces of rows and what a water surface did at the end of the step; those of
-// the base do not reach a joint.
+// Adds surface loads, forces of rows, and the mean force of a water surface at the end of the step
+// to the applied wrenches of all links but the base, whose wrench does not matter to joint forces.
 void addOuterWrenches(AmbientTree& tree, double duration) {
   LinkDynamics& dynamics = tree.flight.dynamics();
   for (int i = 1; i < tree.tree.size(); ++i) {
@@ -27,6 +27,8 @@ void addOuterWrenches(AmbientTree& tree, double duration) {
   }
 }
 
+// Brings a joint wrench at the link's centre of mass, in its axes, to the point and axes that the
+// solver's settings for joint feedback ask for.
 btSpatialForceVector inBulletsFrame(const Wrench& wrench, const btMultibodyLink& link,
                                     const btContactSolverInfo& info) {
   btVector3 torque = toBullet(wrench.torque), force = toBullet(wrench.force);
@@ -54,7 +56,7 @@ void writeJointForces(AmbientTree& tree, const TreeTask& task) noexcept {
   dynamics.setPose(step.pose);
   dynamics.setVelocity(step.moved);
   addOuterWrenches(tree, task.duration);
-  dynamics.setPose(step.pose);  // takes these
+  dynamics.setPose(step.pose);  // again: it reads the applied wrenches
   step.change = (step.end - step.start) / task.duration;
   dynamics.inverseDynamics(step.moved, step.change, step.spare);
   const btContactSolverInfo& info = task.bodies.trees.world()->getSolverInfo();

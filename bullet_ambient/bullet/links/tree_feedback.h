@@ -5,13 +5,13 @@
 
 AMBIENT_BEGIN
 
-/// Whether Bullet is asked for the forces in joints of a multibody.
+/// True if a link of the multibody has a btMultiBodyJointFeedback.
 bool wantsJointForces(const btMultiBody& multi_body) noexcept;
 
-/// Replaces the joint forces that Bullet has computed without fluid, btMultiBodyJointFeedback, by
-/// those that have made the change of velocity of the substep, at the middle of its way. As with
-/// Bullet, rows act as forces from outside; what is due to velocities counts once, and with Bullet
-/// twice. @pre `step` has the velocities of this substep
+/// Replaces the joint forces in btMultiBodyJointFeedback, which Bullet has computed without fluid,
+/// by those in fluid: inverse dynamics of the mean acceleration of the substep, at the pose in its
+/// middle. Forces of rows count as applied forces, as in Bullet. Velocity-dependent terms count
+/// once; Bullet counts them twice. @pre `step` has the velocities of this substep
 void writeJointForces(AmbientTree& tree, const TreeTask& task) noexcept;
 
 AMBIENT_END

@@ -10,7 +10,8 @@
 AMBIENT_BEGIN
 namespace {
 
-// One step for all links: the strictest tolerance, and the most substeps.
+// Returns the settings of the flight of all links: the strictest tolerance and the largest number
+// of substeps among them.
 LinkFlightSettings settingsOf(const AmbientTree& tree) {
   LinkFlightSettings settings;
   int most = 0;
@@ -22,7 +23,8 @@ LinkFlightSettings settingsOf(const AmbientTree& tree) {
   return settings;
 }
 
-// Reports the first links for whose motion the steps are too long.
+// Adds the error of a step to that of each link. Counts and reports links for which steps are too
+// long, unless the user limits max_substeps.
 void addErrors(double error, AmbientTree& tree, Complaints& complaints) {
   for (const auto& link : tree.links) {
     AmbientBody& ambient = link->ambient;
@@ -32,7 +34,7 @@ void addErrors(double error, AmbientTree& tree, Complaints& complaints) {
   }
 }
 
-// Flight of a tree in one step.
+// Flight of a tree in one substep.
 class TreeFlight {
  public:
   TreeFlight(AmbientTree& tree, const TreeTask& task)
@@ -64,14 +66,15 @@ class TreeFlight {
     count_.energy_removed += result.count.energy_removed;
   }
 
-  // After `made` of `parts` parts; the tree is at the end of the last flight.
+  // True if the energy has grown after `made` of `parts` parts. The pose is the end of the last
+  // part.
   bool hasGained(int made, int parts) {
     tree_.flight.dynamics().setPose(tree_.flight.endPose());
     return hasGainedEnergy(tree_, made * task_.duration / parts);
   }
 
-  // In twice as many parts until the energy reaches. If it never does, the motion ends after the
-  // last part at whose end it reaches.
+  // Flies the step again in 2, 4, ... parts, until the energy suffices for the pose at the end. If
+  // it never does, the motion ends after the last part at whose end it suffices.
   void flyInParts() {
     step_.surface.pose = step_.pose;
     for (const auto& link : tree_.links) link->met = link->ambient.encounter;
@@ -88,6 +91,7 @@ class TreeFlight {
         (1 - static_cast<double>(reached) / parts) * flowAround(tree_.tree);
   }
 
+  // Ends the motion after `reached` of `parts` parts. After 0 parts the tree rests in the flow.
   void halt(int reached, int parts) {
     count_.halted = true;
     if (reached > 0) {
@@ -100,8 +104,8 @@ class TreeFlight {
     tree_.flight.stay(step_.pose, step_.end);
   }
 
-  // Flies the first `made` of `parts` parts. Returns the number after which the energy reached
-  // last.
+  // Flies the first `made` of `parts` parts. Returns the number of the last part at whose end the
+  // energy suffices; 0: none.
   int flyParts(int made, int parts) {
     returnToStart();
     const TreeTask part{task_.bodies, task_.duration / parts, task_.gravity};
@@ -115,12 +119,14 @@ class TreeFlight {
     return reached;
   }
 
+  // Passes the surface at the end of a part.
   void arrive() {
     step_.pose = tree_.flight.endPose();
     count_.energy_removed += arriveAtSurface(tree_);
     step_.start = step_.end;
   }
 
+  // Restores the start of the step: pose, velocity, water surfaces and counts.
   void returnToStart() {
     step_.pose = step_.surface.pose;
     step_.start = step_.surface.start;

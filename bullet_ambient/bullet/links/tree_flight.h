@@ -5,22 +5,24 @@
 
 AMBIENT_BEGIN
 
-/// Flies a tree that no row turns from `step.pose` with `step.start`; leaves the mean velocity and
-/// that of the end. Where the step has come to a place that its energy does not reach, at a water
-/// surface, it is flown again in parts, and ends early at last; docs/theory.md eq. (81b). False if
-/// a result is not finite. @pre `step.start` has the kicks of the surface
+/// Flies a tree over a substep, from `step.pose` with velocity `step.start`. Writes the mean
+/// velocity to `step.moved` and the end velocity to `step.end`. At a water surface, a step that
+/// ends with more potential energy than it had energy is flown again in 2, 4, ... parts, and ends
+/// early if that does not help; docs/theory.md section 14, eq. (81b). Returns false if a result is
+/// not finite.
+/// @pre no row turns with the tree; `step.start` contains the kicks by the surface
 bool flyTree(AmbientTree& tree, const TreeTask& task) noexcept;
 
-/// Whether a tree in fluid flies as a body does: it is free, has no joint, and no row turns with
-/// it.
-/// @pre prepareLinks()
+/// True if a tree flies as a free rigid body: it has one link, its base is not fixed, it was awake,
+/// and no row turns with it. @pre prepareLinks()
 bool fliesAsBody(const AmbientTree& tree) noexcept;
 
-/// Flies up to kFlightsTogether such trees side by side from `step.pose` with `step.start`, as
-/// bodies fly, with the same bits: by their stand-ins. Leaves the mean velocity and that of the
-/// end, and writes which of them have flown. A tree has not, and is as before, if its flight is not
-/// finite, or if it turns so fast that Bullet would not bring it to the end of the flight.
-/// @pre the stand-ins are where the trees are
+/// Flies up to kFlightsTogether trees for which fliesAsBody() is true, side by side, from
+/// `step.pose` with `step.start`. Calls beginFlights() for their stand-ins, so that they have the
+/// bits of rigid bodies. Writes mean velocities to `step.moved`, end velocities to `step.end`, and
+/// true to `have_flown` for each tree that has flown. A flight that is not finite, or turns faster
+/// than Bullet can move a multibody, leaves its tree unchanged. @pre the stand-ins have the poses
+/// of the trees
 void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task,
                  bool* have_flown) noexcept;
 

@@ -29,7 +29,8 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
   in_tree.surroundings.ambient_acceleration = ambient.medium.acceleration;
 }
 
-// Whether a link is smooth, so that followWake() asks how it moves.
+// True if a link has a wake that depends on its motion (followWake()): then its stand-in needs the
+// velocity.
 bool hasWakes(const AmbientTree& tree) {
   return std::any_of(tree.links.begin(), tree.links.end(), [](const auto& link) {
     const auto& loads = link->ambient.model.loads;
@@ -37,9 +38,10 @@ bool hasWakes(const AmbientTree& tree) {
   });
 }
 
-// Whether a link moves by more than a body that may rest, or its fluid changes with time.
+// True if a link moves by more than a hundredth of its size in 2 s, Bullet's time before sleep, or
+// its fluid changes with time.
 bool moves(AmbientTree& tree) {
-  constexpr double kRestingTravel = 0.01, kRestingTime = 2;  // as of bodies
+  constexpr double kRestingTravel = 0.01, kRestingTime = 2;  // those of bodies
   LinkDynamics& dynamics = tree.flight.dynamics();
   dynamics.setVelocity(tree.step.end);
   return std::any_of(tree.links.begin(), tree.links.end(), [&dynamics](const auto& link) {
@@ -51,8 +53,8 @@ bool moves(AmbientTree& tree) {
   });
 }
 
-// Whether a tree without joints floats where it could turn over. Joints may hold the links of
-// others.
+// True if a tree of one link floats in an unstable balance. False for trees with joints, which may
+// hold their links.
 bool standsOnSaddle(AmbientTree& tree) {
   AmbientBody& ambient = tree.links.front()->ambient;
   if (tree.tree.size() > 1 || !ambient.surface()) return false;

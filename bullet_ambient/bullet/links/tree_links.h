@@ -5,27 +5,32 @@
 
 AMBIENT_BEGIN
 
-/// Brings links, their fluids and forces up to date at the start of a substep, and the stand-ins of
-/// a tree without joints to where it is. False if no link is in a fluid. Allocates nothing.
+/// Updates links, fluids and forces of a tree at the start of a substep. Moves the stand-ins to the
+/// links if regions, a smooth link or a tree without joints need it. Returns false if no link is in
+/// a fluid. Allocates nothing.
 bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept;
 
-/// The flow from which the motion of a tree is seen: that of its links, if it is one and the base
-/// may follow it; otherwise none.
+/// Returns the velocity of the flow that the tree can follow, world axes [m/s]: that around its
+/// links, if it is the same for all and the base can move; otherwise 0.
 Vector3 flowAround(const LinkTree& tree) noexcept;
 
-/// Brings the stand-ins to where the links are at `step.pose`, moving by u.
+/// Gives the stand-ins the poses of the links at `step.pose`, and their velocities for the
+/// generalized velocity `u`.
 void placeStandIns(AmbientTree& tree, const CoordinatesIn& u) noexcept;
 
-/// Between two steps: brings the stand-ins to where the links are and move now.
+/// Gives the stand-ins the present poses and velocities of the links. Call between two steps.
 void moveStandIns(AmbientTree& tree) noexcept;
 
-/// Adds what was computed of a tree to the counters of its links.
+/// Adds the counts of a flight to the counters of the links: substeps to all, load evaluations in
+/// equal parts to those with loads, all others to the first link.
 void addCount(const FlightCount& count, AmbientTree& tree) noexcept;
 
-/// Adds energy that a bound has taken from the motion of a tree [J].
+/// Adds energy that a bound has removed from the motion of a tree [J] to the counter of its first
+/// link.
 void countEnergyRemoved(double energy, AmbientTree& tree) noexcept;
 
-/// Does for a tree what keepAwakeWhileMoving() and keepAwakeInUnsteadyFluid() do for a body.
+/// Wakes a tree that drifts, whose fluid changes with time, or that floats in an unstable balance;
+/// like keepAwakeWhileMoving() and keepAwakeInUnsteadyFluid() of bodies.
 void keepTreeAwake(AmbientTree& tree) noexcept;
 
 AMBIENT_END

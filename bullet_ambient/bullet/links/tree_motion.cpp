@@ -19,10 +19,12 @@
 AMBIENT_BEGIN
 namespace {
 
-constexpr TurnLimits kTreeTurn{0.5, 0.45};  // as of bodies, docs/theory.md eq. (28a)
+constexpr TurnLimits kTreeTurn{0.5, 0.45};  // those of bodies, docs/theory.md eq. (28a)
 
+// Subtracts the velocity of the flow from the velocity of the base.
 void subtractFlow(const LinkTree& tree, CoordinatesOut u) { u.segment<3>(3) -= flowAround(tree); }
 
+// Returns the largest angular speed of a link [rad/s].
 double fastestSpin(LinkDynamics& dynamics, const CoordinatesIn& u) {
   dynamics.setVelocity(u);
   double fastest = 0;
@@ -31,7 +33,8 @@ double fastestSpin(LinkDynamics& dynamics, const CoordinatesIn& u) {
   return fastest;
 }
 
-// m of docs/theory.md eq. (28a): `x` is seen from the flow, `t` its turning part over h.
+// Returns m of docs/theory.md eq. (28a) for the velocity `x` relative to the flow and its turning
+// part `t` in a step `h` [s].
 double extentOf(LinkDynamics& dynamics, const CoordinatesIn& x, const CoordinatesIn& t, double h) {
   const double by_spin = h * fastestSpin(dynamics, x) / kTreeTurn.spin;
   const double size = dynamics.normSquared(x);
@@ -39,9 +42,10 @@ double extentOf(LinkDynamics& dynamics, const CoordinatesIn& x, const Coordinate
   return std::max(by_spin, std::sqrt(dynamics.normSquared(t) / size) / kTreeTurn.change);
 }
 
+// Returns X / t of eq. (28).
 double shareOfTurn(double extent) { return std::min(1.0, std::max(0.0, 2 - 2 * extent)) / 2; }
 
-// 2 a.H b
+// Returns 2 a.H b; `free` is scratch memory.
 double twiceProduct(LinkDynamics& dynamics, const Coordinates& a, const Coordinates& b,
                     Coordinates& free) {
   free = a + b;
@@ -61,7 +65,7 @@ void stopIfNotFinite(AmbientTree& tree, AmbientBodies& bodies) {
   reject(tree, bodies);
 }
 
-// Leaves it with the velocity that it had.
+// Gives a tree the velocity that it had before the substep; its motion in the fluid is not finite.
 void giveUp(AmbientTree& tree, AmbientBodies& bodies) {
   tree.step.outcome = TreeOutcome::kStock;
   writeVelocity(*tree.multi_body, tree.step.start);
@@ -76,7 +80,7 @@ bool fly(AmbientTree& tree, const TreeTask& task) {
   return true;
 }
 
-// For rows that turn with it.
+// Computes the velocity x + X of a tree whose rows turn with it. Returns false if it is not finite.
 bool prepareRows(AmbientTree& tree, double h) {
   TreeStep& step = tree.step;
   LinkFlight& flight = tree.flight;
@@ -94,7 +98,8 @@ bool prepareRows(AmbientTree& tree, double h) {
   return true;
 }
 
-// Rows have woken it in a substep that began without it: Bullet has given it no forces.
+// Prepares rows of a tree that slept when the substep began and was woken since. Bullet applies no
+// forces to it in this substep: rows are solved against its velocity as it is.
 bool prepareWoken(AmbientTree& tree) {
   TreeStep& step = tree.step;
   tree.flight.dynamics().setPose(step.pose);
@@ -106,14 +111,17 @@ bool prepareWoken(AmbientTree& tree) {
   return true;
 }
 
+// Sets the velocity that Bullet moves a flown tree by, u_m + d/2.
 void finishFlown(AmbientTree& tree) {
   TreeStep& step = tree.step;
-  step.spare = step.moved - step.change / 2;  // Bullet adds the change by the rows itself
+  step.spare = step.moved - step.change / 2;  // Bullet adds the whole change d by the rows
   writeVelocity(*tree.multi_body, step.spare);
   step.moved += step.change / 2;
   step.end += step.change;
 }
 
+// Flies a tree that no row has moved and that turns slowly; otherwise stores xi and the energy
+// bound of eq. (31a), twice the energy [J].
 void finishRows(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   if (step.change.isZero(0) && step.extent <= kSlowTurn && step.was_awake) {
@@ -133,9 +141,9 @@ void finishRows(AmbientTree& tree, const TreeTask& task) {
   step.energy = std::max(0.0, dynamics.normSquared(free) + std::min(0.0, on_share));
 }
 
-// From `from` towards `to`, both seen from the flow, as far as an energy allows. If it allows
-// neither, a part of `to`, or of `from` where that is no velocity of a whole turn. Returns the
-// energy that `to` has lost [J].
+// Moves `to` back towards `step.spare`, both relative to the flow, until twice its energy is at
+// most `energy`. If twice the energy of `step.spare` is larger, too, scales `to` down, or in a fast
+// turn sets it to `step.spare` scaled down. Returns the energy that `to` has lost [J].
 double keepWithin(double energy, LinkDynamics& dynamics, Coordinates& to, TreeStep& step) {
   const Coordinates& from = step.spare;
   const double has = dynamics.normSquared(to);
@@ -155,7 +163,8 @@ double keepWithin(double energy, LinkDynamics& dynamics, Coordinates& to, TreeSt
   return removed;
 }
 
-// In `share`: h times what of du/dt at `pose` is due to u, the turning part t.
+// Writes the turning part t to `step.share`: h times the part of du/dt at `step.pose` that depends
+// on u.
 void computeTurningAt(LinkDynamics& dynamics, const Coordinates& u, double h, TreeStep& step) {
   Coordinates &turning = step.share, &at_rest = step.change, &rate = step.spare;
   dynamics.setPose(step.pose);
@@ -167,7 +176,7 @@ void computeTurningAt(LinkDynamics& dynamics, const Coordinates& u, double h, Tr
   turning = h * (turning - rate);
 }
 
-// Leaves the velocity after the substep in `end`.
+// Writes the velocity after the substep, x + d + t(q_m, xi) within the energy bound, to `step.end`.
 void turnAfterRows(AmbientTree& tree, double h) {
   TreeStep& step = tree.step;
   LinkFlight& flight = tree.flight;
@@ -179,7 +188,7 @@ void turnAfterRows(AmbientTree& tree, double h) {
   Coordinates& from = step.spare;
   from = step.moved;
   subtractFlow(tree.tree, from);
-  turn = step.end - step.moved + from;  // seen from the flow
+  turn = step.end - step.moved + from;  // the velocity after the substep relative to the flow
   readPose(*tree.multi_body, step.pose);
   flight.dynamics().setPose(step.pose);
   const double allowed = step.energy + step.reserve;
@@ -190,7 +199,9 @@ void turnAfterRows(AmbientTree& tree, double h) {
   step.end = turn + step.moved - from;
 }
 
-// Rows of joints, or Bullet's limit of turns, have led it away from the end of its flight.
+// Corrects `step.end` of a flown tree that is not at the end pose of its flight, so that it has the
+// momentum of the flight, and without rows also the energy, docs/theory.md eq. (80a). Rows of
+// joints, or Bullet's limit of rotations, have moved it elsewhere.
 void keepIntegrals(AmbientTree& tree, double h) {
   TreeStep& step = tree.step;
   const bool has_rows = !step.change.isZero(0);
@@ -199,7 +210,8 @@ void keepIntegrals(AmbientTree& tree, double h) {
   countEnergyRemoved(tree.flight.arriveAt(step.pose, has_rows, step.end), tree);
 }
 
-// Gives it the velocity that rows are solved against, and an outcome. False if that is not finite.
+// Computes the velocity that rows are solved against, and sets the outcome. Returns false if the
+// velocity is not finite.
 bool begin(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   if (!step.was_awake) return prepareWoken(tree);
@@ -211,6 +223,7 @@ bool begin(AmbientTree& tree, const TreeTask& task) {
   return step.turns_rows ? prepareRows(tree, task.duration) : fly(tree, task);
 }
 
+// Sets the velocity of a tree that does not fly as a body.
 void beginAlone(AmbientTree& tree, const TreeTask& task) {
   if (!begin(tree, task)) {
     giveUp(tree, task.bodies);
@@ -220,7 +233,7 @@ void beginAlone(AmbientTree& tree, const TreeTask& task) {
   writeVelocity(*tree.multi_body, step.outcome == TreeOutcome::kFlown ? step.end : step.moved);
 }
 
-// It is at the end of a flight as a body.
+// Sets pose and velocity of a tree to the end of the flight of its stand-in.
 void arriveAsBody(AmbientTree& tree) {
   TreeStep& step = tree.step;
   step.outcome = TreeOutcome::kFlown;

@@ -5,38 +5,46 @@
 
 AMBIENT_BEGIN
 
-// A tree with rows that do not turn with it (none, or of its own joints) flies first. Its rows work
-// on the velocity u_1 at the end of the flight, with the inertia of its middle, and
+// Motion of a tree in a substep, docs/theory.md section 14, "Rows".
 //
-//   u_m + d/2   is what Bullet moves it by,   u_1 + d   its velocity afterwards
+// A tree without rows, or with rows of its own joints alone, flies first. The rows are solved
+// against the velocity u_1 at the end of the flight, with H in the middle of the flight. Bullet
+// moves the tree by
 //
-//   u_m   mean velocity of the flight;  d  what the rows have changed
+//   u_m + d/2, and the velocity becomes u_1 + d
 //
-// but for the base's, which keeps the momentum of the flight: docs/theory.md section 14, rows.
+//   u_m   mean velocity of the flight
+//   d     velocity change by the rows
 //
-// One with contacts or joints to other bodies has rows against x + X, at the pose of the start, and
+// The velocity of the base is then corrected, so that the tree keeps the momentum of the flight.
 //
-//   xi = x + X + d   is what Bullet moves it by,   x + d + t(q_m, xi)   its velocity afterwards
+// For a tree with contacts or joints to other bodies, rows are solved against x + X at the start
+// pose, as for bodies, eq. (28). Bullet moves the tree by
 //
-//   x     u_0 after forces and loads;  X  share of the turning part t in it, docs/theory.md eq.
-//   (28) q_m   middle of the way
+//   xi = x + X + d, and the velocity becomes x + d + t(q_m, xi)
 //
-// as eq. (31) does it with bodies. Its energy stays within (31a), whatever the turn: more than that
-// only if turns in the steps before have lost as much.
+//   x     start velocity changed by forces and loads
+//   t     turning part of eq. (28): velocity change by gyroscopic terms;  X  included share of it
+//   q_m   pose in the middle of the step
+//
+// The energy stays within the bound of eq. (31a). Energy that this bound has left unused in earlier
+// steps (`reserve`) may be used later.
 
-/// Before the rows: gives it the velocity that they are solved against. False if that is left to
-/// meetAsBodies(). @pre its velocity before the substep is kept in `step`
+/// Call before Bullet makes rows. Sets the velocity of a tree to the one that rows are solved
+/// against. Returns false, and sets none, for a tree that flies as a body: call meetAsBodies() for
+/// it. @pre `step.start` is the velocity before the substep
 bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept;
 
-/// Gives up to kFlightsTogether trees without joints, which meetTree() has left, the velocity of
-/// their flight, side by side.
+/// Flies up to kFlightsTogether trees for which meetTree() was false, side by side, and sets their
+/// velocities to those at the end of the flights.
 void meetAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
 
-/// After them: the velocity by which Bullet is to move it.
+/// Call after the rows are solved. Sets the velocity that Bullet moves the tree by.
 void finishTree(AmbientTree& tree, const TreeTask& task) noexcept;
 
-/// After Bullet has moved it: the velocity with which the substep ends. Adds to what it is then, so
-/// that impulses that others have given survive.
+/// Call after Bullet has moved the tree. Adds the difference between the velocity at the end of the
+/// substep and the one that Bullet has moved it by, so that impulses which others have applied
+/// meanwhile survive.
 void completeTree(AmbientTree& tree, const TreeTask& task) noexcept;
 
 AMBIENT_END

@@ -8,14 +8,14 @@
 
 AMBIENT_BEGIN
 
-/// Copy of a btMultiBody, with the fluid around its links, as it stands and moves now.
+/// Copy of the present pose and velocity of a btMultiBody, and of the fluid around its links.
 class TreeNow {
  public:
   TreeNow(const AmbientTrees& trees, const btMultiBody& body);
 
-  /// Makes the tree's equations of motion at its pose. The TreeNow must outlive them.
+  /// Returns the equations of motion of the tree at its pose. The TreeNow must outlive them.
   LinkDynamics dynamics() const;
-  /// Adds the surface loads to the forces on the links.
+  /// Adds the surface loads at the present velocity to the applied forces of the links.
   void applyLoads();
 
   Coordinates velocity;
@@ -24,7 +24,7 @@ class TreeNow {
   void immerse(AmbientLink& ambient, const btMultiBody& body, const Vector3& gravity);
 
   LinkTree tree_;
-  std::list<BodyModel> models_;  // the tree points at them
+  std::list<BodyModel> models_;  // tree_ holds pointers to them
   TreePose pose_;
 };
 

@@ -14,7 +14,8 @@ Wrench impulseOf(const AmbientBody& ambient, const Vector6& change) {
   return Wrench::fromVector(ambient.model.inertia * change);
 }
 
-// Adds H^-1 sum of J_l^T impulses to u. False if that is not finite, and u as it was.
+// Adds H^-1 sum of J_l^T impulses to u, eq. (81a). Returns false, and leaves u unchanged, if that
+// is not finite.
 bool addResponse(AmbientTree& tree, Coordinates& u) {
   LinkDynamics& dynamics = tree.flight.dynamics();
   dynamics.setPose(tree.step.pose);
@@ -25,7 +26,7 @@ bool addResponse(AmbientTree& tree, Coordinates& u) {
   return true;
 }
 
-// Twist of a link at the end of a step, relative to the water there.
+// Returns the twist of a link at the end of a step, relative to the water, in the link's frame.
 Vector6 endTwist(const LinkDynamics& dynamics, int link, const Medium& water, double duration) {
   Twist twist = dynamics.twist(link);
   const Vector3 flow = water.velocity + duration * water.acceleration;

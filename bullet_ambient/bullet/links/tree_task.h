@@ -7,7 +7,7 @@
 
 AMBIENT_BEGIN
 
-/// One substep of the world of the trees.
+/// Substep of the world of the trees.
 struct TreeTask {
   AmbientBodies& bodies;
   double duration;  ///< [s]
@@ -19,8 +19,8 @@ inline TreeTask taskOf(AmbientBodies& bodies, btScalar time_step) {
   return {bodies, static_cast<double>(time_step), bodies.trees.world()->getGravity()};
 }
 
-/// Calls visit(AmbientTree&) for each tree whose multibody the world still has: others may have
-/// been destroyed.
+/// Calls visit(AmbientTree&) for each tree whose multibody is in the world. Multibodies outside it
+/// may have been destroyed.
 template <class Visit>
 void forEachTree(btMultiBodyDynamicsWorld& world, const AmbientTrees& trees, const Visit& visit) {
   for (int i = 0; i < world.getNumMultibodies(); ++i)

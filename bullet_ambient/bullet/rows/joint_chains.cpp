@@ -12,10 +12,12 @@
 AMBIENT_BEGIN
 namespace {
 
-// Part of a row's own response below which what the rows before leave of it is rounding.
+// Pivot relative to the diagonal entry of its row, below which it is rounding: the row depends on
+// those before it.
 constexpr double kNoPivot = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 
-// Multiplications per row, of the factor. Bodies with dozens of joints on one of them exceed it.
+// Most multiplications per row for the factor. Chains with dozens of joints on one body exceed it,
+// and are left to the iterations.
 constexpr double kMostWork = 1e4;
 
 }  // namespace
@@ -41,13 +43,16 @@ int JointChains::solve(btConstraintArray& joints, RowBodies& ambient,
   is_visited_.assign(ambient.size(), false);
   first_row_.assign(ambient.size(), -1);
   int solved = 0;
-  // In the order of joints: that of bodies depends on how their contacts came about.
+  // Goes through joints, whose order is that of the program. The order of solver bodies depends on
+  // the order of contacts.
   for (int i = 0; i < joints.size(); ++i)
     for (const int body : {joints[i].m_solverBodyIdA, joints[i].m_solverBodyIdB})
       if (ambient.find(body) && !is_visited_[body]) solved += solveChain(body);
   return solved;
 }
 
+// Solves the chain of joints around a body. Returns the number of rows solved; 0 for a loop, or if
+// the factor fails.
 int JointChains::solveChain(int root) noexcept {
   if (!gatherChain(root) || !factorize()) return 0;
   substitute();
@@ -59,11 +64,12 @@ bool JointChains::canMove(int body) const noexcept {
   return original && original->getInvMass() > 0;
 }
 
-// Has a response that is symmetric, and that of all its rows.
+// True if the response of a body is symmetric and the same in all its rows: no locked axes, and not
+// a moving body of another group.
 bool JointChains::isPlain(int body) const noexcept {
   const RowBody* ambient = ambient_->find(body);
   if (ambient) return !ambient->is_locked;
-  // One that Bullet has added later and that can move belongs to another group.
+  // Bullet has appended this body after convertBodies(): if it can move, it is in another group.
   if (static_cast<std::size_t>(body) >= ambient_->size()) return !canMove(body);
   const btSolverBody& solver_body = (*bodies_)[body];
   const btVector3 all(1, 1, 1);
@@ -76,7 +82,7 @@ int JointChains::otherBody(int row, int body) const noexcept {
   return r.m_solverBodyIdA == body ? r.m_solverBodyIdB : r.m_solverBodyIdA;
 }
 
-// The rows of each body that can move, one after another.
+// Lists the rows without bounds of each body that can move, in links_.
 void JointChains::linkBodies() noexcept {
   first_link_.assign(ambient_->size() + 1, 0);
   const auto forEachEnd = [&](const auto& visit) {
@@ -95,7 +101,8 @@ void JointChains::linkBodies() noexcept {
   forEachEnd([&](int body, int row) { links_[--first_link_[body]] = row; });
 }
 
-// False if joints make a loop, in which the world is one body.
+// Collects the rows of the chain that contains `root`, breadth first. Returns false if joints make
+// a loop. All bodies that cannot move count as one body of a loop.
 bool JointChains::gatherChain(int root) noexcept {
   const btTypedConstraint* anchor = nullptr;
   bool is_open = true;
@@ -106,7 +113,7 @@ bool JointChains::gatherChain(int root) noexcept {
     const int body = queue_[next];
     for (int i = first_link_[body]; i < first_link_[body + 1]; ++i) {
       const btTypedConstraint* joint = jointOf((*joints_)[links_[i]]);
-      if (joint == entered_by_[body]) continue;  // has been added from its other body
+      if (joint == entered_by_[body]) continue;  // its rows were added at its other body
       const int other = otherBody(links_[i], body);
       if (!canMove(other)) {
         is_open = is_open && (!anchor || anchor == joint);
@@ -132,6 +139,7 @@ JointChains::Side JointChains::sideOf(int body, const btVector3& angular, const 
           inverse_mass * toVector3(linear)};
 }
 
+// Appends a row of the pool to the chain.
 void JointChains::addRow(int index) noexcept {
   const btSolverConstraint& row = (*joints_)[index];
   const auto number = static_cast<int>(rows_.size());
@@ -151,6 +159,8 @@ void JointChains::addRow(int index) noexcept {
   rows_.push_back(added);
 }
 
+// Computes the factor. Returns false if it would cost too much, or if the rows depend on each
+// other.
 bool JointChains::factorize() noexcept {
   std::size_t size = 0;
   double work = 0;
@@ -167,7 +177,8 @@ bool JointChains::factorize() noexcept {
   return true;
 }
 
-// Row i of L in J K^-1 J^T + c / j = L L^T; on the diagonal 1 / L.
+// Computes row i of L in J K^-1 J^T + c / j = L L^T; stores the inverse of the diagonal entry.
+// Returns false if the row depends on those before it.
 bool JointChains::reduceRow(int i) noexcept {
   const Row& row = rows_[i];
   double* L_i = factor_.data() + row.at - row.first;
@@ -194,6 +205,7 @@ bool JointChains::reduceRow(int i) noexcept {
   return true;
 }
 
+// Solves L L^T s = rhs / j - J du for the impulses s.
 void JointChains::substitute() noexcept {
   const auto count = static_cast<int>(rows_.size());
   impulse_.resize(rows_.size());
@@ -212,7 +224,8 @@ void JointChains::substitute() noexcept {
   }
 }
 
-// Velocity along the row that it asks for and that is not yet there [m/s].
+// Returns rhs / j - J du of a row: the velocity change along it that its impulses still have to
+// make [m/s].
 double JointChains::missingVelocity(const Row& row) const noexcept {
   const btSolverConstraint& constraint = (*joints_)[row.index];
   auto velocity = static_cast<double>(constraint.m_rhs / constraint.m_jacDiagABInv);
@@ -225,6 +238,8 @@ double JointChains::missingVelocity(const Row& row) const noexcept {
   return velocity;
 }
 
+// Sets the impulses of the rows within their bounds, and applies them. Returns the number of rows;
+// 0, without effect, if an impulse is not finite.
 int JointChains::apply() noexcept {
   for (const double impulse : impulse_)
     if (!std::isfinite(impulse)) return 0;

@@ -13,41 +13,46 @@ class btTypedConstraint;
 
 AMBIENT_BEGIN
 
-// Impulses with which rows of joints begin the iterations. Water raises what a light body resists
-// to a push and hardly what it resists to a turn; the rows of its joints then oppose each other so
-// nearly that Bullet's iterations leave much of them unsolved, and what position correction asks
-// for comes back as energy. So the rows of joints without loops are solved together before,
+// Solves the rows of joints without loops together, before Bullet's iterations, which start from
+// the impulses s:
 //
 //   (J K^-1 J^T + c / j) s = rhs / j - J du                       docs/theory.md eq. (27a)
 //
-//   s   impulses that the iterations begin with;  c  softness of the row, cfm of joints
-//   du  what warm starting has changed
+//   J    Jacobian of the rows;  K  total inertia of the bodies
+//   rhs, c, j   right-hand side, softness (cfm) and inverse effective mass of each row
+//   du   velocity change by warm starting
 //
-// by a Cholesky factor of the rows in the order in which they hang together, within its envelope.
-// A row with bounds (limits, motors, springs) or of a body with locked axes is left to the
-// iterations, and so are joints in loops, whose rows may contradict each other.
+// Reason: added mass makes a light body hard to push, but hardly harder to turn. Two rows of its
+// joint are then nearly opposite, and ten iterations leave much of them unsolved. The gap that
+// remains comes back as energy by position correction.
+//
+// The matrix is factored by Cholesky's method. Rows are ordered along the chain of joints, so that
+// only entries from the first nonzero one of a row to its diagonal are stored. Rows with bounds
+// (limits, motors, springs) and rows of bodies with locked axes are left to the iterations. So are
+// joints in loops, whose rows may contradict each other.
 
-/// Solves the joint rows of ambient bodies, and of bodies joined to them. Keeps its memory.
+/// Solves the joint rows of ambient bodies, and of bodies joined to them. Reuses its memory.
 class JointChains {
  public:
   using SolverBodies = btAlignedObjectArray<btSolverBody>;
 
+  /// Reserves memory for a group of so many bodies.
   void reserve(int solver_bodies);
-  /// After the rows were rewritten. Returns how many it has solved, and counts them for the ambient
-  /// bodies.
+  /// Solves rows that were rewritten, sets their impulses and applies them to the bodies. Returns
+  /// the number of rows solved, and adds it to RowBody::joint_rows.
   int solve(btConstraintArray& joints, RowBodies& ambient, SolverBodies& bodies) noexcept;
 
  private:
-  // One row seen from one of its bodies, which can move.
+  // Jacobian and response of a row at one of its bodies. World axes.
   struct Side {
-    int body;  // -1: none
-    Vector3 angular, linear;
-    Vector3 spin, velocity;  // that a unit impulse gives
+    int body;                 // solver body; -1: none, or one that cannot move
+    Vector3 angular, linear;  // Jacobian
+    Vector3 spin, velocity;   // velocity change by a unit impulse
   };
   struct Row {
     int index;       // in the pool
-    int first;       // earliest row of the chain that shares a body with it
-    std::size_t at;  // where its part of the factor begins: columns first to itself
+    int first;       // column of its first entry in the factor: first row that shares a body
+    std::size_t at;  // position of that entry in factor_
     Side sides[2];
   };
 
@@ -70,13 +75,13 @@ class JointChains {
   RowBodies* ambient_ = nullptr;
   SolverBodies* bodies_ = nullptr;
 
-  std::vector<int> first_link_;                       // by body: where its rows begin in links_
-  std::vector<int> links_;                            // rows of the pool, by body
-  std::vector<const btTypedConstraint*> entered_by_;  // by body: the joint that led to it
-  std::vector<char> is_visited_;
-  std::vector<int> first_row_;  // by body, of the chain
-  std::vector<int> queue_;      // bodies of the chain
-  std::vector<Row> rows_;       // of the chain
+  std::vector<int> first_link_;  // by body: position of its first row in links_
+  std::vector<int> links_;       // rows (index in the pool) of all bodies, one body after another
+  std::vector<const btTypedConstraint*> entered_by_;  // by body: joint by which it was found
+  std::vector<char> is_visited_;                      // by body
+  std::vector<int> first_row_;                        // by body: its first row in rows_; -1: none
+  std::vector<int> queue_;                            // bodies of the present chain
+  std::vector<Row> rows_;                             // rows of the present chain
   std::vector<double> factor_, impulse_;
 };
 

@@ -10,7 +10,8 @@
 AMBIENT_BEGIN
 namespace {
 
-// Velocity along the row before the step's impulses, with that of external forces [m/s].
+// Returns the velocity along the row before the impulses of the step, including the velocity change
+// by external forces [m/s].
 btScalar velocityBefore(const btSolverConstraint& row, const btSolverBody& a,
                         const btSolverBody& b) {
   return row.m_contactNormal1.dot(a.m_linearVelocity + a.m_externalForceImpulse) +
@@ -19,14 +20,16 @@ btScalar velocityBefore(const btSolverConstraint& row, const btSolverBody& a,
          row.m_relpos2CrossNormal.dot(b.m_angularVelocity + b.m_externalTorqueImpulse);
 }
 
-// Velocity that Bullet's position correction asks for: the right side without the velocity that the
-// row has to stop [m/s]. A row with bounds may be a motor, whose right side is its speed: 0.
+// Returns the velocity of Bullet's position correction [m/s]: the right-hand side plus the velocity
+// along the row. Returns 0 for a row with bounds, which may be a motor with its speed in the
+// right-hand side.
 double correctionOf(const btSolverConstraint& row, const btSolverBody& a, const btSolverBody& b) {
   if (hasBounds(row) || !(row.m_jacDiagABInv > 0)) return 0;
   return std::abs(static_cast<double>(row.m_rhs / row.m_jacDiagABInv + velocityBefore(row, a, b)));
 }
 
-// Velocity along the row that it asks for and has not got [m/s]; 0 at a bound.
+// Returns the difference between the velocity that the row asks for and the one reached [m/s]; 0 if
+// the impulse is at a bound.
 double missedBy(const btSolverConstraint& row, btSolverBody& a, btSolverBody& b) {
   const btScalar impulse = row.m_appliedImpulse;
   const bool is_bound = impulse <= row.m_lowerLimit || impulse >= row.m_upperLimit;

@@ -10,29 +10,30 @@
 
 AMBIENT_BEGIN
 
-/// Part of a body's size by which a joint gapes in a step, and steps in a row in which it does,
-/// that say that the solver does not hold it.
+/// Gap of a joint per step, relative to the size of its body, that is reported after kLongGape
+/// steps in a row.
 constexpr double kWideGap = 0.05;
 constexpr int kLongGape = 10;
 
-/// Finds joints that the solver does not hold: rows of ambient bodies against a shift whose
-/// velocity is not the one that they ask for, though their impulse is within its bounds, or whose
-/// position correction asks for much. A gape is a velocity of either kind times the step [m]. Keeps
-/// its memory.
+/// Finds joints that the solver does not hold. The gap of a joint row against translation is the
+/// step times the larger of two velocities [m]: the difference between the velocity that the row
+/// asks for and the one that the iterations have reached (0 if the impulse is at a bound), and the
+/// velocity of position correction. Reuses its memory.
 class JointGaps {
  public:
-  /// Reads the rows as Bullet has set them up, which tells shifts from turns and has the position
-  /// correction in its right side.
+  /// Stores the rows of ambient bodies against translation, and their position corrections. Call
+  /// before rows are rewritten: later, Jacobians and right-hand sides no longer tell these.
   void watch(const btConstraintArray& joints, RowBodies& ambient,
              btAlignedObjectArray<btSolverBody>& bodies) noexcept;
-  /// After the iterations: into RowBody::gap, the largest gape of each body.
+  /// Writes the largest gap of each ambient body to RowBody::gap. Call after the iterations;
+  /// `time_step` [s].
   void measure(const btConstraintArray& joints, RowBodies& ambient,
                btAlignedObjectArray<btSolverBody>& bodies, double time_step) const noexcept;
 
  private:
   struct Row {
-    int index;          ///< in the pool of joints
-    double correction;  ///< velocity that position correction asks for [m/s]
+    int index;          ///< index in the pool of joint rows
+    double correction;  ///< velocity of position correction [m/s]
   };
   std::vector<Row> rows_;
 };

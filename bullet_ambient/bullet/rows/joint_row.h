@@ -7,13 +7,13 @@
 
 AMBIENT_BEGIN
 
-/// The joint that a row of the pool of joints belongs to.
+/// Returns the joint of a row in the pool of joint rows.
 inline const btTypedConstraint* jointOf(const btSolverConstraint& row) {
   return static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
 }
 
-/// Whether a joint's row is a limit, a motor or a spring: bounds other than the impulse that breaks
-/// the joint.
+/// True if the impulse of a joint row has other bounds than the joint's breaking impulse: the row
+/// is a limit, a motor or a spring.
 inline bool hasBounds(const btSolverConstraint& row) {
   const btScalar most = jointOf(row)->getBreakingImpulseThreshold();
   return row.m_lowerLimit > -most || row.m_upperLimit < most;

@@ -7,7 +7,7 @@
 AMBIENT_BEGIN
 namespace {
 
-// The impulse that the row lacks.
+// Returns ds, the change of the row's impulse before it is limited.
 AMBIENT_INLINE btScalar lackingImpulse(const btSolverBody& a, const btSolverBody& b,
                                        const btSolverConstraint& row) {
   const Four along = sumsOfThree(load(row.m_contactNormal1) * load(a.m_deltaLinearVelocity),
@@ -66,7 +66,7 @@ AMBIENT_INLINE btScalar solveFrictions(const RowPass& pass, const btConstraintAr
   return largest;
 }
 
-// Functions of a struct for one instruction set.
+// Defines a struct with the functions of QuickRows, compiled for the instruction set `target`.
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute takes none
 #define AMBIENT_QUICK_ROWS(name, target)                                               \
   struct name {                                                                        \

@@ -6,14 +6,14 @@
 
 AMBIENT_BEGIN
 
-// Bullet's functions that solve one row, by four numbers side by side, where its build on this
-// system takes one number after the other. Each sum is added up in Bullet's order, so that
-// impulses, velocities and residuals have the same bits.
+// Bullet's functions that solve one row, with four numbers per instruction. Bullet's build on Linux
+// computes one number after another. Sums are added in Bullet's order, so that impulses, velocities
+// and residuals have the same bits.
 //
 //   ds = rhs - c s - j (J_1 du_1 + J_2 du_2),   s' = clamp(s + ds),   du_i += D_i J_i^T (s' - s)
 //
 //   s  impulse of the row;  rhs, c, j  its right-hand side, softness, inverse effective mass
-//   J_i, D_i, du_i  of the two bodies: Jacobian, inverse inertia, change of velocity
+//   J_i, D_i, du_i  Jacobian, inverse inertia and velocity change of the two bodies
 
 /// Rows of a pool in the order in which an iteration takes them.
 struct RowPass {
@@ -22,13 +22,17 @@ struct RowPass {
   btAlignedObjectArray<btSolverBody>& bodies;
 };
 
-/// Functions that solve rows. Their residual is a velocity [m/s].
+/// Functions that solve rows. A residual is the velocity along a row that its impulse changes
+/// [m/s].
 struct QuickRows {
-  btSingleConstraintRowSolver generic;      ///< between two limits; returns its residual
-  btSingleConstraintRowSolver lower_limit;  ///< above one limit: a contact; returns its residual
-  /// Contacts in turn. Returns the largest square of residuals, at least `largest`.
+  /// Solves a row between a lower and an upper limit. Returns its residual.
+  btSingleConstraintRowSolver generic;
+  /// Solves a row with a lower limit alone, a contact. Returns its residual.
+  btSingleConstraintRowSolver lower_limit;
+  /// Solves all contact rows. Returns the largest squared residual, or `largest` if that is larger.
   btScalar (*contacts)(const RowPass& pass, btScalar largest);
-  /// Frictions of contacts that push, within what these allow. Returns as contacts().
+  /// Solves the friction rows of contacts whose impulse is positive, between -mu and mu times that
+  /// impulse. Returns a value like contacts().
   btScalar (*frictions)(const RowPass& pass, const btConstraintArray& contacts, btScalar largest);
 };
 

@@ -7,7 +7,8 @@
 
 AMBIENT_BEGIN
 
-/// btSolverBody::internalApplyImpulse, for the Jacobian `linear` and the response `spin` of a row.
+/// Applies an impulse to a body like btSolverBody::internalApplyImpulse, with the same bits.
+/// `linear`: linear part of the row's Jacobian; `spin`: spin change by a unit impulse.
 AMBIENT_INLINE void applyImpulse(btSolverBody& body, const btVector3& linear, const btVector3& spin,
                                  btScalar impulse) noexcept {
   if (!body.m_originalBody) return;

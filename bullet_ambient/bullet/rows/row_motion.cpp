@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kRounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 
+// Rotates a twist.
 Twist turnedBy(const Quaternion& q, const Vector6& x) { return {q * x.head<3>(), q * x.tail<3>()}; }
 
 Vector6 changeByRows(btSolverBody& b) {
@@ -23,7 +24,7 @@ Vector6 changeByRows(btSolverBody& b) {
                toVector3(b.internalGetDeltaLinearVelocity()));
 }
 
-// Returns the velocity that Bullet is about to write back.
+// Returns the velocity that Bullet will write back, world axes.
 Vector6 solvedVelocity(btSolverBody& b) {
   return stack(toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
                          b.m_externalTorqueImpulse),
@@ -31,8 +32,8 @@ Vector6 solvedVelocity(btSolverBody& b) {
                          b.m_externalForceImpulse));
 }
 
-// The part of its way that the body has made: less than 1 if a continuous collision has stopped it;
-// none if it is not on its way.
+// Returns the part of the way time_step * xi that the body has made: less than 1 if continuous
+// collision detection has stopped it; none if its pose is not on this way.
 std::optional<double> partOfWay(const RowMotion& rows, const RigidState& now, double time_step) {
   const RigidState& start = rows.start;
   const Vector3 velocity = rows.flow_W + start.orientation * start.twist.linear;
@@ -48,7 +49,8 @@ std::optional<double> partOfWay(const RowMotion& rows, const RigidState& now, do
   return part;
 }
 
-// From `from` towards `to`, as far as an energy allows; if it does not allow `from`, a part of it.
+// Returns the twist farthest from `from` towards `to` whose squared norm in K is at most `bound`;
+// if that of `from` is larger, `from` scaled down.
 BoundedTwist withinEnergy(const BodyModel& model, const Vector6& from, const Vector6& to,
                           double bound) {
   AMBIENT_ASSERT(!(bound < 0));
@@ -61,15 +63,17 @@ BoundedTwist withinEnergy(const BodyModel& model, const Vector6& from, const Vec
   return {from + (b > 0 ? -excess / (b + root) : (root - b) / a) * (to - from), removed};
 }
 
-// The twist with this spin and no linear momentum.
+// Returns the twist z(w) with this spin and without linear momentum, eq. (31b).
 Vector6 spinAlone(const BodyModel& model, const Vector3& spin) {
   const Matrix6& K = model.inertia;
   const Matrix3 coupling = K.bottomLeftCorner<3, 3>(), mass = K.bottomRightCorner<3, 3>();
   return stack(spin, Cholesky<3>(mass).solve(-coupling * spin));
 }
 
-// The velocity `to` at the cost of its spin, eq. (31b): with its linear momentum and a spin from
-// that of `from` towards its own, as far as the energy allows.
+// Bounds the energy of `to` at the cost of its spin, eq. (31b): keeps its linear momentum, and
+// takes the spin farthest from that of `from` towards that of `to` that the bound allows. If the
+// linear motion alone exceeds the bound, scales it down without spin; a held body takes
+// withinEnergy().
 BoundedTwist keepingMomentum(const BodyModel& model, const RowMotion& rows, const Vector6& from,
                              const Vector6& to) {
   const double bound = *rows.energy_bound;

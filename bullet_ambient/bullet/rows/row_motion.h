@@ -9,24 +9,24 @@
 
 AMBIENT_BEGIN
 
-// A body with rows moves, as in stock Bullet, by the velocity that they have left it, seen from the
-// flow
+// Bullet moves a body with rows by the velocity xi after the rows. Then the body gets the velocity
+// of the same momentum P at the new pose, docs/theory.md eq. (31), in a fast turn with twice its
+// energy at most E, eq. (31a). Velocities are relative to the flow:
 //
 //   xi = x + X + d,   P = K(q_n) (x + d),   E = |x + d|^2 + min(0, 2 X.K d)
 //
-//   x      velocity after forces and loads;  X  share of the turning part, docs/theory.md eq. (28)
-//   d      what the rows have changed
-//   P, E   momentum that the body keeps, and twice the energy that it may have where it turns far
-//
-// and then takes the velocity that this momentum has in the new pose, eq. (31).
+//   x   velocity changed by forces and loads
+//   X   part of the turning velocity change in the velocity that rows are solved against, eq. (28)
+//   d   velocity change by the rows
 
-/// After the iterations, with their changes of velocity in world axes: keeps what endRowMotion()
-/// needs.
+/// Stores momentum, energy bound and start in AmbientBody::outcome for endRowMotion(). Call after
+/// the iterations, with the velocity changes of `solver_body` in world axes.
 void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody& solver_body,
                     double time_step) noexcept;
 
-/// After Bullet has moved the body: adds the change of velocity of eq. (31). Does nothing to a body
-/// that others have put elsewhere meanwhile.
+/// Adds the velocity change x_(n+1) - xi of eq. (31), in world axes. Call after Bullet has moved
+/// the body. Does nothing if the body is not on its way from the start along xi, because others
+/// have moved it.
 void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints) noexcept;
 
 AMBIENT_END

@@ -11,7 +11,7 @@ AMBIENT_BEGIN
 
 class AmbientTrees;
 
-/// The rows that Bullet has set up for one group of bodies.
+/// Rows that Bullet has set up for one group of bodies.
 struct RowPools {
   btConstraintArray& contacts;
   btConstraintArray& frictions;
@@ -19,7 +19,7 @@ struct RowPools {
   btConstraintArray& joints;
 };
 
-/// The rows between multibodies and what they touch or are joined to.
+/// Rows of multibodies: their contacts, and joints among them or to rigid bodies.
 struct MultiBodyRows {
   btAlignedObjectArray<btMultiBodySolverConstraint>& contacts;
   btAlignedObjectArray<btMultiBodySolverConstraint>& frictions;
@@ -27,7 +27,7 @@ struct MultiBodyRows {
   btAlignedObjectArray<btMultiBodySolverConstraint>& spinning_frictions;
   btAlignedObjectArray<btMultiBodySolverConstraint>& joints;
   btMultiBodyJacobianData& data;  ///< Jacobians of the multibodies and their responses
-  const AmbientTrees* trees;      ///< whose links may be in a fluid; null: none are
+  const AmbientTrees* trees;      ///< multibodies in fluid; null: none
 };
 
 AMBIENT_END

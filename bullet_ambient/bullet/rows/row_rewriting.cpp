@@ -9,25 +9,25 @@
 AMBIENT_BEGIN
 namespace {
 
-// One side of a row: an ambient body, or any other.
+// One side of a row. `ambient`: null if the body is not ambient.
 struct Party {
   RowBody* ambient;
   const btSolverBody& solver_body;
   RowSide side;
 };
 
-// v M = M^T v, a combination of the rows of M.
+// Returns v M = M^T v.
 AMBIENT_INLINE Four product(const btVector3& v, const btMatrix3x3& M) {
   return v.m_floats[0] * load(M[0]) + v.m_floats[1] * load(M[1]) + v.m_floats[2] * load(M[2]);
 }
 
-// Products of the two parts of J with what the row has not seen of the change of velocity outside
-// the rows: their sums are part of its velocity. Stock friction rows leave the spin out; joints see
-// all of it.
+// Products of components, whose sums over the three components are parts of a scalar product.
 struct PartProducts {
   Four angular, linear;
 };
 
+// Returns products of J and e at one side, with e of row_rewriting.h. The linear part has the
+// opposite sign: e_l = -velocity_aside.
 AMBIENT_INLINE PartProducts unseenProducts(RowKind kind, const Party& party) {
   if (!party.ambient) return {Four{}, Four{}};
   const RowBody& body = *party.ambient;
@@ -36,7 +36,8 @@ AMBIENT_INLINE PartProducts unseenProducts(RowKind kind, const Party& party) {
           load(party.side.linear) * load(body.velocity_aside)};
 }
 
-// J times the change of velocity outside the rows, less what the row has been set up with.
+// Returns J e of both sides: the velocity change along the row outside the rows, minus the one that
+// Bullet has put into the right-hand side.
 AMBIENT_INLINE btScalar unseenChange(RowKind kind, const Party& a, const Party& b) {
   if (kind == RowKind::kJoint) return 0;
   const PartProducts of_a = unseenProducts(kind, a), of_b = unseenProducts(kind, b);
@@ -44,7 +45,7 @@ AMBIENT_INLINE btScalar unseenChange(RowKind kind, const Party& a, const Party& 
   return (sums[0] - sums[1]) + (sums[2] - sums[3]);
 }
 
-// J' = J T, and products whose sums are parts of J' D J'^T, the linear ones without the mass.
+// Sets J' = J T. Returns the products of J' D J'^T; the linear ones without the inverse mass.
 AMBIENT_INLINE PartProducts changedProducts(const RowBody& body, const RowSide& side) {
   const WorldBasis& T = body.basis;
   Four linear = product(side.linear, T.linear);
@@ -57,6 +58,7 @@ AMBIENT_INLINE PartProducts changedProducts(const RowBody& body, const RowSide& 
   return {angular * component, linear * linear};
 }
 
+// Returns the products of J' D J'^T at one side; brings an ambient body's side into its basis.
 AMBIENT_INLINE PartProducts responseProducts(const Party& party) {
   const RowSide& side = party.side;
   if (party.ambient) return changedProducts(*party.ambient, side);
@@ -65,7 +67,8 @@ AMBIENT_INLINE PartProducts responseProducts(const Party& party) {
           linear * (linear * load(party.solver_body.m_invMass))};
 }
 
-// J' D J'^T of both sides; changes their bases.
+// Returns the sum of J' D J'^T over both sides; brings the sides of ambient bodies into their
+// bases.
 AMBIENT_INLINE btScalar inverseEffectiveMass(const Party& a, const Party& b) {
   const PartProducts of_a = responseProducts(a), of_b = responseProducts(b);
   const Four sums = sumsOfThree(of_a.linear, of_a.angular, of_b.linear, of_b.angular);
@@ -75,11 +78,12 @@ AMBIENT_INLINE btScalar inverseEffectiveMass(const Party& a, const Party& b) {
   return (sums[0] * massOf(a) + sums[1]) + (sums[2] * massOf(b) + sums[3]);
 }
 
+// Returns J D J^T at an ambient body.
 btScalar diagonal(const RowBody& body, const RowSide& side) {
   return side.linear.length2() * body.inverse_mass + side.angular.dot(side.angular_component);
 }
 
-// J K^-1 J^T, without a change of the row.
+// Returns J K^-1 J^T at one side; does not change the row.
 btScalar responseOf(const Party& party) {
   btVector3 angular = party.side.angular, linear = party.side.linear;
   btVector3 angular_component = party.side.angular_component;
@@ -88,8 +92,9 @@ btScalar responseOf(const Party& party) {
                        : inverseEffectiveMass(party.solver_body, copy);
 }
 
-// J P sqrt(D)^-1 with P the locked axes: it moves nothing, because T of these axes is zero, and is
-// orthogonal to all rows that can move the body.
+// Replaces J at an ambient body by J P sqrt(D)^-1, where P projects on the locked axes. This row
+// moves nothing, because T is zero along locked axes, and is orthogonal to all rows that move the
+// body. Returns its J D J^T.
 btScalar pointAlongLockedAxes(const Party& party) {
   if (!party.ambient) return 0;
   const RowBody& body = *party.ambient;
@@ -100,6 +105,7 @@ btScalar pointAlongLockedAxes(const Party& party) {
   return diagonal(body, side);
 }
 
+// Scales Jacobian and response at an ambient body.
 void scaleSide(const Party& party, btScalar factor) {
   if (!party.ambient) return;
   party.side.angular *= factor;
@@ -109,8 +115,9 @@ void scaleSide(const Party& party, btScalar factor) {
 
 bool isLocked(const Party& party) { return party.ambient && party.ambient->is_locked; }
 
-// A row that only pulls at locked axes. It stays in its pool, and complementarity solvers divide by
-// its diagonal element: that remains what it was without fluid.
+// Switches off a row that acts along locked axes only. The row stays in its pool, and
+// complementarity solvers divide by its diagonal entry, which therefore keeps its value without
+// fluid, `old_denominator`.
 void suspendRow(btSolverConstraint& row, const Party& a, const Party& b, btScalar old_denominator) {
   const btScalar found = pointAlongLockedAxes(a) + pointAlongLockedAxes(b);
   const btScalar factor = found > 0 ? btSqrt(old_denominator / found) : btScalar(0);
@@ -119,17 +126,17 @@ void suspendRow(btSolverConstraint& row, const Party& a, const Party& b, btScala
   row.m_rhs = row.m_rhsPenetration = row.m_cfm = 0;
 }
 
-// |P J|^2 / m of the linear part, with P the locked axes: what Bullet's response has and the body
-// does not do.
+// Returns |P J_l|^2 / m, where P projects on the locked axes: the response along locked axes that
+// Bullet's effective mass contains and the body does not have.
 btScalar lockedResponse(const Party& party) {
   if (!party.ambient) return 0;
   return (party.side.linear * party.ambient->locked_linear).length2() * party.ambient->inverse_mass;
 }
 
-// Returns the relaxation factor of a row whose bodies have locked axes, above 0 and at most 1.
-// Bullet's effective mass (its inverse is `old_denominator`) does not know locks. A row almost
-// along a locked axis gets this fraction of what it asks for, so that its small lever does not
-// throw the body about.
+// Returns the relaxation factor of a row whose bodies have locked axes, above 0 and at most 1: the
+// share of free axes in `old_denominator`, the inverse of Bullet's effective mass, which knows no
+// locks. A row almost along a locked axis has a small response; without this factor its large
+// impulse would throw the body about.
 btScalar lockedRelaxation(const Party& a, const Party& b, btScalar old_denominator) {
   const btScalar share = 1 - (lockedResponse(a) + lockedResponse(b)) / old_denominator;
   return btMax(share, kNoResponse);
@@ -158,7 +165,7 @@ void rewriteRow(btSolverConstraint& row, RowKind kind, const Party& a, const Par
   const btScalar new_inverse = share * relaxation / (inverseEffectiveMass(a, b) + cfm);
   const btScalar ratio = new_inverse / old_inverse;
   row.m_jacDiagABInv = new_inverse;
-  // By the ratio only: spring rows may hold infinite right-hand sides.
+  // Rescales by the ratio and does not recompute: spring rows may hold infinite right-hand sides.
   row.m_rhs = row.m_rhs * ratio - unseen * new_inverse;
   if (kind == RowKind::kContact) {
     row.m_rhsPenetration *= ratio;

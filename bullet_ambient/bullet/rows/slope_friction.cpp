@@ -6,7 +6,8 @@ AMBIENT_BEGIN
 
 namespace {
 
-// Part of a push along the normal that may be uneven: a millimetre in ten seconds on a slope.
+// Largest motion across a push relative to the motion, that needs no second row: it lets a body
+// creep down a slope by a millimetre in ten seconds.
 constexpr double kEvenPush = 1e-3;
 
 }  // namespace

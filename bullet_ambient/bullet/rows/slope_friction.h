@@ -5,16 +5,18 @@
 
 AMBIENT_BEGIN
 
-// Contacts that need friction in two directions; docs/theory.md, section 7.
+// Finds contacts that need two friction rows; docs/theory.md, section 7, "Friction".
 
-/// Whether a push on the first body of a contact presses it against a face and along it, by more
-/// than a hundredth, and no more than friction can hold. `normal_W`: from the second to the first.
+/// True if a push on the first body of a contact presses the bodies together, and its part along
+/// the face, relative to the part along the normal, is between 0.01 and the coefficient of
+/// friction. `normal_W`: from the second body to the first.
 bool isHeldAslant(const btVector3& push_W, const btVector3& normal_W, btScalar friction) noexcept;
 
-/// False: no push does what turnsAside() asks.
+/// False: turnsAside() is false for every normal.
 bool mayTurnAside(const AmbientBody& ambient) noexcept;
 
-/// Whether a push along the normal makes a body slip across it by its fluid.
+/// True if a push along the normal also moves the body across the normal, by more than 10^-3 of its
+/// motion, because of added mass.
 bool turnsAside(const AmbientBody& ambient, const btVector3& normal_W) noexcept;
 
 AMBIENT_END
