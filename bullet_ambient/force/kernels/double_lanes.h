@@ -1,8 +1,8 @@
 #pragma once
 
-// Vectors of doubles for sources that are compiled once per instruction set, and must share no
-// inline function with the rest of the program. The vector types of GCC and Clang have the
-// +, -, *, > and ?: of IEEE 754 per lane.
+// Registers of doubles for sources that are compiled once per instruction set. Everything is in an
+// unnamed namespace, because these sources must share no inline function with the rest of the
+// program. The vector types of GCC and Clang have the +, -, *, > and ?: of IEEE 754 per lane.
 
 #if defined(__AVX2__)
 #include <immintrin.h>

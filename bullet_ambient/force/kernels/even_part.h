@@ -5,9 +5,9 @@
 namespace ambient {
 namespace {
 
-/// Adds a quadratic map of the twist x to a wrench: T(x, x) of docs/theory.md eq. (36), or the lee
-/// side of the form law. No operation is fused. `even`: 6 x 21, column by column, for the products
-/// x_0 x_0, x_0 x_1 to x_5 x_5.
+/// Adds a quadratic map of the twist x to the wrench of `sums`: T(x, x) of docs/theory.md eq. (36),
+/// or the lee side of the form law, eq. (43) for u_n <= 0. `even`: 6 x 21 coefficients, column by
+/// column, for the products x_0 x_0, x_0 x_1 to x_5 x_5. No operation is fused.
 inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums) {
   constexpr int kProducts = 21;
   double products[kProducts];
@@ -15,8 +15,8 @@ inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums
     for (int j = i; j < 6; ++j) products[next++] = x[i] * x[j];
   double part[8];
   for (int row = 0; row < 6; row += kHalf) {
-    // A load at the last rows also reads the start of the next column. The last
-    // column has no next one: it is added below.
+    // With kHalf > 2, the load at the last rows also reads the start of the next column. The last
+    // column has no next one, and is added below.
     Doubles a = {}, b = {};
     for (int k = 0; k < kProducts - 1; k += 2) {
       a = a + products[k] * load(even + 6 * k + row);

@@ -8,7 +8,7 @@
 #include "bullet_ambient/force/law/skin_friction.h"
 #include "bullet_ambient/force/law/wet_share.h"
 
-// Compiled once for each instruction set, which AMBIENT_KERNEL() adds to the name.
+// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the function.
 
 namespace ambient {
 namespace {
@@ -29,7 +29,7 @@ struct WrenchLanes {
   double lanes[6][kLanes] = {};
 };
 
-/// Partial sums of the pressure, and of the lift of wings times its arm in pitching, eq. (43d).
+/// Partial sums of the pressure, and of FaceSums::pitch.
 struct PressureLanes : WrenchLanes {
   double pitch[kLanes] = {};
 };
@@ -79,12 +79,12 @@ inline Doubles strengthWhereAttached(Doubles normal_speed, Doubles strength, Dou
   return excess > zero ? strength : zero;
 }
 
-/// mu of eq. (43d).
+/// Returns mu of eq. (43d).
 inline Doubles pitchingArm(const FaceMotion& motion, const Vectors& n, const Vectors& c) {
   return dot(broadcast(motion.pitching), cross(c - broadcast(motion.centre), n));
 }
 
-/// Wet share of faces, eq. (59).
+/// Returns the wet share of faces, eq. (59).
 inline Doubles wetShare(const FaceCut& cut, const Vectors& n, const Vectors& c,
                         const Doubles& area) {
   constexpr double kDisc = 1 / 3.14159265358979323846;
@@ -93,8 +93,8 @@ inline Doubles wetShare(const FaceCut& cut, const Vectors& n, const Vectors& c,
                     [](const Doubles& x) { return root(x); });
 }
 
-/// Faces [begin, end) of the kWidth lanes from `lane`; docs/theory.md eq. (12) to (15), (43) to
-/// (44).
+/// Adds the pressure of faces [begin, end) in the kWidth lanes from `lane`, docs/theory.md eq. (12)
+/// to (15), (43) to (44). With kKeepSlip, stores their slip for sumFriction().
 template <class Law, bool kRightAngle, bool kKeepSlip>
 void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t begin,
                  std::size_t end, int lane, PressureLanes& sums, BlockSlip& slip) {
@@ -123,7 +123,7 @@ void sumPressure(const FaceColumns& faces, const FaceMotion& motion, std::size_t
     };
     const auto factors = [&] { return formFactors<double>(load(faces.sharpness + i)); };
     const auto wing = [&](const auto& law) {
-      constexpr double kLeast = 1e-200;  // at rest its inverse is finite
+      constexpr double kLeast = 1e-200;  // keeps 1 / |u|^2 finite at rest
       const Doubles arm = pitchingArm(motion, n, c);
       const Doubles whole_sq = (normal_speed * normal_speed + kLeast) + speed_sq;
       const WingFlow<PlainArithmetic<Doubles>> flow{dot(wings.facing, u), dot(wings.span, u),
@@ -164,12 +164,13 @@ void sumFriction(const FaceColumns& faces, std::size_t begin, std::size_t end, i
   sum.storeTo(sums, lane);
 }
 
+/// Partial sums of all faces.
 struct LaneSums {
   PressureLanes pressure;
   WrenchLanes friction;
 };
 
-/// @pre faces.size is a multiple of kLanes.
+/// Adds all faces. @pre faces.size is a multiple of kLanes
 template <class Law, bool kRightAngle, bool kFriction>
 void sumColumns(const FaceColumns& faces, const FaceMotion& motion, LaneSums& sums) {
   AMBIENT_ASSERT(faces.size % kLanes == 0);

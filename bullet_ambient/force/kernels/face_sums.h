@@ -20,7 +20,7 @@ struct FaceColumns {
   const double* sharpness = nullptr;  ///< for the form law
 };
 
-/// Surface of the fluid as a plane in F, docs/theory.md eq. (59).
+/// Water surface as a plane in F, for the wet shares of docs/theory.md eq. (59).
 struct FaceCut {
   double normal[3];  ///< out of the fluid
   double height;     ///< height of the plane above F's origin along the normal [m]
@@ -32,7 +32,7 @@ struct FaceMotion {
   double linear[3];              ///< [m/s]
   double signed_cosine_sq;       ///< -cos(alpha) |cos(alpha)|; 0 at a right angle
   double sine_sq;                ///< sin^2(alpha)
-  const FaceCut* cut = nullptr;  ///< null: all is in the fluid
+  const FaceCut* cut = nullptr;  ///< null: all faces are in the fluid
   PressureLaw law = PressureLaw::kPublished;
   const WingFactors<double>* wing = nullptr;  ///< for the form law; null: neither wing nor slender
   double pitching[3] = {};                    ///< a of eq. (43d)
@@ -41,8 +41,8 @@ struct FaceMotion {
   double slip_share = 0;                      ///< tau of eq. (43e)
 };
 
-/// Sums over attached faces, torque first, without -rho/2; t = -u_s. By the form law q takes the
-/// place of |t|^2, eq. (44).
+/// Sums over attached faces, torque first, without the factor -rho/2; t = -u_s. With the form law,
+/// q + q_L replaces |t|^2 in the pressure, eq. (44).
 struct FaceSums {
   double pressure[6];  ///< sum |t|^2 A (c x n, n) [m^5/s^2, m^4/s^2]
   double friction[6];  ///< sum |t|^0.8 A (c x t, t); 0 without with_friction

@@ -1,143 +1,15 @@
 #include "bullet_ambient/force/kernels/hull_sums.h"
 
 #include "bullet_ambient/base/instruction_set.h"
-#include "bullet_ambient/force/kernels/double_lanes.h"
+#include "bullet_ambient/force/kernels/hull_rows.h"
 
-// Compiled once for each instruction set, which AMBIENT_KERNEL() adds to the name.
+// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
 
 namespace ambient {
 namespace {
 
-constexpr int kLanes = 8;
 constexpr int kGroups = 32;  ///< number of groups of eight blocks per pass
-static_assert(HullMoments::kBlocks == kLanes, "a block of a group is a lane");
-static_assert(HullBlock::kTriangles == kLanes, "a triangle of a block is a lane");
-
-inline Doubles broadcast(double value) { return Doubles{} + value; }
-inline Vectors broadcast(const double (&v)[3]) {
-  return {broadcast(v[0]), broadcast(v[1]), broadcast(v[2])};
-}
-template <int kColumns>
-inline Vectors load(const double (&columns)[3][kColumns], int at) {
-  return {load(columns[0] + at), load(columns[1] + at), load(columns[2] + at)};
-}
-inline Doubles select(const Mask& mask, const Doubles& a, const Doubles& b) { return mask ? a : b; }
-inline Vectors select(const Mask& mask, const Vectors& a, const Vectors& b) {
-  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
-}
-
-/// Plane, the same in all lanes.
-struct Planes {
-  Vectors normal, axis1, axis2, size;
-  Doubles height;
-
-  explicit Planes(const HullPlane& plane)
-      : normal(broadcast(plane.normal)),
-        axis1(broadcast(plane.axes[0])),
-        axis2(broadcast(plane.axes[1])),
-        size({larger(normal.x), larger(normal.y), larger(normal.z)}),
-        height(broadcast(plane.height)) {}
-  Doubles depth(const Vectors& place) const { return height - dot(normal, place); }
-  /// Coordinates along e_1 and e_2, and the depth as z.
-  Vectors seen(const Vectors& place) const {
-    return {dot(axis1, place), dot(axis2, place), depth(place)};
-  }
-
- private:
-  static Doubles larger(const Doubles& a) { return a > -a ? a : -a; }
-};
-
-/// Rows of the sums, as multiples: 3 V, 12 S along the axes, 24 W; waterplane: 2 A_w, 6 P_1,
-/// 24 P_2.
-enum Row {
-  kVolume,
-  kMoment,
-  kDepth = kMoment + 2,
-  kArea,
-  kFirst,
-  kSecond = kFirst + 2,
-  kRows = 10
-};
-struct HullLanes {
-  double rows[kRows][kLanes] = {};
-};
-
-/// Masks of wet corners; depths za, zb, zc of the corners of triangles.
-struct WetCorners {
-  Mask a, b, c;
-
-  WetCorners(const Doubles& za, const Doubles& zb, const Doubles& zc)
-      : a(za > Doubles{}), b(zb > Doubles{}), c(zc > Doubles{}) {}
-  Mask any() const { return a | b | c; }
-  Mask all() const { return a & b & c; }
-  Mask most() const { return (a & b) | (b & c) | (c & a); }
-};
-
-struct HullRows {
-  Doubles rows[kRows] = {};
-
-  void storeTo(HullLanes& lanes, int lane) const {
-    for (int row = 0; row < kRows; ++row) store(lanes.rows[row] + lane, rows[row]);
-  }
-
-  /// Adds triangles. Corners by Planes::seen(); `flux`: -s.n A. Dry triangles add nothing.
-  void addTriangles(const Vectors& a, const Vectors& b, const Vectors& c, const Doubles& flux) {
-    const Doubles zero = {};
-    const WetCorners wet(a.z, b.z, c.z);
-    const Mask most = wet.most();
-    if (anyOf(most)) addWhole(a, b, c, select(most, flux, zero));
-    const Mask is_cut = wet.any() & ~wet.all();
-    if (!anyOf(is_cut)) return;
-    const Mask alone_a = (wet.a ^ wet.b) & (wet.a ^ wet.c),
-               alone_b = (wet.b ^ wet.a) & (wet.b ^ wet.c);
-    const Vectors u = select(alone_a, a, select(alone_b, b, c));
-    const Vectors p = select(alone_a, b, select(alone_b, c, a));
-    const Vectors q = select(alone_a, c, select(alone_b, a, b));
-    addCorner(u, p, q, select(most, -flux, flux), is_cut);
-  }
-
- private:
-  /// Adds whole triangles, docs/theory.md eq. (55).
-  void addWhole(const Vectors& a, const Vectors& b, const Vectors& c, const Doubles& flux) {
-    const Vectors sum = a + b + c;
-    addMoments(flux, a.z * a + b.z * b + c.z * c + sum.z * sum);
-    rows[kVolume] = rows[kVolume] + flux * sum.z;
-  }
-  void addMoments(const Doubles& flux, const Vectors& of_depth) {
-    rows[kMoment] = rows[kMoment] + flux * of_depth.x;
-    rows[kMoment + 1] = rows[kMoment + 1] + flux * of_depth.y;
-    rows[kDepth] = rows[kDepth] + flux * of_depth.z;
-  }
-
-  /// Adds the corner triangle at u of triangles that the plane cuts, eq. (56), and the line of cut.
-  void addCorner(const Vectors& u, const Vectors& p, const Vectors& q, const Doubles& flux,
-                 const Mask& is_cut) {
-    const Doubles zero = {}, one = zero + 1.0;
-    // lambda_p = u.z / (u.z - p.z) and lambda_q of the edges, by one division.
-    const Doubles to_p = u.z - p.z, to_q = u.z - q.z, product = to_p * to_q;
-    const Doubles per = select(is_cut, u.z / select(product > zero, product, one), zero);
-    const Doubles lp = per * to_q, lq = per * to_p;
-    const Doubles px = u.x + lp * (p.x - u.x), py = u.y + lp * (p.y - u.y);
-    const Doubles qx = u.x + lq * (q.x - u.x), qy = u.y + lq * (q.y - u.y);
-    const Doubles by_depth = (lp * lq) * flux * u.z;
-    rows[kVolume] = rows[kVolume] + by_depth;
-    addMoments(by_depth, {2 * u.x + px + qx, 2 * u.y + py + qy, 2 * u.z});
-    const Doubles cross = px * qy - py * qx;
-    addLine(px, py, qx, qy, select(is_cut, select(u.z > zero, -cross, cross), zero));
-  }
-
-  /// Adds a line a, b with k = a x b to the moments of the waterplane, eq. (58), per lane.
-  void addLine(const Doubles& ax, const Doubles& ay, const Doubles& bx, const Doubles& by,
-               const Doubles& k) {
-    const Doubles x = ax + bx, y = ay + by;
-    rows[kArea] = rows[kArea] + k;
-    rows[kFirst] = rows[kFirst] + k * x;
-    rows[kFirst + 1] = rows[kFirst + 1] + k * y;
-    rows[kSecond] = rows[kSecond] + k * (x * x + ax * ax + bx * bx);
-    rows[kSecond + 1] = rows[kSecond + 1] + k * (x * y + ax * ay + bx * by);
-    rows[kSecond + 2] = rows[kSecond + 2] + k * (y * y + ay * ay + by * by);
-  }
-};
+static_assert(HullMoments::kBlocks == kLanes, "a group has one block per lane");
 
 /// Blocks of one pass, sorted into wholly wet, cut and dry ones.
 struct Choice {
@@ -148,7 +20,7 @@ struct Choice {
 
 enum class Side { kDry, kCut, kWet };
 
-/// Finds out on which side of the plane a block is, by its corners.
+/// Returns the side of the plane on which all corners of a block lie; kCut: on both sides.
 inline Side sideOf(const HullBlock& block, const Planes& planes) {
   bool any_wet = false, any_dry = false;
   for (int lane = 0; lane < kLanes; lane += kWidth) {
@@ -162,7 +34,8 @@ inline Side sideOf(const HullBlock& block, const Planes& planes) {
   return any_dry ? Side::kCut : Side::kWet;
 }
 
-/// Sorts the blocks by their boxes; blocks whose box meets the plane by their corners.
+/// Sorts the blocks of `count` groups by their bounding boxes. Blocks whose box meets the plane are
+/// sorted by their corners.
 inline void choose(const HullMoments* groups, int count, const HullBlock* blocks,
                    const Planes& planes, Choice& choice) {
   choice.cut_count = 0;
@@ -186,6 +59,7 @@ inline void choose(const HullMoments* groups, int count, const HullBlock* blocks
   }
 }
 
+/// Adds the triangles of cut blocks.
 inline void addCut(const HullBlock* blocks, const Choice& choice, const Planes& planes,
                    HullRows (&sums)[kLanes / kWidth]) {
   for (int part = 0; part < kLanes / kWidth; ++part) {
@@ -202,12 +76,13 @@ inline void addCut(const HullBlock* blocks, const Choice& choice, const Planes& 
   }
 }
 
-/// Sums s.N, s.M, s.Q over wholly wet blocks, per lane.
+/// Rows of partial sums over wholly wet blocks: s.N, s.M, s.Q of eq. (57).
 enum WetRow { kFlux, kFluxMoment, kFluxSecond = kFluxMoment + 3, kWetRows = 10 };
 struct WetRows {
   Doubles rows[kWetRows] = {};
 };
 
+/// Adds the moments of wholly wet blocks.
 inline void addWet(const HullMoments* groups, int count, const Choice& choice, const Planes& planes,
                    WetRows (&sums)[kLanes / kWidth]) {
   for (int part = 0; part < kLanes / kWidth; ++part) {
@@ -232,6 +107,7 @@ inline void addWet(const HullMoments* groups, int count, const Choice& choice, c
   }
 }
 
+/// Adds the lanes of each row.
 template <class Rows, int kCount>
 inline void sumRows(const Rows (&parts)[kLanes / kWidth], double (&sums)[kCount]) {
   for (int row = 0; row < kCount; ++row) {
@@ -246,7 +122,7 @@ inline double dot(const double* a, const double* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Converts the rows of the cut blocks to sums.
+/// Converts rows of cut blocks to HullSums.
 inline HullSums sumsOf(const double (&r)[kRows]) {
   return {r[kVolume] / 3,
           r[kDepth] / 24,
@@ -295,7 +171,7 @@ HullSums sumHull(const HullBlocks& hull, const HullPlane& plane) noexcept {
 
 inline double absolute(double a) { return a < 0 ? -a : a; }
 
-/// Extent along s; skips blocks whose box lies within the extent found so far.
+/// Returns the extent along s. Skips blocks whose bounding box lies within the extent found so far.
 HullExtent extentOf(const HullCorners& corners, const double (&s)[3]) noexcept {
   const Vectors normal = broadcast(s);
   const double size[3] = {absolute(s[0]), absolute(s[1]), absolute(s[2])};

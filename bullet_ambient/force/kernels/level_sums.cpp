@@ -4,13 +4,14 @@
 #include "bullet_ambient/force/kernels/even_part.h"
 #include "bullet_ambient/force/kernels/single_lanes.h"
 
-// Compiled once for each instruction set, which AMBIENT_KERNEL() adds to the name.
+// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the function.
 
 namespace ambient {
 namespace {
 
 static_assert(ClusterBlock::kClusters == kLanes, "a block has one cluster per lane");
 
+/// 6-vectors, one per lane.
 struct Sixes {
   Vectors torque, force;
 };
@@ -20,14 +21,16 @@ inline Sixes load(const float (&rows)[6][kLanes], int lane) {
           {load(rows[3] + lane), load(rows[4] + lane), load(rows[5] + lane)}};
 }
 
+/// Returns a.(w, v).
 inline Floats dot(const Sixes& a, const Vectors& w, const Vectors& v) {
   const Floats turning = dot(a.torque, w);
   return plusProduct(plusProduct(plusProduct(turning, a.force.x, v.x), a.force.y, v.y), a.force.z,
                      v.z);
 }
 
-/// Attached share of a cluster minus one half, eq. (37): the cluster counts as a disc, z is the
-/// distance of the terminator from its centre in radii.
+/// Returns e(z) of eq. (37), the attached share of a cluster minus one half. The cluster is taken
+/// for a disc; z is the distance of the terminator from its centre in radii. `a`: g.x, `spread_sq`:
+/// s^2.
 inline Floats attachedExcess(Floats a, Floats spread_sq) {
   Floats z = (0.5f * a) * inverseRoot(spread_sq);
   z = z > 1.0f ? Floats{} + 1.0f : z;
@@ -35,17 +38,18 @@ inline Floats attachedExcess(Floats a, Floats spread_sq) {
   return z * lessProduct(Floats{} + 0.63661977f, Floats{} + 0.13661977f, z * z);
 }
 
-/// |u| |cos(alpha)|: attached flow has a normal velocity above minus this value, eq. (13).
+/// Returns |u| |cos(alpha)|. The flow is attached where n.u is above minus this value, eq. (13).
 inline Floats reach(float cosine, Vectors u) {
   constexpr float kLeastSquare = 1e-30f;  // keeps the root of a cluster at rest finite
   const Floats u_sq = dot(u, u) + kLeastSquare;
   return cosine * (u_sq * inverseRoot(u_sq));
 }
 
+/// Sums all clusters in the kWidth lanes from `lane`, eq. (38) without T, and (39).
 template <bool kRightAngle, bool kFriction>
 void sumLane(const ClusterBlock* blocks, std::size_t count, const SingleMotion& motion, int lane,
              WrenchLanes& sums) {
-  // Added to spread_sq, which is 0 for a flat cluster: keeps z of eq. (37) finite.
+  // Keeps z of eq. (37) finite for a flat cluster, whose spread_sq is 0.
   constexpr float kLeastSpread = 1e-14f;
   const Vectors w = broadcast(motion.angular);
   const Vectors v = broadcast(motion.linear);

@@ -8,16 +8,17 @@
 
 namespace ambient {
 
-// Sums over clusters for computeLevelLoad(); lanes and roundings as in single_sums.h.
+// Sums over clusters for computeLevelLoad(). Lanes and rounding: see single_sums.h.
 
-/// Plain data of a LoadLevel.
+/// Clusters of a LoadLevel, docs/theory.md section 9.
 struct LevelColumns {
   const ClusterBlock* blocks;
   std::size_t count;
-  const double* even;  ///< 6 x 21, column by column
+  const double* even;  ///< T of eq. (36): 6 x 21, see addEvenPart()
 };
 
-/// Sums (38) and (39) without -rho/2, in the units of the motion. `x`: the same motion in double.
+/// Returns the sums of docs/theory.md eq. (38) and (39) without the factor -rho/2, in the units of
+/// SingleMotion. `x`: the same twist in double precision.
 using SumClusters = LoadSums (*)(const LevelColumns&, const double (&x)[6],
                                  const SingleMotion&) noexcept;
 

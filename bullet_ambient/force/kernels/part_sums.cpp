@@ -3,7 +3,7 @@
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/force/kernels/double_lanes.h"
 
-// Compiled once for each instruction set, which AMBIENT_KERNEL() adds to the name.
+// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
 
 namespace ambient {
 namespace {
@@ -11,18 +11,20 @@ namespace {
 constexpr int kLanes = 8;
 static_assert(PartBlock::kParts == kLanes, "a block has one part per lane");
 
-/// Depths of three Gauss points of a part; mean and mean square along s are those of the patch.
+/// Depths of the three Gauss points of a part. Their weighted mean and mean square along s are
+/// those of the part.
 struct Depths {
   Doubles above, middle, below;
-  Doubles way;       // distance of the outer points from the middle one, in depth
-  Doubles slope[3];  // derivative of way^2 / 2 by s
+  Doubles way;       // difference in depth between the outer points and the middle one
+  Doubles slope[3];  // derivative of way^2 / 2 with respect to s
 
   Depths(const PartBlock& block, int lane, const PartPlane& plane) {
     const double(&s)[3] = plane.normal;
     const auto centre = [&](int axis) { return load(block.centre[axis] + lane); };
     const auto spread = [&](int k) { return load(block.spread[k] + lane); };
     middle = plane.height - (s[0] * centre(0) + s[1] * centre(1) + s[2] * centre(2));
-    constexpr double kNode = 9.0 / 5;  // sqrt(3/5) of a half width sqrt(3 s.C s)
+    // way^2 = kNode s.C s: Gauss points lie at sqrt(3/5) of the half width sqrt(3 s.C s).
+    constexpr double kNode = 9.0 / 5;
     slope[0] = kNode * (s[0] * spread(0) + s[1] * spread(3) + s[2] * spread(4));
     slope[1] = kNode * (s[0] * spread(3) + s[1] * spread(1) + s[2] * spread(5));
     slope[2] = kNode * (s[0] * spread(4) + s[1] * spread(5) + s[2] * spread(2));
@@ -49,14 +51,14 @@ struct Weights {
     }
     per = 1.0 / (sum[0] * sum[1] * sum[2]);
   }
-  /// 1 / sum[i].
+  /// Returns 1 / sum[i].
   Doubles perSum(int i) const { return per * (sum[(i + 1) % 3] * sum[(i + 2) % 3]); }
-  /// Mean of zeta / (zeta + reach) over the part, by Gauss weights.
+  /// Returns the mean weight of the part, by the Gauss weights 5/18, 8/18, 5/18.
   Doubles share() const {
     const Doubles outer = 5 * (depth[0] * perSum(0)) + 5 * (depth[2] * perSum(2));
     return (1.0 / 18) * (outer + 8 * (depth[1] * perSum(1)));
   }
-  /// Derivative of the weight of point i by its depth.
+  /// Returns the derivative of the weight of point i with respect to its depth.
   Doubles slope(int i, double reach) const {
     const Doubles zero = {}, p = perSum(i);
     return depth[i] > zero ? reach * (p * p) : zero;
@@ -66,12 +68,13 @@ struct Weights {
 constexpr int kTogether = 4;           ///< number of blocks whose entries are read side by side
 constexpr int kChunk = 8 * kTogether;  ///< number of blocks per pass
 
-/// Blocks of parts of which some are in the water, in one lane of each; others add nothing. `Wet`:
-/// what a sum needs of the parts of a block.
+/// Blocks with a part in the water among the kWidth lanes from `lane`; all other blocks add
+/// nothing. `Wet`: factors of a sum for the parts of a block.
 template <class Wet>
 class WetBlocks {
  public:
-  /// Finds those from `begin` on, at most kChunk; fills the last group with blocks of weight 0.
+  /// Finds wet blocks among the kChunk blocks from `begin` on. Fills the last group of kTogether
+  /// with blocks of weight 0.
   WetBlocks(const PartBlocks& parts, std::size_t begin, int lane, const PartPlane& plane) {
     const std::size_t left = parts.count - begin;
     const PartBlock* const blocks = parts.blocks + begin;
@@ -97,6 +100,7 @@ class WetBlocks {
   Wet wet_[kChunk];
 };
 
+/// Weights of parts, for the inertia.
 struct WetShare {
   Doubles share;
 
@@ -123,7 +127,7 @@ PartInertia sumInertia(const PartBlocks& parts, const PartPlane& plane) noexcept
   return sum;
 }
 
-/// Derivatives of 18 times the weights of parts.
+/// Derivatives of 18 times the weights of parts, for the gradient.
 struct WetSlope {
   Doubles by_height, by_spread;
   Doubles spread[3];  ///< Depths::slope

@@ -9,9 +9,8 @@
 #include "bullet_ambient/force/kernels/load_sums.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 
-// Vectors of lanes in single precision, and their sums, for all kernels. Only sources that are
-// compiled once per instruction set include this header. The vector types of GCC and Clang have the
-// +, -, *, > and ?: of IEEE 754 per lane.
+// Registers of floats and sums over their lanes, for sources that are compiled once per instruction
+// set. The vector types of GCC and Clang have the +, -, *, > and ?: of IEEE 754 per lane.
 
 namespace ambient {
 namespace {
@@ -43,7 +42,7 @@ inline Floats lessProduct(Floats c, Floats a, Floats b) { return _mm512_fnmadd_p
 inline Floats plusProduct(Floats c, Floats a, Floats b) { return _mm256_fmadd_ps(a, b, c); }
 inline Floats lessProduct(Floats c, Floats a, Floats b) { return _mm256_fnmadd_ps(a, b, c); }
 #else
-/// a b + c, rounded once.
+/// Returns a b + c, rounded once.
 inline float fused(float a, float b, float c) {
 #if defined(__FP_FAST_FMAF)
   return __builtin_fmaf(a, b, c);
@@ -63,8 +62,8 @@ inline float fused(float a, float b, float c) {
 #endif
 }
 
-/// c + a b and c - a b, each rounded once. Processors with fused multiply-add, x86 since 2013, need
-/// half the operations; on others these functions take thirty times as long.
+/// Return c + a b and c - a b, rounded once. Processors without fused multiply-add (x86 before
+/// 2013) emulate it, which takes about thirty times as long.
 inline Floats plusProduct(Floats c, Floats a, Floats b) {
   for (int lane = 0; lane < kWidth; ++lane) c[lane] = fused(a[lane], b[lane], c[lane]);
   return c;
@@ -84,7 +83,7 @@ inline Floats root(Floats x) {
 }
 #endif
 
-/// x, or 0 where it is not positive.
+/// Returns x where it is positive, else 0.
 #if defined(__AVX512F__)
 inline Floats positivePart(Floats x) { return _mm512_maskz_max_ps(0xffff, x, Floats{}); }
 #elif defined(__AVX2__)
@@ -93,7 +92,7 @@ inline Floats positivePart(Floats x) { return _mm256_max_ps(x, Floats{}); }
 inline Floats positivePart(Floats x) { return x > 0.0f ? x : Floats{}; }
 #endif
 
-/// Arithmetic like PlainArithmetic whose sums of products are rounded once.
+/// Operations of PlainArithmetic (law/wing_pressure.h), with sums of products rounded once.
 struct FusedArithmetic {
   using Real = Floats;
   static Floats plus(Floats c, Floats a, Floats b) { return plusProduct(c, a, b); }
@@ -101,7 +100,8 @@ struct FusedArithmetic {
   static Floats positive(Floats x) { return positivePart(x); }
 };
 
-/// 1 / sqrt(x) for normal x > 0, relative error 8e-7, without a division; finite for x = 0.
+/// Returns 1 / sqrt(x) for normal x > 0 with a relative error of 8e-7, without a division; finite
+/// for x = 0.
 inline Floats inverseRoot(Floats x) {
   Ints bits;
   __builtin_memcpy(&bits, &x, sizeof bits);
@@ -109,7 +109,8 @@ inline Floats inverseRoot(Floats x) {
   Floats r;
   __builtin_memcpy(&r, &bits, sizeof r);
   const Floats half = 0.5f * x;
-  // Newton's step with 3/2 is always too small; slightly more halves the error. Moroz et al. 2018.
+  // Newton's steps with slightly more than 3/2: with 3/2 the result is always too small (Moroz et
+  // al. 2018).
   r = r * lessProduct(Floats{} + 1.50087896f, half * r, r);
   return r * lessProduct(Floats{} + 1.5000006f, half * r, r);
 }
@@ -129,14 +130,14 @@ inline Vectors lessProduct(Vectors c, Floats s, Vectors a) {
 inline Floats dot(const Vectors& a, const Vectors& b) {
   return plusProduct(plusProduct(a.x * b.x, a.y, b.y), a.z, b.z);
 }
-/// c + a x b
+/// Returns c + a x b.
 inline Vectors plusCross(Vectors c, Vectors a, Vectors b) {
   return {lessProduct(plusProduct(c.x, a.y, b.z), a.z, b.y),
           lessProduct(plusProduct(c.y, a.z, b.x), a.x, b.z),
           lessProduct(plusProduct(c.z, a.x, b.y), a.y, b.x)};
 }
 
-/// Partial sums of a wrench over one run of blocks, one per lane; `pitch`: only of wings.
+/// Partial sums over one run of blocks, one per lane: wrench, and pitch of LoadSums with wings.
 struct WrenchLanes {
   float lanes[6][kLanes];
   float pitch[kLanes];
@@ -151,6 +152,7 @@ struct WrenchLanes {
   }
 };
 
+/// Returns |t|^-1.2 for |t|^2, the power in |t|^2 |t|^-1.2 = |t|^0.8.
 inline Floats slipPower(Floats slip_sq) {
   return ambient::slipPower<Ints>(slip_sq, [](const Floats& c, const Floats& a, const Floats& b) {
     return plusProduct(c, a, b);
@@ -168,7 +170,7 @@ inline Doubles load(const double* from) {
 
 inline void store(double* to, Doubles d) { __builtin_memcpy(to, &d, sizeof d); }
 
-/// Partial sums of a wrench over all runs, one per lane; with `kPitch` those of the pitch as well.
+/// Partial sums over all runs, one per lane: wrench, and with `kPitch` the pitch of LoadSums.
 template <bool kPitch = false>
 struct WrenchTotal {
   static constexpr int kRows = kPitch ? 7 : 6;

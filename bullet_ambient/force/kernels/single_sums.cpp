@@ -9,7 +9,7 @@
 #include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/force/law/wet_share.h"
 
-// Compiled once for each instruction set, which AMBIENT_KERNEL() adds to the name.
+// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the function.
 
 namespace ambient {
 namespace {
@@ -19,7 +19,7 @@ constexpr int kChoice = 256;  ///< number of blocks per pass of chooseBlocks()
 static_assert(FaceBlock::kFaces == kLanes, "a block has one face per lane");
 static_assert(FaceBounds::kBlocks == kLanes, "bounds are those of one block per lane");
 
-/// Returns `strength` if the flow is attached, else 0; see face_sums.cpp for the test.
+/// Returns `strength` if the flow is attached, else 0; face_sums.cpp explains the test.
 template <bool kRightAngle>
 inline Floats strengthWhereAttached(Floats normal_speed, Floats strength, Floats speed_sq,
                                     const SingleMotion& motion) {
@@ -31,7 +31,7 @@ inline Floats strengthWhereAttached(Floats normal_speed, Floats strength, Floats
   return excess > zero ? strength : zero;
 }
 
-/// Plane, the same in all lanes.
+/// SingleCut in all lanes.
 struct Cuts {
   Vectors normal = {};
   Floats height = {}, disc = {};
@@ -43,14 +43,14 @@ struct Cuts {
     disc = disc + cut->disc;
   }
 
-  /// Wet share of faces, eq. (59).
+  /// Returns the wet share of faces, eq. (59).
   Floats wetShare(const Vectors& n, const Vectors& c, Floats area) const {
     return wetShareOf(height - dot(normal, c), dot(normal, n), disc * area,
                       [](Floats x) { return root(x); });
   }
 };
 
-/// |u|^2, and a little more: at rest its inverse is finite.
+/// Returns |u|^2 + 1e-30, whose inverse is finite at rest.
 inline Floats squareOf(const Vectors& u) {
   constexpr float kLeast = 1e-30f;
   return plusProduct(plusProduct(plusProduct(Floats{} + kLeast, u.x, u.x), u.y, u.y), u.z, u.z);
@@ -85,8 +85,8 @@ struct FaceFlow {
   Floats pressure;      ///< q A
 };
 
-/// Computes it for kWidth faces of a block; docs/theory.md eq. (12) to (15), (43) to (44), (59).
-/// Adds the lift of wings times its arm to `pitch`.
+/// Returns the flow at kWidth faces of a block, docs/theory.md eq. (12) to (15), (43) to (44),
+/// (59). Adds q_L A mu of wings to `pitch`.
 template <class Law, bool kRightAngle, bool kCut>
 inline FaceFlow flowOn(const RunMotion& run, int block, Floats& pitch) {
   const int lane = run.lane;
@@ -126,15 +126,16 @@ inline FaceFlow flowOn(const RunMotion& run, int block, Floats& pitch) {
   return {u, normal_speed, slip_sq, strength, Law::template of<kRightAngle>(state).total};
 }
 
-/// Returns the block, to be read again. The compiler does not see that it is the same: it would
-/// keep what it has read, for which there are too few registers.
+/// Returns `block` as a reference that the compiler cannot identify with it, so that normals and
+/// centroids are read from memory again. Otherwise the compiler keeps them in registers, of which
+/// there are too few.
 inline const FaceBlock& reread(const FaceBlock& block) {
   const FaceBlock* again = &block;
   asm("" : "+r"(again));
   return *again;
 }
 
-/// Force on faces: pressure and friction, eq. (15) to (17).
+/// Returns the force on faces by pressure and friction, eq. (15) to (17), without -rho/2.
 template <class Law>
 [[gnu::always_inline]] inline Vectors forceOf(const FaceFlow& flow, const Vectors& n,
                                               const SingleMotion& motion) {
@@ -145,7 +146,7 @@ template <class Law>
   return plusProduct(flow.pressure * n, along, lessProduct(flow.velocity, flow.normal_speed, n));
 }
 
-/// kWidth lanes of a run of chosen blocks.
+/// Sums the kWidth lanes from `lane` of `count` chosen blocks.
 template <class Law, bool kRightAngle, bool kFriction, bool kCut>
 void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
             int lane, WrenchLanes& sums) {
@@ -182,8 +183,8 @@ inline Ints mayBeWindward(const FaceBounds& bounds, const float (&angular)[3],
   return middle + reach > 0.0f;
 }
 
-/// Marks 16 blocks: -1 if a face of the block may have the pressure of the windward side or the
-/// lift of a wing, else 0.
+/// Marks 16 blocks: -1 if a face of the block may have pressure of the windward side or lift, else
+/// 0.
 template <bool kLifts>
 inline void markAttached(const FaceBounds& bounds, const SingleMotion& motion,
                          std::int32_t (&marks)[kLanes]) {
@@ -195,12 +196,13 @@ inline void markAttached(const FaceBounds& bounds, const SingleMotion& motion,
   }
 }
 
-/// Indices of blocks with faces that may be attached, and of all others (only if kRest is set).
+/// Indices of marked blocks, and with kRest of all others.
 struct Choice {
   int attached[kChoice], rest[kChoice];
   int count = 0;  ///< number of entries in `attached`
 };
 
+/// Sorts the first `size` blocks by their marks.
 template <bool kRest, bool kLifts>
 inline void chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion& motion,
                          Choice& choice) {
@@ -218,6 +220,7 @@ inline void chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion&
   choice.count = count;
 }
 
+/// Sums a run of at most kRun chosen blocks.
 template <class Law, bool kRightAngle, bool kFriction, bool kCut>
 void sumChosen(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
                WrenchTotal<Law::kLifts>& total) {
@@ -227,6 +230,7 @@ void sumChosen(const FaceBlocks& faces, const int* chosen, int count, const Sing
   total.add(run);
 }
 
+/// Sums chosen blocks at a separation angle of pi/2, in runs.
 template <class Law, bool kFriction, bool kCut>
 void sumRuns(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
              WrenchTotal<Law::kLifts>& total) {
@@ -239,8 +243,9 @@ inline int atMost(std::size_t count, int limit) {
   return count < static_cast<std::size_t>(limit) ? static_cast<int>(count) : limit;
 }
 
-/// Beyond a right angle the flow is attached to nearly all. Where a surface cuts the body, the lee
-/// is that of its wet faces, and is summed after all.
+/// Sums at a separation angle of pi/2: only blocks with faces that may be attached. The form law
+/// also has pressure on the lee side: for a whole body by its quadratic map, for a body cut by the
+/// water surface by summing its other blocks.
 template <class Law, bool kFriction, bool kCut>
 LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   using Run = std::conditional_t<kCut, Law, typename Law::Windward>;
@@ -264,6 +269,7 @@ LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   return sums;
 }
 
+/// Sums all blocks.
 template <class Law, bool kRightAngle, bool kFriction, bool kCut>
 LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   static constexpr int kAll[kRun] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -276,7 +282,8 @@ LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
 
 template <class Law, bool kFriction, bool kCut>
 LoadSums sumBlocks(const FaceBlocks& faces, const SingleMotion& motion) {
-  constexpr std::size_t kFewest = 12;  // to choose from: below, that costs more than it saves
+  constexpr std::size_t kFewest = 12;  // with fewer blocks, choosing costs more than it saves
+  // Beyond a right angle the flow is attached to nearly all faces.
   if (motion.signed_cosine_sq != 0) return sumAll<Law, false, kFriction, kCut>(faces, motion);
   return faces.count < kFewest ? sumAll<Law, true, kFriction, kCut>(faces, motion)
                                : sumWhereAttached<Law, kFriction, kCut>(faces, motion);

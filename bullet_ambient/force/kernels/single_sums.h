@@ -6,12 +6,12 @@
 
 namespace ambient {
 
-// Sums over faces in single precision. Plain data only, as in face_sums.h.
+// Sums over faces in single precision. Plain data only, see face_sums.h.
 
-/// Sums all blocks; may skip blocks whose bounds show that the flow is detached. Face i of a block
-/// goes to lane i. Runs of 16 blocks are summed in single precision, runs are added in double.
-/// Fused products are written out, and emulated on processors that cannot fuse: all instruction
-/// sets give the same bits.
+/// Sums all blocks. Skips blocks without load: bounds show that the flow is detached from all their
+/// faces. Face i of a block goes to lane i. Runs of 16 blocks are summed in single precision, and
+/// runs are added in double. Fused products are explicit, and emulated on processors without them,
+/// so that all instruction sets give the same bits.
 using SumBlocks = LoadSums (*)(const FaceBlocks&, const SingleMotion&) noexcept;
 
 LoadSums sumBlocksBaseline(const FaceBlocks&, const SingleMotion&) noexcept;

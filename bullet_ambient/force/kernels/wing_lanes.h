@@ -5,8 +5,8 @@
 namespace ambient {
 namespace {
 
-/// Constants of a shape and its motion that the form law asks for, the same in all lanes; zero
-/// without a wing. The motion: FaceMotion or SingleMotion.
+/// Constants of the form law for lifting and slender shapes, the same in all lanes; zero if
+/// motion.wing is null. `Motion`: FaceMotion or SingleMotion.
 template <class Lanes>
 struct WingLanes {
   VectorsOf<Lanes> facing = {}, span = {}, slender = {};

@@ -3,7 +3,8 @@
 #include "bullet_ambient/motion/lanes/passive_kick_kernel.h"
 #include "bullet_ambient/motion/lanes/pose_kernel.h"
 
-// Compiled once for each instruction set, which AMBIENT_KERNEL() adds to the name.
+// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel. Each
+// struct is one kernel of FlightKernel; act() computes the lanes from `at` on.
 
 namespace ambient {
 namespace {
@@ -84,8 +85,8 @@ struct KickStep {
     return passiveKick(x, sample, {inverse * wrench, wrench}, duration);
   }
 
-  // Error e of eq. (25). fall_scale avoids tiny substeps at the turning point of a swing, where the
-  // speed passes through 0: below sqrt(g L) a body moves by little of its own size.
+  // Returns the error e of eq. (25). fall_scale avoids tiny substeps where the speed of a swing
+  // passes through 0.
   static Lanes relativeError(const Pairs& x, const Pairs& surprise, const Lanes& duration,
                              const Lanes& fall_scale) {
     const Lanes zero = Lanes{};
@@ -95,7 +96,8 @@ struct KickStep {
   }
 };
 
-// Twice the kinetic energy, and the potential energy of forces that are constant over the step [J].
+// Twice the kinetic energy, and the potential energy of forces that are constant over the step, eq.
+// (25a) [J].
 struct Energies {
   Lanes kinetic2, potential;
 };

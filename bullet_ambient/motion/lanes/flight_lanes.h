@@ -2,8 +2,9 @@
 
 namespace ambient {
 
-// Arithmetic of the leapfrog for several bodies at once. Plain data only: the kernels are compiled
-// once per instruction set, and must not share an inline function with the rest of the program.
+// Data and kernels of the passive leapfrog, docs/theory.md eq. (22) to (25), for several bodies
+// side by side. Plain data only: kernels are compiled once per instruction set, and must share no
+// inline function with the rest of the program.
 
 constexpr int kFlightLanes = 8;
 
@@ -14,7 +15,8 @@ using FlightLane = double[kFlightLanes];
 constexpr int kSymmetricEntries = 21;
 constexpr int symmetricEntry(int row, int column) { return row * (11 - row) / 2 + column; }
 
-/// Input and output of the kernels. Vectors in world axes (W) or body axes (B); SI units.
+/// Input and output of the kernels. Vectors are in world axes (_W) or body axes (_B); SI units.
+/// 6-vectors and wrenches: rotation first.
 struct alignas(64) FlightLanes {
   FlightLane active;  ///< 1: the body moves; 0: kernels keep its pose, motion and last load
 
@@ -23,11 +25,12 @@ struct alignas(64) FlightLanes {
   FlightLane inverse_inertia[kSymmetricEntries];  ///< K^-1
   bool has_diagonal_inertia;                      ///< K and K^-1 of all bodies are diagonal
   bool has_loads;                                 ///< at least one body has surface loads
-  FlightLane torque_W[3], force_W[3];  ///< about the centre of mass, without buoyancy and loads
+  FlightLane torque_W[3], force_W[3];  ///< wrench without buoyancy and loads, about the centre of
+                                       ///< mass
   FlightLane buoyancy_W[3];
   FlightLane centre_of_volume_B[3];
   FlightLane fall_scale;  ///< result of fallScale()
-  FlightLane precision;   ///< tolerance of flow(), relative to the motion
+  FlightLane precision;   ///< largest error of flow(), relative to the motion [1]
 
   // Pose and motion.
   FlightLane orientation[4];  ///< (x, y, z, w), B to W
@@ -40,12 +43,12 @@ struct alignas(64) FlightLanes {
   FlightLane is_coarse;       ///< flow() sets 1 if it did not reach its precision
   FlightLane energy_removed;  ///< flow() and bound() add the energy they remove [J]
 
-  // Within a kick. Wrenches: torque first; loads are 0 for a body without surface loads.
-  FlightLane load_W[6];      ///< surface load of the last kick
-  FlightLane guess_B[6];     ///< load by which sample() predicts the middle of the kick
-  FlightLane load_B[6];      ///< load at the sampled twist
-  FlightLane fall_twist[6];  ///< change of twist by gravity in half the kick
-  FlightLane fall_momentum[6];
+  // Within a kick. Loads are 0 for a body without surface loads.
+  FlightLane load_W[6];         ///< surface load of the last kick
+  FlightLane guess_B[6];        ///< load by which sample() predicts the middle of the kick
+  FlightLane load_B[6];         ///< load at the sampled twist
+  FlightLane fall_twist[6];     ///< change of twist in half the kick by all but surface loads
+  FlightLane fall_momentum[6];  ///< change of momentum belonging to it
   FlightLane sample_twist[6];
   FlightLane sample_momentum[6];
   FlightLane error;  ///< error e of the kick, docs/theory.md eq. (25)
@@ -72,7 +75,8 @@ struct alignas(64) ArrivalLanes {
                           ///< most pi, eq. (29)
 };
 
-/// Kernels of one instruction set. depart() and arrive() treat all lanes, the others active bodies.
+/// Kernels of one instruction set. depart() and arrive() compute all lanes, others only active
+/// bodies.
 struct FlightKernel {
   void (*depart)(DepartureLanes&) noexcept;
   void (*arrive)(ArrivalLanes&) noexcept;
@@ -82,14 +86,15 @@ struct FlightKernel {
   /// more than about 500 rad makes the rest of the way in one stride that keeps the world momenta;
   /// is_coarse is set.
   void (*flow)(FlightLanes&) noexcept;
-  /// First half of the kick by gravity, buoyancy and other forces. Sets guess_B to load_W in B.
+  /// Applies the first half of the kick by gravity, buoyancy and other forces. Sets guess_B to
+  /// load_W in B.
   void (*applyGravity)(FlightLanes&) noexcept;
   /// Predicts the motion in the middle of the kick from guess_B: sample_twist, sample_momentum.
   void (*sample)(FlightLanes&) noexcept;
   /// Applies load_B over the whole kick, eq. (23), then the second half of applyGravity(). Sets
   /// error and load_W.
   void (*kick)(FlightLanes&) noexcept;
-  /// Sets `energy`.
+  /// Sets `energy` to the kinetic and potential energy of the present state.
   void (*measure)(FlightLanes&) noexcept;
   /// Scales motions down to the measured energy if it is exceeded and torque_W is 0, eq. (25a).
   void (*bound)(FlightLanes&) noexcept;

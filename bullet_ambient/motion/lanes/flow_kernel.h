@@ -8,13 +8,18 @@
 namespace ambient {
 namespace {
 
-/// Power series in time of Kirchhoff's equations in body axes. The equations are bilinear: each
-/// coefficient is a sum of cross products of the earlier ones (Jorba and Zou 2005):
+/// Power series in time of Kirchhoff's equations without forces, in body axes, docs/theory.md eq.
+/// (22):
+///
 ///   l' = l x w + p x v,   p' = p x w,   (w, v) = K^-1 (l, p),
-///   r' = r x w + v,       q' = 1/2 q w,
-/// with the way r from the start in body axes, y = y_0 + R r, and the turn q since the start.
-/// Coefficients are scaled to t = fraction of the duration. Each body gets as many terms as its
-/// precision needs; further terms are zero.
+///   r' = r x w + v,       q' = 1/2 q w
+///
+///   r   displacement since the start in body axes, y = y_0 + R r
+///   q   rotation since the start
+///
+/// The equations are bilinear, so that each coefficient is a sum of cross products of earlier ones
+/// (Jorba and Zou 2005). Time is the fraction of the duration. Each body gets the number of terms
+/// that its precision needs; further terms are zero.
 template <class Inverse>
 class MotionSeries {
  public:
@@ -61,9 +66,10 @@ class MotionSeries {
     Orientations turn;
   };
 
+  // Computes the next coefficient from all earlier ones.
   void addTerm() {
     const int k = order_;
-    // Zeroth terms: way 0, vector part of the turn 0, cosine 1.
+    // Products with the zeroth coefficient: displacement 0, identity rotation.
     const Spatials& latest = c_[k].motion.twist;
     const Spatials& first = c_[0].motion.momentum;
     Vectors l = cross(first.angular, latest.angular) + cross(first.linear, latest.linear);
@@ -111,6 +117,8 @@ class MotionSeries {
     return are_small | (next <= precision_sq_);
   }
 
+  // Returns the fraction of the duration up to which the series has its precision: 1, or less if
+  // kMaxOrder terms are not enough.
   Lanes reach() const {
     Lanes fraction = all(1);
     if (!anyOf(is_open_)) return fraction;
@@ -123,6 +131,8 @@ class MotionSeries {
     return fraction;
   }
 
+  // Returns the fraction of the duration at which term k, whose squared size is `excess` times the
+  // squared precision, is equal to the precision.
   static double reachOfTerm(int k, double excess) {
     return excess > 1 ? portable::pow(excess, -0.5 / k) : 1.0;
   }
@@ -149,7 +159,8 @@ inline Motions select(const Mask& mask, const Motions& a, const Motions& b) {
           select(mask, a.motion, b.motion)};
 }
 
-/// Moves with constant twist over `duration` [s]; the world momenta stay and give the end twist.
+/// Moves bodies with constant twist over `duration` [s]. The end twist follows from the world
+/// momenta, which are conserved.
 template <class Inverse>
 Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duration) {
   const Vectors rotation = duration * start.motion.twist.angular;
@@ -175,7 +186,7 @@ Motions coast(const Inverse& inverse, const Motions& start, const Lanes& duratio
 /// Moves active bodies without loads, docs/theory.md eq. (22), see FlightKernel::flow.
 template <class Matrices>
 void flow(FlightLanes& bodies, int at, const Mask& active) {
-  constexpr int kMaxPieces = 1024;  // series per call
+  constexpr int kMaxPieces = 1024;  // largest number of series, one after another
   const Lanes zero = Lanes{};
   const Matrices inverse(bodies.inverse_inertia, at);
   const Lanes precision = load(bodies.precision + at);

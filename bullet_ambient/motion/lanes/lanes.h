@@ -8,8 +8,9 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/force/kernels/double_lanes.h"
 
-// One body per lane. Only for sources compiled once per instruction set, see double_lanes.h. No
-// operation is fused; lanes are independent: the same bits with every instruction set.
+// Functions of one number per body, side by side in the lanes of a register. For sources that are
+// compiled once per instruction set, see force/kernels/double_lanes.h. No operation is fused and
+// lanes are independent, so that every instruction set gives the same bits.
 
 namespace ambient {
 namespace {
@@ -32,10 +33,10 @@ inline Lanes squareRoot(const Lanes& a) {
 #endif
 }
 
-/// Larger of both per lane; b where a is NaN.
+/// Returns the larger number per lane; b where a is NaN.
 inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 
-/// c_0 + c_1 x + c_2 x^2 + ...
+/// Returns c_0 + c_1 x + c_2 x^2 + ... per lane.
 template <int kTerms>
 Lanes polynomial(const double (&c)[kTerms], const Lanes& x) {
   Lanes sum = all(c[kTerms - 1]);
@@ -43,7 +44,7 @@ Lanes polynomial(const double (&c)[kTerms], const Lanes& x) {
   return sum;
 }
 
-/// log(1 + z) / z per lane. @pre z >= 0
+/// Returns log(1 + z) / z per lane. @pre z >= 0
 inline Lanes logarithmRatio(const Lanes& z) {
   // 2/(2 + z) artanh(s)/s, s = z/(2 + z); the series ends where the next term is below rounding.
   constexpr double kSmall = 0.1;
@@ -57,9 +58,9 @@ inline Lanes logarithmRatio(const Lanes& z) {
   return ratio;
 }
 
-/// tan(x) per lane. @pre x >= 0
+/// Returns tan(x) per lane. @pre x >= 0
 inline Lanes tangent(const Lanes& x) {
-  constexpr double kSmall = 0.1;  // the next term is below rounding
+  constexpr double kSmall = 0.1;  // the first term left out is below rounding
   static constexpr double kSeries[] = {
       1.0,         1.0 / 3,         2.0 / 15,          17.0 / 315,
       62.0 / 2835, 1382.0 / 155925, 21844.0 / 6081075, 929569.0 / 638512875};

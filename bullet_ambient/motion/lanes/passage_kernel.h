@@ -2,22 +2,22 @@
 
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// Passage through the surface of the water, docs/theory.md eq. (66) to (68), one body per lane.
-// Included under the rule of lanes.h.
+// Passage through the surface of the water, docs/theory.md eq. (66) to (68), one body per lane. For
+// sources that are compiled once per instruction set, see lanes.h.
 
 namespace ambient {
 namespace {
 
-/// Like SurfacePassage.
+/// SurfacePassage of one body per lane; body axes.
 struct Passages {
-  const FullMatrices &before, &after, &inverse_after;
-  Spatials gradient;
+  const FullMatrices &before, &after, &inverse_after;  ///< K_0, K_1, K_1^-1 of eq. (68)
+  Spatials gradient;                                   ///< F_K of eq. (66)
   Vectors normal, centre_of_buoyancy;
-  Lanes draught, cover, gravity, duration;
+  Lanes draught, cover;  ///< depth of the lowest and of the highest point [m]
+  Lanes gravity, duration;
 };
 
-/// The share of the momentum that goes into spray and shed water: theta sigma of eq. (67), in
-/// [-1, 1].
+/// Returns theta sigma of eq. (67), the share of the momentum that goes into spray, in [-1, 1].
 inline Lanes sprayShare(const Passages& p, const Spatials& x) {
   const Lanes zero = Lanes{}, one = all(1);
   const Vectors v = x.linear + cross(x.angular, p.centre_of_buoyancy);
@@ -32,8 +32,9 @@ inline Lanes sprayShare(const Passages& p, const Spatials& x) {
   return moves ? theta * sigma : zero;
 }
 
-/// F_K dt, the force so that the power is that of the change of the inertia, where the two are
-/// near. The torque belongs to the gyroscopic terms of the flow, as it is.
+/// Returns F_K dt. The force is multiplied by r of eq. (68), so that its work equals the change of
+/// the kinetic energy by that of K, if r is between 0 and 3. The torque stays, because it belongs
+/// to the gyroscopic terms of the flow.
 inline Spatials impulseOf(const Passages& p, const FullMatrices& change, const Spatials& x) {
   constexpr double kMostCorrection = 3;
   const Lanes one = all(1);
@@ -44,6 +45,7 @@ inline Spatials impulseOf(const Passages& p, const FullMatrices& change, const S
           (p.duration * (is_near ? ratio : one)) * p.gradient.linear};
 }
 
+/// Returns K_1 - K_0.
 inline FullMatrices changeOf(const Passages& p) {
   FullMatrices change;
   for (int i = 0; i < 6; ++i)
@@ -63,7 +65,7 @@ struct BoundedTwists {
   Lanes energy_removed;
 };
 
-/// Like scaledWithin().
+/// Scales x so that twice its energy, `twice_energy`, does not exceed `twice_allowed` [J].
 inline BoundedTwists scaledWithin(const Spatials& x, const Lanes& twice_energy,
                                   const Lanes& twice_allowed) {
   const Lanes one = all(1), zero = Lanes{};
@@ -72,7 +74,8 @@ inline BoundedTwists scaledWithin(const Spatials& x, const Lanes& twice_energy,
   return {scale * x, gains ? 0.5 * (twice_energy - twice_allowed) : zero};
 }
 
-/// Like passSurface() for SurfacePassage.
+/// Returns the twists after the passage, eq. (67) and (68), and the energy removed [J]. Bodies
+/// whose K has not changed keep their twists.
 inline BoundedTwists passSurface(const Passages& p, const Spatials& x) {
   constexpr double kRounding = 1e-12;
   const FullMatrices change = changeOf(p);

@@ -7,8 +7,8 @@
 namespace ambient {
 namespace {
 
-/// Returns the motions x after `duration` [s] under `load`, which was evaluated at the motions
-/// `at`; per lane like passiveKick() for DualPair, docs/theory.md eq. (23).
+/// Returns the motions `x` after `duration` [s] under `load`, docs/theory.md eq. (23). `load`: K^-1
+/// F and F of the loads F evaluated at the motions `at`.
 inline Pairs passiveKick(const Pairs& x, const Pairs& at, const Pairs& load,
                          const Lanes& duration) {
   const Lanes one = all(1), zero = Lanes{};

@@ -8,8 +8,9 @@
 namespace ambient {
 namespace {
 
-/// Unit quaternions of rotation matrices, given by rows, orthogonal up to rounding. The matrix
-/// contains four multiples of the quaternion (Shepperd 1978); the largest one is normalised.
+/// Returns the unit quaternions of rotation matrices that are orthogonal up to rounding. Sums of
+/// entries give four multiples of the quaternion; the one with the largest scale is normalised
+/// (Shepperd 1978).
 inline Orientations orientationsOf(const Vectors (&rows)[3]) {
   const Lanes &xx = rows[0].x, &yy = rows[1].y, &zz = rows[2].z;
   const Vectors turn{rows[2].y - rows[1].z, rows[0].z - rows[2].x, rows[1].x - rows[0].y};
@@ -28,9 +29,10 @@ inline Orientations orientationsOf(const Vectors (&rows)[3]) {
   return normalized(q);
 }
 
-/// Rotation vectors of unit quaternions [rad], length <= pi; accurate for tiny angles, too.
+/// Returns the rotation vectors of unit quaternions [rad], of length <= pi. Relative errors are
+/// rounding errors for tiny angles, too.
 inline Vectors rotationVectors(const Orientations& q) {
-  // asin(s) / s over s^2; the next term is below rounding.
+  // Series of asin(s) / s in s^2; the first term left out is below rounding.
   constexpr double kSmall = 0.03;
   static constexpr double kSeries[] = {
       1.0,         1.0 / 6,       3.0 / 40,      5.0 / 112,       35.0 / 1152,
@@ -47,6 +49,7 @@ inline Vectors rotationVectors(const Orientations& q) {
   return (q.w < Lanes{} ? -2 * ratio : 2 * ratio) * q.u;
 }
 
+/// Implements FlightKernel::depart.
 inline void depart(DepartureLanes& bodies) noexcept {
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Vectors rows[3] = {load(bodies.rotation, at), load(bodies.rotation + 3, at),
@@ -70,6 +73,7 @@ inline Spatials withoutTraces(const Spatials& a, const Lanes& least) {
   return {withoutTraces(a.angular, least), withoutTraces(a.linear, least)};
 }
 
+/// Implements FlightKernel::arrive.
 inline void arrive(ArrivalLanes& bodies) noexcept {
   const Lanes per_duration = all(1 / bodies.duration), least = all(bodies.least);
   for (int at = 0; at < kFlightLanes; at += kWidth) {

@@ -2,12 +2,12 @@
 
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// Included under the rule of lanes.h.
+// For sources that are compiled once per instruction set, see lanes.h.
 
 namespace ambient {
 namespace {
 
-/// Factors of K = L D L^T of symmetric matrices, one per lane.
+/// Factors L D L^T of symmetric 6x6 matrices K, one per lane.
 class PositiveFactor {
  public:
   explicit PositiveFactor(const FullMatrices& K) {
@@ -27,10 +27,10 @@ class PositiveFactor {
     }
   }
 
-  /// Lanes whose matrix is positive definite; results for others are not defined.
+  /// Returns the lanes whose matrix is positive definite. Results in other lanes are undefined.
   Mask isPositive() const { return is_positive_; }
 
-  /// K^-1 b.
+  /// Returns K^-1 b.
   Spatials solve(const Spatials& b) const {
     Lanes x[6] = {b.angular.x, b.angular.y, b.angular.z, b.linear.x, b.linear.y, b.linear.z};
     for (int i = 1; i < 6; ++i)
@@ -42,7 +42,7 @@ class PositiveFactor {
     return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
   }
 
-  /// K^-1.
+  /// Returns K^-1.
   FullMatrices inverse() const {
     Lanes M[6][6];  // L^-1 below its diagonal of ones
     for (int j = 0; j < 6; ++j)

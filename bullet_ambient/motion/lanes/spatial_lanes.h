@@ -3,7 +3,8 @@
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
 #include "bullet_ambient/motion/lanes/lanes.h"
 
-// Vectors, orientations and twists, one body per lane. Included under the rule of lanes.h.
+// Vectors, orientations and twists, one body per lane. For sources that are compiled once per
+// instruction set, see lanes.h.
 
 namespace ambient {
 namespace {
@@ -13,7 +14,7 @@ inline Vectors select(const Mask& mask, const Vectors& a, const Vectors& b) {
 }
 inline Vectors zeroVectors() { return {Lanes{}, Lanes{}, Lanes{}}; }
 
-/// 3-vectors of the bodies in kWidth lanes from `at` on.
+/// Loads the 3-vectors of the bodies in kWidth lanes from `at` on.
 inline Vectors load(const FlightLane* from, int at) {
   return {load(from[0] + at), load(from[1] + at), load(from[2] + at)};
 }
@@ -76,7 +77,7 @@ inline Spatials select(const Mask& mask, const Spatials& a, const Spatials& b) {
   return {select(mask, a.angular, b.angular), select(mask, a.linear, b.linear)};
 }
 
-/// Like DualPair, one per lane.
+/// Twists x and momenta K x, one pair per lane: DualPair.
 struct Pairs {
   Spatials twist, momentum;
 };
@@ -95,7 +96,7 @@ inline Pairs select(const Mask& mask, const Pairs& a, const Pairs& b) {
 /// Symmetric 6x6 matrices, one per lane.
 class FullMatrices {
  public:
-  FullMatrices() = default;  ///< not set
+  FullMatrices() = default;  ///< leaves the entries uninitialised
   FullMatrices(const FlightLane (&entries)[kSymmetricEntries], int at) {
     for (int i = 0; i < kSymmetricEntries; ++i) m_[i] = load(entries[i] + at);
   }
@@ -111,7 +112,7 @@ class FullMatrices {
   Spatials operator*(const Spatials& a) const {
     return {{row(0, a), row(1, a), row(2, a)}, {row(3, a), row(4, a), row(5, a)}};
   }
-  /// Product with (a, 0).
+  /// Returns the product with the twist (a, 0).
   Spatials ofAngular(const Vectors& a) const {
     return {{half(0, a), half(1, a), half(2, a)}, {half(3, a), half(4, a), half(5, a)}};
   }

@@ -5,7 +5,8 @@
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"
 
-// Compiled once for each instruction set, which AMBIENT_KERNEL() adds to the name.
+// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel. Each
+// struct is one kernel of SurfaceKernel; act() computes the lanes from `at` on.
 
 namespace ambient {
 namespace {
@@ -69,7 +70,7 @@ Orientations orientationOf(const FlightLanes& bodies, int at) {
 Spatials toBody(const Orientations& q, const Spatials& a) {
   return {q.toBody(a.angular), q.toBody(a.linear)};
 }
-/// Twist and momentum of now.
+/// Returns the present twists and momenta.
 Pairs motionOf(const FlightLanes& bodies, int at) {
   const Spatials x = load6(bodies.twist_B, at);
   return {x, FullMatrices(bodies.inertia, at) * x};
@@ -223,6 +224,7 @@ struct LoadStep {
   }
 };
 
+/// Returns the velocity of the water minus that of the fluid above, in B.
 Spatials windAt(const SurfaceLanes& bodies, int at) {
   return {zeroVectors(), orientationOf(bodies.flight, at).toBody(load(bodies.wind_W, at))};
 }

@@ -4,15 +4,16 @@
 
 namespace ambient {
 
-// Arithmetic of bodies at a water surface, several at once. Plain data only, as in flight_lanes.h.
+// Data and kernels of flight at a water surface, docs/theory.md section 12, for several bodies side
+// by side. Plain data only, see flight_lanes.h.
 
-/// Positions of bodies relative to the water surface: input and output of SurfaceKernel::stand();
-/// in B.
+/// Bodies at given positions relative to the water surface: input and output of
+/// SurfaceKernel::stand(). Vectors in B.
 struct alignas(64) StandLanes {
   FlightLane active;  ///< 1: stand() treats the body
 
   // Input.
-  FlightLane normal[3], height;           ///< of the plane
+  FlightLane normal[3], height;           ///< plane of the surface: s and h of docs/theory.md
   FlightLane gravity;                     ///< SurfacePlane::gravity
   FlightLane pull;                        ///< SurfacePlane::density times gravity
   FlightLane volume, moment[3];           ///< WetVolume
@@ -25,15 +26,15 @@ struct alignas(64) StandLanes {
   // Results.
   FlightLane inverse[kSymmetricEntries];     ///< K^-1
   FlightLane is_indefinite;                  ///< 1: K is not positive definite; K^-1 is undefined
-  FlightLane heave[6], tilt[2][3];           ///< RestoringMode::motion; of a tilt its angular part
-  FlightLane stiffness[3];                   ///< of heave and tilts
-  FlightLane second_moment[2];               ///< of tilts
-  FlightLane strength[3], loss[3], rate[3];  ///< WaveMode, of heave and tilts
+  FlightLane heave[6], tilt[2][3];           ///< N of heave; angular part of N of the two tilts
+  FlightLane stiffness[3];                   ///< k of heave and tilts [N/m, N m]
+  FlightLane second_moment[2];               ///< I_i of the tilts [m^4]
+  FlightLane strength[3], loss[3], rate[3];  ///< G, a, b of heave and tilts, eq. (69)
   FlightLane swing;                          ///< largest natural frequency [1/s]
 };
 
-/// Bodies in flight near a surface. `flight` has pose, motion, forces and loads; its inertia is
-/// that of the last stand. Each kernel treats the bodies that are active in `flight`.
+/// Bodies in flight near a surface. `flight` holds pose, motion, forces, loads, and the inertia of
+/// the last stand(). Kernels compute the bodies that are active in `flight`.
 struct alignas(64) SurfaceLanes {
   FlightLanes flight;
   StandLanes stand;
@@ -46,25 +47,25 @@ struct alignas(64) SurfaceLanes {
   FlightLane draught, cover;  ///< depth of the lowest and of the highest point [m]
   FlightLane centre_of_buoyancy[3];
 
-  FlightLane wave_heave[2], heave_energy, wave_tilt_W[2][3], tilt_energy;  ///< WaveMemory
+  FlightLane wave_heave[2], heave_energy, wave_tilt_W[2][3], tilt_energy;  ///< WaveMemory: s_1, s_2
 
   FlightLane kinetic2, potential;  ///< results of measure(): x.K x, and eq. (64) without T [J]
 };
 
-/// Kernels of one instruction set; bits as those of FlightKernel. Kicks are halves of
-/// flight.kick_time.
+/// Kernels of one instruction set; all sets give the same bits, see FlightKernel. A kick by one of
+/// them lasts half of flight.kick_time.
 struct SurfaceKernel {
   /// Computes K^-1, restoring modes, waves and swing of the bodies that are active in the stand.
   void (*stand)(StandLanes&) noexcept;
-  /// Sets normal and height of the stand: the plane seen from the present pose.
+  /// Sets normal and height of the stand to the plane of the surface in B at the present pose.
   void (*see)(SurfaceLanes&) noexcept;
-  /// Applies the passage from the inertia of the flight to that of the stand, over flow_time; eq.
-  /// (66) to (68).
+  /// Changes the inertia from that of the flight to that of the stand, and the twist by the passage
+  /// of the surface over flow_time; eq. (66) to (68).
   void (*pass)(SurfaceLanes&) noexcept;
   /// Applies weight, applied forces and buoyancy for half a kick. Sets flight.momentum_B.
   void (*fall)(SurfaceLanes&) noexcept;
-  /// Converts the waves to the modes of the stand, and lets them act for half a kick; eq. (71),
-  /// (72).
+  /// Projects the states of the waves on the modes of the stand, eq. (72), and applies the waves
+  /// for half a kick, eq. (71).
   void (*exchangeWaves)(SurfaceLanes&) noexcept;
   /// Applies the load of the last kick, flight.load_W; eq. (23).
   void (*keepLoad)(SurfaceLanes&) noexcept;

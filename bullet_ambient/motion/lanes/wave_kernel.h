@@ -3,31 +3,32 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// Waves that floating bodies make, docs/theory.md eq. (69) to (72), one body per lane. Included
-// under the rule of lanes.h.
+// Waves that floating bodies make, docs/theory.md eq. (69) to (72), one body per lane. For sources
+// that are compiled once per instruction set, see lanes.h.
 
 namespace ambient {
 namespace {
 
-/// Heave and two tilts, like RestoringModes.
+/// RestoringModes of one body per lane: heave and two tilts.
 struct Restorings {
-  Spatials heave;
-  Vectors tilt[2];  ///< angular part; the linear one is 0
-  Lanes stiffness[3];
-  Lanes second_moment[2];
+  Spatials heave;          ///< N of heave
+  Vectors tilt[2];         ///< angular part of N of the tilts; the linear part is 0
+  Lanes stiffness[3];      ///< k of heave and tilts
+  Lanes second_moment[2];  ///< I_i of the tilts
 };
 
-/// G, a, b of heave and tilts, like WaveModes.
+/// G, a, b of eq. (69), (70) for heave and tilts.
 struct Waves {
   Lanes strength[3], loss[3], rate[3];
 };
 
-/// A section of the body with the water, like Waterplane.
+/// Waterplane of one body per lane.
 struct Waterplanes {
   Lanes area;
   Vectors centroid;
-  Lanes spread[6];  ///< xx, yy, zz, xy, xz, yz
+  Lanes spread[6];  ///< second moments xx, yy, zz, xy, xz, yz
 
+  /// Returns the product of the matrix of second moments and a.
   Vectors along(const Vectors& a) const {
     return {spread[0] * a.x + spread[3] * a.y + spread[4] * a.z,
             spread[3] * a.x + spread[1] * a.y + spread[5] * a.z,
@@ -42,7 +43,7 @@ inline Lanes between(const Lanes& a, double least, double most) {
 }
 inline Vectors normalized(const Vectors& a) { return 1 / squareRoot(dot(a, a)) * a; }
 
-/// Natural logarithm and exponential in the lanes of a mask; 0 elsewhere.
+/// Return logarithm and exponential in the lanes of a mask; 0 elsewhere.
 inline Lanes logarithm(const Lanes& x, const Mask& mask) {
   Lanes y = Lanes{};
   for (int i = 0; i < kWidth; ++i)
@@ -56,7 +57,7 @@ inline Lanes exponential(const Lanes& x, const Mask& mask) {
   return y;
 }
 
-/// A unit vector across the unit vector n, like PlaneAxes::first.
+/// Returns a unit vector perpendicular to the unit vector n, the one of PlaneAxes::first.
 inline Vectors axisAcross(const Vectors& n) {
   const Lanes zero = Lanes{}, x = absolute(n.x), y = absolute(n.y), z = absolute(n.z);
   const Vectors by_z{zero - n.y, n.x, zero}, by_y{n.z, zero, zero - n.x},
@@ -65,7 +66,7 @@ inline Vectors axisAcross(const Vectors& n) {
   return normalized(select(x_is_least, by_x, select(y <= z, by_y, by_z)));
 }
 
-/// A principal axis of the section, across s.
+/// Returns a principal axis of the section, perpendicular to s.
 inline Vectors principalAxis(const Waterplanes& section, const Vectors& s) {
   const Lanes zero = Lanes{};
   const Vectors e = axisAcross(s), f = cross(s, e);
@@ -81,7 +82,8 @@ inline Vectors principalAxis(const Waterplanes& section, const Vectors& s) {
   return normalized(axis);
 }
 
-/// @param moment first moment of the wet volume; `pull`: rho g
+/// Returns heave and tilts, zero without a waterplane. `moment`: first moment S of the wet volume;
+/// `s`: normal of the surface; `pull`: rho g.
 inline Restorings restoringsOf(const Waterplanes& section, const Vectors& moment, const Vectors& s,
                                const Lanes& pull) {
   const Lanes zero = Lanes{};
@@ -102,12 +104,12 @@ inline Restorings restoringsOf(const Waterplanes& section, const Vectors& moment
   return modes;
 }
 
-/// Bodies that make waves, like WaveSource.
+/// WaveSource of one body per lane.
 struct WaveSources {
   Lanes area, volume, heave_inertia, damping, pull, gravity;
 };
 
-/// Eq. (69), (70); all zero without a waterplane.
+/// Returns G, a, b of eq. (69); all zero without a waterplane.
 inline Waves wavesOf(const WaveSources& source, const Restorings& restoring) {
   const Lanes zero = Lanes{}, one = all(1);
   const Mask floats = restoring.stiffness[0] > zero;
@@ -139,7 +141,7 @@ inline Waves wavesOf(const WaveSources& source, const Restorings& restoring) {
   return waves;
 }
 
-/// Square of the largest natural frequency.
+/// Returns the square of the largest natural frequency of heave and tilts, each alone [1/s^2].
 inline Lanes swingSquared(const Restorings& modes, const FullMatrices& inertia) {
   const Lanes zero = Lanes{}, one = all(1);
   const Lanes along[3] = {dot(modes.heave, inertia * modes.heave),
@@ -153,7 +155,8 @@ inline Lanes swingSquared(const Restorings& modes, const FullMatrices& inertia) 
   return square;
 }
 
-/// K + duration^2/4 N k N^T over the stiffnesses k > 0.
+/// Returns K + duration^2/4 sum of k N N^T over the modes with k > 0, docs/theory.md below eq.
+/// (68).
 inline FullMatrices stiffened(const FullMatrices& inertia, const Restorings& modes,
                               const Lanes& duration) {
   const Lanes zero = Lanes{};
@@ -170,7 +173,7 @@ inline FullMatrices stiffened(const FullMatrices& inertia, const Restorings& mod
   return K;
 }
 
-/// Two states of one mode.
+/// States s_1 and s_2 of one mode, eq. (70).
 struct Oscillations {
   Lanes first, second;
 
@@ -179,23 +182,25 @@ struct Oscillations {
   }
 };
 
-/// Like WaveMemory.
+/// WaveMemory of one body per lane.
 struct WaveStates {
   Oscillations heave;
   Vectors tilt_W[2];
   Lanes heave_energy, tilt_energy;
 };
 
-/// Modes as waves meet them.
+/// Modes of the bodies at the present pose.
 struct WaveModesOfBodies {
   const Restorings& restoring;
   const Waves& waves;
   Vectors tilt_W[2];  ///< axes of the tilts in W
 };
 
+/// Returns the states of the tilt about an axis.
 inline Oscillations tiltAlong(const WaveStates& waves, const Vectors& axis_W) {
   return {dot(axis_W, waves.tilt_W[0]), dot(axis_W, waves.tilt_W[1])};
 }
+/// Stores the states of both tilts as vectors in W, and their energy.
 inline void setTilt(const WaveModesOfBodies& modes, const Oscillations (&tilt)[2],
                     WaveStates& waves) {
   const Vectors &e1 = modes.tilt_W[0], &e2 = modes.tilt_W[1];
@@ -212,7 +217,8 @@ inline Lanes scaleTo(const Lanes& before, const Lanes& after) {
   return gains ? squareRoot(before / (gains ? after : one)) : one;
 }
 
-/// Eq. (72): the waves lose energy, or keep it; without a waterplane they end.
+/// Scales the waves down where a change of G has raised their energy, eq. (72). Sets them to 0
+/// without a waterplane.
 inline void meetModes(const WaveModesOfBodies& modes, WaveStates& waves) {
   const Lanes zero = Lanes{};
   const Mask floats = modes.waves.rate[0] > zero;
@@ -228,18 +234,19 @@ inline void meetModes(const WaveModesOfBodies& modes, WaveStates& waves) {
   setTilt(modes, tilt, waves);
 }
 
-/// One mode and the body by the implicit midpoint rule, eq. (71).
+/// One mode of the waves, for the implicit midpoint rule, eq. (71).
 struct ModeOfBodies {
   const Lanes &strength, &loss, &rate;
   Spatials answer;  ///< K^-1 N
 
-  /// @param velocity N.x
+  /// Advances the states `s` by `duration` [s] and returns the twist after it. `velocity`: N.x;
+  /// `per_force`: N.K^-1 N.
   Spatials exchange(const Spatials& x, const Lanes& velocity, const Lanes& per_force,
                     const Lanes& duration, Oscillations& s) const {
     const Lanes half = duration / 2;
     const Lanes A = 1 + half * loss, B = half * rate, per = 1 / (A + B * B);
     const Lanes stiffness = half * strength * per_force;
-    const Lanes kept = per * (s.first - B * s.second);  // of s_1 in the middle, without the body
+    const Lanes kept = per * (s.first - B * s.second);  // s_1 in the middle if the body rested
     const Lanes gain = half * per;
     const Lanes middle = (velocity - stiffness * kept) / (1 + stiffness * gain);
     const Lanes first = kept + gain * middle, second = s.second + B * first;
@@ -248,7 +255,8 @@ struct ModeOfBodies {
   }
 };
 
-/// Eq. (71) over a time; returns the twists. @pre the waves have met the modes
+/// Applies the waves over `duration` [s], one mode after another, eq. (71). Returns the twists
+/// after it. @pre meetModes()
 inline Spatials exchangeWaves(const WaveModesOfBodies& modes, const FullMatrices& inverse,
                               const Lanes& duration, const Spatials& x, WaveStates& waves) {
   const Restorings& N = modes.restoring;

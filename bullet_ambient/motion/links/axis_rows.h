@@ -6,8 +6,9 @@
 
 #include "bullet_ambient/motion/links/link_state.h"
 
-// Arithmetic with AxisRow, for sources that are compiled once per instruction set, see
-// instruction_set.h. No operation is fused, sums have one order: the same bits with all of them.
+// Arithmetic with AxisRow in registers, for sources that are compiled once per instruction set, see
+// base/instruction_set.h. No operation is fused and each sum has a fixed order, so that all
+// instruction sets give the same bits. A Row holds three components; its fourth lane is 0.
 
 namespace ambient {
 namespace {
@@ -21,10 +22,12 @@ inline Row operator+(const Row& a, const Row& b) { return {a.all + b.all}; }
 inline Row operator-(const Row& a, const Row& b) { return {a.all - b.all}; }
 inline Row operator*(const Row& a, const Row& b) { return {a.all * b.all}; }
 inline Row operator*(double s, const Row& a) { return {s * a.all}; }
+/// Returns component kAxis in all lanes.
 template <int kAxis>
 Row spread(const Row& a) {
   return {__builtin_shufflevector(a.all, a.all, kAxis, kAxis, kAxis, kAxis)};
 }
+/// Returns (y, z, x).
 inline Row nextAxes(const Row& a) { return {__builtin_shufflevector(a.all, a.all, 1, 2, 0, 3)}; }
 inline double sum(const Row& a) { return a.all[0] + a.all[1] + a.all[2]; }
 
@@ -103,17 +106,17 @@ inline Matrix operator+(const Matrix& m, const Matrix& n) {
 inline Matrix operator*(double s, const Matrix& m) {
   return {{s * m.column[0], s * m.column[1], s * m.column[2]}};
 }
-/// m - a b^T
+/// Returns m - a b^T.
 inline Matrix lessProduct(const Matrix& m, const Row& a, const Row& b) {
   return {{m.column[0] - a * spread<0>(b), m.column[1] - a * spread<1>(b),
            m.column[2] - a * spread<2>(b)}};
 }
-/// [t]x m
+/// Returns [t]x m.
 inline Matrix crossColumns(const Row& t, const Matrix& m) {
   return {{cross(t, m.column[0]), cross(t, m.column[1]), cross(t, m.column[2])}};
 }
 
-/// Twist, acceleration, momentum or wrench.
+/// Twist, acceleration, momentum or wrench; the rotation part is `angular`.
 struct Spatial {
   Row angular, linear;
 };
@@ -133,7 +136,7 @@ inline double dot(const Spatial& a, const Spatial& b) {
   return sum(a.angular * b.angular + a.linear * b.linear);
 }
 
-/// Symmetric 6x6 inertia.
+/// Symmetric 6x6 inertia by blocks: (rotation, coupling; coupling^T, translation).
 struct Inertia {
   Matrix rotation, coupling, translation;
 };
@@ -145,6 +148,7 @@ inline void store(InertiaBlocks& to, const Inertia& K) {
   store(to.coupling, K.coupling);
   store(to.translation, K.translation);
 }
+/// Returns K x.
 inline Spatial times(const Inertia& K, const Matrix& coupling_transposed, const Spatial& x) {
   return {K.rotation * x.angular + K.coupling * x.linear,
           coupling_transposed * x.angular + K.translation * x.linear};

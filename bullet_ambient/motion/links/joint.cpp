@@ -9,7 +9,7 @@
 namespace ambient {
 namespace {
 
-// Rotation by an angle about a unit axis.
+// Returns the rotation by an angle [rad] about a unit axis.
 Matrix3 rotationAbout(const Vector3& axis, double angle) {
   const double s = portable::sin(angle), c = portable::cos(angle);
   const Vector3 n = s * axis, m = (1 - c) * axis;
@@ -31,8 +31,8 @@ Quaternion quaternionOf(const JointPosition& p) { return Quaternion(p[3], p[0], 
 JointPosition positionOf(const Quaternion& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 Vector3 jointVector(const double* x) { return {x[0], x[1], x[2]}; }
 
-// Coordinates of a planar joint: the turn, and the ways along the two axes of its plane as one
-// vector, and back.
+// Coordinates of a planar joint: rotation axis; displacement as a vector from its components along
+// the two axes of the plane; and one component of a displacement.
 Vector3 planeNormal(const Joint& joint) { return joint.axes[0].head<3>(); }
 Vector3 planeVector(const Joint& joint, const double* ways) {
   return ways[0] * joint.axes[1].tail<3>() + ways[1] * joint.axes[2].tail<3>();
@@ -42,10 +42,12 @@ double wayAlong(const Joint& joint, int axis, const Vector3& way) {
   return b.dot(way) / b.squaredNorm();
 }
 
+// Moves a planar joint along an arc of constant velocity in the link's axes.
 JointPosition movedInPlane(const Joint& joint, const JointPosition& position,
                            const double* velocity, double h) {
   const double half_turn = 0.5 * h * velocity[0];
-  // Chord over arc; the series is exact to rounding where the quotient would lose digits.
+  // Length of the chord over that of the arc. For small angles by its series, because the quotient
+  // loses digits there.
   const double chord = std::abs(half_turn) < 1e-4 ? 1 - half_turn * half_turn / 6
                                                   : portable::sin(half_turn) / half_turn;
   const Vector3 way = rotationAbout(planeNormal(joint), position[0] + half_turn) *
@@ -54,6 +56,7 @@ JointPosition movedInPlane(const Joint& joint, const JointPosition& position,
           position[2] + wayAlong(joint, 2, way), 0};
 }
 
+// Computes velocityBetween() for a planar joint.
 void velocityInPlane(const Joint& joint, const JointPosition& from, const JointPosition& to,
                      double h, double* velocity) {
   const double ways[2] = {(to[1] - from[1]) / h, (to[2] - from[2]) / h};

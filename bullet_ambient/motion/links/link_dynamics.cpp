@@ -27,7 +27,7 @@ const LinkKernel& fastestKernel() {
   return fastest;
 }
 
-// Bullet's damping of the dry mass, in the link's frame.
+// Returns the wrench of Bullet's damping, which acts on the dry mass, in the link's frame.
 Wrench dampingWrench(const LinkTree& tree, const Link& link, const Twist& V) {
   const double linear = tree.linear_damping * (1 + V.linear.norm());
   const double angular = tree.angular_damping * (1 + V.angular.norm());

@@ -2,12 +2,12 @@
 
 #include "bullet_ambient/motion/links/link_state.h"
 
-// Included under the rule of axis_rows.h.
+// For sources that are compiled once per instruction set, see axis_rows.h.
 
 namespace ambient {
 namespace {
 
-// Inverse of a symmetric matrix of `n` rows; false if it is not positive definite.
+// Inverts a symmetric matrix of `n` rows. Returns false if it is not positive definite.
 inline bool invert(const double (&D)[3][3], int n, double (&inverse)[3][3]) {
   double lower[3][3] = {}, per_pivot[3] = {};
   bool is_positive = true;
@@ -36,6 +36,7 @@ inline bool invert(const double (&D)[3][3], int n, double (&inverse)[3][3]) {
   return is_positive;
 }
 
+// Factors a 6x6 inertia.
 inline void factorBase(const InertiaBlocks& I, BaseFactor& factor) {
   double K[6][6];  // its lower half
   for (int i = 0; i < 3; ++i)
@@ -58,6 +59,7 @@ inline void factorBase(const InertiaBlocks& I, BaseFactor& factor) {
   }
 }
 
+// Replaces b by the solution x of L D L^T x = b.
 inline void answer(const BaseFactor& factor, double* b) noexcept {
   for (int i = 1; i < 6; ++i)
     for (int j = 0; j < i; ++j) b[i] -= factor.lower[i][j] * b[j];

@@ -9,10 +9,10 @@
 namespace ambient {
 namespace {
 
-constexpr double kLargestTurn = 0.5;       // of a link or a joint in one substep [rad]
-constexpr double kMiddlePrecision = 0.01;  // of the middle velocity, over the flight's tolerance
-constexpr double kAcceptedError = 2;  // a substep is repeated when its error exceeds this tolerance
-constexpr double kSubstepSafety = 0.9;
+constexpr double kLargestTurn = 0.5;  // largest rotation of a link or joint in one substep [rad]
+constexpr double kMiddlePrecision = 0.01;  // error at which iterations end, over the tolerance
+constexpr double kAcceptedError = 2;    // largest accepted error of a substep, over the tolerance
+constexpr double kSubstepSafety = 0.9;  // factor in eq. (25)
 
 void countUp(const FlightCount& some, FlightCount& count) {
   count.load_evaluations += some.load_evaluations;
@@ -85,7 +85,7 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
     double excess = std::max(converges ? 1.0 : 2.0, std::ceil(h * largestSpin() / kLargestTurn));
     dynamics_.moveTo(end_pose_);
     count.energy_removed += integrals_.impose(dynamics_, end_, is_last && excess > 1);
-    double error = excess > 1 ? 1 : 0;  // 1: not known
+    double error = excess > 1 ? 1 : 0;  // 1 stands for an unknown error
     if (has_loads) {
       const double by_loads = kickAtEnd(h, count), ratio = by_loads / settings.tolerance;
       error = std::max(error, by_loads);
@@ -114,18 +114,21 @@ double LinkFlight::largestSpin() const noexcept {
   return spin;
 }
 
-// The middle of a substep from end_pose_ and end_, by iterations on its velocity; end_ becomes that
-// of the end. False if they do not converge. H is factored once, at the start, where dynamics_ is:
-// what it differs by from that of the middle is of first order, and so is its part in an error that
-// shrinks with each iteration.
+// Computes the middle of a substep h [s] that starts at end_pose_ with end_, eq. (80): mean_
+// becomes u_m, end_ becomes u_b. Returns false if the iterations do not converge. @pre dynamics_ is
+// at end_pose_
+//
+// H is factored once, at the start. Its difference to H in the middle is of order h, so that each
+// iteration multiplies the error by a factor of order h.
 bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexcept {
   start_ = end_;
   dynamics_.factor();
   dynamics_.accelerations(start_, rate_);
   mean_ = start_ + h / 2 * rate_;
   const double tolerance = settings.tolerance * settings.tolerance;
-  double last = h * h / 4 * dynamics_.roughNormSquared(rate_);  // squares of changes
-  double rest = 0, motion = 0;  // squares; rest: of what further iterations would change
+  double last = h * h / 4 * dynamics_.roughNormSquared(rate_);  // squared size of the last change
+  double rest = 0;    // squared size of all further changes, extrapolated
+  double motion = 0;  // squared size of the velocity
   for (int i = 0; i < settings.max_iterations; ++i) {
     movePose(tree_, end_pose_, mean_, h / 2, middle_);
     dynamics_.moveTo(middle_);
@@ -142,8 +145,9 @@ bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexce
   return rest <= tolerance * motion;
 }
 
-// The loads there act on both sides of the end: they are sampled at what follows from the last
-// ones. Returns the error of those.
+// Samples the loads at the end of a substep, at the velocity that the last sample predicts, and
+// kicks by them for h/2; the next substep begins with the other half. Returns the error of the
+// prediction, eq. (25).
 double LinkFlight::kickAtEnd(double h, FlightCount& count) noexcept {
   rate_ = end_;
   kick_.foresee(dynamics_, h / 2, rate_);

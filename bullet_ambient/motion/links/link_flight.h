@@ -6,19 +6,19 @@
 namespace ambient {
 
 struct LinkFlightSettings {
-  double tolerance = 1e-3;  ///< of the velocity per substep, relative to the motion, eq. (25)
-  int max_iterations = 2;   ///< of the implicit midpoint, per substep
+  double tolerance = 1e-3;  ///< largest error of the velocity per substep, docs/theory.md eq. (25)
+  int max_iterations = 2;   ///< rounds of eq. (80) for the middle velocity, per substep
   int max_substeps = 16;
 };
 
 /// Result of a step for a tree.
 struct LinkFlightResult {
   FlightCount count;
-  bool is_finite = false;  ///< if not, nothing of it is to be used
+  bool is_finite = false;  ///< false: velocities and poses must not be used
 };
 
-/// Velocities of one tree over a step, docs/theory.md eq. (80). Has the memory that this needs;
-/// all but the constructor is free of allocation.
+/// Computes the motion of one tree over a step, docs/theory.md eq. (80). Only the constructor
+/// allocates.
 class LinkFlight {
  public:
   explicit LinkFlight(const LinkTree& tree);
@@ -26,32 +26,34 @@ class LinkFlight {
   LinkDynamics& dynamics() { return dynamics_; }
   const LinkDynamics& dynamics() const { return dynamics_; }
 
-  /// Flight without rows, or with those of joints alone: implicit midpoint between half kicks by
-  /// the loads, in substeps where links turn fast.
+  /// Flies a tree from pose `start` with velocity `u` over `duration` [s]: implicit midpoint
+  /// between half kicks by the surface loads, eq. (80), (81), in substeps if links turn fast or
+  /// loads change much. Results: endPose(), endVelocity(), meanVelocity().
   LinkFlightResult fly(const TreePose& start, const CoordinatesIn& u, double duration,
                        const LinkFlightSettings& settings) noexcept;
-  /// Takes the place of a flight that is not to move the tree: endPose() is `pose`, all velocities
-  /// are `u`.
+  /// Sets the results of a flight that ends at `pose`, with end and mean velocity `u`.
   void stay(const TreePose& pose, const CoordinatesIn& u) noexcept;
-  /// The constant velocity by which Bullet comes to endPose().
+  /// Returns the constant velocity by which Bullet moves the tree to endPose().
   const Coordinates& meanVelocity() const { return mean_; }
   const Coordinates& endVelocity() const { return end_; }
   const TreePose& endPose() const { return end_pose_; }
-  /// Sets dynamics() to the middle of the last substep of fly() and factors it: rows of joints are
-  /// to be answered by it.
+  /// Sets dynamics() to the pose in the middle of the last substep of fly(), and factors H there,
+  /// for the response of rows of joints.
   void prepareJointRows() noexcept;
-  /// For a tree that reached another pose than endPose(): gives its velocity there the momentum
-  /// and energy of the flight. Rows of joints change the energy; with them only the momentum, by
-  /// the base. Returns the energy that the bound of LinkIntegrals::impose() has removed [J].
+  /// Corrects the velocity of a tree that Bullet has moved to another pose than endPose(), so that
+  /// it has the momentum and the energy of the flight, eq. (80a). With `has_rows`, corrects the
+  /// momentum alone, by the base's velocity, because rows of joints change the energy. Returns the
+  /// energy that LinkIntegrals::impose() has removed [J].
   double arriveAt(const TreePose& reached, bool has_rows, Coordinates& velocity) noexcept;
 
-  /// Velocity that rows of contacts are solved against: explicit, at the start pose. dynamics() is
-  /// left there, factored.
+  /// Computes the velocity x that rows of contacts are solved against, explicitly at the start
+  /// pose, and the turning part t: rowVelocity(), turning(). Leaves dynamics() at `start`, with H
+  /// factored.
   LinkFlightResult computeRowVelocity(const TreePose& start, const CoordinatesIn& u,
                                       double duration) noexcept;
   const Coordinates& rowVelocity() const { return end_; }
-  /// Change of velocity in the step by the turn of the links: h times du/dt less that of a tree at
-  /// rest in its flow. No part of rowVelocity(): that of a fast turn is no velocity at all.
+  /// Returns the turning part t of eq. (28): h times the difference of du/dt at u and at rest in
+  /// the flow. Not contained in rowVelocity(), because it is meaningless in a fast turn.
   const Coordinates& turning() const { return mean_; }
 
  private:
@@ -67,7 +69,7 @@ class LinkFlight {
   LinkIntegrals integrals_;
   Coordinates mean_, end_, start_, rate_;
   TreePose end_pose_, middle_;
-  bool answers_rows_ = false;  // dynamics_ is in the middle, factored
+  bool answers_rows_ = false;  // true: prepareJointRows() was called since the flight
 };
 
 }  // namespace ambient

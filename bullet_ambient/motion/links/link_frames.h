@@ -2,17 +2,18 @@
 
 #include "bullet_ambient/motion/links/axis_rows.h"
 
-// Included under the rule of axis_rows.h.
+// For sources that are compiled once per instruction set, see axis_rows.h.
 
 namespace ambient {
 namespace {
 
-/// K x.
+/// Returns K x.
 inline Spatial times(const LinkState& link, const Spatial& x) {
   return times(load(link.inertia), load(link.coupling_transposed), x);
 }
 
-// From the frame of a link's parent to its own, and a wrench back.
+// Brings a twist from the frame of a link's parent to the link's frame, X x of docs/theory.md eq.
+// (76); and a wrench back, X^T f.
 inline Spatial toLink(const LinkState& link, const Spatial& x) {
   const Matrix to_link = load(link.offset_transposed);
   return {to_link * x.angular, to_link * (x.linear + cross(x.angular, load(link.translation)))};
@@ -23,7 +24,7 @@ inline Spatial toParent(const LinkState& link, const Spatial& f) {
   return {to_parent * f.angular + cross(load(link.translation), force), force};
 }
 
-// The base's part of coordinates in its frame, and back.
+// Rotates the first six coordinates into the base's frame; and back into W.
 inline Spatial ofBase(const LinkState& base, const double* u) {
   const Matrix to_base = load(base.rotation_W_transposed);
   return {to_base * rowOf(u), to_base * rowOf(u + 3)};
@@ -38,14 +39,14 @@ inline void putInWorld(const LinkState& base, const Spatial& a, double* u) {
   }
 }
 
-// S q' of a joint.
+// Returns S q' of the link's joint.
 inline Spatial alongAxes(const LinkState& link, const double* velocity) {
   Spatial x{zeroRow(), zeroRow()};
   for (int i = 0; i < link.axis_count; ++i) x = x + velocity[i] * load(link.axis[i]);
   return x;
 }
 
-// Inertia of a link about its parent's origin in its axes: docs/theory.md eq. (4), (5), by blocks.
+// Brings an inertia from a link's frame to its parent's, docs/theory.md eq. (4) and (5).
 inline Inertia toParent(const LinkState& link, const Inertia& I) {
   const Matrix R = load(link.offset), R_transposed = load(link.offset_transposed);
   const Row t = load(link.translation);

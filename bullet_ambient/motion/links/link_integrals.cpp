@@ -8,7 +8,7 @@
 namespace ambient {
 namespace {
 
-constexpr double kLargestFactor = 1.5;  // on a velocity, and its inverse
+constexpr double kLargestFactor = 1.5;  // largest factor on a velocity; its inverse is the smallest
 
 bool isModest(double factor) { return factor < kLargestFactor && factor * kLargestFactor > 1; }
 

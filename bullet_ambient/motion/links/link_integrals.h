@@ -4,26 +4,30 @@
 
 namespace ambient {
 
-/// Momentum and energy of a tree relative to its flow, docs/theory.md eq. (80a): what forces change
-/// of them in a substep is known, and the velocity at its end is made to have it. Not where links
-/// are in different flows, or held in one that moves, or driven: flow and links then exchange more.
-/// All but the constructor is free of allocation.
+/// Keeps momentum and energy of a tree relative to its flow, docs/theory.md eq. (80a). Forces
+/// change both in a substep by known amounts; the velocity at the end is corrected to have the
+/// resulting values. They are not known, and nothing is corrected, if links are in different flows,
+/// if a fixed base is in a flow that moves, or if velocities are prescribed. Only the constructor
+/// allocates.
 class LinkIntegrals {
  public:
   explicit LinkIntegrals(const LinkTree& tree);
 
-  /// Takes both. @pre `dynamics` has the pose
+  /// Stores momentum and energy of the velocity `u`. @pre `dynamics` has the pose
   void take(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
-  /// Adds what the forces at the middle of a substep change. @pre `dynamics` has pose and velocity
+  /// Adds the changes of momentum and energy by the forces at the middle of a substep of h [s];
+  /// `u`: middle velocity. @pre `dynamics` has this pose and velocity
   void addForces(LinkDynamics& dynamics, const CoordinatesIn& u, double h) noexcept;
 
-  /// Gives `u` both: the tree with its joints held the momentum, what is left the energy. Where
-  /// that would change the motion of the joints by more than half, the energy alone, and at most
-  /// half more than it has. Where they are not known and the substep is coarse, at most that
-  /// energy. Returns what this bound has removed [J].
-  /// @pre `dynamics` has the pose. Its factor is lost.
+  /// Corrects `u` to the stored momentum and energy, eq. (80a): a change of the base's velocity
+  /// corrects the momentum, and a factor on the rest of the motion the energy. If that factor is
+  /// not between 2/3 and 3/2, scales the whole motion to the stored energy instead, up by at most
+  /// 3/2. If momentum and energy are not known and `is_coarse`, only scales down to the stored
+  /// energy, and returns the energy removed [J]; otherwise returns 0. Keeps the factor of
+  /// `dynamics` like holdJoints(). @pre `dynamics` has the pose
   double impose(LinkDynamics& dynamics, CoordinatesOut u, bool is_coarse) noexcept;
-  /// The momentum alone, by the base: joints keep their velocities. As impose() in all else.
+  /// Corrects `u` to the stored momentum by the base's velocity alone; joints keep their
+  /// velocities. Keeps the factor of `dynamics` like holdJoints(). @pre `dynamics` has the pose
   void imposeMomentum(LinkDynamics& dynamics, CoordinatesOut u) noexcept;
 
  private:
@@ -32,9 +36,9 @@ class LinkIntegrals {
   const LinkTree& tree_;
   bool is_known_ = false;
   bool floats_ = false;
-  Vector6 momentum_;   // about reference_, in W
-  double energy_ = 0;  // twice
-  Vector3 reference_;  // point of W that goes with the flow [m]
+  Vector6 momentum_;   // relative to the flow, about reference_, in W
+  double energy_ = 0;  // twice the kinetic energy [J]
+  Vector3 reference_;  // point in W that moves with the flow [m]
   Coordinates flow_, x_, momenta_;
 };
 

@@ -6,7 +6,7 @@
 namespace ambient {
 namespace {
 
-// V x S q', the acceleration of a link by the turn of its axes.
+// Returns V x S q' of eq. (76), the acceleration of a link by the rotation of its axes.
 Spatial crossTwist(const Spatial& V, const Spatial& s) {
   return {cross(V.angular, s.angular), cross(V.linear, s.angular) + cross(V.angular, s.linear)};
 }
@@ -46,7 +46,7 @@ void setVelocity(LinkState* links, int count, const double* u) noexcept {
   }
 }
 
-// What acts on a link with the twist V, in its frame.
+// Returns the wrench of surroundings, buoyancy and damping on a link with twist V, in its frame.
 Spatial appliedOn(const LinkState& link, const TreeHabits& habits, const Spatial& V) {
   Spatial f = load(link.external);
   if (habits.linear_damping != 0 || habits.angular_damping != 0) {
@@ -60,7 +60,7 @@ Spatial appliedOn(const LinkState& link, const TreeHabits& habits, const Spatial
   return f;
 }
 
-// What accelerates a link, less what acts on it.
+// Returns f_l of eq. (77): the wrench that the link needs besides the one that acts on it.
 Spatial forceOn(const LinkState& link, const TreeHabits& habits, const Spatial& V,
                 const Spatial& A) {
   const Row flow = load(link.flow);
@@ -136,6 +136,7 @@ void sumForces(LinkState* links, int count, double* force) noexcept {
   putInWorld(links[0], load(links[0].force), force);
 }
 
+// Adds an inertia in the link's frame to the articulated inertia of its parent.
 void addToParent(LinkState* links, const LinkState& link, const Inertia& I) {
   InertiaBlocks& of_parent = links[link.parent].articulated;
   const Inertia added = toParent(link, I), before = load(of_parent);
@@ -143,7 +144,8 @@ void addToParent(LinkState* links, const LinkState& link, const Inertia& I) {
                     before.translation + added.translation});
 }
 
-// I - I S (S^T I S)^-1 S^T I: what is left of the subtree's inertia where its joint gives way.
+// Replaces I by I - I S (S^T I S)^-1 S^T I, eq. (79): inertia of the subtree that the parent feels.
+// Returns false if S^T I S is not positive definite.
 bool takeOutJoint(LinkState& link, Inertia& I) {
   if (link.axis_count == 0) return true;
   const Matrix coupling_transposed = transposed(I.coupling);
@@ -193,6 +195,7 @@ void holdJoints(LinkState* links, int count, BaseFactor& held) noexcept {
   factorBase(links[0].articulated, held);
 }
 
+// Solves for the acceleration of the base.
 void solveBase(LinkState& base, const BaseFactor& factor, double* result) {
   double a[6] = {0, 0, 0, 0, 0, 0};
   if (!base.is_kept) {

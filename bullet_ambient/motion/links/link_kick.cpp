@@ -110,8 +110,9 @@ void LinkKick::foresee(LinkDynamics& dynamics, double h, CoordinatesOut u) noexc
   u += change_;
 }
 
-// Lift does no work: where all links are in one flow, the energy relative to it is that after the
-// drag, at most. Elsewhere it changes the motion by no more than that has.
+// Adds the velocity change by lift. Lift does no work: if all links are in one flow, `u` is scaled
+// so that the energy relative to the flow does not grow. Otherwise the change is shortened by (1 +
+// theta^2)^(-1/2), docs/theory.md below eq. (81).
 void LinkKick::applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept {
   dynamics.respond(lift_impulses_, change_);
   if (findFlow(tree_, u, flow_)) {

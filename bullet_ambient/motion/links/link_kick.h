@@ -6,30 +6,31 @@
 
 namespace ambient {
 
-/// Surface loads on the links of a tree, and what they do to its velocity, docs/theory.md eq. (81):
-/// drag is implicit, link by link, and lift explicit, but without work. Has the memory that this
-/// needs; all but the constructor is free of allocation.
+/// Kicks a tree by the surface loads on its links, docs/theory.md eq. (81): drag implicit, link by
+/// link; lift explicit, without work. Only the constructor allocates.
 class LinkKick {
  public:
   explicit LinkKick(const LinkTree& tree);
 
-  /// Whether any link has loads.
+  /// True if any link has surface loads.
   bool hasLoads() const noexcept;
 
-  /// Evaluates the loads at u and the pose of `dynamics`, with the passivity guard.
+  /// Evaluates and stores the loads at the velocity `u` and the pose of `dynamics`, with the
+  /// passivity guard.
   FlightCount sample(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
-  /// By how much the last sample differed from what the one before it made expect, as a change of
-  /// velocity in the time h over the motion: the error of docs/theory.md eq. (25). @pre kick()
-  /// after that sample, at its pose
+  /// Returns the error of docs/theory.md eq. (25): size of the velocity change in the time h [s] by
+  /// the difference between the last sample and its prediction by the sample before, over that of
+  /// the motion. @pre kick() was called after that sample, at its pose
   double error(LinkDynamics& dynamics, double h) noexcept;
 
-  /// u after the time h [s] under the loads of the last sample alone, in place. They grow with the
-  /// square of each link's speed. In one flow that the tree can follow, the energy relative to it
-  /// does not grow, however long the time. `dynamics` is left without factor().
+  /// Replaces `u` by the velocity after the time h [s] under the loads of the last sample alone.
+  /// The loads grow with the square of each link's speed. In one flow that the tree can follow, the
+  /// energy relative to the flow does not grow for any h. Leaves `dynamics` with the factor of M,
+  /// not of H.
   void kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
-  /// Approximates kick(), for the next sample: drag slows each link down as if it was alone, and
-  /// the tree takes the motion nearest to that, as in eq. (81a). @pre factor(), of H at a pose
-  /// nearby
+  /// Predicts the velocity for the next sample, an approximation of kick(): drag slows each link
+  /// down as if it were alone, and the tree takes the nearest motion, eq. (81a). @pre factor() of
+  /// H, at a pose nearby
   void foresee(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
 
  private:
@@ -37,9 +38,9 @@ class LinkKick {
   struct Sample {
     double drag;   ///< [1/s], >= 0
     double speed;  ///< |y| in the norm of K [sqrt(J)]; 0: no load
-    Wrench lift;   ///< does no work at y
+    Wrench lift;   ///< part of the load without power at y
 
-    /// Load at a twist of this momentum and speed.
+    /// Returns the load at another twist y' with momentum K y' and speed |y'|.
     Wrench at(const Wrench& momentum, double its_speed) const;
   };
 

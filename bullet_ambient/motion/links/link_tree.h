@@ -8,23 +8,25 @@
 
 namespace ambient {
 
-/// One link of a tree: constant, but for what the comment says. Link 0 is the base, and link l is
-/// Bullet's l - 1. Frame of a link: origin at its centre of mass, axes of Bullet's link.
+/// One link of a tree. Link 0 is the base, and link l is Bullet's l - 1. Frame of a link: origin at
+/// its centre of mass, axes of Bullet's link. Members are constant unless comments say otherwise.
 struct Link {
-  int parent = -1;                    ///< comes before the link; -1 for the base alone
-  Joint joint;                        ///< of no meaning for the base
-  double mass = 0;                    ///< without fluid [kg]
-  Vector3 inertia = Vector3::Zero();  ///< principal moments, without fluid [kg m^2]
+  int parent = -1;                    ///< index of the parent, smaller than the link's; base: -1
+  Joint joint;                        ///< joint to the parent; unused for the base
+  double mass = 0;                    ///< dry mass [kg]
+  Vector3 inertia = Vector3::Zero();  ///< dry principal moments of inertia [kg m^2]
 
-  /// Link and fluid, of the same mass and inertia; null without a fluid. May change between steps.
+  /// Model of link and fluid, with the same dry mass and inertia; null: no fluid. May change
+  /// between steps.
   const BodyModel* model = nullptr;
 
-  // Set anew in each step.
-  Surroundings surroundings;                        ///< all but `applied` count with a model only
+  // Set in each step.
+  Surroundings surroundings;                        ///< without a model, only `applied` is used
   std::array<double, kMaxJointAxes> joint_force{};  ///< along the axes of the joint [N m, N]
-  /// Prescribed: base that is fixed or kinematic, link that is kinematic with all its ancestors.
+  /// True: the velocity is prescribed. Fixed or kinematic base, or kinematic link whose ancestors
+  /// are all kinematic.
   bool keeps_velocity = false;
-  bool keeps_position = false;  ///< Bullet does not move it: kinematic, whatever its ancestors
+  bool keeps_position = false;  ///< true: kinematic link or base, which Bullet does not move
 };
 
 /// Links joined to a tree without loops. Its generalized velocities u are Bullet's, in the order of
@@ -32,52 +34,55 @@ struct Link {
 /// the joints, link by link.
 struct LinkTree {
   std::vector<Link> links;          ///< at least the base; parents before children
-  double linear_damping = 0;        ///< Bullet's, of the dry mass [1/s and 1/m]
-  double angular_damping = 0;       ///< [1/s and 1]
-  bool has_gyroscopic_term = true;  ///< w x J w of the dry inertia (btMultiBody's switch)
+  double linear_damping = 0;        ///< d in Bullet's force -d (1 + |v|) m v, with v in m/s
+  double angular_damping = 0;       ///< d in Bullet's torque -d (1 + |w|) J w, with w in rad/s
+  bool has_gyroscopic_term = true;  ///< false: w x J w of the dry inertia is left out
 
   int size() const { return static_cast<int>(links.size()); }
 };
 
 /// Pose of a tree.
 struct TreePose {
-  Quaternion orientation = Quaternion::Identity();  ///< of the base, B to W
-  Vector3 position = Vector3::Zero();               ///< of its centre of mass, in W [m]
-  std::vector<JointPosition> joints;                ///< one per link; that of the base is unused
+  Quaternion orientation = Quaternion::Identity();  ///< orientation of the base, B to W
+  Vector3 position = Vector3::Zero();               ///< its centre of mass in W [m]
+  std::vector<JointPosition> joints;                ///< one per link; the base's is unused
 };
 
-using Coordinates = Eigen::VectorXd;  ///< as many as a tree has generalized velocities
+using Coordinates = Eigen::VectorXd;  ///< generalized velocities, accelerations or forces of a tree
 using CoordinatesIn = Eigen::Ref<const Eigen::VectorXd>;
 using CoordinatesOut = Eigen::Ref<Eigen::VectorXd>;
 
-/// First entry of each link's joint in u.
+/// Returns the index in u of the first velocity of each link's joint; 0 for the base.
 std::vector<int> firstCoordinates(const LinkTree& tree);
-/// Entries of u: 6 and the axes of all joints.
+/// Returns the number of generalized velocities: 6, and one for each axis of all joints.
 int coordinateCount(const LinkTree& tree);
 
 /// @throws std::invalid_argument, naming link, value and limit, if parents do not come first, or a
 /// mass or an inertia is negative or not finite.
 void checkTree(const LinkTree& tree);
 
-/// q + h u: base and joints moved by constant velocities, as Bullet's stepPositionsMultiDof does
-/// (up to turnsTooFastForBullet(), and its planar joints). Does not allocate if `to` has the
-/// size. `to` may be `from`.
+/// Moves base and joints by constant velocities for the time h [s], docs/theory.md eq. (80).
+/// Bullet's stepPositionsMultiDof does the same, except for planar joints and if
+/// turnsTooFastForBullet(). Does not allocate if `to` has the size. `to` may be `from`.
 void movePose(const LinkTree& tree, const TreePose& from, const CoordinatesIn& u, double h,
               TreePose& to) noexcept;
 
-/// Whether Bullet moves it by less: it turns a base and spherical joints by pi/4 in a step at most.
+/// True if Bullet cannot move a tree by u in h [s]: it limits rotations of the base and of
+/// spherical joints to pi/4 per step.
 bool turnsTooFastForBullet(const LinkTree& tree, const CoordinatesIn& u, double h) noexcept;
 
-/// The constant u by which Bullet comes from one pose to another in time h. Entries of links that
-/// keep their position stay as they are.
+/// Computes the constant u by which Bullet moves a tree from one pose to another in h [s]. Leaves
+/// entries of links that keep their position unchanged.
 void velocityBetween(const LinkTree& tree, const TreePose& from, const TreePose& to, double h,
                      CoordinatesOut u) noexcept;
 
-/// u of a tree that is at rest in the flow of its links: the base's velocity if it floats, else
-/// zero. False if no such motion exists: links are in different flows, or held in one that moves.
+/// Writes the velocity of a tree at rest in the flow of its links: the base has the velocity of the
+/// flow, or 0 if its velocity is prescribed; joints have 0. Returns false if no such motion exists:
+/// links are in different flows, or the base is fixed and the flow moves.
 bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept;
 
-/// Finds u at rest in the flow, if all kept velocities of that motion are those of `u`.
+/// Calls restInFlow(). Returns true if that motion exists and all prescribed velocities in `u` are
+/// 0.
 bool findFlow(const LinkTree& tree, const CoordinatesIn& u, Coordinates& flow) noexcept;
 
 }  // namespace ambient
