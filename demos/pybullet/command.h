@@ -9,31 +9,34 @@
 
 namespace ambient::pybullet {
 
-/// A command as text: "water level=0 current=0.5,0,0" is a name, and keys with values. Numbers are
-/// text, since PyBullet rounds `floatArgs` to float. Errors are std::invalid_argument with one line
-/// that begins with the command's name.
+/// Command from PyBullet's executePluginCommand(), such as "water level=0 current=0.5,0,0": a name,
+/// and keys with values. Numbers are in the text, because PyBullet rounds `floatArgs` to single
+/// precision. Functions throw std::invalid_argument with one line that begins with the command's
+/// name.
 class Command {
  public:
-  /// `integers`: those of executePluginCommand().
+  /// `integers`: `intArgs` of executePluginCommand().
   Command(const std::string& text, std::vector<int> integers);
 
   const std::string& name() const { return name_; }
+  // The following functions note the key as known, for finish(). `absent`: result without the key.
   bool has(const std::string& key);
   std::string text(const std::string& key, const std::string& absent);
   double number(const std::string& key, double absent);
   Vector3 vector(const std::string& key, const Vector3& absent);
-  /// Numbers with commas between them, at least `fewest` and at most `most`.
+  /// Reads numbers separated by commas, at least `fewest` and at most `most`.
   std::vector<double> numbers(const std::string& key, std::size_t fewest, std::size_t most);
-  /// Reads lists of numbers with semicolons between them, each as numbers() does; empty: the key is
-  /// absent.
+  /// Reads lists separated by semicolons, each with numbers separated by commas. Returns none
+  /// without the key.
   std::vector<std::vector<double>> lists(const std::string& key, std::size_t fewest,
                                          std::size_t most);
-  /// The number of a body: the first integer.
+  /// Returns the first integer, PyBullet's number of a body.
   int body() const;
-  /// The second integer.
+  /// Returns the second integer, PyBullet's number of a link.
   int link(int absent) const { return integers_.size() > 1 ? integers_[1] : absent; }
-  /// @throws std::invalid_argument if there are keys that nobody has asked for.
+  /// Checks the keys. @throws std::invalid_argument if the text has a key that was not read
   void finish() const;
+  /// @throws std::invalid_argument always, with this reason
   [[noreturn]] void fail(const std::string& why) const;
 
  private:

@@ -20,6 +20,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+// Returns a matrix as JSON, row by row.
 std::string text(const Eigen::MatrixXd& matrix) {
   json rows = json::array();
   for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
@@ -41,7 +42,8 @@ std::unique_ptr<WorldFluid> makeFluid(btDiscreteDynamicsWorld* world) {
   return std::make_unique<WorldFluid>(*multi_bodies);
 }
 
-// The choice with a name; another name is an error that lists them.
+// Returns the value whose name the command gives for a key; `present` without the key. Fails with a
+// list of names if there is no such name.
 template <class Names>
 auto choose(Command& command, const char* key, const Names& names, decltype(names[0].first) present)
     -> std::decay_t<decltype(present)> {
@@ -77,7 +79,7 @@ const FluidPlugin::NamedAnswer FluidPlugin::kCommands[] = {
     {"off", &FluidPlugin::leave},
 };
 
-// A fluid that ends with its world needs no notification: a step may come before that.
+// Compares with the world itself: a step may come before the notification of resetSimulation.
 void FluidPlugin::meetWorld() {
   if (fluid_ && !fluid_->fluid().isWorldAlive()) forgetWorld();
   if (fluid_ || !refusal_.empty()) return;
@@ -188,7 +190,7 @@ std::string FluidPlugin::massMatrix(Command& command) {
   return text(ambientMassMatrix(fluid.fluid(), fluid.multiBody(command.body())));
 }
 
-// Kept from the first call on.
+// Returns the parts of the fluid's wrench. They are computed in each step from the first call on.
 std::string FluidPlugin::wrench(Command& command) {
   command.finish();
   const Immersed one = requireCurrent().require(command.body(), command.link(-1));
@@ -209,7 +211,7 @@ std::string FluidPlugin::wet(Command& command) {
   json answer;
   answer["volume"] = wet.volume;
   answer["share"] = wet.share;
-  answer["draught"] = wet.draught;  // null: no surface
+  answer["draught"] = wet.draught;  // infinite, null in JSON, if no surface is near
   answer["area"] = wet.area;
   answer["centre_of_buoyancy"] = {centre.x(), centre.y(), centre.z()};
   return answer.dump();
@@ -249,7 +251,7 @@ std::string FluidPlugin::status(Command& command) {
   return status.dump();
 }
 
-// PyBullet goes on as if the plugin was not loaded.
+// Ends the fluid: PyBullet simulates as without the plugin.
 std::string FluidPlugin::leave(Command& command) {
   command.finish();
   regions_.clear();
@@ -257,6 +259,7 @@ std::string FluidPlugin::leave(Command& command) {
   return "";
 }
 
+// A text with '+' first is a piece of a longer command: it is kept until a piece without '+' comes.
 std::string FluidPlugin::execute(const Arguments& arguments) {
   const std::string piece = arguments.text;
   if (!piece.empty() && piece[0] == '+') {

@@ -11,15 +11,17 @@
 
 namespace ambient::pybullet {
 
-/// A fluid in the worlds of one PyBullet server. Regions and settings survive resetSimulation.
+/// Fluid in the worlds of one PyBullet server, one world after another. Keeps regions and settings
+/// when resetSimulation replaces the world.
 class FluidPlugin {
  public:
   FluidPlugin(Server& server, Client& client) : server_(server), client_(client) {}
 
-  /// Before each substep.
+  /// Call before each substep. Connects the fluid with the present world, and adds new bodies.
   void beforeStep();
+  /// Takes notice of added and removed bodies and of resetSimulation.
   void notice(const Notification* notifications, int count);
-  /// Its answer; empty: nothing to say. @throws std::exception with one line
+  /// Executes a command. Returns its answer; empty: none. @throws std::exception with one line
   std::string execute(const Arguments& arguments);
 
  private:
@@ -43,27 +45,30 @@ class FluidPlugin {
   std::string status(Command& command);
   std::string leave(Command& command);
 
+  // Makes the fluid of the present world, or sets refusal_. Does nothing if that was done before.
   void meetWorld();
   void forgetWorld();
+  // Return the fluid of the present world, or throw refusal_; requireCurrent() adds new bodies
+  // first.
   WorldFluid& requireFluid();
   WorldFluid& requireCurrent();
 
   struct Region {
     FluidRegion region;
-    RegionId id = RegionId::kNone;  // in the present world
+    RegionId id = RegionId::kNone;  // id in the fluid of the present world
   };
 
   Server& server_;
   Client& client_;
-  std::unique_ptr<FluidBodyCache> shapes_;  // outlives the fluid
+  std::unique_ptr<FluidBodyCache> shapes_;  // must outlive fluid_
   std::unique_ptr<WorldFluid> fluid_;
-  std::string refusal_;  // why the present world has none
-  bool has_news_ = true;
+  std::string refusal_;   // reason why the present world has no fluid
+  bool has_news_ = true;  // true: bodies may have been added since they were last put in the fluid
   std::map<std::string, Region> regions_;
   FlowSettings flow_;
   CollisionShapeSettings shape_settings_;
-  std::string folder_;
-  std::string pieces_;  // of a text that is longer than PyBullet takes
+  std::string folder_;  // folder of FluidBodyCache
+  std::string pieces_;  // first pieces of a command that is longer than PyBullet's limit
 };
 
 }  // namespace ambient::pybullet

@@ -1,4 +1,5 @@
-// The functions that PyBullet looks for in a plugin: examples/SharedMemory/b3PluginManager.cpp.
+// Functions that PyBullet looks up by name in a plugin, see
+// examples/SharedMemory/b3PluginManager.cpp of Bullet.
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -16,11 +17,12 @@ struct Plugin {
   ReturnData reply{};
 };
 
-constexpr int kText = 2;  // ReturnData::type
+constexpr int kText = 2;  // value of ReturnData::type
 
 Plugin& pluginOf(const Context* context) { return *static_cast<Plugin*>(context->user_pointer); }
 
-// Returns what was thrown; nothing may be thrown through PyBullet.
+// Calls a function and returns the text of its exception; empty: none. Exceptions must not pass
+// through PyBullet.
 template <class Function>
 std::string errorOf(const Function& function) {
   std::string error;
@@ -45,7 +47,7 @@ int resultOf(const Function& function) {
 
 #define EXPORTED extern "C" __attribute__((visibility("default")))
 
-// PyBullet asks for these names.
+// PyBullet prescribes these names.
 // NOLINTBEGIN(readability-identifier-naming)
 EXPORTED int initPlugin_ambient(Context* context) {
   if (!context->server) return -1;

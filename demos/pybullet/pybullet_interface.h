@@ -2,9 +2,8 @@
 
 class btDiscreteDynamicsWorld;
 
-/// Messages between a plugin and PyBullet's server: the declarations of examples/SharedMemory
-/// that a plugin needs, equal in Bullet 3.06 to master of 2025-01. Debian ships none of the
-/// headers.
+/// Declarations of Bullet's examples/SharedMemory that a plugin needs, with the same layouts:
+/// Debian does not package these headers. Equal from Bullet 3.06 to its master of 2025-01.
 namespace ambient::pybullet {
 
 constexpr int kApiVersion = 202010061;  // SHARED_MEMORY_MAGIC_NUMBER
@@ -33,9 +32,9 @@ struct Notification {  // b3Notification
   };
 };
 
-// GUIHelperInterface. Slots up to the last one here have been equal since 2.89. Later slots have
-// not: addUserDebugPoints came in between with 3.22, under the same API number. So a helper of ours
-// must never stay in the server.
+// First virtual functions of GUIHelperInterface, in its order, which has been the same since 2.89.
+// Later functions have changed places: 3.22 has inserted addUserDebugPoints under the same API
+// number. So the server must never call other functions of a helper that the plugin gives to it.
 struct GuiHelper {
   virtual ~GuiHelper() = default;
   virtual void createRigidBodyGraphicsObject(void*, const void*) = 0;
@@ -48,7 +47,7 @@ struct GuiHelper {
   virtual void createPhysicsDebugDrawer(btDiscreteDynamicsWorld* world) = 0;
 };
 
-// PhysicsCommandProcessorInterface.
+// First virtual functions of PhysicsCommandProcessorInterface.
 struct Server {
   virtual ~Server() = default;
   virtual bool connect() = 0;
@@ -61,7 +60,7 @@ struct Server {
   virtual void setGuiHelper(GuiHelper* helper) = 0;
 };
 
-// PhysicsClient, its first slots.
+// First virtual functions of PhysicsClient.
 struct Client {
   virtual ~Client() = default;
   virtual bool connect() = 0;
@@ -79,7 +78,7 @@ struct Context {  // b3PluginContext
   int mouse_event_count;
   const Notification* notifications;
   int notification_count;
-  Server* server;  // in initPlugin and executePluginCommand only
+  Server* server;  // set in initPlugin and executePluginCommand only
 };
 
 }  // namespace ambient::pybullet

@@ -15,7 +15,8 @@ Vector3 directionIn(const std::vector<double>& numbers) {
   return numbers.size() < 5 ? Vector3::UnitX() : Vector3(numbers[2], numbers[3], numbers[4]);
 }
 
-// height, period, direction x 3, peak enhancement, number of waves, seed.
+// Reads "spectrum": significant height [m], peak period [s], direction (3), peak enhancement,
+// number of waves, seed; only the first two are mandatory.
 std::vector<WaveComponent> readSpectrum(Command& command) {
   if (!command.has("spectrum")) return {};
   const std::vector<double> numbers = command.numbers("spectrum", 2, 8);
@@ -35,7 +36,8 @@ std::vector<WaveComponent> readSpectrum(Command& command) {
   return wavesOf(spectrum);
 }
 
-// amplitude, period, direction x 3, phase.
+// Reads "waves": lists of amplitude [m], period [s], direction (3), phase [rad]; only the first two
+// are mandatory. Adds those of "spectrum".
 std::vector<WaveComponent> readWaves(Command& command) {
   std::vector<WaveComponent> waves = readSpectrum(command);
   for (const std::vector<double>& numbers : command.lists("waves", 2, 6)) {

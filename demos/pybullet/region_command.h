@@ -5,8 +5,9 @@
 
 namespace ambient::pybullet {
 
-/// The region that a command `water`, `air` or `region` describes; docs/pybullet.md has the keys.
-/// Does not ask for `name`. @throws std::invalid_argument with one line
+/// Returns the region that a command `water`, `air` or `region` describes; docs/pybullet.md lists
+/// the keys. @pre the key `name` was read, so that finish() knows it. @throws std::invalid_argument
+/// with one line
 FluidRegion makeRegion(Command& command);
 
 }  // namespace ambient::pybullet

@@ -12,15 +12,15 @@
 namespace ambient::pybullet {
 namespace {
 
-// A helper that the server is shown for one call: its setGuiHelper() calls
-// createPhysicsDebugDrawer() with its world, and nothing else.
+// Helper that the server has for one call. The server's setGuiHelper() calls
+// createPhysicsDebugDrawer() with its world, and no other function.
 struct Probe final : SilentHelper {
   btDiscreteDynamicsWorld* world = nullptr;
   void createPhysicsDebugDrawer(btDiscreteDynamicsWorld* its) override { world = its; }
 };
 
-// With a window the server has a helper of its own. The drawer that it gave to the world knows it:
-// it is the first member.
+// Returns the helper of a server with a window; null: the server has no window. The helper has
+// given the world a debug drawer, whose first member is the pointer to the helper.
 GuiHelper* helperOf(btIDebugDraw* drawer) {
   if (!drawer || !std::strstr(typeid(*drawer).name(), "MultithreadedDebugDrawer")) return nullptr;
   GuiHelper* helper = nullptr;
@@ -39,8 +39,8 @@ btDiscreteDynamicsWorld* findWorld(Server& server, Client& client) {
   } else if (GuiHelper* helper = helperOf(probe.world->getDebugDrawer())) {
     server.setGuiHelper(helper);
   } else {
-    // The client gives the server its own DummyGUIHelper, which lives as long as the server and is
-    // compiled in this PyBullet.
+    // Without a window, connect() makes the client give the server PyBullet's own DummyGUIHelper,
+    // which lives as long as the server.
     client.connect();
   }
   return probe.world;

@@ -4,7 +4,7 @@
 
 namespace ambient::pybullet {
 
-/// A helper that shows nothing, as PyBullet's own without a window.
+/// Helper that shows nothing, like PyBullet's own one without a window.
 struct SilentHelper : GuiHelper {
   void createRigidBodyGraphicsObject(void*, const void*) override {}
   void createCollisionObjectGraphicsObject(void*, const void*) override {}

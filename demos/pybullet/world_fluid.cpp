@@ -23,7 +23,8 @@ btMultiBodyDynamicsWorld& requireLayout(btMultiBodyDynamicsWorld& world) {
   return world;
 }
 
-// "body 3, link 2 'elbow'", with PyBullet's numbers and the names of its URDF file.
+// Returns the name of an object in reports, such as "PyBullet's body 3, link 2 elbow": PyBullet's
+// numbers and the name in the URDF file.
 std::string nameOf(const btCollisionObject& object) {
   const auto* collider = btMultiBodyLinkCollider::upcast(&object);
   if (!collider) return "PyBullet's body " + std::to_string(object.getUserIndex2());
@@ -52,14 +53,15 @@ void WorldFluid::prepare(const Settings& settings, bool has_news) {
   if (has_news) checkLayouts();
   fluid_.refit();
   if (!has_news) return;
-  new_bodies_.clear();  // met in a substep, and perhaps destroyed since
+  // Entries that the filters have made in a substep: their bodies may have been destroyed since.
+  new_bodies_.clear();
   new_links_.clear();
-  if (std::exchange(follows_, true)) {
+  if (std::exchange(was_added_, true)) {
     fluid_.addLaterBodies();
   } else {
     addAll(settings);
   }
-  keepHandles();
+  storeHandles();
 }
 
 void WorldFluid::checkLayouts() const {
@@ -91,8 +93,9 @@ void WorldFluid::addAll(const Settings& settings) {
     say("bullet_ambient: " + refusal.reason);
 }
 
-// PyBullet's numbers come back for removed bodies only, whose handles are gone.
-void WorldFluid::keepHandles() {
+// Stores the handles of new members under their numbers. PyBullet reuses only numbers of removed
+// bodies, whose handles forget() has erased.
+void WorldFluid::storeHandles() {
   for (const auto& [key, body] : new_bodies_)
     if (const auto member = fluid_.find(*body)) members_.insert_or_assign(key, *member);
   for (const auto& [key, multi_body] : new_links_)
@@ -102,6 +105,7 @@ void WorldFluid::keepHandles() {
 
 void WorldFluid::forget(int body) {
   exclude(body, kAllLinks);
+  // Excluding holds for this body, not for a later one with its number.
   const auto begin = excluded_.lower_bound({body, kAllLinks});
   excluded_.erase(begin, excluded_.lower_bound({body + 1, kAllLinks}));
 }

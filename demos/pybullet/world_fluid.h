@@ -17,52 +17,58 @@ class btRigidBody;
 
 namespace ambient::pybullet {
 
-/// The fluid of one world of PyBullet's, with PyBullet's numbers of bodies. Ends with its world.
+/// Fluid of one world of a PyBullet server. Finds bodies and links by PyBullet's numbers. Becomes
+/// unusable when the world is destroyed: Fluid::isWorldAlive().
 class WorldFluid {
  public:
-  /// Settings that bodies are added with.
+  /// Settings of all bodies that are added.
   struct Settings {
     FluidBodySource& shapes;
     FlowSettings flow;
   };
-  static constexpr int kAllLinks = -2;
+  static constexpr int kAllLinks = -2;  ///< in place of a link's number
 
-  /// @throws std::invalid_argument, in one sentence, if this world carries no fluid
+  /// Connects a fluid with the world. @throws std::invalid_argument, in one sentence, if the
+  /// world's classes have other layouts than the plugin's, or Fluid refuses the world
   explicit WorldFluid(btMultiBodyDynamicsWorld& world);
 
   Fluid& fluid() { return fluid_; }
-  /// Before a substep: puts the solver into its place and, `has_news`, adds bodies that have come.
-  /// @throws std::invalid_argument, in one sentence, if the world has layouts of another PyBullet
+  /// Call before each substep. Puts the fluid's solver into the place of the world's present one.
+  /// With `has_news`, also adds all bodies that are in the world and not yet in the fluid. @throws
+  /// std::invalid_argument, in one sentence, if a multibody has another layout than the plugin's
   void prepare(const Settings& settings, bool has_news);
-  /// PyBullet has destroyed a body.
+  /// Removes a body that PyBullet has destroyed. Its number may be given to a new body.
   void forget(int body);
-  /// Takes a body or link out, and leaves it out.
+  /// Removes a body or link from the fluid, and never adds it again.
   void exclude(int body, int link);
-  /// @throws std::invalid_argument if there is no such body or link in the fluid
+  /// Returns the handle of a body or link; link -1: the base, or a rigid body. @throws
+  /// std::invalid_argument if it is not in the fluid
   Immersed require(int body, int link) const;
-  /// @throws std::invalid_argument if no multibody has the number
+  /// Returns the multibody with PyBullet's number `body`. @throws std::invalid_argument if there is
+  /// none
   const btMultiBody& multiBody(int body) const;
 
+  /// Saves the state of the world in memory. Returns its number, from 0 on.
   std::size_t save();
-  /// @throws std::invalid_argument if there is no such state
+  /// Restores a saved state by its number. @throws std::invalid_argument if there is no such state
   void restore(std::size_t state);
-  /// What the fluid has reported, and bodies that it has refused.
+  /// Returns the first 100 reports of the fluid, among them reasons why bodies were refused.
   const std::vector<std::string>& said() const { return said_; }
 
  private:
-  using Key = std::pair<int, int>;  // body and link; -1: the base, or a rigid body
+  using Key = std::pair<int, int>;  // numbers of body and link; link -1: base, or a rigid body
   void checkLayouts() const;
   void addAll(const Settings& settings);
-  void keepHandles();
+  void storeHandles();
   bool isWanted(int body, int link) const;
   void say(const std::string& sentence);
 
   btMultiBodyDynamicsWorld& world_;
   Fluid fluid_;
-  bool follows_ = false;
+  bool was_added_ = false;  // true after addAll(): the fluid adds later bodies with its settings
   std::set<Key> excluded_;
   std::map<Key, Immersed> members_;
-  // What keepHandles() looks up.
+  // Links and bodies that passed the filters since the last storeHandles(), which looks them up.
   std::vector<std::pair<Key, const btMultiBody*>> new_links_;
   std::vector<std::pair<Key, const btRigidBody*>> new_bodies_;
   std::vector<WorldState> states_;
