@@ -11,7 +11,7 @@
 
 namespace ambient {
 
-/// Array in C++ layout: float64, row-major. Arrays of this layout are not copied, others are.
+/// Argument that takes any array. Arrays of float64 in row-major order are not copied, others are.
 using InputArray = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
 /// Marks an array as read-only for Python.
@@ -40,7 +40,7 @@ inline Vector3 vectorFrom(const InputArray& array, const std::string& name) {
   return {array.data()[0], array.data()[1], array.data()[2]};
 }
 
-/// Shape of an array as text, e.g. "(4, 3)".
+/// Returns the shape of an array as text, such as "(4, 3)".
 inline std::string shapeText(const pybind11::array& array) {
   return pybind11::str(array.attr("shape")).cast<std::string>();
 }
@@ -50,12 +50,12 @@ inline std::filesystem::path pathFrom(const pybind11::object& path) {
   return pybind11::module_::import("os").attr("fspath")(path).cast<std::string>();
 }
 
-/// Opens the file for a test. @throws the matching subclass of OSError if it cannot be read
+/// Checks that a file can be opened. @throws the matching subclass of OSError if not
 inline void requireReadable(const std::filesystem::path& file) {
   pybind11::module_::import("io").attr("open")(file.string(), "rb").attr("close")();
 }
 
-/// Runs what writes a file. @throws OSError for its std::runtime_error
+/// Calls a function that writes a file. @throws OSError in place of its std::runtime_error
 template <class Write>
 void writeOrOsError(const Write& write) {
   try {
@@ -66,7 +66,7 @@ void writeOrOsError(const Write& write) {
   }
 }
 
-/// JSON text of a Python value; NumPy values are converted. @throws TypeError
+/// Returns a Python value as JSON text; NumPy values are converted. @throws TypeError
 inline std::string jsonFrom(const pybind11::object& value) {
   namespace py = pybind11;
   const auto plain = py::cpp_function([](const py::object& array) {

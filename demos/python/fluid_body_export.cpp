@@ -1,8 +1,7 @@
-#include "demos/python/fluid_body_export.h"
-
 #include <pybind11/stl.h>
 
 #include "demos/python/arrays.h"
+#include "demos/python/fluid_body_bindings.h"
 #include "preprocess/hand_over/export_fluid_body.h"
 #include "preprocess/polar/polar.h"
 
@@ -31,20 +30,21 @@ py::object exportAs(const std::shared_ptr<FluidBody>& body, const std::string& f
 }  // namespace
 
 void bindExport(py::class_<FluidBody, std::shared_ptr<FluidBody>>& type) {
-  type.def("export", &exportAs, py::arg("format"), py::arg("path") = py::none(), py::kw_only(),
-           py::arg("medium") = water(), py::arg("gravity") = 9.81, py::arg("mass") = py::none(),
-           py::arg("centre_of_mass") = py::none(), py::arg("forward") = "x", py::arg("up") = "z",
-           py::arg("draught") = py::none(), py::arg("speed") = py::none(),
-           R"(The body in the words of another program; docs/file_format.md says what each loses.
+  type.def(
+      "export", &exportAs, py::arg("format"), py::arg("path") = py::none(), py::kw_only(),
+      py::arg("medium") = water(), py::arg("gravity") = 9.81, py::arg("mass") = py::none(),
+      py::arg("centre_of_mass") = py::none(), py::arg("forward") = "x", py::arg("up") = "z",
+      py::arg("draught") = py::none(), py::arg("speed") = py::none(),
+      R"(Converts the body to the format of another program; docs/file_format.md lists what each format leaves out.
 
 Parameters
 ----------
 format : "sdf" (SDFormat, Gazebo), "mjcf" (MuJoCo), "fossen" (JSON) or "bemio" (HDF5, WEC-Sim)
-path : where it is written as well, completely or not at all
-medium : density and viscosity count
+path : file that is also written, completely or not at all
+medium : only its density and viscosity are used
 gravity : [m/s^2]
-mass : [kg]; default: that of the fluid which the body displaces
-centre_of_mass : (3,) in F [m]; default: of a mass spread evenly
+mass : [kg]; default: mass of the displaced fluid
+centre_of_mass : (3,) in F [m]; default: centre of a mass spread evenly
 forward, up : axes of F with a sign
 draught : depth of the lowest point below the surface of the fluid [m]; default: no surface is near
 speed : along forward [m/s], for the linearised drag of "fossen"

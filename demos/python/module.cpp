@@ -19,7 +19,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const std::system_error& error) {
     PyErr_SetString(PyExc_OSError, error.what());
   } catch (const std::logic_error& error) {
-    // Exceptions of another thread, PythonWorld::simulation(); arguments that are invalid.
+    // std::logic_error: the world is in use by another thread, or an argument is invalid.
     const bool is_argument = dynamic_cast<const std::invalid_argument*>(&error) != nullptr;
     PyErr_SetString(is_argument ? PyExc_ValueError : PyExc_RuntimeError, error.what());
   } catch (const std::runtime_error& error) {

@@ -59,25 +59,24 @@ py::object scalarLast(const py::array& quaternions) {
 void bindMotion(py::module_& module) {
   py::class_<Motion>(module, "Motion",
                      "Motion of B bodies at T times, of N runs if it comes from a rollout.")
-      .def_readonly("t", &Motion::times, "(T,) [s]")
+      .def_readonly("t", &Motion::times, "Times (T,) [s].")
       .def_readonly("position", &Motion::position,
-                    "(..., B, 3), of the centres of mass in world axes [m]")
-      .def_readonly(
-          "orientation", &Motion::orientation,
-          "(..., B, 4), unit quaternions w, x, y, z that turn the shape's axes to the world's")
-      .def_readonly(
-          "twist", &Motion::twist,
-          "(..., B, 6), angular [rad/s], then linear velocity of the centre of mass [m/s], "
-          "in world axes")
+                    "Positions (..., B, 3) of the centres of mass in world axes [m].")
+      .def_readonly("orientation", &Motion::orientation,
+                    "Unit quaternions (..., B, 4) w, x, y, z from the shape's axes to the world's.")
+      .def_readonly("twist", &Motion::twist,
+                    "Twists (..., B, 6): angular velocity [rad/s], then velocity of the centre of "
+                    "mass [m/s], "
+                    "in world axes.")
       .def_property_readonly(
           "orientation_xyzw", [](const Motion& m) { return scalarLast(m.orientation); },
-          "The orientation as SciPy and PyBullet order it.")
+          "Unit quaternions (..., B, 4) x, y, z, w, the order of SciPy and PyBullet.")
       .def_property_readonly(
           "angular_velocity", [](const Motion& m) { return componentsOf(m.twist, 0, 3); },
-          "(..., B, 3), a view [rad/s]")
+          "View of the angular velocities (..., B, 3) [rad/s].")
       .def_property_readonly(
           "linear_velocity", [](const Motion& m) { return componentsOf(m.twist, 3, 6); },
-          "(..., B, 3), a view [m/s]")
+          "View of the linear velocities (..., B, 3) [m/s].")
       .def("__repr__",
            [](const Motion& m) { return "<Motion of shape " + shapeText(m.position) + ">"; });
 }

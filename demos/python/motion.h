@@ -28,10 +28,10 @@ struct Motion {
   double* twists_;
 };
 
-/// Motion of shape (T, B) from the samples of each body.
+/// Makes a Motion of shape (T, B) from the samples of each body.
 Motion motionOf(const std::vector<std::vector<MotionSample>>& samples);
 
-/// View array[..., begin:end].
+/// Returns the view array[..., begin:end].
 pybind11::object componentsOf(const pybind11::array& array, int begin, int end);
 
 /// Reorders quaternions w, x, y, z to x, y, z, w.

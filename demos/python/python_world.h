@@ -14,7 +14,8 @@
 
 namespace ambient {
 
-/// Simulation owned by Python; one thread at a time may use it, until it is closed.
+/// Simulation owned by Python. One thread at a time may use it. Nothing can be asked of it after
+/// close().
 class PythonWorld {
  public:
   PythonWorld(const Scene& scene, const std::filesystem::path& cache, bool takes_robots)
@@ -29,7 +30,8 @@ class PythonWorld {
     if (is_stepping_) throw std::logic_error("the world is in use by another thread");
     return *simulation_;
   }
-  /// Adds the robots that `scene` has more than the world. @pre the rest of it is the same
+  /// Adds the robots at the end of `scene` that the world does not have. @pre otherwise `scene`
+  /// equals that of the world
   void addRobots(const Scene& scene) {
     Simulation& joined = simulation();
     const Stepping in_use(is_stepping_);
@@ -42,8 +44,8 @@ class PythonWorld {
   MotionSample sample(std::size_t body) const { return simulation().sample()[body]; }
   void close() { simulation_.reset(); }
 
-  /// Makes steps and calls `take` with the samples after each. Releases the interpreter's lock;
-  /// checks for keyboard interrupts every few steps.
+  /// Makes `steps` steps and calls `take` with the simulation after each. Releases the
+  /// interpreter's lock meanwhile. Checks for keyboard interrupts every kChunk steps.
   template <class Take>
   void step(long long steps, const Take& take) {
     constexpr long long kChunk = 100;
@@ -58,6 +60,7 @@ class PythonWorld {
   }
 
  private:
+  // Sets a flag as long as it lives.
   struct Stepping {
     explicit Stepping(bool& flag) : flag_(flag) { flag_ = true; }
     ~Stepping() { flag_ = false; }
@@ -87,7 +90,7 @@ class PythonWorld {
   Scene scene_;
   SceneBodyCache fluid_bodies_;
   std::unique_ptr<Simulation> simulation_;
-  bool is_stepping_ = false;  // read and written with the interpreter's lock
+  bool is_stepping_ = false;  // true: a thread steps the world; guarded by the interpreter's lock
 };
 
 }  // namespace ambient

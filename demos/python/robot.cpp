@@ -22,7 +22,7 @@ std::vector<std::string> jointNames(const PythonRobot& robot) {
   return names;
 }
 
-/// One number of each joint, in the order of jointNames().
+/// Returns `value` of each joint, in the order of jointNames().
 py::array ofJoints(const PythonRobot& robot, double (Robot::*value)(const std::string&) const) {
   const std::vector<std::string> names = jointNames(robot);
   Eigen::VectorXd values(static_cast<Eigen::Index>(names.size()));
@@ -47,32 +47,34 @@ void setMotor(const PythonRobot& robot, const std::string& joint, std::optional<
 }
 
 void bindJoints(py::class_<PythonRobot>& type) {
-  type.def_property_readonly("joints", &jointNames,
-                             "Names of the revolute and prismatic joints, J of them.")
+  type.def_property_readonly("joints", &jointNames, "Names of the J revolute and prismatic joints.")
       .def_property_readonly(
           "joint_positions", [](const PythonRobot& r) { return ofJoints(r, &Robot::position); },
-          "(J,), in the order of joints [rad] or [m]")
+          "Positions (J,) in the order of joints [rad] or [m].")
       .def_property_readonly(
           "joint_velocities", [](const PythonRobot& r) { return ofJoints(r, &Robot::velocity); },
-          "(J,) [rad/s] or [m/s]")
+          "Velocities (J,) in the order of joints [rad/s] or [m/s].")
       .def_property_readonly(
           "motor_efforts", [](const PythonRobot& r) { return ofJoints(r, &Robot::motorEffort); },
-          "(J,), what the motors used in the last step [N m] or [N]; 0 without one")
+          "Efforts (J,) of the motors in the last step [N m] or [N]; 0 without a motor.")
       .def("set_motor", &setMotor, py::arg("joint"), py::arg("position") = py::none(),
            py::arg("velocity") = py::none(), py::kw_only(),
            py::arg("effort") = std::numeric_limits<double>::infinity(),
            py::arg("position_gain") = 0.1, py::arg("velocity_gain") = 1.0,
-           "Drives a joint to a position, or by a velocity, from now on, in place of the scene's "
-           "motor; effort 0: no longer. The effort is at most the joint's. Gains are shares of the "
-           "error that a step makes good.")
+           "Drives a joint to a position or at a velocity from now on, in place of the scene's "
+           "motor. "
+           "The effort is limited by `effort` and by the joint's own limit; 0 switches the motor "
+           "off. "
+           "Gains: share of the error that one step corrects.")
       .def(
           "apply_torque",
           [](const PythonRobot& r, const std::string& joint, double torque) {
             r.get().addJointTorque(joint, torque);
           },
           py::arg("joint"), py::arg("torque"),
-          "Adds a torque [N m] or force [N] at a joint for one step; limits of effort do not "
-          "count.")
+          "Adds a torque [N m] or force [N] at a joint for one step. Limits of the joint's effort "
+          "do "
+          "not apply.")
       .def(
           "measure", [](const PythonRobot& r, const std::string& joint) { r.get().measure(joint); },
           py::arg("joint"),
@@ -83,8 +85,11 @@ void bindJoints(py::class_<PythonRobot>& type) {
             return arrayOf(r.get().jointWrench(joint).vector());
           },
           py::arg("joint"),
-          "(6,), torque [N m] about the origin of the link's frame, then force [N], of the parent "
-          "on the link in the last step; world axes. The motor's own effort is not in it.");
+          "Returns the wrench (6,) of the parent on the link in the last step: torque [N m] about "
+          "the "
+          "origin of the link's frame, then force [N], in world axes. Does not contain the effort "
+          "of "
+          "the joint's motor. Call measure() before.");
 }
 
 }  // namespace
@@ -100,15 +105,16 @@ void bindRobot(py::module_& module) {
   bindJoints(type);
   type.def_property_readonly(
           "name", [](const PythonRobot& r) { return r.world->scene().robots[r.index].name; },
-          "Bodies of the world are called NAME/LINK.")
+          "Name of the robot; its links are bodies NAME/LINK of the world.")
       .def(
           "pose",
           [](const PythonRobot& r, const std::string& link) {
             return arrayOf(r.get().robot().linkPose(link).matrix());
           },
           py::arg("link"),
-          "(4, 4), from coordinates in the frame of a link to the world's; also of a link that a "
-          "fixed joint has made part of another.");
+          "Returns the matrix (4, 4) that maps coordinates in the frame of a link to the world's. "
+          "Knows "
+          "links, too, that a fixed joint has made part of another link.");
 }
 
 }  // namespace ambient

@@ -47,15 +47,14 @@ std::vector<SceneOverride> overridesFrom(const py::dict& changes) {
 }
 
 void bindScene(py::module_& module) {
-  py::class_<Scene>(
-      module, "Scene",
-      R"(Bodies, joints and a fluid, checked against the schema of scenes. Never changes.
+  py::class_<Scene>(module, "Scene",
+                    R"(Bodies, joints and a fluid, checked against the schema of scenes. Immutable.
 
 Parameters
 ----------
 source : the path of a JSON file, the name of one of scene_names(), or a dict of the same content
 overrides : {"bodies.0.mass": 0.1, ...}
-folder : where relative file names in a dict begin; default: the current one
+folder : folder of relative file names in a dict; default: the current folder
 
 >>> Scene("sphere_fall", {"duration": 1}).duration
 1.0
@@ -71,25 +70,27 @@ ValueError: ...sphere_fall.json: duration is -1; must be > 0
           [](const Scene& scene, const py::dict& changes) {
             return parseScene(scene.text, scene.file, overridesFrom(changes));
           },
-          py::arg("overrides"), "The same scene with overrides.")
+          py::arg("overrides"), "Returns the scene with overrides.")
       .def_property_readonly(
           "document",
           [](const Scene& scene) -> py::dict {
             return py::module_::import("json").attr("loads")(scene.text);
           },
-          "A dict of what it was made of, overrides included.")
-      .def_readonly("name", &Scene::name, "That of the file, without extension.")
+          "Content of the scene as a dict, with overrides.")
+      .def_readonly("name", &Scene::name, "Name of the file without extension.")
       .def_property_readonly(
           "file", [](const Scene& scene) { return scene.file.string(); },
-          "The file; names in it are relative to its folder.")
-      .def_readonly("description", &Scene::description, "One sentence.")
-      .def_readonly("duration", &Scene::duration, "[s]")
-      .def_readonly("time_step", &Scene::time_step, "[s]")
-      .def_readonly("output_step", &Scene::output_step, "[s]")
-      .def_readonly("medium", &Scene::medium, "Of all bodies that name no density of their own.")
-      .def_property_readonly("bodies", &bodyNames, "The names of the bodies.")
-      .def_property_readonly("key", &keyOf,
-                             "16 digits of all that a run of it depends on, see run_cases().")
+          "Path of the file; names in it are relative to its folder.")
+      .def_readonly("description", &Scene::description, "Description in one sentence.")
+      .def_readonly("duration", &Scene::duration, "Duration of a run [s].")
+      .def_readonly("time_step", &Scene::time_step, "Fixed time step of the world [s].")
+      .def_readonly("output_step", &Scene::output_step,
+                    "Time between two samples of the output [s].")
+      .def_readonly("medium", &Scene::medium,
+                    "Medium of all bodies without a density of their own.")
+      .def_property_readonly("bodies", &bodyNames, "Names of the bodies.")
+      .def_property_readonly(
+          "key", &keyOf, "Hash (16 digits) of everything that a run depends on, see run_cases().")
       .def(
           "__eq__",
           [](const Scene& a, const Scene& b) { return a.text == b.text && a.file == b.file; },
@@ -105,7 +106,8 @@ ValueError: ...sphere_fall.json: duration is -1; must be > 0
           [](const py::tuple& state) {
             return parseScene(state[0].cast<std::string>(), state[1].cast<std::string>());
           }));
-  module.def("scene_names", &sceneNames, "The scenes that come with the library.");
+  module.def("scene_names", &sceneNames,
+             "Returns the names of the scenes that come with the library.");
 }
 
 }  // namespace ambient

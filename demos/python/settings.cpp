@@ -8,7 +8,8 @@
 
 namespace ambient {
 
-// Outside the anonymous namespace: templates of record.h find these overloads by their argument.
+// Not in an anonymous namespace, so that templates of record.h find these overloads by their
+// argument.
 
 static pybind11::object toPython(const PressureLaw& law) {
   return pybind11::str(wordOf(kPressureLawNames, law));
@@ -22,22 +23,24 @@ static void fromPython(pybind11::handle from, PressureLaw& to) {
 }
 
 void bindSettings(pybind11::module_& module) {
-  Record<Medium>(module, "Medium", "The fluid around a body; vectors in world axes.")
-      .field("density", &Medium::density, "[kg/m^3], >= 0; default 0, a vacuum")
-      .field("viscosity", &Medium::viscosity, "dynamic [Pa s], >= 0; 0: no skin friction")
-      .field("velocity", &Medium::velocity, "of the undisturbed flow at the body [m/s]")
-      .field("acceleration", &Medium::acceleration, "its rate of change [m/s^2]");
-  Record<FlowSettings>(module, "FlowSettings", "How the flow follows the surface of a body.")
-      .field("separation_angle", &FlowSettings::separation_angle,
-             "from pi/2 (default) to pi [rad]; larger: more attachment")
-      .field("skin_friction", &FlowSettings::skin_friction, "whether there is any")
-      .field("law", &FlowSettings::law, "of the pressure: 'form' (default) or 'published'")
+  Record<Medium>(module, "Medium", "Fluid around a body; vectors in world axes.")
+      .field("density", &Medium::density, "Density [kg/m^3], >= 0; default 0, a vacuum.")
+      .field("viscosity", &Medium::viscosity,
+             "Dynamic viscosity [Pa s], >= 0; 0: no skin friction.")
+      .field("velocity", &Medium::velocity, "Velocity of the undisturbed flow at the body [m/s].")
+      .field("acceleration", &Medium::acceleration, "Rate of change of that velocity [m/s^2].");
+  Record<FlowSettings>(module, "FlowSettings", "Settings of the flow along the surface of a body.")
+      .field(
+          "separation_angle", &FlowSettings::separation_angle,
+          "Separation angle, from pi/2 (default) to pi [rad]; larger: flow stays attached longer.")
+      .field("skin_friction", &FlowSettings::skin_friction, "False: no skin friction.")
+      .field("law", &FlowSettings::law, "Law of the pressure: 'form' (default) or 'published'.")
       .field("maximum_load_error", &FlowSettings::maximum_load_error,
-             "that reduced loads may make, from 0 (all faces) to 1; default 0.01")
+             "Largest relative error of reduced loads, from 0 (sums all faces) to 1; default 0.01.")
       .field("stall_lag", &FlowSettings::stall_lag,
-             "of the law 'form', in body lengths over speed; 0: none");
-  module.def("air", &air, "Air at 20 C and sea level.");
-  module.def("water", &water, "Fresh water at 20 C.");
+             "Time by which stall lags with the law 'form', in body lengths over speed; 0: none.");
+  module.def("air", &air, "Returns air at 20 C and sea level.");
+  module.def("water", &water, "Returns fresh water at 20 C.");
 }
 
 }  // namespace ambient

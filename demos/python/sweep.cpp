@@ -50,7 +50,7 @@ void requireOneShape(const std::vector<Scene>& scenes, bool with_motion) {
   }
 }
 
-/// Motion of shape (N, T, B), or null without motion.
+/// Makes a Motion of shape (N, T, B); null without `with_motion`.
 std::unique_ptr<Motion> makeMotion(const std::vector<Scene>& scenes, bool with_motion) {
   if (!with_motion) return nullptr;
   const auto size = [](std::size_t count) { return static_cast<py::ssize_t>(count); };
@@ -119,7 +119,7 @@ py::tuple collect(const py::object& cases, const py::object& out) {
 
 }  // namespace
 
-// Private functions; the public ones are in bullet_ambient/sweeps.py.
+// Binds private functions, which the public ones in bullet_ambient/sweeps.py call.
 void bindSweep(py::module_& module) {
   module.def("_rollout", &rollout, py::arg("scenes"), py::arg("threads"), py::arg("motion"),
              py::arg("cache"), py::arg("progress"));

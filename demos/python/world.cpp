@@ -110,35 +110,36 @@ py::dict wetOf(const PythonBody& body) {
 }
 
 void bindBody(py::module_& module) {
-  py::class_<PythonBody>(module, "Body", "One body of a world, as it is now; world axes.")
+  py::class_<PythonBody>(module, "Body", "One body of a world in its present state; world axes.")
       .def_property_readonly(
           "position", [](const PythonBody& b) { return arrayOf(b.sample().position); },
-          "(3,), of the centre of mass [m]")
+          "Position (3,) of the centre of mass [m].")
       .def_property_readonly(
           "orientation",
           [](const PythonBody& b) {
             const Quaternion q = b.sample().orientation;
             return arrayOf(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
           },
-          "(4,), unit quaternion w, x, y, z that turns the shape's axes to the world's")
+          "Unit quaternion (4,) w, x, y, z from the shape's axes to the world's.")
       .def_property_readonly(
           "twist", [](const PythonBody& b) { return arrayOf(b.sample().twist.vector()); },
-          "(6,), angular [rad/s], then linear velocity [m/s]")
+          "Twist (6,): angular velocity [rad/s], then velocity of the centre of mass [m/s].")
       .def_property_readonly(
           "work", &workOf,
-          "What the fluid has cost so far, as counts, and the energy that bounds removed [J].")
+          "Counts of the fluid's work so far, and the energy that bounds have removed [J].")
       .def(
           "read_wrench",
           [](const PythonBody& b, bool is_read) {
             b.world->simulation().readWrench(b.index, is_read);
           },
-          py::arg("is_read") = true, "Keeps the wrench of the fluid from the next step on.")
+          py::arg("is_read") = true,
+          "Computes `wrench` in each step from the next one on; False: no longer.")
       .def_property_readonly("wrench", &wrenchOf,
-                             R"(Wrenches on it in the last step, by part, mean over the step.
+                             R"(Mean wrenches on the body in the last step, by part.
 
 Each (6,): torque about the centre of mass [N m], then force [N], world axes. "pressure", "friction", "buoyancy", "waves",
-"wind" and "added_mass" are the fluid's; with "constraints", those of contacts and joints, and all applied forces, gravity
-included, they make the change of momentum. RuntimeError without read_wrench().
+"wind" and "added_mass" come from the fluid, "constraints" from contacts and joints. Together with gravity and applied
+forces they are the rate of change of the body's momentum. Raises RuntimeError without read_wrench().
 
 >>> with World(Scene("sphere_fall")) as world:
 ...     ball = world.bodies["ball"]
@@ -147,13 +148,15 @@ included, they make the change of momentum. RuntimeError without read_wrench().
 ...     bool(ball.wrench["buoyancy"][5] > 0)
 True
 )")
-      .def_property_readonly("wet", &wetOf,
-                             R"(What of it is in its fluid now, below a surface if there is one.
+      .def_property_readonly(
+          "wet", &wetOf,
+          R"(Part of the body that is in its fluid, below the surface if there is one.
 
 "volume" [m^3], "share" of its volume, "draught" [m] of its lowest point (inf: no surface), "area" [m^2],
 "centre_of_buoyancy" (3,) [m] and "region" (-1: none).)")
-      .def("apply_force", &applyForce, py::arg("force"), py::arg("at") = py::none(),
-           "Adds a force (3,) [N] at a point (3,) [m], default the centre of mass, for one step.")
+      .def(
+          "apply_force", &applyForce, py::arg("force"), py::arg("at") = py::none(),
+          "Adds a force (3,) [N] at a point (3,) [m] for one step; default: at the centre of mass.")
       .def(
           "apply_torque",
           [](const PythonBody& b, const InputArray& torque) {
@@ -166,40 +169,42 @@ True
             b.world->simulation().setMedium(b.index, medium);
           },
           py::arg("medium"),
-          "Changes the fluid around it, outside of the scene's water and regions; its velocity "
-          "stays.");
+          "Changes the fluid around the body where it is in no water or region of the scene. The "
+          "velocity of the body stays.");
 }
 
 void bindWorldMotion(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
   type.def_property_readonly(
           "position", [](const PythonWorld& w) { return motionNow(w).position; },
-          "(B, 3), of the centres of mass in world axes [m]")
+          "Positions (B, 3) of the centres of mass in world axes [m].")
       .def_property_readonly(
           "orientation", [](const PythonWorld& w) { return motionNow(w).orientation; },
-          "(B, 4), unit quaternions w, x, y, z that turn the shapes' axes to the world's")
+          "Unit quaternions (B, 4) w, x, y, z from the shapes' axes to the world's.")
       .def_property_readonly(
           "orientation_xyzw",
           [](const PythonWorld& w) { return scalarLast(motionNow(w).orientation); },
-          "(B, 4), as SciPy and PyBullet order them")
+          "Unit quaternions (B, 4) x, y, z, w, the order of SciPy and PyBullet.")
       .def_property_readonly(
           "twist", [](const PythonWorld& w) { return motionNow(w).twist; },
-          "(B, 6), angular [rad/s], then linear velocity [m/s], world axes");
+          "Twists (B, 6): angular velocity [rad/s], then velocity of the centre of mass [m/s], in "
+          "world axes.");
 }
 
 void bindWorldRobots(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
-  type.def("load_urdf", &loadUrdf, py::arg("path"),
-           R"(Adds a robot of a URDF file, at any time; its links that collide are bodies NAME/LINK.
+  type.def(
+          "load_urdf", &loadUrdf, py::arg("path"),
+          R"(Adds the robot of a URDF file, at any time. Its links that collide are bodies NAME/LINK.
 
 Keywords are the keys of robots in scenes: name, position, orientation, fixed_base, joint_positions,
-motors, medium, law and so on. Names in it are relative to the scene's folder, the path to the
-current one. States that were saved before are of another world.
+motors, medium, law and so on. File names in keywords are relative to the scene's folder, `path` to the
+current folder. States that were saved before cannot be restored any more.
 
 >>> world = World(Scene("pool"), robots=True)
 >>> robot = world.load_urdf("data/robots/rudder_boat.urdf", name="boat", position=[0, 0, 0.5])
 >>> robot.joints
 ['helm', 'left_axle', 'right_axle']
 )")
-      .def_property_readonly("robots", &robotsOf, "By name, in the order of the scene.");
+      .def_property_readonly("robots", &robotsOf, "Robots by name, in the order of the scene.");
 }
 
 }  // namespace
@@ -208,15 +213,15 @@ void bindWorld(py::module_& module) {
   bindBody(module);
   py::class_<PythonWorld, std::shared_ptr<PythonWorld>> type(
       module, "World",
-      R"(A Bullet world with the bodies of a scene in their fluid; B bodies, in its order.
+      R"(Bullet world with the B bodies of a scene in their fluid, in the order of the scene.
 
-Other threads of Python run while it steps; one world is for one thread at a time.
+Other threads of Python run while it steps. One thread at a time may use a world.
 
 Parameters
 ----------
 scene : Scene
-cache : a folder that keeps the fluid bodies that were solved
-robots : whether load_urdf() is to come; contacts of a scene without robots then differ in the last bits
+cache : folder in which fluid bodies are stored and found again
+robots : True: load_urdf() may be called; contacts of a scene without robots then differ in the last bits
 
 >>> with World(Scene("sphere_fall")) as world:
 ...     world.bodies["ball"].apply_force([1, 0, 0])
@@ -238,27 +243,32 @@ True
           "Makes n steps of the scene's time step. Raises FloatingPointError if a state is not "
           "finite.")
       .def("run", &run, py::arg("duration"), py::arg("output_step") = py::none(),
-           "Goes on for so long [s]; the motion at multiples of the output step and at the end.")
+           "Makes steps for `duration` [s]. Returns the motion at multiples of the output step [s] "
+           "and "
+           "at the end.")
       .def_property_readonly(
-          "time", [](const PythonWorld& w) { return w.simulation().time(); }, "[s]")
-      .def_property_readonly("bodies", &bodiesOf, "By name, in the order of the scene.")
+          "time", [](const PythonWorld& w) { return w.simulation().time(); }, "Time [s].")
+      .def_property_readonly("bodies", &bodiesOf, "Bodies by name, in the order of the scene.")
       .def_property_readonly("scene", &PythonWorld::scene,
-                             "What it was made of, and the robots that came since.")
+                             "Scene of the world, with the robots that were added.")
       .def_property_readonly(
           "warning", [](const PythonWorld& w) { return w.simulation().warning(); },
-          "What the library has reported last; mostly empty.")
+          "Last report of the library; empty: none.")
       .def(
           "state", [](const PythonWorld& w) { return py::bytes(w.simulation().saveState()); },
-          "Everything that changes from step to step.")
+          "Returns all that changes from step to step, for restore().")
       .def(
           "restore",
           [](PythonWorld& w, const py::bytes& state) {
             w.simulation().restoreState(std::string(state));
           },
           py::arg("state"),
-          "Goes on from a state of this world or another one of the same scene: bit for bit, but "
-          "where boxes, hulls and the like touch each other, whose contacts are found anew.")
-      .def("close", &PythonWorld::close, "Frees its memory; nothing can be asked of it then.")
+          "Restores a state of this world or of another one of the same scene. The motion then "
+          "goes on "
+          "bit for bit, except where boxes, hulls and the like touch, because their contacts are "
+          "found anew.")
+      .def("close", &PythonWorld::close,
+           "Frees the memory of the world, which cannot be used afterwards.")
       .def("__enter__", [](const std::shared_ptr<PythonWorld>& w) { return w; })
       .def("__exit__", [](PythonWorld& w, const py::args&) { w.close(); });
 }

@@ -20,7 +20,7 @@ BOAT = Path(__file__).resolve().parents[3] / "data/meshes/boat.obj"
 
 
 def height(x, y, time):
-    """Of the surface [m]: waves on deep water."""
+    """Height of the surface [m]: sum of waves on deep water."""
     total = 0 * x
     for wave in WAVES:
         (dx, dy, _), omega = np.array(wave.direction) / np.linalg.norm(wave.direction), 2 * np.pi / wave.period
@@ -29,7 +29,7 @@ def height(x, y, time):
 
 
 def floating(shape, mass, position, centre, colour, **look):
-    """A body whose centre of mass is below that of its shape; without PyBullet's own damping."""
+    """Adds a body whose centre of mass is below that of its shape, without PyBullet's own damping."""
     body = p.createMultiBody(mass, shape, p.createVisualShape(rgbaColor=colour, **look), basePosition=position,
                              baseInertialFramePosition=[0, 0, centre])
     p.changeDynamics(body, -1, linearDamping=0, angularDamping=0)
@@ -51,7 +51,7 @@ for _ in range(240 * SECONDS):
     p.stepSimulation()
     position, attitude = p.getBasePositionAndOrientation(boat)
     heaves.append(position[2])
-    pitches.append(p.getMatrixFromQuaternion(attitude)[6])  # of the bow, downwards
+    pitches.append(p.getMatrixFromQuaternion(attitude)[6])  # sine of the pitch, bow down
 later = slice(240 * 5, None)
 print("waves of %.2f m amplitude: the boat heaves by %.2f m and pitches by %.1f degrees"
       % (sum(wave.amplitude for wave in WAVES), np.ptp(heaves[later]) / 2, np.degrees(np.ptp(pitches[later]) / 2)))

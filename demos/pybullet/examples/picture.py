@@ -1,4 +1,4 @@
-"""Pictures of a PyBullet world by its TinyRenderer, which needs no window and knows no glass: water is blended in."""
+"""Pictures of a PyBullet world by its TinyRenderer, which needs no window. It draws nothing transparent: water is blended in."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ SIZE = (800, 400)
 
 
 def add_surface(lower, upper, height=lambda x, y: 0 * x, cells=48, colour=(0.25, 0.55, 0.85, 1)):
-    """A surface of water over a rectangle: a body without mass and collisions, for pictures alone."""
+    """Adds a surface of water over a rectangle: a body without mass and collisions, for pictures alone."""
     x, y = (np.linspace(lower[i], upper[i], cells + 1) for i in (0, 1))
     x, y = np.meshgrid(x, y)
     vertices = np.stack([x, y, height(x, y)], axis=-1).reshape(-1, 3)
@@ -28,7 +28,7 @@ def render(eye, target):
 
 
 def save(path, eye, target, surface=None, share=0.4):
-    """Writes what an eye sees; surface: a function that adds the water, which hides that share of what is below it."""
+    """Writes a picture from `eye`. `surface`: adds the water, which is blended over what lies below it."""
     pixels = render(eye, target)
     if surface:
         surface()

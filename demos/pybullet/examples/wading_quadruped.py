@@ -24,7 +24,7 @@ p.createMultiBody(0, p.createCollisionShape(p.GEOM_BOX, halfExtents=ground),
                   p.createVisualShape(p.GEOM_BOX, halfExtents=ground, rgbaColor=[0.6, 0.55, 0.45, 1]),
                   basePosition=[1, 0, -0.05])
 fluid = Fluid()
-fluid.settings(law="form")  # flat sides
+fluid.settings(law="form")  # the law for flat sides
 fluid.water(level=LEVEL, bounds=[-5, -2, -1, 5, 0, 5])  # y < 0
 robots = [p.loadURDF(str(ROBOT), [0, y, 0.5], flags=p.URDF_USE_INERTIA_FROM_FILE) for y in (-0.7, 0.7)]
 for robot, colour in zip(robots, ([0.85, 0.45, 0.15, 1], [0.5, 0.5, 0.55, 1])):

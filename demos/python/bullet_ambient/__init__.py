@@ -7,7 +7,7 @@ ValueError, files that cannot be used OSError, in one line that says what is wro
 import os as _os
 from pathlib import Path as _Path
 
-# The program that reads mesh files stands beside the module, or is on the path already.
+# ambient_mesh_reader, the program that reads mesh files, is in bin beside the module, or on PATH already.
 _os.environ["PATH"] = _os.pathsep.join([_os.environ.get("PATH", _os.defpath), str(_Path(__file__).parent / "bin")])
 
 from ._core import (

@@ -1,11 +1,11 @@
-"""A fluid in the world of an unmodified PyBullet, 3.1.7 and later.
+"""Puts a fluid into the world of an unmodified PyBullet, 3.1.7 and later.
 
     import pybullet as p, bullet_ambient.pybullet
     p.connect(p.DIRECT)
     fluid = bullet_ambient.pybullet.Fluid()
     fluid.water(level=0)
 
-Everything in the scene floats, sinks and is moved by the water, also what comes later. docs/pybullet.md says more.
+All bodies of the world then float or sink in the water, also those that are added later. docs/pybullet.md describes it.
 """
 
 import importlib
@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 __all__ = ["Fluid", "Spectrum", "Wave", "plugin_path"]
 
-_PIECE = 1000  # bytes of a command; PyBullet takes 1023
+_PIECE = 1000  # largest number of bytes sent at once; PyBullet takes at most 1023
 _Vector = Sequence[float]
 _Value = Union[str, float, Iterable[Any], None]
 
@@ -45,11 +45,12 @@ class Spectrum(NamedTuple):
 
 
 def plugin_path() -> str:
-    """The plugin's file, for `pybullet.loadPlugin(plugin_path(), "_ambient")`."""
+    """Returns the path of the plugin's file, for `pybullet.loadPlugin(plugin_path(), "_ambient")`."""
     return str(Path(__file__).parent / "libbullet_ambient_pybullet.so")
 
 
 def _text(numbers: Iterable[Any]) -> str:
+    """Returns numbers, also of nested sequences, separated by commas."""
     flat: list[float] = []
     for number in numbers:
         flat.extend(number if isinstance(number, Iterable) else [number])
@@ -57,6 +58,7 @@ def _text(numbers: Iterable[Any]) -> str:
 
 
 def _word(key: str, value: _Value) -> str:
+    """Returns key=value, one word of a command."""
     if isinstance(value, str):
         if any(space in value for space in " \t\n"):
             raise ValueError(f"{key}: '{value}' has spaces, which commands of PyBullet cannot have")
@@ -66,16 +68,16 @@ def _word(key: str, value: _Value) -> str:
 
 
 class Fluid:
-    """The fluid in the world of one PyBullet client.
+    """Fluid in the world of one PyBullet client.
 
-    Regions and settings survive `resetSimulation`; numbers of bodies, states and time begin anew. Bad values raise
-    ValueError with one line. Nothing is in a fluid before a region is added.
+    Bodies are in a fluid once a region is added. Regions and settings survive `resetSimulation`; numbers of bodies,
+    saved states and the time start anew. Bad values raise ValueError with one line.
     """
 
     def __init__(self, client: int = 0) -> None:
         """Loads the plugin into the server of a client, `physicsClientId`.
 
-        Where the server is another process, it loads the file of the same path. A second Fluid of a client is the first.
+        A server in another process loads the file from the same path. All Fluid objects of a client share one fluid.
         """
         self._bullet: Any = importlib.import_module("pybullet")
         self._client = client
@@ -98,10 +100,11 @@ class Fluid:
         priority: int = 0,
         name: str = "water",
     ) -> None:
-        """Water below a level [m], air above it; again with one name: changes it.
+        """Adds water below a level [m] with air above it, or changes the region with this `name`.
 
-        `wind` and `current` [m/s]; `waves` and `spectrum` are added up; `bounds` are the lowest and the highest corner,
-        six numbers; `up` is against gravity. Where regions overlap, the highest priority wins, then the latest.
+        Units: `density` [kg/m^3], `viscosity` [Pa s], `current` and `wind` [m/s]. `waves` and `spectrum` are added up.
+        `bounds`: six numbers, lowest and highest corner [m]. `up`: direction against gravity. Where regions overlap, the
+        one with the highest priority counts, and among equals the one added last.
         """
         wave_text = None if waves is None else ";".join(_text(Wave(*wave)) for wave in waves)
         self._region("water", level=level, density=density, viscosity=viscosity, current=current, waves=wave_text or None,
@@ -109,12 +112,15 @@ class Fluid:
 
     def air(self, wind: Optional[_Vector] = None, *, bounds: Optional[_Vector] = None, density: Optional[float] = None,
             priority: int = 0, name: str = "air") -> None:
-        """Air, everywhere or within bounds, and its wind [m/s]."""
+        """Adds or changes air with a wind [m/s], everywhere or within bounds."""
         self._region("air", wind=wind, bounds=bounds, density=density, priority=priority, name=name)
 
     def region(self, name: str = "region", *, density: Optional[float] = None, viscosity: Optional[float] = None,
                velocity: Optional[_Vector] = None, bounds: Optional[_Vector] = None, priority: int = 0) -> None:
-        """A fluid without a surface, everywhere or within bounds: density [kg/m^3], viscosity [Pa s], velocity [m/s]."""
+        """Adds or changes a fluid without a surface, everywhere or within bounds.
+
+        Units: density [kg/m^3], viscosity [Pa s], velocity [m/s].
+        """
         self._region("region", name=name, density=density, viscosity=viscosity, velocity=velocity, bounds=bounds,
                      priority=priority)
 
@@ -123,63 +129,70 @@ class Fluid:
         self._command("remove", name=name)
 
     def exclude(self, body: int, link: Optional[int] = None) -> None:
-        """Leaves a body out of the fluid, or one link of it; -1: the base. It moves as in stock PyBullet."""
+        """Removes a body, or one link of it (-1: the base), from the fluid for good; it then moves as in stock PyBullet."""
         self._command("exclude", [body] if link is None else [body, link])
 
     def settings(self, *, law: Optional[str] = None, quality: Optional[str] = None, separation: Optional[float] = None,
                  folder: Optional[str] = None) -> None:
-        """Settings of all bodies, before the first step: `law` of the pressure, `quality` "standard" (seconds for each
-        new mesh) or "instant", `separation` angle [rad], `folder` that keeps computed shapes for other runs."""
+        """Changes settings of all bodies; call before the first step.
+
+        `law` of the pressure, "form" or "published". `quality` "standard" takes seconds for each new mesh, "instant" does
+        not. `separation`: separation angle [rad]. `folder`: computed shapes are stored there for other runs.
+        """
         self._region("settings", law=law, quality=quality, separation=separation, folder=folder)
 
     def inertia(self, body: int, link: int = -1) -> npt.NDArray[np.float64]:
-        """Total inertia of a body or link with the fluid, (6, 6), rotation first, in its frame at its centre of mass."""
+        """Returns the total inertia (6, 6) of a body or link, rotation first, in its frame at its centre of mass."""
         return np.array(json.loads(self._command("inertia", [body, link])))
 
     def mass_matrix(self, body: int) -> npt.NDArray[np.float64]:
-        """Joint-space inertia with the fluid: 6 + joints rows, spin and velocity of the base first, in world axes.
+        """Returns the joint-space inertia with the fluid, 6 + joints rows and columns.
 
-        `pybullet.calculateMassMatrix` is that without a fluid.
+        The first six are the angular velocity and the velocity of the base in world axes. `pybullet.calculateMassMatrix`
+        computes it without a fluid.
         """
         return np.array(json.loads(self._command("mass_matrix", [body])))
 
     def wrench(self, body: int, link: int = -1) -> dict[str, npt.NDArray[np.float64]]:
-        """Wrench of the fluid on a body or link in its last substep, by part: torque about the centre of mass [N m], then
-        force [N], in world axes.
+        """Returns wrenches on a body or link in the last substep, by part.
 
-        The parts are "pressure", "friction", "buoyancy", "waves", "wind" and "added_mass", besides "constraints", which are
-        not the fluid's. They are kept from the first call on, which answers zeros.
+        Each: torque about the centre of mass [N m], then force [N], in world axes. The fluid's parts are "pressure",
+        "friction", "buoyancy", "waves", "wind" and "added_mass"; "constraints" are those of contacts and joints. The first
+        call returns zeros: the parts are computed in steps after it.
         """
         parts = json.loads(self._command("wrench", [body, link]))
         return {name: np.array(part) for name, part in parts.items()}
 
     def wet(self, body: int, link: int = -1) -> dict[str, Any]:
-        """What of a body or link is in its fluid, and with a surface near, below that: "volume" [m^3], "share", "draught" [m]
-        (None without a surface), "area" [m^2], "centre_of_buoyancy"."""
+        """Returns the part of a body or link that is in its fluid, below the surface if one is near.
+
+        "volume" [m^3], "share" of its volume, "draught" of its lowest point [m] (None without a surface), "area" [m^2],
+        "centre_of_buoyancy" [m].
+        """
         answer: dict[str, Any] = json.loads(self._command("wet", [body, link]))
         return answer
 
     def wet_volume(self, body: int, link: int = -1) -> float:
-        """Volume of a body or link that is in its fluid [m^3]."""
+        """Returns the volume of a body or link that is in its fluid [m^3]."""
         return float(self.wet(body, link)["volume"])
 
     def save(self) -> int:
-        """Keeps the state of world and fluid and returns its number. `pybullet.saveState` knows nothing of the fluid."""
+        """Saves the state of world and fluid, and returns its number. `pybullet.saveState` does not save the fluid."""
         return int(self._command("save"))
 
     def restore(self, state: int) -> None:
-        """Puts the world back into a state of save(), from which it goes on bit for bit."""
+        """Restores a state of save(), from which the motion goes on bit for bit."""
         self._command("restore", [state])
 
     def status(self) -> dict[str, Any]:
-        """Names of regions, counters of what steps have done and left out, and sentences that the fluid has said."""
+        """Returns the names of regions, counters of the steps, and the first 100 reports of the fluid ("said")."""
         answer: dict[str, Any] = json.loads(self._command("status"))
         return answer
 
     def off(self) -> None:
-        """Removes all regions and leaves the world as in stock PyBullet.
+        """Removes the fluid; the world then moves as in stock PyBullet.
 
-        In place of `pybullet.unloadPlugin`: the next `loadPlugin` after that ends PyBullet, whatever the plugin.
+        Do not call `pybullet.unloadPlugin`: the next `loadPlugin` after it, of any plugin, ends the process.
         """
         self._command("off")
 
@@ -191,7 +204,7 @@ class Fluid:
         while len(text) > _PIECE:
             self._send("+" + text[:_PIECE], ())
             text = text[_PIECE:]
-            if text.startswith("+"):  # of a number: not the mark of a piece
+            if text.startswith("+"):  # of a number; as the last text it would be taken for one more piece
                 self._send("+" + text[:1], ())
                 text = text[1:]
         return self._send(text, integers)

@@ -20,11 +20,11 @@ _Progress = Optional[Callable[[int, int], object]]
 
 @dataclass(frozen=True)
 class Rollout:
-    """N runs of scenes of B bodies.
+    """Results of N runs of scenes with B bodies.
 
-    motion : arrays of shape (N, T, B, ...), NaN where a run failed; None if it was not asked for
-    summary : structured array (N, B): where each body was at the end, its path, its fall, the work
-    errors : sentences about the runs that failed, by index
+    motion : arrays of shape (N, T, B, ...), NaN where a run failed; None without motion
+    summary : structured array (N, B): end position, path, fall and counts of work of each body
+    errors : error messages of the runs that failed, by index
     """
 
     motion: _core.Motion | None
@@ -37,7 +37,7 @@ class Rollout:
         return np.array(sorted(self.errors), dtype=np.int64)
 
     def save(self, path: _Path) -> None:
-        """Writes an .npz file of summary, failed and the arrays of the motion."""
+        """Writes an .npz file with summary, failed and the arrays of the motion."""
         arrays: dict[str, npt.NDArray[Any]] = {"summary": self.summary, "failed": self.failed}
         if self.motion is not None:
             for name in ("t", "position", "orientation", "twist"):
@@ -46,7 +46,7 @@ class Rollout:
 
 
 class CaseCounts(NamedTuple):
-    """Of one shard: its cases, those that had results before, and sentences about those that failed, by index."""
+    """Counts of one shard: its cases, cases that had results before, and error messages of cases that failed, by index."""
 
     cases: int
     done_before: int
@@ -54,7 +54,7 @@ class CaseCounts(NamedTuple):
 
 
 def _structured(columns: Sequence[str], rows: Sequence[Sequence[str | float]]) -> npt.NDArray[Any]:
-    """Rows of words and numbers; a column is of words if one of them is."""
+    """Returns rows of words and numbers as a structured array; a column with a word becomes a column of words."""
 
     def kind(i: int) -> str:
         words = [len(row[i]) for row in rows if isinstance(row[i], str)]  # type: ignore[arg-type]
@@ -70,7 +70,7 @@ def _structured(columns: Sequence[str], rows: Sequence[Sequence[str | float]]) -
 
 
 def _override_sets(overrides: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """{"path": N values} as N dicts."""
+    """Converts {"path": N values, ...} to N dicts {"path": value, ...}."""
     lengths = {path: len(values) for path, values in overrides.items()}
     if len(set(lengths.values())) != 1:
         raise ValueError(f"overrides must have as many values each, not {lengths}")
@@ -91,13 +91,13 @@ def rollout(
 
     Parameters
     ----------
-    scenes : a Scene, or one for each run, with as many bodies
-    overrides : of one Scene: N values for each path, {"bodies.0.mass": masses}; run i has the i-th of each
-    duration : of all runs [s]; default: the scene's
-    threads : 0 (default): all cores
+    scenes : one Scene, or one for each run, all with the same number of bodies
+    overrides : with one Scene: N values for each path, {"bodies.0.mass": masses}; run i takes the i-th value of each
+    duration : duration of all runs [s]; default: the scene's
+    threads : number of threads; 0 (default): all cores
     motion : False: the summary alone
-    cache : a folder that keeps the fluid bodies that were solved
-    progress : called with the numbers of ended and of all runs, some times a second at most, by the calling thread
+    cache : folder in which fluid bodies are stored and found again
+    progress : called with the numbers of ended and of all runs, by the calling thread, a few times a second at most
 
     A run that fails does not stop the others. Raises ValueError if a scene is not right.
 
@@ -124,7 +124,7 @@ def rollout(
 def write_cases(path: _Path, scene: str | Mapping[str, Any], overrides: Mapping[str, Any]) -> int:
     """Writes a file of cases, one per line: a scene by name, path or content, and the i-th value of each override.
 
-    Returns their number. For product sets, give numpy.meshgrid(...) raveled.
+    Returns the number of cases. For all combinations of values, give numpy.meshgrid(...) raveled.
     """
     sets = _override_sets(overrides)
 
@@ -150,22 +150,22 @@ def run_cases(
     Parameters
     ----------
     cases : file of lines {"scene": name, path or scene, "set": {path: value}}
-    out : folder of the results of all shards; a case's is the folder named by its key
+    out : folder for the results of all shards; each case has a folder there, named by its key
     shard : (i, n): cases with index i modulo n
     threads : 0 (default): all cores
     motion : False: keep summary.json alone
     progress : called with the numbers of ended and of all runs
 
-    Stopped at any moment and called again, by any processes, it ends with the same results. Cases that failed are
-    listed in `out`, too.
+    It may be stopped at any moment and called again, by other processes, too, and ends with the same results. Cases that
+    failed are listed in `out`.
     """
     return CaseCounts(*_core._run_cases(cases, out, shard, threads=threads, motion=motion, progress=progress))
 
 
 def collect(cases: _Path, out: _Path) -> npt.NDArray[Any]:
-    """The results of the cases that are done, in the order of the file: a structured array, one row per body.
+    """Returns the results of finished cases in the order of the file: a structured array, one row per body.
 
-    Columns: case, key, the overrides by their paths, and those of Rollout.summary.
+    Columns: case, key, the overrides by their paths, and the columns of Rollout.summary.
     """
     return _structured(*_core._collect(cases, out))
 

@@ -15,8 +15,8 @@ import bullet_ambient as ba
 
 SCENES = ("plate_8cm", "plate_9cm", "plate_10cm")
 DURATION, FRAMES_PER_SECOND, STEPS_PER_FRAME = 6, 20, 4  # GIF counts hundredths of seconds
-WIDTH, HEIGHT, VIEW = 230, 280, 0.6  # of a panel [pixels], [pixels], and its width [m]
-FINER = 3  # drawn larger, then made smaller, for smooth edges
+WIDTH, HEIGHT, VIEW = 230, 280, 0.6  # size of a panel [pixels] and its width [m]
+FINER = 3  # factor by which pictures are drawn larger and then scaled down, for smooth edges
 GRID = 0.1  # [m]
 INK = (60, 70, 80)
 PAPER, LINES, PATH, PLATE = (255, 255, 255), (232, 236, 240), (150, 185, 220), (180, 50, 40)
@@ -33,14 +33,14 @@ def fall_of(name):
 
 
 def smooth(path, width):
-    """A camera that follows without haste: the mean over a window of samples."""
+    """Positions of the camera: moving mean over a window of samples."""
     padded = np.pad(path, ((width, width), (0, 0)), mode="edge")
     kernel = np.ones(2 * width + 1) / (2 * width + 1)
     return np.stack([np.convolve(column, kernel, mode="valid") for column in padded.T], axis=1)
 
 
 def draw_scale(pen, text, scale):
-    """A bar as long as the grid is wide, at the lower left, and what falls."""
+    """Draws a bar as long as a cell of the grid, at the lower left, and the caption."""
     fonts = Path(matplotlib.get_data_path()) / "fonts/ttf"
     font = ImageFont.truetype(str(fonts / "DejaVuSans.ttf"), 13 * FINER)
     left, bottom = 12 * FINER, (HEIGHT - 12) * FINER

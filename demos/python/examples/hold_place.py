@@ -19,7 +19,10 @@ DAMPING = np.diag([3, 0, 3, 250, 250, 250])  # [N m s], [N s/m]
 
 
 class Controller:
-    """Springs and dampers to a pose, shared out to the thrusters; all in the axes of the vehicle. Pitch is left to its weight."""
+    """Springs and dampers to a pose, distributed to the thrusters, in the axes of the vehicle.
+
+    Pitch is not controlled: weight and buoyancy right the vehicle.
+    """
 
     def __init__(self, world, position):
         self.robot, self.frame = world.robots["rov"], world.bodies["rov/frame"]
@@ -30,13 +33,13 @@ class Controller:
         self.shares = np.linalg.pinv(self.columns)
 
     def wanted(self, axes):
-        """The wrench that springs and dampers want; the error of the attitude is that of small angles."""
+        """Wrench of springs and dampers; the error of the attitude is taken for small angles."""
         error = np.array([-axes[2, 1], axes[2, 0], -axes[1, 0], *axes.T @ (self.position - self.frame.position)])
         twist = self.frame.twist.reshape(2, 3) @ axes
         return STIFFNESS @ error - DAMPING @ twist.ravel()
 
     def push(self):
-        """Before each step: propellers follow what they are asked for, and push the frame."""
+        """Call before each step: thrusts approach the wanted ones with the time constant LAG, and act on the frame."""
         axes = self.robot.pose("frame")[:3, :3]
         asked = np.clip(self.shares @ self.wanted(axes), -LARGEST, LARGEST)
         self.thrust += (asked - self.thrust) * self.time_step / (LAG + self.time_step)

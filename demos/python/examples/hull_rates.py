@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Whether hulls hold their course by both pressure laws, linearized about steady flight nose first: docs/reality_runs.md.
+"""Stability of the course of hulls by both pressure laws, linearized about steady flight nose first: docs/reality_runs.md.
 
 hull_rates.py [--faces N]: one row for each hull: side force per radian over dynamic pressure and frontal area; yawing moment
 of loads and potential flow over Munk's; rates of drift and turning in speeds per length, of a hull as heavy as the fluid.
@@ -31,7 +31,7 @@ def derivatives(body, law):
 
 
 def rates(body, load):
-    """Of Kirchhoff's equations with the loads, linear in drift v and turning r at a speed of 1 m/s [1/s]:
+    """Growth rates [1/s] of Kirchhoff's equations with the loads, linear in drift v and turning r at a speed of 1 m/s:
     B v' = -A r + Y, J r' = (A - B) v + N."""
     mass, inertia = body.volume, body.volume * body.uniform_mass[1]
     added = np.diag(body.added_mass)

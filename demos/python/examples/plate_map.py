@@ -20,7 +20,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 WIDTH, LENGTH = 0.04, 0.12  # [m]
 THICKNESS = (0.0004, 0.012)  # [m]
 MASS = (0.002, 0.6)  # [kg]
-RELEASE = 60  # from horizontal about the long axis [degrees]
+RELEASE = 60  # angle at release from horizontal, about the long axis [degrees]
 
 
 def scene(duration):
@@ -36,13 +36,13 @@ def scene(duration):
 
 
 class Countdown:
-    """A line that says how far a part of the work is and how long the rest will take."""
+    """Prints how much of a part of the work is done and how long the rest will take."""
 
     def __init__(self, what):
         self.what, self.begin, self.before = what, time.monotonic(), None
 
     def __call__(self, done, all_of_them):
-        """What is done at the first call was done by an earlier run, and says nothing of the speed."""
+        """Prints progress. Work that is done at the first call was done before, and is left out of the speed."""
         if self.before is None:
             self.before = done
         fresh = done - self.before
@@ -54,7 +54,7 @@ class Countdown:
 
 
 def prepare(sizes, of_plate, cache):
-    """Makes the fluid body of each size, which the runs then find."""
+    """Builds the fluid body of each size into the cache of the runs."""
     tell = Countdown("shapes")
     for done, size in enumerate(sizes):
         tell(done, len(sizes))

@@ -12,8 +12,8 @@ from PIL import Image, ImageDraw
 import bullet_ambient as ba
 
 SCENE, DURATION, FRAMES_PER_SECOND = "pool", 8, 12.5
-WIDTH, HEIGHT, VIEW, MIDDLE = 690, 400, 4.4, 0.1  # of the picture [pixels], [pixels], its width and middle height [m]
-FINER = 2  # drawn larger, then made smaller, for smooth edges
+WIDTH, HEIGHT, VIEW, MIDDLE = 690, 400, 4.4, 0.1  # size of the picture [pixels], its width and the height of its middle [m]
+FINER = 2  # factor by which pictures are drawn larger and then scaled down, for smooth edges
 WATER_DENSITY = 998.0
 AIR, WATER, STONE, EDGE = (246, 249, 252), (70, 130, 180, 110), (150, 150, 150), (60, 50, 40)
 LIGHT, HEAVY = np.array((245, 200, 120)), np.array((110, 60, 40))

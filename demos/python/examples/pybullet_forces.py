@@ -17,7 +17,7 @@ import bullet_ambient as ba
 
 
 def rotation(x, y, z, w):
-    """The matrix of a unit quaternion as PyBullet orders it."""
+    """Rotation matrix of a unit quaternion in PyBullet's order x, y, z, w."""
     r = np.array([x, y, z])
     return (w * w - r @ r) * np.eye(3) + 2 * np.outer(r, r) + 2 * w * np.cross(np.eye(3), r)
 
@@ -43,7 +43,7 @@ class FluidForces:
         spin, push = momentum[:3], momentum[3:]
         wrench += np.r_[np.cross(spin, angular) + np.cross(push, linear), np.cross(push, angular)]  # Kirchhoff's equations
         acceleration = np.linalg.solve(self.wet, wrench)
-        torque = self.inertia @ acceleration[:3] + np.cross(angular, self.inertia @ angular)  # less what Bullet adds itself
+        torque = self.inertia @ acceleration[:3] + np.cross(angular, self.inertia @ angular)  # without the gyroscopic torque that Bullet adds
         force = self.mass * (acceleration[3:] + np.cross(angular, linear) - gravity)
         self.client.applyExternalForce(self.body, -1, axes @ force, position, self.client.WORLD_FRAME)
         self.client.applyExternalTorque(self.body, -1, axes @ torque, self.client.WORLD_FRAME)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What forces alone lose: bodies that fall freely, by pybullet_forces.py in stock Bullet beside bullet_ambient.
+"""Errors of a fluid by forces alone: bodies that fall freely, by pybullet_forces.py in stock Bullet beside bullet_ambient.
 
 The numbers of docs/python.md. PyBullet itself is not needed: a World in a vacuum is stock Bullet, and DryBullet gives it
 the five functions of PyBullet that the forces use.
@@ -17,7 +17,7 @@ FINEST = 1 / 7680
 
 
 class DryBullet:
-    """The bodies of a scene in stock Bullet, by PyBullet's names."""
+    """Bodies of a scene in stock Bullet, with functions named as in PyBullet."""
 
     WORLD_FRAME = 2
 
@@ -71,7 +71,7 @@ def fall_by_forces(scene):
 
 
 def distances(name, duration, step):
-    """From the motion at the finest step at the end: by forces, by the library, and how far it went [m]."""
+    """Distances at the end from the motion with the finest step, by forces and by the library; and length of the motion [m]."""
     make = lambda step: ba.Scene(name, {"duration": duration, "time_step": step, "output_step": step})  # noqa: E731
     finest = ba.World(make(FINEST)).run(duration, duration).position[-1, 0]
     ours = ba.World(make(step)).run(duration).position[-1, 0]

@@ -22,7 +22,7 @@ def in_body_axes(orientation, vectors):
 
 
 def energy(scene, motion):
-    """(T,) [J]."""
+    """Energy (T,) [J]."""
     fluid = scene.medium.density
     total = np.zeros(len(motion.t))
     known = {}
@@ -44,7 +44,7 @@ def energy(scene, motion):
 
 
 def rise(values):
-    """Of a value above the lowest before it."""
+    """Largest rise of a value above the lowest value before it."""
     return np.max(values - np.minimum.accumulate(values))
 
 

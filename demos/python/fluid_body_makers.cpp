@@ -1,0 +1,156 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <utility>
+
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "demos/python/arrays.h"
+#include "demos/python/fluid_body_bindings.h"
+#include "demos/python/fluid_body_sources.h"
+
+namespace ambient {
+namespace {
+
+namespace py = pybind11;
+using FluidBodyPtr = std::shared_ptr<FluidBody>;
+
+/// Returns vertices (V, 3) and faces (F, 3) of a mesh object of one of several libraries, or of two
+/// arrays.
+std::pair<InputArray, py::array_t<std::int64_t>> meshArrays(const py::object& mesh,
+                                                            const py::object& faces) {
+  const auto arrays = [](const py::object& vertices, const py::object& triangles) {
+    using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+    return std::make_pair(vertices.cast<InputArray>(),
+                          py::array_t<std::int64_t>(triangles.cast<Indices>()));
+  };
+  if (!faces.is_none()) return arrays(mesh, faces);
+  if (py::hasattr(mesh, "vertices") && py::hasattr(mesh, "faces"))
+    return arrays(mesh.attr("vertices"), mesh.attr("faces"));
+  if (py::hasattr(mesh, "points") && py::hasattr(mesh, "cells_dict")) {
+    // Keys of cells: names with meshio, VTK's cell types with pyvista, where 5 is a triangle.
+    const py::dict cells = mesh.attr("cells_dict");
+    if (cells.contains("triangle")) return arrays(mesh.attr("points"), cells["triangle"]);
+    if (cells.contains(py::int_(5))) return arrays(mesh.attr("points"), cells[py::int_(5)]);
+  }
+  throw py::type_error(
+      "a mesh must have .vertices and .faces, or .points and .cells_dict with triangles; or give "
+      "two arrays");
+}
+
+TriangleMesh meshFrom(const py::object& mesh, const py::object& faces) {
+  const auto [vertices, triangles] = meshArrays(mesh, faces);
+  if (vertices.ndim() != 2 || vertices.shape(1) != 3)
+    throw py::value_error("vertices must be of shape (V, 3), not " + shapeText(vertices));
+  if (triangles.ndim() != 2 || triangles.shape(1) != 3)
+    throw py::value_error("faces must be of shape (F, 3), not " + shapeText(triangles));
+  TriangleMesh made;
+  made.vertices = Eigen::Map<const Eigen::Matrix3Xd>(vertices.data(), 3, vertices.shape(0));
+  made.triangles = Eigen::Map<const Eigen::Matrix<std::int64_t, 3, Eigen::Dynamic>>(
+                       triangles.data(), 3, triangles.shape(0))
+                       .cast<int>();
+  return made;
+}
+
+SourceSettings settingsFrom(const std::string& name, const py::kwargs& given) {
+  SourceSettings settings;
+  settings.name = name;
+  for (const auto& [key, value] : given) {
+    const auto word = key.cast<std::string>();
+    if (value.is_none()) continue;
+    if (word == "origin")
+      settings.origin = vectorFrom(py::cast<InputArray>(value), word);
+    else if (word == "panels")
+      settings.flow.max_panels = value.cast<int>();
+    else if (word == "threads")
+      settings.flow.threads = value.cast<int>();
+    else if (word == "waterline_table")
+      settings.waterline_subdivisions = value.cast<int>();
+    else if (word == "cache")
+      settings.cache = pathFrom(py::reinterpret_borrow<py::object>(value));
+    else
+      throw py::type_error("unknown keyword " + word +
+                           "; known are origin, panels, threads, waterline_table, cache");
+  }
+  return settings;
+}
+
+/// Calls `make` without the interpreter's lock, so that other threads of Python run. Issues the
+/// warnings of the build as Python warnings.
+template <class Make>
+FluidBodyPtr build(const Make& make) {
+  BuiltBody built;
+  {
+    const py::gil_scoped_release others_run;
+    built = make();
+  }
+  for (const std::string& warning : built.warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
+  return std::make_shared<FluidBody>(std::move(built.body));
+}
+
+FluidBodyPtr fromMesh(const py::object& mesh, const py::object& faces, bool sheet,
+                      const std::string& name, const py::kwargs& given) {
+  const TriangleMesh triangles = meshFrom(mesh, faces);
+  const SourceSettings settings = settingsFrom(name, given);
+  return build([&] { return buildFromMesh(triangles, sheet, settings); });
+}
+
+FluidBodyPtr fromShape(const py::object& shape, const std::string& name, const py::object& folder,
+                       const py::kwargs& given) {
+  const std::string json = jsonFrom(shape);
+  const std::filesystem::path where = pathFrom(folder);
+  const SourceSettings settings = settingsFrom(name, given);
+  return build([&] { return buildFromShape(json, where, settings); });
+}
+
+FluidBodyPtr read(const py::object& path) {
+  const std::filesystem::path file = pathFrom(path);
+  requireReadable(file);
+  return std::make_shared<FluidBody>(readFluidBody(file));
+}
+
+void write(const FluidBody& body, const py::object& path) {
+  writeOrOsError([&] { writeFluidBody(body, pathFrom(path)); });
+}
+
+}  // namespace
+
+void bindMakers(py::class_<FluidBody, FluidBodyPtr>& type) {
+  type.def_static("from_mesh", &fromMesh, py::arg("mesh"), py::arg("faces") = py::none(),
+                  py::kw_only(), py::arg("sheet") = false, py::arg("name") = "mesh",
+                  R"(Solves the flow around a closed mesh, or an open sheet.
+
+Parameters
+----------
+mesh : anything with .vertices and .faces, or .points and .cells_dict, or vertices (V, 3) [m]
+faces : (F, 3) indices, counter-clockwise seen from the fluid, if `mesh` is an array
+sheet : an open surface of zero thickness
+name : for messages
+origin : (3,) origin of F in the mesh's frame [m]; default: the centre of volume
+panels : largest number of panels for the flow; default 4200; 0: the faces of the mesh
+threads : number of threads; 0 (default): all cores; the result does not depend on it
+waterline_table : N from 1 to 16: also computes a table of the added mass at the surface of water, for
+    N divisions of the octahedron of attitudes, which takes half a minute and more; default 0: none
+cache : folder in which results are stored and found by content
+
+Raises ValueError in one line if the mesh is open, crosses itself or is otherwise no body.
+Cost: a second or two for a thousand faces.)")
+      .def_static(
+          "from_shape", &fromShape, py::arg("shape"), py::kw_only(), py::arg("name") = "shape",
+          py::arg("folder") = ".",
+          R"(Builds the fluid body of a shape described as in scenes: {"type": "box", "size": [1, 2, 3]}.
+
+`folder` is the folder of relative file names. from_mesh() describes origin, panels, threads, waterline_table and cache.)")
+      .def_static("read", &read, py::arg("path"), "Reads an .ambient file.")
+      .def("write", &write, py::arg("path"),
+           "Writes an .ambient file completely, or leaves the old one.")
+      .def(
+          "scaled",
+          [](const FluidBody& body, double factor) {
+            return std::make_shared<FluidBody>(scaled(body, factor));
+          },
+          py::arg("factor"), "Returns the shape scaled by `factor` about F's origin.");
+}
+
+}  // namespace ambient
