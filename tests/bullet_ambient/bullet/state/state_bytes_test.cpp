@@ -149,7 +149,8 @@ TEST_F(StateBytes, WithARightChecksumButWrongContentAreRefused) {
   wrong.bodies[1].angular_velocity.setZ(std::numeric_limits<btScalar>::infinity());
   expectSays(encodeState(wrong), "pose or velocity is not finite");
   wrong = state;
-  wrong.contacts[0].points.resize(5, wrong.contacts[0].points.at(0));
+  const btVector3 zero(0, 0, 0);
+  wrong.contacts[0].points.assign(5, btManifoldPoint(zero, zero, btVector3(0, 0, 1), 0));
   expectSays(encodeState(wrong), "a contact of 5 points; at most 4");
   wrong = state;
   wrong.contacts[0].pair.object_a = -3;
