@@ -8,12 +8,14 @@ namespace ambient {
 // of numbers with the same roundings: the same bits everywhere.
 
 /// |u| as eq. (43) sees it on a slender body: u_n + |t_m|^2/(|u| + u_n), with the squared slip
-/// across the body's axis, |t_m|^2. On the windward side only.
+/// across the body's axis, |t_m|^2. On the windward side only; elsewhere any finite number, 0 where
+/// |u| + u_n is 0, at rest and where the face moves straight away from the fluid.
 template <class Real>
 inline Real speedAcross(const Real& normal_speed, const Real& slip_across_sq, const Real& speed) {
-  const Real zero = {};
+  const Real zero = {}, sum = speed + normal_speed;
   const Real across_sq = slip_across_sq > zero ? slip_across_sq : zero;
-  return normal_speed + across_sq / (speed + normal_speed);
+  const Real across = normal_speed + across_sq / sum;
+  return sum > zero ? across : zero;
 }
 
 /// Windward part of q of eq. (43), 0 on the lee side; the pressure is -rho/2 q. `normal_speed` is

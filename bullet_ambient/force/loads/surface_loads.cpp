@@ -247,8 +247,9 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
       !(flow.separation_angle <= kPi * (1 + kRounding))) {
     reject(body, "separation angle [rad]", flow.separation_angle, "between pi/2 and pi");
   }
-  if (!(flow.stall_lag >= 0) || !std::isfinite(flow.stall_lag)) {
-    reject(body, "stall lag [lengths over speed]", flow.stall_lag, "zero or positive and finite");
+  constexpr double kLongestLag = 1e6;  // keeps its products with the motion finite
+  if (!(flow.stall_lag >= 0) || !(flow.stall_lag <= kLongestLag)) {
+    reject(body, "stall lag [lengths over speed]", flow.stall_lag, "from 0 to 1e6");
   }
   if (!(flow.maximum_load_error >= 0)) {
     reject(body, "largest error of its loads", flow.maximum_load_error, "zero or positive");

@@ -196,6 +196,40 @@ TEST(WingLoads, PressAtAQuarterOfTheChordAtSmallIncidence) {
   EXPECT_NEAR(moment / load.force.z(), -0.25, 0.02);
 }
 
+TEST(WingLoads, AreFiniteAtRestAndWhereAFaceMovesStraightAwayFromTheFluid) {
+  // |u| + u_n of eq. (43) is 0 there, on a hull that is a wing and slender.
+  FluidBody hull = test::smoothHull({4, 1, 0.3}, 2);
+  hull.added_mass.bottomRightCorner<3, 3>() = hull.volume * Vector3(0.05, 0.3, 3).asDiagonal();
+  const ShapeFactors factors(formShapeOf(hull));
+  ASSERT_TRUE(factors.in_double.is_wing && factors.in_double.is_slender);
+  FaceTable faces = hull.faces;
+  if (faces.sharpness.empty()) faces.sharpness.assign(faces.size(), 0);
+  const LoadSettings settings{1.3, 0, 0, false, PressureLaw::kForm, &factors};
+  for (const LoadPrecision precision : {LoadPrecision::kSingle, LoadPrecision::kDouble}) {
+    const auto loads = loadsOf(hull, precision);
+    EXPECT_TRUE(loads->load({Vector3::Zero(), Vector3::Zero()}).vector().isZero(0));
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (const double speed : {1.0, 1e-170}) {
+        const Twist x{Vector3::Zero(), -speed * faces.normal(i)};
+        EXPECT_TRUE(loads->load(x).vector().allFinite()) << i;
+        EXPECT_TRUE(computeFaceFlow(faces, i, 1, x, settings).pressure.allFinite()) << i;
+      }
+  }
+}
+
+TEST(WingLoads, RefuseALagWhoseProductsWithTheMotionMayNotBeFinite) {
+  const auto hull = std::make_shared<FluidBody>(test::smoothHull({4, 1, 0.3}, 2));
+  LoadTables tables;
+  FlowSettings flow = formLaw(LoadPrecision::kDouble);
+  flow.stall_lag = 1e6;
+  const auto loads = makeSurfaceLoads(hull, {1.3, 0, {}, {}}, flow, tables);
+  EXPECT_TRUE(loads->load({Vector3(0, 1e9, 0), Vector3(1e-9, 0, 1e-9)}).vector().allFinite());
+  for (const double lag : {-1.0, 1.1e6, 1e308, std::nan("")}) {
+    flow.stall_lag = lag;
+    EXPECT_THROW(makeSurfaceLoads(hull, {1.3, 0, {}, {}}, flow, tables), std::invalid_argument);
+  }
+}
+
 TEST(WingLoads, AreTheSumOfTheFlowAtEachFace) {
   test::Arbitrary arbitrary(75);
   for (int shape = 0; shape < 12; ++shape) {
