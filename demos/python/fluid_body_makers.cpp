@@ -1,7 +1,10 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
@@ -44,6 +47,12 @@ TriangleMesh meshFrom(const py::object& mesh, const py::object& faces) {
     throw py::value_error("vertices must be of shape (V, 3), not " + shapeText(vertices));
   if (triangles.ndim() != 2 || triangles.shape(1) != 3)
     throw py::value_error("faces must be of shape (F, 3), not " + shapeText(triangles));
+  const std::int64_t* const end = triangles.data() + triangles.size();
+  const auto wrong =
+      std::find_if(triangles.data(), end, [](std::int64_t i) { return i != static_cast<int>(i); });
+  if (wrong != end)
+    throw py::value_error("faces refer to vertex " + std::to_string(*wrong) + ", but there are " +
+                          std::to_string(vertices.shape(0)) + " vertices");
   TriangleMesh made;
   made.vertices = Eigen::Map<const Eigen::Matrix3Xd>(vertices.data(), 3, vertices.shape(0));
   made.triangles = Eigen::Map<const Eigen::Matrix<std::int64_t, 3, Eigen::Dynamic>>(

@@ -1,6 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <cmath>
 #include <optional>
 
 #include "demos/python/arrays.h"
@@ -34,9 +33,12 @@ Motion motionNow(const PythonWorld& world) {
 
 Motion run(PythonWorld& world, double duration, std::optional<double> output_step) {
   const double step = output_step.value_or(world.scene().output_step);
-  if (!(duration > 0) || !std::isfinite(duration) || !(step >= world.scene().time_step))
+  if (!(duration > 0) || !(step >= world.scene().time_step))
     throw py::value_error("duration must be above 0 and output_step at least the time step, " +
                           std::to_string(world.scene().time_step) + " s");
+  constexpr double kMostSteps = 1e9;  // as of scenes
+  if (!(duration / world.scene().time_step <= kMostSteps))
+    throw py::value_error("duration / time_step must be <= 1e9 steps");
   Simulation& simulation = world.simulation();
   MotionRecorder recorder(timesOf(simulation.time(), duration, step), world.scene().time_step);
   recorder.add(simulation.sample());

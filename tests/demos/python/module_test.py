@@ -213,6 +213,8 @@ class FluidBodyTest(Temporary):
             ba.FluidBody.from_mesh(vertices, faces[1:], name="brick")
         with self.assertRaisesRegex(ValueError, r"faces must be of shape \(F, 3\), not \(36,\)"):
             ba.FluidBody.from_mesh(vertices, faces.ravel())
+        with self.assertRaisesRegex(ValueError, "faces refer to vertex 1099511627776, but there are"):
+            ba.FluidBody.from_mesh(vertices, np.asarray(faces, np.int64) + 2**40)
         with self.assertRaisesRegex(ValueError, "radius is -1"):
             ba.FluidBody.from_shape({"type": "sphere", "radius": -1})
         with self.assertRaises(FileNotFoundError):
@@ -382,7 +384,7 @@ class WorldTest(Temporary):
         np.testing.assert_allclose(motion.position, once.run(1).position[50:], rtol=1e-9)
         self.assertSameBits(twice.position, once.position)  # times differ by rounding, steps do not
         self.assertEqual((motion.t[0], motion.t[-1]), (0.5, 1))
-        for duration, step in ((0, None), (1, 1e-9), (float("nan"), None)):
+        for duration, step in ((0, None), (1, 1e-9), (float("nan"), None), (1e30, None)):
             with self.assertRaises(ValueError):
                 once.run(duration, step)
 
