@@ -63,6 +63,11 @@ FluidBody scaled(const FluidBody& body, double factor) {
   result.added_mass = scaleShape(body.added_mass, factor);
   result.volume *= factor * factor * factor;
   result.area *= factor * factor;
+  if (!result.added_mass.allFinite() || !std::isfinite(result.volume + result.area) ||
+      (result.area > 0) != (body.area > 0) || (result.volume > 0) != (body.volume > 0)) {
+    reject(body, "factor of scaled()", factor,
+           "one that leaves its area, volume and added mass finite and above zero");
+  }
   result.centre_of_volume *= factor;
   result.origin *= factor;
   scale(result.uniform_mass, factor);

@@ -60,6 +60,8 @@ TEST(ScaledFluidBody, RefusesAFactorThatIsNotPositive) {
   EXPECT_THROW(scaled(exampleBody(), 0), std::invalid_argument);
   EXPECT_THROW(scaled(exampleBody(), -1), std::invalid_argument);
   EXPECT_THROW(scaled(exampleBody(), std::nan("")), std::invalid_argument);
+  EXPECT_THROW(scaled(exampleBody(), 1e100), std::invalid_argument);
+  EXPECT_THROW(scaled(exampleBody(), 1e-200), std::invalid_argument);
 }
 
 }  // namespace
