@@ -110,8 +110,8 @@ Vector3 extentsOf(const FluidBody& body);
 
 /// Returns the shape enlarged by s = `factor` about F's origin: areas grow by s^2, volumes by s^3,
 /// added mass by s^3 to s^5, see scaleShape(). The factor is appended to provenance.settings.
-/// @throws std::invalid_argument if the factor is not positive and finite, or leaves no finite area,
-/// volume and added mass above zero.
+/// @throws std::invalid_argument if the factor is not positive and finite, or leaves no finite
+/// area, volume and added mass above zero.
 FluidBody scaled(const FluidBody& body, double factor);
 
 /// Throws std::invalid_argument: one line that names the fluid body, the value and the limit.
