@@ -59,6 +59,24 @@ AMBIENT_INLINE Four sumsOfThree(const Four& a, const Four& b, const Four& c, con
 
 #endif
 
+/// Two numbers in double: of a spin and of a velocity, say.
+using DoublePair __attribute__((vector_size(16))) = double;
+/// The pairs (a_i, b_i).
+struct DoublePairs {
+  DoublePair x, y, z;
+};
+/// a . c + b . d
+AMBIENT_INLINE double product(const DoublePairs& ab, const DoublePairs& cd) {
+  const DoublePair sums = (ab.x * cd.x + ab.y * cd.y) + ab.z * cd.z;
+  return sums[0] + sums[1];
+}
+AMBIENT_INLINE DoublePairs pairsOf(const btVector3& a, const btVector3& b) {
+  const auto pair = [&](int i) {
+    return DoublePair{static_cast<double>(a.m_floats[i]), static_cast<double>(b.m_floats[i])};
+  };
+  return {pair(0), pair(1), pair(2)};
+}
+
 AMBIENT_INLINE Four load(const btVector3& v) {
   Four a;
   __builtin_memcpy(&a, v.m_floats, sizeof a);

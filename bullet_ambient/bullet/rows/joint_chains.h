@@ -3,10 +3,11 @@
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>
 #include <BulletDynamics/ConstraintSolver/btSolverConstraint.h>
 
-#include <cstddef>
 #include <vector>
 
+#include "bullet_ambient/bullet/core/four_numbers.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/bullet/rows/chain_factor.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 
 class btTypedConstraint;
@@ -27,9 +28,9 @@ AMBIENT_BEGIN
 // remains comes back as energy by position correction.
 //
 // The matrix is factored by Cholesky's method. Rows are ordered along the chain of joints, so that
-// only entries from the first nonzero one of a row to its diagonal are stored. Rows with bounds
-// (limits, motors, springs) and rows of bodies with locked axes are left to the iterations. So are
-// joints in loops, whose rows may contradict each other.
+// only entries from the first nonzero one of a row to its diagonal are stored (chain_factor.h).
+// Rows with bounds (limits, motors, springs) and rows of bodies with locked axes are left to the
+// iterations. So are joints in loops, whose rows may contradict each other.
 
 /// Solves the joint rows of ambient bodies, and of bodies joined to them. Reuses its memory.
 class JointChains {
@@ -43,46 +44,53 @@ class JointChains {
   int solve(btConstraintArray& joints, RowBodies& ambient, SolverBodies& bodies) noexcept;
 
  private:
-  // Jacobian and response of a row at one of its bodies. World axes.
-  struct Side {
-    int body;                 // solver body; -1: none, or one that cannot move
-    Vector3 angular, linear;  // Jacobian
-    Vector3 spin, velocity;   // velocity change by a unit impulse
+  enum class Kind : char {
+    kFixed,  // cannot move
+    kPlain,  // its response is symmetric and the same in all its rows
+    kOther   // has locked axes, or belongs to another group
   };
-  struct Row {
-    int index;       // in the pool
-    int first;       // column of its first entry in the factor: first row that shares a body
-    std::size_t at;  // position of that entry in factor_
-    Side sides[2];
+  // A solver body. An end is a row of the pool at one of its bodies: twice its index, plus 1 for
+  // body B.
+  struct Body {
+    Kind kind = Kind::kFixed;
+    bool is_ambient = false;
+    bool is_visited = false;
+    int end = -1;                                   // last end at it; -1: none
+    int side = -1;                                  // last of sides_ at it; -1: none
+    int first_row = -1;                             // its first row in rows_; -1: none
+    const btTypedConstraint* entered_by = nullptr;  // joint by which it was found
+    DoublePairs change;  // of spin and velocity by warm starting, set unless it cannot move
+  };
+  // Jacobian and response of a row at one of its bodies, angular and linear. World axes.
+  struct Side {
+    int body;    // solver body; -1: one that cannot move
+    int before;  // side of an earlier row at the same body; -1: none
+    DoublePairs jacobian;
+    DoublePairs response;  // velocity change by a unit impulse
   };
 
-  void linkBodies() noexcept;
+  Body describe(int body) const noexcept;
+  bool linkBodies() noexcept;
   int solveChain(int root) noexcept;
   bool gatherChain(int root) noexcept;
   void addRow(int index) noexcept;
-  bool factorize() noexcept;
-  bool reduceRow(int i) noexcept;
-  void substitute() noexcept;
-  double missingVelocity(const Row& row) const noexcept;
+  int addSide(Side& side, int body, const btVector3& angular, const btVector3& linear,
+              const btVector3& angular_component) noexcept;
+  void fillMatrix() noexcept;
+  double missingVelocity(int row) const noexcept;
   int apply() noexcept;
-  bool isPlain(int body) const noexcept;
-  bool canMove(int body) const noexcept;
-  Side sideOf(int body, const btVector3& angular, const btVector3& linear,
-              const btVector3& angular_component) const noexcept;
-  int otherBody(int row, int body) const noexcept;
 
   btConstraintArray* joints_ = nullptr;
   RowBodies* ambient_ = nullptr;
-  SolverBodies* bodies_ = nullptr;
+  SolverBodies* solver_bodies_ = nullptr;
 
-  std::vector<int> first_link_;  // by body: position of its first row in links_
-  std::vector<int> links_;       // rows (index in the pool) of all bodies, one body after another
-  std::vector<const btTypedConstraint*> entered_by_;  // by body: joint by which it was found
-  std::vector<char> is_visited_;                      // by body
-  std::vector<int> first_row_;                        // by body: its first row in rows_; -1: none
-  std::vector<int> queue_;                            // bodies of the present chain
-  std::vector<Row> rows_;                             // rows of the present chain
-  std::vector<double> factor_, impulse_;
+  std::vector<Body> bodies_;
+  std::vector<int> next_end_;  // by end: the one before it at the same body
+  std::vector<int> queue_;     // bodies of the present chain
+  std::vector<int> rows_;      // rows of the present chain, in the pool
+  std::vector<Side> sides_;    // two per row of the present chain; beyond them unused ones
+  ChainFactor factor_;
+  std::vector<double> impulses_;  // of the present chain, zeros up to a multiple of four
 };
 
 AMBIENT_END
