@@ -47,6 +47,14 @@ AMBIENT_INLINE btScalar solveIn(const RowPass& pass, const btSolverConstraint& r
   return btMax(largest, residual * residual);
 }
 
+AMBIENT_INLINE btScalar solveJoints(const RowPass& pass, int iteration, btScalar largest) {
+  for (int i = 0; i < pass.rows.size(); ++i) {
+    const btSolverConstraint& row = pass.rows[pass.order[i]];
+    if (iteration < row.m_overrideNumSolverIterations) largest = solveIn(pass, row, true, largest);
+  }
+  return largest;
+}
+
 AMBIENT_INLINE btScalar solveContacts(const RowPass& pass, btScalar largest) {
   for (int i = 0; i < pass.rows.size(); ++i)
     largest = solveIn(pass, pass.rows[pass.order[i]], false, largest);
@@ -68,24 +76,27 @@ AMBIENT_INLINE btScalar solveFrictions(const RowPass& pass, const btConstraintAr
 
 // Defines a struct with the functions of QuickRows, compiled for the instruction set `target`.
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute takes none
-#define AMBIENT_QUICK_ROWS(name, target)                                               \
-  struct name {                                                                        \
-    target static btScalar generic(btSolverBody& a, btSolverBody& b,                   \
-                                   const btSolverConstraint& row) {                    \
-      return solve<true>(a, b, row);                                                   \
-    }                                                                                  \
-    target static btScalar lowerLimit(btSolverBody& a, btSolverBody& b,                \
-                                      const btSolverConstraint& row) {                 \
-      return solve<false>(a, b, row);                                                  \
-    }                                                                                  \
-    target static btScalar contacts(const RowPass& pass, btScalar largest) {           \
-      return solveContacts(pass, largest);                                             \
-    }                                                                                  \
-    target static btScalar frictions(const RowPass& pass, const btConstraintArray& of, \
-                                     btScalar largest) {                               \
-      return solveFrictions(pass, of, largest);                                        \
-    }                                                                                  \
-    static constexpr QuickRows kAll{generic, lowerLimit, contacts, frictions};         \
+#define AMBIENT_QUICK_ROWS(name, target)                                                  \
+  struct name {                                                                           \
+    target static btScalar generic(btSolverBody& a, btSolverBody& b,                      \
+                                   const btSolverConstraint& row) {                       \
+      return solve<true>(a, b, row);                                                      \
+    }                                                                                     \
+    target static btScalar lowerLimit(btSolverBody& a, btSolverBody& b,                   \
+                                      const btSolverConstraint& row) {                    \
+      return solve<false>(a, b, row);                                                     \
+    }                                                                                     \
+    target static btScalar joints(const RowPass& pass, int iteration, btScalar largest) { \
+      return solveJoints(pass, iteration, largest);                                       \
+    }                                                                                     \
+    target static btScalar contacts(const RowPass& pass, btScalar largest) {              \
+      return solveContacts(pass, largest);                                                \
+    }                                                                                     \
+    target static btScalar frictions(const RowPass& pass, const btConstraintArray& of,    \
+                                     btScalar largest) {                                  \
+      return solveFrictions(pass, of, largest);                                           \
+    }                                                                                     \
+    static constexpr QuickRows kAll{generic, lowerLimit, contacts, frictions, joints};    \
   };
 // NOLINTEND(bugprone-macro-parentheses)
 

@@ -34,6 +34,8 @@ struct QuickRows {
   /// Solves the friction rows of contacts whose impulse is positive, between -mu and mu times that
   /// impulse. Returns a value like contacts().
   btScalar (*frictions)(const RowPass& pass, const btConstraintArray& contacts, btScalar largest);
+  /// Joints in turn, those that take part in an iteration. Returns as contacts().
+  btScalar (*joints)(const RowPass& pass, int iteration, btScalar largest);
 };
 
 /// Returns the row functions for the processor's instruction set.

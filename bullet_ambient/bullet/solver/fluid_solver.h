@@ -183,14 +183,11 @@ class FluidSolver : public Base {
           bodies[row.m_solverBodyIdA], bodies[row.m_solverBodyIdB], row);
       return btMax(largest, residual * residual);
     };
-    btScalar largest = 0;
-    for (int i = 0; i < joints.size(); ++i) {
-      const btSolverConstraint& row = joints[this->m_orderNonContactConstraintPool[i]];
-      if (iteration < row.m_overrideNumSolverIterations) largest = solve(row, largest);
-    }
+    const QuickRows& quick = quickRows();
+    btScalar largest =
+        quick.joints({joints, this->m_orderNonContactConstraintPool, bodies}, iteration, 0);
     if (iteration >= info.m_numIterations) return largest;
     solveObsolete(constraints, constraint_count, info.m_timeStep);
-    const QuickRows& quick = quickRows();
     largest = quick.contacts({contacts, this->m_orderTmpConstraintPool, bodies}, largest);
     largest = quick.frictions({this->m_tmpSolverContactFrictionConstraintPool,
                                this->m_orderFrictionConstraintPool, bodies},
