@@ -36,6 +36,25 @@ std::vector<std::string> sceneNames() {
   return names;
 }
 
+// Comparison, hash, print and pickle: scenes of one text and file are equal.
+void bindIdentity(py::class_<Scene>& type) {
+  type.def(
+          "__eq__",
+          [](const Scene& a, const Scene& b) { return a.text == b.text && a.file == b.file; },
+          py::is_operator())
+      .def("__hash__", [](const Scene& scene) { return py::hash(py::str(scene.text)); })
+      .def("__repr__",
+           [](const Scene& scene) {
+             return "<Scene \"" + scene.name + "\": " + std::to_string(scene.bodies.size()) +
+                    " bodies>";
+           })
+      .def(py::pickle(
+          [](const Scene& scene) { return py::make_tuple(scene.text, scene.file.string()); },
+          [](const py::tuple& state) {
+            return parseScene(state[0].cast<std::string>(), state[1].cast<std::string>());
+          }));
+}
+
 }  // namespace
 
 std::vector<SceneOverride> overridesFrom(const py::dict& changes) {
@@ -47,8 +66,9 @@ std::vector<SceneOverride> overridesFrom(const py::dict& changes) {
 }
 
 void bindScene(py::module_& module) {
-  py::class_<Scene>(module, "Scene",
-                    R"(Bodies, joints and a fluid, checked against the schema of scenes. Immutable.
+  py::class_<Scene> type(
+      module, "Scene",
+      R"(Bodies, joints and a fluid, checked against the schema of scenes. Immutable.
 
 Parameters
 ----------
@@ -62,8 +82,9 @@ folder : folder of relative file names in a dict; default: the current folder
 Traceback (most recent call last):
     ...
 ValueError: ...sphere_fall.json: duration is -1; must be > 0
-)")
-      .def(py::init(&makeScene), py::arg("source"), py::arg("overrides") = py::none(),
+)");
+  bindIdentity(type);
+  type.def(py::init(&makeScene), py::arg("source"), py::arg("overrides") = py::none(),
            py::kw_only(), py::arg("folder") = ".")
       .def(
           "replace",
@@ -90,22 +111,7 @@ ValueError: ...sphere_fall.json: duration is -1; must be > 0
                     "Medium of all bodies without a density of their own.")
       .def_property_readonly("bodies", &bodyNames, "Names of the bodies.")
       .def_property_readonly(
-          "key", &keyOf, "Hash (16 digits) of everything that a run depends on, see run_cases().")
-      .def(
-          "__eq__",
-          [](const Scene& a, const Scene& b) { return a.text == b.text && a.file == b.file; },
-          py::is_operator())
-      .def("__hash__", [](const Scene& scene) { return py::hash(py::str(scene.text)); })
-      .def("__repr__",
-           [](const Scene& scene) {
-             return "<Scene \"" + scene.name + "\": " + std::to_string(scene.bodies.size()) +
-                    " bodies>";
-           })
-      .def(py::pickle(
-          [](const Scene& scene) { return py::make_tuple(scene.text, scene.file.string()); },
-          [](const py::tuple& state) {
-            return parseScene(state[0].cast<std::string>(), state[1].cast<std::string>());
-          }));
+          "key", &keyOf, "Hash (16 digits) of everything that a run depends on, see run_cases().");
   module.def("scene_names", &sceneNames,
              "Returns the names of the scenes that come with the library.");
 }

@@ -111,9 +111,31 @@ py::dict wetOf(const PythonBody& body) {
   return state;
 }
 
+void bindForces(py::class_<PythonBody>& type) {
+  type.def(
+          "apply_force", &applyForce, py::arg("force"), py::arg("at") = py::none(),
+          "Adds a force (3,) [N] at a point (3,) [m] for one step; default: at the centre of mass.")
+      .def(
+          "apply_torque",
+          [](const PythonBody& b, const InputArray& torque) {
+            b.world->simulation().applyTorque(b.index, vectorFrom(torque, "torque"));
+          },
+          py::arg("torque"), "Adds a torque (3,) [N m] for one step.")
+      .def(
+          "set_medium",
+          [](const PythonBody& b, const Medium& medium) {
+            b.world->simulation().setMedium(b.index, medium);
+          },
+          py::arg("medium"),
+          "Changes the fluid around the body where it is in no water or region of the scene. The "
+          "velocity of the body stays.");
+}
+
 void bindBody(py::module_& module) {
-  py::class_<PythonBody>(module, "Body", "One body of a world in its present state; world axes.")
-      .def_property_readonly(
+  py::class_<PythonBody> type(module, "Body",
+                              "One body of a world in its present state; world axes.");
+  bindForces(type);
+  type.def_property_readonly(
           "position", [](const PythonBody& b) { return arrayOf(b.sample().position); },
           "Position (3,) of the centre of mass [m].")
       .def_property_readonly(
@@ -155,24 +177,7 @@ True
           R"(Part of the body that is in its fluid, below the surface if there is one.
 
 "volume" [m^3], "share" of its volume, "draught" [m] of its lowest point (inf: no surface), "area" [m^2],
-"centre_of_buoyancy" (3,) [m] and "region" (-1: none).)")
-      .def(
-          "apply_force", &applyForce, py::arg("force"), py::arg("at") = py::none(),
-          "Adds a force (3,) [N] at a point (3,) [m] for one step; default: at the centre of mass.")
-      .def(
-          "apply_torque",
-          [](const PythonBody& b, const InputArray& torque) {
-            b.world->simulation().applyTorque(b.index, vectorFrom(torque, "torque"));
-          },
-          py::arg("torque"), "Adds a torque (3,) [N m] for one step.")
-      .def(
-          "set_medium",
-          [](const PythonBody& b, const Medium& medium) {
-            b.world->simulation().setMedium(b.index, medium);
-          },
-          py::arg("medium"),
-          "Changes the fluid around the body where it is in no water or region of the scene. The "
-          "velocity of the body stays.");
+"centre_of_buoyancy" (3,) [m] and "region" (-1: none).)");
 }
 
 void bindWorldMotion(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
@@ -209,6 +214,22 @@ current folder. States that were saved before cannot be restored any more.
       .def_property_readonly("robots", &robotsOf, "Robots by name, in the order of the scene.");
 }
 
+void bindStates(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
+  type.def(
+          "state", [](const PythonWorld& w) { return py::bytes(w.simulation().saveState()); },
+          "Returns all that changes from step to step, for restore().")
+      .def(
+          "restore",
+          [](PythonWorld& w, const py::bytes& state) {
+            w.simulation().restoreState(std::string(state));
+          },
+          py::arg("state"),
+          "Restores a state of this world or of another one of the same scene. The motion then "
+          "goes on "
+          "bit for bit, except where boxes, hulls and the like touch, because their contacts are "
+          "found anew.");
+}
+
 }  // namespace
 
 void bindWorld(py::module_& module) {
@@ -233,6 +254,7 @@ True
 )");
   bindWorldMotion(type);
   bindWorldRobots(type);
+  bindStates(type);
   type.def(py::init([](const Scene& scene, const py::object& cache, bool robots) {
              return std::make_shared<PythonWorld>(
                  scene, cache.is_none() ? std::filesystem::path() : pathFrom(cache), robots);
@@ -256,19 +278,6 @@ True
       .def_property_readonly(
           "warning", [](const PythonWorld& w) { return w.simulation().warning(); },
           "Last report of the library; empty: none.")
-      .def(
-          "state", [](const PythonWorld& w) { return py::bytes(w.simulation().saveState()); },
-          "Returns all that changes from step to step, for restore().")
-      .def(
-          "restore",
-          [](PythonWorld& w, const py::bytes& state) {
-            w.simulation().restoreState(std::string(state));
-          },
-          py::arg("state"),
-          "Restores a state of this world or of another one of the same scene. The motion then "
-          "goes on "
-          "bit for bit, except where boxes, hulls and the like touch, because their contacts are "
-          "found anew.")
       .def("close", &PythonWorld::close,
            "Frees the memory of the world, which cannot be used afterwards.")
       .def("__enter__", [](const std::shared_ptr<PythonWorld>& w) { return w; })
