@@ -9,6 +9,7 @@
 #include <typeinfo>
 #include <utility>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 
 AMBIENT_BEGIN
@@ -85,16 +86,17 @@ void watch(btDiscreteDynamicsWorld& world, const std::shared_ptr<WorldLife>& lif
 }
 
 void stopWatching(btDiscreteDynamicsWorld& world, WorldLife& life) {
-  btSimulationIslandManager& watching = *(world.*kIslandManager);
+  btSimulationIslandManager* watching = world.*kIslandManager;
+  AMBIENT_ASSERT(watching);
   btSimulationIslandManager* given = std::exchange(life.given, nullptr);
-  auto* multithreaded = dynamic_cast<btSimulationIslandManagerMt*>(&watching);
+  auto* multithreaded = dynamic_cast<btSimulationIslandManagerMt*>(watching);
   if (multithreaded) {
     copySettings(*multithreaded, static_cast<btSimulationIslandManagerMt&>(*given));
   } else {
-    copySettings(watching, *given);
+    copySettings(*watching, *given);
   }
   world.*kIslandManager = given;
-  destroy(&watching);
+  destroy(watching);
 }
 
 AMBIENT_END
