@@ -22,18 +22,25 @@ constexpr double kMostWork = 1e4;
 
 using Group = ChainFactor::Group;
 
-// Entries of four rows in one column, at any address of doubles.
-using Lanes = double __attribute__((vector_size(32), aligned(8), may_alias));
-AMBIENT_INLINE Lanes& lanesAt(double* at) { return *reinterpret_cast<Lanes*>(at); }
-AMBIENT_INLINE const Lanes& lanesAt(const double* at) {
-  return *reinterpret_cast<const Lanes*>(at);
+// Entries of four rows in one column. By reference, as without AVX a compiler has no agreed way to
+// return them.
+using Lanes = double __attribute__((vector_size(32)));
+AMBIENT_INLINE void loadLanes(Lanes& lanes, const double* at) {
+  __builtin_memcpy(&lanes, at, sizeof lanes);
+}
+AMBIENT_INLINE void storeLanes(double* at, const Lanes& lanes) {
+  __builtin_memcpy(at, &lanes, sizeof lanes);
 }
 
 // Subtracts `count` columns of four rows, each times its factor, from a sum, one after the other.
 // `stride`: from factor to factor.
 AMBIENT_INLINE void subtract(Lanes& sum, const double* columns, const double* factors, int stride,
                              int count) {
-  for (int k = 0; k < count; ++k) sum -= lanesAt(columns + 4 * k) * factors[stride * k];
+  for (int k = 0; k < count; ++k) {
+    Lanes column;
+    loadLanes(column, columns + 4 * k);
+    sum -= column * factors[stride * k];
+  }
 }
 
 // Computes L of four rows in the columns of all rows before them.
@@ -46,9 +53,10 @@ AMBIENT_INLINE void reduceLeft(const Group* groups, double* elements, int number
     const int first = std::max(group.first, other.first);
     for (int j = std::max(group.first, 4 * earlier); j < 4 * earlier + 4; ++j) {
       const double* L_j = of_others + j % 4;
-      Lanes sum = lanesAt(columns + 4 * j);
+      Lanes sum;
+      loadLanes(sum, columns + 4 * j);
       subtract(sum, columns + 4 * first, L_j + 4 * first, 4, j - first);
-      lanesAt(columns + 4 * j) = sum * L_j[4 * j];
+      storeLanes(columns + 4 * j, sum * L_j[4 * j]);
     }
   }
 }
@@ -60,12 +68,13 @@ AMBIENT_INLINE bool reduceOwn(const Group& group, double* elements, int number, 
   const int before = 4 * number - group.first;
   for (int row = 0; row < count; ++row) {
     double* own = columns + 4 * (before + row);
-    Lanes sum = lanesAt(own);
+    Lanes sum;
+    loadLanes(sum, own);
     subtract(sum, columns, columns + row, 4, before + row);
     const double rest = sum[row];
     if (!(rest > kNoPivot * own[row])) return false;
     const double inverse = 1 / std::sqrt(rest);
-    lanesAt(own) = sum * inverse;
+    storeLanes(own, sum * inverse);
     own[row] = inverse;
   }
   return true;
@@ -84,9 +93,10 @@ AMBIENT_INLINE void forward(const Group& group, const double* elements, int numb
   const double* columns = elements + group.at;
   double* own = x + 4 * number;
   const int before = 4 * number - group.first;
-  Lanes sum = lanesAt(own);
+  Lanes sum;
+  loadLanes(sum, own);
   subtract(sum, columns, x + group.first, 1, before);
-  lanesAt(own) = sum;
+  storeLanes(own, sum);
   columns += 4 * before;
   for (int row = 0; row < 4; ++row) {
     for (int j = 0; j < row; ++j) own[row] -= columns[4 * j + row] * own[j];
@@ -104,9 +114,12 @@ AMBIENT_INLINE void backward(const Group& group, const double* elements, int num
     own[row] *= own_columns[4 * row + row];
     for (int j = 0; j < row; ++j) own[j] -= own_columns[4 * j + row] * own[row];
   }
-  const Lanes found = lanesAt(own);
+  Lanes found;
+  loadLanes(found, own);
   for (int j = 0; j < before; ++j) {
-    const Lanes change = lanesAt(columns + 4 * j) * found;
+    Lanes change;
+    loadLanes(change, columns + 4 * j);
+    change *= found;
     double& sum = x[group.first + j];
     sum = (((sum - change[3]) - change[2]) - change[1]) - change[0];
   }
