@@ -100,6 +100,8 @@ Parsed parseArguments(int argc, char** argv) {
   app.add_flag("--quiet", parsed.arguments.quiet, "Print errors only");
   addCasesOptions(app, parsed.arguments.cases);
   try {
+    const std::string empty = emptyArgument(argc, argv);
+    if (!empty.empty()) throw std::invalid_argument(empty);
     app.parse(argc, argv);
     for (const std::string& text : sets) parsed.arguments.overrides.push_back(parseOverride(text));
     parsed.arguments.log = parseFluidLog(log);

@@ -69,6 +69,9 @@ struct Surface {
       triangles;  ///< three vertex indices per triangle, counter-clockwise from the fluid
 };
 
+/// Largest measured drag coefficient; keeps its products with the motion finite.
+constexpr double kLargestDrag = 1e6;
+
 /// Data of one shape for the fluid loads: plain data, per unit fluid density, independent of mass
 /// and medium. Frame F: axes of the source mesh, origin chosen by the builder (default: centre of
 /// volume).
@@ -92,7 +95,7 @@ struct FluidBody {
   /// have a closed form, docs/theory.md section 10; faces and levels are not evaluated.
   double sphere_radius = 0;
   /// Measured drag coefficients along the axes of F, on the frontal areas; the form law is scaled
-  /// to them, eq. (51). All three are positive, or all are 0: not measured.
+  /// to them, eq. (51). All three are positive, at most kLargestDrag, or all are 0: not measured.
   Vector3 drag{0, 0, 0};
   /// Parts of the added mass, one per patch of the surface, for bodies that the water's surface
   /// cuts. The sum of all parts is the added mass up to discretisation; empty: not known.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -43,9 +44,7 @@ RigidState readState(const btRigidBody& body) {
   RigidState state;
   state.orientation = toQuaternion(body.getWorldTransform().getRotation());
   state.position = toVector3(body.getWorldTransform().getOrigin());
-  const Quaternion to_body = state.orientation.conjugate();
-  state.twist.angular = to_body * toVector3(body.getAngularVelocity());
-  state.twist.linear = to_body * toVector3(body.getLinearVelocity());
+  state.twist = turned(state.orientation.conjugate(), velocityOf(body));
   return state;
 }
 

@@ -87,6 +87,11 @@ inline void countLoads(AmbientBody& ambient, int evaluations) noexcept {
   if (loads) ambient.counters.faces += static_cast<long long>(evaluations) * loads->faces();
 }
 
+/// Reads the velocity of a btRigidBody, world axes.
+inline Twist velocityOf(const btRigidBody& body) {
+  return {toVector3(body.getAngularVelocity()), toVector3(body.getLinearVelocity())};
+}
+
 /// Reads pose and twist of a btRigidBody; pose in W, twist in body axes.
 RigidState readState(const btRigidBody& body);
 

@@ -6,6 +6,31 @@
 #include "bullet_ambient/base/elementary.h"
 
 namespace ambient {
+namespace {
+
+// A number of each of two vectors, in one register.
+using Pair __attribute__((vector_size(16))) = double;
+struct VectorPair {
+  Pair x, y, z;
+};
+
+VectorPair cross(const Vector3& a, const VectorPair& b) {
+  return {a.y() * b.z - a.z() * b.y, a.z() * b.x - a.x() * b.z, a.x() * b.y - a.y() * b.x};
+}
+
+}  // namespace
+
+Twist turned(const Quaternion& q, const Twist& x) {
+  const VectorPair v{
+      {x.angular.x(), x.linear.x()}, {x.angular.y(), x.linear.y()}, {x.angular.z(), x.linear.z()}};
+  const Vector3 u = q.vec();
+  VectorPair t = cross(u, v);
+  t = {t.x + t.x, t.y + t.y, t.z + t.z};
+  const VectorPair s = cross(u, t);
+  const double w = q.w();
+  const Pair a = v.x + w * t.x + s.x, b = v.y + w * t.y + s.y, c = v.z + w * t.z + s.z;
+  return {{a[0], b[0], c[0]}, {a[1], b[1], c[1]}};
+}
 
 Quaternion rotationFromVector(const Vector3& r) {
   const double angle = r.norm();

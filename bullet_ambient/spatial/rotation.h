@@ -2,12 +2,16 @@
 
 #include <Eigen/Geometry>
 
-#include "bullet_ambient/spatial/vector_types.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
 
 /// Unit quaternion of the rotation by the angle |r| about the axis r [rad].
 Quaternion rotationFromVector(const Vector3& r);
+
+/// Turns both vectors of a twist by a unit quaternion. Costs little more than one product q * v,
+/// and has the bits of two.
+Twist turned(const Quaternion& q, const Twist& x);
 
 /// Rotation vector of a unit quaternion [rad], length <= pi; accurate for tiny rotations, too.
 Vector3 rotationVector(const Quaternion& q);

@@ -18,14 +18,25 @@ namespace {
 namespace py = pybind11;
 using FluidBodyPtr = std::shared_ptr<FluidBody>;
 
+using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+/// Returns the indices of vertices that the faces have. Throws TypeError for numbers that are not
+/// integers, which the conversion would cut.
+Indices indicesFrom(const py::object& faces) {
+  const auto given = py::array::ensure(faces);
+  if (!given) throw py::error_already_set();
+  const char kind = given.dtype().kind();
+  if (kind != 'i' && kind != 'u' && given.size() > 0)
+    throw py::type_error("faces must be integers, not " +
+                         py::str(given.dtype()).cast<std::string>());
+  return given.cast<Indices>();
+}
+
 /// Returns vertices (V, 3) and faces (F, 3) of a mesh object of one of several libraries, or of two
 /// arrays.
-std::pair<InputArray, py::array_t<std::int64_t>> meshArrays(const py::object& mesh,
-                                                            const py::object& faces) {
+std::pair<InputArray, Indices> meshArrays(const py::object& mesh, const py::object& faces) {
   const auto arrays = [](const py::object& vertices, const py::object& triangles) {
-    using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
-    return std::make_pair(vertices.cast<InputArray>(),
-                          py::array_t<std::int64_t>(triangles.cast<Indices>()));
+    return std::make_pair(vertices.cast<InputArray>(), indicesFrom(triangles));
   };
   if (!faces.is_none()) return arrays(mesh, faces);
   if (py::hasattr(mesh, "vertices") && py::hasattr(mesh, "faces"))

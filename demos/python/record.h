@@ -70,6 +70,12 @@ class Record {
     return *this;
   }
 
+  /// Calls check for each new object; what it throws refuses the object.
+  Record& checkedBy(void (*check)(const T&)) {
+    checks().push_back(check);
+    return *this;
+  }
+
  private:
   struct Field {
     std::string name;
@@ -82,6 +88,16 @@ class Record {
     return all;
   }
 
+  static std::vector<void (*)(const T&)>& checks() {
+    static std::vector<void (*)(const T&)> all;
+    return all;
+  }
+
+  static T checked(const T& made) {
+    for (const auto check : checks()) check(made);
+    return made;
+  }
+
   static T make(const char* name, const pybind11::args& unnamed, const pybind11::kwargs& given) {
     if (!unnamed.empty())
       throw pybind11::type_error(std::string(name) + "(): takes keywords alone: " + names());
@@ -92,7 +108,7 @@ class Record {
       field.set(made, given[field.name.c_str()]);
       ++known;
     }
-    if (known == given.size()) return made;
+    if (known == given.size()) return checked(made);
     throw pybind11::type_error(std::string(name) + "(): unknown keyword; known are " + names());
   }
 
@@ -111,7 +127,7 @@ class Record {
   static T fromValues(const pybind11::tuple& state) {
     T made;
     for (std::size_t i = 0; i < fields().size(); ++i) fields()[i].set(made, state[i]);
-    return made;
+    return checked(made);
   }
 
   static std::string repr(const char* name, const T& self) {

@@ -1,8 +1,9 @@
+#include <sstream>
 #include <stdexcept>
 
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/law/flow_settings.h"
-#include "bullet_ambient/force/medium/medium.h"
+#include "bullet_ambient/force/medium/medium_check.h"
 #include "demos/python/bindings.h"
 #include "demos/python/record.h"
 
@@ -22,13 +23,23 @@ static void fromPython(pybind11::handle from, PressureLaw& to) {
   to = *law;
 }
 
+static void checkMedium(const Medium& medium) {
+  const auto fault = faultOf(medium);
+  if (!fault) return;
+  std::ostringstream sentence;
+  sentence << "Medium: " << fault->quantity << " [" << fault->unit << "] is " << fault->value
+           << "; must be " << fault->limit;
+  throw std::invalid_argument(sentence.str());
+}
+
 void bindSettings(pybind11::module_& module) {
   Record<Medium>(module, "Medium", "Fluid around a body; vectors in world axes.")
       .field("density", &Medium::density, "Density [kg/m^3], >= 0; default 0, a vacuum.")
       .field("viscosity", &Medium::viscosity,
              "Dynamic viscosity [Pa s], >= 0; 0: no skin friction.")
       .field("velocity", &Medium::velocity, "Velocity of the undisturbed flow at the body [m/s].")
-      .field("acceleration", &Medium::acceleration, "Rate of change of that velocity [m/s^2].");
+      .field("acceleration", &Medium::acceleration, "Rate of change of that velocity [m/s^2].")
+      .checkedBy(&checkMedium);
   Record<FlowSettings>(module, "FlowSettings", "Settings of the flow along the surface of a body.")
       .field(
           "separation_angle", &FlowSettings::separation_angle,

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 #include <sstream>
+#include <string>
 
 #include "bullet_ambient/base/plain_text.h"
 
@@ -15,6 +16,15 @@ namespace ambient {
 constexpr int kBadUsage = 2;
 /// Exit code of a program that has failed otherwise.
 constexpr int kBadInput = 1;
+
+/// Returns a sentence about an argument without letters, mostly a variable of the shell that is not
+/// set; empty: there is none. CLI11 takes it for 0 where it should be a number, and programs for an
+/// option that was not given.
+inline std::string emptyArgument(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (*argv[i] == '\0') return "argument " + std::to_string(i) + " is empty";
+  return {};
+}
 
 /// Prints help to standard output, or an error that begins with the program's name, which `app`
 /// has. Returns the exit code of the program: 0 after help. App and Error are CLI11's.

@@ -173,12 +173,12 @@ BuiltBody buildShape(const ShapeDescription& shape, const ShapeBuildSettings& se
   }
   if (settings.begin) settings.begin("reading and checking the mesh");
   CheckedMesh checked = makeShapeMesh(shape, settings.scale);
-  warnOfFaces(checked, shape, settings.least_faces);
+  const ShapeFacts facts = factsOf(shape.geometry);
+  if (facts.sphere_radius == 0) warnOfFaces(checked, shape, settings.least_faces);
   BuildSettings build;
   static_cast<CommonBuildSettings&>(build) = settings;
   build.source = shape.source;
   build.cavities = checked.cavities;
-  const ShapeFacts facts = factsOf(shape.geometry);
   if (const auto known = knownAddedMass(shape, settings)) {
     build.added_mass = known->added_mass;
     if (known->is_tabulated) {

@@ -13,15 +13,6 @@
 namespace ambient {
 namespace {
 
-/// A sentence about an argument without letters, which CLI11 takes for 0 where it should be a
-/// number: mostly a variable of the shell that is not set.
-std::string emptyArgument(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    if (*argv[i] == '\0') return "argument " + std::to_string(i) + " is empty";
-  }
-  return {};
-}
-
 /// A sentence about a first word that is no command, if there is one.
 std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};

@@ -31,7 +31,8 @@ void checkMoments(const RobotModel& model, const LinkModel& link) {
 void checkMovingLink(const RobotModel& model, const LinkModel& link) {
   if (!(link.mass > 0))
     raiseInputError(model.source, "link \"", link.name, "\": its mass is ", link.mass,
-                    " kg; must be > 0 where a link moves");
+                    " kg; must be > 0 where a link moves",
+                    link.parent < 0 ? "; a fixed base (fixed_base) needs none" : "");
   checkMoments(model, link);
 }
 

@@ -5,8 +5,6 @@
 AMBIENT_BEGIN
 namespace {
 
-Twist turned(const Quaternion& q, const Twist& x) { return {q * x.angular, q * x.linear}; }
-
 /// Middle of the way of a flight: twists in B change evenly.
 RigidState middleOfFlight(const RigidState& start, const RigidState& end, double h) {
   RigidState middle;

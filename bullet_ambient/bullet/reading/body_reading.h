@@ -23,8 +23,4 @@ void readRows(AmbientBody& ambient, btSolverBody& solver_body) noexcept;
 void finishBodyReading(AmbientBody& ambient, Outcome kind, const Twist& before_W,
                        double time_step) noexcept;
 
-inline Twist velocityOf(const btRigidBody& body) {
-  return {toVector3(body.getAngularVelocity()), toVector3(body.getLinearVelocity())};
-}
-
 AMBIENT_END

@@ -4,6 +4,7 @@
 #include "bullet_ambient/motion/surface/body_waves.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -135,8 +136,7 @@ void beginReading(const AmbientBody& ambient, const RigidState& start,
   reading.surroundings = surroundings;
   reading.plane_W = ambient.encounter.plane_W;
   reading.waves = ambient.encounter.waves;
-  reading.moved_W = {start.orientation * start.twist.angular,
-                     start.orientation * start.twist.linear};
+  reading.moved_W = turned(start.orientation, start.twist);
 }
 
 void finishReading(const AmbientBody& ambient, const ReadStep& step,

@@ -16,20 +16,17 @@ namespace {
 
 constexpr double kRounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 
-// Rotates a twist.
-Twist turnedBy(const Quaternion& q, const Vector6& x) { return {q * x.head<3>(), q * x.tail<3>()}; }
-
-Vector6 changeByRows(btSolverBody& b) {
-  return stack(toVector3(b.internalGetDeltaAngularVelocity()),
-               toVector3(b.internalGetDeltaLinearVelocity()));
+Twist changeByRows(btSolverBody& b) {
+  return {toVector3(b.internalGetDeltaAngularVelocity()),
+          toVector3(b.internalGetDeltaLinearVelocity())};
 }
 
 // Returns the velocity that Bullet will write back, world axes.
-Vector6 solvedVelocity(btSolverBody& b) {
-  return stack(toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
-                         b.m_externalTorqueImpulse),
-               toVector3(b.m_linearVelocity + b.internalGetDeltaLinearVelocity() +
-                         b.m_externalForceImpulse));
+Twist solvedVelocity(btSolverBody& b) {
+  return {toVector3(b.m_angularVelocity + b.internalGetDeltaAngularVelocity() +
+                    b.m_externalTorqueImpulse),
+          toVector3(b.m_linearVelocity + b.internalGetDeltaLinearVelocity() +
+                    b.m_externalForceImpulse)};
 }
 
 // Returns the part of the way time_step * xi that the body has made: less than 1 if continuous
@@ -100,9 +97,10 @@ void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody&
   rows.is_held = row_body.is_held;
   rows.flow_W = medium.velocity + time_step * medium.acceleration;
   const Quaternion to_body = rows.start.orientation.conjugate();
-  rows.start.twist =
-      turnedBy(to_body, solvedVelocity(solver_body) - stack(Vector3::Zero(), rows.flow_W));
-  const Vector6 share = turnedBy(to_body, row_body.turning_W.vector()).vector();
+  Twist relative_W = solvedVelocity(solver_body);
+  relative_W.linear -= rows.flow_W;
+  rows.start.twist = turned(to_body, relative_W);
+  const Vector6 share = turned(to_body, row_body.turning_W).vector();
   RigidState kept = rows.start;
   kept.twist = Twist::fromVector(kept.twist.vector() - share);
 
@@ -113,7 +111,7 @@ void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody&
     extent = std::max(extent, computeTurning(model, moved, time_step).extent);
   }
   if (extent > kSlowTurn) {
-    const Vector6 by_rows = turnedBy(to_body, changeByRows(solver_body)).vector();
+    const Vector6 by_rows = turned(to_body, changeByRows(solver_body)).vector();
     const double on_share = 2 * inner(pairOfTwist(model, share), pairOfTwist(model, by_rows));
     const double energy = inertiaNormSquared(model, kept.twist.vector()) + std::min(0.0, on_share);
     rows.energy_bound = std::max(0.0, energy);
@@ -130,8 +128,8 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
   const RigidState now = readState(body);
   const std::optional<double> part = partOfWay(rows, now, time_step);
   if (!part) return;
-  const Twist moved_W = turnedBy(rows.start.orientation, rows.start.twist.vector());
-  const Vector6 moved = turnedBy(now.orientation.conjugate(), moved_W.vector()).vector();
+  const Twist moved_W = turned(rows.start.orientation, rows.start.twist);
+  const Vector6 moved = turned(now.orientation.conjugate(), moved_W).vector();
   BoundedTwist end{moved};
   if (rows.momentum) {
     const Vector3 position = rows.momentum->pivot + *part * time_step * moved_W.linear;
@@ -146,7 +144,8 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
     end = passWithRows(ambient, end.twist, axes, time_step);
     energy_removed += end.energy_removed;
   }
-  const Twist change_W = withoutTraces(turnedBy(now.orientation, end.twist - moved), time_step);
+  const Twist change_B = Twist::fromVector(end.twist - moved);
+  const Twist change_W = withoutTraces(turned(now.orientation, change_B), time_step);
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
     complaints.say(Complaint::kNotFinite);

@@ -50,7 +50,7 @@ void SolverGroup::findMembers(const GroupBodies& bodies) noexcept {
     object.setCompanionId(static_cast<int>(members_.size()));
     const bool is_locked = !axisFactors(*ambient->body).areFree();
     if (ambient->reading) beginBodyReading(*ambient, is_locked);
-    members_.push_back({ambient, is_locked});
+    members_.push_back({ambient, &object, is_locked});
   }
 }
 
@@ -87,7 +87,7 @@ void SolverGroup::mark(const btCollisionObject& body, bool has_rows, bool is_hel
   const int id = body.getCompanionId();
   if (id < 0 || static_cast<std::size_t>(id) >= members_.size()) return;
   Member& member = members_[id];
-  if (member.ambient->body != &body) return;  // a companion id of another group
+  if (member.object != &body) return;  // a companion id of another group
   member.is_near = true;
   member.has_rows = member.has_rows || has_rows;
   member.is_held = member.is_held || is_held;
@@ -100,7 +100,7 @@ GroupBodies SolverGroup::withoutIsolatedBodies(const GroupBodies& bodies) noexce
   std::size_t next = 0;
   for (int i = 0; i < bodies.count; ++i) {
     btCollisionObject* object = bodies.first[i];
-    const bool is_member = next < members_.size() && members_[next].ambient->body == object;
+    const bool is_member = next < members_.size() && members_[next].object == object;
     const Member* member = is_member ? &members_[next++] : nullptr;
     if (!member || member->is_near || member->is_locked) {
       converted_.push_back(object);

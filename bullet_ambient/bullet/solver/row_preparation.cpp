@@ -10,6 +10,7 @@
 #include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/flight/axis_locks.h"
 #include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -60,8 +61,9 @@ RowVelocity velocityForRows(AmbientBody& ambient, const RigidState& start,
   RowVelocity row = factors.areFree() ? computeRowVelocity(task, start)
                                       : computeLockedVelocity(task, start, factors);
   if (ambient.surface()) {
-    row.change_W.angular += start.orientation * by_surface.head<3>();
-    row.change_W.linear += start.orientation * by_surface.tail<3>();
+    const Twist kick_W = turned(start.orientation, Twist::fromVector(by_surface));
+    row.change_W.angular += kick_W.angular;
+    row.change_W.linear += kick_W.linear;
   }
   countLoads(ambient, row.count.load_evaluations);
   ambient.counters.guarded += row.count.guarded;
@@ -85,7 +87,7 @@ void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
   row_bodies_->reset(solver_bodies.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Member& member = members_[i];
-    member.solver_body = member.ambient->body->getCompanionId();
+    member.solver_body = member.object->getCompanionId();
     if (member.solver_body == kAlone) continue;
     AMBIENT_ASSERT(member.solver_body >= 0 && member.solver_body < solver_bodies.size());
     member_of_solver_body_[member.solver_body] = static_cast<int>(i);

@@ -96,6 +96,7 @@ class SolverGroup {
 
   struct Member {
     AmbientBody* ambient;
+    const btCollisionObject* object;  // Bullet's body, kept here as each pair asks for it
     bool is_locked;
     bool is_near = false;  // true: has a joint, or a pair with another body in the broadphase
     bool has_rows = false;

@@ -8,6 +8,7 @@
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/state/bullet_access.h"
 #include "bullet_ambient/bullet/state/world_state_structs.h"
+#include "bullet_ambient/force/medium/medium_check.h"
 
 AMBIENT_BEGIN
 
@@ -120,10 +121,7 @@ template <class V>
 void fields(V& v, AmbientState& s) {
   fields(v, s.def);
   fields(v, s.medium);
-  v.check("medium is not physical", [&m = s.medium] {
-    return m.density >= 0 && m.viscosity >= 0 && std::isfinite(m.density) &&
-           std::isfinite(m.viscosity) && m.velocity.allFinite() && m.acceleration.allFinite();
-  });
+  v.check("medium is not physical", [&m = s.medium] { return !faultOf(m); });
   each(v, kAny, s.place.region, s.place.is_above, s.place.is_at_surface);
   fields(v, s.waves);
   v.optional(s.met_B);

@@ -251,7 +251,11 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
   check.notNegative(body.volume, "volume");
   check.notNegative(body.area, "area");
   check.notNegative(body.sphere_radius, "radius of the sphere");
-  for (const double drag : body.drag) check.notNegative(drag, "measured drag coefficient");
+  for (const double drag : body.drag) {
+    check.notNegative(drag, "measured drag coefficient");
+    if (drag > kLargestDrag)
+      check.fail("measured drag coefficient is ", drag, ", but must be at most ", kLargestDrag);
+  }
   if (!body.drag.isZero(0) && body.drag.minCoeff() == 0)
     check.fail("a measured drag coefficient is 0, but must be positive where another one is given");
   check.finiteMatrix(body.centre_of_volume, "centre of volume");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/force/medium/medium_check.h"
 
 namespace ambient {
 namespace {
@@ -18,14 +19,9 @@ namespace {
 }
 
 void checkRegionMedium(const Medium& medium, const std::string& which) {
-  if (!(medium.density >= 0) || !std::isfinite(medium.density))
-    rejectRegion("density " + which + " [kg/m^3]", medium.density, "zero or positive and finite");
-  if (!(medium.viscosity >= 0) || !std::isfinite(medium.viscosity))
-    rejectRegion("viscosity " + which + " [Pa s]", medium.viscosity, "zero or positive and finite");
-  if (!medium.velocity.allFinite())
-    rejectRegion("speed " + which + " [m/s]", medium.velocity.norm(), "finite");
-  if (!medium.acceleration.allFinite())
-    rejectRegion("acceleration " + which + " [m/s^2]", medium.acceleration.norm(), "finite");
+  if (const auto fault = faultOf(medium))
+    rejectRegion(std::string(fault->quantity) + " " + which + " [" + fault->unit + "]",
+                 fault->value, fault->limit);
 }
 
 void add(const FlowSample& flow, Medium& medium) {

@@ -8,6 +8,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/force/medium/medium_check.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/invariants.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
@@ -91,18 +92,9 @@ Matrix6 withoutRounding(const Matrix6& inertia) {
 }  // namespace
 
 void checkMedium(const FluidBody& body, const Medium& medium) {
-  if (!(medium.density >= 0) || !std::isfinite(medium.density)) {
-    reject(body, "density of the medium [kg/m^3]", medium.density, "zero or positive and finite");
-  }
-  if (!(medium.viscosity >= 0) || !std::isfinite(medium.viscosity)) {
-    reject(body, "viscosity of the medium [Pa s]", medium.viscosity, "zero or positive and finite");
-  }
-  if (!medium.velocity.allFinite()) {
-    reject(body, "speed of the medium [m/s]", medium.velocity.norm(), "finite");
-  }
-  if (!medium.acceleration.allFinite()) {
-    reject(body, "acceleration of the medium [m/s^2]", medium.acceleration.norm(), "finite");
-  }
+  if (const auto fault = faultOf(medium))
+    reject(body, std::string(fault->quantity) + " of the medium [" + fault->unit + "]",
+           fault->value, fault->limit);
 }
 
 BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_frame,

@@ -1,5 +1,7 @@
 #include "bullet_ambient/motion/body/kirchhoff.h"
 
+#include "bullet_ambient/spatial/rotation.h"
+
 namespace ambient {
 
 Wrench gyroscopicWrench(const DualPair& motion) {
@@ -7,8 +9,9 @@ Wrench gyroscopicWrench(const DualPair& motion) {
 }
 
 WorldMomentum worldMomentum(const BodyModel& model, const RigidState& state) {
-  const Momentum m = Momentum::fromVector(pairOfTwist(model, state.twist.vector()).momentum);
-  return {state.orientation * m.linear, state.orientation * m.angular, state.position};
+  const Vector6 m = pairOfTwist(model, state.twist.vector()).momentum;
+  const Twist m_W = turned(state.orientation, Twist::fromVector(m));
+  return {m_W.linear, m_W.angular, state.position};
 }
 
 Twist twistOf(const BodyModel& model, const WorldMomentum& momentum, const Quaternion& orientation,

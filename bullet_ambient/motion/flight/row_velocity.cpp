@@ -6,6 +6,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/kirchhoff.h"
 #include "bullet_ambient/motion/body/passive_kick.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {
@@ -59,12 +60,12 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   const Vector6 share = std::clamp(1 - turning.extent, 0.0, 0.5) * turning.change;
   result.extent = turning.extent;
   const Quaternion& q = start.orientation;
-  result.turning_W = {q * share.head<3>(), q * share.tail<3>()};
+  result.turning_W = turned(q, Twist::fromVector(share));
   const Vector6 excess = model.even_response.beyond(pairOfTwist(model, impulse).momentum, impulse);
-  if (!excess.isZero(0)) result.isotropic_excess_W = {q * excess.head<3>(), q * excess.tail<3>()};
-  result.change_W.angular = result.turning_W.angular + q * impulse.head<3>();
-  result.change_W.linear =
-      result.turning_W.linear + q * impulse.tail<3>() + dt * s.ambient_acceleration;
+  if (!excess.isZero(0)) result.isotropic_excess_W = turned(q, Twist::fromVector(excess));
+  const Twist impulse_W = turned(q, Twist::fromVector(impulse));
+  result.change_W.angular = result.turning_W.angular + impulse_W.angular;
+  result.change_W.linear = result.turning_W.linear + impulse_W.linear + dt * s.ambient_acceleration;
   return result;
 }
 

@@ -61,7 +61,11 @@ Vector3 dragOf(const BuildArguments& arguments) {
   if (drag.empty()) return Vector3::Zero();
   if (drag.size() != 1 && drag.size() != 3)
     raiseUsageError("--drag", drag.size(), " numbers are neither one nor three");
-  for (const double coefficient : drag) requirePositive("--drag", coefficient);
+  for (const double coefficient : drag) {
+    requirePositive("--drag", coefficient);
+    if (coefficient > kLargestDrag)
+      raiseUsageError("--drag", coefficient, " is above ", kLargestDrag);
+  }
   return {drag.front(), drag[drag.size() / 2], drag.back()};
 }
 

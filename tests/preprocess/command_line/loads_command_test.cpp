@@ -96,6 +96,9 @@ TEST_F(CommandLine, LoadsOfTheFormLawHaveTheMeasuredDrag) {
   EXPECT_NEAR(loads["total"][4].get<double>(), -1.05 * 0.5 * 3 * 2 * 2, 1e-12);
   const ProgramResult two =
       run({"build", box, "-o", path("b.ambient"), "--panels", "0", "--drag", "1,2"});
+  const ProgramResult large =
+      run({"build", box, "-o", path("b.ambient"), "--panels", "0", "--drag", "1e7"});
+  EXPECT_NE(large.errors.find("--drag: 1e+07 is above 1e+06"), std::string::npos) << large.errors;
   EXPECT_NE(two.errors.find("--drag: 2 numbers are neither one nor three"), std::string::npos)
       << two.errors;
   const ProgramResult ball =

@@ -81,7 +81,8 @@ TEST(RobotModel, RefusesWhatCannotMove) {
   EXPECT_EQ(complaintOf(massiveLink("a") + light + joint("j", "continuous", "a", "b")),
             "r.urdf: link \"b\": its mass is 0 kg; must be > 0 where a link moves");
   EXPECT_EQ(complaintOf(light),
-            "r.urdf: link \"b\": its mass is 0 kg; must be > 0 where a link moves");
+            "r.urdf: link \"b\": its mass is 0 kg; must be > 0 where a link moves; a fixed base "
+            "(fixed_base) needs none");
   EXPECT_EQ(complaintOf(light, true), "");
   EXPECT_EQ(complaintOf(R"(<link name="b"><inertial><mass value="1"/>
       <inertia ixx="0" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>)"),

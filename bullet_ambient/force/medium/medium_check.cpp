@@ -1,0 +1,21 @@
+#include "bullet_ambient/force/medium/medium_check.h"
+
+#include <cmath>
+
+namespace ambient {
+
+std::optional<MediumFault> faultOf(const Medium& medium) noexcept {
+  constexpr const char* kNotNegative = "zero or positive and finite";
+  const auto is_wrong = [](double value) { return !(value >= 0) || !std::isfinite(value); };
+  if (is_wrong(medium.density))
+    return MediumFault{"density", "kg/m^3", medium.density, kNotNegative};
+  if (is_wrong(medium.viscosity))
+    return MediumFault{"viscosity", "Pa s", medium.viscosity, kNotNegative};
+  if (!medium.velocity.allFinite())
+    return MediumFault{"speed", "m/s", medium.velocity.norm(), "finite"};
+  if (!medium.acceleration.allFinite())
+    return MediumFault{"acceleration", "m/s^2", medium.acceleration.norm(), "finite"};
+  return {};
+}
+
+}  // namespace ambient
