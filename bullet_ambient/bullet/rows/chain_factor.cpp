@@ -151,11 +151,7 @@ struct FactorKernel {
 // NOLINTEND(bugprone-macro-parentheses)
 
 AMBIENT_FACTOR_KERNEL(BaselineFactor, )
-#if defined(__x86_64__)
-AMBIENT_FACTOR_KERNEL(AvxFactor, __attribute__((target("avx"))))
-#else
-using AvxFactor = BaselineFactor;
-#endif
+AMBIENT_FACTOR_KERNEL(AvxFactor, AMBIENT_AVX)
 
 const FactorKernel& factorKernel() noexcept {
   constexpr Kernels<const FactorKernel*> kKernels{&BaselineFactor::kAll, &AvxFactor::kAll,

@@ -101,11 +101,7 @@ AMBIENT_INLINE btScalar solveFrictions(const RowPass& pass, const btConstraintAr
 // NOLINTEND(bugprone-macro-parentheses)
 
 AMBIENT_QUICK_ROWS(Baseline, )
-#if defined(__x86_64__)
-AMBIENT_QUICK_ROWS(Avx, __attribute__((target("avx"))))
-#else
-using Avx = Baseline;
-#endif
+AMBIENT_QUICK_ROWS(Avx, AMBIENT_AVX)
 
 constexpr Kernels<const QuickRows*> kQuickRows{&Baseline::kAll, &Avx::kAll, &Avx::kAll};
 
