@@ -1,44 +1,11 @@
 #include "bullet_ambient/immersed/ambient_body.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN
-namespace {
-
-BodyModel makeModel(const AmbientBody& ambient, const MassProperties& mass,
-                    const std::shared_ptr<const SurfaceLoads>& loads) {
-  const AttachDef& def = ambient.def;
-  return makeBodyModel(*def.fluid_body, def.fluid_frame, mass, ambient.medium, loads);
-}
-
-// A double holds no sum of masses of which one is 2^52 times the other.
-void checkFluidMass(const FluidBody& shape, const BodyModel& model, double mass) {
-  const double of_fluid = std::max(model.displaced_mass, model.largest_mass - mass);
-  if (!(of_fluid <= std::ldexp(mass, std::numeric_limits<double>::digits - 1)))
-    reject(shape, "mass of the medium that it displaces or moves [kg]", of_fluid,
-           "at most 2^52 times its own; are its size and the density in SI units?");
-}
-
-// Rebuilds the models at surfaces for another mass; their loads stay.
-void rebuildSurfaces(AmbientBody& ambient, const MassProperties& mass) {
-  const AttachDef& def = ambient.def;
-  for (SurfaceMedia& surface : ambient.surfaces) {
-    SurfaceModel& model = surface.model;
-    surface.has_stand = false;
-    model.below = makeBodyModel(*def.fluid_body, def.fluid_frame, mass, surface.kind.below.medium(),
-                                model.below.loads);
-    model.above = makeBodyModel(*def.fluid_body, def.fluid_frame, mass,
-                                surface.kind.mediumAbove(def.medium), model.above.loads);
-  }
-}
-
-}  // namespace
 
 RigidState readState(const btRigidBody& body) {
   RigidState state;
@@ -59,6 +26,7 @@ Surroundings readSurroundings(const AmbientBody& ambient) {
   s.applied = {toVector3(body.getTotalTorque()), toVector3(body.getTotalForce())};
   s.ambient_velocity = ambient.medium.velocity;
   s.ambient_acceleration = ambient.medium.acceleration;
+  s.load_share = ambient.load_share;
   return s;
 }
 
@@ -71,40 +39,54 @@ void followWake(AmbientBody& ambient, double duration) noexcept {
     const btRigidBody& body = *ambient.body;
     const Twist motion{toVector3(body.getAngularVelocity()),
                        toVector3(body.getLinearVelocity()) - ambient.medium.velocity};
-    const FluidBody& shape = *ambient.def.fluid_body;
+    const FluidBody& shape = *ambient.def->fluid_body;
     const double developed =
         developWake({motion, shape.area, shape.volume, duration}, ambient.wake);
     ambient.load_share = 1 - by_wake + by_wake * developed;
   }
-  ambient.model.load_share = ambient.load_share;
 }
 
-void buildModel(AmbientBody& ambient, const std::shared_ptr<const SurfaceLoads>& loads) {
-  const btRigidBody& body = *ambient.body;
-  const Vector3 inverse_inertia = toVector3(body.getInvInertiaDiagLocal());
-  const Vector3 inertia = inverse_inertia.cwiseInverse();
-  const MassProperties mass{1 / static_cast<double>(body.getInvMass()), inertia.asDiagonal()};
-  const BodyModel model = makeModel(ambient, mass, loads);
-  checkFluidMass(*ambient.def.fluid_body, model, mass.mass);
-  ambient.model = model;
-  ambient.is_frozen = false;
-  rebuildSurfaces(ambient, mass);
-  ambient.basis_B = makeVelocityBasis(ambient.model, inertia);
-  ambient.seen_inverse_mass = body.getInvMass();
-  ambient.seen_inverse_inertia = body.getInvInertiaDiagLocal();
-  ambient.memory = {};
+void keepName(const std::string& name, AmbientBody& ambient) {
+  if (name.empty() || !ambient.def->name.empty()) return;
+  AttachDef named = *ambient.def;
+  named.name = name;
+  ambient.def = std::make_shared<const AttachDef>(std::move(named));
 }
 
-void buildUnitModel(AmbientBody& ambient, const std::shared_ptr<const SurfaceLoads>& loads) {
-  ambient.model = makeModel(ambient, {1, Matrix3::Identity()}, loads);
-  ambient.memory = {};
-  markStale(ambient);
+void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models) {
+  if (models == ambient.models) return;
+  if (ambient.encounter.media >= 0) {
+    const auto met = static_cast<std::size_t>(ambient.encounter.media);
+    ambient.encounter.media = models->findSurface(ambient.models->surfaces[met].kind);
+  }
+  ambient.models = std::move(models);
+  ambient.own_models = nullptr;
+  const FluidModels& known = *ambient.models;
+  // A medium that is not known any more serves until the next step.
+  if (const MediumModel* found = known.find(FluidKind(ambient.medium)))
+    ambient.in_medium = {ambient.models, found};
+  if (known.surfaces.empty()) {
+    ambient.last_stand = nullptr;
+  } else if (ambient.last_stand) {
+    ambient.last_stand->is_valid = false;
+  } else {
+    ambient.last_stand = std::make_unique<LastStand>();
+  }
 }
 
 bool isModelStale(const AmbientBody& ambient) {
-  const btRigidBody& body = *ambient.body;
-  return body.getInvMass() != ambient.seen_inverse_mass ||
-         !(body.getInvInertiaDiagLocal() == ambient.seen_inverse_inertia);
+  return !(ambient.models->inverse_mass == inverseMassOf(*ambient.body));
+}
+
+void rebuildModels(AmbientBody& ambient) {
+  if (!ambient.own_models) {
+    auto own = std::make_shared<FluidModels>(*ambient.models);
+    setModels(ambient, own);
+    ambient.own_models = std::move(own);
+  }
+  setMass(*ambient.own_models, *ambient.def, inverseMassOf(*ambient.body));
+  if (ambient.last_stand) ambient.last_stand->is_valid = false;
+  ambient.memory = {};
 }
 
 AMBIENT_END

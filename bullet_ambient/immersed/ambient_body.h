@@ -3,50 +3,62 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <memory>
-#include <vector>
+#include <optional>
+#include <string>
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/core/velocity_basis.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/immersed/attach_def.h"
+#include "bullet_ambient/immersed/fluid_models.h"
 #include "bullet_ambient/immersed/region_id.h"
-#include "bullet_ambient/immersed/step_errors.h"
 #include "bullet_ambient/immersed/substep_outcome.h"
-#include "bullet_ambient/immersed/surface_media.h"
 #include "bullet_ambient/motion/body/wake.h"
 #include "bullet_ambient/motion/flight/axis_locks.h"
 #include "bullet_ambient/motion/flight/flight.h"
+#include "bullet_ambient/motion/surface/surface_stand.h"
+#include "bullet_ambient/motion/surface/wave_memory.h"
 
 AMBIENT_BEGIN
 
 struct FluidReading;
 
-/// Loads of one body in one of the media that it may meet.
-struct MediumLoads {
-  FluidKind kind;
-  std::shared_ptr<const SurfaceLoads> loads;
+/// Encounter of a body with a surface in one step.
+struct SurfaceEncounter {
+  int media = -1;        ///< index into FluidModels::surfaces; -1: no surface is near
+  SurfacePlane plane_W;  ///< surface at the start of the step
+  Vector3 velocity_above = Vector3::Zero();
+  WaveMemory waves;            ///< waves that the body has made
+  WaveMemory waves_with_rows;  ///< waves after the step, if rows move the body
+  Vector6 twist_before_rows =
+      Vector6::Zero();  ///< velocity in B, relative to the water, that constraint rows start from
+  /// Plane of the surface in B at the exact pose where the last flight or step with rows ended,
+  /// before Bullet rounded it.
+  std::optional<SurfacePlane> met_B;
+};
+
+/// Last result of standAt(), for bodies that a surface may cut.
+struct LastStand {
+  SurfaceStand stand;
+  bool is_valid = false;  ///< true: `stand` belongs to the present models and surface
 };
 
 /// Everything that the library keeps of one body in a fluid. Links have one each, too, with a
 /// stand-in for the btRigidBody.
 struct AmbientBody {
-  btRigidBody* body = nullptr;  ///< may have been destroyed: look it up in a world first
-  int instance = 0;             ///< instanceNumber() of the body that was attached
-  int slot = -1;                ///< in MemberSlots; -1: not yet there
-  AttachDef def;
-  Medium medium;                   ///< medium around the body now: its own, or that of its region
-  RegionPlace place;               ///< kNone: the body is in its own medium
-  std::vector<MediumLoads> media;  ///< loads per medium; the first entry is for the own medium
-  std::vector<SurfaceMedia> surfaces;
+  btRigidBody* body = nullptr;           ///< may have been destroyed: look it up in a world first
+  int instance = 0;                      ///< instanceNumber() of the body that was attached
+  int slot = -1;                         ///< in MemberSlots; -1: not yet there
+  std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
+  Medium medium;      ///< medium around the body now: its own, or that of its region
+  RegionPlace place;  ///< kNone: the body is in its own medium
+  std::shared_ptr<const FluidModels> models;
+  std::shared_ptr<FluidModels> own_models;       ///< `models` of this body alone, once its mass has
+                                                 ///< changed; null: equal bodies share them
+  std::shared_ptr<const MediumModel> in_medium;  ///< that of `medium`
   SurfaceEncounter encounter;
-  bool is_frozen = false;  ///< true: `model` is that of the body at a water surface at one moment
-  bool may_rest = true;    ///< true: nothing around the body changes with time
-  BodyModel model;
-  Matrix6 basis_B = Matrix6::Identity();
-  btScalar seen_inverse_mass = 0;  ///< dry mass properties the model was built from
-  btVector3 seen_inverse_inertia{0, 0, 0};
+  std::unique_ptr<LastStand> last_stand;  ///< null: the body meets no surface
+  bool may_rest = true;                   ///< true: nothing around the body changes with time
   FlightMemory memory;
   Twist left_W;           ///< velocity of the body after its last flight, world axes
   Wake wake;              ///< wake behind a smooth body, docs/theory.md eq. (51b)
@@ -61,22 +73,24 @@ struct AmbientBody {
   AmbientBody* next_met = nullptr;  ///< next body in the list of AmbientBodies::takeMet()
 
   bool isInFluid() const { return medium.density > 0; }
-  /// The two fluids at the water surface near the body; null: no surface is near.
-  const SurfaceMedia* surface() const {
-    return encounter.media >= 0 ? &surfaces[static_cast<std::size_t>(encounter.media)] : nullptr;
+  /// Model in the medium around the body.
+  const BodyModel& model() const { return in_medium->model; }
+  /// Model at the water surface near the body; null: no surface is near.
+  const SurfaceModel* surface() const {
+    if (encounter.media < 0) return nullptr;
+    return &models->surfaces[static_cast<std::size_t>(encounter.media)].model;
   }
-  SurfaceMedia* surface() {
-    return encounter.media >= 0 ? &surfaces[static_cast<std::size_t>(encounter.media)] : nullptr;
-  }
+  /// Stand at that surface: the last result of standAt().
+  const SurfaceStand& stand() const { return last_stand->stand; }
   /// Model whose inertia K defines the norm sqrt(x.K x) of velocity changes.
-  const BodyModel& metric() const { return surface() ? surface()->model.below : model; }
+  const BodyModel& metric() const { return surface() ? surface()->below : model(); }
 };
 
 /// Surface loads of the fluid around a body; at a water surface those of the fluid below. Null:
 /// there are none.
 inline const std::shared_ptr<const SurfaceLoads>& loadsOn(const AmbientBody& ambient) noexcept {
-  const SurfaceMedia* surface = ambient.surface();
-  return surface ? surface->model.loads_below.loads : ambient.model.loads;
+  const SurfaceModel* surface = ambient.surface();
+  return surface ? surface->loads_below.loads : ambient.model().loads;
 }
 
 /// Adds a number of load evaluations to the counters of a body.
@@ -106,25 +120,19 @@ Surroundings readSurroundings(const AmbientBody& ambient);
 /// `load_share`; docs/theory.md eq. (51c), (51d).
 void followWake(AmbientBody& ambient, double duration) noexcept;
 
-/// Builds `model` and `basis_B` from the body's present mass properties and from `loads`, those in
-/// the medium around the body; null: no surface loads.
-/// @throws std::invalid_argument as makeBodyModel().
-void buildModel(AmbientBody& ambient, const std::shared_ptr<const SurfaceLoads>& loads);
+/// Gives a body without a name one that it had before.
+void keepName(const std::string& name, AmbientBody& ambient);
 
-/// Gives a body that is static or kinematic at present a model of mass 1 kg and inertia 1 kg m^2.
-/// It serves until the body is dynamic.
-/// @throws std::invalid_argument as makeBodyModel().
-void buildUnitModel(AmbientBody& ambient, const std::shared_ptr<const SurfaceLoads>& loads);
+/// Gives a body other models, of its present mass or an earlier one. It stays in its medium, and at
+/// its surface unless they lack that.
+void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models);
 
-/// Builds the model again with its present loads, after a change of mass.
-/// @throws std::invalid_argument as makeBodyModel().
-inline void rebuildModel(AmbientBody& ambient) { buildModel(ambient, ambient.model.loads); }
-
-/// True if the mass properties differ from those that the model was built from: setMassProps() was
-/// called.
+/// True if the mass properties differ from those of the models: setMassProps() was called.
 bool isModelStale(const AmbientBody& ambient);
 
-/// Makes isModelStale() true, so that the next step rebuilds the model.
-inline void markStale(AmbientBody& ambient) noexcept { ambient.seen_inverse_mass = -1; }
+/// Makes the models again for the present mass. From then on the body does not share them: the
+/// first time allocates them.
+/// @throws std::invalid_argument as setMass().
+void rebuildModels(AmbientBody& ambient);
 
 AMBIENT_END

@@ -1,5 +1,6 @@
 #include "bullet_ambient/immersed/fluid_regions.h"
 
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -35,10 +36,10 @@ std::vector<Kind> without(const std::map<Kind, int>& counts, const std::vector<K
 }
 
 template <class Kind>
-std::vector<Kind> keysOf(const std::map<Kind, int>& counts) {
-  std::vector<Kind> keys;
-  for (const auto& [kind, count] : counts) keys.push_back(kind);
-  return keys;
+std::vector<Kind> allOf(const std::map<Kind, int>& counts, const std::vector<Kind>& further) {
+  std::set<Kind> all(further.begin(), further.end());
+  for (const auto& [kind, count] : counts) all.insert(kind);
+  return {all.begin(), all.end()};
 }
 
 }  // namespace
@@ -65,7 +66,9 @@ const FluidRegion& FluidRegions::require(RegionId id) const {
   return found->second.region;
 }
 
-RegionFluids FluidRegions::fluids() const { return {keysOf(media_), keysOf(surfaces_)}; }
+RegionFluids FluidRegions::fluids(const RegionFluids& further) const {
+  return {allOf(media_, further.media), allOf(surfaces_, further.surfaces)};
+}
 
 RegionFluids FluidRegions::missing(const FluidRegion& region) const {
   return {without(media_, mediaOf(region)), without(surfaces_, surfacesOf(region))};

@@ -23,8 +23,8 @@ class FluidRegions {
   /// @throws std::invalid_argument if there is no such region.
   const FluidRegion& require(RegionId id) const;
 
-  /// Returns the fluids of all regions, each once.
-  RegionFluids fluids() const;
+  /// Returns the fluids of all regions and further ones, each once.
+  RegionFluids fluids(const RegionFluids& further = {}) const;
   /// Returns those fluids of `region` that no region of this object has.
   RegionFluids missing(const FluidRegion& region) const;
 

@@ -43,16 +43,9 @@ const SurfaceStand& standAfter(AmbientBody& ambient, double time) {
   return standAt(ambient, planeAfter(ambient, time));
 }
 
-BodyModel freeze(const SurfaceMedia& surface, const SurfaceStand& stand,
-                 const std::shared_ptr<LoadsAtSurface>& loads) {
-  BodyModel model = frozenAt(surface.model, stand);
-  if (!loads) return model;
-  const FrameOffset& frame = surface.model.loads_below.frame;
-  loads->setPart(
-      {seenFrom(stand.plane, frame), wetShare(stand.immersion_F, surface.model.shape->volume)});
-  model.loads = loads;
-  model.load_frame = frame;
-  return model;
+WetPart wetPart(const SurfaceModel& model, const SurfaceStand& stand) {
+  return {seenFrom(stand.plane, model.loads_below.frame),
+          wetShare(stand.immersion_F, model.shape->volume)};
 }
 
 }  // namespace
@@ -69,21 +62,15 @@ SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
   return {normal, normal.dot(above), sample.below.density - sample.above.density, felt.norm()};
 }
 
-int findSurface(const std::vector<SurfaceMedia>& surfaces, const SurfaceKind& kind) noexcept {
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
-    if (surfaces[i].kind == kind) return static_cast<int>(i);
-  return -1;
-}
-
 SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const RegionSample& sample,
                         double duration) noexcept {
   SurfaceEncounter& encounter = ambient.encounter;
   const SurfaceSide by_centre = sample.isAbove() ? SurfaceSide::kAbove : SurfaceSide::kBelow;
   const btRigidBody& body = *ambient.body;
   const Vector3 gravity = toVector3(body.getGravity());
-  const int media = findSurface(ambient.surfaces, kind);
+  const int media = ambient.models->findSurface(kind);
   if (media < 0 || !hasSurface(sample, gravity)) return by_centre;
-  const SurfaceModel& model = ambient.surfaces[static_cast<std::size_t>(media)].model;
+  const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(media)].model;
   const RigidState state = readState(body);
   const SurfacePlane plane_W = planeNear(state.position, sample, gravity);
   const double speed = (toVector3(body.getLinearVelocity()) - sample.below.velocity).norm();
@@ -93,6 +80,7 @@ SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const Reg
       seenFrom(plane_W, state.orientation.toRotationMatrix(), state.position);
   const SurfaceSide side = sideOf(model, plane_B, travel);
   if (side != SurfaceSide::kAt) return side;
+  if (encounter.media != media) ambient.last_stand->is_valid = false;
   encounter.media = media;
   encounter.plane_W = plane_W;
   encounter.velocity_above = sample.above.velocity;
@@ -100,74 +88,91 @@ SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const Reg
 }
 
 const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept {
-  SurfaceMedia& surface = *ambient.surface();
+  const SurfaceModel& model = *ambient.surface();
   std::optional<SurfacePlane>& met = ambient.encounter.met_B;
   const double size =
-      surface.model.radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
+      model.radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
   if (!met || !isNear(*met, plane_B, size)) met = plane_B;
-  if (!surface.has_stand || !isSame(surface.stand.plane, *met)) {
-    surface.stand = standAtSurface(surface.model, *met);
-    surface.has_stand = true;
+  LastStand& last = *ambient.last_stand;
+  if (!last.is_valid || !isSame(last.stand.plane, *met)) {
+    last.stand = standAtSurface(model, *met);
+    last.is_valid = true;
   }
-  return surface.stand;
+  return last.stand;
 }
 
 BodyModel modelNow(const AmbientBody& ambient) {
-  const SurfaceMedia* surface = ambient.surface();
-  if (!surface) return ambient.model;
-  const auto& loads = surface->model.loads_below.loads;
-  BodyModel model = freeze(*surface, standAtSurface(surface->model, planeAfter(ambient, 0)),
-                           loads ? std::make_shared<LoadsAtSurface>(loads) : nullptr);
-  model.load_share = ambient.load_share;
+  const SurfaceModel* surface = ambient.surface();
+  if (!surface) return ambient.model();
+  const SurfaceStand stand = standAtSurface(*surface, planeAfter(ambient, 0));
+  BodyModel model = frozenAt(*surface, stand);
+  if (surface->loads_below.loads) {
+    model.loads =
+        std::make_shared<LoadsAtSurface>(surface->loads_below.loads, wetPart(*surface, stand));
+    model.load_frame = surface->loads_below.frame;
+  }
   return model;
 }
 
-void freezeAtSurface(AmbientBody& ambient) noexcept {
-  standAfter(ambient, 0);
-  freezeAsStood(ambient);
+const SurfaceStand& standNow(AmbientBody& ambient) noexcept { return standAfter(ambient, 0); }
+
+StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
+  if (ambient.surface()) {
+    freeze(ambient);
+    stiffen(ambient.stand(), duration);
+  } else {
+    model_ = &ambient.model();
+  }
 }
 
-void freezeAsStood(AmbientBody& ambient) noexcept {
-  const SurfaceMedia& surface = *ambient.surface();
-  ambient.model = freeze(surface, surface.stand, surface.loads);
-  ambient.model.load_share = ambient.load_share;
-  ambient.is_frozen = true;
+void StepModel::freeze(const AmbientBody& ambient) noexcept {
+  const SurfaceModel& model = *ambient.surface();
+  AtSurface& frozen = at_surface_.emplace();
+  frozen.model = frozenAt(model, ambient.stand());
+  model_ = &frozen.model;
+  if (!model.loads_below.loads) return;
+  frozen.loads = {model.loads_below.loads, wetPart(model, ambient.stand())};
+  frozen.model.loads = {std::shared_ptr<void>(), &frozen.loads};
+  frozen.model.load_frame = model.loads_below.frame;
+}
+
+void StepModel::stiffen(const SurfaceStand& stand, double duration) noexcept {
+  if (!(duration * stand.swing > kLongestSwing)) return;
+  const Matrix6 stiff = stiffInertia(stand, duration);
+  if (const auto inverse = positiveInverse(stiff)) {
+    at_surface_->model.inertia = stiff;
+    at_surface_->model.inverse_inertia = *inverse;
+  }
+}
+
+void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
+                       Complaints& complaints) noexcept {
+  const double swing = ambient.stand().swing;
+  if (duration * swing > kLongestSwing && duration * swing > kPi / 2)
+    complaints.sayCoarseSwing(*ambient.def, swing, duration);
 }
 
 Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
-  const SurfaceMedia& surface = *ambient.surface();
-  const SurfaceStand& stand = surface.stand;  // since freezeAtSurface()
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();
   const RigidState state = readState(*ambient.body);
   const Matrix3 R = state.orientation.toRotationMatrix();
-  const WaveModes& modes = stand.waves;
   Twist relative = state.twist;
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
   ambient.encounter.twist_before_rows = x;
   WaveMemory& waves = ambient.encounter.waves_with_rows;
   waves = ambient.encounter.waves;
-  Vector6 end = exchangeWaves(modes, R, ambient.model.inverse_inertia, duration, x, waves);
-  if (surface.model.loads_above.loads) {
+  Vector6 end = exchangeWaves(stand.modes, R, stand.inverse, duration, x, waves);
+  if (model.loads_above.loads) {
     const Vector3 wind_W = ambient.medium.velocity - ambient.encounter.velocity_above;
-    end = takeWind({surface.model, stand, R.transpose() * wind_W, duration}, end);
+    end = takeWind({model, stand, R.transpose() * wind_W, duration}, end);
     countLoads(ambient, 1);
   }
   return end - x;
 }
 
-void stiffenForRows(AmbientBody& ambient, double duration, Complaints& complaints) noexcept {
-  const SurfaceStand& stand = ambient.surface()->stand;
-  if (!(duration * stand.swing > kLongestSwing)) return;
-  if (duration * stand.swing > kPi / 2)
-    complaints.sayCoarseSwing(ambient.def, stand.swing, duration);
-  const Matrix6 stiff = stiffInertia(stand, duration);
-  if (const auto inverse = positiveInverse(stiff)) {
-    ambient.model.inertia = stiff;
-    ambient.model.inverse_inertia = *inverse;
-  }
-}
-
-void freezeAsMet(AmbientBody& ambient, int media) noexcept {
+void meetAgain(AmbientBody& ambient, int media) noexcept {
   SurfaceEncounter& encounter = ambient.encounter;
   AMBIENT_ASSERT(encounter.met_B);
   encounter.media = media;
@@ -176,8 +181,8 @@ void freezeAsMet(AmbientBody& ambient, int media) noexcept {
   const Vector3 normal_W = state.orientation * met.normal;
   encounter.plane_W = {normal_W, met.height + normal_W.dot(state.position), met.density,
                        met.gravity};
+  ambient.last_stand->is_valid = false;
   standAt(ambient, met);
-  freezeAsStood(ambient);
 }
 
 namespace {
@@ -189,11 +194,10 @@ struct Fall {
   double potential = 0;  ///< of both [J]
 
   /// @param mass less that of the fluid above that the body displaces [kg]
-  Fall(const SurfaceStand& stand, double mass)
-      : lift(hydrostaticWrench(stand.wet, stand.plane).vector()), wrench(lift) {
-    const SurfacePlane& plane = stand.plane;
+  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
+      : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
     wrench.tail<3>() -= mass * plane.gravity * plane.normal;
-    potential = hydrostaticEnergy(stand.wet, plane) - mass * plane.gravity * plane.height;
+    potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
   }
 };
 
@@ -225,18 +229,19 @@ BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
 
 BoundedTwist passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes,
                           double duration) noexcept {
-  const SurfaceModel& model = ambient.surface()->model;
-  const SurfaceStand& stand = ambient.surface()->stand;  // since freezeAtSurface()
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();  // since standNow()
   const Matrix6 inertia_before = stand.inertia;
   const double mass = model.above.mass - model.above.displaced_mass;
-  const Fall fall_before(stand, mass);
+  const Fall fall_before(stand.plane, wetVolume(model, stand), mass);
   const SurfaceStand& after = standAfter(ambient, duration);
   ambient.encounter.plane_W = movedPlane(ambient, duration);
   if (axes == Axes::kLocked)
     return scaledWithin(x, x.dot(after.inertia * x), x.dot(inertia_before * x));
-  const BoundedTwist moved = withinPotential({fall_before, Fall(after, mass), after.inverse,
-                                              ambient.encounter.twist_before_rows, duration},
-                                             x);
+  const BoundedTwist moved =
+      withinPotential({fall_before, Fall(after.plane, wetVolume(model, after), mass), after.inverse,
+                       ambient.encounter.twist_before_rows, duration},
+                      x);
   const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
   BoundedTwist end = passSurface({model, inertia_before, after, duration, gradient}, moved.twist);
   end.energy_removed += moved.energy_removed;
@@ -245,13 +250,11 @@ BoundedTwist passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes,
 
 double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
                            double duration) noexcept {
-  const SurfaceModel& model = ambient.surface()->model;
+  const SurfaceModel& model = *ambient.surface();
   const SurfacePlane plane_B = seenFrom(movedPlane(ambient, duration), pose);
   return hydrostaticEnergy(immersionOf(model, plane_B).wet.inB(model.fluid_frame), plane_B);
 }
 
-bool mayRestAtSurface(AmbientBody& ambient) noexcept {
-  return isStable(standAfter(ambient, 0).restoring);
-}
+bool mayRestAtSurface(AmbientBody& ambient) noexcept { return isStable(standNow(ambient).modes); }
 
 AMBIENT_END

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <vector>
+#include <optional>
+#include <utility>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/complaints.h"
-#include "bullet_ambient/immersed/surface_media.h"
 
 AMBIENT_BEGIN
 
@@ -18,9 +18,6 @@ bool hasSurface(const RegionSample& sample, const Vector3& gravity) noexcept;
 /// it, g - a; through the surface point straight above or below the position. @pre hasSurface()
 SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
                        const Vector3& gravity) noexcept;
-
-/// Index of the entry with this kind; -1: none.
-int findSurface(const std::vector<SurfaceMedia>& surfaces, const SurfaceKind& kind) noexcept;
 
 /// Decides whether the surface matters to the body in a step of `duration` [s], and if so fills
 /// AmbientBody::encounter. `sample`: region at the centre of mass. Without gravity there is no
@@ -34,32 +31,74 @@ SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const Reg
 /// surface
 const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept;
 
-/// Returns the model of the body at its present pose: AmbientBody::model, or at a water surface the
-/// model for the present waterline.
+/// Returns the model of the body at its present pose: AmbientBody::model(), or at a water surface
+/// the model for the present waterline.
 BodyModel modelNow(const AmbientBody& ambient);
 
-/// Sets AmbientBody::model to the model at the present pose and waterline. Allocates nothing. @pre
-/// the body is at a surface
-void freezeAtSurface(AmbientBody& ambient) noexcept;
+/// Finds the stand of the body at its present pose. Allocates nothing. @pre the body is at a
+/// surface
+const SurfaceStand& standNow(AmbientBody& ambient) noexcept;
 
-/// Sets AmbientBody::model to the model of the last SurfaceStand, found by passWithRows().
-/// Allocates nothing. @pre the body is at a surface
-void freezeAsStood(AmbientBody& ambient) noexcept;
+/// Loads on the wet part of a body at one moment.
+class LoadsAtSurface final : public SurfaceLoads {
+ public:
+  LoadsAtSurface() = default;
+  LoadsAtSurface(std::shared_ptr<const SurfaceLoads> loads, const WetPart& part)
+      : loads_(std::move(loads)), part_(part) {}
+
+  Wrench load(const Twist& x) const noexcept override { return loads_->wetLoad(x, part_); }
+  int faces() const noexcept override { return loads_->faces(); }
+  bool needsGuard() const noexcept override { return loads_->needsGuard(); }
+
+ private:
+  std::shared_ptr<const SurfaceLoads> loads_;
+  WetPart part_;
+};
+
+/// Model of a body for a step in which rows or joints move it: at a water surface with the inertia,
+/// displacement and loads of its stand. Allocates nothing; not to be copied, as the model holds
+/// loads that are here.
+class StepModel {
+ public:
+  StepModel() = default;
+  /// For a step of `duration` [s], see stiffen().
+  StepModel(const AmbientBody& ambient, double duration) noexcept;
+  StepModel(const StepModel&) = delete;
+  StepModel& operator=(const StepModel&) = delete;
+
+  /// Takes the stand of a body. @pre it is at a surface, and standNow() or passWithRows() has found
+  /// its stand
+  void freeze(const AmbientBody& ambient) noexcept;
+  /// Stiffens the model for a step that is long against the floating period, so that buoyancy does
+  /// not push the body past its balance; docs/theory.md eq. (68).
+  void stiffen(const SurfaceStand& stand, double duration) noexcept;
+
+  const BodyModel& operator*() const noexcept { return *model_; }
+  const BodyModel* operator->() const noexcept { return model_; }
+
+ private:
+  struct AtSurface {
+    BodyModel model;
+    LoadsAtSurface loads;
+  };
+
+  const BodyModel* model_ = nullptr;
+  std::optional<AtSurface> at_surface_;
+};
+
+/// Reports once a step with rows of more than a quarter of the floating period; apart from that
+/// allocates nothing.
+void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
+                       Complaints& complaints) noexcept;
 
 /// Returns the change of velocity in B by the waves that the body makes and by the wind, over a
-/// step in which rows move it; keeps the waves after the step. Allocates nothing. @pre the model is
-/// frozen at this pose
+/// step in which rows move it; keeps the waves after the step. Allocates nothing. @pre standNow()
 Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept;
 
-/// Stiffens the model for a step with rows that is long against the floating period, so that
-/// buoyancy does not push the body past its balance; docs/theory.md eq. (68). Reports a step of
-/// more than a quarter of the period once; apart from that allocates nothing.
-void stiffenForRows(AmbientBody& ambient, double duration, Complaints& complaints) noexcept;
-
-/// Restores the model of a saved state: as freezeAtSurface() left it for `met_B`. Call between
-/// steps.
-/// @pre met_B is set; `media` is an index into AmbientBody::surfaces
-void freezeAsMet(AmbientBody& ambient, int media) noexcept;
+/// Restores the encounter of a saved state with its surface, and the stand for `met_B`. Call
+/// between steps.
+/// @pre met_B is set; `media` is an index into FluidModels::surfaces
+void meetAgain(AmbientBody& ambient, int media) noexcept;
 
 /// Returns the twist x of a body that Bullet has moved with rows, after the change of its added
 /// mass on the way; in B, relative to the water. Removes energy above the work of weight and
@@ -70,7 +109,7 @@ BoundedTwist passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes,
                           double duration) noexcept;
 
 /// Returns the energy of the water that the body lifts or displaces [J], at a pose B to W that the
-/// step may reach a time `duration` [s] after freezeAtSurface(). @pre the body is at a surface
+/// step may reach a time `duration` [s] after standNow(). @pre the body is at a surface
 double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
                            double duration) noexcept;
 

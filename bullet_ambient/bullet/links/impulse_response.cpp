@@ -11,7 +11,7 @@
 AMBIENT_BEGIN
 
 Matrix6 inverseInertia(AmbientBody& ambient) {
-  if (isModelStale(ambient)) rebuildModel(ambient);
+  if (isModelStale(ambient)) rebuildModels(ambient);
   const btRigidBody& body = *ambient.body;
   const Matrix3 R = readState(body).orientation.toRotationMatrix();
   const AxisFactors factors = axisFactors(body);

@@ -25,13 +25,13 @@ void applyForces(AmbientTree& tree) {
 bool takeFlight(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   AmbientBody& ambient = baseOf(tree).ambient;
-  const FlightEnd& end = ambient.outcome.flight;
   if (std::exchange(ambient.outcome.kind, Outcome::kNotMet) != Outcome::kFlown) return false;
+  const FlightEnd& end = ambient.outcome.flight();
   step.moved << end.effective_W.angular, end.effective_W.linear;
   if (turnsTooFastForBullet(tree.tree, step.moved, task.duration)) return false;
   step.end << end.twist_W.angular, end.twist_W.linear;
   ambient.left_W = end.twist_W;
-  if (end.is_too_long) task.bodies.complaints.sayTooLong(ambient.def);
+  if (ambient.outcome.is_too_long) task.bodies.complaints.sayTooLong(*ambient.def);
   return true;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 // True if the fluid above the surface loads the link and moves relative to the water.
 bool hasWind(const AmbientBody& ambient) {
-  return ambient.surface()->model.loads_above.loads &&
+  return ambient.surface()->loads_above.loads &&
          ambient.encounter.velocity_above != ambient.medium.velocity;
 }
 
@@ -29,7 +29,7 @@ bool isDriven(const Link& link) {
 bool isLeftToWater(AmbientTree& tree) {
   bool has_wind = false;
   forEachAtSurface(
-      tree, [&](const AmbientBody& ambient, int) { has_wind = has_wind || hasWind(ambient); });
+      tree, [&](const AmbientLink& link, int) { has_wind = has_wind || hasWind(link.ambient); });
   const auto& links = tree.tree.links;
   return !has_wind && std::none_of(links.begin(), links.end(), isDriven) &&
          findFlow(tree.tree, tree.step.surface.start, tree.step.spare);
@@ -60,8 +60,8 @@ double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfW
     const AmbientBody& ambient = ambient_link->ambient;
     const Link& link = tree.tree.links[i];
     if (!link.model) continue;
-    const SurfaceMedia* surface = ambient.surface();
-    sum += energyOfPlace(surface ? surface->model.above : *link.model, link.surroundings,
+    const SurfaceModel* surface = ambient.surface();
+    sum += energyOfPlace(surface ? surface->above : *link.model, link.surroundings,
                          {dynamics.rotation(i), dynamics.position(i) - origin_W},
                          surface ? of_water(ambient, i) : 0);
   }
@@ -70,19 +70,19 @@ double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfW
 
 // Returns the energy rho g W of docs/theory.md eq. (64) at the last pose of a link [J].
 double energyOfWater(const AmbientBody& ambient) {
-  const SurfaceStand& stand = ambient.surface()->stand;
-  return hydrostaticEnergy(stand.wet, stand.plane);
+  const SurfaceStand& stand = ambient.stand();
+  return hydrostaticEnergy(wetVolume(*ambient.surface(), stand), stand.plane);
 }
 
 // Returns the largest change of the energy by rounding of Bullet's poses [J].
 double roundingOf(const AmbientTree& tree) {
   constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
   double sum = 0;
-  forEachAtSurface(tree, [&](const AmbientBody& ambient, int link) {
-    const SurfaceModel& model = ambient.surface()->model;
+  forEachAtSurface(tree, [&](const AmbientLink& link, int i) {
+    const SurfaceModel& model = *link.ambient.surface();
     const double weight =
-        (model.below.mass + model.below.displaced_mass) * ambient.encounter.plane_W.gravity;
-    sum += weight * (model.radius + tree.flight.dynamics().position(link).norm());
+        (model.below.mass + model.below.displaced_mass) * link.ambient.encounter.plane_W.gravity;
+    sum += weight * (model.radius + tree.flight.dynamics().position(i).norm());
   });
   return kRounding * sum;
 }
@@ -96,7 +96,7 @@ Vector3 originAfter(const AmbientTree& tree, double time) {
 
 bool isAtSurface(const AmbientTree& tree) noexcept {
   bool is_at = false;
-  forEachAtSurface(tree, [&is_at](const AmbientBody&, int) { is_at = true; });
+  forEachAtSurface(tree, [&is_at](const AmbientLink&, int) { is_at = true; });
   return is_at;
 }
 
@@ -119,16 +119,17 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
   dynamics.setVelocity(tree.step.moved);
   bool is_stiff = false;
   double most = 0;  // right-hand side of eq. (81b) [J]
-  forEachAtSurface(tree, [&](const AmbientBody& ambient, int link) {
-    const SurfaceModel& model = ambient.surface()->model;
+  forEachAtSurface(tree, [&](const AmbientLink& link, int i) {
+    const AmbientBody& ambient = link.ambient;
+    const SurfaceModel& model = *ambient.surface();
     const SurfacePlane& plane = ambient.encounter.plane_W;
-    const Twist& twist = dynamics.twist(link);
+    const Twist& twist = dynamics.twist(i);
     const double radius = model.radius;
     const double speed =
-        (dynamics.rotation(link) * twist.linear - flow).norm() + radius * twist.angular.norm();
+        (dynamics.rotation(i) * twist.linear - flow).norm() + radius * twist.angular.norm();
     const double way = duration * speed;
     most += kPi / 2 * plane.density * plane.gravity * radius * radius * way * way;
-    is_stiff = is_stiff || duration * ambient.surface()->stand.swing > kLongestSwing;
+    is_stiff = is_stiff || duration * ambient.stand().swing > kLongestSwing;
   });
   return is_stiff || twiceKinetic(tree, tree.step.end) < 2 * most;
 }

@@ -11,12 +11,12 @@ AMBIENT_BEGIN
 /// True if a water surface is near a link.
 bool isAtSurface(const AmbientTree& tree) noexcept;
 
-/// Calls visit(AmbientBody&, index in the tree) for links near a water surface.
+/// Calls visit(AmbientLink&, index in the tree) for links near a water surface.
 template <class Visit>
 void forEachAtSurface(const AmbientTree& tree, const Visit& visit) {
   for (const auto& link : tree.links)
     if (tree.tree.links[link->link + 1].model && link->ambient.surface())
-      visit(link->ambient, link->link + 1);
+      visit(*link, link->link + 1);
 }
 
 /// Call before a step. Stores the energy of the tree with the velocity `step.surface.start`. If

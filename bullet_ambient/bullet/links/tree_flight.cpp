@@ -16,8 +16,8 @@ LinkFlightSettings settingsOf(const AmbientTree& tree) {
   LinkFlightSettings settings;
   int most = 0;
   for (const auto& link : tree.links) {
-    settings.tolerance = std::min(settings.tolerance, link->ambient.def.flight.tolerance);
-    most = std::max(most, link->ambient.def.flight.max_substeps);
+    settings.tolerance = std::min(settings.tolerance, link->ambient.def->flight.tolerance);
+    most = std::max(most, link->ambient.def->flight.max_substeps);
   }
   if (most > 0) settings.max_substeps = most;
   return settings;
@@ -28,9 +28,9 @@ LinkFlightSettings settingsOf(const AmbientTree& tree) {
 void addErrors(double error, AmbientTree& tree, Complaints& complaints) {
   for (const auto& link : tree.links) {
     AmbientBody& ambient = link->ambient;
-    if (!ambient.step_errors.add(error) || ambient.def.flight.max_substeps > 0) continue;
+    if (!ambient.step_errors.add(error) || ambient.def->flight.max_substeps > 0) continue;
     ambient.counters.too_long = 1;
-    complaints.sayTooLong(ambient.def);
+    complaints.sayTooLong(*ambient.def);
   }
 }
 
@@ -135,7 +135,10 @@ class TreeFlight {
     count_.energy_removed = 0;
     count_.coarse = false;
     for (const auto& link : tree_.links) link->ambient.encounter = link->met;
-    forEachAtSurface(tree_, [](AmbientBody& ambient, int) { freezeAtSurface(ambient); });
+    forEachAtSurface(tree_, [](AmbientLink& link, int) {
+      standNow(link.ambient);
+      link.frozen.freeze(link.ambient);
+    });
   }
 
   AmbientTree& tree_;

@@ -21,19 +21,24 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
     in_tree.surroundings.ambient_velocity.setZero();
     return;
   }
-  if (ambient.surface()) freezeAtSurface(ambient);
-  in_tree.model = &ambient.model;
+  in_tree.model = &ambient.model();
+  if (ambient.surface()) {
+    standNow(ambient);
+    link.frozen.freeze(ambient);
+    in_tree.model = &*link.frozen;
+  }
   in_tree.mass = 1 / static_cast<double>(link.stand_in.getInvMass());
   in_tree.surroundings.gravity = toVector3(task.gravity);
   in_tree.surroundings.ambient_velocity = ambient.medium.velocity;
   in_tree.surroundings.ambient_acceleration = ambient.medium.acceleration;
+  in_tree.surroundings.load_share = ambient.load_share;
 }
 
 // True if a link has a wake that depends on its motion (followWake()): then its stand-in needs the
 // velocity.
 bool hasWakes(const AmbientTree& tree) {
   return std::any_of(tree.links.begin(), tree.links.end(), [](const auto& link) {
-    const auto& loads = link->ambient.model.loads;
+    const auto& loads = link->ambient.model().loads;
     return loads && loads->wakeShare() > 0;
   });
 }
@@ -47,7 +52,7 @@ bool moves(AmbientTree& tree) {
   return std::any_of(tree.links.begin(), tree.links.end(), [&dynamics](const auto& link) {
     const AmbientBody& ambient = link->ambient;
     const Twist twist = dynamics.twist(link->link + 1);
-    const double size = ambient.model.reference_length;
+    const double size = ambient.model().reference_length;
     const double travel = kRestingTime * (twist.linear.norm() + size * twist.angular.norm());
     return !ambient.may_rest || travel > kRestingTravel * size;
   });
@@ -112,12 +117,12 @@ void moveStandIns(AmbientTree& tree) noexcept {
 
 void addCount(const FlightCount& count, AmbientTree& tree) noexcept {
   const auto loaded = std::count_if(tree.links.begin(), tree.links.end(), [](const auto& link) {
-    return link->ambient.model.loads != nullptr;
+    return link->ambient.model().loads != nullptr;
   });
   const int evaluations = loaded > 0 ? count.load_evaluations / static_cast<int>(loaded) : 0;
   for (const auto& link : tree.links) {
     link->ambient.counters.substeps += count.substeps;
-    if (link->ambient.model.loads) countLoads(link->ambient, evaluations);
+    if (link->ambient.model().loads) countLoads(link->ambient, evaluations);
   }
   AmbientCounters& counters = tree.links.front()->ambient.counters;
   counters.guarded += count.guarded;

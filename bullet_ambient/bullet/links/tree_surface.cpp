@@ -10,8 +10,8 @@
 AMBIENT_BEGIN
 namespace {
 
-Wrench impulseOf(const AmbientBody& ambient, const Vector6& change) {
-  return Wrench::fromVector(ambient.model.inertia * change);
+Wrench impulseOf(const AmbientLink& link, const Vector6& change) {
+  return Wrench::fromVector(link.frozen->inertia * change);
 }
 
 // Adds H^-1 sum of J_l^T impulses to u, eq. (81a). Returns false, and leaves u unchanged, if that
@@ -40,12 +40,13 @@ void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
   step.surface.time = task.duration;
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
-  forEachAtSurface(tree, [&](AmbientBody& ambient, int link) {
-    step.impulses[link] = impulseOf(ambient, kickByWavesAndWind(ambient, task.duration));
+  forEachAtSurface(tree, [&](AmbientLink& link, int i) {
+    step.impulses[i] = impulseOf(link, kickByWavesAndWind(link.ambient, task.duration));
   });
   step.meets_surface = addResponse(tree, step.start);
-  forEachAtSurface(tree, [&](AmbientBody& ambient, int) {
-    stiffenForRows(ambient, task.duration, task.bodies.complaints);
+  forEachAtSurface(tree, [&](AmbientLink& link, int) {
+    link.frozen.stiffen(link.ambient.stand(), task.duration);
+    warnOfCoarseSwing(link.ambient, task.duration, task.bodies.complaints);
   });
 }
 
@@ -56,12 +57,13 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
   const LinkDynamics& dynamics = tree.flight.dynamics();
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   double energy_removed = 0;
-  forEachAtSurface(tree, [&](AmbientBody& ambient, int link) {
-    const Vector6 before = endTwist(dynamics, link, ambient.medium, duration);
+  forEachAtSurface(tree, [&](AmbientLink& link, int i) {
+    AmbientBody& ambient = link.ambient;
+    const Vector6 before = endTwist(dynamics, i, ambient.medium, duration);
     const BoundedTwist after = passWithRows(ambient, before, Axes::kFree, duration);
-    freezeAsStood(ambient);
+    link.frozen.freeze(ambient);
     ambient.encounter.waves = ambient.encounter.waves_with_rows;
-    step.impulses[link] = impulseOf(ambient, after.twist - before);
+    step.impulses[i] = impulseOf(link, after.twist - before);
     energy_removed += after.energy_removed;
   });
   return addResponse(tree, step.end) ? energy_removed : 0;

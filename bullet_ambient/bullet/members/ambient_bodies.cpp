@@ -39,7 +39,7 @@ bool AmbientBodies::isSame(const AmbientBody& ambient) {
 void AmbientBodies::insert(std::unique_ptr<AmbientBody> ambient) {
   ambient->instance = instanceNumber(*ambient->body);
   if (AmbientBody* same = find(ambient->body)) {
-    if (ambient->def.name.empty()) ambient->def.name = same->def.name;  // no state has it
+    keepName(same->def->name, *ambient);  // no state has it
     ambient->reading = same->reading;
     slots.replace(*same, {ambient.get(), nullptr});
   } else {

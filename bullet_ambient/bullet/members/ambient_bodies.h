@@ -10,7 +10,6 @@
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/ambient_trees.h"
 #include "bullet_ambient/bullet/members/member_slots.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/complaints.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
@@ -70,7 +69,7 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   AmbientTrees trees{slots};
   Complaints complaints;
   FluidRegions regions;
-  LoadTables load_tables;  ///< data that loads of several bodies share
+  ModelTables load_tables;  ///< data that several bodies share
   TaskRunner* task_runner = nullptr;
   std::function<std::string(const btCollisionObject&)> naming;  ///< Fluid::setNaming()
   std::atomic<unsigned> solved{0};  ///< number of groups solved so far by all solvers of this fluid

@@ -78,7 +78,7 @@ void AmbientTrees::replace(btMultiBodyDynamicsWorld& world, btMultiBody& multi_b
   for (std::unique_ptr<AmbientLink>& link : links) {
     const Member member{&link->ambient, tree.get()};
     if (AmbientLink* before = find(&multi_body, link->link)) {
-      if (link->ambient.def.name.empty()) link->ambient.def.name = before->ambient.def.name;
+      keepName(before->ambient.def->name, link->ambient);
       link->ambient.reading = before->ambient.reading;
       slots_.replace(before->ambient, member);
     } else {

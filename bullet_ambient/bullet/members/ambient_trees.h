@@ -10,6 +10,7 @@
 #include "bullet_ambient/bullet/members/member_slots.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/links/link_flight.h"
 
 class btMultiBody;
@@ -27,6 +28,7 @@ struct AmbientLink {
   const int link;        ///< Bullet's number; -1: the base
   btRigidBody stand_in;  ///< has the link's mass, pose and velocity, and the world's gravity
   AmbientBody ambient;
+  StepModel frozen;      ///< at a water surface: the model in the present or last step
   SurfaceEncounter met;  ///< encounter at the start of the step, to repeat a flight from there
 };
 

@@ -16,8 +16,8 @@ namespace {
 // Reports mass and shape that can be computed with, but were hardly meant.
 void warnOfSuspiciousMass(const AmbientBody& ambient, Complaints& complaints) {
   constexpr double kRounding = 1e-3;
-  const FluidBody& shape = *ambient.def.fluid_body;
-  const std::string who = "bullet_ambient: " + nameOf(ambient.def) + ' ';
+  const FluidBody& shape = *ambient.def->fluid_body;
+  const std::string who = "bullet_ambient: " + nameOf(*ambient.def) + ' ';
   const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
   const double largest = moments.maxCoeff(), others = moments.sum() - largest;
   if (largest > (1 + kRounding) * others) {
@@ -26,7 +26,7 @@ void warnOfSuspiciousMass(const AmbientBody& ambient, Complaints& complaints) {
                              std::to_string(others) + " kg m^2, the sum of the other two";
     complaints.say(Complaint::kInertia, text.c_str());
   }
-  if (ambient.isInFluid() && !ambient.model.loads && !(shape.volume > 0) &&
+  if (ambient.isInFluid() && !ambient.model().loads && !(shape.volume > 0) &&
       shape.added_mass.isZero(0)) {
     const std::string text =
         who + "feels no fluid: without faces, volume and added mass its shape is empty";
@@ -65,17 +65,17 @@ void checkDef(const std::string& who, const AttachDef& def) {
 }
 
 void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
-  refreshModel(ambient, bodies.regions, bodies.load_tables);
+  refreshModels(ambient, bodies.regions, bodies.load_tables);
   followRegions(ambient, bodies.regions, 0, bodies.complaints);
-  if (ambient.body->getInvMass() > 0 && isModelStale(ambient)) rebuildModel(ambient);
 }
 
 DisplacedMass displacedMass(const AmbientBody& ambient) {
   // A body that rises to a surface floats, which may be meant.
-  const bool may_float = ambient.place.region != RegionId::kNone && !ambient.surfaces.empty();
+  const bool may_float =
+      ambient.place.region != RegionId::kNone && !ambient.models->surfaces.empty();
   if (may_float) return {1 / static_cast<double>(ambient.body->getInvMass()), 0};
   return {1 / static_cast<double>(ambient.body->getInvMass()),
-          ambient.def.fluid_body->volume * ambient.medium.density};
+          ambient.def->fluid_body->volume * ambient.medium.density};
 }
 
 AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def) {
@@ -100,7 +100,7 @@ AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def)
   checkDef(who, def);
   auto ambient = std::make_unique<AmbientBody>();
   ambient->body = &body;
-  ambient->def = std::move(def);
+  ambient->def = shareDef(std::move(def), bodies.load_tables);
   refresh(*ambient, bodies);
   if (ambient->isInFluid()) body.activate();
   warnOfSuspiciousMass(*ambient, bodies.complaints);

@@ -28,9 +28,9 @@ struct DisplacedMass {
 /// counts as floating: its displaced mass is 0. @pre the body is dynamic
 DisplacedMass displacedMass(const AmbientBody& ambient);
 
-/// Makes loads and model of a body again, in the medium around it now. If this throws, nothing has
+/// Makes the models of a body again, in the medium around it now. If this throws, nothing has
 /// changed.
-/// @throws std::invalid_argument as refreshModel().
+/// @throws std::invalid_argument as refreshModels().
 void refresh(AmbientBody& ambient, AmbientBodies& bodies);
 
 /// Checks the flight settings and enumerators of a definition; refresh() checks shape and medium.

@@ -91,7 +91,7 @@ AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, 
   auto link = std::make_unique<AmbientLink>(at.link);
   standIn(*link, at.multi_body, world.getGravity());
   link->stand_in.setWorldTransform(linkTransform(at.multi_body, at.link));
-  link->ambient.def = std::move(def);
+  link->ambient.def = shareDef(std::move(def), bodies.load_tables);
   refresh(link->ambient, bodies);
   AmbientBody& attached = link->ambient;
   bodies.trees.insert(world, at.multi_body, std::move(link));

@@ -19,20 +19,17 @@ bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) 
   if (outcome.kind == Outcome::kFlown) bodies.complaints.say(Complaint::kNoAction);
   bodies.meet(ambient);
   outcome.world_index = ambient.body->getWorldArrayIndex();
-  outcome.rows = {};
+  outcome.motion = RowMotion{};
   return prepareFluid(ambient, bodies, time_step);
 }
 
 bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept {
   AMBIENT_ASSERT(ambient.body && time_step >= 0);
   if (ambient.body->isStaticOrKinematicObject()) return false;  // for now
-  const bool is_other_fluid = followRegions(ambient, bodies.regions, time_step, bodies.complaints);
-  if (!ambient.isInFluid() && !is_other_fluid) return false;
+  followRegions(ambient, bodies.regions, time_step, bodies.complaints);
+  if (!ambient.isInFluid()) return false;
   try {
-    if (isModelStale(ambient)) {
-      rebuildModel(ambient);
-      if (!ambient.isInFluid()) return false;
-    }
+    if (isModelStale(ambient)) rebuildModels(ambient);
   } catch (const std::exception&) {
     bodies.complaints.say(Complaint::kNotPhysical);
     return false;
@@ -69,7 +66,7 @@ void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
 
 void keepAwakeWhileMoving(AmbientBody& ambient) noexcept {
   btRigidBody& body = *ambient.body;
-  const double size = ambient.model.reference_length;
+  const double size = ambient.model().reference_length;
   const double travel =
       kRestingTime * (static_cast<double>(body.getLinearVelocity().length()) +
                       size * static_cast<double>(body.getAngularVelocity().length()));

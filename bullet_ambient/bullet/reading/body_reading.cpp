@@ -1,5 +1,6 @@
 #include "bullet_ambient/bullet/reading/body_reading.h"
 
+#include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN
@@ -29,19 +30,24 @@ RigidState middleOfWay(const RigidState& start, const Twist& moved_W, double h) 
 void beginBodyReading(AmbientBody& ambient, bool is_locked) noexcept {
   FluidReading& reading = *ambient.reading;
   beginReading(ambient, readState(*ambient.body), readSurroundings(ambient), reading);
+  reading.model = ambient.model();
   reading.knows_impulse = !is_locked;
 }
 
-void readRows(AmbientBody& ambient, btSolverBody& solver_body) noexcept {
+void readRows(AmbientBody& ambient, btSolverBody& solver_body, double time_step) noexcept {
   FluidReading& reading = *ambient.reading;
-  const RowMotion& rows = ambient.outcome.rows;
+  const RowMotion& rows = ambient.outcome.rows();
   reading.moved_W = turned(rows.start.orientation, rows.start.twist);
   reading.moved_W.linear += rows.flow_W;
   const Quaternion& q = reading.start.orientation;
   const Twist change_B =
       turned(q.conjugate(), {toVector3(solver_body.internalGetDeltaAngularVelocity()),
                              toVector3(solver_body.internalGetDeltaLinearVelocity())});
-  const Wrench impulse_B = Wrench::fromVector(ambient.model.inertia * change_B.vector());
+  if (ambient.surface()) {
+    reading.model = *StepModel(ambient, time_step);
+    reading.model.loads = nullptr;  // which the StepModel holds
+  }
+  const Wrench impulse_B = Wrench::fromVector(reading.model.inertia * change_B.vector());
   reading.impulse_W = {q * impulse_B.torque, q * impulse_B.force};
 }
 
@@ -52,7 +58,7 @@ void finishBodyReading(AmbientBody& ambient, Outcome kind, const Twist& before_W
   RigidState end = readState(*ambient.body);
   Twist end_W = reading.moved_W;
   if (has_flown) {
-    end_W = ambient.outcome.flight.twist_W;
+    end_W = ambient.outcome.flight().twist_W;
   } else {
     const Twist after_W = velocityOf(*ambient.body);
     end_W.angular += after_W.angular - before_W.angular;
@@ -61,7 +67,7 @@ void finishBodyReading(AmbientBody& ambient, Outcome kind, const Twist& before_W
   end.twist = turned(end.orientation.conjugate(), end_W);
   const RigidState middle = has_flown ? middleOfFlight(reading.start, end, time_step)
                                       : middleOfWay(reading.start, reading.moved_W, time_step);
-  finishReading(ambient, {middle, end, ambient.model, has_flown, time_step}, reading);
+  finishReading(ambient, {middle, end, reading.model, has_flown, time_step}, reading);
 }
 
 AMBIENT_END

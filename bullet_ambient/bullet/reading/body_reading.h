@@ -16,7 +16,7 @@ void beginBodyReading(AmbientBody& ambient, bool is_locked) noexcept;
 
 /// Reads the impulse of rows from their velocity changes (world axes), after the solver's
 /// iterations.
-void readRows(AmbientBody& ambient, btSolverBody& solver_body) noexcept;
+void readRows(AmbientBody& ambient, btSolverBody& solver_body, double time_step) noexcept;
 
 /// Computes the wrenches after the action has set the velocity; `before_W`: velocity before the
 /// action.

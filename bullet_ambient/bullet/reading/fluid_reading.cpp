@@ -95,12 +95,11 @@ class MiddleWrenches {
     setBuoyancy(model);
     if (!model.loads) return;
     const FrameOffset& frame = model.load_frame;
-    setLoads(computeSurfaceLoad(model, seen_).wrench,
-             model.load_share * frame.toB(model.loads->parts(frame.toF(seen_)).friction));
+    setLoads(computeSurfaceLoad(model, seen_, ambient_.load_share).wrench,
+             ambient_.load_share * frame.toB(model.loads->parts(frame.toF(seen_)).friction));
   }
 
-  void findAtSurface(const SurfaceMedia& surface) {
-    const SurfaceModel& model = surface.model;
+  void findAtSurface(const SurfaceModel& model) {
     const Surroundings& s = reading_.surroundings;
     const double time = step_.duration / 2;
     SurfacePlane plane_W = reading_.plane_W;
@@ -112,7 +111,7 @@ class MiddleWrenches {
     if (model.loads_below.loads)
       setLoads(ambient_.load_share * loadBelow(model, stand, seen_),
                ambient_.load_share * frictionBelow(model, stand, seen_));
-    found_.waves = waveWrench(stand.waves, to_world_, reading_.waves, ambient_.encounter.waves);
+    found_.waves = waveWrench(stand.modes, to_world_, reading_.waves, ambient_.encounter.waves);
     if (!model.loads_above.loads) return;
     Twist seen_above = step_.middle.twist;
     seen_above.linear -= to_world_.transpose() * ambient_.encounter.velocity_above;

@@ -17,7 +17,7 @@ struct FluidReading {
   WaveMemory waves;
   Twist moved_W;               ///< velocity by which Bullet moves the body, world axes
   RigidState end;              ///< links only: state after the substep
-  BodyModel model;             ///< links only: model in the substep
+  BodyModel model;             ///< model in the substep
   Wrench impulse_W;            ///< impulse of constraint rows [N m s, N s]
   bool knows_impulse = false;  ///< true: impulse_W is known; false: the balance of momentum gives
                                ///< the constraint wrench

@@ -41,7 +41,7 @@ void beginTreeReading(AmbientTree& tree) noexcept {
   forEachRead(tree, [&](AmbientBody& ambient, int link) {
     FluidReading& reading = *ambient.reading;
     beginReading(ambient, stateOf(dynamics, link), tree.tree.links[link].surroundings, reading);
-    reading.model = ambient.model;
+    reading.model = *tree.tree.links[link].model;
   });
 }
 

@@ -43,10 +43,10 @@ double wetAreaShare(const FluidBody& shape, const SurfacePlane& plane) {
 }
 
 WetState wholly(const AmbientBody& ambient, bool is_wet) {
-  const FluidBody& shape = *ambient.def.fluid_body;
+  const FluidBody& shape = *ambient.def->fluid_body;
   const RigidState pose = readState(*ambient.body);
   WetState state;
-  state.centre_of_buoyancy = pose.position + pose.orientation * ambient.model.centre_of_volume;
+  state.centre_of_buoyancy = pose.position + pose.orientation * ambient.model().centre_of_volume;
   if (!is_wet) return state;
   state.share = 1;
   state.volume = shape.volume;
@@ -81,12 +81,12 @@ WetState inRegion(const AmbientBody& ambient, const FluidRegions::Entry& entry,
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   RegionCall call(regions);
   const RegionSample sample =
-      sampleRegion(entry.region, position, regions.time, ambient.def.medium);
-  const int media = findSurface(ambient.surfaces, SurfaceKind(entry.region));
+      sampleRegion(entry.region, position, regions.time, ambient.def->medium);
+  const int media = ambient.models->findSurface(SurfaceKind(entry.region));
   const Vector3 gravity = toVector3(ambient.body->getGravity());
   if (media < 0 || !hasSurface(sample, gravity)) return wholly(ambient, !sample.isAbove());
   return cutBy(planeNear(position, sample, gravity),
-               ambient.surfaces[static_cast<std::size_t>(media)].model, ambient);
+               ambient.models->surfaces[static_cast<std::size_t>(media)].model, ambient);
 }
 
 }  // namespace
@@ -95,8 +95,8 @@ WetState wetStateOf(const AmbientBody& ambient, const FluidRegions& regions) {
   long long asked = 0;
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   const FluidRegions::Entry* entry =
-      ambient.def.follow_regions ? regions.find(position, asked) : nullptr;
-  if (!entry) return wholly(ambient, ambient.def.medium.density > 0);
+      ambient.def->follow_regions ? regions.find(position, asked) : nullptr;
+  if (!entry) return wholly(ambient, ambient.def->medium.density > 0);
   WetState state = inRegion(ambient, *entry, regions);
   state.region = entry->id;
   return state;

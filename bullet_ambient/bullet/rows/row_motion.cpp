@@ -89,10 +89,11 @@ BoundedTwist keepingMomentum(const BodyModel& model, const RowMotion& rows, cons
 
 void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody& solver_body,
                     double time_step) noexcept {
-  const BodyModel& model = ambient.model;
+  const StepModel step_model(ambient, time_step);
+  const BodyModel& model = *step_model;
   AMBIENT_ASSERT(time_step > 0 && !(row_body.extent < 0));
   const Medium& medium = ambient.medium;
-  RowMotion& rows = ambient.outcome.rows;
+  RowMotion& rows = ambient.outcome.rows();
   rows.start = row_body.start;
   rows.is_held = row_body.is_held;
   rows.flow_W = medium.velocity + time_step * medium.acceleration;
@@ -122,7 +123,7 @@ void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody&
 }
 
 void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints) noexcept {
-  const RowMotion& rows = ambient.outcome.rows;
+  const RowMotion& rows = ambient.outcome.rows();
   if (!rows.momentum && !rows.energy_bound && !ambient.surface()) return;
   btRigidBody& body = *ambient.body;
   const RigidState now = readState(body);
@@ -130,14 +131,16 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
   if (!part) return;
   const Twist moved_W = turned(rows.start.orientation, rows.start.twist);
   const Vector6 moved = turned(now.orientation.conjugate(), moved_W).vector();
+  const StepModel step_model(ambient, time_step);
+  const BodyModel& model = *step_model;
   BoundedTwist end{moved};
   if (rows.momentum) {
     const Vector3 position = rows.momentum->pivot + *part * time_step * moved_W.linear;
-    end.twist = twistOf(ambient.model, *rows.momentum, now.orientation, position).vector();
+    end.twist = twistOf(model, *rows.momentum, now.orientation, position).vector();
   }
   if (rows.energy_bound)
-    end = rows.momentum ? keepingMomentum(ambient.model, rows, moved, end.twist)
-                        : withinEnergy(ambient.model, moved, end.twist, *rows.energy_bound);
+    end = rows.momentum ? keepingMomentum(model, rows, moved, end.twist)
+                        : withinEnergy(model, moved, end.twist, *rows.energy_bound);
   double energy_removed = end.energy_removed;
   if (ambient.surface()) {
     const Axes axes = rows.momentum ? Axes::kFree : Axes::kLocked;

@@ -20,15 +20,16 @@ bool isHeldAslant(const btVector3& push_W, const btVector3& normal_W, btScalar f
 }
 
 bool mayTurnAside(const AmbientBody& ambient) noexcept {
-  const BodyModel& model = ambient.model;
+  if (ambient.surface()) return true;
+  const BodyModel& model = ambient.model();
   const Vector3 response = model.inverse_inertia.diagonal().tail<3>();
   return !model.has_diagonal_inertia ||
          response.maxCoeff() - response.minCoeff() > kEvenPush * response.minCoeff();
 }
 
 bool turnsAside(const AmbientBody& ambient, const btVector3& normal_W) noexcept {
-  const BodyModel& model = ambient.model;
-  if (!model.has_diagonal_inertia) return true;
+  const BodyModel& model = ambient.model();
+  if (ambient.surface() || !model.has_diagonal_inertia) return true;
   const btMatrix3x3& rotation = ambient.body->getWorldTransform().getBasis();
   const Vector3 normal = toVector3(normal_W * rotation);  // in B
   const Vector3 push = model.inverse_inertia.diagonal().tail<3>().cwiseProduct(normal);

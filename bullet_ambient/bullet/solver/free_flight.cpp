@@ -6,6 +6,7 @@
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/surface/surface_flight.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -62,16 +63,15 @@ bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start, const
 
 SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
   SurfaceEncounter& encounter = ambient.encounter;
-  SurfaceMedia& surface = *ambient.surface();
   const FlightTask& task = flight.task;
   const RigidState& start = flight.body.state;
   standAt(ambient,
           seenFrom(encounter.plane_W, start.orientation.toRotationMatrix(), start.position));
-  return {{surface.model, encounter.plane_W, task.surroundings, encounter.velocity_above,
-           task.settings, task.duration, ambient.load_share},
+  return {{*ambient.surface(), encounter.plane_W, task.surroundings, encounter.velocity_above,
+           task.settings, task.duration},
           flight.body,
           encounter.waves,
-          surface.stand};
+          ambient.last_stand->stand};
 }
 
 void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int count) {
@@ -79,7 +79,7 @@ void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int coun
   SurfaceFlight* all[kFlightsTogether];
   for (int i = 0; i < count; ++i) all[i] = &near[i].emplace(surfaceFlight(*bodies[i], *flights[i]));
   flyAtSurface(all, count);
-  for (int i = 0; i < count; ++i) bodies[i]->encounter.met_B = bodies[i]->surface()->stand.plane;
+  for (int i = 0; i < count; ++i) bodies[i]->encounter.met_B = bodies[i]->stand().plane;
 }
 
 // Flies the bodies at a water surface side by side, and then all others side by side.
@@ -144,26 +144,23 @@ void add(const FlightCount& count, AmbientBody& ambient) {
 void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, double length_scale,
           AmbientBody& ambient) {
   add(flight.count, ambient);
-  FlightEnd& end = ambient.outcome.flight;
+  SubstepOutcome& outcome = ambient.outcome;
   // No warning if the user limits max_substeps.
-  end.is_too_long =
-      ambient.step_errors.add(flight.count.error) && ambient.def.flight.max_substeps == 0;
-  if (end.is_too_long) ambient.counters.too_long = 1;
+  outcome.is_too_long =
+      ambient.step_errors.add(flight.count.error) && ambient.def->flight.max_substeps == 0;
+  if (outcome.is_too_long) ambient.counters.too_long = 1;
   if (!fitsBullet(flight.state, end_W)) {
-    ambient.outcome.kind = Outcome::kAdrift;
+    outcome.kind = Outcome::kAdrift;
     ++ambient.counters.rejected;
     ambient.memory = {};
     ambient.encounter.waves = {};
     ambient.encounter.met_B.reset();
     return;
   }
-  ambient.outcome.kind = Outcome::kFlown;
+  outcome.kind = Outcome::kFlown;
   ambient.counters.energy_removed += flight.count.energy_removed;
   ambient.memory = flight.memory;
-  end.state = flight.state;
-  end.twist_W = end_W;
-  end.effective_W = mean_W;
-  end.length_scale = length_scale;
+  outcome.motion = FlightEnd{flight.state, end_W, mean_W, length_scale};
 }
 
 // True if Bullet does not reach the end orientation: it limits the rotation per step. Also true
@@ -179,7 +176,7 @@ bool turnsTooFarForBullet(const FlightEnd& flight, double time_step) {
 bool reachedEnd(const AmbientBody& ambient) {
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   const double rounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
-  const FlightEnd& end = ambient.outcome.flight;
+  const FlightEnd& end = ambient.outcome.flight();
   return (position - end.state.position).norm() <= rounding * end.length_scale;
 }
 
@@ -197,7 +194,8 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
     AmbientBody& ambient = *bodies[i];
     const RigidState& start = departures.states[i];
     if (wasMovedByOthers(ambient, start, departures.twists_W[i])) ambient.memory.has_load = false;
-    const FlightTask task{ambient.model, departures.surroundings[i], ambient.def.flight, time_step};
+    const FlightTask task{ambient.model(), departures.surroundings[i], ambient.def->flight,
+                          time_step};
     all[i] = &flights[i].emplace(task, start, ambient.memory);
   }
   flyAll(bodies, all, count);
@@ -207,7 +205,7 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
     AmbientBody& ambient = *bodies[i];
     const FlightResult& flight = all[i]->body;
     const Twist &mean_W = arrivals.means_W[i], &before_W = departures.twists_W[i];
-    const double length_scale = flight.state.position.norm() + ambient.model.reference_length +
+    const double length_scale = flight.state.position.norm() + ambient.model().reference_length +
                                 time_step * before_W.linear.norm();
     keep(flight, arrivals.ends_W[i], mean_W, length_scale, ambient);
     changes_W[i] = {};
@@ -218,7 +216,7 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
 
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
-  const FlightEnd& flight = ambient.outcome.flight;
+  const FlightEnd& flight = ambient.outcome.flight();
   if (turnsTooFarForBullet(flight, time_step) && reachedEnd(ambient)) {
     btTransform end = body.getWorldTransform();
     end.setRotation(toBullet(flight.state.orientation));

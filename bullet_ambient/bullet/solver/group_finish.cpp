@@ -76,7 +76,7 @@ bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, 
     return false;
   }
   beginRowMotion(ambient, row_body, b, time_step);
-  if (ambient.reading) readRows(ambient, b);
+  if (ambient.reading) readRows(ambient, b, time_step);
   return true;
 }
 
@@ -150,7 +150,7 @@ void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
   for (const Member* member : free_members_) {
     const SubstepOutcome& outcome = member->ambient->outcome;
     if (outcome.kind != Outcome::kFlown) bodies_.complaints.say(Complaint::kNotFinite);
-    if (outcome.flight.is_too_long) bodies_.complaints.sayTooLong(member->ambient->def);
+    if (outcome.is_too_long) bodies_.complaints.sayTooLong(*member->ambient->def);
   }
   free_members_.clear();
 }

@@ -119,7 +119,7 @@ void SolverGroup::noteGap(AmbientBody& ambient, const RowBody& row_body) noexcep
   ambient.gaping = is_wide ? ambient.gaping + 1 : 0;
   if (ambient.gaping != kLongGape) return;
   const Member* other = memberOf(row_body.gap_to);
-  bodies_.complaints.sayGaping(ambient.def, other ? &other->ambient->def : nullptr);
+  bodies_.complaints.sayGaping(*ambient.def, other ? other->ambient->def.get() : nullptr);
 }
 
 AMBIENT_END

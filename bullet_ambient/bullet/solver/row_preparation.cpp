@@ -17,10 +17,10 @@ namespace {
 
 // Returns the velocity basis T in body axes, docs/theory.md eq. (26). At a water surface it is
 // computed anew, because the inertia changes from step to step.
-Matrix6 basisOf(const AmbientBody& ambient) {
-  if (!ambient.surface()) return ambient.basis_B;
+Matrix6 basisOf(const AmbientBody& ambient, const BodyModel& model) {
+  if (!ambient.surface()) return ambient.in_medium->basis_B;
   const Vector3 inverse_inertia = toVector3(ambient.body->getInvInertiaDiagLocal());
-  return makeVelocityBasis(ambient.model, inverse_inertia.cwiseInverse());
+  return makeVelocityBasis(model, inverse_inertia.cwiseInverse());
 }
 
 // Returns 1 for each component that is zero, else 0.
@@ -30,14 +30,13 @@ btVector3 whereZero(const btVector3& v) {
 
 // Sets the basis of eq. (30) and Bullet's factors of locked axes to 1: T contains the locks, which
 // the solver must not apply twice.
-void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& factors,
-          btSolverBody& solver_body) {
-  const btRigidBody& body = *ambient.body;
+void lock(RowBody& row_body, const btRigidBody& body, const FlightTask& task,
+          const AxisFactors& factors, btSolverBody& solver_body) {
   const Vector3 inertia = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
   const Matrix3 R = readState(body).orientation.toRotationMatrix();
   const Matrix3 root = rootInertia(inertia, R);
   row_body.is_locked = true;
-  row_body.basis = makeLockedBasis(ambient.model, root, R, factors);
+  row_body.basis = makeLockedBasis(task.model, root, R, factors);
   row_body.root_inertia = toBulletMatrix(root);
   row_body.locked_angular = whereZero(body.getAngularFactor());
   row_body.locked_linear = whereZero(body.getLinearFactor());
@@ -49,18 +48,12 @@ void lock(RowBody& row_body, const AmbientBody& ambient, const AxisFactors& fact
 // Returns the velocity change that rows are solved against, eq. (28), with the kicks by waves and
 // wind; zero if it is not finite. @pre the body's inertia tensor fits its orientation
 RowVelocity velocityForRows(AmbientBody& ambient, const RigidState& start,
-                            const AxisFactors& factors, double time_step, Complaints& complaints) {
-  Vector6 by_surface = Vector6::Zero();
-  if (ambient.surface()) {
-    freezeAtSurface(ambient);
-    by_surface = kickByWavesAndWind(ambient, time_step);
-    stiffenForRows(ambient, time_step, complaints);
-  }
-  const Surroundings surroundings = readSurroundings(ambient);
-  const FlightTask task{ambient.model, surroundings, ambient.def.flight, time_step};
+                            const AxisFactors& factors, const FlightTask& task,
+                            Complaints& complaints) {
   RowVelocity row = factors.areFree() ? computeRowVelocity(task, start)
                                       : computeLockedVelocity(task, start, factors);
   if (ambient.surface()) {
+    const Vector6 by_surface = kickByWavesAndWind(ambient, task.duration);
     const Twist kick_W = turned(start.orientation, Twist::fromVector(by_surface));
     row.change_W.angular += kick_W.angular;
     row.change_W.linear += kick_W.linear;
@@ -109,7 +102,14 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   const btRigidBody& body = *ambient.body;
   const RigidState start = readState(body);
   const AxisFactors factors = axisFactors(body);
-  const RowVelocity row = velocityForRows(ambient, start, factors, time_step_, bodies_.complaints);
+  if (ambient.surface()) {
+    standNow(ambient);
+    warnOfCoarseSwing(ambient, time_step_, bodies_.complaints);
+  }
+  const StepModel model(ambient, time_step_);
+  const Surroundings surroundings = readSurroundings(ambient);
+  const FlightTask task{*model, surroundings, ambient.def->flight, time_step_};
+  const RowVelocity row = velocityForRows(ambient, start, factors, task, bodies_.complaints);
   setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
 
   RowBody& row_body = row_bodies_->add(member.solver_body);
@@ -124,13 +124,13 @@ void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noex
   row_body.spin_aside = toBullet(row.isotropic_excess_W.angular);
   row_body.velocity_aside = toBullet(row.isotropic_excess_W.linear);
   if (member.is_locked) {
-    lock(row_body, ambient, factors, solver_body);
+    lock(row_body, body, task, factors, solver_body);
   } else {
     const Matrix3 R = start.orientation.toRotationMatrix();
-    const bool is_diagonal = ambient.model.has_diagonal_inertia && !ambient.surface();
+    const bool is_diagonal = model->has_diagonal_inertia;
     row_body.has_coupling = !is_diagonal;
-    row_body.basis = is_diagonal ? toWorld(Vector6(ambient.basis_B.diagonal()), R)
-                                 : toWorld(basisOf(ambient), R);
+    row_body.basis = is_diagonal ? toWorld(Vector6(ambient.in_medium->basis_B.diagonal()), R)
+                                 : toWorld(basisOf(ambient, *model), R);
   }
 }
 

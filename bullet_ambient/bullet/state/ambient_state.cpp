@@ -13,12 +13,15 @@ AMBIENT_BEGIN
 namespace {
 
 // Gives a link at a surface the inertia that its last substep has left.
-void meetSurfaceAgain(AmbientBody& ambient, const FluidRegions& regions) {
+void meetSurfaceAgain(AmbientLink& link, const FluidRegions& regions) {
+  AmbientBody& ambient = link.ambient;
   if (!ambient.place.is_at_surface || !ambient.encounter.met_B) return;
   const auto entry = regions.all().find(ambient.place.region);
   if (entry == regions.all().end()) return;
-  const int media = findSurface(ambient.surfaces, SurfaceKind(entry->second.region));
-  if (media >= 0) freezeAsMet(ambient, media);
+  const int media = ambient.models->findSurface(SurfaceKind(entry->second.region));
+  if (media < 0) return;
+  meetAgain(ambient, media);
+  link.frozen.freeze(ambient);
 }
 
 std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBodyState& state,
@@ -36,7 +39,7 @@ std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBo
 }  // namespace
 
 AmbientState saveAmbient(const AmbientBody& ambient) {
-  AmbientState state{ambient.def,    ambient.medium,          ambient.place,
+  AmbientState state{*ambient.def,   ambient.medium,          ambient.place,
                      ambient.memory, ambient.encounter.waves, ambient.encounter.met_B,
                      ambient.wake,   ambient.left_W,          ambient.counters};
   if (isModelStale(ambient)) state.memory = {};  // as the next step will do
@@ -58,12 +61,10 @@ AmbientBody makeAmbient(const AmbientState& saved, btRigidBody& body, AmbientBod
   checkDef("restoreState: body with fluid body '" + saved.def.fluid_body->name + "'", saved.def);
   AmbientBody ambient;
   ambient.body = &body;
-  ambient.def = saved.def;
-  refreshModel(ambient, registered.regions, registered.load_tables);
+  ambient.def = shareDef(saved.def, registered.load_tables);
+  refreshModels(ambient, registered.regions, registered.load_tables);
   // A region that does not exist here is left to the next step.
-  if (enterMedium(ambient, saved.place, saved.medium) && isModelStale(ambient) &&
-      body.getInvMass() > 0)
-    rebuildModel(ambient);
+  enterMedium(ambient, saved.place, saved.medium);
   ambient.memory = saved.memory;
   ambient.encounter.waves = saved.waves;
   ambient.encounter.met_B = saved.met_B;
@@ -93,7 +94,7 @@ void insertLinks(const MultiBodyState& state, std::vector<std::unique_ptr<Ambien
   if (!tree) return;
   tree->step.reserve = state.turn_reserve;
   moveStandIns(*tree);
-  for (const auto& link : tree->links) meetSurfaceAgain(link->ambient, registered.regions);
+  for (const auto& link : tree->links) meetSurfaceAgain(*link, registered.regions);
 }
 
 AMBIENT_END

@@ -17,20 +17,25 @@
 AMBIENT_BEGIN
 namespace {
 
-// Makes all loads first: what throws changes nothing.
-void learnAll(AmbientBodies& bodies, const RegionFluids& fluids) {
-  if (fluids.empty()) return;
-  std::vector<KnownFluids> made;
+// Gives all bodies the models for the fluids of the regions and for further ones. Makes all models
+// first: what throws changes nothing.
+void knowFluids(AmbientBodies& bodies, const RegionFluids& further) {
+  const RegionFluids fluids = bodies.regions.fluids(further);
+  std::vector<std::shared_ptr<const FluidModels>> made;
   bodies.forEach([&](const AmbientBody& ambient) {
-    made.push_back(makeKnownFluids(ambient.def, fluids, bodies.load_tables));
+    made.push_back(
+        makeFluidModels(*ambient.def, ambient.models->inverse_mass, fluids, bodies.load_tables));
   });
   std::size_t next = 0;
-  bodies.forEach([&](AmbientBody& ambient) { learnFluids(ambient, std::move(made[next++])); });
+  bodies.forEach([&](AmbientBody& ambient) { setModels(ambient, std::move(made[next++])); });
 }
 
-void forgetAll(AmbientBodies& bodies, const RegionFluids& fluids) {
-  if (fluids.empty()) return;
-  bodies.forEach([&](AmbientBody& ambient) { forgetFluids(ambient, fluids); });
+void learnAll(AmbientBodies& bodies, const RegionFluids& missing) {
+  if (!missing.empty()) knowFluids(bodies, missing);
+}
+
+void forgetAll(AmbientBodies& bodies, const RegionFluids& forgotten) {
+  if (!forgotten.empty()) knowFluids(bodies, {});
 }
 
 template <class Object>
@@ -42,7 +47,7 @@ Object& requireObject(Object* object) {
 // Reports a new member that is light beside what it displaces. Returns the member.
 const AmbientBody& reportIfLight(AmbientBodies& members, const AmbientBody& ambient) {
   const DisplacedMass mass = displacedMass(ambient);
-  if (mass.isMuchLighter()) warnOfLightBody(members.complaints, ambient.def, mass, 1);
+  if (mass.isMuchLighter()) warnOfLightBody(members.complaints, *ambient.def, mass, 1);
   return ambient;
 }
 

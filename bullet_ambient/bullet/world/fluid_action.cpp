@@ -79,7 +79,7 @@ void wakeFollowers(const btCollisionWorld& world, const AmbientBodies& bodies) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     const AmbientBody* ambient = bodies.find(objects[i]);
-    if (ambient && ambient->def.follow_regions) objects[i]->activate();
+    if (ambient && ambient->def->follow_regions) objects[i]->activate();
   }
   wakeFollowingTrees(world, bodies);
 }

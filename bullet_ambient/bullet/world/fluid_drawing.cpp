@@ -41,15 +41,15 @@ class Arrows {
 
 void drawFaces(const AmbientBody& ambient, const Twist& relative, const FluidDrawing& what,
                const Arrows& arrows) {
-  const FluidBody& body = *ambient.def.fluid_body;
-  const bool is_form = ambient.def.flow.law == PressureLaw::kForm;
+  const FluidBody& body = *ambient.def->fluid_body;
+  const bool is_form = ambient.def->flow.law == PressureLaw::kForm;
   const ShapeFactors factors(is_form ? formShapeOf(body) : FormShape{});
   const FaceTable form_faces = is_form ? formLawFaces(body, factors.shape) : FaceTable{};
   const FaceTable& faces = is_form ? form_faces : body.faces;
-  const FrameOffset& frame = ambient.def.fluid_frame;
-  LoadSettings settings = loadSettings(ambient.medium, ambient.def.flow);
+  const FrameOffset& frame = ambient.def->fluid_frame;
+  LoadSettings settings = loadSettings(ambient.medium, ambient.def->flow);
   if (is_form) settings.shape = &factors;
-  const double length = ambient.model.reference_length;
+  const double length = ambient.model().reference_length;
   const Twist x_F = frame.toF(relative);
   const double normal_length = what.normal_length * length;
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -143,7 +143,7 @@ void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDra
   }
   if (what.total_wrench) {
     Wrench total = lift;
-    if (model.loads) total += computeSurfaceLoad(model, relative).wrench;
+    if (model.loads) total += computeSurfaceLoad(model, relative, s.load_share).wrench;
     arrows.draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
     arrows.draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
   }

@@ -20,11 +20,11 @@ AMBIENT_BEGIN
 namespace {
 
 void replaceDef(AmbientBody& ambient, AttachDef def, AmbientBodies& bodies) {
-  std::swap(ambient.def, def);
+  const auto before = std::exchange(ambient.def, shareDef(std::move(def), bodies.load_tables));
   try {
     refresh(ambient, bodies);
   } catch (...) {
-    std::swap(ambient.def, def);
+    ambient.def = before;
     throw;
   }
 }
@@ -32,24 +32,25 @@ void replaceDef(AmbientBody& ambient, AttachDef def, AmbientBodies& bodies) {
 // Whether the body's own medium is above surfaces where regions name none: it then has loads by
 // wind if that medium moves.
 bool isOwnAboveSurfaces(const AmbientBody& ambient) {
-  return std::any_of(ambient.surfaces.begin(), ambient.surfaces.end(),
+  const auto& surfaces = ambient.models->surfaces;
+  return std::any_of(surfaces.begin(), surfaces.end(),
                      [](const SurfaceMedia& surface) { return !surface.kind.above; });
 }
 
 // Whether the fluid is another one than before.
 bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bodies) {
-  checkMedium(*ambient.def.fluid_body, medium);
-  const Medium before = ambient.def.medium;
+  checkMedium(*ambient.def->fluid_body, medium);
+  const Medium before = ambient.def->medium;
+  AttachDef def = *ambient.def;
+  def.medium = medium;
   if (medium.density != before.density || medium.viscosity != before.viscosity ||
       (mayBlow(medium) != mayBlow(before) && isOwnAboveSurfaces(ambient))) {
-    AttachDef def = ambient.def;
-    def.medium = medium;
     replaceDef(ambient, std::move(def), bodies);
     return true;
   }
   if (medium.velocity == before.velocity && medium.acceleration == before.acceleration)
     return false;
-  ambient.def.medium = medium;
+  ambient.def = std::make_shared<const AttachDef>(std::move(def));
   if (ambient.place.region == RegionId::kNone) ambient.medium = medium;
   return true;
 }
@@ -57,7 +58,7 @@ bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bod
 void changeFluidBody(AmbientBody& ambient, std::shared_ptr<const FluidBody> fluid_body,
                      const FrameOffset& fluid_frame, AmbientBodies& bodies) {
   if (!fluid_body) throw std::invalid_argument("setFluidBody: the fluid body is null");
-  AttachDef def = ambient.def;
+  AttachDef def = *ambient.def;
   def.fluid_body = std::move(fluid_body);
   def.fluid_frame = fluid_frame;
   replaceDef(ambient, std::move(def), bodies);
@@ -107,7 +108,7 @@ void Immersed::setMedium(const Medium& medium) const {
 }
 
 void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body) const {
-  setFluidBody(std::move(fluid_body), require("setFluidBody").member.ambient->def.fluid_frame);
+  setFluidBody(std::move(fluid_body), require("setFluidBody").member.ambient->def->fluid_frame);
 }
 
 void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,

@@ -81,12 +81,12 @@ struct Tally {
 
   void add(int index, const AmbientBody& ambient, AttachReport& report) {
     ++report.attached;
-    shapes.insert(ambient.def.fluid_body.get());
+    shapes.insert(ambient.def->fluid_body.get());
     const DisplacedMass own = displacedMass(ambient);
     if (own.isLighter()) report.light.push_back({index, own.body, own.medium});
     if (!own.isMuchLighter()) return;
     if (light_count++ > 0 && own.body * mass.medium >= mass.body * own.medium) return;
-    lightest = ambient.def;
+    lightest = *ambient.def;
     mass = own;
   }
 };
@@ -228,7 +228,7 @@ void WorldAttachment::replaceFluidBodies(btCollisionWorld& world) {
     const auto met = met_bodies.find(objects[i]);
     if (met == met_bodies.end()) continue;
     const AmbientBody* ambient = ambientOf(*objects[i], bodies_);
-    if (!ambient || ambient->def.fluid_body.get() != met->second->given) continue;
+    if (!ambient || ambient->def->fluid_body.get() != met->second->given) continue;
     try {
       std::shared_ptr<const FluidBody> better = source_.fluidBody(*objects[i]->getCollisionShape());
       if (better.get() == met->second->given) continue;

@@ -29,7 +29,7 @@ void wakeFollowingTrees(const btCollisionWorld& world, const AmbientBodies& bodi
   if (!isOf(world, bodies.trees)) return;
   forEachTree(*bodies.trees.world(), bodies.trees, [](const AmbientTree& tree) {
     for (const auto& link : tree.links)
-      if (link->ambient.def.follow_regions) return wake(*tree.multi_body);
+      if (link->ambient.def->follow_regions) return wake(*tree.multi_body);
   });
 }
 

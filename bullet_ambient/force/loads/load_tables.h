@@ -1,17 +1,15 @@
 #pragma once
 
-#include <cstddef>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <tuple>
-#include <utility>
 
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
 #include "bullet_ambient/fluid_body/packed/packed_parts.h"
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/loads/shared_tables.h"
 #include "bullet_ambient/force/loads/sphere_table.h"
 
 namespace ambient {
@@ -64,52 +62,17 @@ class LoadTables {
   std::shared_ptr<const SphereTable> sphereTable(double separation_cosine);
 
  private:
-  /// Cache of tables, keyed by their source and settings; an entry lives while its table is used.
-  template <class Source, class Table, class Settings = std::tuple<>>
-  class Made {
-   public:
-    /// Returns the table of a source and settings; calls make(), which returns a new one, if none.
-    template <class Make>
-    std::shared_ptr<const Table> get(const std::shared_ptr<const Source>& source,
-                                     const Settings& settings, const Make& make) {
-      const std::pair<const Source*, Settings> key{source.get(), settings};
-      if (const auto found = entries_.find(key); found != entries_.end())
-        if (auto table = found->second.table.lock(); table && found->second.source.lock() == source)
-          return table;
-      if (entries_.size() >= most_entries_) dropUnused();
-      std::shared_ptr<const Table> table = make();
-      entries_[key] = {source, table};
-      return table;
-    }
-
-   private:
-    struct Entry {
-      std::weak_ptr<const Source> source;  ///< detects a new source at a reused address
-      std::weak_ptr<const Table> table;
-    };
-
-    // Erases entries of unused tables. The next call comes after the number of entries has doubled.
-    void dropUnused() {
-      for (auto entry = entries_.begin(); entry != entries_.end();)
-        entry = entry->second.table.expired() ? entries_.erase(entry) : std::next(entry);
-      most_entries_ = 2 * entries_.size() + 1;
-    }
-
-    std::map<std::pair<const Source*, Settings>, Entry> entries_;
-    std::size_t most_entries_ = 1;
-  };
-
   using LoadKey = std::tuple<LoadPlace, double, double, double, bool, LoadPrecision, double,
                              PressureLaw, double>;
   static LoadKey keyOf(const Medium& medium, const FlowSettings& flow, LoadPlace place);
 
-  Made<FluidBody, SurfaceLoads, LoadKey> loads_;
-  Made<FluidBody, WettedInertia> wetted_;
-  Made<FluidBody, FaceTable> form_faces_;
-  Made<FluidBody, ShapeFactors> shapes_;
-  Made<FaceTable, PackedFaces, bool> packed_;  ///< by whether the form law is meant
-  Made<FluidBody, PackedHull> hulls_;
-  Made<FluidBody, PackedParts> parts_;
+  SharedTables<FluidBody, SurfaceLoads, LoadKey> loads_;
+  SharedTables<FluidBody, WettedInertia> wetted_;
+  SharedTables<FluidBody, FaceTable> form_faces_;
+  SharedTables<FluidBody, ShapeFactors> shapes_;
+  SharedTables<FaceTable, PackedFaces, bool> packed_;  ///< by whether the form law is meant
+  SharedTables<FluidBody, PackedHull> hulls_;
+  SharedTables<FluidBody, PackedParts> parts_;
   std::map<double, std::shared_ptr<const SphereTable>> spheres_;  ///< by separation cosine
 };
 

@@ -134,11 +134,11 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
   return model;
 }
 
-SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept {
+SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
+                               double load_share) noexcept {
   AMBIENT_ASSERT(model.loads);
   const Wrench wrench =
-      model.load_share *
-      model.load_frame.toB(model.loads->load(model.load_frame.toF(relative_twist)));
+      load_share * model.load_frame.toB(model.loads->load(model.load_frame.toF(relative_twist)));
   if (!model.loads->needsGuard()) return {wrench, false};
   return removePositivePower(wrench, relative_twist, model.inertia);
 }

@@ -31,7 +31,6 @@ struct BodyModel {
   Vector3 centre_of_volume;           ///< in B [m]
   std::shared_ptr<const SurfaceLoads> loads;  ///< null: no surface loads
   FrameOffset load_frame;                     ///< pose in B of the frame of the loads
-  double load_share = 1;                      ///< of the loads in this step, eq. (51d)
   double reference_length = 0;                ///< sqrt(area) [m]
   double largest_mass = 0;                    ///< largest eigenvalue of K's translation block [kg]
 };
@@ -47,8 +46,10 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
                         std::shared_ptr<const SurfaceLoads> loads);
 
 /// The share of pressure and friction in B for a twist in B relative to the ambient flow, after
-/// removePositivePower(); docs/theory.md eq. (13) to (17) and (20).
-SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist) noexcept;
+/// removePositivePower(); docs/theory.md eq. (13) to (17) and (20). `load_share`: factor of eq.
+/// (51d).
+SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
+                               double load_share = 1) noexcept;
 
 /// Pair of a twist x and its momentum K x.
 inline DualPair pairOfTwist(const BodyModel& model, const Vector6& x) {

@@ -7,13 +7,14 @@
 
 namespace ambient {
 
-/// Forces and flow that act on a body in one step besides surface loads. World axes; constant over
-/// the step.
+/// Forces and flow that act on a body in one step besides surface loads, and the share of these.
+/// World axes; constant over the step.
 struct Surroundings {
   Vector3 gravity = Vector3::Zero();  ///< gravity of the hydrostatic pressure only [m/s^2]
   Wrench applied;  ///< all other forces, weight included; torque about the centre of mass
   Vector3 ambient_velocity = Vector3::Zero();      ///< at the start of the step [m/s]
   Vector3 ambient_acceleration = Vector3::Zero();  ///< [m/s^2]
+  double load_share = 1;  ///< factor on the surface loads, docs/theory.md eq. (51d)
 };
 
 struct FlightCount {

@@ -142,9 +142,11 @@ class Leapfrog {
   template <class Condition>
   void evaluate(const FlightLane* twists, FlightLane* loads, const Condition& wants) {
     for (int i = 0; i < count_; ++i) {
-      const BodyModel& model = progress_[i].flight->task.model;
+      const FlightTask& task = progress_[i].flight->task;
+      const BodyModel& model = task.model;
       if (!(lanes_.active[i] > 0) || !model.loads || !wants(progress_[i])) continue;
-      const SurfaceLoad load = computeSurfaceLoad(model, twistOf(twists, i));
+      const SurfaceLoad load =
+          computeSurfaceLoad(model, twistOf(twists, i), task.surroundings.load_share);
       setLane(loads, i, load.wrench);
       FlightCount& count = progress_[i].flight->body.count;
       ++count.load_evaluations;

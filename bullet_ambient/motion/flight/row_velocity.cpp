@@ -49,7 +49,7 @@ RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) 
   const Wrench external = externalWrench(model, s, start.orientation.toRotationMatrix());
   Vector6 impulse = changeOfVelocity(model, external.vector(), dt);
   if (model.loads) {
-    const SurfaceLoad load = computeSurfaceLoad(model, relative);
+    const SurfaceLoad load = computeSurfaceLoad(model, relative, s.load_share);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;
     // Equal to dt K^-1 F to first order, but never reverses the motion, for any dt.

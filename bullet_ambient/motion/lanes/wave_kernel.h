@@ -9,7 +9,7 @@
 namespace ambient {
 namespace {
 
-/// RestoringModes of one body per lane: heave and two tilts.
+/// Motions of FloatingModes of one body per lane: heave and two tilts.
 struct Restorings {
   Spatials heave;          ///< N of heave
   Vectors tilt[2];         ///< angular part of N of the tilts; the linear part is 0

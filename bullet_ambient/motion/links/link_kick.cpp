@@ -42,7 +42,8 @@ FlightCount LinkKick::sample(LinkDynamics& dynamics, const CoordinatesIn& u) noe
     sample = {0, 0, {}};
     if (!isLoaded(tree_.links[l])) continue;
     const Twist y = dynamics.relativeTwist(l);
-    const SurfaceLoad load = computeSurfaceLoad(*tree_.links[l].model, y);
+    const Link& link = tree_.links[l];
+    const SurfaceLoad load = computeSurfaceLoad(*link.model, y, link.surroundings.load_share);
     ++count.load_evaluations;
     count.guarded += load.guarded;
     const Wrench momentum = dynamics.relativeMomentum(l);

@@ -9,7 +9,7 @@ namespace {
 
 Vectors axisOf(const Vector6& motion) { return inAllLanes(Vector3(motion.head<3>())); }
 
-Restorings inAllLanes(const RestoringModes& modes) {
+Restorings inAllLanes(const FloatingModes& modes) {
   Restorings all_modes;
   all_modes.heave = inAllLanes(modes[0].motion);
   for (int i = 0; i < 3; ++i) all_modes.stiffness[i] = all(modes[i].stiffness);
@@ -17,10 +17,14 @@ Restorings inAllLanes(const RestoringModes& modes) {
   return all_modes;
 }
 
-void setWave(Waves& waves, int i, const WaveMode& mode) {
-  waves.strength[i] = all(mode.strength);
-  waves.loss[i] = all(mode.loss);
-  waves.rate[i] = all(mode.rate);
+Waves wavesInAllLanes(const FloatingModes& modes) {
+  Waves waves;
+  for (int i = 0; i < 3; ++i) {
+    waves.strength[i] = all(modes[i].strength);
+    waves.loss[i] = all(modes[i].loss);
+    waves.rate[i] = all(modes[i].rate);
+  }
+  return waves;
 }
 
 WaveStates inAllLanes(const WaveMemory& waves) {
@@ -39,26 +43,19 @@ WaveMemory ofFirstLane(const WaveStates& waves) {
 
 }  // namespace
 
-Matrix6 stiffened(const Matrix6& inertia, const RestoringModes& modes, double duration) noexcept {
+Matrix6 stiffened(const Matrix6& inertia, const FloatingModes& modes, double duration) noexcept {
   AMBIENT_ASSERT(duration >= 0);
   return ofFirstLane(stiffened(inAllLanes(inertia), inAllLanes(modes), all(duration)));
 }
 
-Vector6 exchangeWaves(const WaveModes& modes, const Matrix3& to_world,
+Vector6 exchangeWaves(const FloatingModes& modes, const Matrix3& to_world,
                       const Matrix6& inverse_inertia, double duration, const Vector6& x,
                       WaveMemory& waves) noexcept {
   AMBIENT_ASSERT(duration >= 0 && !(waves.heave_energy < 0) && !(waves.tilt_energy < 0));
-  Restorings motions;
-  motions.heave = inAllLanes(modes.heave.motion);
-  Waves oscillators;
-  setWave(oscillators, 0, modes.heave);
-  Vectors tilt_W[2];
-  for (int i = 0; i < 2; ++i) {
-    motions.tilt[i] = axisOf(modes.tilt[i].motion);
-    tilt_W[i] = inAllLanes(Vector3(to_world * modes.tilt[i].motion.head<3>()));
-    setWave(oscillators, i + 1, modes.tilt[i]);
-  }
-  const WaveModesOfBodies met{motions, oscillators, {tilt_W[0], tilt_W[1]}};
+  const auto tilt_W = [&](int i) {
+    return inAllLanes(Vector3(to_world * modes[i].motion.head<3>()));
+  };
+  const WaveModesOfBodies met{inAllLanes(modes), wavesInAllLanes(modes), {tilt_W(1), tilt_W(2)}};
   WaveStates states = inAllLanes(waves);
   meetModes(met, states);
   const Spatials end =
@@ -67,13 +64,13 @@ Vector6 exchangeWaves(const WaveModes& modes, const Matrix3& to_world,
   return ofFirstLane(end);
 }
 
-Wrench waveWrench(const WaveModes& modes, const Matrix3& to_world, const WaveMemory& before,
+Wrench waveWrench(const FloatingModes& modes, const Matrix3& to_world, const WaveMemory& before,
                   const WaveMemory& after) noexcept {
   const double heave = (before.heave[0] + after.heave[0]) / 2;
-  Vector6 wrench = -modes.heave.strength * heave * modes.heave.motion;
+  Vector6 wrench = -modes[0].strength * heave * modes[0].motion;
   const Vector3 tilt_B = to_world.transpose() * (before.tilt_W[0] + after.tilt_W[0]) / 2;
-  for (const WaveMode& tilt : modes.tilt)
-    wrench -= tilt.strength * tilt.motion.head<3>().dot(tilt_B) * tilt.motion;
+  for (int i = 1; i < 3; ++i)
+    wrench -= modes[i].strength * modes[i].motion.head<3>().dot(tilt_B) * modes[i].motion;
   return Wrench::fromVector(wrench);
 }
 

@@ -46,16 +46,6 @@ double heaveInertia(const SurfaceModel& model, const SurfacePlace& place) {
   return std::max(0.0, model.heave_factor / model.excess_density * s.dot(fluid * s));
 }
 
-void setWave(StandLanes& lanes, int body, int i, const WaveMode& mode) {
-  lanes.strength[i][body] = mode.strength;
-  lanes.loss[i][body] = mode.loss;
-  lanes.rate[i][body] = mode.rate;
-}
-
-WaveMode waveOf(const StandLanes& lanes, int body, int i, const Vector6& motion) {
-  return {motion, lanes.strength[i][body], lanes.loss[i][body], lanes.rate[i][body]};
-}
-
 }  // namespace
 
 const SurfaceKernel& fastestSurfaceKernel() noexcept {
@@ -66,8 +56,9 @@ const SurfaceKernel& fastestSurfaceKernel() noexcept {
 void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
               const SurfacePlace& place) noexcept {
   setPlane(lanes, body, place.plane);
-  setWetVolume(lanes, body, place.wet);
-  const Waterplane& section = place.wet.waterplane;
+  const WetVolume wet = wetVolume(model, place);
+  setWetVolume(lanes, body, wet);
+  const Waterplane& section = wet.waterplane;
   lanes.area[body] = section.area;
   setLane(lanes.centroid, body, section.centroid);
   for (int i = 0; i < 6; ++i) lanes.spread[i][body] = section.spread(kSpread[i][0], kSpread[i][1]);
@@ -76,26 +67,32 @@ void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
   setMatrix(lanes.inertia, body, place.inertia);
 }
 
-void setStand(StandLanes& lanes, int body, const SurfaceStand& stand) noexcept {
+void setStand(StandLanes& lanes, int body, const SurfaceModel& model,
+              const SurfaceStand& stand) noexcept {
   setPlane(lanes, body, stand.plane);
-  setWetVolume(lanes, body, stand.wet);
-  setLane(lanes.heave, body, Twist::fromVector(stand.restoring[0].motion));
-  for (int i = 0; i < 2; ++i)
-    setLane(lanes.tilt[i], body, Vector3(stand.restoring[i + 1].motion.head<3>()));
-  for (int i = 0; i < 3; ++i) lanes.stiffness[i][body] = stand.restoring[i].stiffness;
-  setWave(lanes, body, 0, stand.waves.heave);
-  for (int i = 0; i < 2; ++i) setWave(lanes, body, i + 1, stand.waves.tilt[i]);
+  setWetVolume(lanes, body, wetVolume(model, stand));
+  const FloatingModes& modes = stand.modes;
+  setLane(lanes.heave, body, Twist::fromVector(modes[0].motion));
+  for (int i = 0; i < 2; ++i) setLane(lanes.tilt[i], body, Vector3(modes[i + 1].motion.head<3>()));
+  for (int i = 0; i < 3; ++i) {
+    lanes.stiffness[i][body] = modes[i].stiffness;
+    lanes.strength[i][body] = modes[i].strength;
+    lanes.loss[i][body] = modes[i].loss;
+    lanes.rate[i][body] = modes[i].rate;
+  }
 }
 
 void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept {
   stand.inverse = matrixOf(lanes.inverse, body);
-  stand.restoring[0] = {twistOf(lanes.heave, body).vector(), lanes.stiffness[0][body], 0};
-  for (int i = 0; i < 2; ++i)
-    stand.restoring[i + 1] = {stack(vectorOf(lanes.tilt[i], body), Vector3::Zero()),
-                              lanes.stiffness[i + 1][body], lanes.second_moment[i][body]};
-  stand.waves.heave = waveOf(lanes, body, 0, stand.restoring[0].motion);
-  for (int i = 0; i < 2; ++i)
-    stand.waves.tilt[i] = waveOf(lanes, body, i + 1, stand.restoring[i + 1].motion);
+  FloatingModes& modes = stand.modes;
+  for (int i = 0; i < 3; ++i)
+    modes[i] = {Vector6::Zero(),     lanes.strength[i][body],  lanes.loss[i][body],
+                lanes.rate[i][body], lanes.stiffness[i][body], 0};
+  modes[0].motion = twistOf(lanes.heave, body).vector();
+  for (int i = 0; i < 2; ++i) {
+    modes[i + 1].motion.head<3>() = vectorOf(lanes.tilt[i], body);
+    modes[i + 1].second_moment = lanes.second_moment[i][body];
+  }
   stand.swing = lanes.swing[body];
 }
 

@@ -22,7 +22,8 @@ const SurfaceKernel& fastestSurfaceKernel() noexcept;
 void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
               const SurfacePlace& place) noexcept;
 /// Writes into lane `body` the fields of a stand that a flight reads.
-void setStand(StandLanes& lanes, int body, const SurfaceStand& stand) noexcept;
+void setStand(StandLanes& lanes, int body, const SurfaceModel& model,
+              const SurfaceStand& stand) noexcept;
 /// Copies the result of computeStands() from lane `body` to a stand.
 void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept;
 

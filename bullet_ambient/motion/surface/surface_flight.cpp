@@ -122,7 +122,7 @@ class SurfaceFlights {
     setLane(lanes_.flight.way_W, i, Vector3(0, 0, 0));
     setLane(lanes_.flight.twist_B, i, p.start.twist);
     setInertia(lanes_.flight, i, flight.stand.inertia, flight.stand.inverse, false);
-    setStand(lanes_.stand, i, flight.stand);
+    setStand(lanes_.stand, i, p.model(), flight.stand);
     p.place = &flight.stand;
     setWaves(i, flight.waves);
     const FlightMemory& memory = flight.body.memory;
@@ -227,7 +227,8 @@ class SurfaceFlights {
 
   Wrench loadAt(int i, const Twist& x) {
     Progress& p = progress_[i];
-    const Wrench wrench = p.flight->task.load_share * loadBelow(p.model(), *p.place, x);
+    const Wrench wrench =
+        p.flight->task.surroundings.load_share * loadBelow(p.model(), *p.place, x);
     ++p.count.load_evaluations;
     if (!p.model().loads_below.loads->needsGuard()) return wrench;
     const SurfaceLoad guarded = removePositivePower(wrench, x, p.place->inertia);

@@ -16,8 +16,7 @@ struct SurfaceTask {
   const Surroundings& surroundings;
   Vector3 velocity_above;  ///< velocity of the fluid above, world axes [m/s]
   const FlightSettings& settings;
-  double duration;        ///< [s], > 0
-  double load_share = 1;  ///< factor on the loads of the fluid below, docs/theory.md eq. (51d)
+  double duration;  ///< [s], > 0
 };
 
 /// Task and state of a body: at the start of the step before flyAtSurface(), at its end afterwards.

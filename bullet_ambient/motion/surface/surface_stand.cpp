@@ -22,18 +22,16 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noe
   SurfacePlace place;
   place.plane = plane_B;
   place.immersion_F = immersionOf(model, plane_B);
-  const WetVolume& wet_F = place.immersion_F.wet;
-  place.wet = model.fluid_frame.isIdentity() ? wet_F : wet_F.inB(model.fluid_frame);
   place.inertia = inertiaAt(model, place.immersion_F);
   return place;
 }
 
-bool isStable(const RestoringModes& modes) noexcept {
+bool isStable(const FloatingModes& modes) noexcept {
   return modes[0].stiffness > 0 && modes[1].stiffness > 0 && modes[2].stiffness > 0;
 }
 
 Matrix6 stiffInertia(const SurfaceStand& stand, double duration) noexcept {
-  return stiffened(stand.inertia, stand.restoring, duration);
+  return stiffened(stand.inertia, stand.modes, duration);
 }
 
 BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
@@ -41,11 +39,12 @@ BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcep
   frozen.inertia = stand.inertia;
   frozen.inverse_inertia = stand.inverse;
   frozen.has_diagonal_inertia = false;
-  const double water = model.excess_density * stand.wet.volume;
+  const WetVolume wet = wetVolume(model, stand);
+  const double water = model.excess_density * wet.volume;
   frozen.displaced_mass = model.above.displaced_mass + water;
   if (frozen.displaced_mass > 0) {
     frozen.centre_of_volume = (model.above.displaced_mass * model.above.centre_of_volume +
-                               model.excess_density * stand.wet.moment) /
+                               model.excess_density * wet.moment) /
                               frozen.displaced_mass;
   }
   frozen.loads = nullptr;
@@ -62,8 +61,8 @@ Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Tw
 }
 
 Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) noexcept {
-  if (!(place.wet.volume > 0)) return model.above.centre_of_volume;
-  return place.wet.moment / place.wet.volume;
+  const WetVolume wet = wetVolume(model, place);
+  return wet.volume > 0 ? Vector3(wet.moment / wet.volume) : model.above.centre_of_volume;
 }
 
 BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept {

@@ -11,7 +11,6 @@ namespace ambient {
 struct SurfacePlace {
   SurfacePlane plane;
   Immersion immersion_F;
-  WetVolume wet;
   Matrix6 inertia;  ///< K of body and fluids, docs/theory.md eq. (63)
 };
 
@@ -21,14 +20,19 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noe
 /// A place, and quantities that follow from it: inverse inertia, stiffness, waves.
 struct SurfaceStand : SurfacePlace {
   Matrix6 inverse;  ///< K^-1
-  RestoringModes restoring;
-  WaveModes waves;   ///< waves that the body makes
+  FloatingModes modes;
   double swing = 0;  ///< largest natural frequency of the body on its buoyancy [1/s]
 };
 
+/// Returns the wet volume in B.
+inline WetVolume wetVolume(const SurfaceModel& model, const SurfacePlace& place) noexcept {
+  const WetVolume& wet_F = place.immersion_F.wet;
+  return model.fluid_frame.isIdentity() ? wet_F : wet_F.inB(model.fluid_frame);
+}
+
 /// True if buoyancy turns small displacements back: up and down, and about both axes of the
 /// waterplane.
-bool isStable(const RestoringModes& modes) noexcept;
+bool isStable(const FloatingModes& modes) noexcept;
 
 /// Longest step that needs no stiffInertia(), times the largest natural frequency [1].
 constexpr double kLongestSwing = 0.5;

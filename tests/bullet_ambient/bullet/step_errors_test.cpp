@@ -1,10 +1,9 @@
-#include "bullet_ambient/immersed/step_errors.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/immersed/substep_outcome.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {

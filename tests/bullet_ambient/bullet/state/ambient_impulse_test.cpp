@@ -196,7 +196,7 @@ TEST(AmbientImpulse, IsThatOfAContact) {
     for (btRigidBody* b : {&body, &ball}) b->setFriction(static_cast<btScalar>(friction));
 
     btRigidBody struck(body);
-    AttachDef attach = membersOf(scene.fluid).find(&body)->def;
+    AttachDef attach = *membersOf(scene.fluid).find(&body)->def;
     scene.fluid.add(struck, attach);
     // A solver without an action: the turn within the step is not the contact's.
     const auto members = std::make_shared<AmbientBodies>();

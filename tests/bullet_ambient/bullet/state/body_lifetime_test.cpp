@@ -207,12 +207,12 @@ TEST_F(Lifetime, AStaticBodyHasTheModelOfItsNewFluidBody) {
   const WorldState state = scene.fluid.save();
   scene.fluid.restore(state);
   const AmbientBody& ambient = *membersOf(scene.fluid).find(&body);
-  const auto loads = makeSurfaceLoads(ambient.def.fluid_body, water(), ambient.def.flow,
+  const auto loads = makeSurfaceLoads(ambient.def->fluid_body, water(), ambient.def->flow,
                                       membersOf(scene.fluid).load_tables);
   const Twist twist{{1, 2, 3}, {3, 1, 2}};
-  EXPECT_EQ(ambient.model.loads->load(twist).vector(), loads->load(twist).vector());
+  EXPECT_EQ(ambient.model().loads->load(twist).vector(), loads->load(twist).vector());
   EXPECT_TRUE(scene.of(body).inertia().allFinite());
-  EXPECT_NEAR(ambient.model.displaced_mass, water().density * 8 * ball().volume, 1e-6);
+  EXPECT_NEAR(ambient.model().displaced_mass, water().density * 8 * ball().volume, 1e-6);
   scene.world.removeRigidBody(&body);
 }
 

@@ -100,21 +100,21 @@ class Drawing : public testing::Test {
   const AmbientBody& ambient() { return *membersOf(scene.fluid).find(body); }
   Twist relativeTwist() {
     Twist relative = readState(*body).twist;
-    relative.linear -= readState(*body).orientation.conjugate() * ambient().def.medium.velocity;
+    relative.linear -= readState(*body).orientation.conjugate() * ambient().def->medium.velocity;
     return relative;
   }
   FaceLoads loads() {
-    const AttachDef& def = ambient().def;
+    const AttachDef& def = *ambient().def;
     LoadSettings settings = loadSettings(def.medium, def.flow);
     const ShapeFactors factors(formShapeOf(*def.fluid_body));
     const bool is_form = settings.law == PressureLaw::kForm;
     if (is_form) settings.shape = &factors;
     return computeFaceLoads(
         is_form ? formLawFaces(*def.fluid_body, factors.shape) : def.fluid_body->faces,
-        ambient().model.reference_length, def.fluid_frame.toF(relativeTwist()), settings);
+        ambient().model().reference_length, def.fluid_frame.toF(relativeTwist()), settings);
   }
   Vector3 fromFluidFrame(const Vector3& vector_F) {
-    return readState(*body).orientation * (ambient().def.fluid_frame.rotation * vector_F);
+    return readState(*body).orientation * (ambient().def->fluid_frame.rotation * vector_F);
   }
   FluidDrawing unitLengths() const {
     FluidDrawing what;
@@ -122,7 +122,7 @@ class Drawing : public testing::Test {
     what.length_per_velocity = 1;
     return what;
   }
-  std::size_t faceCount() { return ambient().def.fluid_body->faces.size(); }
+  std::size_t faceCount() { return ambient().def->fluid_body->faces.size(); }
 
   const double tolerance = byPrecision(1e-12, 1e-5);
   Recorder recorder;
@@ -152,13 +152,13 @@ TEST_F(Drawing, NormalsShowWhereTheFlowIsAttached) {
   for (const Line& line : attached) {
     const btVector3 n = (line.to - line.from).normalized();
     const btVector3 u = body->getVelocityInLocalPoint(line.from - body->getCenterOfMassPosition()) -
-                        toBullet(ambient().def.medium.velocity);
+                        toBullet(ambient().def->medium.velocity);
     EXPECT_GT(n.dot(u.normalized()), std::cos(1.7) - 1e-4);
   }
 }
 
 TEST_F(Drawing, NormalsAndTheCrossAreAsLongAsAskedFor) {
-  const double reference_length = std::sqrt(ambient().def.fluid_body->area);
+  const double reference_length = std::sqrt(ambient().def->fluid_body->area);
   for (const double normal_length : {0.05, 0.2}) {
     FluidDrawing what = unitLengths();
     what.normal_length = normal_length;
@@ -197,7 +197,7 @@ TEST_F(Drawing, SlipVelocitiesLieInTheirFaces) {
 }
 
 TEST_F(Drawing, PressureOfTheFormLawIsDrawnInTheLeeAsWell) {
-  AttachDef def = ambient().def;
+  AttachDef def = *ambient().def;
   auto shape = std::make_shared<FluidBody>(*def.fluid_body);
   shape->faces.sharpness.assign(shape->faces.size(), 0.5);
   def.fluid_body = shape;
@@ -241,9 +241,9 @@ TEST_F(Drawing, BuoyancyActsAtTheCentreOfVolume) {
   EXPECT_EQ(lines(), 1u + 3u);
   const auto drawn = recorder.linesOf(fluid_colours::kBuoyancy);
   const RigidState state = readState(*body);
-  const Vector3 centre = state.position + state.orientation * ambient().model.centre_of_volume;
+  const Vector3 centre = state.position + state.orientation * ambient().model().centre_of_volume;
   const Vector3 up(0, 0.5, kGravity);  // acceleration of the medium less gravity
-  const Vector3 expected = 900 * ambient().def.fluid_body->volume * up;
+  const Vector3 expected = 900 * ambient().def->fluid_body->volume * up;
   EXPECT_LT((toVector3(drawn[0].to - drawn[0].from) - expected).norm(),
             tolerance * expected.norm());
   for (const Line& line : drawn) {
@@ -259,9 +259,9 @@ TEST_F(Drawing, TheTotalIsTheWrenchThatTheFlightSees) {
   EXPECT_EQ(lines(), 2u);
   const RigidState state = readState(*body);
   Surroundings s = readSurroundings(ambient());
-  s.applied = {Vector3::Zero(), ambient().model.mass * s.ambient_acceleration};  // buoyancy alone
-  const Wrench total = computeSurfaceLoad(ambient().model, relativeTwist()).wrench +
-                       externalWrench(ambient().model, s, state.orientation.toRotationMatrix());
+  s.applied = {Vector3::Zero(), ambient().model().mass * s.ambient_acceleration};  // buoyancy alone
+  const Wrench total = computeSurfaceLoad(ambient().model(), relativeTwist()).wrench +
+                       externalWrench(ambient().model(), s, state.orientation.toRotationMatrix());
   const Vector3 force = state.orientation * total.force;
   const Vector3 torque = state.orientation * total.torque;
   EXPECT_LT((recorder.sumOf(fluid_colours::kForce) - force).norm(), tolerance * force.norm());

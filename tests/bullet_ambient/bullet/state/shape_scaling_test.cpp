@@ -101,13 +101,13 @@ TEST(ShapeScaling, ARefusedFluidBodyLeavesTheOldOne) {
   btRigidBody& body = scene.add(plateBody(1));
   scene.fluid.add(body, plate());
   const Matrix6 before = scene.of(body).inertia();
-  const auto loads = membersOf(scene.fluid).find(&body)->model.loads;
+  const auto loads = membersOf(scene.fluid).find(&body)->model().loads;
   EXPECT_THROW(scene.of(body).setFluidBody(nullptr), std::invalid_argument);
   auto broken = std::make_shared<FluidBody>(*plate().fluid_body);
   broken->added_mass(3, 3) = -1e6;
   EXPECT_THROW(scene.of(body).setFluidBody(broken), std::invalid_argument);
   EXPECT_EQ(scene.of(body).inertia(), before);
-  EXPECT_EQ(membersOf(scene.fluid).find(&body)->model.loads, loads);
+  EXPECT_EQ(membersOf(scene.fluid).find(&body)->model().loads, loads);
   scene.step(kShortStep);
 }
 

@@ -93,7 +93,7 @@ double WaterRun::energyOf(const FloatingBody& floating) const {
     return x.dot(rigidBodyInertia(floating.mass, J) * x) / 2 + weight;
   }
   const AmbientBody& ambient = *membersOf(fluid_.fluid).find(floating.body);
-  const SurfaceModel& model = ambient.surfaces.at(0).model;
+  const SurfaceModel& model = ambient.models->surfaces.at(0).model;
   const Matrix3 R = state.orientation.toRotationMatrix();
   const SurfacePlane still{{0, 0, 1}, 0, model.excess_density, kRunGravity};
   const SurfaceStand stand = standAtSurface(model, seenFrom(still, R, state.position));

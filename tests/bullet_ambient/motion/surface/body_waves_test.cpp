@@ -22,7 +22,7 @@ SurfaceStand standOf(const WetVolume& wet, const SurfacePlane& plane, double add
   model.excess_density = plane.density;
   SurfaceStand stand;
   stand.plane = plane;
-  stand.wet = wet;
+  stand.immersion_F.wet = wet;
   stand.inertia = Matrix6::Identity();
   stand.inertia.diagonal().tail<3>().array() += plane.density * added_mass;
   completeStand(model, stand);
@@ -30,18 +30,18 @@ SurfaceStand standOf(const WetVolume& wet, const SurfacePlane& plane, double add
 }
 
 /// Lets waves meet modes, and act for no time.
-void meetModes(const WaveModes& modes, const Matrix3& to_world, WaveMemory& waves) {
+void meetModes(const FloatingModes& modes, const Matrix3& to_world, WaveMemory& waves) {
   const Vector6 rest = Vector6::Zero();
   EXPECT_EQ(exchangeWaves(modes, to_world, Matrix6::Identity(), 0, rest, waves), rest);
 }
 
 /// A hemisphere of radius 1 in water of density 1 and gravity 1.
-WaveModes hemisphere() {
-  return standOf(computeWetSphere(1, {0, 0, 0}, kPlane), kPlane, kPi / 3).waves;
+FloatingModes hemisphere() {
+  return standOf(computeWetSphere(1, {0, 0, 0}, kPlane), kPlane, kPi / 3).modes;
 }
 
 /// Force over velocity of a mode, B + i omega (A - A(inf)).
-std::complex<double> impedance(const WaveMode& mode, double frequency) {
+std::complex<double> impedance(const FloatingMode& mode, double frequency) {
   const std::complex<double> s(0, frequency);
   return mode.strength * s / (s * s + mode.loss * s + mode.rate * mode.rate);
 }
@@ -50,7 +50,7 @@ TEST(BodyWaves, DampTheHeaveOfAHemisphereAsHulmeSays) {
   // Hulme 1982: A33 and B33 in units of rho R^3, and of rho R^3 sqrt(g/R), at k R; A33(inf) is
   // pi/3. The model's two states reach a tenth of the total inertia near the natural frequency, k R
   // = 1.05.
-  const WaveMode heave = hemisphere().heave;
+  const FloatingMode heave = hemisphere()[0];
   const double total = 2 * kPi / 3 + kPi / 3;
   const struct {
     double frequency, added, damping;
@@ -63,11 +63,11 @@ TEST(BodyWaves, DampTheHeaveOfAHemisphereAsHulmeSays) {
 }
 
 /// Wave modes of a box in water of density 1 and gravity 1.
-WaveModes boxModes(double length, double breadth, double draught, double added_mass) {
+FloatingModes boxModes(double length, double breadth, double draught, double added_mass) {
   const double area = length * breadth, volume = area * draught;
   WetVolume wet{volume, {0, 0, -volume * draught / 2}, 0, {area, {0, 0, 0}, Matrix3::Zero()}};
   wet.waterplane.spread.diagonal() << area * length * length / 12, area * breadth * breadth / 12, 0;
-  return standOf(wet, kPlane, added_mass).waves;
+  return standOf(wet, kPlane, added_mass).modes;
 }
 
 TEST(BodyWaves, OfTheHeaveOfBoxesHaveTheImpedanceOfTheFit) {
@@ -83,8 +83,8 @@ TEST(BodyWaves, OfTheHeaveOfBoxesHaveTheImpedanceOfTheFit) {
   for (const auto& c : cases) {
     const double area = c.length * c.breadth, total = area * c.draught + c.added_mass;
     const double frequency = std::sqrt(c.wave_number / std::sqrt(area));
-    const WaveModes modes = boxModes(c.length, c.breadth, c.draught, c.added_mass);
-    const std::complex<double> z = impedance(modes.heave, frequency) / (frequency * total);
+    const FloatingModes modes = boxModes(c.length, c.breadth, c.draught, c.added_mass);
+    const std::complex<double> z = impedance(modes[0], frequency) / (frequency * total);
     EXPECT_NEAR(z.real(), c.damping, 0.006) << c.length << " " << c.wave_number;
     EXPECT_NEAR(z.imag(), c.added, 0.006) << c.length << " " << c.wave_number;
   }
@@ -107,24 +107,24 @@ TEST(BodyWaves, HaveTheCoefficientsOfBoxes) {
   for (const auto& c : cases) {
     const double mass = c.length * c.breadth * c.draught, total = mass + c.heave_inf;
     // Added mass of (60), a factor 1.13 below the exact one.
-    const WaveModes modes = boxModes(c.length, c.breadth, c.draught, c.heave_inf);
-    const std::complex<double> heave = impedance(modes.heave, c.w);
+    const FloatingModes modes = boxModes(c.length, c.breadth, c.draught, c.heave_inf);
+    const std::complex<double> heave = impedance(modes[0], c.w);
     EXPECT_NEAR(heave.real(), c.b33, 0.07 * total * c.w) << c.length << " " << c.w;
     EXPECT_NEAR(heave.imag() / c.w, c.a33 - c.heave_inf, 0.07 * total) << c.length << " " << c.w;
     const double gyration = 0.4 * c.breadth;
     const double roll = mass * gyration * gyration + c.roll_inf;
-    const bool is_first = std::abs(modes.tilt[0].motion[0]) > 0.5;
-    EXPECT_NEAR(impedance(modes.tilt[is_first ? 0 : 1], c.w).real(), c.b44, 0.1 * roll * c.w)
+    const bool is_first = std::abs(modes[1].motion[0]) > 0.5;
+    EXPECT_NEAR(impedance(modes[is_first ? 1 : 2], c.w).real(), c.b44, 0.1 * roll * c.w)
         << c.length << " " << c.w;
   }
 }
 
-TEST(RestoringModes, OfABoxAreThoseOfItsWaterplane) {
+TEST(FloatingModes, OfABoxAreThoseOfItsWaterplane) {
   // 2 x 1, draught 0.25, about a centre of mass in the waterline: V GM = I - V T/2.
   const SurfacePlane plane{{0, 0, 1}, 0, 2, 3};
   WetVolume wet{0.5, {0, 0, -0.5 * 0.125}, 0, {2, {0, 0, 0}, Matrix3::Zero()}};
   wet.waterplane.spread.diagonal() << 2 * 4 / 12.0, 2 / 12.0, 0;
-  const RestoringModes modes = standOf(wet, plane).restoring;
+  const FloatingModes modes = standOf(wet, plane).modes;
   EXPECT_NEAR(modes[0].stiffness, 6 * 2, 1e-14);
   for (const std::size_t i : {1, 2}) {
     const bool is_roll = std::abs(modes[i].motion[0]) > 0.5;
@@ -133,14 +133,14 @@ TEST(RestoringModes, OfABoxAreThoseOfItsWaterplane) {
   }
 }
 
-TEST(RestoringModes, HavePrincipalAxesWhateverTheAttitude) {
+TEST(FloatingModes, HavePrincipalAxesWhateverTheAttitude) {
   test::Arbitrary arbitrary(2);
   for (int i = 0; i < 50; ++i) {
     const Matrix3 R = arbitrary.rotation();
     const SurfacePlane plane{R.col(2), 0, 1, 1};
     WetVolume wet{0.5, {0, 0, 0}, 0, {2, {0, 0, 0}, Matrix3::Zero()}};
     wet.waterplane.spread = R * Vector3(0.7, 0.2, 0).asDiagonal() * R.transpose();
-    const RestoringModes modes = standOf(wet, plane).restoring;
+    const FloatingModes modes = standOf(wet, plane).modes;
     const double a = modes[1].second_moment, b = modes[2].second_moment;
     EXPECT_NEAR(std::max(a, b), 0.7, 1e-13);
     EXPECT_NEAR(std::min(a, b), 0.2, 1e-13);
@@ -148,16 +148,16 @@ TEST(RestoringModes, HavePrincipalAxesWhateverTheAttitude) {
 }
 
 TEST(BodyWaves, BallThatTurnsMakesNone) {
-  const WaveModes modes = hemisphere();
-  EXPECT_GT(modes.heave.strength, 0);
-  EXPECT_LT(modes.tilt[0].strength, 1e-20);
-  EXPECT_LT(modes.tilt[1].strength, 1e-20);
+  const FloatingModes modes = hemisphere();
+  EXPECT_GT(modes[0].strength, 0);
+  EXPECT_LT(modes[1].strength, 1e-20);
+  EXPECT_LT(modes[2].strength, 1e-20);
 }
 
 TEST(BodyWaves, AreNoneWithoutAWaterplane) {
   const SurfacePlane above{{0, 0, 1}, -2, 1, 1};
   const WetVolume dry = computeWetSphere(1, {0, 0, 0}, above);
-  const WaveModes modes = standOf(dry, above).waves;
+  const FloatingModes modes = standOf(dry, above).modes;
   WaveMemory waves;
   waves.heave[0] = 1;
   waves.heave_energy = 1;
@@ -166,8 +166,8 @@ TEST(BodyWaves, AreNoneWithoutAWaterplane) {
   EXPECT_EQ(waves.heave[0], 0);
 }
 
-WaveMode arbitraryMode(test::Arbitrary& arbitrary) {
-  WaveMode mode;
+FloatingMode arbitraryMode(test::Arbitrary& arbitrary) {
+  FloatingMode mode;
   mode.motion = arbitrary.twist().vector();
   mode.strength = arbitrary.between(0, 10);
   mode.loss = arbitrary.between(0, 3);
@@ -184,10 +184,10 @@ TEST(BodyWaves, NeverAddEnergyWhateverTheStep) {
     WaveMemory waves;
     double energy = 0.5 * x.dot(K * x);
     for (int n = 0; n < 20; ++n) {
-      WaveModes modes{arbitraryMode(arbitrary),
-                      {arbitraryMode(arbitrary), arbitraryMode(arbitrary)}};
-      modes.tilt[0].motion = stack(Vector3::UnitX(), Vector3::Zero());
-      modes.tilt[1].motion = stack(Vector3::UnitY(), Vector3::Zero());
+      FloatingModes modes{arbitraryMode(arbitrary), arbitraryMode(arbitrary),
+                          arbitraryMode(arbitrary)};
+      modes[1].motion = stack(Vector3::UnitX(), Vector3::Zero());
+      modes[2].motion = stack(Vector3::UnitY(), Vector3::Zero());
       x = exchangeWaves(modes, turn, inverse, std::pow(10, arbitrary.between(-2, 1)), x, waves);
       const double now = 0.5 * x.dot(K * x) + waves.energy();
       ASSERT_LE(now, energy * (1 + 1e-12)) << i;
@@ -198,10 +198,10 @@ TEST(BodyWaves, NeverAddEnergyWhateverTheStep) {
 
 TEST(BodyWaves, AreAsAnOscillatorBehindAVelocity) {
   // A heavy body with a constant velocity u.
-  WaveModes modes;
-  modes.heave = {stack(Vector3::Zero(), Vector3::UnitZ()), 1, 1.5, 1};
-  modes.tilt[0].motion = stack(Vector3::UnitX(), Vector3::Zero());
-  modes.tilt[1].motion = stack(Vector3::UnitY(), Vector3::Zero());
+  FloatingModes modes;
+  modes[0] = {stack(Vector3::Zero(), Vector3::UnitZ()), 1, 1.5, 1};
+  modes[1].motion = stack(Vector3::UnitX(), Vector3::Zero());
+  modes[2].motion = stack(Vector3::UnitY(), Vector3::Zero());
   const Matrix6 inverse = 1e-12 * Matrix6::Identity();
   Vector6 x = Vector6::Zero();
   x[5] = 2;
@@ -215,10 +215,10 @@ TEST(BodyWaves, AreAsAnOscillatorBehindAVelocity) {
 
 TEST(BodyWaves, OfTheTiltStayInTheWorld) {
   // A quarter turn about the vertical exchanges the body's axes, but not the waves.
-  WaveModes modes;
+  FloatingModes modes;
   for (int i = 0; i < 2; ++i) {
-    modes.tilt[i] = {stack(Vector3::Unit(i), Vector3::Zero()), 2, 0.1, 1};
-    modes.heave.rate = 1;
+    modes[i + 1] = {stack(Vector3::Unit(i), Vector3::Zero()), 2, 0.1, 1};
+    modes[0].rate = 1;
   }
   WaveMemory waves;
   waves.tilt_W[0] = {0.3, 0.4, 0};
@@ -234,13 +234,13 @@ TEST(BodyWaves, OfTheTiltStayInTheWorld) {
 }
 
 TEST(BodyWaves, LoseEnergyWhereTheirStrengthGrows) {
-  WaveModes modes = hemisphere();
+  FloatingModes modes = hemisphere();
   WaveMemory waves;
   waves.heave[0] = 0.1;
   waves.heave_energy = 1e-4;
   meetModes(modes, Matrix3::Identity(), waves);
   EXPECT_NEAR(waves.heave_energy, 1e-4, 1e-18);
-  EXPECT_NEAR(0.5 * modes.heave.strength * waves.heave[0] * waves.heave[0], 1e-4, 1e-18);
+  EXPECT_NEAR(0.5 * modes[0].strength * waves.heave[0] * waves.heave[0], 1e-4, 1e-18);
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/bullet/core/velocity_basis.h"
+#include "bullet_ambient/force/loads/load_tables.h"
+#include "bullet_ambient/immersed/attach_def.h"
+#include "bullet_ambient/immersed/region_fluids.h"
+#include "bullet_ambient/motion/surface/surface_model.h"
+
+class btRigidBody;
+
+AMBIENT_BEGIN
+
+/// Mass properties as a btRigidBody has them. Default: those of bodies that are not dynamic, for
+/// which they serve until the body is.
+struct InverseMass {
+  btScalar mass = 1;           ///< [1/kg]
+  btVector3 inertia{1, 1, 1};  ///< of the principal moments [1/(kg m^2)]
+
+  friend bool operator==(const InverseMass& a, const InverseMass& b) {
+    return a.mass == b.mass && a.inertia == b.inertia;
+  }
+};
+InverseMass inverseMassOf(const btRigidBody& body) noexcept;
+
+/// A body in one medium.
+struct MediumModel {
+  FluidKind kind;
+  BodyModel model;
+  Matrix6 basis_B;  ///< velocity basis T of docs/theory.md eq. (26), body axes
+};
+
+/// A body at the surface between two fluids.
+struct SurfaceMedia {
+  SurfaceKind kind;
+  SurfaceModel model;
+};
+
+/// Models of a body in all fluids that it may meet. Bodies whose shape, settings and mass are equal
+/// share them.
+struct FluidModels {
+  InverseMass inverse_mass;
+  std::vector<MediumModel> media;  ///< the first is that of the body's own medium
+  std::vector<SurfaceMedia> surfaces;
+
+  /// Null: the body does not meet this medium.
+  const MediumModel* find(const FluidKind& kind) const noexcept;
+  /// Index of the surface of this kind; -1: none.
+  int findSurface(const SurfaceKind& kind) const noexcept;
+};
+
+/// Data that bodies of one Fluid share.
+struct ModelTables : LoadTables {
+  /// By the numbers that they depend on.
+  SharedTables<FluidBody, FluidModels, std::vector<double>> models;
+  SharedTables<FluidBody, AttachDef, std::vector<double>> defs;
+};
+
+/// Returns a definition that equal ones without a name share.
+std::shared_ptr<const AttachDef> shareDef(AttachDef def, ModelTables& tables);
+
+/// Makes the models of a body in its own medium and, if it follows regions, in their fluids; or
+/// returns those of an equal body.
+/// @throws std::invalid_argument as makeSurfaceLoads(), makeBodyModel() and makeSurfaceModel(), or
+/// if the fluid that the body displaces or moves has 2^52 times its mass.
+std::shared_ptr<const FluidModels> makeFluidModels(const AttachDef& def, const InverseMass& mass,
+                                                   const RegionFluids& fluids, ModelTables& tables);
+
+/// Makes models for another mass; their loads stay. Allocates nothing. If it throws, the models
+/// have no mass.
+/// @throws std::invalid_argument as makeFluidModels().
+void setMass(FluidModels& models, const AttachDef& def, const InverseMass& mass);
+
+AMBIENT_END
