@@ -19,17 +19,6 @@ AxisFactors axisFactors(const btRigidBody& body) {
   return {toVector3(body.getAngularFactor()), toVector3(body.getLinearFactor())};
 }
 
-Surroundings readSurroundings(const AmbientBody& ambient) {
-  const btRigidBody& body = *ambient.body;
-  Surroundings s;
-  s.gravity = toVector3(body.getGravity());
-  s.applied = {toVector3(body.getTotalTorque()), toVector3(body.getTotalForce())};
-  s.ambient_velocity = ambient.medium.velocity;
-  s.ambient_acceleration = ambient.medium.acceleration;
-  s.load_share = ambient.load_share;
-  return s;
-}
-
 void followWake(AmbientBody& ambient, double duration) noexcept {
   const auto& loads = loadsOn(ambient);
   const double by_wake = loads ? loads->wakeShare() : 0;

@@ -114,7 +114,14 @@ AxisFactors axisFactors(const btRigidBody& body);
 
 /// Collects gravity, applied forces and torques, and the ambient flow at the start of a step; world
 /// axes.
-Surroundings readSurroundings(const AmbientBody& ambient);
+inline Surroundings readSurroundings(const AmbientBody& ambient) {
+  const btRigidBody& body = *ambient.body;
+  return {toVector3(body.getGravity()),
+          {toVector3(body.getTotalTorque()), toVector3(body.getTotalForce())},
+          ambient.medium.velocity,
+          ambient.medium.acceleration,
+          ambient.load_share};
+}
 
 /// Lets the wake of a smooth body follow its motion over a step of `duration` [s], and sets
 /// `load_share`; docs/theory.md eq. (51c), (51d).

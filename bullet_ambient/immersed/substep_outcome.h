@@ -36,8 +36,7 @@ struct RowMotion {
 struct FlightEnd {
   RigidState state;
   Twist twist_W;
-  Twist effective_W;        ///< constant twist that Bullet integrates onto the end pose
-  double length_scale = 0;  ///< size of the coordinates whose rounding the end position carries [m]
+  Twist effective_W;  ///< constant twist that Bullet integrates onto the end pose
 };
 
 /// Effect of a substep on one body: written by the solver, taken once by the action.

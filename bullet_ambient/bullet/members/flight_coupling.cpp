@@ -19,7 +19,6 @@ bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) 
   if (outcome.kind == Outcome::kFlown) bodies.complaints.say(Complaint::kNoAction);
   bodies.meet(ambient);
   outcome.world_index = ambient.body->getWorldArrayIndex();
-  outcome.motion = RowMotion{};
   return prepareFluid(ambient, bodies, time_step);
 }
 

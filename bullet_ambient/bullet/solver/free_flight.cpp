@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -15,6 +16,9 @@ namespace {
 // last flight is not used.
 constexpr double kSameVelocity = 1e-3;
 constexpr double kBulletMaxTurn = kPi / 4;  // [rad] per step in integrateTransform
+constexpr auto kEpsilon = static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+// FlightTask::precision. Its error grows with the number of steps, rounding with the root of it.
+constexpr double kPrecision = std::max(1e-16, 1e-4 * kEpsilon);
 
 // State of up to kFlightsTogether bodies before their flights.
 struct Departures {
@@ -43,8 +47,9 @@ void readDepartures(AmbientBody* const* bodies, int count, Departures& departure
   }
 }
 
+// True if a velocity in Bullet is `b` up to a few of its roundings.
 bool isWithinRounding(const Vector3& a, const Vector3& b) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = std::max(1e-12, 8 * kEpsilon);
   return (a - b).squaredNorm() <= kRounding * kRounding * b.squaredNorm();
 }
 
@@ -125,10 +130,13 @@ void computeArrivals(const Departures& departures, const Flight* const* flights,
   }
 }
 
-bool fitsBullet(const RigidState& state, const Twist& twist_W) {
+// False if a number is not finite in Bullet's precision, or its square not in double. An
+// orientation that is not finite gives such a twist.
+bool fitsBullet(const Vector3& position, const Twist& twist_W) {
   constexpr auto kLargest = static_cast<double>(std::numeric_limits<btScalar>::max());
-  return state.isFinite() && state.position.norm() < kLargest && twist_W.linear.norm() < kLargest &&
-         twist_W.angular.norm() < kLargest;
+  return position.squaredNorm() / kLargest < kLargest &&
+         twist_W.linear.squaredNorm() / kLargest < kLargest &&
+         twist_W.angular.squaredNorm() / kLargest < kLargest;
 }
 
 void add(const FlightCount& count, AmbientBody& ambient) {
@@ -141,7 +149,7 @@ void add(const FlightCount& count, AmbientBody& ambient) {
 
 // Stores the end of a flight in the outcome of the body. An end that is not finite in Bullet's
 // precision is dropped and counted: the body is adrift.
-void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, double length_scale,
+void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W,
           AmbientBody& ambient) {
   add(flight.count, ambient);
   SubstepOutcome& outcome = ambient.outcome;
@@ -149,8 +157,9 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, d
   outcome.is_too_long =
       ambient.step_errors.add(flight.count.error) && ambient.def->flight.max_substeps == 0;
   if (outcome.is_too_long) ambient.counters.too_long = 1;
-  if (!fitsBullet(flight.state, end_W)) {
+  if (!fitsBullet(flight.state.position, end_W)) {
     outcome.kind = Outcome::kAdrift;
+    outcome.motion = RowMotion{};
     ++ambient.counters.rejected;
     ambient.memory = {};
     ambient.encounter.waves = {};
@@ -160,7 +169,7 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W, d
   outcome.kind = Outcome::kFlown;
   ambient.counters.energy_removed += flight.count.energy_removed;
   ambient.memory = flight.memory;
-  outcome.motion = FlightEnd{flight.state, end_W, mean_W, length_scale};
+  outcome.motion = FlightEnd{flight.state, end_W, mean_W};
 }
 
 // True if Bullet does not reach the end orientation: it limits the rotation per step. Also true
@@ -173,11 +182,12 @@ bool turnsTooFarForBullet(const FlightEnd& flight, double time_step) {
 
 // True if the body is at the end of its flight to rounding; false if continuous collision detection
 // has stopped it on its way.
-bool reachedEnd(const AmbientBody& ambient) {
+bool reachedEnd(const AmbientBody& ambient, double time_step) {
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
-  const double rounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
   const FlightEnd& end = ambient.outcome.flight();
-  return (position - end.state.position).norm() <= rounding * end.length_scale;
+  const double size = end.state.position.norm() + ambient.model().reference_length +
+                      time_step * end.effective_W.linear.norm();
+  return (position - end.state.position).norm() <= 16 * kEpsilon * size;
 }
 
 }  // namespace
@@ -195,7 +205,7 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
     const RigidState& start = departures.states[i];
     if (wasMovedByOthers(ambient, start, departures.twists_W[i])) ambient.memory.has_load = false;
     const FlightTask task{ambient.model(), departures.surroundings[i], ambient.def->flight,
-                          time_step};
+                          time_step, kPrecision};
     all[i] = &flights[i].emplace(task, start, ambient.memory);
   }
   flyAll(bodies, all, count);
@@ -205,9 +215,7 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
     AmbientBody& ambient = *bodies[i];
     const FlightResult& flight = all[i]->body;
     const Twist &mean_W = arrivals.means_W[i], &before_W = departures.twists_W[i];
-    const double length_scale = flight.state.position.norm() + ambient.model().reference_length +
-                                time_step * before_W.linear.norm();
-    keep(flight, arrivals.ends_W[i], mean_W, length_scale, ambient);
+    keep(flight, arrivals.ends_W[i], mean_W, ambient);
     changes_W[i] = {};
     if (ambient.outcome.kind == Outcome::kFlown)
       changes_W[i] = {mean_W.angular - before_W.angular, mean_W.linear - before_W.linear};
@@ -217,7 +225,7 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
   const FlightEnd& flight = ambient.outcome.flight();
-  if (turnsTooFarForBullet(flight, time_step) && reachedEnd(ambient)) {
+  if (turnsTooFarForBullet(flight, time_step) && reachedEnd(ambient, time_step)) {
     btTransform end = body.getWorldTransform();
     end.setRotation(toBullet(flight.state.orientation));
     body.setCenterOfMassTransform(end);

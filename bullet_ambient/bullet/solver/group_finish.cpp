@@ -63,6 +63,7 @@ void dropRows(btSolverBody& b) {
 bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, double time_step) {
   const bool is_adrift = isUntouched(b);
   ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
+  ambient.outcome.motion = RowMotion{};
   if (!is_adrift) {
     fromBasis(row_body.basis, b.internalGetDeltaAngularVelocity(),
               b.internalGetDeltaLinearVelocity());

@@ -202,8 +202,11 @@ struct WrenchTotal {
     double folded[8];
     for (int lane = 0; lane < 8; lane += kHalf)
       store(folded + lane, load(row + lane) + load(row + lane + 8));
-    const double* f = folded;
-    return ((f[0] + f[4]) + (f[2] + f[6])) + ((f[1] + f[5]) + (f[3] + f[7]));
+    using Pair = double __attribute__((vector_size(16)));
+    Pair f[4];
+    __builtin_memcpy(f, folded, sizeof f);
+    const Pair sums = (f[0] + f[2]) + (f[1] + f[3]);
+    return sums[0] + sums[1];
   }
 };
 

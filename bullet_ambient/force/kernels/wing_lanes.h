@@ -12,8 +12,9 @@ struct WingLanes {
   VectorsOf<Lanes> facing = {}, span = {}, slender = {};
   Lanes pitching_rate = {}, slip_share = {};
 
+  // Inlined: else the vectors pass through memory.
   template <class Motion>
-  explicit WingLanes(const Motion& motion) {
+  [[gnu::always_inline]] explicit WingLanes(const Motion& motion) {
     slip_share = slip_share + motion.slip_share;
     if (!motion.wing) return;
     facing = inAllLanes<Lanes>(motion.wing->facing);

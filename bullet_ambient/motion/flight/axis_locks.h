@@ -10,7 +10,11 @@ struct AxisFactors {
   Vector3 angular = Vector3::Ones();
   Vector3 linear = Vector3::Ones();
 
-  bool areFree() const { return angular == Vector3::Ones() && linear == Vector3::Ones(); }
+  bool areFree() const {
+    for (int axis = 0; axis < 3; ++axis)
+      if (angular[axis] != 1 || linear[axis] != 1) return false;
+    return true;
+  }
 };
 
 /// K (6x6, SPD, world axes) with rows and columns of locked axes replaced by those of the identity.

@@ -20,7 +20,7 @@ void leaveFrame(const Surroundings& s, double t, RigidState& state) {
 }
 
 bool isFluidAtRest(const Surroundings& s) {
-  return s.ambient_velocity.isZero(0) && s.ambient_acceleration.isZero(0);
+  return s.ambient_velocity.cwiseAbs().sum() + s.ambient_acceleration.cwiseAbs().sum() == 0;
 }
 
 FlightResult flyAlone(const FlightTask& task, const FlightResult& start) {

@@ -33,7 +33,7 @@ void setInertia(FlightLanes& lanes, int body, const Matrix6& inertia, const Matr
 }
 
 void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept {
-  setInertia(lanes, body, model.inertia, model.inverse_inertia, model.has_diagonal_inertia);
+  setInertia(lanes, body, model.inertia, model.inverse_inertia, lanes.has_diagonal_inertia);
   setLane(lanes.centre_of_volume_B, body, model.centre_of_volume);
 }
 

@@ -13,7 +13,8 @@ constexpr Kernels<const FlightKernel*> kFlightKernels{&kFlightKernelBaseline, &k
 /// Kernel of fastestInstructionSet().
 const FlightKernel& fastestFlightKernel() noexcept;
 
-/// Writes the model of a body into lane `body`. Lanes without a body stay 0, as in FlightLanes{}.
+/// Writes the model of a body into lane `body`: with has_diagonal_inertia of the lanes, only the
+/// diagonals of K and K^-1. Lanes without a body stay 0, as in FlightLanes{}.
 void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept;
 void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept;
 /// Writes the total inertia of a body in B and its inverse.

@@ -46,6 +46,9 @@ struct FlightTask {
   const Surroundings& surroundings;
   const FlightSettings& settings;
   double duration;  ///< [s], > 0
+  /// Precision of the motion without loads, relative to it: below the rounding of the numbers that
+  /// keep poses and velocities between steps.
+  double precision = 1e-16;
 };
 
 /// Norm in the metric of K of the motion after a fall by the body's own size [sqrt(J)]: second

@@ -12,7 +12,6 @@ static_assert(kFlightsTogether == kFlightLanes);
 
 constexpr int kMaxRetries = 2;
 constexpr double kStepSafety = 0.9;
-constexpr double kToRounding = 1e-16;    // precision of the flow without loads
 constexpr double kFlowPrecision = 1e-6;  // precision of the flow over the tolerance, with loads
 constexpr double kAcceptance = 2;        // error over tolerance above which a step is repeated
 
@@ -42,7 +41,14 @@ class Leapfrog {
  public:
   Leapfrog(Flight* const* flights, int count) : kernel_(fastestFlightKernel()), count_(count) {
     AMBIENT_ASSERT(count > 0 && count <= kFlightLanes);
+    if (count < kFlightLanes) lanes_ = {};
     lanes_.has_diagonal_inertia = true;
+    lanes_.has_loads = false;
+    for (int i = 0; i < count; ++i) {
+      const BodyModel& model = flights[i]->task.model;
+      lanes_.has_diagonal_inertia = lanes_.has_diagonal_inertia && model.has_diagonal_inertia;
+      lanes_.has_loads = lanes_.has_loads || model.loads;
+    }
     for (int i = 0; i < count; ++i) begin(i, *flights[i]);
   }
 
@@ -67,9 +73,7 @@ class Leapfrog {
     const BodyModel& model = task.model;
     setModel(lanes_, i, model);
     setSurroundings(lanes_, i, task);
-    lanes_.has_diagonal_inertia = lanes_.has_diagonal_inertia && model.has_diagonal_inertia;
-    lanes_.has_loads = lanes_.has_loads || model.loads;
-    lanes_.precision[i] = model.loads ? kFlowPrecision * task.settings.tolerance : kToRounding;
+    lanes_.precision[i] = model.loads ? kFlowPrecision * task.settings.tolerance : task.precision;
     const int most = maxSubsteps(task);
     AMBIENT_ASSERT(most > 0 && !(flight.body.memory.substep < 0));
     progress_[i] = {&flight, most,  substepsFor(task.duration, flight.body.memory.substep, most),
@@ -84,6 +88,8 @@ class Leapfrog {
     setState(lanes_, i, progress.flight->task.model, progress.flight->body.state);
     progress.has_load = memory.has_load && progress.flight->task.model.loads;
     setLane(lanes_.load_W, i, progress.has_load ? memory.load_W : Wrench{});
+    setLane(lanes_.load_B, i, Wrench{});
+    lanes_.error[i] = 0;
     progress.error = 0;
     lanes_.kick_time[i] = progress.flight->task.duration / progress.substeps;
     lanes_.is_coarse[i] = 0;
@@ -178,7 +184,7 @@ class Leapfrog {
 
   const FlightKernel& kernel_;
   int count_;
-  FlightLanes lanes_{};
+  FlightLanes lanes_;  // kernels and begin() write what is read of the lanes of all bodies
   StepProgress progress_[kFlightLanes];
 };
 

@@ -193,7 +193,6 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   Motions now{{load(bodies.orientation, at), load(bodies.orientation[3] + at)},
               load(bodies.way_W, at),
               {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)}};
-  const Motions start = now;
   const Lanes energy = inner(now.motion, now.motion);
   const Mask moves = active & (energy > zero);
   Lanes left = moves ? load(bodies.flow_time + at) : zero;
@@ -220,8 +219,8 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   const Lanes scale = has_gained ? squareRoot(energy / (has_gained ? after : all(1))) : all(1);
   const Lanes removed = moves & has_gained ? 0.5 * (after - energy) : zero;
   store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
-  now.motion = scale * now.motion;
-  now = select(moves, now, start);
+  const Pairs start{load6(bodies.twist_B, at), load6(bodies.momentum_B, at)};
+  now.motion = select(moves, scale * now.motion, start);
   store(bodies.orientation, at, now.orientation.u);
   store(bodies.orientation[3] + at, now.orientation.w);
   store(bodies.way_W, at, now.way_W);
