@@ -52,6 +52,7 @@ LinkFlightResult LinkFlight::fly(const TreePose& start, const CoordinatesIn& u, 
         std::min(flyInSubsteps(substeps, duration, settings, result.count), settings.max_substeps);
     if (wanted <= substeps) break;
   }
+  kick_.remember(dynamics_);
   mean_ = u;
   velocityBetween(tree_, start, end_pose_, duration, mean_);
   result.is_finite = mean_.allFinite() && end_.allFinite();
@@ -71,7 +72,7 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
   const bool has_loads = kick_.hasLoads();
   const bool is_last = substeps >= settings.max_substeps;
   dynamics_.setPose(end_pose_);
-  if (has_loads) countUp(kick_.sample(dynamics_, end_), count);
+  if (has_loads) countUp(kick_.recall(dynamics_, end_), count);
   count.coarse = false;
   count.substeps = 0;
   count.error = 0;

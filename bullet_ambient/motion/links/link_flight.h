@@ -28,7 +28,8 @@ class LinkFlight {
 
   /// Flies a tree from pose `start` with velocity `u` over `duration` [s]: implicit midpoint
   /// between half kicks by the surface loads, eq. (80), (81), in substeps if links turn fast or
-  /// loads change much. Results: endPose(), endVelocity(), meanVelocity().
+  /// loads change much. Begins with the loads of Link::memory, and leaves those of the end there.
+  /// Results: endPose(), endVelocity(), meanVelocity().
   LinkFlightResult fly(const TreePose& start, const CoordinatesIn& u, double duration,
                        const LinkFlightSettings& settings) noexcept;
   /// Sets the results of a flight that ends at `pose`, with end and mean velocity `u`.
