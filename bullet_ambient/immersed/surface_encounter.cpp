@@ -22,8 +22,9 @@ SurfacePlane movedPlane(const AmbientBody& ambient, double time) {
 
 // Returns that plane in B, at the pose of now.
 SurfacePlane planeAfter(const AmbientBody& ambient, double time) {
-  const RigidState state = readState(*ambient.body);
-  return seenFrom(movedPlane(ambient, time), state.orientation.toRotationMatrix(), state.position);
+  const btTransform& pose = ambient.body->getWorldTransform();
+  return seenFrom(movedPlane(ambient, time), toQuaternion(pose.getRotation()).toRotationMatrix(),
+                  toVector3(pose.getOrigin()));
 }
 
 // Whether two planes are one but for the rounding of Bullet's poses, relative to their place in W.
@@ -41,6 +42,15 @@ bool isSame(const SurfacePlane& a, const SurfacePlane& b) {
 
 const SurfaceStand& standAfter(AmbientBody& ambient, double time) {
   return standAt(ambient, planeAfter(ambient, time));
+}
+
+// Returns SurfaceEncounter::met_B after the body has met a plane in B.
+const SurfacePlane& planeMet(AmbientBody& ambient, const SurfacePlane& plane_B) {
+  std::optional<SurfacePlane>& met = ambient.encounter.met_B;
+  const double size =
+      ambient.surface()->radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
+  if (!met || !isNear(*met, plane_B, size)) met = plane_B;
+  return *met;
 }
 
 WetPart wetPart(const SurfaceModel& model, const SurfaceStand& stand) {
@@ -87,18 +97,28 @@ SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const Reg
   return side;
 }
 
-const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept {
-  const SurfaceModel& model = *ambient.surface();
-  std::optional<SurfacePlane>& met = ambient.encounter.met_B;
-  const double size =
-      model.radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
-  if (!met || !isNear(*met, plane_B, size)) met = plane_B;
-  LastStand& last = *ambient.last_stand;
-  if (!last.is_valid || !isSame(last.stand.plane, *met)) {
-    last.stand = standAtSurface(model, *met);
+void standAt(AmbientBody* const* bodies, const SurfacePlane* planes_B, int count) noexcept {
+  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
+  const SurfaceModel* models[kFlightsTogether] = {};
+  SurfaceStand* stands[kFlightsTogether] = {};
+  int made = 0;
+  for (int i = 0; i < count; ++i) {
+    const SurfacePlane& met = planeMet(*bodies[i], planes_B[i]);
+    const SurfaceModel& model = *bodies[i]->surface();
+    LastStand& last = *bodies[i]->last_stand;
+    if (last.is_valid && isSame(last.stand.plane, met)) continue;
+    static_cast<SurfacePlace&>(last.stand) = placeAt(model, met);
     last.is_valid = true;
+    models[made] = &model;
+    stands[made++] = &last.stand;
   }
-  return last.stand;
+  if (made > 0) completeStands(models, stands, made);
+}
+
+const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept {
+  AmbientBody* const body = &ambient;
+  standAt(&body, &plane_B, 1);
+  return ambient.stand();
 }
 
 BodyModel modelNow(const AmbientBody& ambient) {
@@ -201,8 +221,15 @@ struct Fall {
   }
 };
 
+/// Inertia and Fall of a body where its step began.
+struct Departure {
+  Matrix6 inertia;
+  Fall fall;
+};
+
 struct RowStep {
-  Fall before, after;
+  const Fall& before;
+  Fall after;
   const Matrix6& inverse;  ///< of the inertia after it
   Vector6 x_before;
   double duration;
@@ -225,27 +252,46 @@ BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
   return {x - std::copysign(part, rate) * response, removed};
 }
 
-}  // namespace
-
-BoundedTwist passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes,
-                          double duration) noexcept {
+// Returns weight and buoyancy of a body at its last stand.
+Fall fallOf(const AmbientBody& ambient) {
   const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();  // since standNow()
-  const Matrix6 inertia_before = stand.inertia;
-  const double mass = model.above.mass - model.above.displaced_mass;
-  const Fall fall_before(stand.plane, wetVolume(model, stand), mass);
-  const SurfaceStand& after = standAfter(ambient, duration);
-  ambient.encounter.plane_W = movedPlane(ambient, duration);
+  const SurfaceStand& stand = ambient.stand();
+  return {stand.plane, wetVolume(model, stand), model.above.mass - model.above.displaced_mass};
+}
+
+// Returns the twist after the passage from `before` to the present stand of the body.
+BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axes axes,
+                        double duration, const Vector6& x) {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& after = ambient.stand();
   if (axes == Axes::kLocked)
-    return scaledWithin(x, x.dot(after.inertia * x), x.dot(inertia_before * x));
-  const BoundedTwist moved =
-      withinPotential({fall_before, Fall(after.plane, wetVolume(model, after), mass), after.inverse,
-                       ambient.encounter.twist_before_rows, duration},
-                      x);
+    return scaledWithin(x, x.dot(after.inertia * x), x.dot(before.inertia * x));
+  const BoundedTwist moved = withinPotential(
+      {before.fall, fallOf(ambient), after.inverse, ambient.encounter.twist_before_rows, duration},
+      x);
   const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
-  BoundedTwist end = passSurface({model, inertia_before, after, duration, gradient}, moved.twist);
+  BoundedTwist end = passSurface({model, before.inertia, after, duration, gradient}, moved.twist);
   end.energy_removed += moved.energy_removed;
   return end;
+}
+
+}  // namespace
+
+void passWithRows(AmbientBody* const* bodies, int count, Axes axes, double duration,
+                  BoundedTwist* twists) noexcept {
+  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
+  std::optional<Departure> departures[kFlightsTogether];
+  SurfacePlane planes_B[kFlightsTogether];
+  for (int i = 0; i < count; ++i) {
+    departures[i] = Departure{bodies[i]->stand().inertia, fallOf(*bodies[i])};  // since standNow()
+    planes_B[i] = planeAfter(*bodies[i], duration);
+  }
+  standAt(bodies, planes_B, count);
+  for (int i = 0; i < count; ++i) {
+    AmbientBody& ambient = *bodies[i];
+    ambient.encounter.plane_W = movedPlane(ambient, duration);
+    twists[i] = passedFrom(*departures[i], ambient, axes, duration, twists[i].twist);
+  }
 }
 
 double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,

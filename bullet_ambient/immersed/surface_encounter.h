@@ -25,10 +25,12 @@ SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
 SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const RegionSample& sample,
                         double duration) noexcept;
 
-/// Returns the SurfaceStand of the body for a plane in B. Reuses the last one if the plane equals
-/// SurfaceEncounter::met_B up to the rounding of poses in Bullet. The result depends on met_B
-/// alone, so that a restored state continues with the same bits. Allocates nothing. @pre it is at a
-/// surface
+/// Computes the SurfaceStands of up to kFlightsTogether bodies for planes in B, side by side. Keeps
+/// the last one if the plane equals SurfaceEncounter::met_B up to the rounding of poses in Bullet.
+/// The result depends on met_B alone, so that a restored state continues with the same bits.
+/// Allocates nothing. @pre they are at a surface
+void standAt(AmbientBody* const* bodies, const SurfacePlane* planes_B, int count) noexcept;
+/// Calls standAt() for one body. Returns its stand.
 const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept;
 
 /// Returns the model of the body at its present pose: AmbientBody::model(), or at a water surface
@@ -100,13 +102,13 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept;
 /// @pre met_B is set; `media` is an index into FluidModels::surfaces
 void meetAgain(AmbientBody& ambient, int media) noexcept;
 
-/// Returns the twist x of a body that Bullet has moved with rows, after the change of its added
-/// mass on the way; in B, relative to the water. Removes energy above the work of weight and
-/// buoyancy, docs/theory.md eq. (68a). Axes::kLocked: removes only the energy that the change of
-/// added mass would add.
+/// Replaces the twists of up to kFlightsTogether bodies that Bullet has moved with rows by those
+/// after the change of their added mass on the way; in B, relative to the water. Removes energy
+/// above the work of weight and buoyancy, docs/theory.md eq. (68a). Axes::kLocked: removes only the
+/// energy that the change of added mass would add. The bits of a body do not depend on the others.
 enum class Axes { kFree, kLocked };
-BoundedTwist passWithRows(AmbientBody& ambient, const Vector6& x, Axes axes,
-                          double duration) noexcept;
+void passWithRows(AmbientBody* const* bodies, int count, Axes axes, double duration,
+                  BoundedTwist* twists) noexcept;
 
 /// Returns the energy of the water that the body lifts or displaces [J], at a pose B to W that the
 /// step may reach a time `duration` [s] after standNow(). @pre the body is at a surface

@@ -46,6 +46,7 @@ class TreeFlight {
     if (is_finite_ && step_.meets_surface && mayGainEnergy(tree_, task_.duration) &&
         hasGained(1, 1))
       flyInParts();
+    if (count_.halted) forgetLoads(tree_);
     if (!is_finite_) return false;
     addCount(count_, tree_);
     addErrors(count_.error, tree_, task_.bodies.complaints);
@@ -122,6 +123,7 @@ class TreeFlight {
   // Passes the surface at the end of a part.
   void arrive() {
     step_.pose = tree_.flight.endPose();
+    forgetLoads(tree_);
     count_.energy_removed += arriveAtSurface(tree_);
     step_.start = step_.end;
   }
@@ -131,6 +133,7 @@ class TreeFlight {
     step_.pose = step_.surface.pose;
     step_.start = step_.surface.start;
     placeStandIns(tree_, step_.start);
+    forgetLoads(tree_);
     count_.error = count_.halted ? 1 : 0;
     count_.energy_removed = 0;
     count_.coarse = false;

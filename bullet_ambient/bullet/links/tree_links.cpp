@@ -3,6 +3,7 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "bullet_ambient/bullet/members/attach_link.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
@@ -22,10 +23,12 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
     return;
   }
   in_tree.model = &ambient.model();
+  in_tree.memory = &ambient.memory;
   if (ambient.surface()) {
     standNow(ambient);
     link.frozen.freeze(ambient);
     in_tree.model = &*link.frozen;
+    in_tree.memory = nullptr;  // its loads are those on the part that is wet when the step begins
   }
   in_tree.mass = 1 / static_cast<double>(link.stand_in.getInvMass());
   in_tree.surroundings.gravity = toVector3(task.gravity);
@@ -72,7 +75,7 @@ bool standsOnSaddle(AmbientTree& tree) {
 
 void placeStandIns(AmbientTree& tree, const CoordinatesIn& u) noexcept {
   LinkDynamics& dynamics = tree.flight.dynamics();
-  dynamics.setPose(tree.step.pose);
+  dynamics.moveTo(tree.step.pose);
   dynamics.setVelocity(u);
   for (const auto& link : tree.links) {
     const Matrix3& R = dynamics.rotation(link->link + 1);
@@ -82,6 +85,16 @@ void placeStandIns(AmbientTree& tree, const CoordinatesIn& u) noexcept {
     link->stand_in.setLinearVelocity(toBullet(Vector3(R * twist.linear)));
     link->stand_in.setAngularVelocity(toBullet(Vector3(R * twist.angular)));
   }
+}
+
+bool wasMovedByOthers(const AmbientTree& tree, const CoordinatesIn& now) noexcept {
+  constexpr double kRounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  const Coordinates& left = tree.step.end;
+  return !((now - left).cwiseAbs().maxCoeff() <= kRounding * left.cwiseAbs().maxCoeff());
+}
+
+void forgetLoads(AmbientTree& tree) noexcept {
+  for (const auto& link : tree.links) link->ambient.memory = {};
 }
 
 Vector3 flowAround(const LinkTree& tree) noexcept {

@@ -10,12 +10,19 @@ AMBIENT_BEGIN
 /// a fluid. Allocates nothing.
 bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept;
 
+/// True if the velocity `now` is not `step.end`, up to Bullet's rounding: others have changed it
+/// since the last substep.
+bool wasMovedByOthers(const AmbientTree& tree, const CoordinatesIn& now) noexcept;
+
+/// Makes the links forget the loads at the end of the last flight, which the motion has left.
+void forgetLoads(AmbientTree& tree) noexcept;
+
 /// Returns the velocity of the flow that the tree can follow, world axes [m/s]: that around its
 /// links, if it is the same for all and the base can move; otherwise 0.
 Vector3 flowAround(const LinkTree& tree) noexcept;
 
 /// Gives the stand-ins the poses of the links at `step.pose`, and their velocities for the
-/// generalized velocity `u`.
+/// generalized velocity `u`. Leaves the dynamics there, with the models that they had.
 void placeStandIns(AmbientTree& tree, const CoordinatesIn& u) noexcept;
 
 /// Gives the stand-ins the present poses and velocities of the links. Call between two steps.

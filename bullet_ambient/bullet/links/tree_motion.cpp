@@ -67,6 +67,7 @@ void stopIfNotFinite(AmbientTree& tree, AmbientBodies& bodies) {
 
 // Gives a tree the velocity that it had before the substep; its motion in the fluid is not finite.
 void giveUp(AmbientTree& tree, AmbientBodies& bodies) {
+  forgetLoads(tree);
   tree.step.outcome = TreeOutcome::kStock;
   writeVelocity(*tree.multi_body, tree.step.start);
   reject(tree, bodies);
@@ -88,7 +89,7 @@ bool prepareRows(AmbientTree& tree, double h) {
   addCount(result.count, tree);
   if (!result.is_finite) return false;
   step.outcome = TreeOutcome::kRows;
-  for (const auto& link : tree.links) link->ambient.memory = {};
+  forgetLoads(tree);
   step.end = flight.rowVelocity();
   step.moved = step.end;
   subtractFlow(tree.tree, step.moved);
@@ -102,6 +103,7 @@ bool prepareRows(AmbientTree& tree, double h) {
 // forces to it in this substep: rows are solved against its velocity as it is.
 bool prepareWoken(AmbientTree& tree) {
   TreeStep& step = tree.step;
+  forgetLoads(tree);
   tree.flight.dynamics().setPose(step.pose);
   if (!tree.flight.dynamics().factor()) return false;
   step.outcome = TreeOutcome::kRows;
@@ -116,6 +118,7 @@ void finishFlown(AmbientTree& tree) {
   TreeStep& step = tree.step;
   step.spare = step.moved - step.change / 2;  // Bullet adds the whole change d by the rows
   writeVelocity(*tree.multi_body, step.spare);
+  if (!step.change.isZero(0)) forgetLoads(tree);
   step.moved += step.change / 2;
   step.end += step.change;
 }
@@ -215,6 +218,7 @@ void keepIntegrals(AmbientTree& tree, double h) {
 bool begin(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   if (!step.was_awake) return prepareWoken(tree);
+  if (tree.tree.size() == 1 || wasMovedByOthers(tree, step.start)) forgetLoads(tree);
   if (isAtSurface(tree)) {
     step.surface.start = step.start;
     kickAtSurface(tree, task);

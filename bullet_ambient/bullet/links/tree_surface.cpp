@@ -34,6 +34,33 @@ Vector6 endTwist(const LinkDynamics& dynamics, int link, const Medium& water, do
   return twist.vector();
 }
 
+// Up to kFlightsTogether links that have come to where a step ends, with the twists that they have
+// there alone.
+struct SurfaceArrivals {
+  int count = 0;
+  AmbientLink* links[kFlightsTogether] = {};
+  AmbientBody* bodies[kFlightsTogether] = {};  // of the links
+  Vector6 twists[kFlightsTogether];
+};
+
+// Lets the links pass the surface side by side, and writes the impulses that change their twists.
+// Returns the energy removed [J].
+double passTogether(const SurfaceArrivals& some, double duration, std::vector<Wrench>& impulses) {
+  BoundedTwist after[kFlightsTogether];
+  for (int i = 0; i < some.count; ++i) after[i].twist = some.twists[i];
+  passWithRows(some.bodies, some.count, Axes::kFree, duration, after);
+  double energy_removed = 0;
+  for (int i = 0; i < some.count; ++i) {
+    AmbientLink& link = *some.links[i];
+    SurfaceEncounter& encounter = link.ambient.encounter;
+    link.frozen.freeze(link.ambient);
+    encounter.waves = encounter.waves_with_rows;
+    impulses[link.link + 1] = impulseOf(link, after[i].twist - some.twists[i]);
+    energy_removed += after[i].energy_removed;
+  }
+  return energy_removed;
+}
+
 }  // namespace
 
 void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
@@ -57,15 +84,18 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
   const LinkDynamics& dynamics = tree.flight.dynamics();
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   double energy_removed = 0;
+  SurfaceArrivals some;
+  const auto arrive = [&] {
+    energy_removed += passTogether(some, duration, step.impulses);
+    some.count = 0;
+  };
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
-    AmbientBody& ambient = link.ambient;
-    const Vector6 before = endTwist(dynamics, i, ambient.medium, duration);
-    const BoundedTwist after = passWithRows(ambient, before, Axes::kFree, duration);
-    link.frozen.freeze(ambient);
-    ambient.encounter.waves = ambient.encounter.waves_with_rows;
-    step.impulses[i] = impulseOf(link, after.twist - before);
-    energy_removed += after.energy_removed;
+    some.links[some.count] = &link;
+    some.bodies[some.count] = &link.ambient;
+    some.twists[some.count++] = endTwist(dynamics, i, link.ambient.medium, duration);
+    if (some.count == kFlightsTogether) arrive();
   });
+  if (some.count > 0) arrive();
   return addResponse(tree, step.end) ? energy_removed : 0;
 }
 

@@ -17,7 +17,13 @@ AmbientLink::AmbientLink(int number)
 }
 
 TreeStep::TreeStep(Eigen::Index n, std::size_t links)
-    : start(n), moved(n), end(n), share(n), change(n), spare(n), impulses(links) {
+    : start(n),
+      moved(n),
+      end(Coordinates::Zero(n)),
+      share(n),
+      change(n),
+      spare(n),
+      impulses(links) {
   surface.start.resize(n);
   surface.pose.joints.resize(links);
 }

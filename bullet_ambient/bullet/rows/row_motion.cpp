@@ -143,8 +143,8 @@ void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints
                         : withinEnergy(model, moved, end.twist, *rows.energy_bound);
   double energy_removed = end.energy_removed;
   if (ambient.surface()) {
-    const Axes axes = rows.momentum ? Axes::kFree : Axes::kLocked;
-    end = passWithRows(ambient, end.twist, axes, time_step);
+    AmbientBody* const one = &ambient;
+    passWithRows(&one, 1, rows.momentum ? Axes::kFree : Axes::kLocked, time_step, &end);
     energy_removed += end.energy_removed;
   }
   const Twist change_B = Twist::fromVector(end.twist - moved);

@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/region_following.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
@@ -47,10 +48,14 @@ AmbientState saveAmbient(const AmbientBody& ambient) {
 }
 
 void saveFluids(const AmbientTree& tree, MultiBodyState& state) {
+  Coordinates now(tree.step.end.size());
+  readVelocity(*tree.multi_body, now);
+  const bool was_moved = tree.tree.size() > 1 && wasMovedByOthers(tree, now);
   for (const auto& link : tree.links) {
     LinkFluidState& saved = state.fluids.emplace_back();
     saved.link = link->link;
     saved.ambient = saveAmbient(link->ambient);
+    if (was_moved) saved.ambient.memory = {};  // as the next step will do
   }
   state.turn_reserve = tree.step.reserve;
 }
@@ -94,6 +99,7 @@ void insertLinks(const MultiBodyState& state, std::vector<std::unique_ptr<Ambien
   if (!tree) return;
   tree->step.reserve = state.turn_reserve;
   moveStandIns(*tree);
+  tree->step.end = tree->step.start;
   for (const auto& link : tree->links) meetSurfaceAgain(*link, registered.regions);
 }
 

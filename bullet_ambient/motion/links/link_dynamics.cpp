@@ -1,5 +1,7 @@
 #include "bullet_ambient/motion/links/link_dynamics.h"
 
+#include <limits>
+
 #include "bullet_ambient/base/ambient_assert.h"
 
 namespace ambient {
@@ -22,6 +24,11 @@ void put(const FrameOffset& offset, LinkState& link) {
   put(offset.translation, link.translation);
 }
 
+bool isSame(const TreePose& a, const TreePose& b) {
+  return a.orientation.coeffs() == b.orientation.coeffs() && a.position == b.position &&
+         a.joints == b.joints;
+}
+
 const LinkKernel& fastestKernel() {
   static const LinkKernel& fastest = *kLinkKernels.fastest();
   return fastest;
@@ -42,6 +49,8 @@ LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree), kernel_(fastestK
   missing_.resize(coordinates_);
   const std::vector<int> first = firstCoordinates(tree);
   links_.resize(tree.size());
+  pose_.joints.resize(tree.size());
+  pose_.position.setConstant(std::numeric_limits<double>::quiet_NaN());  // that of no pose
   for (int l = 0; l < tree.size(); ++l) {
     const Link& link = tree.links[l];
     LinkState& state = links_[l];
@@ -65,10 +74,15 @@ void LinkDynamics::setPose(const TreePose& pose) noexcept {
 
 void LinkDynamics::moveTo(const TreePose& pose) noexcept {
   AMBIENT_ASSERT(static_cast<int>(pose.joints.size()) == tree_.size());
+  if (!isSame(pose, pose_)) takeOffsets(pose);
+  kernel_.place(links_.data(), count());
+}
+
+void LinkDynamics::takeOffsets(const TreePose& pose) noexcept {
+  pose_ = pose;
   put(FrameOffset{pose.orientation.toRotationMatrix(), pose.position}, links_[0]);
   for (int l = 1; l < count(); ++l)
     put(linkOffset(tree_.links[l].joint, zero_axes_[l], pose.joints[l]), links_[l]);
-  kernel_.place(links_.data(), count());
 }
 
 void LinkDynamics::takeModel(const Link& link, LinkState& state) noexcept {

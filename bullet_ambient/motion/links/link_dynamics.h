@@ -131,12 +131,14 @@ class LinkDynamics {
   int count() const { return static_cast<int>(links_.size()); }
   TreeHabits habits() const;
   void takeModel(const Link& link, LinkState& state) noexcept;
+  void takeOffsets(const TreePose& pose) noexcept;
   void takeJointForces() noexcept;
   void solve(double* result) noexcept;
 
   const LinkTree& tree_;
   int coordinates_ = 0;
   std::vector<LinkState> links_;
+  TreePose pose_;                   // of the offsets in links_
   std::vector<Matrix3> zero_axes_;  // by link: zeroAxes() of its joint
   const LinkKernel& kernel_;
   BaseFactor base_;      // factor of the base's articulated inertia

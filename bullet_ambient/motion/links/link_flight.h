@@ -28,7 +28,8 @@ class LinkFlight {
 
   /// Flies a tree from pose `start` with velocity `u` over `duration` [s]: implicit midpoint
   /// between half kicks by the surface loads, eq. (80), (81), in substeps if links turn fast or
-  /// loads change much. Results: endPose(), endVelocity(), meanVelocity().
+  /// loads change much. Begins with the loads of Link::memory, and leaves those of the end there.
+  /// Results: endPose(), endVelocity(), meanVelocity().
   LinkFlightResult fly(const TreePose& start, const CoordinatesIn& u, double duration,
                        const LinkFlightSettings& settings) noexcept;
   /// Sets the results of a flight that ends at `pose`, with end and mean velocity `u`.
@@ -60,7 +61,7 @@ class LinkFlight {
   int flyInSubsteps(int substeps, double duration, const LinkFlightSettings& settings,
                     FlightCount& count) noexcept;
   double largestSpin() const noexcept;
-  bool findMiddle(double h, const LinkFlightSettings& settings) noexcept;
+  bool findMiddle(double h, bool is_factored, const LinkFlightSettings& settings) noexcept;
   double kickAtEnd(double h, FlightCount& count) noexcept;
 
   const LinkTree& tree_;

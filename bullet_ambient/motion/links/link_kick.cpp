@@ -10,11 +10,19 @@ namespace {
 
 bool isLoaded(const Link& link) { return link.model && link.model->loads; }
 
+Wrench evaluate(const Link& link, const Twist& relative_twist, FlightCount& count) {
+  const SurfaceLoad load =
+      computeSurfaceLoad(*link.model, relative_twist, link.surroundings.load_share);
+  ++count.load_evaluations;
+  count.guarded += load.guarded;
+  return load.wrench;
+}
+
 }  // namespace
 
 LinkKick::LinkKick(const LinkTree& tree)
     : tree_(tree),
-      samples_(tree.size(), Sample{0, 0, {}}),
+      samples_(tree.size()),
       drags_(tree.size(), 0.0),
       drag_impulses_(tree.size()),
       lift_impulses_(tree.size()),
@@ -32,29 +40,55 @@ Wrench LinkKick::Sample::at(const Wrench& momentum, double its_speed) const {
   return -drag * ratio * momentum + ratio * ratio * lift;
 }
 
-FlightCount LinkKick::sample(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept {
-  FlightCount count;
+// Stores load_on(index of the link, its relative twist) of all links that have loads.
+template <class LoadOn>
+void LinkKick::sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u,
+                         const LoadOn& load_on) noexcept {
   dynamics.setVelocity(u);
   dynamics.measure();
   for (int l = 0; l < tree_.size(); ++l) {
     Sample& sample = samples_[l];
     const Sample last = sample;
-    sample = {0, 0, {}};
+    sample = {};
     if (!isLoaded(tree_.links[l])) continue;
     const Twist y = dynamics.relativeTwist(l);
-    const Link& link = tree_.links[l];
-    const SurfaceLoad load = computeSurfaceLoad(*link.model, y, link.surroundings.load_share);
-    ++count.load_evaluations;
-    count.guarded += load.guarded;
+    const Wrench load = load_on(l, y);
     const Wrench momentum = dynamics.relativeMomentum(l);
     const double energy = dynamics.relativeEnergy(l);
     if (!(energy > 0)) continue;
-    const double along = power(load.wrench, y) / energy;
-    sample = {std::max(0.0, -along), std::sqrt(energy), load.wrench + -along * momentum};
-    surprises_[l] = load.wrench;
+    const double along = power(load, y) / energy;
+    sample = {std::max(0.0, -along), std::sqrt(energy), load + -along * momentum, load};
+    surprises_[l] = load;
     surprises_[l] -= last.at(momentum, sample.speed);
   }
+}
+
+FlightCount LinkKick::sample(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept {
+  FlightCount count;
+  sampleAll(dynamics, u, [&](int l, const Twist& y) { return evaluate(tree_.links[l], y, count); });
   return count;
+}
+
+FlightCount LinkKick::recall(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept {
+  FlightCount count;
+  sampleAll(dynamics, u, [&](int l, const Twist& y) -> Wrench {
+    const FlightMemory* memory = tree_.links[l].memory;
+    if (!memory || !memory->has_load) return evaluate(tree_.links[l], y, count);
+    const Matrix3 to_link = dynamics.rotation(l).transpose();
+    return {to_link * memory->load_W.torque, to_link * memory->load_W.force};
+  });
+  return count;
+}
+
+void LinkKick::remember(const LinkDynamics& dynamics) const noexcept {
+  for (int l = 0; l < tree_.size(); ++l) {
+    const Link& link = tree_.links[l];
+    if (!link.memory || !isLoaded(link)) continue;
+    const Matrix3 R = dynamics.rotation(l);
+    const Wrench& load = samples_[l].load;
+    link.memory->load_W = {R * load.torque, R * load.force};
+    link.memory->has_load = true;
+  }
 }
 
 double LinkKick::error(LinkDynamics& dynamics, double h) noexcept {
@@ -73,7 +107,7 @@ double LinkKick::error(LinkDynamics& dynamics, double h) noexcept {
   return motion > 0 ? h * std::sqrt(dynamics.normSquared(change_) / motion) : 0;
 }
 
-void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {
+double LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {
   AMBIENT_ASSERT(h > 0 && u.size() == change_.size());
   dynamics.setVelocity(u);
   dynamics.measure();
@@ -92,6 +126,7 @@ void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept
   dynamics.respond(drag_impulses_, change_);
   u += change_;
   applyLift(dynamics, u);
+  return *std::max_element(drags_.begin(), drags_.end());
 }
 
 void LinkKick::foresee(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {

@@ -18,6 +18,11 @@ class LinkKick {
   /// Evaluates and stores the loads at the velocity `u` and the pose of `dynamics`, with the
   /// passivity guard.
   FlightCount sample(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
+  /// Stores the loads that links remember as those at the velocity `u` and the pose of `dynamics`,
+  /// and evaluates the others.
+  FlightCount recall(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
+  /// Makes links remember the last sample. @pre `dynamics` has its pose
+  void remember(const LinkDynamics& dynamics) const noexcept;
   /// Returns the error of docs/theory.md eq. (25): size of the velocity change in the time h [s] by
   /// the difference between the last sample and its prediction by the sample before, over that of
   /// the motion. @pre kick() was called after that sample, at its pose
@@ -26,8 +31,8 @@ class LinkKick {
   /// Replaces `u` by the velocity after the time h [s] under the loads of the last sample alone.
   /// The loads grow with the square of each link's speed. In one flow that the tree can follow, the
   /// energy relative to the flow does not grow for any h. Leaves `dynamics` with the factor of M,
-  /// not of H.
-  void kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
+  /// not of H. Returns the largest z_l of M.
+  double kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
   /// Predicts the velocity for the next sample, an approximation of kick(): drag slows each link
   /// down as if it were alone, and the tree takes the nearest motion, eq. (81a). @pre factor() of
   /// H, at a pose nearby
@@ -36,14 +41,17 @@ class LinkKick {
  private:
   /// Load of a link at its twist y relative to the flow, in its frame: -drag K y + lift.
   struct Sample {
-    double drag;   ///< [1/s], >= 0
-    double speed;  ///< |y| in the norm of K [sqrt(J)]; 0: no load
-    Wrench lift;   ///< part of the load without power at y
+    double drag = 0;   ///< [1/s], >= 0
+    double speed = 0;  ///< |y| in the norm of K [sqrt(J)]; 0: no load
+    Wrench lift;       ///< part of the load without power at y
+    Wrench load;
 
     /// Returns the load at another twist y' with momentum K y' and speed |y'|.
     Wrench at(const Wrench& momentum, double its_speed) const;
   };
 
+  template <class LoadOn>
+  void sampleAll(LinkDynamics& dynamics, const CoordinatesIn& u, const LoadOn& load_on) noexcept;
   void applyLift(LinkDynamics& dynamics, CoordinatesOut u) noexcept;
 
   const LinkTree& tree_;

@@ -19,6 +19,8 @@ struct Link {
   /// Model of link and fluid, with the same dry mass and inertia; null: no fluid. May change
   /// between steps.
   const BodyModel* model = nullptr;
+  /// Load at the end of its last flight, which the next one begins with; null: none is kept.
+  FlightMemory* memory = nullptr;
 
   // Set in each step.
   Surroundings surroundings;                        ///< without a model, only `applied` is used

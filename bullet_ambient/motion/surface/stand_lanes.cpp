@@ -114,20 +114,30 @@ void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexc
     if (isIndefinite(i)) setMatrix(lanes.inverse, i, bodies[i].model->above.inverse_inertia);
 }
 
-void completeStand(const SurfaceModel& model, SurfaceStand& stand) noexcept {
+void completeStands(const SurfaceModel* const* models, SurfaceStand* const* stands,
+                    int count) noexcept {
+  AMBIENT_ASSERT(count >= 0 && count <= kFlightLanes);
   StandLanes lanes{};
-  lanes.active[0] = 1;
-  setPlace(lanes, 0, model, stand);
-  const BodyInLane body{&model, &stand};
-  computeStands(lanes, &body, 1);
-  readStand(lanes, 0, stand);
-  AMBIENT_ASSERT(isSymmetric(stand.inertia, 1e-9) && isSymmetric(stand.inverse, 1e-9));
+  BodyInLane bodies[kFlightLanes] = {};
+  for (int i = 0; i < count; ++i) {
+    lanes.active[i] = 1;
+    setPlace(lanes, i, *models[i], *stands[i]);
+    bodies[i] = {models[i], stands[i]};
+  }
+  computeStands(lanes, bodies, count);
+  for (int i = 0; i < count; ++i) {
+    SurfaceStand& stand = *stands[i];
+    readStand(lanes, i, stand);
+    AMBIENT_ASSERT(isSymmetric(stand.inertia, 1e-9) && isSymmetric(stand.inverse, 1e-9));
+  }
 }
 
 SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
   SurfaceStand stand;
   static_cast<SurfacePlace&>(stand) = placeAt(model, plane_B);
-  completeStand(model, stand);
+  const SurfaceModel* const models = &model;
+  SurfaceStand* const stands = &stand;
+  completeStands(&models, &stands, 1);
   return stand;
 }
 

@@ -6,8 +6,10 @@
 
 namespace ambient {
 
-/// Computes the fields of a SurfaceStand that follow from its SurfacePlace.
-void completeStand(const SurfaceModel& model, SurfaceStand& stand) noexcept;
+/// Computes the fields of up to kFlightsTogether SurfaceStands that follow from their
+/// SurfacePlaces, side by side. The bits of a stand do not depend on the others.
+void completeStands(const SurfaceModel* const* models, SurfaceStand* const* stands,
+                    int count) noexcept;
 /// Computes the stand of a body for a plane in B, whose density and gravity count. Cost: 1 us for a
 /// hull of some hundred triangles.
 SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;

@@ -193,6 +193,31 @@ TEST(LinkKick, ALinkOfAFixedBaseComesToRestInACurrent) {
   EXPECT_NEAR(axis.cross(arm).normalized().dot(flow.normalized()), 0, 0.05);
 }
 
+// Flights that begin with the loads at the end of the one before evaluate each load once, and are
+// as near to the exact motion as those that evaluate them at both ends.
+TEST(LinkKick, RemembersLoadsFromFlightToFlight) {
+  const auto flown = [](int steps, bool remembers) {
+    Arbitrary arbitrary(9);
+    TestTree test = randomTree(arbitrary, {3, true, true, 3, 0.3});
+    std::vector<FlightMemory> memories(4);
+    for (int l = 0; l < 4; ++l) {
+      const Matrix6 K = test.tree.links[l].model->inertia;
+      setLoads(test, l, K, 0.02 * skew(arbitrary));
+      if (remembers) test.tree.links[l].memory = &memories[l];
+    }
+    LinkFlight flight(test.tree);
+    const int first = test.fly(flight, 1.0 / steps).count.load_evaluations;
+    const int last = test.fly(flight, 1.0 / steps, steps - 1).count.load_evaluations;
+    EXPECT_EQ(first, 8);
+    EXPECT_EQ(last, remembers ? 4 : 8);
+    return test.u;
+  };
+  const Coordinates exact = flown(4000, false);
+  const double error = (flown(120, false) - exact).norm();
+  EXPECT_LT((flown(120, true) - exact).norm(), 1.3 * error);
+  EXPECT_LT(error, 0.01 * exact.norm());
+}
+
 TEST(LinkKick, StaysBoundedInDifferentFlows) {
   Arbitrary arbitrary(6);
   for (int i = 0; i < 200; ++i) {

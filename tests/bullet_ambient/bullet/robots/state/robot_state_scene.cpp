@@ -6,6 +6,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 
 #include "bullet_ambient/force/medium/airy_waves.h"
+#include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/part_bodies.h"
 
 namespace ambient::test {
@@ -27,6 +28,9 @@ RobotStateScene::RobotStateScene(RobotStateKind kind) {
       break;
     case RobotStateKind::kWater:
       addWater();
+      break;
+    case RobotStateKind::kSwimming:
+      addSwimmer();
       break;
   }
 }
@@ -147,6 +151,15 @@ void RobotStateScene::addWater() {
     RobotWorld::moveColliders(body);
     for (int link = -1; link < chain.links; ++link) attach(body, link, def);
   }
+}
+
+void RobotStateScene::addSwimmer() {
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3(0.15, 0.06, 0.05), 1));
+  def.medium = water();
+  RobotDef chain;
+  btMultiBody& body = add(chain);
+  for (int link = -1; link < chain.links; ++link) attach(body, link, def);
 }
 
 }  // namespace ambient::test

@@ -16,11 +16,12 @@ enum class RobotStateKind {
   kContacts,  ///< robots with friction on a floor, one without fluid
   kTethers,   ///< tips on ball joints to the world
   kWater,     ///< chains that dive and come up in waves
+  kSwimming,  ///< a chain that water slows down
 };
 
-constexpr RobotStateKind kRobotStateKinds[] = {RobotStateKind::kFlight, RobotStateKind::kMotors,
-                                               RobotStateKind::kContacts, RobotStateKind::kTethers,
-                                               RobotStateKind::kWater};
+constexpr RobotStateKind kRobotStateKinds[] = {
+    RobotStateKind::kFlight,  RobotStateKind::kMotors, RobotStateKind::kContacts,
+    RobotStateKind::kTethers, RobotStateKind::kWater,  RobotStateKind::kSwimming};
 
 /// Robots for saving and restoring. Each instance is built in the same way.
 class RobotStateScene {
@@ -48,6 +49,7 @@ class RobotStateScene {
   void addContacts();
   void addTethers();
   void addWater();
+  void addSwimmer();
 
   Arbitrary arbitrary_{11};
   std::map<std::string, std::shared_ptr<const FluidBody>> shapes_;

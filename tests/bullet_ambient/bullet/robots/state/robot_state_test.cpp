@@ -102,7 +102,14 @@ TEST(RobotState, WhatIsRememberedMatters) {
                                      for (LinkFluidState& fluid : body.fluids)
                                        fluid.ambient.waves = {};
                                  },
-                                 "waves that a link has made"}};
+                                 "waves that a link has made"},
+                                {RobotStateKind::kSwimming,
+                                 [](WorldState& s) {
+                                   for (MultiBodyState& body : s.multi_bodies)
+                                     for (LinkFluidState& fluid : body.fluids)
+                                       fluid.ambient.memory = {};
+                                 },
+                                 "loads at the end of a flight"}};
   for (const Omission& omission : omissions) {
     SCOPED_TRACE(omission.what);
     RobotStateScene run(omission.kind);
@@ -113,6 +120,27 @@ TEST(RobotState, WhatIsRememberedMatters) {
     run.restore(state);
     EXPECT_FALSE(run.record(kAfter) == motions);
   }
+}
+
+// Loads are evaluated once in a step; twice in the first one, and after others have moved a robot.
+TEST(RobotState, RobotsForgetLoadsWhenOthersMoveThem) {
+  RobotStateScene run(RobotStateKind::kSwimming);
+  btMultiBody& robot = run.robot(0);
+  const auto evaluations = [&run, &robot](int steps) {
+    const auto count = [&] { return run.fluid().find(robot, 1)->counters().load_evaluations; };
+    const long long before = count();
+    run.step(steps);
+    return count() - before;
+  };
+  run.step(60);  // slower, in one substep each
+  EXPECT_EQ(evaluations(3), 3);
+  robot.setBaseVel(bt(1.01) * robot.getBaseVel());
+  const WorldState state = run.save();
+  EXPECT_EQ(evaluations(1), 2);
+  const auto motions = run.record(kAfter);
+  run.restore(state);
+  EXPECT_EQ(evaluations(1), 2);
+  expectSame(motions, run.record(kAfter));
 }
 
 TEST(RobotState, ChangesAreTakenBack) {
