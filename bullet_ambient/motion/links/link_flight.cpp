@@ -12,7 +12,6 @@ namespace {
 constexpr double kLargestTurn = 0.5;  // largest rotation of a link or joint in one substep [rad]
 constexpr double kMiddlePrecision = 0.01;  // error at which iterations end, over the tolerance
 constexpr double kAcceptedError = 2;    // largest accepted error of a substep, over the tolerance
-constexpr double kSmallDrag = 0.01;     // largest z_l for which M stands in for H
 constexpr double kSubstepSafety = 0.9;  // factor in eq. (25)
 
 void countUp(const FlightCount& some, FlightCount& count) {
@@ -79,9 +78,9 @@ int LinkFlight::flyInSubsteps(int substeps, double duration, const LinkFlightSet
   count.error = 0;
   count.energy_removed = 0;
   for (int i = 0; i < substeps; ++i) {
-    const bool is_factored = has_loads && kick_.kick(dynamics_, h / 2, end_) <= kSmallDrag;
+    if (has_loads) kick_.kick(dynamics_, h / 2, end_);
     integrals_.take(dynamics_, end_);
-    const bool converges = findMiddle(h, is_factored, settings);
+    const bool converges = findMiddle(h, settings);
     integrals_.addForces(dynamics_, mean_, h);
     movePose(tree_, end_pose_, mean_, h, end_pose_);
     double excess = std::max(converges ? 1.0 : 2.0, std::ceil(h * largestSpin() / kLargestTurn));
@@ -120,13 +119,11 @@ double LinkFlight::largestSpin() const noexcept {
 // becomes u_m, end_ becomes u_b. Returns false if the iterations do not converge. @pre dynamics_ is
 // at end_pose_
 //
-// H is factored once, at the start, unless `is_factored`: then M of the kick is, whose drag is
-// small. Its difference to H in the middle is of order h, so that each iteration multiplies the
-// error by a factor of order h.
-bool LinkFlight::findMiddle(double h, bool is_factored,
-                            const LinkFlightSettings& settings) noexcept {
+// H is factored once, at the start. Its difference to H in the middle is of order h, so that each
+// iteration multiplies the error by a factor of order h.
+bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexcept {
   start_ = end_;
-  if (!is_factored) dynamics_.factor();
+  dynamics_.factor();
   dynamics_.accelerations(start_, rate_);
   mean_ = start_ + h / 2 * rate_;
   const double tolerance = settings.tolerance * settings.tolerance;

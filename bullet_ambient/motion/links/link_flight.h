@@ -61,7 +61,7 @@ class LinkFlight {
   int flyInSubsteps(int substeps, double duration, const LinkFlightSettings& settings,
                     FlightCount& count) noexcept;
   double largestSpin() const noexcept;
-  bool findMiddle(double h, bool is_factored, const LinkFlightSettings& settings) noexcept;
+  bool findMiddle(double h, const LinkFlightSettings& settings) noexcept;
   double kickAtEnd(double h, FlightCount& count) noexcept;
 
   const LinkTree& tree_;

@@ -107,7 +107,7 @@ double LinkKick::error(LinkDynamics& dynamics, double h) noexcept {
   return motion > 0 ? h * std::sqrt(dynamics.normSquared(change_) / motion) : 0;
 }
 
-double LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {
+void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {
   AMBIENT_ASSERT(h > 0 && u.size() == change_.size());
   dynamics.setVelocity(u);
   dynamics.measure();
@@ -126,7 +126,6 @@ double LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexce
   dynamics.respond(drag_impulses_, change_);
   u += change_;
   applyLift(dynamics, u);
-  return *std::max_element(drags_.begin(), drags_.end());
 }
 
 void LinkKick::foresee(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept {

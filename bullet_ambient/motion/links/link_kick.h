@@ -31,8 +31,8 @@ class LinkKick {
   /// Replaces `u` by the velocity after the time h [s] under the loads of the last sample alone.
   /// The loads grow with the square of each link's speed. In one flow that the tree can follow, the
   /// energy relative to the flow does not grow for any h. Leaves `dynamics` with the factor of M,
-  /// not of H. Returns the largest z_l of M.
-  double kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
+  /// not of H.
+  void kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept;
   /// Predicts the velocity for the next sample, an approximation of kick(): drag slows each link
   /// down as if it were alone, and the tree takes the nearest motion, eq. (81a). @pre factor() of
   /// H, at a pose nearby
