@@ -25,7 +25,9 @@ SurfaceStand standOf(const WetVolume& wet, const SurfacePlane& plane, double add
   stand.immersion_F.wet = wet;
   stand.inertia = Matrix6::Identity();
   stand.inertia.diagonal().tail<3>().array() += plane.density * added_mass;
-  completeStand(model, stand);
+  const SurfaceModel* const models = &model;
+  SurfaceStand* const stands = &stand;
+  completeStands(&models, &stands, 1);
   return stand;
 }
 
