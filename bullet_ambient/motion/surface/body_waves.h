@@ -3,6 +3,7 @@
 #include <array>
 
 #include "bullet_ambient/motion/surface/wave_memory.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
 
