@@ -19,8 +19,10 @@ from files import reading, writing
 PICTURE = "images/rivals_cost.png"
 BEGIN, END = "<!-- begin: plot_rivals.py -->", "<!-- end: plot_rivals.py -->"
 FLOOR = 0.01  # smaller errors are drawn here [%]
+CHEAPEST = 0.005  # smaller costs, which are noise, are drawn here [us]
 STYLES = {"bullet_ambient": ("o", "tab:blue"), "forces by hand": ("s", "tab:gray"), "Jolt": ("^", "tab:orange"),
           "MuJoCo": ("D", "tab:green")}
+OFFSETS = {"forces by hand": (-14, -19), "Jolt": (-16, 10)}  # of the numbers [points]
 NOTES = {("rising cube", "forces by hand"): "typed in"}
 TITLES = {"light ball": "light ball let go:\nacceleration", "barge in heave": "barge:\nperiod of heave",
           "rising cube": "rising cube:\nspeed", "ellipsoid in ideal flow": "ellipsoid in ideal flow:\nenergy over 20 s"}
@@ -47,15 +49,15 @@ def draw_panel(axes, row):
         if error is None or cost is None:
             missing.append(engine)
             continue
-        place = max(cost["fluid"], 0.01), max(error, FLOOR)
+        place = max(cost["fluid"], CHEAPEST), max(error, FLOOR)
         axes.plot(*place, marker, color=colour, markersize=11, markeredgecolor="white", label=engine)
         note = NOTES.get((row["case"], engine), percent(error))
-        # By hand and Jolt are often neighbours.
-        offset = (-14, -19) if engine == "forces by hand" and error > 1 else (9, 5)
+        # By hand and Jolt are often neighbours of others.
+        offset = OFFSETS.get(engine, (9, 5)) if error > 1 else (9, 5)
         axes.annotate(note, place, offset, textcoords="offset points", fontsize=10, color=colour)
     if missing:
         axes.text(0.5, 0.03, f"{', '.join(missing)}: none", transform=axes.transAxes, ha="center", fontsize=10)
-    axes.set(xscale="log", yscale="log", xlim=(0.03, 30), ylim=(0.006, 3000), title=TITLES[row["case"]])
+    axes.set(xscale="log", yscale="log", xlim=(0.002, 40), ylim=(0.006, 3000), title=TITLES[row["case"]])
     axes.title.set_fontsize(11)
     axes.minorticks_off()
     axes.grid(alpha=0.3)
@@ -67,7 +69,7 @@ def draw(results):
     figure, panels = plt.subplots(1, len(rows), figsize=(11, 4.2), sharex=True, sharey=True)
     for axes, row in zip(panels, rows):
         draw_panel(axes, row)
-        axes.set_xticks([0.1, 1, 10], ["0.1", "1", "10"])
+        axes.set_xticks([0.01, 0.1, 1, 10], ["0.01", "0.1", "1", "10"])
     ticks = [0.01, 0.1, 1, 10, 100, 1000]
     panels[0].set_yticks(ticks, ["≤ 0.01 %", *(f"{tick:g} %" for tick in ticks[1:])])
     panels[0].set_ylabel("error", fontsize=11)
