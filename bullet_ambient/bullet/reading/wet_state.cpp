@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/region_call.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
