@@ -10,6 +10,7 @@ class btMultiBodyDynamicsWorld;
 
 AMBIENT_BEGIN
 
+struct AmbientBody;
 struct AmbientLink;
 class AmbientBodies;
 

@@ -72,7 +72,9 @@ SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
   const RigidState& start = flight.body.state;
   standAt(ambient,
           seenFrom(encounter.plane_W, start.orientation.toRotationMatrix(), start.position));
-  return {{*ambient.surface(), encounter.plane_W, task.surroundings, encounter.velocity_above,
+  const SurfaceModel* model = ambient.surface();
+  AMBIENT_ASSERT(model);
+  return {{*model, encounter.plane_W, task.surroundings, encounter.velocity_above,
            task.settings, task.duration},
           flight.body,
           encounter.waves,
