@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "bullet_ambient/bullet/core/conversions.h"
+#include "bullet_ambient/force/loads/surface_loads.h"
+
 AMBIENT_BEGIN
 namespace {
 

@@ -74,8 +74,8 @@ SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
           seenFrom(encounter.plane_W, start.orientation.toRotationMatrix(), start.position));
   const SurfaceModel* model = ambient.surface();
   AMBIENT_ASSERT(model);
-  return {{*model, encounter.plane_W, task.surroundings, encounter.velocity_above,
-           task.settings, task.duration},
+  return {{*model, encounter.plane_W, task.surroundings, encounter.velocity_above, task.settings,
+           task.duration},
           flight.body,
           encounter.waves,
           ambient.last_stand->stand};
