@@ -94,7 +94,7 @@ endfunction()
 
 # For what is compiled more often than it computes; it overrides the -O3 of Release.
 function(ambient_optimise_little name)
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:Debug>:-O0>)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # Options every target of this project is compiled with. Sources that are compiled together may use a local name that
