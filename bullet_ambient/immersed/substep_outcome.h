@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/motion/body/kirchhoff.h"
 #include "bullet_ambient/motion/body/rigid_state.h"
 
 AMBIENT_BEGIN
@@ -22,12 +21,15 @@ enum class Outcome {
 
 /// Data that the action needs to complete a motion by rows; docs/theory.md eq. (31).
 struct RowMotion {
-  RigidState start;  ///< state before Bullet moves the body; twist relative to the flow
+  Quaternion orientation = Quaternion::Identity();  ///< B to W, before Bullet moves the body
+  Vector3 position = Vector3::Zero();               ///< there, with the position correction
+  Twist velocity_W;                                 ///< xi: Bullet moves it by xi and the flow
   Vector3 flow_W = Vector3::Zero();
   bool is_held = false;  ///< true: joints, or contacts with bodies that cannot move, hold the body
   double turn = 0;       ///< largest turn of the body during the step [rad]
-  /// World momentum relative to the flow, which the turn keeps; none: a body with locked axes.
-  std::optional<WorldMomentum> momentum;
+  /// Momentum relative to the flow, about the centre of mass at the start, which the turn keeps;
+  /// none: a body with locked axes.
+  std::optional<Momentum> momentum_W;
   /// Twice the kinetic energy allowed at the next pose [J]; none: no bound.
   std::optional<double> energy_bound;
 };

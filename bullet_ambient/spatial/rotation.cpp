@@ -4,6 +4,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
+#include "bullet_ambient/base/pi.h"
 
 namespace ambient {
 namespace {
@@ -64,6 +65,13 @@ Quaternion rotationBetween(const Vector3& from, const Vector3& to) {
 
 double angleBetween(const Quaternion& a, const Quaternion& b) {
   return rotationVector(a.conjugate() * b).norm();
+}
+
+bool isTurnedFurther(const Quaternion& a, const Quaternion& b, double limit) {
+  const Quaternion turn = a.conjugate() * b;
+  // An angle is at most pi times the sine of its half.
+  if (kPi * turn.vec().norm() * (1 + 1e-12) <= limit) return false;
+  return rotationVector(turn).norm() > limit;
 }
 
 }  // namespace ambient

@@ -24,4 +24,7 @@ Quaternion rotationBetween(const Vector3& from, const Vector3& to);
 /// Angle of the rotation from attitude a to attitude b [rad], in [0, pi].
 double angleBetween(const Quaternion& a, const Quaternion& b);
 
+/// True if this angle exceeds a limit [rad]. Computes the angle only if it may.
+bool isTurnedFurther(const Quaternion& a, const Quaternion& b, double limit);
+
 }  // namespace ambient

@@ -37,7 +37,7 @@ void beginBodyReading(AmbientBody& ambient, bool is_locked) noexcept {
 void readRows(AmbientBody& ambient, btSolverBody& solver_body, double time_step) noexcept {
   FluidReading& reading = *ambient.reading;
   const RowMotion& rows = ambient.outcome.rows();
-  reading.moved_W = turned(rows.start.orientation, rows.start.twist);
+  reading.moved_W = rows.velocity_W;
   reading.moved_W.linear += rows.flow_W;
   const Quaternion& q = reading.start.orientation;
   const Twist change_B =

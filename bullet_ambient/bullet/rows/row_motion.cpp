@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/immersed/departures.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
+#include "bullet_ambient/motion/flight/kept_motion.h"
 #include "bullet_ambient/motion/flight/row_velocity.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/rotation.h"
@@ -15,6 +17,8 @@ AMBIENT_BEGIN
 namespace {
 
 constexpr double kRounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+
+const double kTurnRounding = std::sqrt(kRounding);  // [rad]
 
 Twist changeByRows(btSolverBody& b) {
   return {toVector3(b.internalGetDeltaAngularVelocity()),
@@ -31,18 +35,17 @@ Twist solvedVelocity(btSolverBody& b) {
 
 // Returns the part of the way time_step * xi that the body has made: less than 1 if continuous
 // collision detection has stopped it; none if its pose is not on this way.
-std::optional<double> partOfWay(const RowMotion& rows, const RigidState& now, double time_step) {
-  const RigidState& start = rows.start;
-  const Vector3 velocity = rows.flow_W + start.orientation * start.twist.linear;
-  const Vector3 way = time_step * velocity, gone = now.position - start.position;
-  const double rounding = kRounding * (now.position.norm() + way.norm());
+std::optional<double> partOfWay(const RowMotion& rows, const Quaternion& orientation,
+                                const Vector3& position, double time_step) {
+  const Vector3 way = time_step * (rows.flow_W + rows.velocity_W.linear);
+  const Vector3 gone = position - rows.position;
+  const double rounding = kRounding * (position.norm() + way.norm());
   double part = 1;
   if ((gone - way).norm() > rounding && way.squaredNorm() > 0)
     part = std::clamp(gone.dot(way) / way.squaredNorm(), 0.0, 1.0);
   const bool is_beside = (gone - part * way).norm() > rounding;
-  const bool is_turned =
-      angleBetween(start.orientation, now.orientation) > rows.turn + std::sqrt(kRounding);
-  if (is_beside || is_turned) return std::nullopt;
+  if (is_beside || isTurnedFurther(rows.orientation, orientation, rows.turn + kTurnRounding))
+    return std::nullopt;
   return part;
 }
 
@@ -85,78 +88,178 @@ BoundedTwist keepingMomentum(const BodyModel& model, const RowMotion& rows, cons
   return end;
 }
 
-}  // namespace
-
-void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody& solver_body,
-                    double time_step) noexcept {
-  const StepModel step_model(ambient, time_step);
-  const BodyModel& model = *step_model;
-  AMBIENT_ASSERT(time_step > 0 && !(row_body.extent < 0));
-  const Medium& medium = ambient.medium;
-  RowMotion& rows = ambient.outcome.rows();
-  rows.start = row_body.start;
-  rows.is_held = row_body.is_held;
-  rows.flow_W = medium.velocity + time_step * medium.acceleration;
-  const Quaternion to_body = rows.start.orientation.conjugate();
-  Twist relative_W = solvedVelocity(solver_body);
-  relative_W.linear -= rows.flow_W;
-  rows.start.twist = turned(to_body, relative_W);
-  const Vector6 share = turned(to_body, row_body.turning_W).vector();
-  RigidState kept = rows.start;
-  kept.twist = Twist::fromVector(kept.twist.vector() - share);
-
-  double extent = row_body.extent;
-  if (!row_body.is_locked) {
-    rows.momentum = worldMomentum(model, kept);
-    const DualPair moved = pairOfTwist(model, rows.start.twist.vector());
-    extent = std::max(extent, computeTurning(model, moved, time_step).extent);
-  }
-  if (extent > kSlowTurn) {
-    const Vector6 by_rows = turned(to_body, changeByRows(solver_body)).vector();
-    const double on_share = 2 * inner(pairOfTwist(model, share), pairOfTwist(model, by_rows));
-    const double energy = inertiaNormSquared(model, kept.twist.vector()) + std::min(0.0, on_share);
-    rows.energy_bound = std::max(0.0, energy);
-  }
-  rows.start.position += time_step * toVector3(solver_body.internalGetPushVelocity());
-  rows.turn = time_step * (rows.start.twist.angular.norm() +
-                           toVector3(solver_body.internalGetTurnVelocity()).norm());
+BodyWithRows bodyWithRows(const SolvedBody& body, const BodyModel& model, const Vector3& flow_W) {
+  Twist velocity_W = solvedVelocity(*body.solver_body);
+  velocity_W.linear -= flow_W;
+  return {model, body.row_body->start.orientation, velocity_W, body.row_body->turning_W,
+          changeByRows(*body.solver_body)};
 }
 
-void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints) noexcept {
-  const RowMotion& rows = ambient.outcome.rows();
-  if (!rows.momentum && !rows.energy_bound && !ambient.surface()) return;
-  btRigidBody& body = *ambient.body;
-  const RigidState now = readState(body);
-  const std::optional<double> part = partOfWay(rows, now, time_step);
-  if (!part) return;
-  const Twist moved_W = turned(rows.start.orientation, rows.start.twist);
-  const Vector6 moved = turned(now.orientation.conjugate(), moved_W).vector();
-  const StepModel step_model(ambient, time_step);
-  const BodyModel& model = *step_model;
-  BoundedTwist end{moved};
-  if (rows.momentum) {
-    const Vector3 position = rows.momentum->pivot + *part * time_step * moved_W.linear;
-    end.twist = twistOf(model, *rows.momentum, now.orientation, position).vector();
+RowMotion rowMotion(const SolvedBody& body, const BodyWithRows& with_rows, const KeptMotion& kept,
+                    double time_step) {
+  const RowBody& row_body = *body.row_body;
+  btSolverBody& solver_body = *body.solver_body;
+  RowMotion rows;
+  rows.is_held = row_body.is_held;
+  rows.orientation = with_rows.orientation;
+  rows.position =
+      row_body.start.position + time_step * toVector3(solver_body.internalGetPushVelocity());
+  rows.velocity_W = with_rows.velocity_W;
+  rows.turn = time_step * (rows.velocity_W.angular.norm() +
+                           toVector3(solver_body.internalGetTurnVelocity()).norm());
+  AMBIENT_ASSERT(!(row_body.extent < 0));
+  double extent = row_body.extent;
+  if (!row_body.is_locked) {
+    rows.momentum_W = kept.momentum_W;
+    extent = std::max(extent, kept.extent);
   }
-  if (rows.energy_bound)
-    end = rows.momentum ? keepingMomentum(model, rows, moved, end.twist)
-                        : withinEnergy(model, moved, end.twist, *rows.energy_bound);
-  double energy_removed = end.energy_removed;
-  if (ambient.surface()) {
-    AmbientBody* const one = &ambient;
-    passWithRows(&one, 1, rows.momentum ? Axes::kFree : Axes::kLocked, time_step, &end);
-    energy_removed += end.energy_removed;
+  if (extent > kSlowTurn) rows.energy_bound = std::max(0.0, kept.twice_energy);
+  return rows;
+}
+
+// A body that Bullet has moved with rows, in the course of endRowMotions().
+struct Arrival {
+  AmbientBody* ambient = nullptr;
+  Quaternion orientation;  // B to W
+  double part = 1;         // partOfWay()
+  Vector6 moved;           // xi in B
+  std::optional<StepModel> model;
+
+  const RowMotion& rows() const { return ambient->outcome.rows(); }
+};
+
+// Fills `arrivals` with the bodies whose velocity may have to change. Returns their number.
+int findArrivals(AmbientBody* const* bodies, int count, double time_step, Arrival* arrivals) {
+  AmbientBody* changing[kFlightsTogether] = {};
+  Twist moved_W[kFlightsTogether];
+  int found = 0;
+  for (int i = 0; i < count; ++i) {
+    const RowMotion& rows = bodies[i]->outcome.rows();
+    if (!rows.momentum_W && !rows.energy_bound && !bodies[i]->surface()) continue;
+    moved_W[found] = rows.velocity_W;
+    changing[found++] = bodies[i];
   }
-  const Twist change_B = Twist::fromVector(end.twist - moved);
-  const Twist change_W = withoutTraces(turned(now.orientation, change_B), time_step);
+  if (found == 0) return 0;
+  Attitudes now;
+  readAttitudes(changing, moved_W, found, now);
+  int arrived = 0;
+  for (int i = 0; i < found; ++i) {
+    AmbientBody& ambient = *changing[i];
+    const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
+    const auto part = partOfWay(ambient.outcome.rows(), now.orientations[i], position, time_step);
+    if (!part) continue;
+    Arrival& arrival = arrivals[arrived++];
+    arrival.ambient = &ambient;
+    arrival.orientation = now.orientations[i];
+    arrival.part = *part;
+    arrival.moved = now.twists_B[i].vector();
+    arrival.model.emplace(ambient, time_step);
+  }
+  return arrived;
+}
+
+// Computes the twists that keep the momenta, eq. (31), of the bodies that keep one.
+void keepMomenta(const Arrival* arrivals, int count, double time_step, BoundedTwist* ends) {
+  std::optional<CarriedBody> carried[kFlightsTogether];
+  const CarriedBody* all[kFlightsTogether] = {};
+  int places[kFlightsTogether] = {}, found = 0;
+  for (int i = 0; i < count; ++i) {
+    const RowMotion& rows = arrivals[i].rows();
+    ends[i] = {arrivals[i].moved};
+    if (!rows.momentum_W) continue;
+    const Vector3 way_W = arrivals[i].part * time_step * rows.velocity_W.linear;
+    places[found] = i;
+    all[found] = &carried[found].emplace(
+        CarriedBody{**arrivals[i].model, arrivals[i].orientation, *rows.momentum_W, way_W});
+    ++found;
+  }
+  if (found == 0) return;
+  Twist twists_B[kFlightsTogether];
+  computeCarriedTwists(all, found, twists_B);
+  for (int i = 0; i < found; ++i) ends[places[i]].twist = twists_B[i].vector();
+}
+
+// Bounds the energy of a fast turn, eq. (31a).
+void boundEnergy(const Arrival& arrival, BoundedTwist& end) {
+  const RowMotion& rows = arrival.rows();
+  if (!rows.energy_bound) return;
+  const BodyModel& model = **arrival.model;
+  end = rows.momentum_W ? keepingMomentum(model, rows, arrival.moved, end.twist)
+                        : withinEnergy(model, arrival.moved, end.twist, *rows.energy_bound);
+}
+
+// Lets the bodies at a surface, of those with free or with locked axes, pass it side by side.
+void passSurfaces(const Arrival* arrivals, int count, Axes axes, double time_step,
+                  BoundedTwist* ends) {
+  AmbientBody* bodies[kFlightsTogether] = {};
+  BoundedTwist twists[kFlightsTogether];
+  int places[kFlightsTogether] = {}, found = 0;
+  for (int i = 0; i < count; ++i) {
+    const bool is_free = arrivals[i].rows().momentum_W.has_value();
+    if (!arrivals[i].ambient->surface() || is_free != (axes == Axes::kFree)) continue;
+    bodies[found] = arrivals[i].ambient;
+    twists[found] = ends[i];
+    places[found++] = i;
+  }
+  if (found == 0) return;
+  passWithRows(bodies, found, axes, time_step, twists);
+  for (int i = 0; i < found; ++i) {
+    ends[places[i]].twist = twists[i].twist;
+    ends[places[i]].energy_removed += twists[i].energy_removed;
+  }
+}
+
+void setVelocity(const Arrival& arrival, const BoundedTwist& end, double time_step,
+                 Complaints& complaints) {
+  AmbientBody& ambient = *arrival.ambient;
+  const Twist change_B = Twist::fromVector(end.twist - arrival.moved);
+  const Twist change_W = withoutTraces(turned(arrival.orientation, change_B), time_step);
   if (!change_W.vector().allFinite()) {
     ++ambient.counters.rejected;
     complaints.say(Complaint::kNotFinite);
     return;
   }
-  ambient.counters.energy_removed += energy_removed;
+  ambient.counters.energy_removed += end.energy_removed;
+  btRigidBody& body = *ambient.body;
   body.setAngularVelocity(body.getAngularVelocity() + toBullet(change_W.angular));
   body.setLinearVelocity(body.getLinearVelocity() + toBullet(change_W.linear));
+}
+
+}  // namespace
+
+void beginRowMotions(const SolvedBody* bodies, int count, double time_step) noexcept {
+  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether && time_step > 0);
+  std::optional<StepModel> models[kFlightsTogether];
+  std::optional<BodyWithRows> with_rows[kFlightsTogether];
+  const BodyWithRows* all[kFlightsTogether] = {};
+  Vector3 flows_W[kFlightsTogether];
+  for (int i = 0; i < count; ++i) {
+    const AmbientBody& ambient = *bodies[i].ambient;
+    const Medium& medium = ambient.medium;
+    flows_W[i] = medium.velocity + time_step * medium.acceleration;
+    const StepModel& model = models[i].emplace(ambient, time_step);
+    all[i] = &with_rows[i].emplace(bodyWithRows(bodies[i], *model, flows_W[i]));
+  }
+  KeptMotion kept[kFlightsTogether];
+  computeKeptMotions(all, count, time_step, kept);
+  for (int i = 0; i < count; ++i) {
+    RowMotion& rows = bodies[i].ambient->outcome.rows();
+    rows = rowMotion(bodies[i], *with_rows[i], kept[i], time_step);
+    rows.flow_W = flows_W[i];
+  }
+}
+
+void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
+                   Complaints& complaints) noexcept {
+  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
+  Arrival arrivals[kFlightsTogether];
+  BoundedTwist ends[kFlightsTogether];
+  const int arrived = findArrivals(bodies, count, time_step, arrivals);
+  keepMomenta(arrivals, arrived, time_step, ends);
+  for (int i = 0; i < arrived; ++i) boundEnergy(arrivals[i], ends[i]);
+  for (const Axes axes : {Axes::kFree, Axes::kLocked})
+    passSurfaces(arrivals, arrived, axes, time_step, ends);
+  for (int i = 0; i < arrived; ++i) setVelocity(arrivals[i], ends[i], time_step, complaints);
 }
 
 AMBIENT_END

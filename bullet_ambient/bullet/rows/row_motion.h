@@ -19,14 +19,23 @@ AMBIENT_BEGIN
 //   X   part of the turning velocity change in the velocity that rows are solved against, eq. (28)
 //   d   velocity change by the rows
 
-/// Stores momentum, energy bound and start in AmbientBody::outcome for endRowMotion(). Call after
-/// the iterations, with the velocity changes of `solver_body` in world axes.
-void beginRowMotion(AmbientBody& ambient, const RowBody& row_body, btSolverBody& solver_body,
-                    double time_step) noexcept;
+// Functions for up to kFlightsTogether bodies side by side; the bits of a body do not depend on the
+// others.
 
-/// Adds the velocity change x_(n+1) - xi of eq. (31), in world axes. Call after Bullet has moved
-/// the body. Does nothing if the body is not on its way from the start along xi, because others
-/// have moved it.
-void endRowMotion(AmbientBody& ambient, double time_step, Complaints& complaints) noexcept;
+/// A body after the iterations; `solver_body`: velocity changes in world axes.
+struct SolvedBody {
+  AmbientBody* ambient;
+  const RowBody* row_body;
+  btSolverBody* solver_body;
+};
+
+/// Stores momentum, energy bound and start in AmbientBody::outcome for endRowMotions().
+void beginRowMotions(const SolvedBody* bodies, int count, double time_step) noexcept;
+
+/// Adds the velocity changes x_(n+1) - xi of eq. (31), in world axes. Call after Bullet has moved
+/// the bodies. Does nothing for a body that is not on its way from the start along xi, because
+/// others have moved it.
+void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
+                   Complaints& complaints) noexcept;
 
 AMBIENT_END

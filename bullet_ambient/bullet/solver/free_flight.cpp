@@ -5,6 +5,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/immersed/departures.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/surface/surface_flight.h"
@@ -19,33 +20,6 @@ constexpr double kBulletMaxTurn = kPi / 4;  // [rad] per step in integrateTransf
 constexpr auto kEpsilon = static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 // FlightTask::precision. Its error grows with the number of steps, rounding with the root of it.
 constexpr double kPrecision = std::max(1e-16, 1e-4 * kEpsilon);
-
-// State of up to kFlightsTogether bodies before their flights.
-struct Departures {
-  Twist twists_W[kFlightsTogether];  // velocities in Bullet
-  RigidState states[kFlightsTogether];
-  Surroundings surroundings[kFlightsTogether];
-};
-
-void readDepartures(AmbientBody* const* bodies, int count, Departures& departures) {
-  DepartureLanes lanes{};
-  for (int i = 0; i < count; ++i) {
-    const btRigidBody& body = *bodies[i]->body;
-    const btMatrix3x3& rotation = body.getWorldTransform().getBasis();
-    for (int row = 0; row < 3; ++row)
-      setLane(lanes.rotation + 3 * row, i, toVector3(rotation[row]));
-    departures.twists_W[i] = {toVector3(body.getAngularVelocity()),
-                              toVector3(body.getLinearVelocity())};
-    setLane(lanes.twist_W, i, departures.twists_W[i]);
-  }
-  fastestFlightKernel().depart(lanes);
-  for (int i = 0; i < count; ++i) {
-    const Vector3 position = toVector3(bodies[i]->body->getWorldTransform().getOrigin());
-    departures.states[i] = {orientationOf(lanes.orientation, i), position,
-                            twistOf(lanes.twist_B, i)};
-    departures.surroundings[i] = readSurroundings(*bodies[i]);
-  }
-}
 
 // True if a velocity in Bullet is `b` up to a few of its roundings.
 bool isWithinRounding(const Vector3& a, const Vector3& b) {

@@ -58,9 +58,9 @@ void dropRows(btSolverBody& b) {
     change->setZero();
 }
 
-// Maps the velocity changes by rows to world axes, and prepares the motion after the rows, eq.
-// (31). Returns false, and drops the changes, if they are not finite.
-bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, double time_step) {
+// Maps the velocity changes by rows to world axes. Returns false, and drops the changes, if they
+// are not finite.
+bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) {
   const bool is_adrift = isUntouched(b);
   ambient.outcome.kind = is_adrift ? Outcome::kAdrift : Outcome::kRows;
   ambient.outcome.motion = RowMotion{};
@@ -76,8 +76,6 @@ bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, 
     ++ambient.counters.rejected;
     return false;
   }
-  beginRowMotion(ambient, row_body, b, time_step);
-  if (ambient.reading) readRows(ambient, b, time_step);
   return true;
 }
 
@@ -120,12 +118,35 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
       // Rows have moved the body; every body with rows has a RowBody since begin() or
       // rewriteRows().
       AMBIENT_ASSERT(row_body);
-      if (!finishRows(*member.ambient, *row_body, solver_body, time_step_))
+      if (finishRows(*member.ambient, *row_body, solver_body)) {
+        moved_members_.push_back(&member);
+      } else {
         bodies_.complaints.say(Complaint::kNotFinite);
+      }
     }
   }
+  settleMoved(solver_bodies);
   flyFreely(solver_bodies);
   members_.clear();
+}
+
+// Prepares the motion of moved_members_ after the rows, eq. (31).
+void SolverGroup::settleMoved(SolverBodies& solver_bodies) noexcept {
+  const std::size_t count = moved_members_.size();
+  for (std::size_t first = 0; first < count; first += kFlightsTogether) {
+    const int together = static_cast<int>(std::min<std::size_t>(kFlightsTogether, count - first));
+    SolvedBody bodies[kFlightsTogether] = {};
+    for (int i = 0; i < together; ++i) {
+      const Member& member = *moved_members_[first + static_cast<std::size_t>(i)];
+      bodies[i] = {member.ambient, row_bodies_->find(member.solver_body),
+                   &solver_bodies[member.solver_body]};
+    }
+    beginRowMotions(bodies, together, time_step_);
+    for (int i = 0; i < together; ++i)
+      if (bodies[i].ambient->reading)
+        readRows(*bodies[i].ambient, *bodies[i].solver_body, time_step_);
+  }
+  moved_members_.clear();
 }
 
 // Flies free_members_. A flight changes its own body only, so that any thread may compute it.

@@ -33,6 +33,7 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
   // and later steps must not allocate.
   converted_.reserve(static_cast<std::size_t>(bodies.count));
   member_of_solver_body_.reserve(static_cast<std::size_t>(bodies.count));
+  moved_members_.reserve(static_cast<std::size_t>(bodies.count));
   row_bodies_->reserve(bodies.count);
   joint_chains_->reserve(bodies.count);
   markPairs(input);

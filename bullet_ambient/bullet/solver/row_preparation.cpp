@@ -1,5 +1,8 @@
 // Prepares the ambient bodies of a group for constraint rows: velocity that rows are solved
 // against, velocity basis, locked axes.
+#include <optional>
+#include <utility>
+
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
@@ -7,6 +10,7 @@
 #include "bullet_ambient/bullet/rows/slope_friction.h"
 #include "bullet_ambient/bullet/solver/external_impulse.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
+#include "bullet_ambient/immersed/departures.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/flight/axis_locks.h"
 #include "bullet_ambient/motion/flight/row_velocity.h"
@@ -30,13 +34,13 @@ btVector3 whereZero(const btVector3& v) {
 
 // Sets the basis of eq. (30) and Bullet's factors of locked axes to 1: T contains the locks, which
 // the solver must not apply twice.
-void lock(RowBody& row_body, const btRigidBody& body, const FlightTask& task,
-          const AxisFactors& factors, btSolverBody& solver_body) {
+void lock(RowBody& row_body, const btRigidBody& body, const BodyModel& model,
+          btSolverBody& solver_body) {
   const Vector3 inertia = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
-  const Matrix3 R = readState(body).orientation.toRotationMatrix();
+  const Matrix3 R = row_body.start.orientation.toRotationMatrix();
   const Matrix3 root = rootInertia(inertia, R);
   row_body.is_locked = true;
-  row_body.basis = makeLockedBasis(task.model, root, R, factors);
+  row_body.basis = makeLockedBasis(model, root, R, axisFactors(body));
   row_body.root_inertia = toBulletMatrix(root);
   row_body.locked_angular = whereZero(body.getAngularFactor());
   row_body.locked_linear = whereZero(body.getLinearFactor());
@@ -45,27 +49,78 @@ void lock(RowBody& row_body, const btRigidBody& body, const FlightTask& task,
   solver_body.internalSetInvMass(btVector3(1, 1, 1) * body.getInvMass());
 }
 
-// Returns the velocity change that rows are solved against, eq. (28), with the kicks by waves and
-// wind; zero if it is not finite. @pre the body's inertia tensor fits its orientation
-RowVelocity velocityForRows(AmbientBody& ambient, const RigidState& start,
-                            const AxisFactors& factors, const FlightTask& task,
-                            Complaints& complaints) {
-  RowVelocity row = factors.areFree() ? computeRowVelocity(task, start)
-                                      : computeLockedVelocity(task, start, factors);
+// Finds the stands of the bodies at a water surface, side by side.
+void standAll(AmbientBody* const* bodies, const RigidState* states, int count, double time_step,
+              Complaints& complaints) {
+  AmbientBody* at_surface[kFlightsTogether] = {};
+  SurfacePlane planes_B[kFlightsTogether];
+  int found = 0;
+  for (int i = 0; i < count; ++i) {
+    if (!bodies[i]->surface()) continue;
+    at_surface[found] = bodies[i];
+    planes_B[found++] = seenFrom(bodies[i]->encounter.plane_W,
+                                 states[i].orientation.toRotationMatrix(), states[i].position);
+  }
+  if (found == 0) return;
+  standAt(at_surface, planes_B, found);
+  for (int i = 0; i < found; ++i) warnOfCoarseSwing(*at_surface[i], time_step, complaints);
+}
+
+// Computes the velocity changes that rows are solved against, eq. (28): side by side where all axes
+// are free.
+void computeForRows(const RowTask* const* tasks, const AxisFactors* factors, int count,
+                    RowVelocity* rows) {
+  const RowTask* free[kFlightsTogether] = {};
+  RowVelocity results[kFlightsTogether];
+  int places[kFlightsTogether] = {}, found = 0;
+  for (int i = 0; i < count; ++i) {
+    if (factors[i].areFree()) {
+      places[found] = i;
+      free[found++] = tasks[i];
+    } else {
+      rows[i] = computeLockedVelocity(tasks[i]->task, tasks[i]->start, factors[i]);
+    }
+  }
+  if (found > 0) computeRowVelocities(free, found, results);
+  for (int i = 0; i < found; ++i) rows[places[i]] = results[i];
+}
+
+// Adds the kicks by waves and wind to a velocity change, and counts what it cost. Sets it to zero
+// if it is not finite.
+void complete(AmbientBody& ambient, const RigidState& start, double time_step,
+              Complaints& complaints, RowVelocity& row) {
   if (ambient.surface()) {
-    const Vector6 by_surface = kickByWavesAndWind(ambient, task.duration);
+    const Vector6 by_surface = kickByWavesAndWind(ambient, time_step);
     const Twist kick_W = turned(start.orientation, Twist::fromVector(by_surface));
     row.change_W.angular += kick_W.angular;
     row.change_W.linear += kick_W.linear;
   }
   countLoads(ambient, row.count.load_evaluations);
   ambient.counters.guarded += row.count.guarded;
-  if (!row.change_W.vector().allFinite()) {
-    ++ambient.counters.rejected;
-    complaints.say(Complaint::kNotFinite);
-    row.change_W = row.turning_W = row.isotropic_excess_W = {};
-  }
-  return row;
+  if (row.change_W.vector().allFinite()) return;
+  ++ambient.counters.rejected;
+  complaints.say(Complaint::kNotFinite);
+  row.change_W = row.turning_W = row.isotropic_excess_W = {};
+}
+
+// Fills what rows need of a body. @pre the body's inertia tensor fits its orientation
+void fill(const AmbientBody& ambient, const BodyModel& model, const RowVelocity& row,
+          const btSolverBody& solver_body, RowBody& row_body) {
+  const btRigidBody& body = *ambient.body;
+  row_body.turning_W = row.turning_W;
+  row_body.extent = row.extent;
+  row_body.inverse_inertia_T = body.getInvInertiaTensorWorld().transpose();
+  row_body.inverse_mass = body.getInvMass();
+  row_body.spin_change = solver_body.m_externalTorqueImpulse;
+  row_body.velocity_change = solver_body.m_externalForceImpulse;
+  row_body.spin_aside = toBullet(row.isotropic_excess_W.angular);
+  row_body.velocity_aside = toBullet(row.isotropic_excess_W.linear);
+  if (row_body.is_locked) return;
+  const Matrix3 R = row_body.start.orientation.toRotationMatrix();
+  const bool is_diagonal = model.has_diagonal_inertia;
+  row_body.has_coupling = !is_diagonal;
+  row_body.basis = is_diagonal ? toWorld(Vector6(ambient.in_medium->basis_B.diagonal()), R)
+                               : toWorld(basisOf(ambient, model), R);
 }
 
 }  // namespace
@@ -78,59 +133,60 @@ void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
   }
   member_of_solver_body_.assign(solver_bodies.size(), -1);
   row_bodies_->reset(solver_bodies.size());
+  Member* waiting[kFlightsTogether] = {};
+  int count = 0;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Member& member = members_[i];
     member.solver_body = member.object->getCompanionId();
     if (member.solver_body == kAlone) continue;
     AMBIENT_ASSERT(member.solver_body >= 0 && member.solver_body < solver_bodies.size());
     member_of_solver_body_[member.solver_body] = static_cast<int>(i);
-    btSolverBody& solver_body = solver_bodies[member.solver_body];
-    if (member.has_rows || member.is_locked) {
-      may_hold_slopes_ = may_hold_slopes_ || mayTurnAside(*member.ambient);
-      prepareForRows(member, solver_body);
-    } else {
-      setExternalImpulse(solver_body, Twist{});
+    if (!member.has_rows && !member.is_locked) {
+      setExternalImpulse(solver_bodies[member.solver_body], Twist{});
+      continue;
     }
+    may_hold_slopes_ = may_hold_slopes_ || mayTurnAside(*member.ambient);
+    waiting[count++] = &member;
+    if (count == kFlightsTogether) prepareForRows(waiting, std::exchange(count, 0), solver_bodies);
   }
+  if (count > 0) prepareForRows(waiting, count, solver_bodies);
 }
 
-void SolverGroup::prepareForRows(Member& member, btSolverBody& solver_body) noexcept {
-  AmbientBody& ambient = *member.ambient;
-  AMBIENT_ASSERT(ambient.body->getInvMass() > 0);
-  // T must fit the inertia tensor; Bullet's setWorldTransform leaves that of the old orientation.
-  ambient.body->updateInertiaTensor();
-  const btRigidBody& body = *ambient.body;
-  const RigidState start = readState(body);
-  const AxisFactors factors = axisFactors(body);
-  if (ambient.surface()) {
-    standNow(ambient);
-    warnOfCoarseSwing(ambient, time_step_, bodies_.complaints);
+void SolverGroup::prepareForRows(Member* const* members, int count,
+                                 SolverBodies& solver_bodies) noexcept {
+  AmbientBody* bodies[kFlightsTogether] = {};
+  AxisFactors factors[kFlightsTogether];
+  for (int i = 0; i < count; ++i) {
+    bodies[i] = members[i]->ambient;
+    AMBIENT_ASSERT(bodies[i]->body->getInvMass() > 0);
+    // T must fit the inertia tensor; Bullet's setWorldTransform leaves that of the old orientation.
+    bodies[i]->body->updateInertiaTensor();
+    factors[i] = axisFactors(*bodies[i]->body);
   }
-  const StepModel model(ambient, time_step_);
-  const Surroundings surroundings = readSurroundings(ambient);
-  const FlightTask task{*model, surroundings, ambient.def->flight, time_step_};
-  const RowVelocity row = velocityForRows(ambient, start, factors, task, bodies_.complaints);
-  setExternalImpulse(solver_body, withoutTraces(row.change_W, time_step_));
-
-  RowBody& row_body = row_bodies_->add(member.solver_body);
-  row_body.start = start;
-  row_body.turning_W = row.turning_W;
-  row_body.extent = row.extent;
-  row_body.is_held = member.is_held;
-  row_body.inverse_inertia_T = body.getInvInertiaTensorWorld().transpose();
-  row_body.inverse_mass = body.getInvMass();
-  row_body.spin_change = solver_body.m_externalTorqueImpulse;
-  row_body.velocity_change = solver_body.m_externalForceImpulse;
-  row_body.spin_aside = toBullet(row.isotropic_excess_W.angular);
-  row_body.velocity_aside = toBullet(row.isotropic_excess_W.linear);
-  if (member.is_locked) {
-    lock(row_body, body, task, factors, solver_body);
-  } else {
-    const Matrix3 R = start.orientation.toRotationMatrix();
-    const bool is_diagonal = model->has_diagonal_inertia;
-    row_body.has_coupling = !is_diagonal;
-    row_body.basis = is_diagonal ? toWorld(Vector6(ambient.in_medium->basis_B.diagonal()), R)
-                                 : toWorld(basisOf(ambient, *model), R);
+  Departures departures;
+  readDepartures(bodies, count, departures);
+  standAll(bodies, departures.states, count, time_step_, bodies_.complaints);
+  std::optional<StepModel> models[kFlightsTogether];
+  std::optional<RowTask> tasks[kFlightsTogether];
+  const RowTask* all[kFlightsTogether] = {};
+  for (int i = 0; i < count; ++i) {
+    const StepModel& model = models[i].emplace(*bodies[i], time_step_);
+    const FlightTask task{*model, departures.surroundings[i], bodies[i]->def->flight, time_step_};
+    all[i] = &tasks[i].emplace(RowTask{task, departures.states[i]});
+  }
+  RowVelocity rows[kFlightsTogether];
+  computeForRows(all, factors, count, rows);
+  for (int i = 0; i < count; ++i) {
+    const Member& member = *members[i];
+    const RigidState& start = departures.states[i];
+    btSolverBody& solver_body = solver_bodies[member.solver_body];
+    complete(*bodies[i], start, time_step_, bodies_.complaints, rows[i]);
+    setExternalImpulse(solver_body, withoutTraces(rows[i].change_W, time_step_));
+    RowBody& row_body = row_bodies_->add(member.solver_body);
+    row_body.start = start;
+    row_body.is_held = member.is_held;
+    if (member.is_locked) lock(row_body, *bodies[i]->body, **models[i], solver_body);
+    fill(*bodies[i], **models[i], rows[i], solver_body, row_body);
   }
 }
 
@@ -139,7 +195,7 @@ void SolverGroup::prepareJoinedToMultiBodies(SolverBodies& solver_bodies,
   forEachJoinedBody(joints, [&](int id) {
     Member* member = memberOf(id);
     if (!member) return;
-    if (!row_bodies_->find(id)) prepareForRows(*member, solver_bodies[id]);
+    if (!row_bodies_->find(id)) prepareForRows(&member, 1, solver_bodies);
     row_bodies_->find(id)->is_held = true;
   });
 }

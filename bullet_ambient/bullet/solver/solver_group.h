@@ -114,7 +114,7 @@ class SolverGroup {
   void markPairs(const GroupInput& input) noexcept;
   void mark(const btCollisionObject& body, bool has_rows, bool is_held) noexcept;
   GroupBodies withoutIsolatedBodies(const GroupBodies& bodies) noexcept;
-  void prepareForRows(Member& member, btSolverBody& solver_body) noexcept;
+  void prepareForRows(Member* const* members, int count, SolverBodies& solver_bodies) noexcept;
   void prepareJoinedToMultiBodies(
       SolverBodies& solver_bodies,
       const btAlignedObjectArray<btMultiBodySolverConstraint>& joints) noexcept;
@@ -123,6 +123,7 @@ class SolverGroup {
   void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
   void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
   void noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept;
+  void settleMoved(SolverBodies& solver_bodies) noexcept;
   void flyFreely(SolverBodies& solver_bodies) noexcept;
   void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
   Member* memberOf(int solver_body) noexcept;
@@ -135,6 +136,7 @@ class SolverGroup {
   std::vector<Member> members_;
   std::vector<btCollisionObject*> converted_;  // bodies that Bullet has to convert
   std::vector<int> member_of_solver_body_;     // index in members_; -1: not ambient
+  std::vector<const Member*> moved_members_;   // members that rows move
   std::vector<const Member*> free_members_;    // members that no row has moved
   std::unique_ptr<RowBodies> row_bodies_;
   std::unique_ptr<JointChains> joint_chains_;

@@ -42,22 +42,49 @@ bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
   return index < objects.size() && AmbientBodies::isSame(ambient);
 }
 
-void complete(Outcome kind, AmbientBody& ambient, double time_step, Complaints& complaints) {
-  if (kind == Outcome::kHeld) return release(ambient);
-  if (kind == Outcome::kFlown) {
-    endFlight(ambient, time_step);
-  } else {
-    endRowMotion(ambient, time_step, complaints);
-  }
-  if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
-  keepAwakeInUnsteadyFluid(ambient);
-}
+// Completes the substep of bodies after Bullet has moved them: of those that rows have moved, or
+// nothing, several side by side.
+class Completion {
+ public:
+  Completion(double time_step, Complaints& complaints)
+      : time_step_(time_step), complaints_(complaints) {}
 
-void completeRead(Outcome kind, AmbientBody& ambient, double time_step, Complaints& complaints) {
-  const Twist before_W = velocityOf(*ambient.body);
-  complete(kind, ambient, time_step, complaints);
-  if (kind != Outcome::kHeld) finishBodyReading(ambient, kind, before_W, time_step);
-}
+  void add(Outcome kind, AmbientBody& ambient) {
+    if (kind == Outcome::kHeld) return release(ambient);
+    const Twist before_W = ambient.reading ? velocityOf(*ambient.body) : Twist{};
+    if (kind == Outcome::kFlown) {
+      endFlight(ambient, time_step_);
+      finish(kind, before_W, ambient);
+      return;
+    }
+    bodies_[count_] = &ambient;
+    kinds_[count_] = kind;
+    before_W_[count_++] = before_W;
+    if (count_ == kFlightsTogether) completeRows();
+  }
+
+  // Call after the last add().
+  void completeRows() {
+    if (count_ == 0) return;
+    endRowMotions(bodies_, count_, time_step_, complaints_);
+    for (int i = 0; i < count_; ++i) finish(kinds_[i], before_W_[i], *bodies_[i]);
+    count_ = 0;
+  }
+
+ private:
+  void finish(Outcome kind, const Twist& before_W, AmbientBody& ambient) const {
+    if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
+    keepAwakeInUnsteadyFluid(ambient);
+    if (ambient.reading) finishBodyReading(ambient, kind, before_W, time_step_);
+  }
+
+  double time_step_;
+  Complaints& complaints_;
+  AmbientBody* bodies_[kFlightsTogether] = {};
+  Outcome kinds_[kFlightsTogether] = {};
+  Twist before_W_[kFlightsTogether];
+  int count_ = 0;
+};
 
 // Clears contact impulses after a substep whose duration is not finite: the next one would start
 // its contacts with them.
@@ -97,16 +124,13 @@ bool FluidAction::isSolverMissing(const btCollisionWorld& world) {
 
 void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
   world_ = world;
+  Completion completion(static_cast<double>(time_step), bodies_.complaints);
   for (AmbientBody* ambient = bodies_.takeMet(); ambient; ambient = ambient->next_met) {
     const Outcome kind = std::exchange(ambient->outcome.kind, Outcome::kNotMet);
     if (kind == Outcome::kStock || !isStillIn(*world, *ambient)) continue;
-    const auto duration = static_cast<double>(time_step);
-    if (ambient->reading) {
-      completeRead(kind, *ambient, duration, bodies_.complaints);
-    } else {
-      complete(kind, *ambient, duration, bodies_.complaints);
-    }
+    completion.add(kind, *ambient);
   }
+  completion.completeRows();
   completeTrees(*world, bodies_, static_cast<double>(time_step));
   if (std::isfinite(time_step)) {
     bodies_.regions.time += static_cast<double>(time_step);

@@ -37,13 +37,17 @@ void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept {
   setLane(lanes.centre_of_volume_B, body, model.centre_of_volume);
 }
 
-void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept {
+void setForces(FlightLanes& lanes, int body, const FlightTask& task) noexcept {
   const BodyModel& model = task.model;
   const Surroundings& s = task.surroundings;
   setLane(lanes.torque_W, body, s.applied.torque);
   setLane(lanes.force_W, body, Vector3(s.applied.force - model.mass * s.ambient_acceleration));
   setLane(lanes.buoyancy_W, body,
           Vector3(-model.displaced_mass * (s.gravity - s.ambient_acceleration)));
+}
+
+void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept {
+  setForces(lanes, body, task);
   lanes.fall_scale[body] = fallScale(task);
 }
 

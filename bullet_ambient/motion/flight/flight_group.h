@@ -13,9 +13,25 @@ constexpr Kernels<const FlightKernel*> kFlightKernels{&kFlightKernelBaseline, &k
 /// Kernel of fastestInstructionSet().
 const FlightKernel& fastestFlightKernel() noexcept;
 
+/// Sets what the models of all bodies have in common, before setModel(). `modelOf(i)`: model of
+/// body i.
+template <class ModelOf>
+void setKinds(FlightLanes& lanes, int count, const ModelOf& modelOf) noexcept {
+  lanes.has_diagonal_inertia = true;
+  lanes.has_loads = false;
+  for (int i = 0; i < count; ++i) {
+    const BodyModel& model = modelOf(i);
+    lanes.has_diagonal_inertia = lanes.has_diagonal_inertia && model.has_diagonal_inertia;
+    lanes.has_loads = lanes.has_loads || model.loads;
+  }
+}
+
 /// Writes the model of a body into lane `body`: with has_diagonal_inertia of the lanes, only the
 /// diagonals of K and K^-1. Lanes without a body stay 0, as in FlightLanes{}.
 void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept;
+/// Writes the wrench on a body without surface loads.
+void setForces(FlightLanes& lanes, int body, const FlightTask& task) noexcept;
+/// Writes that wrench, and the scale of its errors.
 void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept;
 /// Writes the total inertia of a body in B and its inverse.
 void setInertia(FlightLanes& lanes, int body, const Matrix6& inertia, const Matrix6& inverse,
@@ -38,6 +54,10 @@ inline void setLane(FlightLane* to, int body, const Wrench& f) noexcept {
 inline void setLane(FlightLane* to, int body, const Twist& x) noexcept {
   setLane(to, body, x.angular);
   setLane(to + 3, body, x.linear);
+}
+inline void setLane(FlightLane* to, int body, const Momentum& m) noexcept {
+  setLane(to, body, m.angular);
+  setLane(to + 3, body, m.linear);
 }
 inline void setLane(FlightLane* to, int body, const Quaternion& q) noexcept {
   for (int i = 0; i < 4; ++i) to[i][body] = q.coeffs()[i];

@@ -42,13 +42,7 @@ class Leapfrog {
   Leapfrog(Flight* const* flights, int count) : kernel_(fastestFlightKernel()), count_(count) {
     AMBIENT_ASSERT(count > 0 && count <= kFlightLanes);
     if (count < kFlightLanes) lanes_ = {};
-    lanes_.has_diagonal_inertia = true;
-    lanes_.has_loads = false;
-    for (int i = 0; i < count; ++i) {
-      const BodyModel& model = flights[i]->task.model;
-      lanes_.has_diagonal_inertia = lanes_.has_diagonal_inertia && model.has_diagonal_inertia;
-      lanes_.has_loads = lanes_.has_loads || model.loads;
-    }
+    setKinds(lanes_, count, [&](int i) -> const BodyModel& { return flights[i]->task.model; });
     for (int i = 0; i < count; ++i) begin(i, *flights[i]);
   }
 

@@ -1,71 +1,75 @@
 #include "bullet_ambient/motion/flight/row_velocity.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/body/kirchhoff.h"
-#include "bullet_ambient/motion/body/passive_kick.h"
-#include "bullet_ambient/spatial/rotation.h"
+#include "bullet_ambient/motion/body/one_body.h"
+#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/lanes/row_lanes.h"
+#include "bullet_ambient/motion/lanes/turning_kernel.h"
 
 namespace ambient {
 namespace {
 
-// Change of velocity dt K^-1 F by a wrench F over dt [s]; all in B.
-Vector6 changeOfVelocity(const BodyModel& model, const Vector6& wrench, double dt) {
-  if (model.has_diagonal_inertia)
-    return (dt * model.inverse_inertia.diagonal()).cwiseProduct(wrench);
-  return dt * (model.inverse_inertia * wrench);
+void setEvenResponse(PushLanes& lanes, int body, const EvenResponse& response) {
+  for (int row = 0; row < 3; ++row)
+    setLane(lanes.even_inverse_inertia[row], body, Vector3(response.inverse_inertia.row(row)));
+  lanes.even_inverse_mass[body] = response.inverse_mass;
+}
+
+// Writes a body into its lane, with the load at the start. Returns what the load cost.
+FlightCount begin(const RowTask& body, int lane, PushLanes& push) {
+  const FlightTask& task = body.task;
+  const Surroundings& s = task.surroundings;
+  AMBIENT_ASSERT(task.duration > 0);
+  FlightLanes& lanes = push.bodies;
+  lanes.active[lane] = 1;
+  lanes.kick_time[lane] = task.duration;
+  setModel(lanes, lane, task.model);
+  setForces(lanes, lane, task);
+  setLane(push.acceleration_W, lane, s.ambient_acceleration);
+  setEvenResponse(push, lane, task.model.even_response);
+  Twist relative = body.start.twist;
+  if (!s.ambient_velocity.isZero(0))
+    relative.linear -= body.start.orientation.conjugate() * s.ambient_velocity;
+  setLane(lanes.orientation, lane, body.start.orientation);
+  setLane(lanes.twist_B, lane, relative);
+  setLane(lanes.load_B, lane, Wrench{});
+  FlightCount count;
+  if (!task.model.loads) return count;
+  const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s.load_share);
+  setLane(lanes.load_B, lane, load.wrench);
+  count.load_evaluations = 1;
+  count.guarded = load.guarded;
+  return count;
 }
 
 }  // namespace
 
 double extentOf(const BodyModel& model, const Vector6& change, const DualPair& motion,
                 const TurnLimits& limits) noexcept {
-  const double energy = inner(motion, motion);
-  const double part = energy > 0 ? std::sqrt(inertiaNormSquared(model, change) / energy) : 0;
-  return std::max(motion.twist.head<3>().norm() / limits.spin, part / limits.change);
+  return extentOf(inAllLanes(pairOfTwist(model, change)), inAllLanes(motion), all(limits.spin),
+                  all(limits.change))[0];
 }
 
-Turning computeTurning(const BodyModel& model, const DualPair& motion, double duration) noexcept {
-  AMBIENT_ASSERT(duration > 0);
-  const Twist x = Twist::fromVector(motion.twist);
-  Vector6 change = duration * pairOfMomentum(model, gyroscopicWrench(motion).vector()).twist;
-  change.tail<3>() += duration * x.angular.cross(x.linear);
-  return {change, extentOf(model, change, motion, {0.5 / duration, 0.45})};
+void computeRowVelocities(const RowTask* const* bodies, int count, RowVelocity* results) noexcept {
+  AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
+  PushLanes push;
+  if (count < kFlightLanes) push = {};
+  setKinds(push.bodies, count, [&](int i) -> const BodyModel& { return bodies[i]->task.model; });
+  for (int i = 0; i < count; ++i) results[i].count = begin(*bodies[i], i, push);
+  fastestFlightKernel().push(push);
+  for (int i = 0; i < count; ++i) {
+    results[i].change_W = twistOf(push.change_W, i);
+    results[i].turning_W = twistOf(push.turning_W, i);
+    results[i].isotropic_excess_W = twistOf(push.isotropic_excess_W, i);
+    results[i].extent = push.extent[i];
+  }
 }
 
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept {
-  const BodyModel& model = task.model;
-  const Surroundings& s = task.surroundings;
-  const double dt = task.duration;
+  const RowTask body{task, start};
+  const RowTask* const one = &body;
   RowVelocity result;
-  AMBIENT_ASSERT(dt > 0);
-  Twist relative = start.twist;
-  if (!s.ambient_velocity.isZero(0))
-    relative.linear -= start.orientation.conjugate() * s.ambient_velocity;
-  const DualPair motion = pairOfTwist(model, relative.vector());
-
-  const Wrench external = externalWrench(model, s, start.orientation.toRotationMatrix());
-  Vector6 impulse = changeOfVelocity(model, external.vector(), dt);
-  if (model.loads) {
-    const SurfaceLoad load = computeSurfaceLoad(model, relative, s.load_share);
-    result.count.load_evaluations = 1;
-    result.count.guarded = load.guarded;
-    // Equal to dt K^-1 F to first order, but never reverses the motion, for any dt.
-    const DualPair sample = pairOfMomentum(model, load.wrench.vector());
-    impulse += passiveKick(motion, {motion, sample}, dt).twist - motion.twist;
-  }
-  const Turning turning = computeTurning(model, motion, dt);
-  const Vector6 share = std::clamp(1 - turning.extent, 0.0, 0.5) * turning.change;
-  result.extent = turning.extent;
-  const Quaternion& q = start.orientation;
-  result.turning_W = turned(q, Twist::fromVector(share));
-  const Vector6 excess = model.even_response.beyond(pairOfTwist(model, impulse).momentum, impulse);
-  if (!excess.isZero(0)) result.isotropic_excess_W = turned(q, Twist::fromVector(excess));
-  const Twist impulse_W = turned(q, Twist::fromVector(impulse));
-  result.change_W.angular = result.turning_W.angular + impulse_W.angular;
-  result.change_W.linear = result.turning_W.linear + impulse_W.linear + dt * s.ambient_acceleration;
+  computeRowVelocities(&one, 1, &result);
   return result;
 }
 

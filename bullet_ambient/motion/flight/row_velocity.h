@@ -4,24 +4,15 @@
 
 namespace ambient {
 
-/// Turning part t of eq. (28): change of velocity in a step by gyroscopic terms, and by the
-/// rotation of the body's axes; in B. Neither does work.
-struct Turning {
-  Vector6 change;     ///< t: change of the velocity in world axes, written in body axes
-  double extent = 0;  ///< m of docs/theory.md eq. (28a); from 1 on X = 0, the turn is too large
-};
-
 /// Limits in eq. (28a): spin, and size of t relative to the twist, at which the extent m is 1.
 struct TurnLimits {
   double spin;    ///< [rad/s]
   double change;  ///< |t| / |x| in the norm of K
 };
-/// Extent m of eq. (28a): the larger of |w| / limits.spin and (|change| / |x|) / limits.change.
+/// Extent m of docs/theory.md eq. (28a): the larger of |w| / limits.spin and
+/// (|change| / |x|) / limits.change. `motion`: relative to the flow.
 double extentOf(const BodyModel& model, const Vector6& change, const DualPair& motion,
                 const TurnLimits& limits) noexcept;
-
-/// Computes t explicitly for a free body; `motion`: relative to the flow; duration [s].
-Turning computeTurning(const BodyModel& model, const DualPair& motion, double duration) noexcept;
 
 /// Largest extent m at which a step needs no bound of the energy, docs/theory.md eq. (31a).
 constexpr double kSlowTurn = 0.5;
@@ -34,9 +25,19 @@ struct RowVelocity {
   Twist change_W;            ///< k + X, and the acceleration of the ambient flow
   Twist turning_W;           ///< X of eq. (28), contained in change_W
   Twist isotropic_excess_W;  ///< k' - k of eq. (28b): with isotropic added mass minus the true one
-  double extent = 0;         ///< m of eq. (28a)
+  double extent = 0;         ///< m of eq. (28a); from 1 on X = 0, the turn is too large
   FlightCount count;
 };
+
+/// A body at the start of a step in which rows may move it.
+struct RowTask {
+  FlightTask task;
+  const RigidState& start;
+};
+
+/// Computes the changes of up to kFlightsTogether free bodies side by side. The bits of a body do
+/// not depend on the others.
+void computeRowVelocities(const RowTask* const* bodies, int count, RowVelocity* results) noexcept;
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept;
 
 }  // namespace ambient

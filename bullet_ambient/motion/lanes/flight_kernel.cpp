@@ -1,7 +1,10 @@
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/motion/lanes/flow_kernel.h"
+#include "bullet_ambient/motion/lanes/motion_lanes.h"
 #include "bullet_ambient/motion/lanes/passive_kick_kernel.h"
 #include "bullet_ambient/motion/lanes/pose_kernel.h"
+#include "bullet_ambient/motion/lanes/push_kernel.h"
+#include "bullet_ambient/motion/lanes/row_motion_kernel.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel. Each
 // struct is one kernel of FlightKernel; act() computes the lanes from `at` on.
@@ -19,9 +22,6 @@ struct FlowStep {
 inline Pairs motionOf(const FlightLanes& bodies, int at) {
   return {load6(bodies.twist_B, at), load6(bodies.momentum_B, at)};
 }
-inline Orientations orientationOf(const FlightLanes& bodies, int at) {
-  return {load(bodies.orientation, at), load(bodies.orientation[3] + at)};
-}
 inline void setMotion(FlightLanes& bodies, int at, const Mask& active, const Pairs& x) {
   const Pairs now = select(active, x, motionOf(bodies, at));
   store6(bodies.twist_B, at, now.twist);
@@ -33,17 +33,13 @@ struct GravityStep {
   static void act(FlightLanes& bodies, int at, const Mask& active) {
     const Matrices inverse(bodies.inverse_inertia, at);
     const Orientations q = orientationOf(bodies, at);
-    const Vectors buoyancy = q.toBody(load(bodies.buoyancy_W, at));
-    const Spatials wrench{
-        q.toBody(load(bodies.torque_W, at)) + cross(load(bodies.centre_of_volume_B, at), buoyancy),
-        q.toBody(load(bodies.force_W, at)) + buoyancy};
+    const Spatials wrench = externalWrench(bodies, at, q);
     const Pairs fall = 0.5 * load(bodies.kick_time + at) * Pairs{inverse * wrench, wrench};
     store6(bodies.fall_twist, at, fall.twist);
     store6(bodies.fall_momentum, at, fall.momentum);
     setMotion(bodies, at, active, motionOf(bodies, at) + fall);
     if (!bodies.has_loads) return;
-    const Spatials load_W = load6(bodies.load_W, at);
-    store6(bodies.guess_B, at, {q.toBody(load_W.angular), q.toBody(load_W.linear)});
+    store6(bodies.guess_B, at, toBody(q, load6(bodies.load_W, at)));
   }
 };
 
@@ -79,8 +75,7 @@ struct KickStep {
     const Spatials surprise = wrench - load6(bodies.guess_B, at);
     store(bodies.error + at,
           relativeError(x, {inverse * surprise, surprise}, duration, load(bodies.fall_scale + at)));
-    const Orientations q = orientationOf(bodies, at);
-    const Spatials load_W{q.toWorld(wrench.angular), q.toWorld(wrench.linear)};
+    const Spatials load_W = toWorld(orientationOf(bodies, at), wrench);
     store6(bodies.load_W, at, select(active, load_W, load6(bodies.load_W, at)));
     return passiveKick(x, sample, {inverse * wrench, wrench}, duration);
   }
@@ -147,6 +142,19 @@ void forAll(FlightLanes& bodies) noexcept {
   }
 }
 
+// Runs a step of bodies with rows for all lanes with an active body.
+template <class Step, class Rows>
+void forAllWithRows(Rows& lanes) noexcept {
+  for (int at = 0; at < kFlightLanes; at += kWidth) {
+    if (!anyOf(load(lanes.bodies.active + at) > Lanes{})) continue;
+    if (lanes.bodies.has_diagonal_inertia) {
+      Step::template act<DiagonalMatrices>(lanes, at);
+    } else {
+      Step::template act<FullMatrices>(lanes, at);
+    }
+  }
+}
+
 }  // namespace
 
 const FlightKernel AMBIENT_KERNEL(kFlightKernel){depart,
@@ -156,6 +164,9 @@ const FlightKernel AMBIENT_KERNEL(kFlightKernel){depart,
                                                  forAll<SampleStep>,
                                                  forAll<KickStep>,
                                                  forAll<MeasureStep>,
-                                                 forAll<BoundStep>};
+                                                 forAll<BoundStep>,
+                                                 forAllWithRows<PushStep>,
+                                                 forAllWithRows<KeepStep>,
+                                                 forAllWithRows<CarryStep>};
 
 }  // namespace ambient

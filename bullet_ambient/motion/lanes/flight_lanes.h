@@ -75,6 +75,9 @@ struct alignas(64) ArrivalLanes {
                           ///< most pi, eq. (29)
 };
 
+struct PushLanes;
+struct RowMotionLanes;
+
 /// Kernels of one instruction set. depart() and arrive() compute all lanes, others only active
 /// bodies.
 struct FlightKernel {
@@ -98,6 +101,15 @@ struct FlightKernel {
   void (*measure)(FlightLanes&) noexcept;
   /// Scales motions down to the measured energy if it is exceeded and torque_W is 0, eq. (25a).
   void (*bound)(FlightLanes&) noexcept;
+
+  // For bodies that constraint rows may move.
+
+  /// Computes the change of velocity that rows are solved against, eq. (28).
+  void (*push)(PushLanes&) noexcept;
+  /// Computes what a body keeps that rows have moved: momentum and energy, eq. (31), (31a).
+  void (*keep)(RowMotionLanes&) noexcept;
+  /// Computes the twist from the kept momentum at the end of the step, eq. (31).
+  void (*carry)(RowMotionLanes&) noexcept;
 };
 
 /// No operation is fused, and lanes are independent: the bits of a body do not depend on the

@@ -58,7 +58,7 @@ inline void depart(DepartureLanes& bodies) noexcept {
     const Spatials twist_W = load6(bodies.twist_W, at);
     store(bodies.orientation, at, q.u);
     store(bodies.orientation[3] + at, q.w);
-    store6(bodies.twist_B, at, {q.toBody(twist_W.angular), q.toBody(twist_W.linear)});
+    store6(bodies.twist_B, at, toBody(q, twist_W));
   }
 }
 
@@ -79,7 +79,7 @@ inline void arrive(ArrivalLanes& bodies) noexcept {
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Orientations q{load(bodies.orientation, at), load(bodies.orientation[3] + at)};
     const Spatials twist_B = load6(bodies.twist_B, at);
-    const Spatials twist_W{q.toWorld(twist_B.angular), q.toWorld(twist_B.linear)};
+    const Spatials twist_W = toWorld(q, twist_B);
     store6(bodies.twist_W, at, withoutTraces(twist_W, least));
     const Orientations start_inverse{zeroVectors() - load(bodies.start_orientation, at),
                                      load(bodies.start_orientation[3] + at)};

@@ -61,6 +61,12 @@ inline void store6(FlightLane* to, int at, const Spatials& a) {
   store(to, at, a.angular);
   store(to + 3, at, a.linear);
 }
+inline Spatials toWorld(const Orientations& q, const Spatials& a) {
+  return {q.toWorld(a.angular), q.toWorld(a.linear)};
+}
+inline Spatials toBody(const Orientations& q, const Spatials& a) {
+  return {q.toBody(a.angular), q.toBody(a.linear)};
+}
 inline Spatials operator+(const Spatials& a, const Spatials& b) {
   return {a.angular + b.angular, a.linear + b.linear};
 }

@@ -1,4 +1,5 @@
 #include "bullet_ambient/base/instruction_set.h"
+#include "bullet_ambient/motion/lanes/motion_lanes.h"
 #include "bullet_ambient/motion/lanes/passage_kernel.h"
 #include "bullet_ambient/motion/lanes/passive_kick_kernel.h"
 #include "bullet_ambient/motion/lanes/positive_factor.h"
@@ -64,12 +65,6 @@ void computeStand(StandLanes& stand, int at) {
   store(stand.swing + at, squareRoot(swingSquared(modes, inertia)));
 }
 
-Orientations orientationOf(const FlightLanes& bodies, int at) {
-  return {load(bodies.orientation, at), load(bodies.orientation[3] + at)};
-}
-Spatials toBody(const Orientations& q, const Spatials& a) {
-  return {q.toBody(a.angular), q.toBody(a.linear)};
-}
 /// Returns the present twists and momenta.
 Pairs motionOf(const FlightLanes& bodies, int at) {
   const Spatials x = load6(bodies.twist_B, at);
@@ -132,13 +127,10 @@ struct FallStep {
   static Spatials wrenchAt(const SurfaceLanes& bodies, int at) {
     const FlightLanes& flight = bodies.flight;
     const StandLanes& stand = bodies.stand;
-    const Orientations q = orientationOf(flight, at);
-    const Vectors buoyancy = q.toBody(load(flight.buoyancy_W, at));
+    const Spatials dry = externalWrench(flight, at, orientationOf(flight, at));
     const Vectors up = load(stand.pull + at) * load(stand.normal, at);
-    return {q.toBody(load(flight.torque_W, at)) +
-                cross(load(flight.centre_of_volume_B, at), buoyancy) +
-                cross(load(stand.moment, at), up),
-            q.toBody(load(flight.force_W, at)) + buoyancy + load(stand.volume + at) * up};
+    return {dry.angular + cross(load(stand.moment, at), up),
+            dry.linear + load(stand.volume + at) * up};
   }
 };
 
@@ -218,8 +210,7 @@ struct LoadStep {
     const Lanes scale = squareRoot(larger(inner(x, x), zero)) + load(flight.fall_scale + at);
     const Lanes error = scale > zero ? change / (scale > zero ? scale : one) : zero;
     store(flight.error + at, error);
-    const Orientations q = orientationOf(flight, at);
-    const Spatials load_W{q.toWorld(load_B.angular), q.toWorld(load_B.linear)};
+    const Spatials load_W = toWorld(orientationOf(flight, at), load_B);
     store6(flight.load_W, at, select(active, load_W, load6(flight.load_W, at)));
   }
 };
