@@ -145,15 +145,17 @@ StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
   }
 }
 
+// Makes the model in place: a copy of it costs as much as making it.
+StepModel::AtSurface::AtSurface(const SurfaceModel& at, const SurfaceStand& stand)
+    : model(frozenAt(at, stand)) {
+  if (!at.loads_below.loads) return;
+  loads = {at.loads_below.loads, wetPart(at, stand)};
+  model.loads = {std::shared_ptr<void>(), &loads};
+  model.load_frame = at.loads_below.frame;
+}
+
 void StepModel::freeze(const AmbientBody& ambient) noexcept {
-  const SurfaceModel& model = *ambient.surface();
-  AtSurface& frozen = at_surface_.emplace();
-  frozen.model = frozenAt(model, ambient.stand());
-  model_ = &frozen.model;
-  if (!model.loads_below.loads) return;
-  frozen.loads = {model.loads_below.loads, wetPart(model, ambient.stand())};
-  frozen.model.loads = {std::shared_ptr<void>(), &frozen.loads};
-  frozen.model.load_frame = model.loads_below.frame;
+  model_ = &at_surface_.emplace(*ambient.surface(), ambient.stand()).model;
 }
 
 void StepModel::stiffen(const SurfaceStand& stand, double duration) noexcept {

@@ -80,6 +80,7 @@ class StepModel {
 
  private:
   struct AtSurface {
+    AtSurface(const SurfaceModel& at, const SurfaceStand& stand);
     BodyModel model;
     LoadsAtSurface loads;
   };
