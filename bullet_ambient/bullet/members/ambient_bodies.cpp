@@ -24,8 +24,10 @@ template struct NumberReader<&btRigidBody::m_debugBodyId>;
 int instanceNumber(const btRigidBody& body) noexcept { return readNumber(body); }
 
 AmbientBody* AmbientBodies::find(const btCollisionObject* body) const {
-  const ObjectIndex::Entry* found = by_object_.find(body);
-  return found && isSame(*found->ambient) ? found->ambient : nullptr;
+  const auto found = by_object_.find(body);
+  if (found == by_object_.end()) return nullptr;
+  AmbientBody* ambient = found->second->get();
+  return isSame(*ambient) ? ambient : nullptr;
 }
 
 bool AmbientBodies::isSame(const AmbientBody& ambient) {
@@ -44,20 +46,20 @@ void AmbientBodies::insert(std::unique_ptr<AmbientBody> ambient) {
     slots.enter({ambient.get(), nullptr});
   }
   erase(*ambient->body);  // or what is left of one that was destroyed at this address
-  AmbientBody& added = *ambient;
+  const btCollisionObject* body = ambient->body;
   List last;
   last.push_back(std::move(ambient));
-  by_object_.insert({added.body, &added, last.begin()});
+  by_object_.emplace(body, last.begin());
   bodies_.splice(bodies_.end(), last);
 }
 
 bool AmbientBodies::erase(const btRigidBody& body) {
-  const ObjectIndex::Entry* found = by_object_.find(&body);
-  if (!found) return false;
-  forgetMeeting(*found->ambient);
-  slots.leave(*found->ambient);
-  bodies_.erase(found->place);
-  by_object_.erase(&body);
+  const auto found = by_object_.find(&body);
+  if (found == by_object_.end()) return false;
+  forgetMeeting(**found->second);
+  slots.leave(**found->second);
+  bodies_.erase(found->second);
+  by_object_.erase(found);
   return true;
 }
 

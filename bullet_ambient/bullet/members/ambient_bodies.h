@@ -5,11 +5,11 @@
 #include <list>
 #include <memory>
 #include <string>
+#include <unordered_map>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/ambient_trees.h"
 #include "bullet_ambient/bullet/members/member_slots.h"
-#include "bullet_ambient/bullet/members/object_index.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/complaints.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
@@ -76,11 +76,11 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   bool is_closed = false;           ///< Fluid or world were destroyed
 
  private:
-  using List = ObjectIndex::List;
+  using List = std::list<std::unique_ptr<AmbientBody>>;
   void forgetMeeting(const AmbientBody& ambient) noexcept;
 
   List bodies_;
-  ObjectIndex by_object_;
+  std::unordered_map<const btCollisionObject*, List::iterator> by_object_;
   std::atomic<AmbientBody*> met_{nullptr};
 };
 
