@@ -69,8 +69,7 @@ bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b, 
               b.internalGetDeltaLinearVelocity());
     fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
   }
-  ambient.memory = {};
-  if (ambient.surface()) ambient.encounter.waves = ambient.encounter.waves_with_rows;
+  if (ambient.surface()) ambient.encounter().waves = ambient.encounter().waves_with_rows;
   if (!isFinite(b)) {
     dropRows(b);
     ++ambient.counters.rejected;
