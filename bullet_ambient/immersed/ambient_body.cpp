@@ -14,10 +14,9 @@ bool dependOnWake(const FluidModels& models) {
   const auto depends = [](const auto& loads) { return loads && loads->wakeShare() > 0; };
   return std::any_of(models.media.begin(), models.media.end(),
                      [&](const MediumModel& medium) { return depends(medium.model.loads); }) ||
-         std::any_of(models.surfaces.begin(), models.surfaces.end(),
-                     [&](const SurfaceMedia& media) {
-                       return depends(media.model.loads_below.loads);
-                     });
+         std::any_of(
+             models.surfaces.begin(), models.surfaces.end(),
+             [&](const SurfaceMedia& media) { return depends(media.model.loads_below.loads); });
 }
 
 }  // namespace

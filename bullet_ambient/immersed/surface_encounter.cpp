@@ -286,9 +286,9 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   const SurfaceStand& after = ambient.stand();
   if (axes == Axes::kLocked)
     return scaledWithin(x, x.dot(after.inertia * x), x.dot(before.inertia * x));
-  const BoundedTwist moved = withinPotential(
-      {before.fall, fallOf(ambient), after.inverse, ambient.encounter().twist_before_rows, duration},
-      x);
+  const BoundedTwist moved = withinPotential({before.fall, fallOf(ambient), after.inverse,
+                                              ambient.encounter().twist_before_rows, duration},
+                                             x);
   const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
   BoundedTwist end = passSurface({model, before.inertia, after, duration, gradient}, moved.twist);
   end.energy_removed += moved.energy_removed;

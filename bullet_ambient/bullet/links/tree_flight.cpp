@@ -78,8 +78,8 @@ class TreeFlight {
   // it never does, the motion ends after the last part at whose end it suffices.
   void flyInParts() {
     step_.surface.pose = step_.pose;
-    forEachAtSurface(
-        tree_, [](AmbientLink& link, int) { link.start = surfaceStart(link.ambient); });
+    forEachAtSurface(tree_,
+                     [](AmbientLink& link, int) { link.start = surfaceStart(link.ambient); });
     int parts = 1, reached = 0;
     while (is_finite_ && reached < parts && parts < settings_.max_substeps) {
       parts = std::min(2 * parts, settings_.max_substeps);

@@ -60,8 +60,7 @@ bool wasMovedByOthers(const AmbientBody& ambient, const Twist& left, const Rigid
   if (isWithinRounding(now.angular, left.angular) && isWithinRounding(now.linear, left.linear))
     return false;
   const Quaternion to_body = start.orientation.conjugate();
-  const Twist change{to_body * (now.angular - left.angular),
-                     to_body * (now.linear - left.linear)};
+  const Twist change{to_body * (now.angular - left.angular), to_body * (now.linear - left.linear)};
   return inertiaNormSquared(ambient.metric(), change.vector()) >
          kSameVelocity * kSameVelocity * inertiaNormSquared(ambient.metric(), start.twist.vector());
 }

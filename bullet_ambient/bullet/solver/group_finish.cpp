@@ -99,10 +99,6 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
   if (is_held_)
     for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
   for (const Member& member : members_) {
-    if (member.solver_body == kAlone) {
-      free_members_.push_back(&member);
-      continue;
-    }
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     const RowBody* row_body = row_bodies_->find(member.solver_body);
     // Rows were solved against the velocity k + X of eq. (28). In a fast turn the flight goes
@@ -114,7 +110,7 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
       noteGap(*member.ambient, *row_body);
     }
     if (may_fly && isUntouched(solver_body)) {
-      free_members_.push_back(&member);
+      flyLater({member.ambient, member.solver_body}, &solver_bodies);
     } else {
       // Rows have moved the body; every body with rows has a RowBody since begin() or
       // rewriteRows().
@@ -123,16 +119,23 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
         bodies_.complaints.say(Complaint::kNotFinite);
     }
   }
-  flyFreely(solver_bodies);
+  flyFreely(&solver_bodies);
   members_.clear();
 }
 
-// Flies free_members_. A flight changes its own body only, so that any thread may compute it.
+// Flies a body as soon as there are kFlightsTogether of them, while their data are in the cache; on
+// several threads, when there is no further one.
+void SolverGroup::flyLater(const FreeBody& body, SolverBodies* solver_bodies) noexcept {
+  free_.push_back(body);
+  if (!bodies_.task_runner && free_.size() == kFlightsTogether) flyFreely(solver_bodies);
+}
+
+// Flies free_. A flight changes its own body only, so that any thread may compute it.
 // kFlightsTogether flights side by side are quickest on one thread; few bodies are spread over the
-// threads in smaller groups.
-void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
+// threads in smaller groups. `solver_bodies`: null: Bullet converts none of the bodies.
+void SolverGroup::flyFreely(SolverBodies* solver_bodies) noexcept {
   constexpr int kLeastGroups = 8;  // groups to make before a group is filled
-  const int count = static_cast<int>(free_members_.size());
+  const int count = static_cast<int>(free_.size());
   TaskRunner* runner = bodies_.task_runner;
   const int together =
       runner ? std::clamp(count / kLeastGroups, 1, kFlightsTogether) : kFlightsTogether;
@@ -147,26 +150,25 @@ void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
   } else {
     for (int i = 0; i < groups; ++i) flights.run(i);
   }
-  for (const Member* member : free_members_) {
-    const SubstepOutcome& outcome = member->ambient->outcome;
+  for (const FreeBody& body : free_) {
+    const SubstepOutcome& outcome = body.ambient->outcome;
     if (outcome.kind != Outcome::kFlown) bodies_.complaints.say(Complaint::kNotFinite);
-    if (outcome.is_too_long) bodies_.complaints.sayTooLong(*member->ambient->def);
+    if (outcome.is_too_long) bodies_.complaints.sayTooLong(*body.ambient->def);
   }
-  free_members_.clear();
+  free_.clear();
 }
 
-void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept {
+void SolverGroup::flyTogether(int first, int count, SolverBodies* solver_bodies) const noexcept {
   AmbientBody* bodies[kFlightsTogether] = {};
   Twist changes_W[kFlightsTogether];
-  const Member* const* members = free_members_.data() + first;
-  for (int i = 0; i < count; ++i) bodies[i] = members[i]->ambient;
+  const FreeBody* free = free_.data() + first;
+  for (int i = 0; i < count; ++i) bodies[i] = free[i].ambient;
   beginFlights(bodies, count, time_step_, changes_W);
   for (int i = 0; i < count; ++i) {
-    const Member& member = *members[i];
-    if (member.solver_body == kAlone) {
-      addVelocity(*member.ambient->body, changes_W[i]);
+    if (free[i].solver_body == kAlone) {
+      addVelocity(*bodies[i]->body, changes_W[i]);
     } else {
-      setExternalImpulse(solver_bodies[member.solver_body], changes_W[i]);
+      setExternalImpulse((*solver_bodies)[free[i].solver_body], changes_W[i]);
     }
   }
 }

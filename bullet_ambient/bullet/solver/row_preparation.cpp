@@ -81,7 +81,6 @@ void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Member& member = members_[i];
     member.solver_body = member.object->getCompanionId();
-    if (member.solver_body == kAlone) continue;
     AMBIENT_ASSERT(member.solver_body >= 0 && member.solver_body < solver_bodies.size());
     member_of_solver_body_[member.solver_body] = static_cast<int>(i);
     btSolverBody& solver_body = solver_bodies[member.solver_body];
