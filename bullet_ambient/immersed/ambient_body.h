@@ -59,26 +59,26 @@ struct AmbientBody {
   AmbientBody* next_met = nullptr;  ///< next body in the list of AmbientBodies::takeMet()
   int instance = 0;                 ///< instanceNumber() of the body that was attached
   int surface_media = -1;  ///< index into FluidModels::surfaces; -1: no surface is near the body
-  RegionPlace place;       ///< kNone: the body is in its own medium
-  int gaping =
-      0;  ///< number of steps in a row in which a joint of the body was open by much of its size
+  std::shared_ptr<const MediumModel> in_medium;  ///< that of `medium`
+  std::shared_ptr<FluidReading>
+      reading;                  ///< record for Immersed::wrench(); null: the wrench is not read
   bool may_rest = true;         ///< true: nothing around the body changes with time
   bool has_own_models = false;  ///< true: `models` are of this body alone, as its mass has changed;
                                 ///< false: equal bodies share them
+  SubstepOutcome outcome;       ///< of this, the action needs the beginning
+  StepErrors step_errors;
   std::shared_ptr<const FluidModels> models;
-  std::shared_ptr<const MediumModel> in_medium;  ///< that of `medium`
-  std::shared_ptr<const AttachDef> def;          ///< equal bodies without a name share it
+  std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
   Medium medium;          ///< medium around the body now: its own, or that of its region
   double load_share = 1;  ///< factor on the surface loads in this step, docs/theory.md eq. (51d)
-  std::shared_ptr<FluidReading>
-      reading;  ///< record for Immersed::wrench(); null: the wrench is not read
-  std::unique_ptr<SurfaceMeeting> meeting;  ///< null: the body meets no surface
-  SubstepOutcome outcome;
-  StepErrors step_errors;
+  RegionPlace place;      ///< kNone: the body is in its own medium
   AmbientCounters counters;
+  std::unique_ptr<SurfaceMeeting> meeting;  ///< null: the body meets no surface
   std::unique_ptr<Wake> wake;  ///< wake behind a smooth body, docs/theory.md eq. (51b); null: no
                                ///< load on the body depends on it
   int slot = -1;               ///< in MemberSlots; -1: not yet there
+  int gaping =
+      0;  ///< number of steps in a row in which a joint of the body was open by much of its size
 
   bool isInFluid() const { return medium.density > 0; }
   /// Model in the medium around the body.

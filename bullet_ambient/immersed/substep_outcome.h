@@ -37,9 +37,9 @@ struct RowMotion {
 /// Last free flight of a body: what the next one starts from, and what the action needs to complete
 /// the present one.
 struct LastFlight {
+  Twist left_W;       ///< velocity of the body at the end, world axes
+  Twist effective_W;  ///< constant twist that Bullet integrates onto the end pose
   FlightMemory memory;
-  Twist left_W;            ///< velocity of the body at the end, world axes
-  Twist effective_W;       ///< constant twist that Bullet integrates onto the end pose
   Quaternion orientation;  ///< end pose, see RigidState
   Vector3 position;
 };

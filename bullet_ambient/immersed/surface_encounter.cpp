@@ -188,7 +188,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
   ambient.encounter().twist_before_rows = x;
   WaveMemory& waves = ambient.encounter().waves_with_rows;
   waves = ambient.encounter().waves;
-  Vector6 end = exchangeWaves(stand.modes, R, stand.inverse, duration, x, waves);
+  Vector6 end = exchangeWaves(stand.modes, R, stand.inverse.full(), duration, x, waves);
   if (model.loads_above.loads) {
     const Vector3 wind_W = ambient.medium.velocity - ambient.encounter().velocity_above;
     end = takeWind({model, stand, R.transpose() * wind_W, duration}, end);
@@ -285,10 +285,10 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& after = ambient.stand();
   if (axes == Axes::kLocked)
-    return scaledWithin(x, x.dot(after.inertia * x), x.dot(before.inertia * x));
-  const BoundedTwist moved = withinPotential({before.fall, fallOf(ambient), after.inverse,
-                                              ambient.encounter().twist_before_rows, duration},
-                                             x);
+    return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.inertia * x));
+  const Matrix6 inverse = after.inverse.full();
+  const BoundedTwist moved = withinPotential(
+      {before.fall, fallOf(ambient), inverse, ambient.encounter().twist_before_rows, duration}, x);
   const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
   BoundedTwist end = passSurface({model, before.inertia, after, duration, gradient}, moved.twist);
   end.energy_removed += moved.energy_removed;
@@ -303,7 +303,8 @@ void passWithRows(AmbientBody* const* bodies, int count, Axes axes, double durat
   std::optional<Departure> departures[kFlightsTogether];
   SurfacePlane planes_B[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
-    departures[i] = Departure{bodies[i]->stand().inertia, fallOf(*bodies[i])};  // since standNow()
+    departures[i] =
+        Departure{bodies[i]->stand().inertia.full(), fallOf(*bodies[i])};  // since standNow()
     planes_B[i] = planeAfter(*bodies[i], duration);
   }
   standAt(bodies, planes_B, count);

@@ -167,7 +167,7 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W,
   outcome.kind = Outcome::kFlown;
   ambient.counters.energy_removed += flight.count.energy_removed;
   outcome.motion =
-      LastFlight{flight.memory, end_W, mean_W, flight.state.orientation, flight.state.position};
+      LastFlight{end_W, mean_W, flight.memory, flight.state.orientation, flight.state.position};
 }
 
 // True if Bullet does not reach the end orientation: it limits the rotation per step. Also true
