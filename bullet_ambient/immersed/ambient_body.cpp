@@ -1,11 +1,25 @@
 #include "bullet_ambient/immersed/ambient_body.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN
+namespace {
+
+// True if loads of some fluid depend on the wake of the body.
+bool dependOnWake(const FluidModels& models) {
+  const auto depends = [](const auto& loads) { return loads && loads->wakeShare() > 0; };
+  return std::any_of(models.media.begin(), models.media.end(),
+                     [&](const MediumModel& medium) { return depends(medium.model.loads); }) ||
+         std::any_of(
+             models.surfaces.begin(), models.surfaces.end(),
+             [&](const SurfaceMedia& media) { return depends(media.model.loads_below.loads); });
+}
+
+}  // namespace
 
 RigidState readState(const btRigidBody& body) {
   RigidState state;
@@ -24,13 +38,13 @@ void followWake(AmbientBody& ambient, double duration) noexcept {
   const double by_wake = loads ? loads->wakeShare() : 0;
   AMBIENT_ASSERT(by_wake >= 0 && by_wake <= 1);
   ambient.load_share = 1;
-  if (by_wake > 0) {
+  if (by_wake > 0 && ambient.wake) {
     const btRigidBody& body = *ambient.body;
     const Twist motion{toVector3(body.getAngularVelocity()),
                        toVector3(body.getLinearVelocity()) - ambient.medium.velocity};
     const FluidBody& shape = *ambient.def->fluid_body;
     const double developed =
-        developWake({motion, shape.area, shape.volume, duration}, ambient.wake);
+        developWake({motion, shape.area, shape.volume, duration}, *ambient.wake);
     ambient.load_share = 1 - by_wake + by_wake * developed;
   }
 }
@@ -42,24 +56,43 @@ void keepName(const std::string& name, AmbientBody& ambient) {
   ambient.def = std::make_shared<const AttachDef>(std::move(named));
 }
 
+void forgetFlight(AmbientBody& ambient) noexcept {
+  if (auto* last = std::get_if<LastFlight>(&ambient.outcome.motion)) last->memory = {};
+}
+
+void forgetWake(AmbientBody& ambient) noexcept {
+  if (ambient.wake) *ambient.wake = {};
+}
+
+void forgetSurface(AmbientBody& ambient) noexcept {
+  if (!ambient.meeting) return;
+  ambient.encounter().waves = {};
+  ambient.meeting->forgetPlane();
+}
+
 void setModels(AmbientBody& ambient, std::shared_ptr<const FluidModels> models) {
   if (models == ambient.models) return;
-  if (ambient.encounter.media >= 0) {
-    const auto met = static_cast<std::size_t>(ambient.encounter.media);
-    ambient.encounter.media = models->findSurface(ambient.models->surfaces[met].kind);
+  if (ambient.surface_media >= 0) {
+    const auto met = static_cast<std::size_t>(ambient.surface_media);
+    ambient.surface_media = models->findSurface(ambient.models->surfaces[met].kind);
   }
   ambient.models = std::move(models);
-  ambient.own_models = nullptr;
+  ambient.has_own_models = false;
   const FluidModels& known = *ambient.models;
   // A medium that is not known any more serves until the next step.
   if (const MediumModel* found = known.find(FluidKind(ambient.medium)))
     ambient.in_medium = {ambient.models, found};
   if (known.surfaces.empty()) {
-    ambient.last_stand = nullptr;
-  } else if (ambient.last_stand) {
-    ambient.last_stand->is_valid = false;
+    ambient.meeting = nullptr;
+  } else if (ambient.meeting) {
+    ambient.meeting->is_valid = false;
   } else {
-    ambient.last_stand = std::make_unique<LastStand>();
+    ambient.meeting = std::make_unique<SurfaceMeeting>();
+  }
+  if (!dependOnWake(known)) {
+    ambient.wake = nullptr;
+  } else if (!ambient.wake) {
+    ambient.wake = std::make_unique<Wake>();
   }
 }
 
@@ -68,14 +101,15 @@ bool isModelStale(const AmbientBody& ambient) {
 }
 
 void rebuildModels(AmbientBody& ambient) {
-  if (!ambient.own_models) {
-    auto own = std::make_shared<FluidModels>(*ambient.models);
-    setModels(ambient, own);
-    ambient.own_models = std::move(own);
+  if (!ambient.has_own_models) {
+    setModels(ambient, std::make_shared<FluidModels>(*ambient.models));
+    ambient.has_own_models = true;
   }
-  setMass(*ambient.own_models, *ambient.def, inverseMassOf(*ambient.body));
-  if (ambient.last_stand) ambient.last_stand->is_valid = false;
-  ambient.memory = {};
+  // Made above, and not const there.
+  FluidModels& own = const_cast<FluidModels&>(*ambient.models);
+  setMass(own, *ambient.def, inverseMassOf(*ambient.body));
+  if (ambient.meeting) ambient.meeting->is_valid = false;
+  forgetFlight(ambient);
 }
 
 AMBIENT_END

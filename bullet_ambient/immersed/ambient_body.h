@@ -3,7 +3,6 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "bullet_ambient/bullet/core/conversions.h"
@@ -25,63 +24,75 @@ struct FluidReading;
 
 /// Encounter of a body with a surface in one step.
 struct SurfaceEncounter {
-  int media = -1;        ///< index into FluidModels::surfaces; -1: no surface is near
   SurfacePlane plane_W;  ///< surface at the start of the step
   Vector3 velocity_above = Vector3::Zero();
   WaveMemory waves;            ///< waves that the body has made
   WaveMemory waves_with_rows;  ///< waves after the step, if rows move the body
   Vector6 twist_before_rows =
       Vector6::Zero();  ///< velocity in B, relative to the water, that constraint rows start from
-  /// Plane of the surface in B at the exact pose where the last flight or step with rows ended,
-  /// before Bullet rounded it.
-  std::optional<SurfacePlane> met_B;
 };
 
-/// Last result of standAt(), for bodies that a surface may cut.
-struct LastStand {
+/// What a body that a surface may cut keeps from step to step.
+struct SurfaceMeeting {
+  SurfaceEncounter encounter;
+  /// Last result of standAt(). Its plane is that of the surface in B at the exact pose where the
+  /// last flight or step with rows ended, before Bullet rounded it.
   SurfaceStand stand;
-  bool is_valid = false;  ///< true: `stand` belongs to the present models and surface
+  bool has_met = false;   ///< true: the plane of `stand` is known
+  bool is_valid = false;  ///< true: `stand` belongs to its plane, and to the present models and
+                          ///< surface
+
+  void forgetPlane() noexcept { has_met = false; }
+  void meet(const SurfacePlane& plane_B) noexcept {
+    stand.plane = plane_B;
+    has_met = true;
+    is_valid = false;
+  }
 };
 
 /// Everything that the library keeps of one body in a fluid. Links have one each, too, with a
-/// stand-in for the btRigidBody.
+/// stand-in for the btRigidBody. Members lie in the order in which a step uses them, so that a
+/// flight touches few lines of the cache; those that few steps or few bodies use are last, or
+/// behind a pointer.
 struct AmbientBody {
-  btRigidBody* body = nullptr;           ///< may have been destroyed: look it up in a world first
-  int instance = 0;                      ///< instanceNumber() of the body that was attached
-  int slot = -1;                         ///< in MemberSlots; -1: not yet there
-  std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
-  Medium medium;      ///< medium around the body now: its own, or that of its region
-  RegionPlace place;  ///< kNone: the body is in its own medium
-  std::shared_ptr<const FluidModels> models;
-  std::shared_ptr<FluidModels> own_models;       ///< `models` of this body alone, once its mass has
-                                                 ///< changed; null: equal bodies share them
+  btRigidBody* body = nullptr;      ///< may have been destroyed: look it up in a world first
+  AmbientBody* next_met = nullptr;  ///< next body in the list of AmbientBodies::takeMet()
+  int instance = 0;                 ///< instanceNumber() of the body that was attached
+  int surface_media = -1;  ///< index into FluidModels::surfaces; -1: no surface is near the body
   std::shared_ptr<const MediumModel> in_medium;  ///< that of `medium`
-  SurfaceEncounter encounter;
-  std::unique_ptr<LastStand> last_stand;  ///< null: the body meets no surface
-  bool may_rest = true;                   ///< true: nothing around the body changes with time
-  FlightMemory memory;
-  Twist left_W;           ///< velocity of the body after its last flight, world axes
-  Wake wake;              ///< wake behind a smooth body, docs/theory.md eq. (51b)
-  double load_share = 1;  ///< factor on the surface loads in this step, docs/theory.md eq. (51d)
-  AmbientCounters counters;
+  std::shared_ptr<FluidReading>
+      reading;                  ///< record for Immersed::wrench(); null: the wrench is not read
+  bool may_rest = true;         ///< true: nothing around the body changes with time
+  bool has_own_models = false;  ///< true: `models` are of this body alone, as its mass has changed;
+                                ///< false: equal bodies share them
+  SubstepOutcome outcome;       ///< of this, the action needs the beginning
   StepErrors step_errors;
+  std::shared_ptr<const FluidModels> models;
+  std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
+  Medium medium;          ///< medium around the body now: its own, or that of its region
+  double load_share = 1;  ///< factor on the surface loads in this step, docs/theory.md eq. (51d)
+  RegionPlace place;      ///< kNone: the body is in its own medium
+  AmbientCounters counters;
+  std::unique_ptr<SurfaceMeeting> meeting;  ///< null: the body meets no surface
+  std::unique_ptr<Wake> wake;  ///< wake behind a smooth body, docs/theory.md eq. (51b); null: no
+                               ///< load on the body depends on it
+  int slot = -1;               ///< in MemberSlots; -1: not yet there
   int gaping =
       0;  ///< number of steps in a row in which a joint of the body was open by much of its size
-  SubstepOutcome outcome;
-  std::shared_ptr<FluidReading>
-      reading;                      ///< record for Immersed::wrench(); null: the wrench is not read
-  AmbientBody* next_met = nullptr;  ///< next body in the list of AmbientBodies::takeMet()
 
   bool isInFluid() const { return medium.density > 0; }
   /// Model in the medium around the body.
   const BodyModel& model() const { return in_medium->model; }
   /// Model at the water surface near the body; null: no surface is near.
   const SurfaceModel* surface() const {
-    if (encounter.media < 0) return nullptr;
-    return &models->surfaces[static_cast<std::size_t>(encounter.media)].model;
+    if (surface_media < 0) return nullptr;
+    return &models->surfaces[static_cast<std::size_t>(surface_media)].model;
   }
+  /// Encounter with that surface. @pre the body meets one
+  SurfaceEncounter& encounter() { return meeting->encounter; }
+  const SurfaceEncounter& encounter() const { return meeting->encounter; }
   /// Stand at that surface: the last result of standAt().
-  const SurfaceStand& stand() const { return last_stand->stand; }
+  const SurfaceStand& stand() const { return meeting->stand; }
   /// Model whose inertia K defines the norm sqrt(x.K x) of velocity changes.
   const BodyModel& metric() const { return surface() ? surface()->below : model(); }
 };
@@ -126,6 +137,13 @@ inline Surroundings readSurroundings(const AmbientBody& ambient) {
 /// Lets the wake of a smooth body follow its motion over a step of `duration` [s], and sets
 /// `load_share`; docs/theory.md eq. (51c), (51d).
 void followWake(AmbientBody& ambient, double duration) noexcept;
+
+/// Lets the next flight of a body begin without memory of the last one, and in a wake of its own.
+void forgetFlight(AmbientBody& ambient) noexcept;
+void forgetWake(AmbientBody& ambient) noexcept;
+
+/// Forgets the waves that a body has made and where it met a surface.
+void forgetSurface(AmbientBody& ambient) noexcept;
 
 /// Gives a body without a name one that it had before.
 void keepName(const std::string& name, AmbientBody& ambient);

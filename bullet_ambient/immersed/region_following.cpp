@@ -58,18 +58,15 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
     const MediumModel* found = ambient.models->find(FluidKind(medium));
     if (!found) return false;
     ambient.in_medium = {ambient.models, found};
-    ambient.memory = {};
+    forgetFlight(ambient);
     ++ambient.counters.medium_changes;
   }
   if (!(place == ambient.place)) {
-    ambient.memory = {};
-    ambient.wake = {};
+    forgetFlight(ambient);
+    forgetWake(ambient);
+    if (!place.is_at_surface) forgetSurface(ambient);
   }
-  if (!place.is_at_surface) {
-    ambient.encounter.media = -1;
-    ambient.encounter.waves = {};
-    ambient.encounter.met_B.reset();
-  }
+  if (!place.is_at_surface) ambient.surface_media = -1;
   ambient.place = place;
   ambient.medium = medium;
   return true;
@@ -106,8 +103,9 @@ void refreshModels(AmbientBody& ambient, const FluidRegions& regions, ModelTable
   auto models = makeFluidModels(*ambient.def, mass, regions.fluids(), tables);
   ambient.medium = ambient.def->medium;
   ambient.place = {};
-  ambient.encounter = {};
-  ambient.memory = {};
+  ambient.surface_media = -1;
+  forgetSurface(ambient);
+  forgetFlight(ambient);
   setModels(ambient, std::move(models));
   ambient.in_medium = {ambient.models, &ambient.models->media.front()};
 }

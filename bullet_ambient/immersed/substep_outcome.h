@@ -1,15 +1,17 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <variant>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/motion/body/rigid_state.h"
+#include "bullet_ambient/motion/flight/flight_memory.h"
 
 AMBIENT_BEGIN
 
 /// Outcome of a substep for a body, from the solver; docs/bullet_step.md has the transitions.
-enum class Outcome {
+enum class Outcome : std::uint8_t {
   kNotMet,  ///< the solver has not met it since the action took the last outcome
   kStock,   ///< moves as in stock Bullet: not in a fluid, static, or of no physical mass
   kRows,    ///< moved by rows
@@ -34,23 +36,33 @@ struct RowMotion {
   std::optional<double> energy_bound;
 };
 
-/// End of a free flight.
-struct FlightEnd {
-  RigidState state;
-  Twist twist_W;
+/// Last free flight of a body: what the next one starts from, and what the action needs to complete
+/// the present one.
+struct LastFlight {
+  Twist left_W;       ///< velocity of the body at the end, world axes
   Twist effective_W;  ///< constant twist that Bullet integrates onto the end pose
+  FlightMemory memory;
+  Quaternion orientation;  ///< end pose, see RigidState
+  Vector3 position;
 };
 
 /// Effect of a substep on one body: written by the solver, taken once by the action.
 struct SubstepOutcome {
   Outcome kind = Outcome::kNotMet;
+  bool is_too_long = false;  ///< true: with this flight the errors exceed StepErrors::kLargest
   int world_index = -1;      ///< index of the body in its world's array when the solver met it
   int activation_state = 0;  ///< kHeld: activation state to restore; meanwhile the body is disabled
-  bool is_too_long = false;  ///< true: with this flight the errors exceed StepErrors::kLargest
-  std::variant<RowMotion, FlightEnd> motion;  ///< FlightEnd: of kFlown
+  /// RowMotion: since rows have moved the body, for kRows and kAdrift. It takes the place of the
+  /// memory of the last flight, which is of no use then.
+  std::variant<LastFlight, RowMotion> motion;
 
   RowMotion& rows() { return std::get<RowMotion>(motion); }
-  const FlightEnd& flight() const { return std::get<FlightEnd>(motion); }
+  const LastFlight& flight() const { return std::get<LastFlight>(motion); }
+  /// The last flight; after a motion by rows, a new one without memory.
+  LastFlight& flight() {
+    if (auto* last = std::get_if<LastFlight>(&motion)) return *last;
+    return motion.emplace<LastFlight>();
+  }
 };
 
 /// Accumulated error E of a body's steps, as of a random walk that forgets old steps:

@@ -15,7 +15,7 @@ namespace {
 // Returns the plane in W after a time since the step began: it moves with the water.
 SurfacePlane movedPlane(const AmbientBody& ambient, double time) {
   const Medium& water = ambient.medium;
-  SurfacePlane plane = ambient.encounter.plane_W;
+  SurfacePlane plane = ambient.encounter().plane_W;
   plane.height += plane.normal.dot(time * water.velocity + time * time / 2 * water.acceleration);
   return plane;
 }
@@ -44,13 +44,18 @@ const SurfaceStand& standAfter(AmbientBody& ambient, double time) {
   return standAt(ambient, planeAfter(ambient, time));
 }
 
-// Returns SurfaceEncounter::met_B after the body has met a plane in B.
-const SurfacePlane& planeMet(AmbientBody& ambient, const SurfacePlane& plane_B) {
-  std::optional<SurfacePlane>& met = ambient.encounter.met_B;
+// Sets the plane of the stand after the body has met a plane in B.
+void meetPlane(AmbientBody& ambient, const SurfacePlane& plane_B) {
+  SurfaceMeeting& meeting = *ambient.meeting;
+  const SurfacePlane& met = meeting.stand.plane;
   const double size =
       ambient.surface()->radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
-  if (!met || !isNear(*met, plane_B, size)) met = plane_B;
-  return *met;
+  if (meeting.has_met && isNear(met, plane_B, size)) return;
+  if (meeting.is_valid && isSame(met, plane_B)) {
+    meeting.has_met = true;
+  } else {
+    meeting.meet(plane_B);
+  }
 }
 
 WetPart wetPart(const SurfaceModel& model, const SurfaceStand& stand) {
@@ -74,7 +79,6 @@ SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
 
 SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const RegionSample& sample,
                         double duration) noexcept {
-  SurfaceEncounter& encounter = ambient.encounter;
   const SurfaceSide by_centre = sample.isAbove() ? SurfaceSide::kAbove : SurfaceSide::kBelow;
   const btRigidBody& body = *ambient.body;
   const Vector3 gravity = toVector3(body.getGravity());
@@ -90,8 +94,9 @@ SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const Reg
       seenFrom(plane_W, state.orientation.toRotationMatrix(), state.position);
   const SurfaceSide side = sideOf(model, plane_B, travel);
   if (side != SurfaceSide::kAt) return side;
-  if (encounter.media != media) ambient.last_stand->is_valid = false;
-  encounter.media = media;
+  if (ambient.surface_media != media) ambient.meeting->is_valid = false;
+  ambient.surface_media = media;
+  SurfaceEncounter& encounter = ambient.encounter();
   encounter.plane_W = plane_W;
   encounter.velocity_above = sample.above.velocity;
   return side;
@@ -103,14 +108,14 @@ void standAt(AmbientBody* const* bodies, const SurfacePlane* planes_B, int count
   SurfaceStand* stands[kFlightsTogether] = {};
   int made = 0;
   for (int i = 0; i < count; ++i) {
-    const SurfacePlane& met = planeMet(*bodies[i], planes_B[i]);
+    meetPlane(*bodies[i], planes_B[i]);
+    SurfaceMeeting& meeting = *bodies[i]->meeting;
+    if (meeting.is_valid) continue;
     const SurfaceModel& model = *bodies[i]->surface();
-    LastStand& last = *bodies[i]->last_stand;
-    if (last.is_valid && isSame(last.stand.plane, met)) continue;
-    static_cast<SurfacePlace&>(last.stand) = placeAt(model, met);
-    last.is_valid = true;
+    static_cast<SurfacePlace&>(meeting.stand) = placeAt(model, meeting.stand.plane);
+    meeting.is_valid = true;
     models[made] = &model;
-    stands[made++] = &last.stand;
+    stands[made++] = &meeting.stand;
   }
   if (made > 0) completeStands(models, stands, made);
 }
@@ -182,28 +187,43 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
   Twist relative = state.twist;
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
-  ambient.encounter.twist_before_rows = x;
-  WaveMemory& waves = ambient.encounter.waves_with_rows;
-  waves = ambient.encounter.waves;
-  Vector6 end = exchangeWaves(stand.modes, R, stand.inverse, duration, x, waves);
+  ambient.encounter().twist_before_rows = x;
+  WaveMemory& waves = ambient.encounter().waves_with_rows;
+  waves = ambient.encounter().waves;
+  Vector6 end = exchangeWaves(stand.modes, R, stand.inverse.full(), duration, x, waves);
   if (model.loads_above.loads) {
-    const Vector3 wind_W = ambient.medium.velocity - ambient.encounter.velocity_above;
+    const Vector3 wind_W = ambient.medium.velocity - ambient.encounter().velocity_above;
     end = takeWind({model, stand, R.transpose() * wind_W, duration}, end);
     countLoads(ambient, 1);
   }
   return end - x;
 }
 
+std::optional<SurfacePlane> metPlane(const AmbientBody& ambient) noexcept {
+  if (!ambient.meeting || !ambient.meeting->has_met) return std::nullopt;
+  return ambient.stand().plane;
+}
+
+SurfaceStart surfaceStart(const AmbientBody& ambient) noexcept {
+  return {ambient.encounter(), metPlane(ambient)};
+}
+
+void restart(AmbientBody& ambient, const SurfaceStart& start) noexcept {
+  ambient.encounter() = start.encounter;
+  ambient.meeting->forgetPlane();
+  if (start.met_B) ambient.meeting->meet(*start.met_B);
+}
+
 void meetAgain(AmbientBody& ambient, int media) noexcept {
-  SurfaceEncounter& encounter = ambient.encounter;
-  AMBIENT_ASSERT(encounter.met_B);
-  encounter.media = media;
-  const SurfacePlane& met = *encounter.met_B;
+  SurfaceEncounter& encounter = ambient.encounter();
+  AMBIENT_ASSERT(ambient.meeting->has_met);
+  ambient.surface_media = media;
+  const SurfacePlane met = ambient.stand().plane;
   const RigidState state = readState(*ambient.body);
   const Vector3 normal_W = state.orientation * met.normal;
   encounter.plane_W = {normal_W, met.height + normal_W.dot(state.position), met.density,
                        met.gravity};
-  ambient.last_stand->is_valid = false;
+  ambient.meeting->meet(met);
   standAt(ambient, met);
 }
 
@@ -267,10 +287,10 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& after = ambient.stand();
   if (axes == Axes::kLocked)
-    return scaledWithin(x, x.dot(after.inertia * x), x.dot(before.inertia * x));
+    return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.inertia * x));
+  const Matrix6 inverse = after.inverse.full();
   const BoundedTwist moved = withinPotential(
-      {before.fall, fallOf(ambient), after.inverse, ambient.encounter.twist_before_rows, duration},
-      x);
+      {before.fall, fallOf(ambient), inverse, ambient.encounter().twist_before_rows, duration}, x);
   const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
   BoundedTwist end = passSurface({model, before.inertia, after, duration, gradient}, moved.twist);
   end.energy_removed += moved.energy_removed;
@@ -285,13 +305,14 @@ void passWithRows(AmbientBody* const* bodies, int count, Axes axes, double durat
   std::optional<Departure> departures[kFlightsTogether];
   SurfacePlane planes_B[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
-    departures[i] = Departure{bodies[i]->stand().inertia, fallOf(*bodies[i])};  // since standNow()
+    departures[i] =
+        Departure{bodies[i]->stand().inertia.full(), fallOf(*bodies[i])};  // since standNow()
     planes_B[i] = planeAfter(*bodies[i], duration);
   }
   standAt(bodies, planes_B, count);
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
-    ambient.encounter.plane_W = movedPlane(ambient, duration);
+    ambient.encounter().plane_W = movedPlane(ambient, duration);
     twists[i] = passedFrom(*departures[i], ambient, axes, duration, twists[i].twist);
   }
 }

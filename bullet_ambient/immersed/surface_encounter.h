@@ -20,14 +20,14 @@ SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
                        const Vector3& gravity) noexcept;
 
 /// Decides whether the surface matters to the body in a step of `duration` [s], and if so fills
-/// AmbientBody::encounter. `sample`: region at the centre of mass. Without gravity there is no
+/// AmbientBody::encounter(). `sample`: region at the centre of mass. Without gravity there is no
 /// surface, and the centre of mass decides. Allocates nothing.
 SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const RegionSample& sample,
                         double duration) noexcept;
 
 /// Computes the SurfaceStands of up to kFlightsTogether bodies for planes in B, side by side. Keeps
-/// the last one if the plane equals SurfaceEncounter::met_B up to the rounding of poses in Bullet.
-/// The result depends on met_B alone, so that a restored state continues with the same bits.
+/// the last one if the plane equals metPlane() up to the rounding of poses in Bullet.
+/// The result depends on metPlane() alone, so that a restored state continues with the same bits.
 /// Allocates nothing. @pre they are at a surface
 void standAt(AmbientBody* const* bodies, const SurfacePlane* planes_B, int count) noexcept;
 /// Calls standAt() for one body. Returns its stand.
@@ -98,9 +98,22 @@ void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
 /// step in which rows move it; keeps the waves after the step. Allocates nothing. @pre standNow()
 Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept;
 
-/// Restores the encounter of a saved state with its surface, and the stand for `met_B`. Call
+/// Plane of the surface in B at the exact pose where the last flight or step with rows ended,
+/// before Bullet rounded it; none: the body has met no surface.
+std::optional<SurfacePlane> metPlane(const AmbientBody& ambient) noexcept;
+
+/// Encounter of a body at the start of a step, to repeat the step from there.
+struct SurfaceStart {
+  SurfaceEncounter encounter;
+  std::optional<SurfacePlane> met_B;  ///< metPlane()
+};
+/// @pre the body meets a surface
+SurfaceStart surfaceStart(const AmbientBody& ambient) noexcept;
+void restart(AmbientBody& ambient, const SurfaceStart& start) noexcept;
+
+/// Restores the encounter of a saved state with its surface, and the stand for metPlane(). Call
 /// between steps.
-/// @pre met_B is set; `media` is an index into FluidModels::surfaces
+/// @pre metPlane() is set; `media` is an index into FluidModels::surfaces
 void meetAgain(AmbientBody& ambient, int media) noexcept;
 
 /// Replaces the twists of up to kFlightsTogether bodies that Bullet has moved with rows by those

@@ -78,7 +78,7 @@ class FloatingRun {
     const SurfacePlane plane{{0, 0, 1}, 0, model_.excess_density, -gravity_.z()};
     return seenFrom(plane, R, state.position);
   }
-  Matrix6 inertia() const { return standAtSurface(model_, plane_B()).inertia; }
+  Matrix6 inertia() const { return standAtSurface(model_, plane_B()).inertia.full(); }
   Vector3 velocity_W() const { return state.orientation * state.twist.linear; }
   Vector3 momentum_W() const {
     const Vector6 p = inertia() * state.twist.vector();

@@ -26,11 +26,10 @@ bool takeFlight(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   AmbientBody& ambient = baseOf(tree).ambient;
   if (std::exchange(ambient.outcome.kind, Outcome::kNotMet) != Outcome::kFlown) return false;
-  const FlightEnd& end = ambient.outcome.flight();
+  const LastFlight& end = std::as_const(ambient.outcome).flight();
   step.moved << end.effective_W.angular, end.effective_W.linear;
   if (turnsTooFastForBullet(tree.tree, step.moved, task.duration)) return false;
-  step.end << end.twist_W.angular, end.twist_W.linear;
-  ambient.left_W = end.twist_W;
+  step.end << end.left_W.angular, end.left_W.linear;
   if (ambient.outcome.is_too_long) task.bodies.complaints.sayTooLong(*ambient.def);
   return true;
 }
@@ -46,21 +45,21 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task,
                  bool* have_flown) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   AmbientBody* bodies[kFlightsTogether] = {};
-  FlightMemory memories[kFlightsTogether];
+  LastFlight before[kFlightsTogether];
   Twist changes_W[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
     AmbientLink& base = baseOf(*trees[i]);
     applyForces(*trees[i]);
     bodies[i] = &base.ambient;
-    memories[i] = base.ambient.memory;
-    if (base.ambient.surface()) base.met = base.ambient.encounter;
+    before[i] = base.ambient.outcome.flight();
+    if (base.ambient.surface()) base.start = surfaceStart(base.ambient);
   }
   beginFlights(bodies, count, task.duration, changes_W);
   for (int i = 0; i < count; ++i) {
     have_flown[i] = takeFlight(*trees[i], task);
     if (have_flown[i]) continue;
-    bodies[i]->memory = memories[i];
-    if (bodies[i]->surface()) bodies[i]->encounter = baseOf(*trees[i]).met;
+    bodies[i]->outcome.motion = before[i];
+    if (bodies[i]->surface()) restart(*bodies[i], baseOf(*trees[i]).start);
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 // True if the fluid above the surface loads the link and moves relative to the water.
 bool hasWind(const AmbientBody& ambient) {
   return ambient.surface()->loads_above.loads &&
-         ambient.encounter.velocity_above != ambient.medium.velocity;
+         ambient.encounter().velocity_above != ambient.medium.velocity;
 }
 
 // True if a torque, a joint force or an accelerating flow acts on a link.
@@ -81,7 +81,7 @@ double roundingOf(const AmbientTree& tree) {
   forEachAtSurface(tree, [&](const AmbientLink& link, int i) {
     const SurfaceModel& model = *link.ambient.surface();
     const double weight =
-        (model.below.mass + model.below.displaced_mass) * link.ambient.encounter.plane_W.gravity;
+        (model.below.mass + model.below.displaced_mass) * link.ambient.encounter().plane_W.gravity;
     sum += weight * (model.radius + tree.flight.dynamics().position(i).norm());
   });
   return kRounding * sum;
@@ -108,7 +108,7 @@ void keepEnergy(AmbientTree& tree) noexcept {
   surface.rounding = roundingOf(tree);
   surface.energy = twiceKinetic(tree, surface.start) / 2 +
                    energyOfPlace(tree, surface.origin_W, [](const AmbientBody& ambient, int) {
-                     return energyOfWater(ambient) + ambient.encounter.waves.energy();
+                     return energyOfWater(ambient) + ambient.encounter().waves.energy();
                    });
 }
 
@@ -122,7 +122,7 @@ bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
   forEachAtSurface(tree, [&](const AmbientLink& link, int i) {
     const AmbientBody& ambient = link.ambient;
     const SurfaceModel& model = *ambient.surface();
-    const SurfacePlane& plane = ambient.encounter.plane_W;
+    const SurfacePlane& plane = ambient.encounter().plane_W;
     const Twist& twist = dynamics.twist(i);
     const double radius = model.radius;
     const double speed =
@@ -141,7 +141,7 @@ bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept {
       tree, originAfter(tree, since_start), [&](const AmbientBody& ambient, int link) {
         const FrameOffset pose{dynamics.rotation(link), dynamics.position(link)};
         return hydrostaticEnergyAt(ambient, pose, surface.time) +
-               ambient.encounter.waves_with_rows.energy();
+               ambient.encounter().waves_with_rows.energy();
       });
   return place > surface.energy + surface.rounding;
 }
@@ -151,7 +151,7 @@ double boundEnergy(AmbientTree& tree, double duration) noexcept {
   if (!step.surface.is_bound) return 0;
   const double place =
       energyOfPlace(tree, originAfter(tree, duration), [](const AmbientBody& ambient, int) {
-        return energyOfWater(ambient) + ambient.encounter.waves.energy();
+        return energyOfWater(ambient) + ambient.encounter().waves.energy();
       });
   const double has = twiceKinetic(tree, step.end);
   const double allowed = 2 * std::max(0.0, step.surface.energy + step.surface.rounding - place);

@@ -78,7 +78,8 @@ class TreeFlight {
   // it never does, the motion ends after the last part at whose end it suffices.
   void flyInParts() {
     step_.surface.pose = step_.pose;
-    for (const auto& link : tree_.links) link->met = link->ambient.encounter;
+    forEachAtSurface(tree_,
+                     [](AmbientLink& link, int) { link.start = surfaceStart(link.ambient); });
     int parts = 1, reached = 0;
     while (is_finite_ && reached < parts && parts < settings_.max_substeps) {
       parts = std::min(2 * parts, settings_.max_substeps);
@@ -137,8 +138,8 @@ class TreeFlight {
     count_.error = count_.halted ? 1 : 0;
     count_.energy_removed = 0;
     count_.coarse = false;
-    for (const auto& link : tree_.links) link->ambient.encounter = link->met;
     forEachAtSurface(tree_, [](AmbientLink& link, int) {
+      restart(link.ambient, link.start);
       standNow(link.ambient);
       link.frozen.freeze(link.ambient);
     });

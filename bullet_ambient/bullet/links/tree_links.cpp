@@ -23,7 +23,7 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
     return;
   }
   in_tree.model = &ambient.model();
-  in_tree.memory = &ambient.memory;
+  in_tree.memory = &ambient.outcome.flight().memory;
   if (ambient.surface()) {
     standNow(ambient);
     link.frozen.freeze(ambient);
@@ -94,7 +94,7 @@ bool wasMovedByOthers(const AmbientTree& tree, const CoordinatesIn& now) noexcep
 }
 
 void forgetLoads(AmbientTree& tree) noexcept {
-  for (const auto& link : tree.links) link->ambient.memory = {};
+  for (const auto& link : tree.links) forgetFlight(link->ambient);
 }
 
 Vector3 flowAround(const LinkTree& tree) noexcept {

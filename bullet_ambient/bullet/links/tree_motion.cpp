@@ -242,7 +242,7 @@ void arriveAsBody(AmbientTree& tree) {
   TreeStep& step = tree.step;
   step.outcome = TreeOutcome::kFlown;
   step.reserve = 0;
-  const RigidState& end = tree.links.front()->ambient.outcome.flight().state;
+  const LastFlight& end = tree.links.front()->ambient.outcome.flight();
   step.pose.orientation = end.orientation;
   step.pose.position = end.position;
   tree.flight.stay(step.pose, step.end);

@@ -52,7 +52,7 @@ double passTogether(const SurfaceArrivals& some, double duration, std::vector<Wr
   double energy_removed = 0;
   for (int i = 0; i < some.count; ++i) {
     AmbientLink& link = *some.links[i];
-    SurfaceEncounter& encounter = link.ambient.encounter;
+    SurfaceEncounter& encounter = link.ambient.encounter();
     link.frozen.freeze(link.ambient);
     encounter.waves = encounter.waves_with_rows;
     impulses[link.link + 1] = impulseOf(link, after[i].twist - some.twists[i]);

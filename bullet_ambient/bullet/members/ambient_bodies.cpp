@@ -25,9 +25,7 @@ int instanceNumber(const btRigidBody& body) noexcept { return readNumber(body); 
 
 AmbientBody* AmbientBodies::find(const btCollisionObject* body) const {
   const auto found = by_object_.find(body);
-  if (found == by_object_.end()) return nullptr;
-  AmbientBody* ambient = found->second->get();
-  return isSame(*ambient) ? ambient : nullptr;
+  return found && isSame(**found) ? &**found : nullptr;
 }
 
 bool AmbientBodies::isSame(const AmbientBody& ambient) {
@@ -36,36 +34,36 @@ bool AmbientBodies::isSame(const AmbientBody& ambient) {
   return rigid && instanceNumber(*rigid) == ambient.instance;
 }
 
-void AmbientBodies::insert(std::unique_ptr<AmbientBody> ambient) {
-  ambient->instance = instanceNumber(*ambient->body);
-  if (AmbientBody* same = find(ambient->body)) {
-    keepName(same->def->name, *ambient);  // no state has it
-    ambient->reading = same->reading;
-    slots.replace(*same, {ambient.get(), nullptr});
+AmbientBody& AmbientBodies::insert(AmbientBody ambient) {
+  std::list<AmbientBody> last;
+  AmbientBody& added = last.emplace_back(std::move(ambient));
+  added.instance = instanceNumber(*added.body);
+  if (AmbientBody* same = find(added.body)) {
+    keepName(same->def->name, added);  // no state has it
+    added.reading = same->reading;
+    slots.replace(*same, {&added, nullptr});
   } else {
-    slots.enter({ambient.get(), nullptr});
+    slots.enter({&added, nullptr});
   }
-  erase(*ambient->body);  // or what is left of one that was destroyed at this address
-  const btCollisionObject* body = ambient->body;
-  List last;
-  last.push_back(std::move(ambient));
-  by_object_.emplace(body, last.begin());
+  erase(*added.body);  // or what is left of one that was destroyed at this address
+  by_object_.insert(added.body, last.begin());
   bodies_.splice(bodies_.end(), last);
+  return added;
 }
 
 bool AmbientBodies::erase(const btRigidBody& body) {
   const auto found = by_object_.find(&body);
-  if (found == by_object_.end()) return false;
-  forgetMeeting(**found->second);
-  slots.leave(**found->second);
-  bodies_.erase(found->second);
-  by_object_.erase(found);
+  if (!found) return false;
+  forgetMeeting(**found);
+  slots.leave(**found);
+  by_object_.erase(&body);
+  bodies_.erase(*found);
   return true;
 }
 
 void AmbientBodies::clear() {
   met_ = nullptr;
-  for (const auto& ambient : bodies_) slots.leave(*ambient);
+  for (AmbientBody& ambient : bodies_) slots.leave(ambient);
   by_object_.clear();
   bodies_.clear();
   trees.clear();

@@ -5,10 +5,10 @@
 #include <list>
 #include <memory>
 #include <string>
-#include <unordered_map>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/ambient_trees.h"
+#include "bullet_ambient/bullet/members/body_index.h"
 #include "bullet_ambient/bullet/members/member_slots.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/immersed/complaints.h"
@@ -30,27 +30,25 @@ int instanceNumber(const btRigidBody& body) noexcept;
 class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
  public:
   std::size_t size() const { return bodies_.size(); }
-  /// Bodies in the order of addition. Their btRigidBody may have been destroyed.
-  const std::list<std::unique_ptr<AmbientBody>>& all() const { return bodies_; }
   /// Finds the body that was added, never another one at the same address; null: none.
   /// @pre the body is alive, or nothing was attached at its address.
   AmbientBody* find(const btCollisionObject* body) const;
   /// True if the object at the address of an added body is still that body. @pre there is a
   /// collision object at that address
   static bool isSame(const AmbientBody& ambient);
-  /// Adds a body with its model, in place of an entry for the same address. If that entry is for
-  /// the same body, its name and its reading are kept.
-  void insert(std::unique_ptr<AmbientBody> ambient);
+  /// Adds a body with its model, in place of an entry for the same address, and returns where it is
+  /// kept. If that entry is for the same body, its name and its reading are kept.
+  AmbientBody& insert(AmbientBody ambient);
   /// Removes the entry for an address, whatever is there now. Returns false if there is no entry.
   bool erase(const btRigidBody& body);
   void clear();
   /// Called when the Fluid ends: removes members, regions, report function and task runner.
   void close();
-  /// Calls visit(AmbientBody&) for all bodies and links; the Bullet objects may have been
-  /// destroyed.
+  /// Calls visit(AmbientBody&) for all bodies in the order of addition, and links; the Bullet
+  /// objects may have been destroyed.
   template <class Visit>
-  void forEach(const Visit& visit) const {
-    for (const auto& ambient : bodies_) visit(*ambient);
+  void forEach(const Visit& visit) {
+    for (AmbientBody& ambient : bodies_) visit(ambient);
     for (const auto& tree : trees.all())
       for (const auto& link : tree->links) visit(link->ambient);
   }
@@ -76,11 +74,10 @@ class AmbientBodies : public std::enable_shared_from_this<AmbientBodies> {
   bool is_closed = false;           ///< Fluid or world were destroyed
 
  private:
-  using List = std::list<std::unique_ptr<AmbientBody>>;
   void forgetMeeting(const AmbientBody& ambient) noexcept;
 
-  List bodies_;
-  std::unordered_map<const btCollisionObject*, List::iterator> by_object_;
+  std::list<AmbientBody> bodies_;
+  BodyIndex by_object_;
   std::atomic<AmbientBody*> met_{nullptr};
 };
 

@@ -28,8 +28,8 @@ struct AmbientLink {
   const int link;        ///< Bullet's number; -1: the base
   btRigidBody stand_in;  ///< has the link's mass, pose and velocity, and the world's gravity
   AmbientBody ambient;
-  StepModel frozen;      ///< at a water surface: the model in the present or last step
-  SurfaceEncounter met;  ///< encounter at the start of the step, to repeat a flight from there
+  StepModel frozen;    ///< at a water surface: the model in the present or last step
+  SurfaceStart start;  ///< encounter at the start of the step, to repeat a flight from there
 };
 
 /// Outcome of a substep for a tree, from the solver; docs/bullet_step.md has the transitions.

@@ -98,15 +98,13 @@ AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def)
         who + " was added already; use Immersed::setMedium(), or remove it first");
   }
   checkDef(who, def);
-  auto ambient = std::make_unique<AmbientBody>();
-  ambient->body = &body;
-  ambient->def = shareDef(std::move(def), bodies.load_tables);
-  refresh(*ambient, bodies);
-  if (ambient->isInFluid()) body.activate();
-  warnOfSuspiciousMass(*ambient, bodies.complaints);
-  AmbientBody& attached = *ambient;
-  bodies.insert(std::move(ambient));
-  return attached;
+  AmbientBody ambient;
+  ambient.body = &body;
+  ambient.def = shareDef(std::move(def), bodies.load_tables);
+  refresh(ambient, bodies);
+  if (ambient.isInFluid()) body.activate();
+  warnOfSuspiciousMass(ambient, bodies.complaints);
+  return bodies.insert(std::move(ambient));
 }
 
 void warnOfLightBody(Complaints& complaints, const AttachDef& def, const DisplacedMass& mass,

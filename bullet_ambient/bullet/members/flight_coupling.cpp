@@ -57,8 +57,8 @@ void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   if (nothing.x() + nothing.y() + nothing.z() == 0) return;
   body.setLinearVelocity({0, 0, 0});
   body.setAngularVelocity({0, 0, 0});
-  ambient.memory = {};
-  ambient.wake = {};
+  forgetFlight(ambient);
+  forgetWake(ambient);
   ++ambient.counters.rejected;
   complaints.say(Complaint::kNotFinite);
 }

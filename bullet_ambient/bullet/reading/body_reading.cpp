@@ -58,7 +58,7 @@ void finishBodyReading(AmbientBody& ambient, Outcome kind, const Twist& before_W
   RigidState end = readState(*ambient.body);
   Twist end_W = reading.moved_W;
   if (has_flown) {
-    end_W = ambient.outcome.flight().twist_W;
+    end_W = ambient.outcome.flight().left_W;
   } else {
     const Twist after_W = velocityOf(*ambient.body);
     end_W.angular += after_W.angular - before_W.angular;

@@ -111,10 +111,10 @@ class MiddleWrenches {
     if (model.loads_below.loads)
       setLoads(ambient_.load_share * loadBelow(model, stand, seen_),
                ambient_.load_share * frictionBelow(model, stand, seen_));
-    found_.waves = waveWrench(stand.modes, to_world_, reading_.waves, ambient_.encounter.waves);
+    found_.waves = waveWrench(stand.modes, to_world_, reading_.waves, ambient_.encounter().waves);
     if (!model.loads_above.loads) return;
     Twist seen_above = step_.middle.twist;
-    seen_above.linear -= to_world_.transpose() * ambient_.encounter.velocity_above;
+    seen_above.linear -= to_world_.transpose() * ambient_.encounter().velocity_above;
     found_.wind = loadAbove(model, stand, seen_above);
   }
 
@@ -133,8 +133,10 @@ void beginReading(const AmbientBody& ambient, const RigidState& start,
   reading = {};
   reading.start = start;
   reading.surroundings = surroundings;
-  reading.plane_W = ambient.encounter.plane_W;
-  reading.waves = ambient.encounter.waves;
+  if (ambient.surface()) {
+    reading.plane_W = ambient.encounter().plane_W;
+    reading.waves = ambient.encounter().waves;
+  }
   reading.moved_W = turned(start.orientation, start.twist);
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
@@ -27,21 +28,19 @@ bool isWithinRounding(const Vector3& a, const Vector3& b) {
   return (a - b).squaredNorm() <= kRounding * kRounding * b.squaredNorm();
 }
 
-// True if the velocity `now` (world axes) differs from the one that the last flight left.
-bool wasMovedByOthers(const AmbientBody& ambient, const RigidState& start, const Twist& now) {
-  if (isWithinRounding(now.angular, ambient.left_W.angular) &&
-      isWithinRounding(now.linear, ambient.left_W.linear)) {
+// True if the velocity `now` (world axes) differs from `left`, the one that the last flight left.
+bool wasMovedByOthers(const AmbientBody& ambient, const Twist& left, const RigidState& start,
+                      const Twist& now) {
+  if (isWithinRounding(now.angular, left.angular) && isWithinRounding(now.linear, left.linear))
     return false;
-  }
   const Quaternion to_body = start.orientation.conjugate();
-  const Twist change{to_body * (now.angular - ambient.left_W.angular),
-                     to_body * (now.linear - ambient.left_W.linear)};
+  const Twist change{to_body * (now.angular - left.angular), to_body * (now.linear - left.linear)};
   return inertiaNormSquared(ambient.metric(), change.vector()) >
          kSameVelocity * kSameVelocity * inertiaNormSquared(ambient.metric(), start.twist.vector());
 }
 
 SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
-  SurfaceEncounter& encounter = ambient.encounter;
+  SurfaceEncounter& encounter = ambient.encounter();
   const FlightTask& task = flight.task;
   const RigidState& start = flight.body.state;
   standAt(ambient,
@@ -52,7 +51,7 @@ SurfaceFlight surfaceFlight(AmbientBody& ambient, Flight& flight) {
            task.duration},
           flight.body,
           encounter.waves,
-          ambient.last_stand->stand};
+          ambient.meeting->stand};
 }
 
 void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int count) {
@@ -60,7 +59,6 @@ void flyNearSurface(AmbientBody* const* bodies, Flight* const* flights, int coun
   SurfaceFlight* all[kFlightsTogether];
   for (int i = 0; i < count; ++i) all[i] = &near[i].emplace(surfaceFlight(*bodies[i], *flights[i]));
   flyAtSurface(all, count);
-  for (int i = 0; i < count; ++i) bodies[i]->encounter.met_B = bodies[i]->stand().plane;
 }
 
 // Flies the bodies at a water surface side by side, and then all others side by side.
@@ -137,33 +135,30 @@ void keep(const FlightResult& flight, const Twist& end_W, const Twist& mean_W,
     outcome.kind = Outcome::kAdrift;
     outcome.motion = RowMotion{};
     ++ambient.counters.rejected;
-    ambient.memory = {};
-    ambient.encounter.waves = {};
-    ambient.encounter.met_B.reset();
+    forgetSurface(ambient);
     return;
   }
   outcome.kind = Outcome::kFlown;
   ambient.counters.energy_removed += flight.count.energy_removed;
-  ambient.memory = flight.memory;
-  outcome.motion = FlightEnd{flight.state, end_W, mean_W};
+  outcome.motion =
+      LastFlight{end_W, mean_W, flight.memory, flight.state.orientation, flight.state.position};
 }
 
 // True if Bullet does not reach the end orientation: it limits the rotation per step. Also true
 // from half a turn on: u_eff contains the rotation modulo a turn only, and its rounding would
 // change the angular momentum.
-bool turnsTooFarForBullet(const FlightEnd& flight, double time_step) {
+bool turnsTooFarForBullet(const LastFlight& flight, double time_step) {
   return flight.effective_W.angular.norm() * time_step > kBulletMaxTurn * (1 - 1e-6) ||
-         flight.twist_W.angular.norm() * time_step > kPi;
+         flight.left_W.angular.norm() * time_step > kPi;
 }
 
 // True if the body is at the end of its flight to rounding; false if continuous collision detection
 // has stopped it on its way.
-bool reachedEnd(const AmbientBody& ambient, double time_step) {
+bool reachedEnd(const AmbientBody& ambient, const LastFlight& flight, double time_step) {
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
-  const FlightEnd& end = ambient.outcome.flight();
-  const double size = end.state.position.norm() + ambient.model().reference_length +
-                      time_step * end.effective_W.linear.norm();
-  return (position - end.state.position).norm() <= 16 * kEpsilon * size;
+  const double size = flight.position.norm() + ambient.model().reference_length +
+                      time_step * flight.effective_W.linear.norm();
+  return (position - flight.position).norm() <= 16 * kEpsilon * size;
 }
 
 }  // namespace
@@ -179,10 +174,12 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     const RigidState& start = departures.states[i];
-    if (wasMovedByOthers(ambient, start, departures.twists_W[i])) ambient.memory.has_load = false;
+    LastFlight& last = ambient.outcome.flight();
+    if (wasMovedByOthers(ambient, last.left_W, start, departures.twists_W[i]))
+      last.memory.has_load = false;
     const FlightTask task{ambient.model(), departures.surroundings[i], ambient.def->flight,
                           time_step, kPrecision};
-    all[i] = &flights[i].emplace(task, start, ambient.memory);
+    all[i] = &flights[i].emplace(task, start, last.memory);
   }
   flyAll(bodies, all, count);
   Arrivals arrivals;
@@ -200,19 +197,18 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
 
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
-  const FlightEnd& flight = ambient.outcome.flight();
-  if (turnsTooFarForBullet(flight, time_step) && reachedEnd(ambient, time_step)) {
+  const LastFlight& flight = std::as_const(ambient.outcome).flight();
+  if (turnsTooFarForBullet(flight, time_step) && reachedEnd(ambient, flight, time_step)) {
     btTransform end = body.getWorldTransform();
-    end.setRotation(toBullet(flight.state.orientation));
+    end.setRotation(toBullet(flight.orientation));
     body.setCenterOfMassTransform(end);
   }
-  const Twist &end = flight.twist_W, &effective = flight.effective_W;
+  const Twist &end = flight.left_W, &effective = flight.effective_W;
   // Added, not set: impulses that other actions have applied meanwhile survive.
   body.setAngularVelocity(body.getAngularVelocity() +
                           toBullet(Vector3(end.angular - effective.angular)));
   body.setLinearVelocity(body.getLinearVelocity() +
                          toBullet(Vector3(end.linear - effective.linear)));
-  ambient.left_W = end;
 }
 
 AMBIENT_END

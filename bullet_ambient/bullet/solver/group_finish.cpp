@@ -69,8 +69,7 @@ bool finishRows(AmbientBody& ambient, const RowBody& row_body, btSolverBody& b) 
               b.internalGetDeltaLinearVelocity());
     fromBasis(row_body.basis, b.internalGetTurnVelocity(), b.internalGetPushVelocity());
   }
-  ambient.memory = {};
-  if (ambient.surface()) ambient.encounter.waves = ambient.encounter.waves_with_rows;
+  if (ambient.surface()) ambient.encounter().waves = ambient.encounter().waves_with_rows;
   if (!isFinite(b)) {
     dropRows(b);
     ++ambient.counters.rejected;
@@ -98,10 +97,6 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
   if (is_held_)
     for (int i = 0; i < solver_bodies.size(); ++i) dropRows(solver_bodies[i]);
   for (const Member& member : members_) {
-    if (member.solver_body == kAlone) {
-      free_members_.push_back(&member);
-      continue;
-    }
     btSolverBody& solver_body = solver_bodies[member.solver_body];
     const RowBody* row_body = row_bodies_->find(member.solver_body);
     // Rows were solved against the velocity k + X of eq. (28). In a fast turn the flight goes
@@ -113,48 +108,58 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
       noteGap(*member.ambient, *row_body);
     }
     if (may_fly && isUntouched(solver_body)) {
-      free_members_.push_back(&member);
+      flyLater({member.ambient, member.solver_body}, &solver_bodies);
     } else {
       // Rows have moved the body; every body with rows has a RowBody since begin() or
       // rewriteRows().
       AMBIENT_ASSERT(row_body);
       if (finishRows(*member.ambient, *row_body, solver_body)) {
-        moved_members_.push_back(&member);
+        settleLater(member, solver_bodies);
       } else {
         bodies_.complaints.say(Complaint::kNotFinite);
       }
     }
   }
   settleMoved(solver_bodies);
-  flyFreely(solver_bodies);
+  flyFreely(&solver_bodies);
   members_.clear();
+}
+
+// Settles a member as soon as there are kFlightsTogether of them, while their data are in the
+// cache.
+void SolverGroup::settleLater(const Member& member, SolverBodies& solver_bodies) noexcept {
+  moved_members_.push_back(&member);
+  if (moved_members_.size() == kFlightsTogether) settleMoved(solver_bodies);
 }
 
 // Prepares the motion of moved_members_ after the rows, eq. (31).
 void SolverGroup::settleMoved(SolverBodies& solver_bodies) noexcept {
-  const std::size_t count = moved_members_.size();
-  for (std::size_t first = 0; first < count; first += kFlightsTogether) {
-    const int together = static_cast<int>(std::min<std::size_t>(kFlightsTogether, count - first));
-    SolvedBody bodies[kFlightsTogether] = {};
-    for (int i = 0; i < together; ++i) {
-      const Member& member = *moved_members_[first + static_cast<std::size_t>(i)];
-      bodies[i] = {member.ambient, row_bodies_->find(member.solver_body),
-                   &solver_bodies[member.solver_body]};
-    }
-    beginRowMotions(bodies, together, time_step_);
-    for (int i = 0; i < together; ++i)
-      if (bodies[i].ambient->reading)
-        readRows(*bodies[i].ambient, *bodies[i].solver_body, time_step_);
-  }
+  if (moved_members_.empty()) return;
+  SolvedBody bodies[kFlightsTogether] = {};
+  int count = 0;
+  for (const Member* member : moved_members_)
+    bodies[count++] = {member->ambient, row_bodies_->find(member->solver_body),
+                       &solver_bodies[member->solver_body]};
+  beginRowMotions(bodies, count, time_step_);
+  for (int i = 0; i < count; ++i)
+    if (bodies[i].ambient->reading)
+      readRows(*bodies[i].ambient, *bodies[i].solver_body, time_step_);
   moved_members_.clear();
 }
 
-// Flies free_members_. A flight changes its own body only, so that any thread may compute it.
+// Flies a body as soon as there are kFlightsTogether of them, while their data are in the cache; on
+// several threads, when there is no further one.
+void SolverGroup::flyLater(const FreeBody& body, SolverBodies* solver_bodies) noexcept {
+  free_.push_back(body);
+  if (!bodies_.task_runner && free_.size() == kFlightsTogether) flyFreely(solver_bodies);
+}
+
+// Flies free_. A flight changes its own body only, so that any thread may compute it.
 // kFlightsTogether flights side by side are quickest on one thread; few bodies are spread over the
-// threads in smaller groups.
-void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
+// threads in smaller groups. `solver_bodies`: null: Bullet converts none of the bodies.
+void SolverGroup::flyFreely(SolverBodies* solver_bodies) noexcept {
   constexpr int kLeastGroups = 8;  // groups to make before a group is filled
-  const int count = static_cast<int>(free_members_.size());
+  const int count = static_cast<int>(free_.size());
   TaskRunner* runner = bodies_.task_runner;
   const int together =
       runner ? std::clamp(count / kLeastGroups, 1, kFlightsTogether) : kFlightsTogether;
@@ -169,26 +174,25 @@ void SolverGroup::flyFreely(SolverBodies& solver_bodies) noexcept {
   } else {
     for (int i = 0; i < groups; ++i) flights.run(i);
   }
-  for (const Member* member : free_members_) {
-    const SubstepOutcome& outcome = member->ambient->outcome;
+  for (const FreeBody& body : free_) {
+    const SubstepOutcome& outcome = body.ambient->outcome;
     if (outcome.kind != Outcome::kFlown) bodies_.complaints.say(Complaint::kNotFinite);
-    if (outcome.is_too_long) bodies_.complaints.sayTooLong(*member->ambient->def);
+    if (outcome.is_too_long) bodies_.complaints.sayTooLong(*body.ambient->def);
   }
-  free_members_.clear();
+  free_.clear();
 }
 
-void SolverGroup::flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept {
+void SolverGroup::flyTogether(int first, int count, SolverBodies* solver_bodies) const noexcept {
   AmbientBody* bodies[kFlightsTogether] = {};
   Twist changes_W[kFlightsTogether];
-  const Member* const* members = free_members_.data() + first;
-  for (int i = 0; i < count; ++i) bodies[i] = members[i]->ambient;
+  const FreeBody* free = free_.data() + first;
+  for (int i = 0; i < count; ++i) bodies[i] = free[i].ambient;
   beginFlights(bodies, count, time_step_, changes_W);
   for (int i = 0; i < count; ++i) {
-    const Member& member = *members[i];
-    if (member.solver_body == kAlone) {
-      addVelocity(*member.ambient->body, changes_W[i]);
+    if (free[i].solver_body == kAlone) {
+      addVelocity(*bodies[i]->body, changes_W[i]);
     } else {
-      setExternalImpulse(solver_bodies[member.solver_body], changes_W[i]);
+      setExternalImpulse((*solver_bodies)[free[i].solver_body], changes_W[i]);
     }
   }
 }

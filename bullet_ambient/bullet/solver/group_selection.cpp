@@ -14,6 +14,54 @@
 #include "bullet_ambient/motion/flight/axis_locks.h"
 
 AMBIENT_BEGIN
+namespace {
+
+// What may move a body in this substep, written into its companion id while bodies are selected:
+// Bullet overwrites the id when it converts the body.
+struct Marks {
+  bool is_near = false;   // has a joint, or a pair with another body in the broadphase
+  bool has_rows = false;  // has a joint or contact
+  bool is_held = false;   // has a joint, or a contact with a body that cannot move
+};
+
+constexpr int kNear = -2, kRows = -3, kHeld = -4;  // companion ids; Bullet's are -1 and above
+
+Marks marksOf(const btCollisionObject& body) {
+  const int id = body.getCompanionId();
+  return {id <= kNear && id >= kHeld, id <= kRows && id >= kHeld, id == kHeld};
+}
+
+// Leaves bodies that cannot move alone: solvers of other groups may read them at the same time.
+void mark(const btCollisionObject& body, int id) {
+  if (body.isStaticOrKinematicObject() || !btRigidBody::upcast(&body)) return;
+  const bool is_marked = marksOf(body).is_near;
+  const int known = body.getCompanionId();
+  // Bullet writes to bodies of manifolds, too.
+  const_cast<btCollisionObject&>(body).setCompanionId(is_marked && known < id ? known : id);
+}
+
+// Marks the bodies in contact manifolds and joints.
+void markPairs(const GroupInput& input) {
+  for (int i = 0; i < input.manifold_count; ++i) {
+    const btPersistentManifold& manifold = *input.manifolds[i];
+    const bool has_rows = manifold.getNumContacts() > 0;
+    const btCollisionObject &a = *manifold.getBody0(), &b = *manifold.getBody1();
+    const auto idBeside = [has_rows](const btCollisionObject& other) {
+      if (!has_rows) return kNear;
+      return other.isStaticOrKinematicObject() ? kHeld : kRows;
+    };
+    mark(a, idBeside(b));
+    mark(b, idBeside(a));
+  }
+  for (int i = 0; i < input.constraint_count; ++i) {
+    const btTypedConstraint& constraint = *input.constraints[i];
+    if (!constraint.isEnabled()) continue;
+    mark(constraint.getRigidBodyA(), kHeld);
+    mark(constraint.getRigidBodyB(), kHeld);
+  }
+}
+
+}  // namespace
 
 GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& input,
                                 btScalar time_step, bool all_stay) noexcept {
@@ -27,32 +75,55 @@ GroupBodies SolverGroup::select(const GroupBodies& bodies, const GroupInput& inp
     is_held_ = holdAll(bodies);
     return bodies;
   }
-  findMembers(bodies);
-  if (members_.empty()) return bodies;
-  // Reserves for all bodies of the group: the number of converted ones changes from step to step,
-  // and later steps must not allocate.
-  converted_.reserve(static_cast<std::size_t>(bodies.count));
-  member_of_solver_body_.reserve(static_cast<std::size_t>(bodies.count));
-  moved_members_.reserve(static_cast<std::size_t>(bodies.count));
-  row_bodies_->reserve(bodies.count);
-  joint_chains_->reserve(bodies.count);
+  if (!hasAmbientBody(bodies)) return bodies;
+  reserve(bodies.count);
   markPairs(input);
-  return all_stay ? bodies : withoutIsolatedBodies(bodies);
+  findMembers(bodies, all_stay);
+  return {converted_.data(), static_cast<int>(converted_.size())};
 }
 
-// Fills members_. Stores the index of each member in the companion id of its body, which Bullet
-// overwrites when it converts the body.
-void SolverGroup::findMembers(const GroupBodies& bodies) noexcept {
+bool SolverGroup::hasAmbientBody(const GroupBodies& bodies) const noexcept {
+  for (int i = 0; i < bodies.count; ++i)
+    if (bodies_.find(bodies.first[i])) return true;
+  return false;
+}
+
+// Reserves for all bodies of the group: the number of converted ones changes from step to step, and
+// later steps must not allocate.
+void SolverGroup::reserve(int bodies) noexcept {
+  const auto count = static_cast<std::size_t>(bodies);
+  members_.reserve(count);
+  converted_.reserve(count);
+  member_of_solver_body_.reserve(count);
+  free_.reserve(bodies_.task_runner ? count : kFlightsTogether);
+  moved_members_.reserve(kFlightsTogether);
+  row_bodies_->reserve(bodies);
+  joint_chains_->reserve(bodies);
+}
+
+// Fills members_ and converted_. Flies the ambient bodies that no row can move.
+void SolverGroup::findMembers(const GroupBodies& bodies, bool all_stay) noexcept {
+  converted_.clear();
   for (int i = 0; i < bodies.count; ++i) {
     btCollisionObject& object = *bodies.first[i];
     AmbientBody* ambient = bodies_.find(&object);
-    if (!ambient || !prepareStep(*ambient, bodies_, time_step_)) continue;
+    if (!ambient || !prepareStep(*ambient, bodies_, time_step_)) {
+      converted_.push_back(&object);
+      continue;
+    }
     stopIfNotFinite(*ambient, bodies_.complaints);
-    object.setCompanionId(static_cast<int>(members_.size()));
+    const Marks marks = marksOf(object);
     const bool is_locked = !axisFactors(*ambient->body).areFree();
     if (ambient->reading) beginBodyReading(*ambient, is_locked);
-    members_.push_back({ambient, &object, is_locked});
+    if (all_stay || is_locked || marks.is_near) {
+      converted_.push_back(&object);
+      members_.push_back({ambient, &object, is_locked, marks.has_rows, marks.is_held});
+    } else {
+      object.setCompanionId(kAlone);
+      flyLater({ambient, kAlone}, nullptr);
+    }
   }
+  flyFreely(nullptr);
 }
 
 // Disables the ambient bodies, so that Bullet does not move them. Returns true if there are any.
@@ -65,51 +136,6 @@ bool SolverGroup::holdAll(const GroupBodies& bodies) noexcept {
     hold(*ambient, bodies_);
   }
   return is_any;
-}
-
-// Marks the members in contact manifolds and joints.
-void SolverGroup::markPairs(const GroupInput& input) noexcept {
-  for (int i = 0; i < input.manifold_count; ++i) {
-    const btPersistentManifold& manifold = *input.manifolds[i];
-    const bool has_rows = manifold.getNumContacts() > 0;
-    const btCollisionObject &a = *manifold.getBody0(), &b = *manifold.getBody1();
-    mark(a, has_rows, has_rows && b.isStaticOrKinematicObject());
-    mark(b, has_rows, has_rows && a.isStaticOrKinematicObject());
-  }
-  for (int i = 0; i < input.constraint_count; ++i) {
-    const btTypedConstraint& constraint = *input.constraints[i];
-    if (!constraint.isEnabled()) continue;
-    mark(constraint.getRigidBodyA(), true, true);
-    mark(constraint.getRigidBodyB(), true, true);
-  }
-}
-
-void SolverGroup::mark(const btCollisionObject& body, bool has_rows, bool is_held) noexcept {
-  const int id = body.getCompanionId();
-  if (id < 0 || static_cast<std::size_t>(id) >= members_.size()) return;
-  Member& member = members_[id];
-  if (member.object != &body) return;  // a companion id of another group
-  member.is_near = true;
-  member.has_rows = member.has_rows || has_rows;
-  member.is_held = member.is_held || is_held;
-}
-
-// Returns the bodies of a group without members that no row can move; sets their companion ids to
-// kAlone. @pre members_ are in the order of `bodies`
-GroupBodies SolverGroup::withoutIsolatedBodies(const GroupBodies& bodies) noexcept {
-  converted_.clear();
-  std::size_t next = 0;
-  for (int i = 0; i < bodies.count; ++i) {
-    btCollisionObject* object = bodies.first[i];
-    const bool is_member = next < members_.size() && members_[next].object == object;
-    const Member* member = is_member ? &members_[next++] : nullptr;
-    if (!member || member->is_near || member->is_locked) {
-      converted_.push_back(object);
-    } else {
-      object->setCompanionId(kAlone);
-    }
-  }
-  return {converted_.data(), static_cast<int>(converted_.size())};
 }
 
 // Counts the steps in a row in which a joint of the body misses by more than kWideGap of its size.

@@ -58,7 +58,7 @@ void standAll(AmbientBody* const* bodies, const RigidState* states, int count, d
   for (int i = 0; i < count; ++i) {
     if (!bodies[i]->surface()) continue;
     at_surface[found] = bodies[i];
-    planes_B[found++] = seenFrom(bodies[i]->encounter.plane_W,
+    planes_B[found++] = seenFrom(bodies[i]->encounter().plane_W,
                                  states[i].orientation.toRotationMatrix(), states[i].position);
   }
   if (found == 0) return;
@@ -138,7 +138,6 @@ void SolverGroup::begin(SolverBodies& solver_bodies) noexcept {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Member& member = members_[i];
     member.solver_body = member.object->getCompanionId();
-    if (member.solver_body == kAlone) continue;
     AMBIENT_ASSERT(member.solver_body >= 0 && member.solver_body < solver_bodies.size());
     member_of_solver_body_[member.solver_body] = static_cast<int>(i);
     if (!member.has_rows && !member.is_locked) {

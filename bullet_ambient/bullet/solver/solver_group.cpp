@@ -80,7 +80,6 @@ void SolverGroup::reapplyWarmStart(SolverBodies& solver_bodies, const RowPools& 
   const bool for_multibodies = multibodies && (solver_mode & SOLVER_USE_ARTICULATED_WARMSTARTING);
   if (!(solver_mode & SOLVER_USE_WARMSTARTING) && !for_multibodies) return;
   for (const Member& member : members_) {
-    if (member.solver_body == kAlone) continue;
     solver_bodies[member.solver_body].internalGetDeltaLinearVelocity().setZero();
     solver_bodies[member.solver_body].internalGetDeltaAngularVelocity().setZero();
   }

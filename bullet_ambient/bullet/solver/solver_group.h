@@ -49,8 +49,8 @@ class SolverGroup {
 
   /// Call before Bullet converts the bodies. Finds the ambient bodies, and returns the bodies that
   /// Bullet has to convert. Leaves out ambient bodies without contact, joint, pair in the
-  /// broadphase or locked axis, because no row can move them. `all_stay`: returns all bodies,
-  /// because rows of multibodies may move any of them.
+  /// broadphase or locked axis, because no row can move them, and flies them. `all_stay`: returns
+  /// all bodies, because rows of multibodies may move any of them.
   GroupBodies select(const GroupBodies& bodies, const GroupInput& input, btScalar time_step,
                      bool all_stay) noexcept;
 
@@ -58,9 +58,6 @@ class SolverGroup {
   /// eq. (28), against which rows are solved, for bodies with contacts, joints or locked axes; sets
   /// zero for the other ambient bodies.
   void begin(SolverBodies& solver_bodies) noexcept;
-
-  /// True if the group has no ambient body.
-  bool empty() const { return members_.empty(); }
 
   /// Call around Bullet's conversion of contacts. Sets the velocity change by forces and loads that
   /// Bullet reads there: kEven, that of a body with isotropic inertia, k' + X, so that Bullet lays
@@ -92,16 +89,21 @@ class SolverGroup {
   void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
 
  private:
-  static constexpr int kAlone = -1;  // Member::solver_body of a body that Bullet does not convert
+  static constexpr int kAlone = -1;  // solver body of a body that Bullet does not convert
 
+  // An ambient body that rows may move.
   struct Member {
     AmbientBody* ambient;
-    const btCollisionObject* object;  // Bullet's body, kept here as each pair asks for it
+    const btCollisionObject* object;
     bool is_locked;
-    bool is_near = false;  // true: has a joint, or a pair with another body in the broadphase
-    bool has_rows = false;
-    bool is_held = false;      // true: has a joint, or a contact with a body that cannot move
+    bool has_rows;
+    bool is_held;              // true: has a joint, or a contact with a body that cannot move
     int solver_body = kAlone;  // index in the solver's pool
+  };
+  // A body that no row moves.
+  struct FreeBody {
+    AmbientBody* ambient;
+    int solver_body;
   };
   // Jacobian of a joint row before it is rewritten; Bullet computes joint feedback from it.
   struct SavedJacobian {
@@ -109,11 +111,10 @@ class SolverGroup {
     btVector3 angular_a, linear_a, angular_b, linear_b;
   };
 
-  void findMembers(const GroupBodies& bodies) noexcept;
+  bool hasAmbientBody(const GroupBodies& bodies) const noexcept;
+  void reserve(int bodies) noexcept;
+  void findMembers(const GroupBodies& bodies, bool all_stay) noexcept;
   bool holdAll(const GroupBodies& bodies) noexcept;
-  void markPairs(const GroupInput& input) noexcept;
-  void mark(const btCollisionObject& body, bool has_rows, bool is_held) noexcept;
-  GroupBodies withoutIsolatedBodies(const GroupBodies& bodies) noexcept;
   void prepareForRows(Member* const* members, int count, SolverBodies& solver_bodies) noexcept;
   void prepareJoinedToMultiBodies(
       SolverBodies& solver_bodies,
@@ -123,9 +124,11 @@ class SolverGroup {
   void saveFeedbackJacobians(const btConstraintArray& joints) noexcept;
   void restoreFeedbackJacobians(btConstraintArray& joints) noexcept;
   void noteGap(AmbientBody& ambient, const RowBody& row_body) noexcept;
+  void settleLater(const Member& member, SolverBodies& solver_bodies) noexcept;
   void settleMoved(SolverBodies& solver_bodies) noexcept;
-  void flyFreely(SolverBodies& solver_bodies) noexcept;
-  void flyTogether(int first, int count, SolverBodies& solver_bodies) const noexcept;
+  void flyLater(const FreeBody& body, SolverBodies* solver_bodies) noexcept;
+  void flyFreely(SolverBodies* solver_bodies) noexcept;
+  void flyTogether(int first, int count, SolverBodies* solver_bodies) const noexcept;
   Member* memberOf(int solver_body) noexcept;
   const Member* memberOf(int solver_body) const noexcept;
 
@@ -136,8 +139,8 @@ class SolverGroup {
   std::vector<Member> members_;
   std::vector<btCollisionObject*> converted_;  // bodies that Bullet has to convert
   std::vector<int> member_of_solver_body_;     // index in members_; -1: not ambient
-  std::vector<const Member*> moved_members_;   // members that rows move
-  std::vector<const Member*> free_members_;    // members that no row has moved
+  std::vector<const Member*> moved_members_;   // members to settle, which rows have moved
+  std::vector<FreeBody> free_;                 // bodies to fly
   std::unique_ptr<RowBodies> row_bodies_;
   std::unique_ptr<JointChains> joint_chains_;
   std::unique_ptr<JointGaps> joint_gaps_;

@@ -16,7 +16,7 @@ namespace {
 // Gives a link at a surface the inertia that its last substep has left.
 void meetSurfaceAgain(AmbientLink& link, const FluidRegions& regions) {
   AmbientBody& ambient = link.ambient;
-  if (!ambient.place.is_at_surface || !ambient.encounter.met_B) return;
+  if (!ambient.place.is_at_surface || !metPlane(ambient)) return;
   const auto entry = regions.all().find(ambient.place.region);
   if (entry == regions.all().end()) return;
   const int media = ambient.models->findSurface(SurfaceKind(entry->second.region));
@@ -40,9 +40,17 @@ std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBo
 }  // namespace
 
 AmbientState saveAmbient(const AmbientBody& ambient) {
-  AmbientState state{*ambient.def,   ambient.medium,          ambient.place,
-                     ambient.memory, ambient.encounter.waves, ambient.encounter.met_B,
-                     ambient.wake,   ambient.left_W,          ambient.counters};
+  const auto* last = std::get_if<LastFlight>(&ambient.outcome.motion);
+  const LastFlight flight = last ? *last : LastFlight{};
+  AmbientState state{*ambient.def,
+                     ambient.medium,
+                     ambient.place,
+                     flight.memory,
+                     ambient.meeting ? ambient.encounter().waves : WaveMemory{},
+                     metPlane(ambient),
+                     ambient.wake ? *ambient.wake : Wake{},
+                     flight.left_W,
+                     ambient.counters};
   if (isModelStale(ambient)) state.memory = {};  // as the next step will do
   return state;
 }
@@ -70,11 +78,14 @@ AmbientBody makeAmbient(const AmbientState& saved, btRigidBody& body, AmbientBod
   refreshModels(ambient, registered.regions, registered.load_tables);
   // A region that does not exist here is left to the next step.
   enterMedium(ambient, saved.place, saved.medium);
-  ambient.memory = saved.memory;
-  ambient.encounter.waves = saved.waves;
-  ambient.encounter.met_B = saved.met_B;
-  ambient.wake = saved.wake;
-  ambient.left_W = saved.left_W;
+  LastFlight& flight = ambient.outcome.flight();
+  flight.memory = saved.memory;
+  flight.left_W = saved.left_W;
+  if (ambient.meeting && ambient.place.is_at_surface) {
+    ambient.encounter().waves = saved.waves;
+    if (saved.met_B) ambient.meeting->meet(*saved.met_B);
+  }
+  if (ambient.wake) *ambient.wake = saved.wake;
   ambient.counters = saved.counters;
   return ambient;
 }

@@ -5,6 +5,7 @@
 #include <BulletDynamics/Dynamics/btDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -49,17 +50,16 @@ void checkFits(const WorldState& state, btDynamicsWorld& world) {
 }
 
 // Models are built before anything is changed, so that a medium that is refused changes nothing.
-std::vector<std::unique_ptr<AmbientBody>> makeAmbientBodies(const WorldState& state,
-                                                            const std::vector<btRigidBody*>& bodies,
-                                                            AmbientBodies& members) {
-  std::vector<std::unique_ptr<AmbientBody>> result;
+std::vector<std::optional<AmbientBody>> makeAmbientBodies(const WorldState& state,
+                                                          const std::vector<btRigidBody*>& bodies,
+                                                          AmbientBodies& members) {
+  std::vector<std::optional<AmbientBody>> result;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     result.emplace_back();
     if (!state.bodies[i].ambient) continue;
     btRigidBody with_mass(1, nullptr, bodies[i]->getCollisionShape());
     restoreMass(state.bodies[i], with_mass);
-    result.back() =
-        std::make_unique<AmbientBody>(makeAmbient(*state.bodies[i].ambient, with_mass, members));
+    result.back() = makeAmbient(*state.bodies[i].ambient, with_mass, members);
     result.back()->body = bodies[i];
   }
   return result;
@@ -135,7 +135,7 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientBodies
     restoreMass(state.bodies[i], *bodies[i]);
     restoreBody(state.bodies[i], *bodies[i]);
     if (ambient_bodies[i]) {
-      members.insert(std::move(ambient_bodies[i]));
+      members.insert(std::move(*ambient_bodies[i]));
     } else {
       members.erase(*bodies[i]);
     }

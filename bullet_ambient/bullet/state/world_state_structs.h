@@ -27,7 +27,7 @@ struct AmbientState {
   RegionPlace place;
   FlightMemory memory;
   WaveMemory waves;
-  std::optional<SurfacePlane> met_B;  ///< see SurfaceEncounter
+  std::optional<SurfacePlane> met_B;  ///< metPlane()
   Wake wake;
   Twist left_W;
   AmbientCounters counters;

@@ -25,15 +25,10 @@ const FlightKernel& fastestFlightKernel() noexcept {
   return fastest;
 }
 
-void setInertia(FlightLanes& lanes, int body, const Matrix6& inertia, const Matrix6& inverse,
-                bool is_diagonal) noexcept {
-  AMBIENT_ASSERT(isSymmetric(inertia, 1e-9) && isSymmetric(inverse, 1e-9));
-  setSymmetric(lanes.inertia, body, inertia, is_diagonal);
-  setSymmetric(lanes.inverse_inertia, body, inverse, is_diagonal);
-}
-
 void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept {
-  setInertia(lanes, body, model.inertia, model.inverse_inertia, lanes.has_diagonal_inertia);
+  AMBIENT_ASSERT(isSymmetric(model.inertia, 1e-9) && isSymmetric(model.inverse_inertia, 1e-9));
+  setSymmetric(lanes.inertia, body, model.inertia, lanes.has_diagonal_inertia);
+  setSymmetric(lanes.inverse_inertia, body, model.inverse_inertia, lanes.has_diagonal_inertia);
   setLane(lanes.centre_of_volume_B, body, model.centre_of_volume);
 }
 

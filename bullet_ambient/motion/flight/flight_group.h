@@ -33,9 +33,6 @@ void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept;
 void setForces(FlightLanes& lanes, int body, const FlightTask& task) noexcept;
 /// Writes that wrench, and the scale of its errors.
 void setSurroundings(FlightLanes& lanes, int body, const FlightTask& task) noexcept;
-/// Writes the total inertia of a body in B and its inverse.
-void setInertia(FlightLanes& lanes, int body, const Matrix6& inertia, const Matrix6& inverse,
-                bool is_diagonal) noexcept;
 /// Writes pose and twist of a body; twist in B, relative to the frame that moves with the flow.
 void setState(FlightLanes& lanes, int body, const BodyModel& model,
               const RigidState& state) noexcept;

@@ -20,6 +20,11 @@ constexpr Kernels<const SurfaceKernel*> kSurfaceKernels{&kSurfaceKernelBaseline,
 /// Kernel of fastestInstructionSet().
 const SurfaceKernel& fastestSurfaceKernel() noexcept;
 
+inline void setLane(FlightLane (&to)[kSymmetricEntries], int body,
+                    const SymmetricMatrix& m) noexcept {
+  for (int entry = 0; entry < kSymmetricEntries; ++entry) to[entry][body] = m[entry];
+}
+
 /// Writes a place into lane `body`, as input of computeStands().
 void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
               const SurfacePlace& place) noexcept;

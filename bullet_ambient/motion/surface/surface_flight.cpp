@@ -121,7 +121,8 @@ class SurfaceFlights {
     setLane(lanes_.flight.orientation, i, p.start.orientation);
     setLane(lanes_.flight.way_W, i, Vector3(0, 0, 0));
     setLane(lanes_.flight.twist_B, i, p.start.twist);
-    setInertia(lanes_.flight, i, flight.stand.inertia, flight.stand.inverse, false);
+    setLane(lanes_.flight.inertia, i, flight.stand.inertia);
+    setLane(lanes_.flight.inverse_inertia, i, flight.stand.inverse);
     setStand(lanes_.stand, i, p.model(), flight.stand);
     p.place = &flight.stand;
     setWaves(i, flight.waves);
@@ -231,7 +232,7 @@ class SurfaceFlights {
         p.flight->task.surroundings.load_share * loadBelow(p.model(), *p.place, x);
     ++p.count.load_evaluations;
     if (!p.model().loads_below.loads->needsGuard()) return wrench;
-    const SurfaceLoad guarded = removePositivePower(wrench, x, p.place->inertia);
+    const SurfaceLoad guarded = removePositivePower(wrench, x, p.place->inertia.full());
     p.count.guarded += guarded.guarded;
     return guarded.wrench;
   }

@@ -22,7 +22,7 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noe
   SurfacePlace place;
   place.plane = plane_B;
   place.immersion_F = immersionOf(model, plane_B);
-  place.inertia = inertiaAt(model, place.immersion_F);
+  place.inertia = SymmetricMatrix(inertiaAt(model, place.immersion_F));
   return place;
 }
 
@@ -31,13 +31,13 @@ bool isStable(const FloatingModes& modes) noexcept {
 }
 
 Matrix6 stiffInertia(const SurfaceStand& stand, double duration) noexcept {
-  return stiffened(stand.inertia, stand.modes, duration);
+  return stiffened(stand.inertia.full(), stand.modes, duration);
 }
 
 BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
   BodyModel frozen = model.above;
-  frozen.inertia = stand.inertia;
-  frozen.inverse_inertia = stand.inverse;
+  frozen.inertia = stand.inertia.full();
+  frozen.inverse_inertia = stand.inverse.full();
   frozen.has_diagonal_inertia = false;
   const WetVolume wet = wetVolume(model, stand);
   const double water = model.excess_density * wet.volume;
@@ -68,9 +68,10 @@ Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) n
 BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
   const SurfaceStand& after = move.after;
   const Immersion& at = after.immersion_F;
-  return passSurface({move.inertia_before, after.inertia, after.inverse, move.gradient,
-                      after.plane.normal, centreOfBuoyancy(move.model, after), at.draught(),
-                      at.cover(), after.plane.gravity, move.duration},
+  const Matrix6 inertia = after.inertia.full(), inverse = after.inverse.full();
+  return passSurface({move.inertia_before, inertia, inverse, move.gradient, after.plane.normal,
+                      centreOfBuoyancy(move.model, after), at.draught(), at.cover(),
+                      after.plane.gravity, move.duration},
                      x);
 }
 
@@ -98,8 +99,9 @@ Vector6 takeWind(const WindKick& kick, const Vector6& x) noexcept {
   const Vector6 seen = x + shift;
   AMBIENT_ASSERT(kick.duration >= 0);
   const Vector6 load = loadAbove(kick.model, stand, Twist::fromVector(seen)).vector();
-  const DualPair motion{seen, stand.inertia * seen};
-  return passiveKick(motion, {motion, {stand.inverse * load, load}}, kick.duration).twist - shift;
+  const DualPair motion{seen, stand.inertia.full() * seen};
+  return passiveKick(motion, {motion, {stand.inverse.full() * load, load}}, kick.duration).twist -
+         shift;
 }
 
 }  // namespace ambient

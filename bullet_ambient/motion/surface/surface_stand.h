@@ -3,6 +3,7 @@
 #include "bullet_ambient/motion/body/bounded_twist.h"
 #include "bullet_ambient/motion/surface/body_waves.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
+#include "bullet_ambient/motion/surface/symmetric_matrix.h"
 
 namespace ambient {
 
@@ -11,7 +12,7 @@ namespace ambient {
 struct SurfacePlace {
   SurfacePlane plane;
   Immersion immersion_F;
-  Matrix6 inertia;  ///< K of body and fluids, docs/theory.md eq. (63)
+  SymmetricMatrix inertia;  ///< K of body and fluids, docs/theory.md eq. (63)
 };
 
 /// Computes the place for a plane in B, whose density and gravity count.
@@ -19,7 +20,7 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noe
 
 /// A place, and quantities that follow from it: inverse inertia, stiffness, waves.
 struct SurfaceStand : SurfacePlace {
-  Matrix6 inverse;  ///< K^-1
+  SymmetricMatrix inverse;  ///< K^-1
   FloatingModes modes;
   double swing = 0;  ///< largest natural frequency of the body on its buoyancy [1/s]
 };

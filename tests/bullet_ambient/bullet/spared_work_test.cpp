@@ -182,7 +182,7 @@ TEST(SparedWork, BodiesOfOneShapeShareItsData) {
     EXPECT_EQ(bodies[0]->models, bodies[1]->models);
     EXPECT_EQ(bodies[0]->models->media.size(), 2U);
     EXPECT_EQ(bodies[0]->models->surfaces.size(), 1U);
-    EXPECT_NE(bodies[0]->last_stand, bodies[1]->last_stand);
+    EXPECT_NE(bodies[0]->meeting, bodies[1]->meeting);
   }
 }
 

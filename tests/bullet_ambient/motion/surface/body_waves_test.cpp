@@ -23,8 +23,9 @@ SurfaceStand standOf(const WetVolume& wet, const SurfacePlane& plane, double add
   SurfaceStand stand;
   stand.plane = plane;
   stand.immersion_F.wet = wet;
-  stand.inertia = Matrix6::Identity();
-  stand.inertia.diagonal().tail<3>().array() += plane.density * added_mass;
+  Matrix6 inertia = Matrix6::Identity();
+  inertia.diagonal().tail<3>().array() += plane.density * added_mass;
+  stand.inertia = SymmetricMatrix(inertia);
   const SurfaceModel* const models = &model;
   SurfaceStand* const stands = &stand;
   completeStands(&models, &stands, 1);
