@@ -65,7 +65,7 @@ struct AmbientBody {
   bool may_rest = true;         ///< true: nothing around the body changes with time
   bool has_own_models = false;  ///< true: `models` are of this body alone, as its mass has changed;
                                 ///< false: equal bodies share them
-  SubstepOutcome outcome;       ///< of this, the action needs the beginning
+  SubstepOutcome outcome;       ///< the action needs what precedes LastFlight::memory
   StepErrors step_errors;
   std::shared_ptr<const FluidModels> models;
   std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it

@@ -158,6 +158,7 @@ void SolverGroup::flyLater(const FreeBody& body, SolverBodies* solver_bodies) no
 // kFlightsTogether flights side by side are quickest on one thread; few bodies are spread over the
 // threads in smaller groups. `solver_bodies`: null: Bullet converts none of the bodies.
 void SolverGroup::flyFreely(SolverBodies* solver_bodies) noexcept {
+  if (free_.empty()) return;
   constexpr int kLeastGroups = 8;  // groups to make before a group is filled
   const int count = static_cast<int>(free_.size());
   TaskRunner* runner = bodies_.task_runner;
