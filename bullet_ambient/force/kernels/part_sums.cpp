@@ -86,7 +86,7 @@ class WetBlocks {
     }
     for (; count_ % kTogether != 0; ++count_) {
       blocks_[count_] = blocks;
-      wet_[count_] = Wet();
+      wet_[count_] = {};
     }
   }
 
@@ -104,7 +104,7 @@ class WetBlocks {
 struct WetShare {
   Doubles share;
 
-  WetShare() : share{} {}
+  WetShare() = default;
   WetShare(const Depths& depths, double reach) : share(Weights(depths, reach).share()) {}
 };
 
@@ -132,7 +132,7 @@ struct WetSlope {
   Doubles by_height, by_spread;
   Doubles spread[3];  ///< Depths::slope
 
-  WetSlope() : by_height{}, by_spread{}, spread{} {}
+  WetSlope() = default;
   WetSlope(const Depths& depths, double reach) {
     const Doubles zero = {};
     const Weights weights(depths, reach);
