@@ -85,10 +85,20 @@ struct FaceFlow {
   Floats pressure;      ///< q A
 };
 
-/// Returns the flow at kWidth faces of a block, docs/theory.md eq. (12) to (15), (43) to (44),
-/// (59). Adds q_L A mu of wings to `pitch`.
-template <class Law, bool kRightAngle, bool kCut>
-inline FaceFlow flowOn(const RunMotion& run, int block, Floats& pitch) {
+/// Returns the areas in the fluid of kWidth faces of a block, eq. (59).
+template <bool kCut>
+[[gnu::always_inline]] inline Floats wetArea(const RunMotion& run, const FaceBlock& block) {
+  const Floats area = load(block.area + run.lane);
+  if (!kCut) return area;
+  return area *
+         run.cuts.wetShare(load(block.normal, run.lane), load(block.centroid, run.lane), area);
+}
+
+/// Returns the flow at kWidth faces of a block with the given areas, docs/theory.md eq. (12) to
+/// (15), (43) to (44). Adds q_L A mu of wings to `pitch`.
+template <class Law, bool kRightAngle>
+[[gnu::always_inline]] inline FaceFlow flowOn(const RunMotion& run, int block, const Floats& area,
+                                              Floats& pitch) {
   const int lane = run.lane;
   const FaceBlock& geometry = run.faces.blocks[block];
   const Vectors n = load(geometry.normal, lane), c = load(geometry.centroid, lane);
@@ -98,8 +108,6 @@ inline FaceFlow flowOn(const RunMotion& run, int block, Floats& pitch) {
   const Vectors t = lessProduct(u, normal_speed, n);
   const Floats slip_sq =
       Law::kLifts ? positivePart(lessProduct(whole_sq, normal_speed, normal_speed)) : dot(t, t);
-  Floats area = load(geometry.area + lane);
-  if (kCut) area = area * run.cuts.wetShare(n, c, area);
   const Floats strength =
       strengthWhereAttached<kRightAngle>(normal_speed, area * slip_sq, slip_sq, run.motion);
   const auto speed = [&] {
@@ -155,7 +163,9 @@ void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleM
   Floats pitch = {};
   for (int k = 0; k < count; ++k) {
     const FaceBlock& block = faces.blocks[chosen[k]];
-    const FaceFlow flow = flowOn<Law, kRightAngle, kCut>(run, chosen[k], pitch);
+    const Floats area = wetArea<kCut>(run, block);
+    if (kCut && !anyOf(area > 0.0f)) continue;  // dry faces add nothing
+    const FaceFlow flow = flowOn<Law, kRightAngle>(run, chosen[k], area, pitch);
     const FaceBlock& again = Law::kLifts ? reread(block) : block;
     if (kFriction) {
       const Vectors f = forceOf<Law>(flow, load(again.normal, lane), motion);
