@@ -45,6 +45,7 @@ endfunction()
 # alone, since they share the names of their vectors. The program chooses one when it runs; all give the same bits.
 function(ambient_add_kernels box)
   cmake_parse_arguments(KERNELS "" "" "SOURCES;DEPENDS" ${ARGN})
+  set(in_vectors "vector_loop:4096:noalign$<COMMA>libcall:-1:noalign")
   foreach(set IN ITEMS Baseline Avx2 Avx512)
     string(TOLOWER ${box}_${set} kernels)
     add_library(${kernels} OBJECT ${KERNELS_SOURCES})
@@ -57,7 +58,9 @@ function(ambient_add_kernels box)
     target_link_libraries(${kernels} PRIVATE ${KERNELS_DEPENDS})
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$")
       target_compile_options(${kernels} PRIVATE
-        $<$<STREQUAL:${set},Avx2>:-mavx2;-mfma> $<$<STREQUAL:${set},Avx512>:-mavx512f;-mavx512dq>)
+        $<$<STREQUAL:${set},Avx2>:-mavx2;-mfma> $<$<STREQUAL:${set},Avx512>:-mavx512f;-mavx512dq>
+        # GCC fills and copies some hundred bytes by "rep stos" and "rep movs", which take as long to start as a kernel's loop.
+        $<$<CXX_COMPILER_ID:GNU>:-mmemset-strategy=${in_vectors};-mmemcpy-strategy=${in_vectors}>)
     endif()
     target_sources(${box} PRIVATE $<TARGET_OBJECTS:${kernels}>)
   endforeach()

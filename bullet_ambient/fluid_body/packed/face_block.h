@@ -15,12 +15,15 @@ struct alignas(64) FaceBlock {
   float area[kFaces];         ///< in [0, 1]
 };
 
-/// Bounds of the 6-vectors (c x n, n) of all faces of a block, for sixteen blocks. The normal
-/// velocity of a face is the product of (c x n, n) with the twist. Bounds are rounded outwards.
+/// Bounds of all faces of a block, for sixteen blocks: of their 6-vectors (c x n, n), whose product
+/// with the twist is the normal velocity of a face, and of their places. Bounds are rounded
+/// outwards.
 struct alignas(64) FaceBounds {
   static constexpr int kBlocks = 16;
   float middle[6][kBlocks];
-  float reach[6][kBlocks];  ///< largest distance from the middle
+  float reach[6][kBlocks];                     ///< largest distance from the middle
+  float centre[3][kBlocks], half[3][kBlocks];  ///< box around the centroids: centre, half sides
+  float radius[kBlocks];                       ///< of the largest disc with the area of a face
 };
 
 /// FormFactors of the faces of one block, for the form law; their arms in pitching,

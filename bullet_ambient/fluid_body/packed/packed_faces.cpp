@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/form_factors.h"
 #include "bullet_ambient/fluid_body/packed/block_order.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
@@ -49,7 +50,10 @@ PackedFaces::PackedFaces(const FaceTable& faces)
   const std::size_t count = (size() + FaceBlock::kFaces - 1) / FaceBlock::kFaces;
   for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
   bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero
-  for (std::size_t block = 0; block < count; ++block) setBounds(block);
+  for (std::size_t block = 0; block < count; ++block) {
+    setBounds(block);
+    setPlace(block);
+  }
 }
 
 PackedFaces::PackedFaces(const FaceTable& faces, const FormShape& shape) : PackedFaces(faces) {
@@ -114,6 +118,26 @@ void PackedFaces::setBounds(std::size_t block) {
     bounds.middle[row][block % FaceBounds::kBlocks] = 0.5f * (*low + *high);
     bounds.reach[row][block % FaceBounds::kBlocks] = 0.5f * (*high - *low) + kRounding;
   }
+}
+
+void PackedFaces::setPlace(std::size_t block) {
+  constexpr std::size_t kFaces = FaceBlock::kFaces;
+  // Rounding of a depth in single precision, and the addition to the disc in eq. (59).
+  constexpr float kRounding = 4e-6f;
+  constexpr double kWider = 1 + 1e-4;
+  const FaceBlock& of = blocks_[block];
+  const auto size = static_cast<std::ptrdiff_t>(std::min(kFaces, order_.size() - block * kFaces));
+  FaceBounds& bounds = bounds_[block / FaceBounds::kBlocks];
+  const std::size_t lane = block % FaceBounds::kBlocks;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* values = of.centroid[axis];
+    const auto [low, high] = std::minmax_element(values, values + size);
+    bounds.centre[axis][lane] = 0.5f * (*low + *high);
+    bounds.half[axis][lane] = 0.5f * (*high - *low) + kRounding;
+  }
+  const double largest = static_cast<double>(*std::max_element(of.area, of.area + size));
+  const double radius = kWider * std::sqrt(largest * area_unit_ / kPi) / length_unit_;
+  bounds.radius[lane] = static_cast<float>(radius) + kRounding;
 }
 
 }  // namespace ambient

@@ -9,7 +9,7 @@
 
 namespace ambient {
 
-/// Faces of a shape for loads in single precision: 47 bytes per face, in frame F. Units are powers
+/// Faces of a shape for loads in single precision: 49 bytes per face, in frame F. Units are powers
 /// of two: shapes whose sizes differ by a power of two have the same bits. Faces with similar
 /// normal and place share a block. A block is skipped if the flow is detached from all its faces.
 /// The factors of the form law take 16 bytes more.
@@ -31,6 +31,7 @@ class PackedFaces {
  private:
   FaceBlock packBlock(const FaceTable& faces, std::size_t block) const;
   void setBounds(std::size_t block);
+  void setPlace(std::size_t block);
   void packForm(const FaceTable& faces, const FormShape& shape);
   void addLee(const FaceTable& faces, std::size_t face, double by_lee);
 

@@ -7,7 +7,7 @@
 
 namespace ambient {
 
-/// Parts of a shape's added mass, packed for kernels, in frame F: 240 bytes per part.
+/// Parts of a shape's added mass, packed for kernels, in frame F: 248 bytes per part.
 class PackedParts {
  public:
   explicit PackedParts(const std::vector<AddedMassPart>& parts);

@@ -39,8 +39,8 @@ struct Planes {
         height(broadcast(plane.height)) {}
   Doubles depth(const Vectors& place) const { return height - dot(normal, place); }
   /// Returns coordinates along e_1 and e_2, and the depth as z.
-  Vectors seen(const Vectors& place) const {
-    return {dot(axis1, place), dot(axis2, place), depth(place)};
+  Vectors seen(const Vectors& place, const Doubles& depth) const {
+    return {dot(axis1, place), dot(axis2, place), depth};
   }
 
  private:
@@ -73,11 +73,18 @@ struct WetCorners {
 struct HullRows {
   Doubles rows[kRows] = {};
 
-  /// Adds one triangle per lane; dry ones add nothing. a, b, c: corners from Planes::seen();
-  /// `flux`: -s.n A.
-  void addTriangles(const Vectors& a, const Vectors& b, const Vectors& c, const Doubles& flux) {
+  /// Adds the triangles of a block in the lanes from `lane`; dry ones add nothing.
+  void addTriangles(const HullBlock& block, int lane, const Planes& planes) {
     const Doubles zero = {};
-    const WetCorners wet(a.z, b.z, c.z);
+    const Vectors places[3] = {load(block.corner[0], lane), load(block.corner[1], lane),
+                               load(block.corner[2], lane)};
+    const Doubles za = planes.depth(places[0]), zb = planes.depth(places[1]),
+                  zc = planes.depth(places[2]);
+    const WetCorners wet(za, zb, zc);
+    if (!anyOf(wet.any())) return;
+    const Doubles flux = -dot(planes.normal, load(block.area_normal, lane));
+    const Vectors a = planes.seen(places[0], za), b = planes.seen(places[1], zb),
+                  c = planes.seen(places[2], zc);
     const Mask most = wet.most();
     if (anyOf(most)) addWhole(a, b, c, select(most, flux, zero));
     const Mask is_cut = wet.any() & ~wet.all();

@@ -64,14 +64,8 @@ inline void addCut(const HullBlock* blocks, const Choice& choice, const Planes& 
                    HullRows (&sums)[kLanes / kWidth]) {
   for (int part = 0; part < kLanes / kWidth; ++part) {
     HullRows rows = sums[part];
-    for (int i = 0; i < choice.cut_count; ++i) {
-      const HullBlock& block = blocks[choice.cut[i]];
-      const int lane = part * kWidth;
-      const Doubles flux = -dot(planes.normal, load(block.area_normal, lane));
-      rows.addTriangles(planes.seen(load(block.corner[0], lane)),
-                        planes.seen(load(block.corner[1], lane)),
-                        planes.seen(load(block.corner[2], lane)), flux);
-    }
+    for (int i = 0; i < choice.cut_count; ++i)
+      rows.addTriangles(blocks[choice.cut[i]], part * kWidth, planes);
     sums[part] = rows;
   }
 }

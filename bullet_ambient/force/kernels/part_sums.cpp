@@ -11,6 +11,13 @@ namespace {
 constexpr int kLanes = 8;
 static_assert(PartBlock::kParts == kLanes, "a block has one part per lane");
 
+/// Returns the depths of the centres of parts.
+inline Doubles depthOf(const PartBlock& block, int lane, const PartPlane& plane) {
+  const double(&s)[3] = plane.normal;
+  return plane.height - (s[0] * load(block.centre[0] + lane) + s[1] * load(block.centre[1] + lane) +
+                         s[2] * load(block.centre[2] + lane));
+}
+
 /// Depths of the three Gauss points of a part. Their weighted mean and mean square along s are
 /// those of the part.
 struct Depths {
@@ -20,9 +27,8 @@ struct Depths {
 
   Depths(const PartBlock& block, int lane, const PartPlane& plane) {
     const double(&s)[3] = plane.normal;
-    const auto centre = [&](int axis) { return load(block.centre[axis] + lane); };
     const auto spread = [&](int k) { return load(block.spread[k] + lane); };
-    middle = plane.height - (s[0] * centre(0) + s[1] * centre(1) + s[2] * centre(2));
+    middle = depthOf(block, lane, plane);
     // way^2 = kNode s.C s: Gauss points lie at sqrt(3/5) of the half width sqrt(3 s.C s).
     constexpr double kNode = 9.0 / 5;
     slope[0] = kNode * (s[0] * spread(0) + s[1] * spread(3) + s[2] * spread(4));
@@ -68,8 +74,8 @@ struct Weights {
 constexpr int kTogether = 4;           ///< number of blocks whose entries are read side by side
 constexpr int kChunk = 8 * kTogether;  ///< number of blocks per pass
 
-/// Blocks with a part in the water among the kWidth lanes from `lane`; all other blocks add
-/// nothing. `Wet`: factors of a sum for the parts of a block.
+/// Blocks that may have a part in the water among the kWidth lanes from `lane`; all other blocks
+/// add nothing. `Wet`: factors of a sum for the parts of a block.
 template <class Wet>
 class WetBlocks {
  public:
@@ -79,14 +85,15 @@ class WetBlocks {
     const std::size_t left = parts.count - begin;
     const PartBlock* const blocks = parts.blocks + begin;
     for (std::size_t i = 0; i < (left < kChunk ? left : kChunk); ++i) {
+      const Doubles middle = depthOf(blocks[i], lane, plane);
+      if (!anyOf(middle + load(blocks[i].reach + lane) > Doubles{})) continue;
       const Depths depths(blocks[i], lane, plane);
-      if (!anyOf(depths.below > Doubles{})) continue;
       blocks_[count_] = blocks + i;
       wet_[count_++] = Wet(depths, plane.reach);
     }
     for (; count_ % kTogether != 0; ++count_) {
       blocks_[count_] = blocks;
-      wet_[count_] = Wet();
+      wet_[count_] = {};
     }
   }
 
@@ -104,7 +111,7 @@ class WetBlocks {
 struct WetShare {
   Doubles share;
 
-  WetShare() : share{} {}
+  WetShare() = default;
   WetShare(const Depths& depths, double reach) : share(Weights(depths, reach).share()) {}
 };
 
@@ -132,7 +139,7 @@ struct WetSlope {
   Doubles by_height, by_spread;
   Doubles spread[3];  ///< Depths::slope
 
-  WetSlope() : by_height{}, by_spread{}, spread{} {}
+  WetSlope() = default;
   WetSlope(const Depths& depths, double reach) {
     const Doubles zero = {};
     const Weights weights(depths, reach);

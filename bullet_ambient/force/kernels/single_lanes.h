@@ -71,6 +71,19 @@ inline Floats plusProduct(Floats c, Floats a, Floats b) {
 inline Floats lessProduct(Floats c, Floats a, Floats b) { return plusProduct(c, -a, b); }
 #endif
 
+/// True if a comparison holds in any lane.
+inline bool anyOf(const Ints& mask) {
+#if defined(__AVX512F__)
+  return _mm512_movepi32_mask((__m512i)mask) != 0;
+#elif defined(__AVX2__)
+  return _mm256_movemask_ps((__m256)mask) != 0;
+#else
+  std::int32_t any = 0;
+  for (int lane = 0; lane < kWidth; ++lane) any |= mask[lane];
+  return any != 0;
+#endif
+}
+
 /// Square root per lane, correctly rounded with every instruction set.
 #if defined(__AVX512F__)
 inline Floats root(Floats x) { return _mm512_maskz_sqrt_ps(0xffff, x); }

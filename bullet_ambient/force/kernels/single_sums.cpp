@@ -18,6 +18,7 @@ constexpr int kRun = 16;      ///< number of blocks summed in single precision
 constexpr int kChoice = 256;  ///< number of blocks per pass of chooseBlocks()
 static_assert(FaceBlock::kFaces == kLanes, "a block has one face per lane");
 static_assert(FaceBounds::kBlocks == kLanes, "bounds are those of one block per lane");
+static_assert(kRun == kLanes, "a run has its own bounds");
 
 /// Returns `strength` if the flow is attached, else 0; face_sums.cpp explains the test.
 template <bool kRightAngle>
@@ -85,10 +86,49 @@ struct FaceFlow {
   Floats pressure;      ///< q A
 };
 
-/// Returns the flow at kWidth faces of a block, docs/theory.md eq. (12) to (15), (43) to (44),
-/// (59). Adds q_L A mu of wings to `pitch`.
-template <class Law, bool kRightAngle, bool kCut>
-inline FaceFlow flowOn(const RunMotion& run, int block, Floats& pitch) {
+/// Sides of the water's surface on which all faces of blocks lie: 1 in the water, -1 above it, 0
+/// not known.
+struct Sides {
+  std::int32_t of[kChoice];
+
+  /// Finds them for `size` blocks. @pre size is at most kChoice
+  Sides(const FaceBounds* bounds, int size, const SingleCut& cut) {
+    const Cuts cuts(&cut);
+    const Vectors& s = cuts.normal;
+    const Vectors slope = {magnitude(s.x), magnitude(s.y), magnitude(s.z)};
+    for (int first = 0; first < size; first += kLanes)
+      for (int lane = 0; lane < kLanes; lane += kWidth) {
+        const FaceBounds& at = bounds[first / kLanes];
+        const Floats depth = cuts.height - dot(s, load(at.centre, lane));
+        const Floats reach = dot(slope, load(at.half, lane)) + load(at.radius + lane);
+        const Ints dry = depth<-reach, wet = depth> reach, side = dry - wet;
+        __builtin_memcpy(of + first + lane, &side, sizeof side);
+      }
+  }
+
+ private:
+  static Floats magnitude(const Floats& x) { return x > 0.0f ? x : -x; }
+};
+
+/// Stands for Sides where the water does not cut the body.
+struct WhollyWet {
+  const std::int32_t* of = nullptr;
+};
+
+/// Returns the areas in the fluid of kWidth faces of a block, eq. (59). `side`: that of the block.
+[[gnu::always_inline]] inline Floats wetArea(const RunMotion& run, const FaceBlock& block,
+                                             std::int32_t side) {
+  const Floats area = load(block.area + run.lane);
+  if (side > 0) return area;
+  return area *
+         run.cuts.wetShare(load(block.normal, run.lane), load(block.centroid, run.lane), area);
+}
+
+/// Returns the flow at kWidth faces of a block with the given areas, docs/theory.md eq. (12) to
+/// (15), (43) to (44). Adds q_L A mu of wings to `pitch`.
+template <class Law, bool kRightAngle>
+[[gnu::always_inline]] inline FaceFlow flowOn(const RunMotion& run, int block, const Floats& area,
+                                              Floats& pitch) {
   const int lane = run.lane;
   const FaceBlock& geometry = run.faces.blocks[block];
   const Vectors n = load(geometry.normal, lane), c = load(geometry.centroid, lane);
@@ -98,8 +138,6 @@ inline FaceFlow flowOn(const RunMotion& run, int block, Floats& pitch) {
   const Vectors t = lessProduct(u, normal_speed, n);
   const Floats slip_sq =
       Law::kLifts ? positivePart(lessProduct(whole_sq, normal_speed, normal_speed)) : dot(t, t);
-  Floats area = load(geometry.area + lane);
-  if (kCut) area = area * run.cuts.wetShare(n, c, area);
   const Floats strength =
       strengthWhereAttached<kRightAngle>(normal_speed, area * slip_sq, slip_sq, run.motion);
   const auto speed = [&] {
@@ -146,16 +184,28 @@ template <class Law>
   return plusProduct(flow.pressure * n, along, lessProduct(flow.velocity, flow.normal_speed, n));
 }
 
-/// Sums the kWidth lanes from `lane` of `count` chosen blocks.
+/// Blocks to be summed. `sides`: those of the blocks, by their numbers; not read if none is cut.
+struct Chosen {
+  const int* blocks;
+  int count;
+  const std::int32_t* sides;
+};
+
+/// Sums the kWidth lanes from `lane` of chosen blocks.
 template <class Law, bool kRightAngle, bool kFriction, bool kCut>
-void sumRun(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
-            int lane, WrenchLanes& sums) {
+void sumRun(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& motion, int lane,
+            WrenchLanes& sums) {
   const RunMotion run(faces, motion, kCut ? motion.cut : nullptr, lane);
   Vectors torque = {}, force = {};
   Floats pitch = {};
-  for (int k = 0; k < count; ++k) {
-    const FaceBlock& block = faces.blocks[chosen[k]];
-    const FaceFlow flow = flowOn<Law, kRightAngle, kCut>(run, chosen[k], pitch);
+  for (int k = 0; k < chosen.count; ++k) {
+    const int number = chosen.blocks[k];
+    const std::int32_t side = kCut ? chosen.sides[number] : 1;
+    if (side < 0) continue;  // dry faces add nothing
+    const FaceBlock& block = faces.blocks[number];
+    const Floats area = wetArea(run, block, side);
+    if (side == 0 && !anyOf(area > 0.0f)) continue;
+    const FaceFlow flow = flowOn<Law, kRightAngle>(run, number, area, pitch);
     const FaceBlock& again = Law::kLifts ? reread(block) : block;
     if (kFriction) {
       const Vectors f = forceOf<Law>(flow, load(again.normal, lane), motion);
@@ -222,21 +272,32 @@ inline void chooseBlocks(const FaceBounds* bounds, int size, const SingleMotion&
 
 /// Sums a run of at most kRun chosen blocks.
 template <class Law, bool kRightAngle, bool kFriction, bool kCut>
-void sumChosen(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
+void sumChosen(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& motion,
                WrenchTotal<Law::kLifts>& total) {
   WrenchLanes run;
   for (int lane = 0; lane < kLanes; lane += kWidth)
-    sumRun<Law, kRightAngle, kFriction, kCut>(faces, chosen, count, motion, lane, run);
+    sumRun<Law, kRightAngle, kFriction, kCut>(faces, chosen, motion, lane, run);
   total.add(run);
 }
 
 /// Sums chosen blocks at a separation angle of pi/2, in runs.
 template <class Law, bool kFriction, bool kCut>
-void sumRuns(const FaceBlocks& faces, const int* chosen, int count, const SingleMotion& motion,
+void sumRuns(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& motion,
              WrenchTotal<Law::kLifts>& total) {
-  for (int first = 0; first < count; first += kRun)
+  for (int first = 0; first < chosen.count; first += kRun) {
+    const int left = chosen.count - first;
     sumChosen<Law, true, kFriction, kCut>(
-        faces, chosen + first, count - first < kRun ? count - first : kRun, motion, total);
+        faces, {chosen.blocks + first, left < kRun ? left : kRun, chosen.sides}, motion, total);
+  }
+}
+
+/// Returns the sides of blocks if the water cuts the body.
+template <bool kCut>
+inline auto sidesOf(const FaceBounds* bounds, int size, const SingleMotion& motion) {
+  if constexpr (kCut)
+    return Sides(bounds, size, *motion.cut);
+  else
+    return WhollyWet{};
 }
 
 inline int atMost(std::size_t count, int limit) {
@@ -256,9 +317,13 @@ LoadSums sumWhereAttached(const FaceBlocks& faces, const SingleMotion& motion) {
   for (std::size_t begin = 0; begin < faces.count; begin += kChoice) {
     const int size = atMost(faces.count - begin, kChoice);
     const FaceBlocks blocks = faces.from(begin);
-    chooseBlocks<kRest, Law::kLifts>(faces.bounds + begin / kLanes, size, motion, choice);
-    sumRuns<Run, kFriction, kCut>(blocks, choice.attached, choice.count, motion, total);
-    if (kRest) sumRuns<Law, false, kCut>(blocks, choice.rest, size - choice.count, motion, total);
+    const FaceBounds* const bounds = faces.bounds + begin / kLanes;
+    const auto sides = sidesOf<kCut>(bounds, size, motion);
+    chooseBlocks<kRest, Law::kLifts>(bounds, size, motion, choice);
+    sumRuns<Run, kFriction, kCut>(blocks, {choice.attached, choice.count, sides.of}, motion, total);
+    if (kRest)
+      sumRuns<Law, false, kCut>(blocks, {choice.rest, size - choice.count, sides.of}, motion,
+                                total);
   }
   LoadSums sums = total.sum();
   if (kLeeApart) {
@@ -274,9 +339,12 @@ template <class Law, bool kRightAngle, bool kFriction, bool kCut>
 LoadSums sumAll(const FaceBlocks& faces, const SingleMotion& motion) {
   static constexpr int kAll[kRun] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   WrenchTotal<Law::kLifts> total;
-  for (std::size_t begin = 0; begin < faces.count; begin += kRun)
-    sumChosen<Law, kRightAngle, kFriction, kCut>(faces.from(begin), kAll,
-                                                 atMost(faces.count - begin, kRun), motion, total);
+  for (std::size_t begin = 0; begin < faces.count; begin += kRun) {
+    const int size = atMost(faces.count - begin, kRun);
+    const auto sides = sidesOf<kCut>(faces.bounds + begin / kLanes, size, motion);
+    sumChosen<Law, kRightAngle, kFriction, kCut>(faces.from(begin), {kAll, size, sides.of}, motion,
+                                                 total);
+  }
   return total.sum();
 }
 

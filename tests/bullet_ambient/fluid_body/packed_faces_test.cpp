@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
+#include "bullet_ambient/base/pi.h"
 #include "tests/support/bodies/geodesic.h"
 
 namespace ambient {
@@ -76,6 +79,28 @@ TEST(PackedFaces, LieWithinTheBoundsOfTheirBlock) {
       EXPECT_LT(2 * reach, *high - *low + 1e-5f);
       EXPECT_LT(reach, 0.3f);  // 16 similar faces of 1280
     }
+  }
+}
+
+TEST(PackedFaces, LieWithTheirDiscsWithinTheBoxOfTheirBlock) {
+  const PackedFaces packed(someFaces(3));
+  const FaceBlocks faces = packed.blocks();
+  const double unit = packed.areaUnit() / (packed.lengthUnit() * packed.lengthUnit());
+  for (std::size_t k = 0; k < faces.count; ++k) {
+    const FaceBlock& block = faces.blocks[k];
+    const FaceBounds& bounds = faces.bounds[k / FaceBounds::kBlocks];
+    const std::size_t at = k % FaceBounds::kBlocks;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* values = block.centroid[axis];
+      const auto [low, high] = std::minmax_element(values, values + FaceBlock::kFaces);
+      EXPECT_LT(bounds.centre[axis][at] - bounds.half[axis][at], *low);
+      EXPECT_GT(bounds.centre[axis][at] + bounds.half[axis][at], *high);
+      EXPECT_LT(2 * bounds.half[axis][at], *high - *low + 1e-5f);
+    }
+    const double area = static_cast<double>(*std::max_element(block.area, std::end(block.area)));
+    const auto radius = static_cast<double>(bounds.radius[at]);
+    EXPECT_GT(radius * radius, (1 + 1e-4) * area * unit / kPi);
+    EXPECT_LT(radius, 1.001 * std::sqrt(area * unit / kPi) + 1e-5);
   }
 }
 

@@ -78,6 +78,42 @@ TEST(SingleSums, LeaveOutNoFaceThatTheFlowIsAttachedTo) {
   EXPECT_GT(left_out, 100);
 }
 
+TEST(SingleSums, OfACutBodyHaveTheBitsOfSumsThatDoNotKnowWhereBlocksLie) {
+  test::Arbitrary arbitrary(58);
+  const FaceTable body = arbitrary.body(3);
+  for (const std::size_t count : {100, 1280}) {
+    const PackedFaces packed(firstFaces(body, count));
+    const FaceBlocks faces = packed.blocks();
+    std::vector<FaceBounds> wide(faces.bounds, faces.bounds + (faces.count + 15) / 16);
+    std::vector<FaceBounds> narrow = wide;
+    for (FaceBounds& bounds : wide)
+      for (float& radius : bounds.radius) radius = 10;
+    for (FaceBounds& bounds : narrow) {
+      for (float(&row)[FaceBounds::kBlocks] : bounds.half)
+        for (float& half : row) half = 0;
+      for (float& radius : bounds.radius) radius = 0;
+    }
+    int wrong = 0;
+    for (int i = 0; i < 200; ++i) {
+      SingleMotion motion = motionFor(i % 3 == 0 ? -0.3f : 0, i % 2 == 0 ? 0 : 0.03f);
+      const Vector3 s = arbitrary.vector().normalized();
+      const SingleCut cut{
+          {static_cast<float>(s.x()), static_cast<float>(s.y()), static_cast<float>(s.z())},
+          static_cast<float>(arbitrary.between(-1, 1)),
+          static_cast<float>(packed.areaUnit() /
+                             (kPi * packed.lengthUnit() * packed.lengthUnit()))};
+      motion.cut = &cut;
+      const auto bitsWith = [&](const std::vector<FaceBounds>& bounds) {
+        return test::bitsOf(sumBlocksBaseline({faces.blocks, bounds.data(), faces.count}, motion));
+      };
+      const auto bits = test::bitsOf(sumBlocksBaseline(faces, motion));
+      EXPECT_EQ(bits, bitsWith(wide)) << i;
+      if (bits != bitsWith(narrow)) ++wrong;
+    }
+    EXPECT_GT(wrong, 100);
+  }
+}
+
 // Scale of rounding errors: sum A |u_s| |u|; for torques times the body's size, 1.
 double errorScale(const FaceTable& faces, const Twist& x, double density) {
   double scale = 0;

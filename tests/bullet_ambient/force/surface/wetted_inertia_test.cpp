@@ -3,6 +3,8 @@
 #include <cmath>
 #include <memory>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
@@ -226,6 +228,31 @@ TEST(PartSums, HaveTheSameBitsWithEveryInstructionSet) {
                 test::bitsOf(kPartKernelBaseline.gradient(parts.blocks(), plane, products)));
     }
   }
+}
+
+TEST(PartSums, LeaveOutNoPartInTheWater) {
+  const PackedParts parts(test::floatingEllipsoid({1, 0.8, 0.6}, 3).added_mass_parts);
+  const PartBlocks known = parts.blocks();
+  double products[PartBlock::kEntries];
+  for (int i = 0; i < PartBlock::kEntries; ++i) products[i] = 0.1 * (i - 7);
+  const auto withReach = [&](double reach) {
+    std::vector<PartBlock> blocks(known.blocks, known.blocks + known.count);
+    for (PartBlock& block : blocks)
+      for (double& each : block.reach) each = reach;
+    return blocks;
+  };
+  const std::vector<PartBlock> far = withReach(10), near = withReach(0);
+  int missed = 0;
+  for (double height = -1; height < 1; height += 0.013) {
+    const PartPlane plane{{0.48, 0.6, 0.64}, height, 0.07};
+    const auto bitsOf = [&](const PartBlocks& blocks) {
+      return std::make_pair(test::bitsOf(kPartKernelBaseline.inertia(blocks, plane)),
+                            test::bitsOf(kPartKernelBaseline.gradient(blocks, plane, products)));
+    };
+    EXPECT_EQ(bitsOf(known), bitsOf({far.data(), far.size()})) << height;
+    if (bitsOf(known) != bitsOf({near.data(), near.size()})) ++missed;
+  }
+  EXPECT_GT(missed, 20);
 }
 
 }  // namespace
