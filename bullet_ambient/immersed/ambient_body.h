@@ -13,8 +13,8 @@
 #include "bullet_ambient/immersed/region_id.h"
 #include "bullet_ambient/immersed/substep_outcome.h"
 #include "bullet_ambient/motion/body/wake.h"
-#include "bullet_ambient/motion/flight/axis_locks.h"
 #include "bullet_ambient/motion/flight/flight.h"
+#include "bullet_ambient/motion/rows/axis_locks.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
 #include "bullet_ambient/motion/surface/wave_memory.h"
 

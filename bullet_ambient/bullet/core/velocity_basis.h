@@ -4,7 +4,7 @@
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/motion/body/body_model.h"
-#include "bullet_ambient/motion/flight/axis_locks.h"
+#include "bullet_ambient/motion/rows/axis_locks.h"
 
 AMBIENT_BEGIN
 

@@ -6,7 +6,7 @@
 #include "bullet_ambient/bullet/links/tree_now.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
-#include "bullet_ambient/motion/flight/axis_locks.h"
+#include "bullet_ambient/motion/rows/axis_locks.h"
 
 AMBIENT_BEGIN
 

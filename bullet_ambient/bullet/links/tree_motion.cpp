@@ -14,7 +14,7 @@
 #include "bullet_ambient/bullet/members/multibody_identity.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/bullet/reading/tree_reading.h"
-#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 
 AMBIENT_BEGIN
 namespace {

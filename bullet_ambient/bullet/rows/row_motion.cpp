@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/immersed/departures.h"
+#include "bullet_ambient/bullet/members/departures.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
-#include "bullet_ambient/motion/flight/kept_motion.h"
-#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/motion/rows/kept_motion.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/rotation.h"
 

@@ -12,7 +12,7 @@
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/external_impulse.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
-#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -11,7 +11,7 @@
 #include "bullet_ambient/bullet/rows/joint_gaps.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
-#include "bullet_ambient/motion/flight/axis_locks.h"
+#include "bullet_ambient/motion/rows/axis_locks.h"
 
 AMBIENT_BEGIN
 namespace {

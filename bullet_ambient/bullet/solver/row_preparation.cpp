@@ -6,14 +6,14 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/links/multibody_rows.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
+#include "bullet_ambient/bullet/members/departures.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 #include "bullet_ambient/bullet/rows/slope_friction.h"
 #include "bullet_ambient/bullet/solver/external_impulse.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
-#include "bullet_ambient/immersed/departures.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
-#include "bullet_ambient/motion/flight/axis_locks.h"
-#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/motion/rows/axis_locks.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN

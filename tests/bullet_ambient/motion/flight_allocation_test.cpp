@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"

@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 
 #include <gtest/gtest.h>
 

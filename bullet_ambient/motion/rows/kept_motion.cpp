@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/flight/kept_motion.h"
+#include "bullet_ambient/motion/rows/kept_motion.h"
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/flight/flight_group.h"

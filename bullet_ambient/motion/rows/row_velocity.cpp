@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/one_body.h"

@@ -1,4 +1,4 @@
-#include "bullet_ambient/immersed/departures.h"
+#include "bullet_ambient/bullet/members/departures.h"
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/flight/flight_group.h"

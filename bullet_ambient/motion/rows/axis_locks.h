@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/motion/flight/row_velocity.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 
 namespace ambient {
 

@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/flight/axis_locks.h"
+#include "bullet_ambient/motion/rows/axis_locks.h"
 
 #include <Eigen/LU>
 
