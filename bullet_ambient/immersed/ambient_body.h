@@ -32,7 +32,7 @@ struct SurfaceEncounter {
       Vector6::Zero();  ///< velocity in B, relative to the water, that constraint rows start from
 };
 
-/// What a body that a surface may cut keeps from step to step.
+/// Memory of a body that a surface may cut, from step to step.
 struct SurfaceMeeting {
   SurfaceEncounter encounter;
   /// Last result of standAt(). Its plane is that of the surface in B at the exact pose where the
@@ -65,7 +65,8 @@ struct AmbientBody {
   bool may_rest = true;         ///< true: nothing around the body changes with time
   bool has_own_models = false;  ///< true: `models` are of this body alone, as its mass has changed;
                                 ///< false: equal bodies share them
-  SubstepOutcome outcome;       ///< the action needs what precedes LastFlight::memory
+  SubstepOutcome outcome;       ///< in most steps the action needs only what precedes
+                                ///< LastFlight::memory
   StepErrors step_errors;
   std::shared_ptr<const FluidModels> models;
   std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
@@ -115,6 +116,13 @@ inline void countLoads(AmbientBody& ambient, int evaluations) noexcept {
 /// Reads the velocity of a btRigidBody, world axes.
 inline Twist velocityOf(const btRigidBody& body) {
   return {toVector3(body.getAngularVelocity()), toVector3(body.getLinearVelocity())};
+}
+
+/// Adds a change to that velocity, in Bullet's arithmetic: impulses that others have applied
+/// meanwhile survive.
+inline void addVelocity(btRigidBody& body, const Twist& change_W) {
+  body.setAngularVelocity(body.getAngularVelocity() + toBullet(change_W.angular));
+  body.setLinearVelocity(body.getLinearVelocity() + toBullet(change_W.linear));
 }
 
 /// Reads pose and twist of a btRigidBody; pose in W, twist in body axes.

@@ -70,7 +70,7 @@ class Complaints {
   void sayMade(Complaint complaint, const MakeSentence& make) noexcept;
 
   std::atomic<bool> was_said_[static_cast<int>(Complaint::kCount)] = {};
-  std::recursive_mutex telling_;  // recursive: a report may attach or detach, and that may say more
+  std::recursive_mutex telling_;  // recursive: a report may attach, and that may say more
   std::function<void(const std::string&)> report_;
 };
 

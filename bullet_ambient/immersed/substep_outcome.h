@@ -24,7 +24,8 @@ enum class Outcome : std::uint8_t {
 /// Data that the action needs to complete a motion by rows; docs/theory.md eq. (31).
 struct RowMotion {
   Quaternion orientation = Quaternion::Identity();  ///< B to W, before Bullet moves the body
-  Vector3 position = Vector3::Zero();               ///< there, with the position correction
+  Vector3 position = Vector3::Zero();               ///< of the centre of mass before that, with the
+                                                    ///< position correction of the rows [m]
   Twist velocity_W;                                 ///< xi: Bullet moves it by xi and the flow
   Vector3 flow_W = Vector3::Zero();
   bool is_held = false;  ///< true: joints, or contacts with bodies that cannot move, hold the body

@@ -24,7 +24,8 @@ Quaternion rotationBetween(const Vector3& from, const Vector3& to);
 /// Angle of the rotation from attitude a to attitude b [rad], in [0, pi].
 double angleBetween(const Quaternion& a, const Quaternion& b);
 
-/// True if this angle exceeds a limit [rad]. Computes the angle only if it may.
+/// True if angleBetween() exceeds a limit [rad]. Computes the angle only where a bound by the sine
+/// of its half does not decide.
 bool isTurnedFurther(const Quaternion& a, const Quaternion& b, double limit);
 
 }  // namespace ambient

@@ -4,6 +4,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/links/tree_flight.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/flight/flight_task.h"
 
 AMBIENT_BEGIN
@@ -58,8 +59,10 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task,
   for (int i = 0; i < count; ++i) {
     have_flown[i] = takeFlight(*trees[i], task);
     if (have_flown[i]) continue;
-    bodies[i]->outcome.motion = before[i];
-    if (bodies[i]->surface()) restart(*bodies[i], baseOf(*trees[i]).start);
+    bodies[i]->outcome.motion = before[i];  // in the place where the tree knows its memory
+    if (!bodies[i]->surface()) continue;
+    restart(*bodies[i], baseOf(*trees[i]).start);
+    standNow(*bodies[i]);  // the tree goes on from where it is
   }
 }
 

@@ -38,6 +38,7 @@ AmbientBody& AmbientBodies::insert(AmbientBody ambient) {
   std::list<AmbientBody> last;
   AmbientBody& added = last.emplace_back(std::move(ambient));
   added.instance = instanceNumber(*added.body);
+  by_object_.reserveOne();
   if (AmbientBody* same = find(added.body)) {
     keepName(same->def->name, added);  // no state has it
     added.reading = same->reading;

@@ -6,8 +6,12 @@
 
 AMBIENT_BEGIN
 
-void BodyIndex::insert(const btCollisionObject* object, Place place) {
+void BodyIndex::reserveOne() {
   if (3 * (count_ + 1) > 2 * entries_.size()) grow();
+}
+
+void BodyIndex::insert(const btCollisionObject* object, Place place) {
+  reserveOne();
   Entry& entry = entries_[placeOf(object)];
   AMBIENT_ASSERT(!entry.object);
   entry = {object, place};
@@ -35,8 +39,8 @@ void BodyIndex::clear() noexcept {
 }
 
 void BodyIndex::grow() {
-  const std::vector<Entry> known = std::move(entries_);
-  entries_.assign(known.empty() ? 8 : 2 * known.size(), Entry{});
+  std::vector<Entry> known(entries_.empty() ? 8 : 2 * entries_.size());
+  known.swap(entries_);
   for (const Entry& entry : known)
     if (entry.object) entries_[placeOf(entry.object)] = entry;
 }

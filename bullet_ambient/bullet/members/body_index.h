@@ -27,6 +27,8 @@ class BodyIndex {
     if (!entry.object) return std::nullopt;
     return entry.place;
   }
+  /// Makes room for one more entry: the next insert() does not throw.
+  void reserveOne();
   /// @pre there is no entry for this address
   void insert(const btCollisionObject* object, Place place);
   /// @pre there is an entry for this address
@@ -40,7 +42,7 @@ class BodyIndex {
   };
 
   // Returns the place where the search for an address begins, by its product with 2^64 / golden
-  // ratio, whose upper digits spread near addresses evenly.
+  // ratio, whose digits from the 32nd on spread near addresses evenly.
   std::size_t homeOf(const btCollisionObject* object) const noexcept {
     const std::uint64_t address = reinterpret_cast<std::uintptr_t>(object);
     return static_cast<std::size_t>((address * 0x9E3779B97F4A7C15u) >> 32) & (entries_.size() - 1);

@@ -117,7 +117,7 @@ RowMotion rowMotion(const SolvedBody& body, const BodyWithRows& with_rows, const
   return rows;
 }
 
-// A body that Bullet has moved with rows, in the course of endRowMotions().
+// A body that does not fly, where Bullet has moved it, in the course of endRowMotions().
 struct Arrival {
   AmbientBody* ambient = nullptr;
   Quaternion orientation;  // B to W
@@ -188,7 +188,7 @@ void boundEnergy(const Arrival& arrival, BoundedTwist& end) {
                         : withinEnergy(model, arrival.moved, end.twist, *rows.energy_bound);
 }
 
-// Lets the bodies at a surface, of those with free or with locked axes, pass it side by side.
+// Passes the bodies with these axes that are at a surface through it, side by side.
 void passSurfaces(const Arrival* arrivals, int count, Axes axes, double time_step,
                   BoundedTwist* ends) {
   AmbientBody* bodies[kFlightsTogether] = {};
@@ -220,9 +220,7 @@ void setVelocity(const Arrival& arrival, const BoundedTwist& end, double time_st
     return;
   }
   ambient.counters.energy_removed += end.energy_removed;
-  btRigidBody& body = *ambient.body;
-  body.setAngularVelocity(body.getAngularVelocity() + toBullet(change_W.angular));
-  body.setLinearVelocity(body.getLinearVelocity() + toBullet(change_W.linear));
+  addVelocity(*ambient.body, change_W);
 }
 
 }  // namespace

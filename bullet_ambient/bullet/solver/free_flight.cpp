@@ -204,11 +204,7 @@ void endFlight(AmbientBody& ambient, double time_step) noexcept {
     body.setCenterOfMassTransform(end);
   }
   const Twist &end = flight.left_W, &effective = flight.effective_W;
-  // Added, not set: impulses that other actions have applied meanwhile survive.
-  body.setAngularVelocity(body.getAngularVelocity() +
-                          toBullet(Vector3(end.angular - effective.angular)));
-  body.setLinearVelocity(body.getLinearVelocity() +
-                         toBullet(Vector3(end.linear - effective.linear)));
+  addVelocity(body, {end.angular - effective.angular, end.linear - effective.linear});
 }
 
 AMBIENT_END

@@ -32,12 +32,6 @@ void fromBasis(const WorldBasis& T, btVector3& angular, btVector3& linear) {
   linear = T.linear * linear;
 }
 
-// Adds a velocity change to a body that Bullet does not write back, in the same arithmetic.
-void addVelocity(btRigidBody& body, const Twist& change_W) {
-  body.setAngularVelocity(body.getAngularVelocity() + toBullet(change_W.angular));
-  body.setLinearVelocity(body.getLinearVelocity() + toBullet(change_W.linear));
-}
-
 // True if the velocity and the position correction that Bullet will write back are finite.
 bool isFinite(btSolverBody& b) {
   const btVector3 linear =
@@ -110,8 +104,7 @@ void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints)
     if (may_fly && isUntouched(solver_body)) {
       flyLater({member.ambient, member.solver_body}, &solver_bodies);
     } else {
-      // Rows have moved the body; every body with rows has a RowBody since begin() or
-      // rewriteRows().
+      // Every body that does not fly here has a RowBody since begin() or rewriteRows().
       AMBIENT_ASSERT(row_body);
       if (finishRows(*member.ambient, *row_body, solver_body)) {
         settleLater(member, solver_bodies);

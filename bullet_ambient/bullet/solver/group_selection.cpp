@@ -16,15 +16,16 @@
 AMBIENT_BEGIN
 namespace {
 
-// What may move a body in this substep, written into its companion id while bodies are selected:
-// Bullet overwrites the id when it converts the body.
+// Tells what may move a body in this substep. Written into its companion id while bodies are
+// selected: Bullet overwrites the id when it converts the body.
 struct Marks {
   bool is_near = false;   // has a joint, or a pair with another body in the broadphase
   bool has_rows = false;  // has a joint or contact
   bool is_held = false;   // has a joint, or a contact with a body that cannot move
 };
 
-constexpr int kNear = -2, kRows = -3, kHeld = -4;  // companion ids; Bullet's are -1 and above
+// Companion ids. Bullet's own are from -2 on: -1, not converted; -2, cannot move.
+constexpr int kNear = -3, kRows = -4, kHeld = -5;
 
 Marks marksOf(const btCollisionObject& body) {
   const int id = body.getCompanionId();
@@ -93,11 +94,12 @@ bool SolverGroup::hasAmbientBody(const GroupBodies& bodies) const noexcept {
 void SolverGroup::reserve(int bodies) noexcept {
   const auto count = static_cast<std::size_t>(bodies);
   members_.reserve(count);
+  // Some solvers of Bullet convert one body more, which cannot move.
   converted_.reserve(count);
-  member_of_solver_body_.reserve(count);
+  member_of_solver_body_.reserve(count + 1);
   free_.reserve(bodies_.task_runner ? count : kFlightsTogether);
   moved_members_.reserve(kFlightsTogether);
-  row_bodies_->reserve(bodies);
+  row_bodies_->reserve(bodies + 1);
   joint_chains_->reserve(bodies);
 }
 

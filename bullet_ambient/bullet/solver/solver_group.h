@@ -85,7 +85,8 @@ class SolverGroup {
   int solveJoints(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
 
   /// Call after the iterations, before Bullet writes velocities back. Maps velocity changes from
-  /// the bases to world axes, du = T du', and flies bodies that no row has moved.
+  /// the bases to world axes, du = T du', and flies the members that no row has
+  /// moved.
   void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
 
  private:
@@ -139,7 +140,7 @@ class SolverGroup {
   std::vector<Member> members_;
   std::vector<btCollisionObject*> converted_;  // bodies that Bullet has to convert
   std::vector<int> member_of_solver_body_;     // index in members_; -1: not ambient
-  std::vector<const Member*> moved_members_;   // members to settle, which rows have moved
+  std::vector<const Member*> moved_members_;   // members to settle: those that do not fly
   std::vector<FreeBody> free_;                 // bodies to fly
   std::unique_ptr<RowBodies> row_bodies_;
   std::unique_ptr<JointChains> joint_chains_;

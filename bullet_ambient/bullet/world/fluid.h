@@ -140,7 +140,8 @@ class Fluid {
   /// than half the mass of the medium it displaces; steps are so long that the motion is wrong by
   /// some per cent; a joint comes apart step after step because the solver's iterations do not hold
   /// it. It also gets one sentence for each later body that is refused. Solvers on several threads
-  /// report one after the other. Exceptions of the function are dropped. Default: standard error.
+  /// report one after the other. The function must not remove bodies or links while the world
+  /// steps. Its exceptions are dropped. Default: standard error.
   void setReport(std::function<void(const std::string&)> report);
   /// Sets the function that names a btRigidBody, or the collider of a link, in reports and errors.
   /// It is called once for each body that is added from now on without AttachDef::name. Null

@@ -42,8 +42,8 @@ bool isStillIn(const btCollisionWorld& world, const AmbientBody& ambient) {
   return index < objects.size() && AmbientBodies::isSame(ambient);
 }
 
-// Completes the substep of bodies after Bullet has moved them: of those that rows have moved, or
-// nothing, several side by side.
+// Completes the substep of bodies after Bullet has moved them; of bodies that did not fly, several
+// side by side.
 class Completion {
  public:
   Completion(double time_step, Complaints& complaints)

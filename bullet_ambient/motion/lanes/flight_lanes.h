@@ -3,8 +3,8 @@
 namespace ambient {
 
 // Data and kernels of the passive leapfrog, docs/theory.md eq. (22) to (25), for several bodies
-// side by side. Plain data only: kernels are compiled once per instruction set, and must share no
-// inline function with the rest of the program.
+// side by side, and of motions with rows (row_lanes.h). Plain data only: kernels are compiled once
+// per instruction set, and must share no inline function with the rest of the program.
 
 constexpr int kFlightLanes = 8;
 
@@ -78,8 +78,8 @@ struct alignas(64) ArrivalLanes {
 struct PushLanes;
 struct RowMotionLanes;
 
-/// Kernels of one instruction set. depart() and arrive() compute all lanes, others only active
-/// bodies.
+/// Kernels of one instruction set. depart() and arrive() compute all lanes, others
+/// only active bodies unless their comment says otherwise.
 struct FlightKernel {
   void (*depart)(DepartureLanes&) noexcept;
   void (*arrive)(ArrivalLanes&) noexcept;
@@ -102,7 +102,7 @@ struct FlightKernel {
   /// Scales motions down to the measured energy if it is exceeded and torque_W is 0, eq. (25a).
   void (*bound)(FlightLanes&) noexcept;
 
-  // For bodies that constraint rows may move.
+  // For bodies that constraint rows may move; for all lanes of a register with an active body.
 
   /// Computes the change of velocity that rows are solved against, eq. (28).
   void (*push)(PushLanes&) noexcept;

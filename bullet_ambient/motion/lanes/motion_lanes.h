@@ -2,8 +2,8 @@
 
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// What several kernels read of FlightLanes. For sources that are compiled once per instruction set,
-// see lanes.h.
+// Readings of FlightLanes that several kernels make. For sources that are compiled once per
+// instruction set, see lanes.h.
 
 namespace ambient {
 namespace {

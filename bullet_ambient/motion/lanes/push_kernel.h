@@ -10,7 +10,7 @@
 namespace ambient {
 namespace {
 
-/// Sets vectors to zero that are only the rounding of others.
+/// Sets vectors to zero that are only the rounding of others, as EvenResponse::beyond() does.
 inline Vectors withoutRounding(const Vectors& a, const Vectors& of) {
   constexpr double kRounding = 1e-12;
   const Mask is_rounding = dot(a, a) <= kRounding * kRounding * dot(of, of);

@@ -23,8 +23,9 @@ struct alignas(64) PushLanes {
   FlightLane extent;
 };
 
-/// Input and output of FlightKernel::keep() and carry(): what a motion with rows keeps, and the
-/// twist that it has from it. Twists relative to the flow; momenta about the centre of mass.
+/// Input and output of FlightKernel::keep(), which computes the momentum of a body that rows have
+/// moved, and of carry(), which computes the twist of that momentum in the next pose. Twists
+/// relative to the flow; momenta about the centre of mass.
 struct alignas(64) RowMotionLanes {
   /// Models; kick_time: duration of the step [s]. keep(): orientations at the start of the step.
   /// carry(): those at its end, way_W; results in twist_B and momentum_B.

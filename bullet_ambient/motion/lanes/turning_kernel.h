@@ -2,7 +2,8 @@
 
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// Only for sources compiled once per instruction set, see lanes.h.
+// For sources compiled once per instruction set, see lanes.h, and with one_body.h for ordinary
+// ones.
 
 namespace ambient {
 namespace {

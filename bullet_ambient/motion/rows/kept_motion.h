@@ -5,9 +5,9 @@
 
 namespace ambient {
 
-// What a body keeps on the way that Bullet moves it with rows, docs/theory.md eq. (31) and (31a).
-// Functions for up to kFlightsTogether bodies side by side; the bits of a body do not depend on the
-// others. Velocities relative to the flow.
+// Momentum and energy that a body keeps on the way that Bullet moves it with rows, docs/theory.md
+// eq. (31) and (31a). Functions for up to kFlightsTogether bodies side by side; the bits of a body
+// do not depend on the others. Velocities relative to the flow.
 
 /// A body after the rows of a step, before Bullet moves it; world axes.
 struct BodyWithRows {
@@ -24,7 +24,7 @@ struct KeptMotion {
   double twice_energy = 0;  ///< 2 E of eq. (31a) [J]
 };
 
-/// `duration` of the step [s]
+/// Computes what the bodies keep over a step of `duration` [s].
 void computeKeptMotions(const BodyWithRows* const* bodies, int count, double duration,
                         KeptMotion* results) noexcept;
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -168,6 +169,34 @@ TEST(KeptMotion, HasTheEnergyOfItsEquation) {
     const double expected = (x - X).dot(K * (x - X)) + std::min(0.0, 2 * X.dot(K * d));
     EXPECT_NEAR(kept.twice_energy, expected, 1e-12 * (x.dot(K * x) + X.dot(K * X) + d.dot(K * d)));
   }
+}
+
+// m of eq. (28a) in the arithmetic of single bodies.
+TEST(KeptMotion, HasTheExtentOfItsEquation) {
+  constexpr double kStep = 0.01;
+  bool is_by_spin = false, is_by_change = false;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const FreeBody body = arbitraryBody(seed);
+    Arbitrary arbitrary(300 + seed);
+    const Quaternion q(arbitrary.rotation());
+    const Twist x = arbitrary.twist(3, seed % 2 == 0 ? 0.1 : 30);
+    const BodyWithRows with_rows{body.model(), q, turned(q, x), {}, {}};
+    const BodyWithRows* const one = &with_rows;
+    KeptMotion kept;
+    computeKeptMotions(&one, 1, kStep, &kept);
+    const Matrix6& K = body.model().inertia;
+    const Momentum m = Momentum::fromVector(K * x.vector());
+    const Vector6 wrench =
+        stack(m.angular.cross(x.angular) + m.linear.cross(x.linear), m.linear.cross(x.angular));
+    Vector6 t = kStep * K.inverse() * wrench;
+    t.tail<3>() += kStep * x.angular.cross(x.linear);
+    const double by_spin = kStep * x.angular.norm() / 0.5;
+    const double by_change = std::sqrt(t.dot(K * t) / x.vector().dot(K * x.vector())) / 0.45;
+    EXPECT_NEAR(kept.extent, std::max(by_spin, by_change), 1e-11 * kept.extent) << seed;
+    is_by_spin |= by_spin > by_change;
+    is_by_change |= by_change > by_spin;
+  }
+  EXPECT_TRUE(is_by_spin && is_by_change);
 }
 
 }  // namespace

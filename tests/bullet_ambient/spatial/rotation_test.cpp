@@ -47,5 +47,20 @@ TEST(AngleBetween, IsThatOfTheRotation) {
   EXPECT_NEAR(angleBetween(a, Quaternion(-(a * turn).coeffs())), 0.7, 1e-15);
 }
 
+TEST(IsTurnedFurther, ComparesTheAngleWithTheLimit) {
+  test::Arbitrary arbitrary(4);
+  const Quaternion a(arbitrary.rotation());
+  for (const double angle : {0.0, 1e-9, 0.3, 1.5, 3.0, 3.14}) {
+    const Quaternion b = a * rotationFromVector(angle * arbitrary.vector().normalized());
+    const Quaternion opposite(-b.coeffs());
+    for (const Quaternion& end : {b, opposite}) {
+      EXPECT_FALSE(isTurnedFurther(a, end, angle + 1e-14)) << angle;
+      EXPECT_TRUE(isTurnedFurther(a, end, angle - 1e-14)) << angle;
+      EXPECT_EQ(isTurnedFurther(a, end, angle / 2), angle > 0) << angle;
+      EXPECT_FALSE(isTurnedFurther(a, end, 4));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ambient
