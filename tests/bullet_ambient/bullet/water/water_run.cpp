@@ -100,8 +100,8 @@ double WaterRun::energyOf(const FloatingBody& floating) const {
   const Immersion& at = stand.immersion_F;
   const double centre = (state.position + R * model.above.centre_of_volume).z();
   const double in_air = model.above.displaced_mass * kRunGravity * centre;
-  return x.dot(stand.inertia.full() * x) / 2 + weight - in_air + hydrostaticEnergy(at.wet, at.plane) +
-         ambient.encounter().waves.energy();
+  return x.dot(stand.inertia.full() * x) / 2 + weight - in_air +
+         hydrostaticEnergy(at.wet, at.plane) + ambient.encounter().waves.energy();
 }
 
 }  // namespace ambient::test
