@@ -25,7 +25,9 @@ int instanceNumber(const btRigidBody& body) noexcept { return readNumber(body); 
 
 AmbientBody* AmbientBodies::find(const btCollisionObject* body) const {
   const auto found = by_object_.find(body);
-  return found && isSame(**found) ? &**found : nullptr;
+  if (!found) return nullptr;
+  AmbientBody& ambient = **found;
+  return isSame(ambient) ? &ambient : nullptr;
 }
 
 bool AmbientBodies::isSame(const AmbientBody& ambient) {

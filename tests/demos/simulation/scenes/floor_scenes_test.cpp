@@ -30,8 +30,9 @@ std::vector<double> carriedBy(double wind) {
   const Scene scene = readNamedScene("cards_in_wind", {{"medium.velocity", velocity}});
   const RunRecord record = runSharing(scene);
   const Vector3 table = std::get<Box>(scene.bodies[0].shape.geometry).half_sizes;
-  // A card that lands on its edge sinks into the table for a moment, by less than its thickness.
-  const double sunk = std::get<Box>(scene.bodies[1].shape.geometry).half_sizes.z();
+  // A card that lands on its edge sinks into the table for a moment, by less than its thickness: of
+  // 480 runs at other winds 12 have a card below half of it in one sample, none below all of it.
+  const double sunk = 2 * std::get<Box>(scene.bodies[1].shape.geometry).half_sizes.z();
   std::vector<double> carried;
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
     const auto& motion = record.motion[i];
