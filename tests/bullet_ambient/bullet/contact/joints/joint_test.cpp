@@ -45,6 +45,11 @@ Real impulseScale(const reference::DenseRow& row, const std::vector<reference::D
   return along / reference::response(bodies, row, row);
 }
 
+// Largest error of a reported wrench. In float those of rows that almost depend on each other are
+// the rounding of the velocities, many times over: of eight other sets of joints, the worst hinge,
+// slider or fixed joint of a set is off by 0.7e-6 to 29e-6, most often by 2e-6.
+constexpr double kFeedbackTolerance = sizeof(btScalar) == 8 ? kTolerance : 5e-5;
+
 // Difference between Bullet's reported wrench and the reference's, over the impulses of all
 // rows.
 double feedbackError(const btJointFeedback& feedback, const Rows& rows,
@@ -108,7 +113,7 @@ TYPED_TEST(Joint, EqualsTheDenseSolution) {
                                                               pair.a().size(), info.m_timeStep));
     }
     EXPECT_LT(worst, kTolerance) << nameOf(type);
-    EXPECT_LT(worst_feedback, kTolerance) << nameOf(type);
+    EXPECT_LT(worst_feedback, kFeedbackTolerance) << nameOf(type);
     EXPECT_GT(solved, kJointsEach / 4) << nameOf(type);
     EXPECT_GT(at_bounds, hasBounds(type) ? 20 : -1) << nameOf(type);
     report(nameOf(type), worst);
