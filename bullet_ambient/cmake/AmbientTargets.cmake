@@ -100,6 +100,14 @@ function(ambient_optimise_little name)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
+# ambient_sanitize_less(NAME SANITIZERS): a target of the preset asan without these sanitizers, unless BULLET_AMBIENT_SANITIZE_ALL
+# is on.
+function(ambient_sanitize_less name sanitizers)
+  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=address" AND NOT BULLET_AMBIENT_SANITIZE_ALL)
+    target_compile_options(${name} PRIVATE -fno-sanitize=${sanitizers})
+  endif()
+endfunction()
+
 # Options every target of this project is compiled with. Sources that are compiled together may use a local name that
 # another one has for itself: shadows are looked for where each is compiled alone. No contraction to fused multiply-add:
 # the same input gives the same bits with every instruction set.

@@ -1,20 +1,24 @@
 #!/usr/bin/python3
-"""Compiles the C++ of the pages, as a reader would paste it: cpp_test.py COMPILER
---precision OPTION... [--precision OPTION...]
+"""Compiles the C++ of the pages, as a reader would paste it: cpp_test.py [COMPILER
+--precision OPTION... [--precision OPTION...]]; by default with Debian's Bullet in float.
 
 Each page is one source, in which every block is a function; a block sees what those above it include, and Bullet.
 """
 
+import os
 import re
 import subprocess
 import sys
 import tempfile
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from blocks import ROOT, all_blocks
 
 COMPILERS = []
+DEBIAN = ["c++", "-std=c++17", "-Wall", "-Wextra", "-Werror", f"-I{ROOT}", "-isystem/usr/include/bullet", "-isystem/usr/include/eigen3",
+          "-DBULLET_AMBIENT_FLOAT64=0"]
 INCLUDE = re.compile(r"^#include .*$", re.MULTILINE)
 
 
@@ -33,14 +37,16 @@ class CppTest(unittest.TestCase):
     def test_every_block_compiles(self):
         blocks = all_blocks("cpp")
         self.assertTrue(blocks)
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
+            sources = []
             for page in dict.fromkeys(block.page for block in blocks):
-                source = Path(folder) / f"{page.stem}.cpp"
-                source.write_text(source_of([block for block in blocks if block.page == page and "not run" not in block.notes]))
-                for compiler in COMPILERS:
-                    with self.subTest(page=page.name):
-                        run = subprocess.run([*compiler, "-fsyntax-only", source], capture_output=True, text=True)
-                        self.assertEqual(run.returncode, 0, run.stderr)
+                sources.append(Path(folder) / f"{page.stem}.cpp")
+                sources[-1].write_text(source_of([block for block in blocks if block.page == page and "not run" not in block.notes]))
+            commands = [[*compiler, "-fsyntax-only", source] for source in sources for compiler in COMPILERS]
+            runs = pool.map(lambda command: subprocess.run(command, capture_output=True, text=True), commands)
+            for command, run in zip(commands, runs):
+                with self.subTest(page=command[-1].name):
+                    self.assertEqual(run.returncode, 0, run.stderr)
 
 
 if __name__ == "__main__":
@@ -49,4 +55,5 @@ if __name__ == "__main__":
             COMPILERS.append([sys.argv[1]])
         else:
             COMPILERS[-1].append(argument)
+    COMPILERS = COMPILERS or [DEBIAN]
     unittest.main(argv=sys.argv[:1])
