@@ -21,11 +21,19 @@ constexpr double byPrecision(double in_double, double in_float) {
 inline btScalar bt(double value) { return static_cast<btScalar>(value); }
 
 constexpr double kWorldStep = 1.0 / 120;  // [s]
+constexpr double kGravity = 9.81;         // [m/s^2]
 
 inline const Vector3 kUnequalAxes(0.3, 0.25,
                                   0.1);  // ellipsoid, not of revolution
 
+inline const Vector3 kBoxSize(0.8, 0.6, 0.4);  // of floating boxes [m]
+
 inline Medium idealFluid(double density) { return {density, 0, Vector3::Zero(), Vector3::Zero()}; }
+
+/// Attaches a sphere of radius 1.
+inline AttachDef unitBallIn(const Medium& medium) {
+  return {std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1)), medium};
+}
 
 /// Dynamic body of a test: mass properties and initial state. Body axes are principal.
 struct BodyDef {
