@@ -3,13 +3,10 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 #include <BulletDynamics/Dynamics/btSimpleDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
-#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -26,7 +23,7 @@ namespace {
 constexpr btScalar kDoorStep = btScalar(1) / 60;
 
 // What a world needs besides its solver, and a body lighter than water.
-class FluidDoor : public testing::Test {
+class FluidDoor : public testing::Test, protected WorldParts<> {
  protected:
   void expectRiseIn(btDynamicsWorld& world, Fluid& fluid) {
     std::string said;
@@ -91,9 +88,6 @@ class FluidDoor : public testing::Test {
     EXPECT_NE(sentence.find(text), std::string::npos) << sentence;
   }
 
-  btSoftBodyRigidBodyCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
   btSphereShape shape{1};
   btRigidBody body{2500, nullptr, &shape, btVector3(1000, 1000, 1000)};
 };
