@@ -79,39 +79,28 @@ void comparePiles(double part, const Plan& plan) {
 }
 
 // Bodies in flight without contacts.
-class Flock {
+class Flock : WholeWorld<> {
  public:
   /// `def`: null, without fluid.
   Flock(const AttachDef* def, int count) {
-    world_.setGravity({0, 0, btScalar(-9.81)});
-    if (def) fluid_.emplace(world_);
+    world.setGravity({0, 0, btScalar(-9.81)});
+    if (def) fluid_.emplace(world);
     for (int i = 0; i < count; ++i) {
-      bodies_.push_back(std::make_unique<btRigidBody>(
-          btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &sphere_, {0.1f, 0.2f, 0.3f})));
-      btRigidBody& body = *bodies_.back();
-      body.setWorldTransform(btTransform(btQuaternion::getIdentity(), {btScalar(10 * i), 0, 0}));
+      btRigidBody& body =
+          contents.add(1, btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.3)), sphere_,
+                       btTransform(btQuaternion::getIdentity(), {btScalar(10 * i), 0, 0}));
       body.setLinearVelocity({1, 2, 3});
       body.setAngularVelocity({2, btScalar(i % 7), -1});
       body.setActivationState(DISABLE_DEACTIVATION);
-      world_.addRigidBody(&body);
       if (def) fluid_->add(body, *def);
     }
   }
-  ~Flock() {
-    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
-  }
   Fluid& fluid() { return *fluid_; }
-  void step() { world_.stepSimulation(btScalar(kStep), 0, btScalar(kStep)); }
+  void step() { contents.step(kStep); }
 
  private:
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   btSphereShape sphere_{btScalar(0.3)};
   std::optional<Fluid> fluid_;
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
 struct FlockPlan {

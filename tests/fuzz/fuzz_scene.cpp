@@ -71,9 +71,8 @@ FuzzScene::FuzzScene(unsigned seed) : arbitrary_(seed) {
     const bool is_torn = sentence.find("comes apart") != std::string::npos;
     if (!is_too_fast && !is_light && !is_torn) complaint_ = sentence;
   });
-  floor_ = std::make_unique<btRigidBody>(btScalar(0), nullptr, &floor_shape_);
-  floor_->translate(btVector3(0, 0, -1));
-  world_.addRigidBody(floor_.get());
+  floor_ =
+      &host_.contents.add(0, floor_shape_, btTransform(btQuaternion::getIdentity(), {0, 0, -1}));
   for (int i = below(12); i >= 0; --i) addBody();
 }
 
@@ -82,7 +81,6 @@ FuzzScene::~FuzzScene() {
   for (const FuzzBody& fuzz : bodies_) {
     if (fuzz.is_in_world) world_.removeRigidBody(fuzz.body.get());
   }
-  world_.removeRigidBody(floor_.get());
 }
 
 int FuzzScene::below(int count) {

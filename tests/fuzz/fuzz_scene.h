@@ -1,7 +1,5 @@
 #pragma once
 
-#include <btBulletDynamicsCommon.h>
-
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +9,7 @@
 #include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/bullet/world/fluid.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/world.h"
 
 namespace ambient::test {
 
@@ -93,14 +92,11 @@ class FuzzScene {
   btCapsuleShape capsule_{btScalar(0.2), btScalar(0.5)};
   btCompoundShape pair_of_balls_;
 
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
-  // The only stock solver that is stable whatever is joined to what: conjugate gradients are not.
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  // Sequential impulses: the only stock solver that is stable whatever is joined to what.
+  WholeWorld<> host_;
+  btDiscreteDynamicsWorld& world_ = host_.world;
   Fluid fluid_{world_};
-  std::unique_ptr<btRigidBody> floor_;
+  btRigidBody* floor_ = nullptr;
   std::vector<FuzzBody> bodies_;
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
 };

@@ -1,10 +1,5 @@
 #include "tests/golden/golden_world.h"
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
-
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -13,39 +8,30 @@ namespace ambient::test {
 GoldenWorld::GoldenWorld(Kind kind) {
   if (kind == Kind::kMultiBodies) {
     auto solver = std::make_unique<btMultiBodyConstraintSolver>();
-    world_ = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher_, &broadphase_, solver.get(),
-                                                        &configuration_);
+    world_ = std::make_unique<btMultiBodyDynamicsWorld>(&parts_.dispatcher, &parts_.broadphase,
+                                                        solver.get(), &parts_.configuration);
     solver_ = std::move(solver);
   } else {
     solver_ = std::make_unique<btSequentialImpulseConstraintSolver>();
-    world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadphase_, solver_.get(),
-                                                       &configuration_);
+    world_ = std::make_unique<btDiscreteDynamicsWorld>(&parts_.dispatcher, &parts_.broadphase,
+                                                       solver_.get(), &parts_.configuration);
   }
   world_->setGravity({0, 0, bt(-9.81)});
+  contents_.emplace(*world_);
   fluid_.emplace(*world_);
   fluid_->setReport([](const std::string&) {});  // steps that are too long are meant to be
 }
 
-GoldenWorld::~GoldenWorld() {
-  for (const auto& joint : joints_) world_->removeConstraint(joint.get());
-  for (const auto& body : bodies_) world_->removeRigidBody(body.get());
-  for (const auto& link : links_) world_->removeCollisionObject(link.get());
-  if (chain_) static_cast<btMultiBodyDynamicsWorld&>(*world_).removeMultiBody(chain_.get());
-}
-
 btRigidBody& GoldenWorld::addDry(const GoldenBody& def) {
-  btCollisionShape* shape = def.shape ? def.shape : &no_shape_;
-  const Vector3 moments = def.mass > 0 ? def.moments : Vector3(Vector3::Zero());
-  bodies_.push_back(std::make_unique<btRigidBody>(
-      btRigidBody::btRigidBodyConstructionInfo(bt(def.mass), nullptr, shape, toBullet(moments))));
-  btRigidBody& body = *bodies_.back();
-  const btQuaternion turn(bt(0.1), bt(-0.2), bt(0.3), bt(0.9));
   const bool is_static = def.mass == 0;
-  body.setWorldTransform(btTransform(is_static ? btQuaternion::getIdentity() : turn.normalized(),
-                                     toBullet(def.position)));
+  const Vector3 moments = is_static ? Vector3(Vector3::Zero()) : def.moments;
+  const btQuaternion turn(bt(0.1), bt(-0.2), bt(0.3), bt(0.9));
+  const btTransform pose(is_static ? btQuaternion::getIdentity() : turn.normalized(),
+                         toBullet(def.position));
+  btRigidBody& body =
+      contents_->add(def.mass, toBullet(moments), def.shape ? *def.shape : no_shape_, pose);
   body.setLinearVelocity(toBullet(def.twist.linear));
   body.setAngularVelocity(toBullet(def.twist.angular));
-  world_->addRigidBody(&body);
   return body;
 }
 
@@ -56,31 +42,28 @@ btRigidBody& GoldenWorld::add(const GoldenBody& def, const AttachDef& attach) {
 }
 
 btTypedConstraint& GoldenWorld::addJoint(btTypedConstraint* joint) {
-  joints_.emplace_back(joint);
-  world_->addConstraint(joint, true);
-  return *joint;
+  return contents_->join(std::unique_ptr<btTypedConstraint>(joint));
 }
 
 void GoldenWorld::addChain(const Vector3& top) {
   const btVector3 moments(bt(0.02), bt(0.03), bt(0.04)), down(0, 0, bt(-0.3));
-  chain_ = std::make_unique<btMultiBody>(2, bt(1), moments, true, false);
+  auto chain = std::make_unique<btMultiBody>(2, bt(1), moments, true, false);
+  chain_ = chain.get();
   chain_->setBasePos(toBullet(top));
   for (int link = 0; link < 2; ++link)
     chain_->setupRevolute(link, bt(0.8), moments, link - 1, btQuaternion::getIdentity(),
                           {0, 1, bt(0.2)}, down / 2, down / 2);
   chain_->finalizeMultiDof();
   chain_->setJointVel(0, bt(-2));
-  auto& world = static_cast<btMultiBodyDynamicsWorld&>(*world_);
-  world.addMultiBody(chain_.get());
+  contents_->take(std::move(chain));
   for (int link = 0; link < 2; ++link) {
-    links_.push_back(std::make_unique<btMultiBodyLinkCollider>(chain_.get(), link));
-    btMultiBodyLinkCollider& collider = *links_.back();
-    collider.setCollisionShape(&ball_);
-    collider.setWorldTransform(
+    auto* collider = new btMultiBodyLinkCollider(chain_, link);  // leaves with the chain
+    collider->setCollisionShape(&ball_);
+    collider->setWorldTransform(
         btTransform(btQuaternion::getIdentity(), toBullet(top) + down * (bt(0.5) + bt(link))));
-    world.addCollisionObject(&collider, btBroadphaseProxy::DefaultFilter,
-                             btBroadphaseProxy::AllFilter);
-    chain_->getLink(link).m_collider = &collider;
+    world_->addCollisionObject(collider, btBroadphaseProxy::DefaultFilter,
+                               btBroadphaseProxy::AllFilter);
+    chain_->getLink(link).m_collider = collider;
   }
 }
 
@@ -88,17 +71,17 @@ void GoldenWorld::traceStep() {
   const auto add = [&](const btVector3& v) {
     for (int i = 0; i < 3; ++i) trace_.add(v[i]);
   };
-  for (const auto& body : bodies_) {
+  for (const auto& body : contents_->bodies()) {
     const btTransform& pose = body->getWorldTransform();
     add(pose.getOrigin());
     for (int i = 0; i < 3; ++i) add(pose.getBasis()[i]);
     add(body->getLinearVelocity());
     add(body->getAngularVelocity());
   }
-  for (const auto& joint : joints_) trace_.add(joint->getAppliedImpulse());
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    trace_.add(chain_->getJointPos(static_cast<int>(i)));
-    trace_.add(chain_->getJointVel(static_cast<int>(i)));
+  for (const auto& joint : contents_->joints()) trace_.add(joint->getAppliedImpulse());
+  for (int i = 0; chain_ && i < chain_->getNumLinks(); ++i) {
+    trace_.add(chain_->getJointPos(i));
+    trace_.add(chain_->getJointVel(i));
   }
 }
 
@@ -109,8 +92,8 @@ GoldenRecord GoldenWorld::run(int steps, const std::function<void(int)>& before)
     traceStep();
   }
   GoldenRecord record{"", trace_.hash(), {}};
-  record.sample << toVector3(bodies_.front()->getWorldTransform().getOrigin()),
-      toVector3(bodies_.front()->getLinearVelocity());
+  record.sample << toVector3(body(0).getWorldTransform().getOrigin()),
+      toVector3(body(0).getLinearVelocity());
   return record;
 }
 

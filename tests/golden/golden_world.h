@@ -1,7 +1,5 @@
 #pragma once
 
-#include <btBulletDynamicsCommon.h>
-
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,9 +11,7 @@
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/motion/body/rigid_state.h"
 #include "tests/golden/golden_record.h"
-
-class btMultiBody;
-class btMultiBodyLinkCollider;
+#include "tests/support/world.h"
 
 namespace ambient::test {
 
@@ -37,9 +33,6 @@ class GoldenWorld {
   enum class Kind { kRigidBodies, kMultiBodies };
 
   explicit GoldenWorld(Kind kind = Kind::kRigidBodies);
-  ~GoldenWorld();
-  GoldenWorld(const GoldenWorld&) = delete;
-  GoldenWorld& operator=(const GoldenWorld&) = delete;
 
   btRigidBody& addDry(const GoldenBody& def);
   btRigidBody& add(const GoldenBody& def, const AttachDef& attach);
@@ -49,7 +42,7 @@ class GoldenWorld {
 
   btDiscreteDynamicsWorld& world() { return *world_; }
   Fluid& fluid() { return *fluid_; }
-  btRigidBody& body(int index) { return *bodies_[index]; }
+  btRigidBody& body(int index) { return *contents_->bodies()[index]; }
   btCollisionShape& box() { return box_; }
   btCollisionShape& ball() { return ball_; }
   btCollisionShape& floor() { return floor_; }
@@ -62,20 +55,16 @@ class GoldenWorld {
  private:
   void traceStep();
 
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
+  WorldParts<> parts_;
   std::unique_ptr<btConstraintSolver> solver_;
   std::unique_ptr<btDiscreteDynamicsWorld> world_;
-  std::optional<Fluid> fluid_;
   btEmptyShape no_shape_;
   btBoxShape box_{btVector3(bt(0.3), bt(0.2), bt(0.1))};
   btSphereShape ball_{bt(0.2)};
   btStaticPlaneShape floor_{btVector3(0, 0, 1), 0};
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
-  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
-  std::unique_ptr<btMultiBody> chain_;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> links_;
+  std::optional<WorldContents> contents_;
+  std::optional<Fluid> fluid_;
+  btMultiBody* chain_ = nullptr;
   GoldenTrace trace_;
 };
 

@@ -76,6 +76,9 @@ using Dantzig = Complementarity<btDantzigSolver>;
 using ProjectedGaussSeidel = Complementarity<btSolveProjectedGaussSeidel>;
 using Lemke = Complementarity<btLemkeSolver>;
 
+template <class Kind>
+constexpr bool kIsComplementarity = std::is_same_v<typename Kind::Base, btMLCPSolver>;
+
 /// Factor of the friction coefficient in the bound that Bullet's solver has for friction impulses.
 enum class FrictionBound {
   kNormalImpulse,

@@ -11,13 +11,6 @@ namespace {
 
 const double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-AttachDef ball(const Medium& medium = air()) {
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
-  def.medium = medium;
-  return def;
-}
-
 // Returns the sentence of attach()'s refusal; empty if accepted.
 std::string refusal(const BodyDef& body_def, const AttachDef& def) {
   FluidWorld scene;
@@ -36,35 +29,35 @@ void expectSays(const std::string& sentence, const char* words) {
   EXPECT_NE(sentence.find(words), std::string::npos) << "said: " << sentence;
 }
 
-TEST(Attach, TakesADynamicBody) { EXPECT_EQ(refusal({}, ball()), ""); }
+TEST(Attach, TakesADynamicBody) { EXPECT_EQ(refusal({}, unitBallIn(air())), ""); }
 
 TEST(Attach, RefusesANullFluidBody) { expectSays(refusal({}, AttachDef{}), "fluid body is null"); }
 
 TEST(Attach, RefusesAStaticBody) {
   BodyDef def;
   def.mass = 0;
-  expectSays(refusal(def, ball()), "mass 0");
+  expectSays(refusal(def, unitBallIn(air())), "mass 0");
 }
 
 TEST(Attach, RefusesFlightSettingsThatCannotBe) {
-  AttachDef def = ball();
+  AttachDef def = unitBallIn(air());
   def.flight.tolerance = 0;
   expectSays(refusal({}, def), "tolerance");
   def.flight.tolerance = kNaN;
   expectSays(refusal({}, def), "tolerance");
-  def = ball();
+  def = unitBallIn(air());
   def.flight.max_substeps = -1;
   expectSays(refusal({}, def), "max_substeps of -1");
 }
 
 TEST(Attach, RefusesChoicesThatDoNotExist) {
-  AttachDef def = ball();
+  AttachDef def = unitBallIn(air());
   def.flight.integrator = static_cast<Integrator>(9);
   expectSays(refusal({}, def), "has the integrator number 9; there are 0 to 3");
-  def = ball();
+  def = unitBallIn(air());
   def.flow.law = static_cast<PressureLaw>(-1);
   expectSays(refusal({}, def), "has the pressure law number -1; there are 0 to 1");
-  def = ball();
+  def = unitBallIn(air());
   def.flow.precision = static_cast<LoadPrecision>(2);
   expectSays(refusal({}, def), "has the load precision number 2; there are 0 to 1");
 }
@@ -72,19 +65,19 @@ TEST(Attach, RefusesChoicesThatDoNotExist) {
 // Bodies of 1 kg. The limit is a ratio of masses: a limit of size or density would depend on units.
 TEST(Attach, RefusesFluidsBesideWhichTheBodyIsNothing) {
   const char* const words = "at most 2^52 times its own";
-  AttachDef def = ball(idealFluid(1e20));
+  AttachDef def = unitBallIn(idealFluid(1e20));
   expectSays(refusal({}, def), words);
-  def = ball();
+  def = unitBallIn(air());
   def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(Vector3::Constant(1e30)));
   expectSays(refusal({}, def), words);
   BodyDef heavy;
   heavy.mass = 1e20;
   heavy.moments.setConstant(1e20);
-  EXPECT_EQ(refusal(heavy, ball(idealFluid(1e20))), "");
+  EXPECT_EQ(refusal(heavy, unitBallIn(idealFluid(1e20))), "");
 }
 
 TEST(Attach, RefusesFacesThatDoNotFitTogether) {
-  AttachDef def = ball();
+  AttachDef def = unitBallIn(air());
   auto shape = std::make_shared<FluidBody>(*def.fluid_body);
   shape->faces.normal_y.pop_back();
   def.fluid_body = shape;
@@ -98,7 +91,7 @@ TEST(Attach, RefusesFacesThatDoNotFitTogether) {
 TEST(Attach, RefusesABodyThatCannotTurn) {
   BodyDef def;
   def.moments.setZero();
-  expectSays(refusal(def, ball()), "angular factor");
+  expectSays(refusal(def, unitBallIn(air())), "angular factor");
 }
 
 // Attaches two equal bodies; returns the reports.
@@ -111,7 +104,7 @@ std::vector<std::string> saidAbout(const BodyDef& body_def, const AttachDef& def
 }
 
 TEST(Attach, ReportsMomentsOfInertiaOfNoRigidBodyOnce) {
-  AttachDef def = ball();
+  AttachDef def = unitBallIn(air());
   BodyDef sheet;
   sheet.mass = 4000;  // heavier than half of the displaced water
   sheet.moments = {1, 2, 3};
@@ -142,7 +135,7 @@ TEST(Attach, RefusesTheSameBodyTwice) {
   FluidWorld scene;
   btRigidBody& body = scene.add({}, meshedEllipsoid(Vector3::Ones(), 1), air());
   try {
-    scene.fluid.add(body, ball());
+    scene.fluid.add(body, unitBallIn(air()));
     FAIL() << "attached twice";
   } catch (const std::invalid_argument& error) {
     expectSays(error.what(), "added already");
@@ -151,15 +144,16 @@ TEST(Attach, RefusesTheSameBodyTwice) {
 }
 
 TEST(Attach, RefusesAMediumThatIsNotPhysical) {
-  expectSays(refusal({}, ball({-1, 0, Vector3::Zero(), Vector3::Zero()})),
+  expectSays(refusal({}, unitBallIn({-1, 0, Vector3::Zero(), Vector3::Zero()})),
              "density of the medium [kg/m^3] is -1");
-  expectSays(refusal({}, ball({kNaN, 0, Vector3::Zero(), Vector3::Zero()})), "density");
-  expectSays(refusal({}, ball({1, -2, Vector3::Zero(), Vector3::Zero()})), "viscosity");
-  expectSays(refusal({}, ball({1, 0, Vector3::Constant(kNaN), Vector3::Zero()})), "must be finite");
+  expectSays(refusal({}, unitBallIn({kNaN, 0, Vector3::Zero(), Vector3::Zero()})), "density");
+  expectSays(refusal({}, unitBallIn({1, -2, Vector3::Zero(), Vector3::Zero()})), "viscosity");
+  expectSays(refusal({}, unitBallIn({1, 0, Vector3::Constant(kNaN), Vector3::Zero()})),
+             "must be finite");
 }
 
 TEST(Attach, RefusesASeparationAngleOutsideOfItsRange) {
-  AttachDef def = ball();
+  AttachDef def = unitBallIn(air());
   def.flow.separation_angle = 1;
   expectSays(refusal({}, def), "between pi/2 and pi");
 }

@@ -3,13 +3,10 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
 #include <BulletDynamics/Dynamics/btSimpleDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
-#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -18,27 +15,23 @@
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
-#include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {
 namespace {
 
-constexpr btScalar kTimeStep = btScalar(1) / 60;
-
-AttachDef inWater() {
-  return {std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1)), water()};
-}
+constexpr btScalar kDoorStep = btScalar(1) / 60;
 
 // What a world needs besides its solver, and a body lighter than water.
-class FluidDoor : public testing::Test {
+class FluidDoor : public testing::Test, protected WorldParts<> {
  protected:
   void expectRiseIn(btDynamicsWorld& world, Fluid& fluid) {
     std::string said;
     fluid.setReport([&](const std::string& sentence) { said = sentence; });
     world.setGravity({0, 0, -10});
     world.addRigidBody(&body);
-    const Immersed ball = fluid.add(body, inWater());
-    for (int i = 0; i < 10; ++i) world.stepSimulation(kTimeStep, 0, kTimeStep);
+    const Immersed ball = fluid.add(body, unitBallIn(water()));
+    for (int i = 0; i < 10; ++i) world.stepSimulation(kDoorStep, 0, kDoorStep);
     EXPECT_GT(body.getLinearVelocity().z(), 0);
     EXPECT_GE(ball.counters().substeps, 10);
     EXPECT_EQ(said, "");
@@ -51,8 +44,8 @@ class FluidDoor : public testing::Test {
     world.setGravity({0, 0, -8});
     body.setLinearVelocity({0, 0, 0});
     world.addRigidBody(&body);
-    world.stepSimulation(kTimeStep, 0, kTimeStep);
-    EXPECT_EQ(body.getLinearVelocity().z(), kTimeStep * -8);
+    world.stepSimulation(kDoorStep, 0, kDoorStep);
+    EXPECT_EQ(body.getLinearVelocity().z(), kDoorStep * -8);
     world.removeRigidBody(&body);
   }
   template <class World>
@@ -95,9 +88,6 @@ class FluidDoor : public testing::Test {
     EXPECT_NE(sentence.find(text), std::string::npos) << sentence;
   }
 
-  btSoftBodyRigidBodyCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
   btSphereShape shape{1};
   btRigidBody body{2500, nullptr, &shape, btVector3(1000, 1000, 1000)};
 };
@@ -202,7 +192,7 @@ TEST_F(FluidDoor, ClearTakesAllBodiesOutAndTheWorldGoesOn) {
   btSequentialImpulseConstraintSolver plain;
   btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
   Fluid fluid(world);
-  fluid.add(body, inWater());
+  fluid.add(body, unitBallIn(water()));
   fluid.clear();
   EXPECT_EQ(fluid.size(), 0u);
   EXPECT_FALSE(fluid.find(body));
@@ -242,11 +232,11 @@ TEST_F(FluidDoor, SurvivesASolverThatSomebodyElseDeletes) {
     Fluid fluid(world);
     fluid.setReport([&](const std::string& sentence) { said = sentence; });
     world.addRigidBody(&body);
-    fluid.add(body, inWater());
-    world.stepSimulation(kTimeStep, 0, kTimeStep);
+    fluid.add(body, unitBallIn(water()));
+    world.stepSimulation(kDoorStep, 0, kDoorStep);
     delete world.getConstraintSolver();
     world.setMultiBodyConstraintSolver(&next);
-    for (int i = 0; i < 3; ++i) world.stepSimulation(kTimeStep, 0, kTimeStep);
+    for (int i = 0; i < 3; ++i) world.stepSimulation(kDoorStep, 0, kDoorStep);
     expectNames(said, "no solver of their Fluid was called");
     world.removeRigidBody(&body);
   }
@@ -259,11 +249,11 @@ TEST_F(FluidDoor, EndsWithItsWorld) {
   auto world =
       std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &plain, &configuration);
   Fluid fluid(*world);
-  const Immersed ball = fluid.add(body, inWater());
+  const Immersed ball = fluid.add(body, unitBallIn(water()));
   world.reset();
   EXPECT_EQ(fluid.size(), 0u);
   EXPECT_FALSE(ball.isValid());
-  EXPECT_THROW(fluid.add(body, inWater()), std::logic_error);
+  EXPECT_THROW(fluid.add(body, unitBallIn(water())), std::logic_error);
   EXPECT_THROW(ball.medium(), std::logic_error);
   btDiscreteDynamicsWorld next(&dispatcher, &broadphase, &plain, &configuration);
   Fluid another(next);
@@ -276,7 +266,7 @@ TEST_F(FluidDoor, ASolverThatOutlivesItSolvesAsBulletDoes) {
   auto fluid = std::make_unique<Fluid>(world);
   const auto solver = makeSolver<btNNCGConstraintSolver>(*fluid);
   world.setConstraintSolver(solver.get());
-  fluid->add(body, inWater());
+  fluid->add(body, unitBallIn(water()));
   fluid.reset();
   expectStockFallIn(world);
 }
@@ -300,8 +290,8 @@ TEST_P(FluidDestruction, LooksAtNothingThatIsGone) {
   auto body = std::make_unique<btRigidBody>(2500, nullptr, &shape, btVector3(1000, 1000, 1000));
   auto fluid = std::make_unique<Fluid>(*world);
   world->addRigidBody(body.get());
-  const Immersed ball = fluid->add(*body, inWater());
-  world->stepSimulation(kTimeStep, 0, kTimeStep);
+  const Immersed ball = fluid->add(*body, unitBallIn(water()));
+  world->stepSimulation(kDoorStep, 0, kDoorStep);
   const std::string order = GetParam().order;
   bool can_step = true;
   for (const char what : order) {
@@ -312,7 +302,7 @@ TEST_P(FluidDestruction, LooksAtNothingThatIsGone) {
     if (what == 's' && world) delete world->getConstraintSolver();
     if (what == 'p') plain.reset();
     can_step = can_step && world && (fluid ? what != 's' : plain != nullptr);
-    if (can_step) world->stepSimulation(kTimeStep, 0, kTimeStep);
+    if (can_step) world->stepSimulation(kDoorStep, 0, kDoorStep);
     if (fluid && world) continue;
     EXPECT_FALSE(ball.isValid());
     EXPECT_THROW(ball.counters(), std::logic_error);

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <btBulletDynamicsCommon.h>
-
 #include <memory>
-#include <vector>
 
 #include "bullet_ambient/bullet/world/fluid.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/world.h"
 
 namespace ambient::test {
 
@@ -21,11 +19,19 @@ constexpr double byPrecision(double in_double, double in_float) {
 inline btScalar bt(double value) { return static_cast<btScalar>(value); }
 
 constexpr double kWorldStep = 1.0 / 120;  // [s]
+constexpr double kGravity = 9.81;         // [m/s^2]
 
 inline const Vector3 kUnequalAxes(0.3, 0.25,
                                   0.1);  // ellipsoid, not of revolution
 
+inline const Vector3 kBoxSize(0.8, 0.6, 0.4);  // of floating boxes [m]
+
 inline Medium idealFluid(double density) { return {density, 0, Vector3::Zero(), Vector3::Zero()}; }
+
+/// Attaches a sphere of radius 1.
+inline AttachDef unitBallIn(const Medium& medium) {
+  return {std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1)), medium};
+}
 
 /// Dynamic body of a test: mass properties and initial state. Body axes are principal.
 struct BodyDef {
@@ -46,24 +52,16 @@ struct ActionWorld : btDiscreteDynamicsWorld {
 };
 
 /// A world with a fluid, gravity 0.
-class FluidWorld {
- public:
+struct FluidWorld : WholeWorld<ActionWorld> {
   FluidWorld() { world.setGravity({0, 0, 0}); }
-  ~FluidWorld() {
-    for (const auto& body : bodies_) world.removeRigidBody(body.get());
-  }
 
   btRigidBody& add(const BodyDef& def) {
-    btCollisionShape* shape = def.shape ? def.shape : &no_shape_;
-    bodies_.push_back(std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-        static_cast<btScalar>(def.mass), nullptr, shape, toBullet(def.moments))));
-    btRigidBody& body = *bodies_.back();
-    body.setWorldTransform(
-        btTransform(toBullet(def.start.orientation), toBullet(def.start.position)));
+    btRigidBody& body =
+        contents.add(def.mass, toBullet(def.moments), def.shape ? *def.shape : no_shape_,
+                     btTransform(toBullet(def.start.orientation), toBullet(def.start.position)));
     body.setAngularVelocity(toBullet(def.start.twist.angular));
     body.setLinearVelocity(toBullet(def.start.twist.linear));
     body.setActivationState(DISABLE_DEACTIVATION);
-    world.addRigidBody(&body);
     return body;
   }
   btRigidBody& add(const BodyDef& def, const FluidBody& fluid_body, const Medium& medium,
@@ -81,21 +79,11 @@ class FluidWorld {
   void addAction() { world.addAction(world.first_action); }
   /// A body that is in the fluid.
   Immersed of(const btRigidBody& body) const { return fluid.find(body).value(); }
-  void step(double duration, int count = 1) {
-    const auto dt = static_cast<btScalar>(duration);
-    for (int i = 0; i < count; ++i) world.stepSimulation(dt, 0, dt);
-  }
 
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;  ///< in whose place the fluid has its own
-  ActionWorld world{&dispatcher, &broadphase, &solver, &configuration};
   Fluid fluid{world};
 
  private:
   btEmptyShape no_shape_;
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
 }  // namespace ambient::test

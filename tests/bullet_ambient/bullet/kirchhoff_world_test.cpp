@@ -14,7 +14,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr int kBodies = 9;
+constexpr int kEllipsoids = 9;
 
 // Adds a body; `start` has its twist in body axes here.
 btRigidBody& addTo(FluidWorld& world, BodyDef def, const FluidBody& shape, double density) {
@@ -51,7 +51,7 @@ reference::KirchhoffState exactEnd(const btRigidBody& body, const Matrix6& total
 // Sorted errors of the rotation after the duration.
 std::vector<double> rotationErrors(double spin, double step) {
   std::vector<double> errors;
-  for (unsigned seed = 0; seed < kBodies; ++seed) {
+  for (unsigned seed = 0; seed < kEllipsoids; ++seed) {
     FluidWorld world;
     const btRigidBody& body = addCoupledBody(world, seed, spin);
     const auto end = exactEnd(body, world.of(body).inertia(), spin);
@@ -77,7 +77,7 @@ TEST(FreeFlight, FollowsKirchhoffsEquationsAtAnyStep) {
   for (const SpinAccuracy& accuracy : kAccuracies) {
     for (const double step : {1.0 / 60, 1.0 / 120, 1.0 / 240}) {
       const std::vector<double> errors = rotationErrors(accuracy.spin, step);
-      EXPECT_LT(errors[kBodies / 2], byPrecision(accuracy.float64, accuracy.float32))
+      EXPECT_LT(errors[kEllipsoids / 2], byPrecision(accuracy.float64, accuracy.float32))
           << accuracy.spin << " rad/s at " << step;
       // Motions amplify errors differently.
       EXPECT_LT(errors.back(), 10 * byPrecision(accuracy.float64, accuracy.float32))
@@ -87,7 +87,7 @@ TEST(FreeFlight, FollowsKirchhoffsEquationsAtAnyStep) {
 }
 
 TEST(FreeFlight, KeepsWorldMomentumAndEnergy) {
-  for (unsigned seed = 0; seed < kBodies; ++seed) {
+  for (unsigned seed = 0; seed < kEllipsoids; ++seed) {
     FluidWorld world;
     const btRigidBody& body = addCoupledBody(world, seed, 10);
     const Matrix6 K = world.of(body).inertia();

@@ -22,14 +22,12 @@ btRigidBody& addSleepy(FluidWorld& scene, const Twist& twist, const Medium& medi
   return body;
 }
 
-Medium stillWater() { return {1000, 0, Vector3::Zero(), Vector3::Zero()}; }
-
 TEST(Sleeping, DoesNotFreezeADriftingBody) {
   for (const double speed : {0.01, 0.1, 0.5}) {
     FluidWorld scene;
     scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
     const btRigidBody& body =
-        addSleepy(scene, {Vector3::Zero(), Vector3(speed, 0, 0)}, stillWater());
+        addSleepy(scene, {Vector3::Zero(), Vector3(speed, 0, 0)}, idealFluid(1000));
     scene.step(1.0 / 60, 900);
     EXPECT_TRUE(body.isActive()) << speed;
     EXPECT_NEAR(static_cast<double>(body.getWorldTransform().getOrigin().x()), 15 * speed,
@@ -41,7 +39,7 @@ TEST(Sleeping, DoesNotFreezeATurningBody) {
   for (const double rate : {0.05, 0.5}) {
     FluidWorld scene;
     const btRigidBody& body =
-        addSleepy(scene, {Vector3(0, 0, rate), Vector3::Zero()}, stillWater());
+        addSleepy(scene, {Vector3(0, 0, rate), Vector3::Zero()}, idealFluid(1000));
     scene.step(1.0 / 60, 600);
     EXPECT_TRUE(body.isActive()) << rate;
     EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().z()), rate, 1e-5);
@@ -51,7 +49,7 @@ TEST(Sleeping, DoesNotFreezeATurningBody) {
 TEST(Sleeping, TakesABodyAtRestInStillWater) {
   FluidWorld scene;
   scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
-  const btRigidBody& body = addSleepy(scene, {}, stillWater());
+  const btRigidBody& body = addSleepy(scene, {}, idealFluid(1000));
   scene.step(1.0 / 60, 300);
   EXPECT_FALSE(body.isActive());
 }
@@ -60,7 +58,7 @@ TEST(Sleeping, IsNotMistakenForAMissingSolver) {
   FluidWorld scene;
   std::vector<std::string> said;
   scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
-  btRigidBody& body = addSleepy(scene, {}, stillWater());
+  btRigidBody& body = addSleepy(scene, {}, idealFluid(1000));
   scene.step(1.0 / 60, 300);
   ASSERT_FALSE(body.isActive());
   EXPECT_TRUE(said.empty());
@@ -83,10 +81,10 @@ TEST(Sleeping, IsNotMistakenForAMissingSolver) {
 TEST(Sleeping, EndsWhenTheMediumChanges) {
   FluidWorld scene;
   scene.world.setGravity({0, 0, static_cast<btScalar>(-9.81)});
-  const btRigidBody& body = addSleepy(scene, {}, stillWater());
+  const btRigidBody& body = addSleepy(scene, {}, idealFluid(1000));
   scene.step(1.0 / 60, 300);
   ASSERT_FALSE(body.isActive());
-  Medium brine = stillWater();
+  Medium brine = idealFluid(1000);
   brine.density = 1200;
   scene.of(body).setMedium(brine);
   scene.step(1.0 / 60, 10);
@@ -95,10 +93,10 @@ TEST(Sleeping, EndsWhenTheMediumChanges) {
 
 TEST(Sleeping, GoesOnWhenTheMediumStaysTheSame) {
   FluidWorld scene;
-  const btRigidBody& body = addSleepy(scene, {}, stillWater());
+  const btRigidBody& body = addSleepy(scene, {}, idealFluid(1000));
   scene.step(1.0 / 60, 300);
   ASSERT_FALSE(body.isActive());
-  scene.of(body).setMedium(stillWater());
+  scene.of(body).setMedium(idealFluid(1000));
   EXPECT_FALSE(body.isActive());
 }
 
@@ -110,7 +108,7 @@ TEST(Sleeping, EndsWhenABodyIsAttached) {
   body.forceActivationState(ISLAND_SLEEPING);
   AttachDef attach;
   attach.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(kBallAxes));
-  attach.medium = stillWater();
+  attach.medium = idealFluid(1000);
   scene.fluid.add(body, attach);
   EXPECT_TRUE(body.isActive());
 }
@@ -122,11 +120,11 @@ TEST(Sleeping, EndsWhenACurrentSetsIn) {
   const FluidBody shape = meshedEllipsoid(kBallAxes, 2);
   def.mass = 1000 * shape.volume;
   def.moments = ellipsoidMoments(kBallAxes, def.mass);
-  btRigidBody& body = scene.add(def, shape, stillWater());
+  btRigidBody& body = scene.add(def, shape, idealFluid(1000));
   body.forceActivationState(ACTIVE_TAG);
   scene.step(1.0 / 60, 300);
   ASSERT_FALSE(body.isActive());
-  Medium current = stillWater();
+  Medium current = idealFluid(1000);
   current.velocity = Vector3(0.5, 0, 0);
   scene.of(body).setMedium(current);
   scene.step(1.0 / 60, 300);
@@ -155,7 +153,7 @@ struct Floor {
     if (in_water) {
       AttachDef attach;
       attach.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Constant(0.3), 1));
-      attach.medium = stillWater();
+      attach.medium = idealFluid(1000);
       attach.fluid_frame.translation = Vector3(0.02, 0.01, 0);
       scene.fluid.add(*box, attach);
     }

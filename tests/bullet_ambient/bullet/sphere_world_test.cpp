@@ -10,7 +10,6 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kRadius = 0.12;
 
 BodyDef sphere(double mass) {

@@ -1,6 +1,5 @@
 #include "bullet_ambient/bullet/world/world_attachment.h"
 
-#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 
 #include "bullet_ambient/ambient.h"
 #include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/world.h"
 
 namespace ambient::test {
 namespace {
@@ -41,40 +41,26 @@ class BallTable : public FluidBodySource {
   unsigned revision_ = 7;
 };
 
-class WorldInFluid : public testing::Test {
+class WorldInFluid : public testing::Test, protected WholeWorld<> {
  protected:
   WorldInFluid() {
     fluid.setReport([this](const std::string& sentence) { said.push_back(sentence); });
   }
-  ~WorldInFluid() override {
-    for (const auto& body : bodies) world.removeRigidBody(body.get());
-  }
   btRigidBody& add(double mass, btCollisionShape& shape) {
     const btVector3 inertia = btVector3(1, 1, 1) * static_cast<btScalar>(0.4 * mass);
-    bodies.push_back(
-        std::make_unique<btRigidBody>(static_cast<btScalar>(mass), nullptr, &shape, inertia));
-    const auto x = static_cast<btScalar>(5 * bodies.size());
-    bodies.back()->setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(x, 0, 0)));
-    world.addRigidBody(bodies.back().get());
-    return *bodies.back();
+    const auto x = static_cast<btScalar>(5 * (contents.bodies().size() + 1));
+    return contents.add(mass, inertia, shape,
+                        btTransform(btQuaternion::getIdentity(), btVector3(x, 0, 0)));
   }
-  void step() {
-    const btScalar time_step = btScalar(1) / 60;
-    world.stepSimulation(time_step, 0, time_step);
-  }
+  void step() { contents.step(1.0 / 60); }
   bool isAttached(const btRigidBody& body) const { return fluid.find(body).has_value(); }
 
   static constexpr double kHeavy = 9000;  // water: 4180 kg
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, nullptr, &configuration};
   Fluid fluid{world};
   btSphereShape sphere{1};
   btBoxShape box{btVector3(1, 1, 1)};
   BallTable shapes;
   std::vector<std::string> said;
-  std::vector<std::unique_ptr<btRigidBody>> bodies;
 };
 
 TEST_F(WorldInFluid, TakesEveryDynamicBodyAndSaysWhy) {
@@ -140,7 +126,7 @@ TEST_F(WorldInFluid, NamesWhatIsNoMassAndGoesOn) {
   add(kHeavy, sphere);
   AttachSettings settings;
   settings.adjust = [&](const btRigidBody& body, AttachDef& def) {
-    if (&body == bodies[0].get()) def.flight.max_substeps = -1;
+    if (&body == contents.bodies()[0].get()) def.flight.max_substeps = -1;
   };
   const AttachReport report = fluid.addAll(shapes, water(), settings);
   ASSERT_GE(report.refused.size(), 1u);
@@ -148,7 +134,7 @@ TEST_F(WorldInFluid, NamesWhatIsNoMassAndGoesOn) {
                                           "'ellipsoid' has max_substeps of -1"),
             std::string::npos)
       << report.refused[0].reason;
-  EXPECT_TRUE(isAttached(*bodies[2]));
+  EXPECT_TRUE(isAttached(*contents.bodies()[2]));
 }
 
 TEST_F(WorldInFluid, SaysOnceWhichBodiesAreLight) {
@@ -220,8 +206,7 @@ TEST_F(WorldInFluid, TellsABodyFromADestroyedOneInItsPlace) {
   add(kHeavy, sphere);
   fluid.addAll(shapes, water(), settings);
   for (int i = 0; i < 20; ++i) {
-    world.removeRigidBody(bodies.back().get());
-    bodies.pop_back();
+    contents.removeLast();
     btRigidBody& next = add(kHeavy, sphere);
     EXPECT_FALSE(isAttached(next));
     step();

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -10,7 +11,6 @@ namespace ambient {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Returns the sentence of checkFluidBody() for the example after a change.
 template <class Change>
@@ -27,11 +27,11 @@ TEST(FluidBodyCheck, PassesTheExample) {
 TEST(FluidBodyCheck, NamesANumberThatIsNotFinite) {
   EXPECT_EQ(refusalAfter([](FluidBody& b) { b.volume = kNan; }),
             "b: volume is nan, but must be finite");
-  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.area = kInfinity; }),
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.area = HUGE_VAL; }),
             "b: area is inf, but must be finite");
   EXPECT_EQ(refusalAfter([](FluidBody& b) { b.origin.z() = kNan; }),
             "b: origin is nan, but must be finite");
-  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.centre_of_volume.y() = -kInfinity; }),
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.centre_of_volume.y() = -HUGE_VAL; }),
             "b: centre of volume is -inf, but must be finite");
   EXPECT_EQ(refusalAfter([](FluidBody& b) { b.added_mass(2, 4) = kNan; }),
             "b: added mass is nan, but must be finite");
@@ -41,7 +41,7 @@ TEST(FluidBodyCheck, NamesANumberThatIsNotFinite) {
             "b: centre of surface mass is nan, but must be finite");
   EXPECT_EQ(refusalAfter([](FluidBody& b) { b.faces.centroid_y[5] = kNan; }),
             "b: face centroid y of entry 5 is nan, but must be finite");
-  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.surface.vertices[7] = kInfinity; }),
+  EXPECT_EQ(refusalAfter([](FluidBody& b) { b.surface.vertices[7] = HUGE_VAL; }),
             "b: vertex coordinate of entry 7 is inf, but must be finite");
 }
 

@@ -10,9 +10,6 @@ namespace {
 // Moving, anchored, soft, rolling and spinning friction, against the dense solution.
 
 template <class Kind>
-constexpr bool kIsComplementarity = std::is_same_v<typename Kind::Base, btMLCPSolver>;
-
-template <class Kind>
 class FrictionTerms : public ::testing::Test {};
 using FrictionSolvers = ::testing::Types<SequentialImpulse, ConjugateGradientForJoints, Dantzig,
                                          ProjectedGaussSeidel, Lemke, Multithreaded, MultiBody>;

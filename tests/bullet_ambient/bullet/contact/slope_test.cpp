@@ -11,9 +11,9 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kSlope = 0.25, kFriction = 0.8, kStep = 1.0 / 60;
+constexpr double kSlope = 0.25, kSlopeFriction = 0.8, kSlopeStep = 1.0 / 60;
 // Settling time: bodies little denser than water roll for seconds.
-constexpr int kSettling = 600, kSteps = 540;
+constexpr int kSettling = 600, kSliding = 540;
 
 // A slope by oblique gravity on a level floor.
 struct Slope : FluidWorld {
@@ -26,13 +26,13 @@ struct Slope : FluidWorld {
 
   void place(btRigidBody& body) {
     body.setGravity(world.getGravity());
-    body.setFriction(bt(kFriction));
+    body.setFriction(bt(kSlopeFriction));
   }
   /// Distance moved after settling [m].
   double creep(const btRigidBody& body) {
-    step(kStep, kSettling);
+    step(kSlopeStep, kSettling);
     const Vector3 start = readState(body).position;
-    step(kStep, kSteps);
+    step(kSlopeStep, kSliding);
     return (readState(body).position - start).norm();
   }
 
@@ -145,7 +145,7 @@ double rowsPerContact(double angle, const FluidBody& shape) {
   def.start.position = {0, 0, 0.3};
   btRigidBody& body = slope.add(def, shape, idealFluid(1));
   slope.place(body);
-  slope.step(kStep);
+  slope.step(kSlopeStep);
   const double rows = static_cast<double>(slope.of(body).counters().rows);
   const int contacts = contactsOf(*slope.world.getDispatcher());
   EXPECT_GT(contacts, 0);
@@ -159,8 +159,8 @@ TEST(Slope, CostsASecondRowOnlyWhereFrictionHoldsItAndThePushTurnsAside) {
   EXPECT_EQ(rowsPerContact(0, coupled), 2);
   EXPECT_EQ(rowsPerContact(0.005, coupled), 2);
   EXPECT_EQ(rowsPerContact(0.05, coupled), 3);
-  EXPECT_EQ(rowsPerContact(0.95 * std::atan(kFriction), coupled), 3);
-  EXPECT_EQ(rowsPerContact(1.05 * std::atan(kFriction), coupled), 2);
+  EXPECT_EQ(rowsPerContact(0.95 * std::atan(kSlopeFriction), coupled), 3);
+  EXPECT_EQ(rowsPerContact(1.05 * std::atan(kSlopeFriction), coupled), 2);
   Vector6 even;
   even << 0.1, 0.2, 0.1, 0.2, 0.5, 2;
   EXPECT_EQ(rowsPerContact(0.05, inertiaAlone(even.asDiagonal())), 2);

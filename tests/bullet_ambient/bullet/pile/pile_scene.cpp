@@ -30,41 +30,30 @@ FluidBody pileFluidBody(PileFluid fluid) {
 }
 
 Pile::Pile(const PileDef& pile) : box_shape_(cubeVector(kHalfEdge)) {
-  world_.setGravity({0, 0, btScalar(-9.81)});
+  host_.world.setGravity({0, 0, btScalar(-9.81)});
   addWalls(pile.edge);
   addBoxes(pile);
 }
 
 Pile::Pile(double ambient_part, PileFluid fluid, const PileDef& pile) : Pile(pile) {
   fluid_def_ = fluid;
-  fluid_.emplace(world_);
+  fluid_.emplace(host_.world);
   AttachDef def;
   def.fluid_body = std::make_shared<FluidBody>(pileFluidBody(fluid));
   def.medium.density = 1;
   def.medium.viscosity = 0;
-  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+  for (std::size_t i = 0; i < boxes().size(); ++i) {
     const bool is_ambient = std::floor(ambient_part * static_cast<double>(i + 1)) >
                             std::floor(ambient_part * static_cast<double>(i));
-    if (is_ambient) fluid_->add(*boxes_[i], def);
+    if (is_ambient) fluid_->add(*boxes()[i], def);
   }
 }
 
-Pile::~Pile() {
-  for (const auto& box : boxes_) world_.removeRigidBody(box.get());
-  for (const auto& wall : walls_) world_.removeRigidBody(wall.get());
-}
-
-btRigidBody& Pile::add(double mass, btCollisionShape& shape, const btTransform& start) {
-  btVector3 inertia(0, 0, 0);
-  if (mass > 0) shape.calculateLocalInertia(static_cast<btScalar>(mass), inertia);
-  auto& bodies = mass > 0 ? boxes_ : walls_;
-  bodies.push_back(std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-      static_cast<btScalar>(mass), nullptr, &shape, inertia)));
-  btRigidBody& body = *bodies.back();
-  body.setWorldTransform(start);
+btRigidBody& Pile::add(WorldContents& group, double mass, btCollisionShape& shape,
+                       const btTransform& start) {
+  btRigidBody& body = group.add(mass, shape, start);
   body.setRestitution(0);
   body.setFriction(btScalar(0.5));
-  world_.addRigidBody(&body);
   return body;
 }
 
@@ -74,7 +63,7 @@ void Pile::addWalls(int edge) {
                                   btVector3(0, 1, 0), btVector3(0, -1, 0)}) {
     const btScalar distance = normal.z() > 0 ? btScalar(0) : -room;
     wall_shapes_.push_back(std::make_unique<btStaticPlaneShape>(normal, distance));
-    add(0, *wall_shapes_.back(), btTransform::getIdentity());
+    add(host_.contents, 0, *wall_shapes_.back(), btTransform::getIdentity());
   }
 }
 
@@ -89,30 +78,25 @@ void Pile::addBoxes(const PileDef& def) {
         const btVector3 origin(btScalar((i - middle) * pitch), btScalar((j - middle) * pitch),
                                btScalar(def.height + (k + 0.5) * pitch));
         const btQuaternion rotation(btScalar(turn.x()), btScalar(turn.y()), btScalar(turn.z()), 1);
-        add(kMass, box_shape_, btTransform(rotation.normalized(), origin));
+        add(boxes_, kMass, box_shape_, btTransform(rotation.normalized(), origin));
       }
     }
   }
 }
 
-void Pile::step(double duration) {
-  const auto dt = static_cast<btScalar>(duration);
-  world_.stepSimulation(dt, 0, dt);
-}
-
 void Pile::keepAwake() {
-  for (const auto& box : boxes_) box->setActivationState(DISABLE_DEACTIVATION);
+  for (const auto& box : boxes()) box->setActivationState(DISABLE_DEACTIVATION);
 }
 
 bool Pile::isAsleep() const {
-  for (const auto& box : boxes_)
+  for (const auto& box : boxes())
     if (box->isActive()) return false;
   return true;
 }
 
 double Pile::energy() const {
   double sum = 0;
-  for (const auto& box : boxes_) {
+  for (const auto& box : boxes()) {
     const RigidState state = readState(*box);
     const bool is_ambient = fluid_ && fluid_->find(*box);
     const double weight = 9.81 * kMass * (is_ambient ? 1 - fluid_def_.buoyancy : 1);
@@ -132,8 +116,8 @@ double Pile::energy() const {
 
 double Pile::meanSpeed() const {
   double sum = 0;
-  for (const auto& box : boxes_) sum += static_cast<double>(box->getLinearVelocity().length2());
-  return std::sqrt(sum / static_cast<double>(boxes_.size()));
+  for (const auto& box : boxes()) sum += static_cast<double>(box->getLinearVelocity().length2());
+  return std::sqrt(sum / static_cast<double>(boxes().size()));
 }
 
 }  // namespace ambient::test

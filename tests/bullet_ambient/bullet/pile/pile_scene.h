@@ -1,12 +1,11 @@
 #pragma once
 
-#include <btBulletDynamicsCommon.h>
-
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "bullet_ambient/bullet/world/fluid.h"
+#include "tests/support/world.h"
 
 namespace ambient::test {
 
@@ -37,13 +36,10 @@ class Pile {
   /// Takes part of the boxes, spread over the pile, into a fluid. A part of 0 leaves the fluid
   /// empty.
   Pile(double ambient_part, PileFluid fluid, const PileDef& def = {});
-  ~Pile();
-  Pile(const Pile&) = delete;
-  Pile& operator=(const Pile&) = delete;
 
-  btDiscreteDynamicsWorld& world() { return world_; }
-  const std::vector<std::unique_ptr<btRigidBody>>& boxes() const { return boxes_; }
-  void step(double duration);
+  btDiscreteDynamicsWorld& world() { return host_.world; }
+  const std::vector<std::unique_ptr<btRigidBody>>& boxes() const { return boxes_.bodies(); }
+  void step(double duration) { host_.step(duration); }
   void keepAwake();
   bool isAsleep() const;
   /// Of boxes and fluid, kinetic and potential [J].
@@ -54,18 +50,15 @@ class Pile {
  private:
   void addWalls(int edge);
   void addBoxes(const PileDef& def);
-  btRigidBody& add(double mass, btCollisionShape& shape, const btTransform& start);
+  btRigidBody& add(WorldContents& group, double mass, btCollisionShape& shape,
+                   const btTransform& start);
 
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
-  PileFluid fluid_def_;
-  std::optional<Fluid> fluid_;
   std::vector<std::unique_ptr<btCollisionShape>> wall_shapes_;
   btBoxShape box_shape_;
-  std::vector<std::unique_ptr<btRigidBody>> walls_, boxes_;
+  WholeWorld<> host_;  // its contents: walls
+  WorldContents boxes_{host_.world};
+  PileFluid fluid_def_;
+  std::optional<Fluid> fluid_;
 };
 
 /// Added mass for a box, coupling rotation and translation; no faces.

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/pile/pile_scene.h"
 
 namespace ambient::test {
 namespace {
 
-constexpr double kStep = 1.0 / 120;
 constexpr int kMinute = 60 * 120;  // steps
 
 // Limit of slip: every box keeps its place. Slip is random: 0.016 to 0.05 m in stock piles of
@@ -45,14 +45,14 @@ Minute observe(Pile& pile) {
   const std::vector<btVector3> start = places(pile);
   std::vector<btVector3> at_rest;
   for (int i = 0; i < kMinute; ++i) {
-    pile.step(kStep);
+    pile.step(kWorldStep);
     if (minute.asleep_after < 0) {
       const double energy = pile.energy();
       minute.highest_energy = std::max(minute.highest_energy, energy);
       minute.largest_rise = std::max(minute.largest_rise, energy - lowest);
       lowest = std::min(lowest, energy);
       if (pile.isAsleep()) {
-        minute.asleep_after = i * kStep;
+        minute.asleep_after = i * kWorldStep;
         at_rest = places(pile);
       }
     }

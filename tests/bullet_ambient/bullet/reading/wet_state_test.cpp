@@ -14,7 +14,6 @@ namespace ambient::test {
 namespace {
 
 constexpr double kGeometryRounding = byPrecision(1e-12, 1e-6);
-const Vector3 kBoxSize(0.8, 0.6, 0.4);
 
 struct Sea {
   Sea() {

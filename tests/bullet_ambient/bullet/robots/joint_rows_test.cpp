@@ -26,7 +26,7 @@ RobotDef treeOfSmoothJoints(bool has_fixed_base) {
 // Largest error of 12 robots. `addRows(world, body, robot)` adds constraints to the world, and
 // equal rows to the robot. Even seeds: floating base, odd: fixed.
 template <class AddRows>
-double worstError(const AddRows& addRows) {
+double worstRobotError(const AddRows& addRows) {
   double worst = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
     Arbitrary arbitrary(seed);
@@ -62,7 +62,7 @@ void addGear(RobotWorld& world, btMultiBody& body, int link_a, int link_b, doubl
 
 // Gears between branches. Links 0 and 4 turn, 1 and 5 slide.
 TEST(JointRows, GearsEqualTheDenseSolution) {
-  const double worst = worstError([](RobotWorld& world, btMultiBody& body, DenseRobot& robot) {
+  const double worst = worstRobotError([](RobotWorld& world, btMultiBody& body, DenseRobot& robot) {
     for (const auto& [a, b] : {std::pair{0, 4}, std::pair{5, 1}}) {
       addGear(world, body, a, b, 0, -1);
       robot.rows.push_back(reference::gearRow(rateRow(body, a), kRatio, rateRow(body, b)));
@@ -73,7 +73,7 @@ TEST(JointRows, GearsEqualTheDenseSolution) {
 
 // Gear of a differential: adds the rate of a third joint, and corrects a part of the error.
 TEST(JointRows, AGearWithAThirdJointEqualsTheDenseSolution) {
-  const double worst = worstError([](RobotWorld& world, btMultiBody& body, DenseRobot& robot) {
+  const double worst = worstRobotError([](RobotWorld& world, btMultiBody& body, DenseRobot& robot) {
     addGear(world, body, 4, 1, kMoment, 0);
     reference::DenseRow row = reference::gearRow(rateRow(body, 4), kRatio, rateRow(body, 1));
     const Real error =
@@ -97,7 +97,7 @@ btVector3 wayToAim(const btMultiBody& body) {
 }
 
 double worstOfBallMotors(double strength) {
-  return worstError([strength](RobotWorld& world, btMultiBody& body, DenseRobot& robot) {
+  return worstRobotError([strength](RobotWorld& world, btMultiBody& body, DenseRobot& robot) {
     const btVector3 damping(bt(0.5), 1, bt(0.8));
     auto motor = std::make_unique<btMultiBodySphericalJointMotor>(&body, kBall, bt(strength));
     motor->setPositionTarget(kAim, bt(kMoment));

@@ -1,6 +1,5 @@
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "bullet_ambient/bullet/members/tree_state.h"
@@ -9,9 +8,7 @@
 namespace ambient::test {
 namespace {
 
-btVector3 toBt(const Vector3& v) { return toBullet(v); }
-
-btVector3 direction(Arbitrary& arbitrary) { return toBt(arbitrary.vector().normalized()); }
+btVector3 direction(Arbitrary& arbitrary) { return toBullet(arbitrary.vector().normalized()); }
 
 btQuaternion arbitraryTurn(Arbitrary& arbitrary) {
   return toBullet(Quaternion(arbitrary.rotation()));
@@ -74,22 +71,20 @@ RobotWorld::RobotWorld() {
 }
 
 RobotWorld::~RobotWorld() {
-  for (const auto& constraint : constraints_) world.removeMultiBodyConstraint(constraint.get());
-  while (!robots_.empty()) remove(*robots_.back());
   for (const auto& object : objects_) world.removeCollisionObject(object.get());
 }
 
 btMultiBody& RobotWorld::add(Arbitrary& arbitrary, const RobotDef& def) {
   const btScalar mass = bt(arbitrary.between(0.7, 1.3));
-  robots_.push_back(std::make_unique<btMultiBody>(
-      def.links, mass, btVector3(bt(0.02), bt(0.03), bt(0.025)), def.has_fixed_base, true));
-  btMultiBody& body = *robots_.back();
+  auto owned = std::make_unique<btMultiBody>(
+      def.links, mass, btVector3(bt(0.02), bt(0.03), bt(0.025)), def.has_fixed_base, true);
+  btMultiBody& body = *owned;
   body.setLinearDamping(0);
   body.setAngularDamping(0);
   body.setMaxCoordinateVelocity(bt(1e10));
   body.setHasSelfCollision(false);
   body.setCanSleep(false);
-  body.setBasePos(toBt(arbitrary.vector()));
+  body.setBasePos(toBullet(arbitrary.vector()));
   body.setWorldToBaseRot(arbitraryTurn(arbitrary));
   for (int i = 0; i < def.links; ++i) setupLink(arbitrary, body, i, def.joints);
   body.finalizeMultiDof();
@@ -98,44 +93,20 @@ btMultiBody& RobotWorld::add(Arbitrary& arbitrary, const RobotDef& def) {
     body.setBaseOmega(bt(2 * def.speed) * direction(arbitrary));
     body.setBaseVel(bt(def.speed) * direction(arbitrary));
   }
-  world.addMultiBody(&body);
-  if (def.collider_radius > 0)
-    for (int i = -1; i < def.links; ++i) addCollider(body, i, def.collider_radius);
+  contents.take(std::move(owned));
+  for (int i = -1; def.collider_radius > 0 && i < def.links; ++i) {
+    shapes_.push_back(std::make_unique<btSphereShape>(bt(def.collider_radius)));
+    btMultiBodyLinkCollider& collider =
+        contents.addCollider(body, i, *shapes_.back(), btBroadphaseProxy::StaticFilter);
+    collider.setFriction(0);
+    collider.setRestitution(1);
+  }
   moveColliders(body);
   return body;
 }
 
-void RobotWorld::addCollider(btMultiBody& body, int link, double radius) {
-  shapes_.push_back(std::make_unique<btSphereShape>(bt(radius)));
-  auto* collider = new btMultiBodyLinkCollider(&body, link);  // remove() deletes it
-  collider->setCollisionShape(shapes_.back().get());
-  collider->setFriction(0);
-  collider->setRestitution(1);
-  world.addCollisionObject(collider, btBroadphaseProxy::DefaultFilter,
-                           btBroadphaseProxy::StaticFilter);
-  if (link < 0) {
-    body.setBaseCollider(collider);
-  } else {
-    body.getLink(link).m_collider = collider;
-  }
-}
-
 void RobotWorld::take(std::unique_ptr<btMultiBodyConstraint> constraint) {
-  world.addMultiBodyConstraint(constraint.get());
-  constraint->finalizeMultiDof();
-  constraints_.push_back(std::move(constraint));
-}
-
-void RobotWorld::remove(btMultiBody& body) {
-  world.removeMultiBody(&body);
-  for (int i = -1; i < body.getNumLinks(); ++i) {
-    btMultiBodyLinkCollider* collider = i < 0 ? body.getBaseCollider() : body.getLinkCollider(i);
-    if (!collider) continue;
-    world.removeCollisionObject(collider);
-    delete collider;
-  }
-  robots_.erase(std::find_if(robots_.begin(), robots_.end(),
-                             [&body](const auto& robot) { return robot.get() == &body; }));
+  contents.take(std::move(constraint)).finalizeMultiDof();
 }
 
 btCollisionObject& RobotWorld::addFixed(std::unique_ptr<btCollisionShape> shape,
@@ -156,10 +127,6 @@ void RobotWorld::moveColliders(btMultiBody& body) {
   btAlignedObjectArray<btVector3> origins;
   body.forwardKinematics(rotations, origins);
   body.updateCollisionObjectWorldTransforms(rotations, origins);
-}
-
-void RobotWorld::step(double duration, int count) {
-  for (int i = 0; i < count; ++i) world.stepSimulation(bt(duration), 0, bt(duration));
 }
 
 AttachDef coupledFluid(Arbitrary& arbitrary, const btMultiBody& body, int link, double ratio) {

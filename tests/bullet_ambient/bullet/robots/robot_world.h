@@ -1,10 +1,5 @@
 #pragma once
 
-#include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
-
 #include <memory>
 #include <vector>
 
@@ -30,32 +25,21 @@ struct RobotDef {
 };
 
 /// A multibody world with a fluid, gravity 0, without position correction, softness and damping.
-class RobotWorld {
- public:
+struct RobotWorld : TreeWorld {
   RobotWorld();
   ~RobotWorld();
 
   /// Adds a robot to the world: links of 0.3 kg to 1.3 kg, 0.3 m apart, random pose and motion.
   btMultiBody& add(Arbitrary& arbitrary, const RobotDef& def);
   void take(std::unique_ptr<btMultiBodyConstraint> constraint);
-  void remove(btMultiBody& body);
+  void remove(btMultiBody& body) { contents.remove(body); }
   btCollisionObject& addFixed(std::unique_ptr<btCollisionShape> shape, const btTransform& place);
   /// Updates contact and joint places to the start of a step.
   static void moveColliders(btMultiBody& body);
-  void step(double duration, int count = 1);
 
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btMultiBodyConstraintSolver stock_solver;  ///< in whose place the fluid has its own
-  btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &stock_solver, &configuration};
   Fluid fluid{world};
 
  private:
-  void addCollider(btMultiBody& body, int link, double radius);
-
-  std::vector<std::unique_ptr<btMultiBody>> robots_;
-  std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> objects_;
 };

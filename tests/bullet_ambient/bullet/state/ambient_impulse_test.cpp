@@ -16,18 +16,18 @@ namespace {
 using Dense6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr int kBodies = 50;
-const double kTolerance = byPrecision(1e-13, 2e-6);
+const double kImpulseTolerance = byPrecision(1e-13, 2e-6);
 
 const Medium kFluid{2, 0, Vector3::Zero(), Vector3::Zero()};
 
 // A body of random pose, velocity and coupled inertia in a fluid, and its K, assembled separately.
-struct CoupledBody {
+struct FreeCoupledBody {
   FluidWorld scene;
   btRigidBody* body = nullptr;
   Dense6 K_W;
   Vector3 point;
 
-  explicit CoupledBody(Arbitrary& arbitrary) {
+  explicit FreeCoupledBody(Arbitrary& arbitrary) {
     const Matrix6 added_mass = arbitrary.positiveDefinite();
     BodyDef def;
     def.mass = arbitrary.between(0.1, 5);
@@ -58,7 +58,7 @@ Vector6 lockedResponse(const Dense6& K, const Vector6& free, const Vector6& wren
 TEST(AmbientImpulse, ChangesTheMomentumOfBodyAndFluidByTheImpulse) {
   Arbitrary arbitrary(1);
   for (int i = 0; i < kBodies; ++i) {
-    CoupledBody coupled(arbitrary);
+    FreeCoupledBody coupled(arbitrary);
     const Vector3 impulse = arbitrary.vector();
     const Vector6 before = coupled.velocity();
     applyAmbientImpulse(coupled.scene.fluid, *coupled.body, toBullet(impulse),
@@ -66,31 +66,31 @@ TEST(AmbientImpulse, ChangesTheMomentumOfBodyAndFluidByTheImpulse) {
     const Vector6 wrench = stack(coupled.point.cross(impulse), impulse);
     const Vector6 expected = before + coupled.K_W.fullPivLu().solve(wrench);
     EXPECT_LT((coupled.velocity() - expected).norm(),
-              10 * kTolerance * (expected.norm() + before.norm()));
+              10 * kImpulseTolerance * (expected.norm() + before.norm()));
     const Vector6 momentum = coupled.K_W * (coupled.velocity() - before);
     EXPECT_LT((momentum - wrench).norm(),
-              10 * kTolerance * (wrench.norm() + coupled.K_W.norm() * before.norm()));
+              10 * kImpulseTolerance * (wrench.norm() + coupled.K_W.norm() * before.norm()));
   }
 }
 
 TEST(AmbientImpulse, ATorqueImpulseIsAnsweredByTheWholeTensor) {
   Arbitrary arbitrary(2);
   for (int i = 0; i < kBodies; ++i) {
-    CoupledBody coupled(arbitrary);
+    FreeCoupledBody coupled(arbitrary);
     const Vector3 torque = arbitrary.vector();
     const Vector6 before = coupled.velocity();
     applyAmbientTorqueImpulse(coupled.scene.fluid, *coupled.body, toBullet(torque));
     const Vector6 wrench = stack(torque, Vector3::Zero());
     const Vector6 expected = before + coupled.K_W.fullPivLu().solve(wrench);
     EXPECT_LT((coupled.velocity() - expected).norm(),
-              10 * kTolerance * (expected.norm() + before.norm()));
+              10 * kImpulseTolerance * (expected.norm() + before.norm()));
   }
 }
 
 TEST(AmbientImpulse, LockedAxesStayAndTheOthersAnswerWithTheirPartOfK) {
   Arbitrary arbitrary(3);
   for (int i = 0; i < kBodies; ++i) {
-    CoupledBody coupled(arbitrary);
+    FreeCoupledBody coupled(arbitrary);
     coupled.body->setLinearFactor(btVector3(1, 0, 1));
     coupled.body->setAngularFactor(btVector3(0, 1, 0));
     Vector6 free;
@@ -102,7 +102,8 @@ TEST(AmbientImpulse, LockedAxesStayAndTheOthersAnswerWithTheirPartOfK) {
     const Vector6 change = coupled.velocity() - before;
     const Vector6 expected =
         lockedResponse(coupled.K_W, free, stack(coupled.point.cross(impulse), impulse));
-    EXPECT_LT((change - expected).norm(), 10 * kTolerance * (expected.norm() + before.norm()));
+    EXPECT_LT((change - expected).norm(),
+              10 * kImpulseTolerance * (expected.norm() + before.norm()));
     EXPECT_EQ((Vector6::Ones() - free).cwiseProduct(change).norm(), 0);
   }
 }
@@ -110,7 +111,7 @@ TEST(AmbientImpulse, LockedAxesStayAndTheOthersAnswerWithTheirPartOfK) {
 TEST(InverseEffectiveMass, IsTheChangeOfThePointsVelocityPerImpulse) {
   Arbitrary arbitrary(4);
   for (int i = 0; i < kBodies; ++i) {
-    CoupledBody coupled(arbitrary);
+    FreeCoupledBody coupled(arbitrary);
     if (i % 2) coupled.body->setLinearFactor(btVector3(1, 1, 0));
     Fluid& fluid = coupled.scene.fluid;
     const btVector3 point = toBullet(coupled.point);
@@ -121,7 +122,7 @@ TEST(InverseEffectiveMass, IsTheChangeOfThePointsVelocityPerImpulse) {
     const btVector3 change = coupled.body->getVelocityInLocalPoint(point) - before;
     const double scale = static_cast<double>(change.length() + before.length());
     EXPECT_LT(static_cast<double>((inverse_mass * impulse - change).length()),
-              20 * kTolerance * scale);
+              20 * kImpulseTolerance * scale);
     EXPECT_EQ(inverse_mass[0][1], inverse_mass[1][0]);
     const btVector3 n = impulse.normalized();
     EXPECT_EQ(inverseEffectiveMass(fluid, *coupled.body, point, n), n.dot(inverse_mass * n));
@@ -131,7 +132,7 @@ TEST(InverseEffectiveMass, IsTheChangeOfThePointsVelocityPerImpulse) {
 TEST(AmbientImpulse, WithoutAFluidIsThatOfStockBullet) {
   Arbitrary arbitrary(5);
   for (int i = 0; i < kBodies; ++i) {
-    CoupledBody coupled(arbitrary);
+    FreeCoupledBody coupled(arbitrary);
     Fluid& fluid = coupled.scene.fluid;
     btRigidBody& body = *coupled.body;
     if (i % 2) {
@@ -152,13 +153,13 @@ TEST(AmbientImpulse, WithoutAFluidIsThatOfStockBullet) {
     const btScalar expected =
         stock.computeImpulseDenominator(stock.getCenterOfMassPosition() + point, n);
     EXPECT_NEAR(inverseEffectiveMass(fluid, body, point, n), expected,
-                10 * kTolerance * static_cast<double>(expected));
+                10 * kImpulseTolerance * static_cast<double>(expected));
   }
 }
 
 TEST(AmbientImpulse, WakesABodyInAFluid) {
   Arbitrary arbitrary(6);
-  CoupledBody coupled(arbitrary);
+  FreeCoupledBody coupled(arbitrary);
   coupled.body->forceActivationState(ISLAND_SLEEPING);
   applyAmbientImpulse(coupled.scene.fluid, *coupled.body, btVector3(1, 0, 0), btVector3(0, 0, 0));
   EXPECT_TRUE(coupled.body->isActive());
@@ -166,7 +167,7 @@ TEST(AmbientImpulse, WakesABodyInAFluid) {
 
 TEST(AmbientImpulse, SeesNewMassProperties) {
   Arbitrary arbitrary(7);
-  CoupledBody coupled(arbitrary);
+  FreeCoupledBody coupled(arbitrary);
   const btVector3 origin(0, 0, 0);
   coupled.body->setMassProps(btScalar(1e8), btVector3(1, 1, 1) * btScalar(1e8));
   const btMatrix3x3 heavy = inverseEffectiveMass(coupled.scene.fluid, *coupled.body, origin);
@@ -220,9 +221,9 @@ TEST(AmbientImpulse, IsThatOfAContact) {
     applyAmbientImpulse(scene.fluid, struck, impulse,
                         is_second ? contact.m_positionWorldOnB : contact.m_positionWorldOnA);
     EXPECT_LT((struck.getLinearVelocity() - body.getLinearVelocity()).length(),
-              10 * kTolerance * static_cast<double>(body.getLinearVelocity().length()));
+              10 * kImpulseTolerance * static_cast<double>(body.getLinearVelocity().length()));
     EXPECT_LT((struck.getAngularVelocity() - body.getAngularVelocity()).length(),
-              10 * kTolerance * static_cast<double>(body.getAngularVelocity().length()));
+              10 * kImpulseTolerance * static_cast<double>(body.getAngularVelocity().length()));
   }
 }
 

@@ -13,14 +13,7 @@ namespace {
 
 constexpr double kTimeStep = 1.0 / 60;
 
-FluidBody ball() { return meshedEllipsoid(Vector3::Ones(), 1); }
-
-AttachDef inWater() {
-  AttachDef def;
-  def.fluid_body = std::make_shared<FluidBody>(ball());
-  def.medium = water();
-  return def;
-}
+FluidBody unitBall() { return meshedEllipsoid(Vector3::Ones(), 1); }
 
 // Memory for one body after another.
 class BodyStorage {
@@ -54,7 +47,7 @@ class Lifetime : public testing::Test {
   btRigidBody& addAttached() {
     btRigidBody& body = storage.construct(shape);
     scene.world.addRigidBody(&body);
-    scene.fluid.add(body, inWater());
+    scene.fluid.add(body, unitBallIn(water()));
     return body;
   }
   void removeAndDestroy(btRigidBody& body) {
@@ -68,7 +61,7 @@ class Lifetime : public testing::Test {
 };
 
 TEST_F(Lifetime, NothingTouchesABodyThatWasDestroyedWhileAttached) {
-  scene.add({}, ball(), water());
+  scene.add({}, unitBall(), water());
   btRigidBody& body = addAttached();
   scene.step(kTimeStep, 3);
   removeAndDestroy(body);
@@ -100,7 +93,7 @@ TEST_F(Lifetime, NothingTouchesABodyThatAnotherActionHasDestroyed) {
     btRigidBody* body = nullptr;
     BodyStorage* storage = nullptr;
   } destroyer;
-  const btRigidBody& other = scene.add({}, ball(), water());
+  const btRigidBody& other = scene.add({}, unitBall(), water());
   destroyer.body = &addAttached();
   destroyer.storage = &storage;
   scene.removeAction();
@@ -126,7 +119,7 @@ TEST_F(Lifetime, ABodyThatAnotherActionDetachesLeavesTheOthersTheirFlights) {
     FluidWorld three;
     three.world.setGravity({0, 0, -1});
     const btRigidBody* bodies[3];
-    for (const btRigidBody*& body : bodies) body = &three.add({}, ball(), water());
+    for (const btRigidBody*& body : bodies) body = &three.add({}, unitBall(), water());
     detacher.fluid = &three.fluid;
     detacher.body = bodies[detached];
     three.removeAction();
@@ -203,7 +196,7 @@ TEST_F(Lifetime, ARemovedBodyKeepsItsFluidAndMeetsItAgain) {
 TEST_F(Lifetime, AStaticBodyHasTheModelOfItsNewFluidBody) {
   btRigidBody& body = addAttached();
   body.setMassProps(0, btVector3(0, 0, 0));
-  scene.of(body).setFluidBody(std::make_shared<FluidBody>(scaled(ball(), 2)));
+  scene.of(body).setFluidBody(std::make_shared<FluidBody>(scaled(unitBall(), 2)));
   const WorldState state = scene.fluid.save();
   scene.fluid.restore(state);
   const AmbientBody& ambient = *membersOf(scene.fluid).find(&body);
@@ -212,7 +205,7 @@ TEST_F(Lifetime, AStaticBodyHasTheModelOfItsNewFluidBody) {
   const Twist twist{{1, 2, 3}, {3, 1, 2}};
   EXPECT_EQ(ambient.model().loads->load(twist).vector(), loads->load(twist).vector());
   EXPECT_TRUE(scene.of(body).inertia().allFinite());
-  EXPECT_NEAR(ambient.model().displaced_mass, water().density * 8 * ball().volume, 1e-6);
+  EXPECT_NEAR(ambient.model().displaced_mass, water().density * 8 * unitBall().volume, 1e-6);
   scene.world.removeRigidBody(&body);
 }
 
@@ -227,7 +220,7 @@ TEST_F(Lifetime, TheFluidMayChangeWhileTheBodyIsStatic) {
   body.setMassProps(100, moments);
   scene.world.addRigidBody(&body);
   scene.step(kTimeStep);
-  const double added = 800 * ball().added_mass(3, 3);
+  const double added = 800 * unitBall().added_mass(3, 3);
   EXPECT_NEAR(scene.of(body).inertia()(3, 3), 100 + added, 1e-6 * added);
   scene.world.removeRigidBody(&body);
 }

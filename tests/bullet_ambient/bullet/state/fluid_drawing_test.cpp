@@ -16,8 +16,6 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kGravity = 9.81;
-
 struct Line {
   btVector3 from, to, colour;
 };

@@ -1,10 +1,8 @@
 #include <BulletDynamics/Dynamics/btSimpleDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableMultiBodyConstraintSolver.h>
 #include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
-#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +13,7 @@
 namespace ambient::test {
 namespace {
 
-class WorldType : public testing::Test {
+class WorldType : public testing::Test, protected WorldParts<> {
  protected:
   // The sentence that a fluid refuses the world with; empty if it takes it.
   static std::string refusal(btDynamicsWorld&& world) {
@@ -35,10 +33,6 @@ class WorldType : public testing::Test {
     EXPECT_NE(sentence.find(refused), std::string::npos) << sentence;
     EXPECT_NE(sentence.find(advised), std::string::npos) << sentence;
   }
-
-  btSoftBodyRigidBodyCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
 };
 
 TEST_F(WorldType, SimpleWorldsAreRefused) {

@@ -16,9 +16,6 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kWorldGravity = 9.81;
-const Vector3 kBoxSize(0.8, 0.6, 0.4);
-
 Medium freshWater() { return {1000, 1e-3, {0, 0, 0}, {0, 0, 0}}; }
 
 /// Under a vacuum, in which closed forms hold.
@@ -34,7 +31,7 @@ FluidRegion seaAt(double level) {
 struct WaterWorld {
   explicit WaterWorld(const FluidRegion& water, TaskRunner* runner = nullptr) {
     scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
-    scene.world.setGravity({0, 0, bt(-kWorldGravity)});
+    scene.world.setGravity({0, 0, bt(-kGravity)});
     scene.fluid.setTaskRunner(runner);
     scene.fluid.addRegion(water);
     shape->name = "box";

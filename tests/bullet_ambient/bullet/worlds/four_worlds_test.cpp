@@ -24,16 +24,11 @@ class Tank {
  public:
   explicit Tank(std::unique_ptr<WorldHost> host) : host_(std::move(host)) {
     host_->world().setGravity({0, 0, static_cast<btScalar>(-9.81)});
-    addFloor();
+    contents_.add(0, floor_, btTransform(btQuaternion::getIdentity(), btVector3(0, 0, -1)));
     flying_ = &add(1.5, {Quaternion::Identity(), {0, 0, 50}, kSpin});
     sinking_ = &add(2, {Quaternion::Identity(), {6, 0, 0.4}, kSpin});
     addTethered();
   }
-  ~Tank() {
-    host_->world().removeConstraint(tether_.get());
-    for (const auto& body : bodies_) host_->world().removeRigidBody(body.get());
-  }
-
   void step(int count) { host_->step(kWorldStep, count); }
   // Without this flag only solvers with pools of their own have one friction row per contact.
   void useTwoFrictionDirections() {
@@ -48,12 +43,6 @@ class Tank {
   }
 
  private:
-  void addFloor() {
-    bodies_.push_back(std::make_unique<btRigidBody>(0, nullptr, &floor_));
-    bodies_.back()->setWorldTransform(
-        btTransform(btQuaternion::getIdentity(), btVector3(0, 0, -1)));
-    host_->world().addRigidBody(bodies_.back().get());
-  }
   // Adds a body of half water's density in equilibrium: buoyancy is twice the weight, and their sum
   // points upwards from the tether.
   void addTethered() {
@@ -64,8 +53,8 @@ class Tank {
     start.position = {3, 0, 2};
     tethered_ = &add(0.5, start);
     tethered_->setActivationState(DISABLE_DEACTIVATION);
-    tether_ = std::make_unique<btPoint2PointConstraint>(*tethered_, toBullet(below));
-    host_->world().addConstraint(tether_.get());
+    tether_ =
+        &contents_.take(std::make_unique<btPoint2PointConstraint>(*tethered_, toBullet(below)));
   }
   // `density`: body's over water's. `start`: twist in world axes.
   btRigidBody& add(double density, const RigidState& start) {
@@ -74,12 +63,10 @@ class Tank {
     def.medium = water();
     def.fluid_frame.translation = kCentreOfVolume;
     const double mass = density * water().density * fluid_body_->volume;
-    bodies_.push_back(std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-        static_cast<btScalar>(mass), nullptr, &box_, toBullet(ellipsoidMoments(kSemiAxes, mass)))));
-    btRigidBody& body = *bodies_.back();
-    body.setWorldTransform(btTransform(toBullet(start.orientation), toBullet(start.position)));
+    btRigidBody& body =
+        contents_.add(mass, toBullet(ellipsoidMoments(kSemiAxes, mass)), box_,
+                      btTransform(toBullet(start.orientation), toBullet(start.position)));
     body.setAngularVelocity(toBullet(start.twist.angular));
-    host_->world().addRigidBody(&body);
     host_->fluid().add(body, def);
     return body;
   }
@@ -89,9 +76,9 @@ class Tank {
       std::make_shared<FluidBody>(meshedEllipsoid(kSemiAxes, 1));
   btBoxShape floor_{btVector3(50, 50, 1)};
   btBoxShape box_{toBullet(kSemiAxes)};
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  WorldContents contents_{host_->world()};
   btRigidBody *flying_ = nullptr, *tethered_ = nullptr, *sinking_ = nullptr;
-  std::unique_ptr<btPoint2PointConstraint> tether_;
+  const btPoint2PointConstraint* tether_ = nullptr;
 };
 
 // Excludes Lemke's solver: it needs friction, and is wrong where bounds coincide, with fluid or

@@ -1,9 +1,7 @@
 // A fluid in a world that belongs to somebody else, who exchanges its solver.
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyMLCPConstraintSolver.h>
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
-#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -11,6 +9,7 @@
 
 #include "bullet_ambient/ambient.h"
 #include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/world.h"
 
 namespace ambient::test {
 namespace {
@@ -21,7 +20,7 @@ std::shared_ptr<const FluidBody> ballOfOneMetre() {
   return std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
 }
 
-class GuestFluid : public testing::Test {
+class GuestFluid : public testing::Test, protected WorldParts<> {
  protected:
   GuestFluid() { world->setGravity({0, 0, -10}); }
   // Replaces the world's solver like PyBullet's setPhysicsEngineParameter(constraintSolverType=).
@@ -46,9 +45,6 @@ class GuestFluid : public testing::Test {
   }
 
   btDantzigSolver dantzig;
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
   std::unique_ptr<btMultiBodyDynamicsWorld> world = std::make_unique<btMultiBodyDynamicsWorld>(
       &dispatcher, &broadphase, new btMultiBodyConstraintSolver, &configuration);
   btSphereShape shape{1};

@@ -14,7 +14,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kRadius = 0.4;
+constexpr double kSoftBallRadius = 0.4;
 
 class SoftScene {
  public:
@@ -39,7 +39,7 @@ class SoftScene {
   // Adds a sphere of 1 kg.
   btRigidBody& addBall(const Vector3& position, const FluidBody& fluid_body, double density) {
     body_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-        1, nullptr, &ball_, toBullet(Vector3::Constant(0.4 * kRadius * kRadius))));
+        1, nullptr, &ball_, toBullet(Vector3::Constant(0.4 * kSoftBallRadius * kSoftBallRadius))));
     body_->setWorldTransform(btTransform(btQuaternion::getIdentity(), toBullet(position)));
     body_->setActivationState(DISABLE_DEACTIVATION);
     soft_world().addRigidBody(body_.get());
@@ -54,7 +54,7 @@ class SoftScene {
  private:
   btSoftRigidDynamicsWorld& soft_world() { return *host_->softWorld(); }
 
-  btSphereShape ball_{bt(kRadius)};
+  btSphereShape ball_{bt(kSoftBallRadius)};
   std::unique_ptr<WorldHost> host_;
   std::unique_ptr<btSoftBody> soft_;
   std::unique_ptr<btRigidBody> body_;
@@ -77,7 +77,7 @@ TEST(SoftContact, CarriesAnAmbientBodyOnASheet) {
                 2);
   sheet.m_cfg.kDP = bt(0.02);
   // The ball displaces half of its mass.
-  const FluidBody shape = meshedEllipsoid(Vector3::Constant(kRadius), 1);
+  const FluidBody shape = meshedEllipsoid(Vector3::Constant(kSoftBallRadius), 1);
   btRigidBody& ball = scene.addBall({0, 0, 0.6}, shape, 0.5 / shape.volume);
   ball.setDamping(bt(0.5), bt(0.5));
   double deepest = 1;

@@ -10,7 +10,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr int kSteps = 60;
+constexpr int kLimitSteps = 60;
 // Offset from the centre of mass couples the added mass.
 AttachDef inFluid(double density) {
   AttachDef def;
@@ -56,7 +56,7 @@ void expectFirstOrder(const Simulate& simulate, const Vector6& vacuum) {
 // Euler's equations and a parabola; Bullet's own flight of a spinning body has first order.
 Vector6 exactFlight() {
   const BodyDef def = Run::start();
-  const double duration = kSteps * kWorldStep;
+  const double duration = kLimitSteps * kWorldStep;
   Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Identity();
   inertia.diagonal().head<3>() = def.moments;
   reference::KirchhoffState s = reference::KirchhoffState::Zero();
@@ -70,7 +70,7 @@ Vector6 exactFlight() {
 
 Vector6 flight(double density) {
   Run run(density);
-  run.scene.step(kWorldStep, kSteps);
+  run.scene.step(kWorldStep, kLimitSteps);
   return run.velocity();
 }
 
@@ -79,7 +79,7 @@ Vector6 swing(double density, double step) {
   run.body.setFlags(BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT);
   btPoint2PointConstraint joint(run.body, btVector3(0, static_cast<btScalar>(0.1), 1));
   run.scene.world.addConstraint(&joint);
-  run.scene.step(step, static_cast<int>(std::lround(kSteps * kWorldStep / step)));
+  run.scene.step(step, static_cast<int>(std::lround(kLimitSteps * kWorldStep / step)));
   run.scene.world.removeConstraint(&joint);
   return run.velocity();
 }

@@ -1,14 +1,13 @@
 #include "tests/bullet_ambient/bullet/worlds/vacuum_scene.h"
 
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
 #include <cstring>
 
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+
 namespace ambient::test {
 namespace {
-
-btScalar bt(double value) { return static_cast<btScalar>(value); }
 
 void append(std::vector<btScalar>& state, const btVector3& v) {
   state.insert(state.end(), {v.x(), v.y(), v.z()});
@@ -25,27 +24,17 @@ VacuumScene::VacuumScene(std::unique_ptr<WorldHost> host) : host_(std::move(host
   addJoints();
   addVehicle();
   if (auto* world = host_->softWorld()) addSoftBodies(*world);
-  if (auto* world = host_->multiBodyWorld()) addMultiBody(*world);
+  if (host_->multiBodyWorld()) addMultiBody();
 }
 
 VacuumScene::~VacuumScene() {
-  btDiscreteDynamicsWorld& world = host_->world();
-  world.removeAction(vehicle_.get());
-  for (const auto& joint : joints_) world.removeConstraint(joint.get());
-  for (const auto& body : owned_) world.removeRigidBody(body.get());
+  host_->world().removeAction(vehicle_.get());
   for (const auto& body : soft_bodies_) host_->softWorld()->removeSoftBody(body.get());
-  if (chain_) host_->multiBodyWorld()->removeMultiBody(chain_.get());
-  for (const auto& collider : colliders_) world.removeCollisionObject(collider.get());
 }
 
 btRigidBody& VacuumScene::add(btScalar mass, btCollisionShape& shape, const btVector3& position) {
-  btVector3 inertia(0, 0, 0);
-  if (mass > 0) shape.calculateLocalInertia(mass, inertia);
-  owned_.push_back(std::make_unique<btRigidBody>(
-      btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, &shape, inertia)));
-  btRigidBody& body = *owned_.back();
-  body.setWorldTransform(btTransform(btQuaternion::getIdentity(), position));
-  host_->world().addRigidBody(&body);
+  btRigidBody& body = contents_.add(static_cast<double>(mass), shape,
+                                    btTransform(btQuaternion::getIdentity(), position));
   if (mass > 0) watched_.push_back(&body);
   return body;
 }
@@ -71,30 +60,24 @@ void VacuumScene::addJoints() {
     btRigidBody& body = add(1, plate_, {bt(4 + 3 * kind), 6, 4});
     jointed_.push_back(&body);
     body.setAngularVelocity({1, 2, bt(0.5)});
-    if (kind == 0) keep(new btPoint2PointConstraint(body, up));
+    if (kind == 0) contents_.take(std::make_unique<btPoint2PointConstraint>(body, up));
     if (kind == 1) {
-      auto* hinge = new btHingeConstraint(body, up, btVector3(0, 1, 0));
-      hinge->enableAngularMotor(true, 2, bt(0.1));
-      keep(hinge);
+      const btVector3 axis(0, 1, 0);
+      contents_.take(std::make_unique<btHingeConstraint>(body, up, axis))
+          .enableAngularMotor(true, 2, bt(0.1));
     }
-    if (kind == 2) keep(new btSliderConstraint(body, frame, true));
+    if (kind == 2) contents_.take(std::make_unique<btSliderConstraint>(body, frame, true));
     if (kind == 3) {
       // Bullet's constructor for one body would fix it to the origin of the world.
-      keep(new btConeTwistConstraint(body, btTypedConstraint::getFixedBody(), frame,
-                                     body.getWorldTransform() * frame));
+      contents_.take(std::make_unique<btConeTwistConstraint>(
+          body, btTypedConstraint::getFixedBody(), frame, body.getWorldTransform() * frame));
     }
     if (kind == 4) {
-      auto* spring = new btGeneric6DofSpring2Constraint(body, frame);
-      spring->enableSpring(2, true);
-      spring->setStiffness(2, 50);
-      keep(spring);
+      auto& spring = contents_.take(std::make_unique<btGeneric6DofSpring2Constraint>(body, frame));
+      spring.enableSpring(2, true);
+      spring.setStiffness(2, 50);
     }
   }
-}
-
-void VacuumScene::keep(btTypedConstraint* joint) {
-  joints_.emplace_back(joint);
-  host_->world().addConstraint(joint);
 }
 
 void VacuumScene::addVehicle() {
@@ -129,11 +112,12 @@ void VacuumScene::addSoftBodies(btSoftRigidDynamicsWorld& world) {
 }
 
 // Adds a chain that swings from the ceiling into a box.
-void VacuumScene::addMultiBody(btMultiBodyDynamicsWorld& world) {
+void VacuumScene::addMultiBody() {
   const btVector3 half(0, 0, bt(-0.4));
   btVector3 inertia;
   link_.calculateLocalInertia(1, inertia);
-  chain_ = std::make_unique<btMultiBody>(kLinks, 0, btVector3(0, 0, 0), true, true);
+  auto chain = std::make_unique<btMultiBody>(kLinks, 0, btVector3(0, 0, 0), true, true);
+  chain_ = chain.get();
   chain_->setBasePos({12, -4, 4});
   for (int i = 0; i < kLinks; ++i) {
     chain_->setupRevolute(i, 1, inertia, i - 1, btQuaternion::getIdentity(), {0, 1, 0},
@@ -141,14 +125,8 @@ void VacuumScene::addMultiBody(btMultiBodyDynamicsWorld& world) {
   }
   chain_->finalizeMultiDof();
   chain_->setJointPos(0, bt(1.2));
-  world.addMultiBody(chain_.get());
-  for (int i = 0; i < kLinks; ++i) {
-    colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(chain_.get(), i));
-    colliders_.back()->setCollisionShape(&link_);
-    chain_->getLink(i).m_collider = colliders_.back().get();
-    world.addCollisionObject(colliders_.back().get(), btBroadphaseProxy::DefaultFilter,
-                             btBroadphaseProxy::AllFilter);
-  }
+  contents_.take(std::move(chain));
+  for (int i = 0; i < kLinks; ++i) contents_.addCollider(*chain_, i, link_);
   add(1, box_, {12, -4, bt(0.5)});
 }
 
@@ -173,9 +151,9 @@ std::vector<btScalar> VacuumScene::state() const {
 }
 
 void VacuumScene::takeStateOf(const VacuumScene& other) {
-  for (std::size_t i = 0; i < owned_.size(); ++i) {
-    const btRigidBody& from = *other.owned_[i];
-    btRigidBody& to = *owned_[i];
+  for (std::size_t i = 0; i < contents_.bodies().size(); ++i) {
+    const btRigidBody& from = *other.contents_.bodies()[i];
+    btRigidBody& to = *contents_.bodies()[i];
     to.setWorldTransform(from.getWorldTransform());
     to.updateInertiaTensor();
     to.setLinearVelocity(from.getLinearVelocity());

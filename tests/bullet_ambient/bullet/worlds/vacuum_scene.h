@@ -39,8 +39,7 @@ class VacuumScene {
   void addJoints();
   void addVehicle();
   void addSoftBodies(btSoftRigidDynamicsWorld& world);
-  void addMultiBody(btMultiBodyDynamicsWorld& world);
-  void keep(btTypedConstraint* joint);
+  void addMultiBody();
 
   std::unique_ptr<WorldHost> host_;
   btBoxShape floor_{btVector3(50, 50, 1)};
@@ -49,16 +48,14 @@ class VacuumScene {
   btBoxShape plate_{btVector3(btScalar(0.5), btScalar(0.4), btScalar(0.2))};
   btBoxShape link_{btVector3(btScalar(0.1), btScalar(0.1), btScalar(0.4))};
   btSphereShape ball_{btScalar(0.4)};
-  std::vector<std::unique_ptr<btRigidBody>> owned_;
   std::vector<btRigidBody*> watched_;
   std::vector<btRigidBody*> jointed_;
-  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
   std::unique_ptr<btVehicleRaycaster> raycaster_;
   std::unique_ptr<btRaycastVehicle> vehicle_;
   std::vector<std::unique_ptr<btSoftBody>> soft_bodies_;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
-  std::unique_ptr<btMultiBody> chain_;
+  btMultiBody* chain_ = nullptr;
   btRigidBody* hitting_ball_ = nullptr;
+  WorldContents contents_{host_->world()};
 };
 
 /// Compares bit for bit: -0 differs from 0.

@@ -43,7 +43,7 @@ class SingleThreadedHost final : public WorldHost {
 
   Plain plain_;
   typename Kind::Stock stock_;
-  World world_{&dispatcher_, &broadphase_, &plain_, &configuration_};
+  World world_{&dispatcher, &broadphase, &plain_, &configuration};
   std::optional<typename Kind::Ambient> ambient_;
 };
 
@@ -66,7 +66,7 @@ class MultithreadedHost final : public WorldHost {
   int default_limit_;
   btConstraintSolverPoolMt pool_{2};
   btSequentialImpulseConstraintSolverMt large_;
-  btDiscreteDynamicsWorldMt world_{&dispatcher_, &broadphase_, &pool_, &large_, &configuration_};
+  btDiscreteDynamicsWorldMt world_{&dispatcher, &broadphase, &pool_, &large_, &configuration};
 };
 
 template <class Kind, class World>

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -14,11 +11,14 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/world/fluid.h"
+#include "tests/support/world.h"
 
 namespace ambient::test {
 
 /// World set up like a user's program: with Bullet's solver, or with ambient solver and action.
-class WorldHost {
+/// A broadphase whose pairs do not depend on the motion of all bodies, as btDbvtBroadphase drops
+/// them: Bullet merges islands by pairs.
+class WorldHost : protected WorldParts<btSimpleBroadphase> {
  public:
   WorldHost() = default;
   WorldHost(const WorldHost&) = delete;
@@ -42,11 +42,6 @@ class WorldHost {
   Fluid& fluid() { return *fluid_; }
 
  protected:
-  btSoftBodyRigidBodyCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  // Not btDbvtBroadphase: its time of dropping separated pairs depends on the motion of all bodies,
-  // and Bullet merges islands by pairs.
-  btSimpleBroadphase broadphase_;
   std::optional<Fluid> fluid_;  // of the world of a derived class, which resets it first
 };
 

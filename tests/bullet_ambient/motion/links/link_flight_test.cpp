@@ -19,12 +19,12 @@ using test::TreeShape;
 constexpr LinkFlightSettings kConverged{1e-12, 30, 16};
 const double kPi = std::acos(-1.0);
 
-struct Drift {
+struct TreeDrift {
   double energy = 0, momentum = 0;  // largest, relative
 };
 
 // Drift of a tree in an ideal fluid at rest, without forces.
-Drift driftOf(TestTree test, int hertz, double seconds, const LinkFlightSettings& settings) {
+TreeDrift driftOf(TestTree test, int hertz, double seconds, const LinkFlightSettings& settings) {
   LinkFlight flight(test.tree);
   LinkDynamics dynamics(test.tree);
   Coordinates momentum(test.u.size());
@@ -35,7 +35,7 @@ Drift driftOf(TestTree test, int hertz, double seconds, const LinkFlightSettings
   dynamics.setPose(test.pose);
   const double energy = dynamics.kineticEnergy(test.u);
   const Vector3 start = linearMomentum();
-  Drift drift;
+  TreeDrift drift;
   for (int i = 0; i < seconds * hertz; ++i) {
     EXPECT_TRUE(test.fly(flight, 1.0 / hertz, 1, settings).is_finite);
     dynamics.setPose(test.pose);
@@ -54,11 +54,11 @@ const TreeShape kChain{3, false, false, 5, 0.7};
 
 TEST(LinkFlight, KeepsEnergyAndMomentum) {
   for (const unsigned seed : {11, 12, 13}) {
-    const Drift drift = driftOf(makeTree(seed, kChain), 60, 10, {});
+    const TreeDrift drift = driftOf(makeTree(seed, kChain), 60, 10, {});
     EXPECT_LT(drift.energy, 1e-12);
     EXPECT_LT(drift.momentum, 1e-12);
   }
-  const Drift drift = driftOf(makeTree(4, {5, true, true, 5, 0.3}), 60, 10, {});
+  const TreeDrift drift = driftOf(makeTree(4, {5, true, true, 5, 0.3}), 60, 10, {});
   EXPECT_LT(drift.energy, 1e-12);
   EXPECT_LT(drift.momentum, 1e-12);
 }

@@ -159,7 +159,7 @@ struct alignas(16) JointRow {
   btScalar lower = -SIMD_INFINITY, upper = SIMD_INFINITY;
 };
 
-Vector3r exact(const btScalar* v) { return {v[0], v[1], v[2]}; }
+Vector3r vectorOf(const btScalar* v) { return {v[0], v[1], v[2]}; }
 
 Real bound(btScalar limit) {
   return std::abs(limit) < SIMD_INFINITY
@@ -238,8 +238,8 @@ Rows jointRows(btTypedConstraint& joint, const std::vector<reference::DenseBody>
   for (const JointRow& r : asked) {
     reference::DenseRow row;
     row.body_b = 1;
-    row.jacobian_a << exact(r.angular_a), exact(r.linear_a);
-    row.jacobian_b << exact(r.angular_b), exact(r.linear_b);
+    row.jacobian_a << vectorOf(r.angular_a), vectorOf(r.linear_a);
+    row.jacobian_b << vectorOf(r.angular_b), vectorOf(r.linear_b);
     row.lower = bound(r.lower);
     row.upper = bound(r.upper);
     // Damping below 1 keeps a part of the velocity.

@@ -17,9 +17,6 @@ bool hasSoftRow(const Rows& rows) {
   return std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.softness != 0; });
 }
 
-template <class Kind>
-constexpr bool kIsComplementarity = std::is_same_v<typename Kind::Base, btMLCPSolver>;
-
 // Tells if the type has limits, motors or springs.
 bool hasBounds(JointType type) {
   return type != JointType::kPointToPoint && type != JointType::kFixed && type != JointType::kGear;

@@ -3,15 +3,15 @@
 #include <cmath>
 
 #include "bullet_ambient/immersed/ambient_body.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/elliptic.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {
 
-constexpr double kGravity = 9.81;  // [m/s^2]
-constexpr double kLength = 1;      // pivot to centre of mass [m]
-constexpr double kMass = 2;        // [kg]
+constexpr double kLength = 1;  // pivot to centre of mass [m]
+constexpr double kMass = 2;    // [kg]
 inline const Vector3 kMoments{0.3, 0.4, 0.2};
 
 /// Suspension: point or hinge of the world, or point of a btMultiBody at rest.

@@ -25,79 +25,52 @@ constexpr int kPeriods = 10;
 constexpr double kBulletsCorrection = 0.2;
 
 // `correction`: part of the joint's error corrected per step.
-class SwingingWorld {
+class SwingingWorld : TreeWorld {
  public:
-  SwingingWorld(const Pendulum& pendulum, double correction)
-      : body_(btScalar(kMass), nullptr, &no_shape_, toBullet(kMoments)) {
-    world_.setGravity({0, btScalar(-kGravity), 0});
-    world_.getSolverInfo().m_erp = btScalar(correction);
-    world_.getSolverInfo().m_numIterations = 200;
+  SwingingWorld(const Pendulum& pendulum, double correction) {
+    world.setGravity({0, btScalar(-kGravity), 0});
+    world.getSolverInfo().m_erp = btScalar(correction);
+    world.getSolverInfo().m_numIterations = 200;
     const RigidState start = pendulum.start();
-    body_.setWorldTransform(btTransform(toBullet(start.orientation), toBullet(start.position)));
-    body_.setActivationState(DISABLE_DEACTIVATION);
-    world_.addRigidBody(&body_);
+    body_ = &contents.add(kMass, toBullet(kMoments), no_shape_,
+                          btTransform(toBullet(start.orientation), toBullet(start.position)));
+    body_->setActivationState(DISABLE_DEACTIVATION);
     AttachDef def;
     def.fluid_body = std::make_shared<FluidBody>(shapeWithoutFaces(pendulum.added_mass, 0));
     def.medium = {1, 0, Vector3::Zero(), Vector3::Zero()};
-    fluid_.add(body_, def);
+    fluid_.add(*body_, def);
     hang(pendulum);
   }
-  ~SwingingWorld() {
-    if (joint_) world_.removeConstraint(joint_.get());
-    if (link_joint_) world_.removeMultiBodyConstraint(link_joint_.get());
-    if (ground_) {
-      world_.removeMultiBody(ground_.get());
-      world_.removeCollisionObject(collider_.get());
-    }
-    world_.removeRigidBody(&body_);
-  }
-  SwingingWorld(const SwingingWorld&) = delete;
-  SwingingWorld& operator=(const SwingingWorld&) = delete;
 
-  const btRigidBody& body() const { return body_; }
-  void step(double dt) { world_.stepSimulation(btScalar(dt), 0, btScalar(dt)); }
+  const btRigidBody& body() const { return *body_; }
+  using TreeWorld::step;
 
  private:
   void hang(const Pendulum& pendulum) {
     const btVector3 pivot = toBullet(pendulum.pivot());
     switch (pendulum.suspension) {
       case Suspension::kPoint:
-        joint_ = std::make_unique<btPoint2PointConstraint>(body_, pivot);
+        contents.take(std::make_unique<btPoint2PointConstraint>(*body_, pivot));
         break;
       case Suspension::kHinge:
-        joint_ = std::make_unique<btHingeConstraint>(body_, pivot, toBullet(pendulum.axis()));
+        contents.take(
+            std::make_unique<btHingeConstraint>(*body_, pivot, toBullet(pendulum.axis())));
         break;
       case Suspension::kLink:
-        addGround();
-        link_joint_ = std::make_unique<btMultiBodyPoint2Point>(ground_.get(), -1, &body_,
-                                                               btVector3(0, 0, 0), pivot);
-        world_.addMultiBodyConstraint(link_joint_.get());
-        return;
+        contents.take(std::make_unique<btMultiBodyPoint2Point>(&addGround(), -1, body_,
+                                                               btVector3(0, 0, 0), pivot));
     }
-    world_.addConstraint(joint_.get());
   }
-  void addGround() {
-    ground_ = std::make_unique<btMultiBody>(0, btScalar(1), btVector3(1, 1, 1), true, false);
-    ground_->finalizeMultiDof();
-    collider_ = std::make_unique<btMultiBodyLinkCollider>(ground_.get(), -1);
-    collider_->setCollisionShape(&no_shape_);
-    ground_->setBaseCollider(collider_.get());
-    world_.addCollisionObject(collider_.get());
-    world_.addMultiBody(ground_.get());
+  btMultiBody& addGround() {
+    auto ground = std::make_unique<btMultiBody>(0, btScalar(1), btVector3(1, 1, 1), true, false);
+    ground->finalizeMultiDof();
+    contents.addCollider(*ground, -1, no_shape_);
+    return contents.take(std::move(ground));
   }
 
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
-  btMultiBodyConstraintSolver solver_;
-  btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
-  Fluid fluid_{world_};
+  Fluid fluid_{world};
   btEmptyShape no_shape_;
-  btRigidBody body_;
-  std::unique_ptr<btTypedConstraint> joint_;
-  std::unique_ptr<btMultiBody> ground_;
-  std::unique_ptr<btMultiBodyLinkCollider> collider_;
-  std::unique_ptr<btMultiBodyPoint2Point> link_joint_;
+  btRigidBody* body_;
 };
 
 struct Swing {

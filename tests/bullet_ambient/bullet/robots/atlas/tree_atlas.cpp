@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kHertz[] = {30, 60, 120, 240};
 constexpr double kColliderRadius = 0.05;  // collider of a link [m]
-constexpr double kGravity = 9.81;         // [m/s^2]
 constexpr double kLongSteps = 6;          // times those of other settings
 constexpr double kGap = 0.05;             // walls of a box to its content [m]
 
