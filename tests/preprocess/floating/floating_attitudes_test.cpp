@@ -110,7 +110,7 @@ TEST(FloatingAttitudes, ABargeHasTheMetacentresAndPeriodsOfItsBox) {
   const double weight = body.mass * kFloatGravity;
   const double heave = period(body.mass, kWater * kFloatGravity * 8);
   int heaves = 0;
-  for (const FloatingMode& mode : upright->modes) {
+  for (const SmallOscillation& mode : upright->modes) {
     heaves += mode.is_heave;
     if (mode.is_heave) {
       EXPECT_NEAR(mode.period, heave, 1e-6);
@@ -133,7 +133,7 @@ TEST(FloatingAttitudes, AddedMassMakesPeriodsLonger) {
   heavy.added_mass = 3 * heavy.volume * Matrix6::Identity();
   body.shape = std::make_shared<FluidBody>(heavy);
   const auto all = findFloatingAttitudes(body);
-  for (const FloatingMode& mode : withUp(all, Vector3::UnitZ())->modes)
+  for (const SmallOscillation& mode : withUp(all, Vector3::UnitZ())->modes)
     if (mode.is_heave) {
       EXPECT_NEAR(mode.period, 2 * kPi * std::sqrt(4 * 0.4 / kFloatGravity), 1e-6);
     }
