@@ -26,7 +26,7 @@ std::string directionText(const Vector3& v) {
 
 // Period of a mode of body and added mass, without damping by waves; "none" where nothing turns the
 // body back.
-std::string modeText(const FloatingMode& mode) {
+std::string modeText(const SmallOscillation& mode) {
   const std::string name = mode.is_heave ? "heave" : "turn about " + directionText(mode.turn);
   return "    period          " +
          (std::isfinite(mode.period) ? line("%.4g s, ", mode.period) : std::string("none, ")) +
@@ -47,11 +47,11 @@ std::string attitudeText(const FloatingAttitude& attitude) {
   for (const Metacentre& metacentre : attitude.metacentres)
     text += line("    GM              %.4g m, about ", metacentre.height) +
             directionText(metacentre.axis) + "\n";
-  for (const FloatingMode& mode : attitude.modes) text += modeText(mode);
+  for (const SmallOscillation& mode : attitude.modes) text += modeText(mode);
   return text;
 }
 
-ordered_json modeJson(const FloatingMode& mode) {
+ordered_json modeJson(const SmallOscillation& mode) {
   ordered_json json{{"heave", mode.is_heave}, {"turn", vectorJson(mode.turn)}};
   json["period"] = std::isfinite(mode.period) ? ordered_json(mode.period) : ordered_json();
   return json;
@@ -69,7 +69,7 @@ ordered_json attitudeJson(const FloatingAttitude& attitude) {
   for (const Metacentre& metacentre : attitude.metacentres)
     json["metacentres"].push_back(
         {{"height", metacentre.height}, {"axis", vectorJson(metacentre.axis)}});
-  for (const FloatingMode& mode : attitude.modes) json["modes"].push_back(modeJson(mode));
+  for (const SmallOscillation& mode : attitude.modes) json["modes"].push_back(modeJson(mode));
   return json;
 }
 

@@ -26,7 +26,7 @@ struct Metacentre {
 
 /// A small oscillation about a floating attitude, without the waves that it makes; the other
 /// motions are free.
-struct FloatingMode {
+struct SmallOscillation {
   double period = 0;      ///< [s]
   Vector3 turn{0, 0, 0};  ///< unit axis of the rotation; zero: heave alone
   bool is_heave = false;  ///< true: most of its potential energy is that of heave
@@ -40,7 +40,7 @@ struct FloatingAttitude {
   double draught = 0;                     ///< depth of the lowest point [m]
   double height_of_mass = 0;              ///< height of the centre of mass above the surface [m]
   std::array<Metacentre, 2> metacentres;  ///< the smaller height first
-  std::array<FloatingMode, 3> modes;      ///< the longest period first
+  std::array<SmallOscillation, 3> modes;  ///< the longest period first
   double energy = 0;  ///< energy of weight and water [J]; reference: centre of mass at the surface,
                       ///< no water displaced
   double share = 0;   ///< share of all attitudes from which the body comes to this one

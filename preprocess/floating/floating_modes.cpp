@@ -56,9 +56,9 @@ Eigen::Matrix3d inertiaOf(const FloatingBody& body, const PackedHull& hull,
   return Cholesky<3>(response).inverse();
 }
 
-FloatingMode modeOf(const Eigen::Vector3d& q, double square, const Eigen::Matrix3d& stiffness,
-                    const Floaters& of) {
-  FloatingMode mode;
+SmallOscillation modeOf(const Eigen::Vector3d& q, double square, const Eigen::Matrix3d& stiffness,
+                        const Floaters& of) {
+  SmallOscillation mode;
   mode.period = square > 0 ? 2 * kPi / std::sqrt(square) : HUGE_VAL;
   const Vector3 turn = q[1] * of.axes.first + q[2] * of.axes.second;
   if (turn.norm() > 0) mode.turn = turn.normalized();
@@ -67,8 +67,8 @@ FloatingMode modeOf(const Eigen::Vector3d& q, double square, const Eigen::Matrix
   return mode;
 }
 
-std::array<FloatingMode, 3> modesOf(const FloatingBody& body, const PackedHull& hull,
-                                    const FloatingPose& pose) {
+std::array<SmallOscillation, 3> modesOf(const FloatingBody& body, const PackedHull& hull,
+                                        const FloatingPose& pose) {
   const Floaters of{pose.plane.normal, PlaneAxes(pose.plane.normal)};
   const Motions motions = motionsOf(of);
   const Eigen::Matrix3d K = stiffnessOf(body, pose, motions);
@@ -77,7 +77,7 @@ std::array<FloatingMode, 3> modesOf(const FloatingBody& body, const PackedHull& 
   const Matrix3 root = Cholesky<3>(M).inverseTransposed();
   const Matrix3 reduced = root.transpose() * K * root;
   const SymmetricEigen<3> eigen = symmetricEigen<3>(reduced);
-  std::array<FloatingMode, 3> modes;
+  std::array<SmallOscillation, 3> modes;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d q = root * eigen.vectors.col(i);
     modes[static_cast<std::size_t>(i)] = modeOf(q, eigen.values[i], K, of);

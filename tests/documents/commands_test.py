@@ -105,8 +105,9 @@ class CommandTest(unittest.TestCase):
                 with self.subTest(page=page.name, code=code):
                     self.assertEqual(list(wrong_in_command(program, words)), [])
 
-    def test_pages_that_name_a_benchmark_say_how_it_is_built(self):
-        benchmarks = [file.stem for file in ROOT.glob("tests/benchmark/*.cpp")]
+    def test_pages_that_name_a_benchmark_or_a_study_say_how_it_is_built(self):
+        files = [*ROOT.glob("tests/benchmark/*.cpp"), *ROOT.glob("tests/**/*_study.cpp")]
+        benchmarks = [file.stem for file in files] + ["bin/work_precision", "bin/added_mass_tables"]
         for page in pages():
             text = page.read_text()
             if any(name in text for name in benchmarks):

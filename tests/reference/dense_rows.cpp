@@ -13,6 +13,9 @@ using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 using Vector3r = Eigen::Matrix<Real, 3, 1>;
 using Matrix3r = Eigen::Matrix<Real, 3, 3>;
 
+// Solves A x = b; the only decomposition of this source, as each takes seconds to compile.
+Vector solutionOf(const Matrix& A, const Vector& b) { return A.fullPivLu().solve(b); }
+
 enum class Bound { kFree, kLower, kUpper };
 
 class DenseSystem {
@@ -91,7 +94,7 @@ class DenseSystem {
       b.segment<6>(at) = bodies_[i].inertia * bodies_[i].free_velocity;
     }
     for (int r = 0; r < static_cast<int>(rows_.size()); ++r) addRow(r, A, b);
-    return A.fullPivLu().solve(b);
+    return solutionOf(A, b);
   }
 
   void addRow(int r, Matrix& A, Vector& b) const {
@@ -198,7 +201,7 @@ Real response(const std::vector<DenseBody>& bodies, const DenseRow& row, const D
   Real sum = 0;
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
     if (bodies[i].fixed) continue;
-    sum += jacobian(row, i).dot(bodies[i].inertia.fullPivLu().solve(jacobian(to, i)));
+    sum += jacobian(row, i).dot(solved(bodies[i].inertia, jacobian(to, i)));
   }
   return sum;
 }
@@ -213,6 +216,8 @@ Real independence(const std::vector<DenseBody>& bodies, const std::vector<DenseR
   return Eigen::SelfAdjointEigenSolver<Matrix>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
+DenseVector6 solved(const DenseMatrix6& K, const DenseVector6& m) { return solutionOf(K, m); }
+
 DenseMatrix6 turned(const DenseMatrix6& K, const Matrix3r& rotation) {
   DenseMatrix6 B = DenseMatrix6::Zero();
   B.topLeftCorner<3, 3>() = rotation;
@@ -226,7 +231,7 @@ DenseVector6 turningRate(const DenseMatrix6& K, const DenseVector6& velocity) {
   const Vector3r l = momentum.head<3>(), p = momentum.tail<3>();
   DenseVector6 rate;
   rate << l.cross(w) + p.cross(v), p.cross(w);
-  rate = K.fullPivLu().solve(rate).eval();
+  rate = solved(K, rate);
   rate.tail<3>() += w.cross(v);
   return rate;
 }

@@ -68,6 +68,9 @@ Real response(const std::vector<DenseBody>& bodies, const DenseRow& row, const D
 /// rows, 0 for linearly dependent ones.
 Real independence(const std::vector<DenseBody>& bodies, const std::vector<DenseRow>& rows);
 
+/// Velocity x of the momentum m = K x.
+DenseVector6 solved(const DenseMatrix6& K, const DenseVector6& m);
+
 /// Rate of change of the velocity of a body with the inertia K, both in world axes, by Kirchhoff's
 /// equations without a wrench.
 DenseVector6 turningRate(const DenseMatrix6& K, const DenseVector6& velocity);

@@ -9,6 +9,7 @@
 #include "tests/reference/kirchhoff_motion.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/matrices.h"
 
 // Exact solutions without loads by stepSimulation(): accurate at any step and any spin.
 namespace ambient::test {
@@ -44,7 +45,7 @@ reference::KirchhoffState exactEnd(const btRigidBody& body, const Matrix6& total
   const Eigen::Matrix<double, 6, 6> inertia = total;
   reference::KirchhoffState s;
   s << start.orientation.coeffs(), start.position, inertia * start.twist.vector();
-  return reference::integrate({inertia.inverse()}, s, durationOf(spin),
+  return reference::integrate({inverse(inertia)}, s, durationOf(spin),
                               std::max(60, static_cast<int>(spin * 20)));
 }
 

@@ -2,28 +2,24 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/matrices.h"
 
 namespace ambient {
 namespace {
 
 using test::Arbitrary;
 using test::FreeBody;
-using Matrix = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kMass = 2;
 const Vector3 kMoments(0.3, 0.4, 0.6);
 
 EvenResponse evenResponse(const Matrix6& inertia) {
-  const Matrix6 inverse = Eigen::LLT<Matrix>(inertia).solve(Matrix::Identity());
-  return makeEvenResponse(inverse, kMoments.asDiagonal());
+  return makeEvenResponse(test::inverse(inertia), kMoments.asDiagonal());
 }
 
 Matrix6 inMatrix(const EvenResponse& even) {
@@ -49,12 +45,11 @@ TEST(EvenResponse, LetsTheSlipDieOutHoweverUneven) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     Arbitrary arbitrary(seed);
     const Matrix6 inertia = dryInertia() + 30 * arbitrary.positiveDefinite();
-    const Matrix even = inMatrix(evenResponse(inertia));
-    const Matrix inverse = Eigen::LLT<Matrix>(inertia).solve(Matrix::Identity());
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(inverse, even);
-    EXPECT_GT(solver.eigenvalues()[0], 0) << seed;
-    EXPECT_LT(solver.eigenvalues()[5], 2) << seed;
-    EXPECT_GE(solver.eigenvalues()[5], 1 - 1e-12) << seed;
+    const Vector6 values =
+        test::generalizedEigenvalues(test::inverse(inertia), inMatrix(evenResponse(inertia)));
+    EXPECT_GT(values[0], 0) << seed;
+    EXPECT_LT(values[5], 2) << seed;
+    EXPECT_GE(values[5], 1 - 1e-12) << seed;
   }
 }
 

@@ -5,6 +5,7 @@
 #include "tests/reference/kirchhoff_integration.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/matrices.h"
 
 namespace ambient {
 namespace {
@@ -105,7 +106,8 @@ double medianRotationError(double spin, double step, Integrator integrator) {
     s << body.state.orientation.coeffs(), body.state.position,
         body.model().inertia * body.state.twist.vector();
     const Eigen::Matrix<double, 6, 6> inertia = body.model().inertia;
-    s = reference::integrate({inertia.inverse()}, s, kSpinDuration, static_cast<int>(spin * 40));
+    s = reference::integrate({test::inverse(inertia)}, s, kSpinDuration,
+                             static_cast<int>(spin * 40));
     body.advance(step, static_cast<int>(std::lround(kSpinDuration / step)));
     errors.push_back(angleBetween(body.state.orientation, reference::orientationOf(s)));
   }

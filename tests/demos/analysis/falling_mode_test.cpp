@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "bullet_ambient/base/pi.h"
+#include "tests/support/matrices.h"
 
 namespace ambient {
 namespace {
@@ -128,10 +129,8 @@ TEST(FallingMode, SpeedsAreThoseOfTheSecondHalf) {
 
 TEST(FallingMode, DoesNotDependOnDirectionsInTheWorld) {
   // Turns the fall: gravity along -x and the plate's normal along its y axis.
-  const Quaternion turn(
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()));
-  const Quaternion normal_to_z(
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()));
+  const Quaternion turn(test::rotationBetween(Vector3::UnitZ(), Vector3::UnitX()));
+  const Quaternion normal_to_z(test::rotationBetween(Vector3::UnitY(), Vector3::UnitZ()));
   auto samples = fallWithTilt([](double t) { return degrees(85) - 2 * kPi * t; });
   const Fall expected = analyse(samples);
   for (MotionSample& sample : samples) {

@@ -14,13 +14,13 @@
 namespace ambient {
 namespace {
 
-constexpr double kRadius = 0.11;
+constexpr double kBallRadius = 0.11;
 constexpr double kDensity = 1.204;
 
 Wrench loadOnBall(const LoadLaw& law, const Twist& twist) {
   LoadSettings settings;
   settings.density = kDensity;
-  const auto ball = std::make_shared<const FluidBody>(test::gaussSphere(kRadius));
+  const auto ball = std::make_shared<const FluidBody>(test::gaussSphere(kBallRadius));
   return law(ball, settings)->load(twist);
 }
 
@@ -28,10 +28,10 @@ TEST(LinearDrag, OfASphereIsForceByVelocityAndTorqueBySpin) {
   const double drag_speed = 0.7;
   const Twist twist{{5, -3, 60}, {30, 4, -2}};
   const Wrench load = loadOnBall(linearDrag(drag_speed), twist);
-  const double area = 4 * kPi * kRadius * kRadius;
+  const double area = 4 * kPi * kBallRadius * kBallRadius;
   const Vector3 force = -kDensity * drag_speed * area * twist.linear;
   const Vector3 torque =
-      -2.0 / 3 * kDensity * drag_speed * area * kRadius * kRadius * twist.angular;
+      -2.0 / 3 * kDensity * drag_speed * area * kBallRadius * kBallRadius * twist.angular;
   EXPECT_LE((load.force - force).norm(), 1e-12 * force.norm());
   EXPECT_LE((load.torque - torque).norm(), 1e-12 * torque.norm());
 }
@@ -46,11 +46,11 @@ TEST(WindwardFlux, OfASphereHasDragOneAndASideForceAgainstMagnus) {
   const double speed = 30, spin = 60;
   const Twist twist{{spin, 0, 0}, {0, 0, speed}};
   const Wrench load = loadOnBall(windwardFlux(), twist);
-  const double drag = 0.5 * kDensity * speed * speed * kPi * kRadius * kRadius;
-  const double side = kPi / 3 * kDensity * std::pow(kRadius, 3) * speed * spin;
+  const double drag = 0.5 * kDensity * speed * speed * kPi * kBallRadius * kBallRadius;
+  const double side = kPi / 3 * kDensity * std::pow(kBallRadius, 3) * speed * spin;
   // Magnus' force is along w x v = -y.
   EXPECT_LE((load.force - Vector3(0, side, -drag)).norm(), 1e-12 * drag);
-  const double torque = -3.0 / 8 * kPi * kDensity * speed * std::pow(kRadius, 4) * spin;
+  const double torque = -3.0 / 8 * kPi * kDensity * speed * std::pow(kBallRadius, 4) * spin;
   EXPECT_LE((load.torque - Vector3(torque, 0, 0)).norm(), 1e-12 * std::abs(torque));
 }
 

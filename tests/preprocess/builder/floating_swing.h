@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "preprocess/builder/shape_builder.h"
+#include "preprocess/shape/shape_reader.h"
 #include "tests/support/floating_runs.h"
 
 namespace ambient::test {
@@ -44,6 +48,20 @@ inline FloatingDef floatingDef(const FluidBody& body, double length, double brea
   def.shape = body;
   def.gyration = 0.4 * Vector3(breadth, length, length);
   return def;
+}
+
+/// Body of a shape in JSON, with 1200 panels at most.
+inline FluidBody bodyOfShape(const std::string& shape, ShapeBuildSettings settings = {}) {
+  settings.flow.max_panels = 1200;
+  return buildShape(readShape(nlohmann::json::parse(shape), "", "shape.json"), settings).body;
+}
+
+/// Added mass of a half-submerged body, z axis up.
+inline Matrix6 halfSubmerged(const FluidBody& body) {
+  FloatingDef def;
+  def.shape = body;
+  const FloatingRun run(def);
+  return run.model().wetted->inertia(run.immersion());
 }
 
 }  // namespace ambient::test

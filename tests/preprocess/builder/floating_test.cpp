@@ -1,36 +1,20 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "preprocess/builder/shape_builder.h"
-#include "preprocess/shape/shape_reader.h"
 #include "tests/preprocess/builder/floating_swing.h"
 
 namespace ambient {
 namespace {
 
+using test::bodyOfShape;
 using test::expectSwing;
 using test::floatingDef;
 using test::FloatingDef;
 using test::FloatingRun;
+using test::halfSubmerged;
 using test::swingOf;
 
-FluidBody bodyOf(const std::string& shape) {
-  ShapeBuildSettings settings;
-  settings.flow.max_panels = 1200;
-  return buildShape(readShape(nlohmann::json::parse(shape), "", "shape.json"), settings).body;
-}
-
-FluidBody barge() { return bodyOf(R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})"); }
-FluidBody cube() { return bodyOf(R"({"type": "box", "size": [1, 1, 1], "faces": 300})"); }
-
-/// Added mass of a half-submerged body, z axis up.
-Matrix6 halfSubmerged(const FluidBody& body) {
-  FloatingDef def;
-  def.shape = body;
-  const FloatingRun run(def);
-  return run.model().wetted->inertia(run.immersion());
-}
+FluidBody barge() { return bodyOfShape(R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})"); }
+FluidBody cube() { return bodyOfShape(R"({"type": "box", "size": [1, 1, 1], "faces": 300})"); }
 
 TEST(Floating, AddedMassIsThatOfImageBoundaryElementsAndItsKnownError) {
   // Heave and surge at infinite frequency by Capytaine 3.0, and the error of eq. (60) relative to
@@ -45,7 +29,7 @@ TEST(Floating, AddedMassIsThatOfImageBoundaryElementsAndItsKnownError) {
       {R"({"type": "box", "size": [4, 4, 0.2], "faces": 300})", 16.0031, -0.10, 0.0345, 0.90},
       {R"({"type": "ellipsoid", "semi_axes": [1.5, 0.75, 0.5]})", 1.3047, -0.15, 0.0919, 0.38}};
   for (const Case& c : cases) {
-    const FluidBody body = bodyOf(c.shape);
+    const FluidBody body = bodyOfShape(c.shape);
     ASSERT_FALSE(body.added_mass_parts.empty());
     const Matrix6 K = halfSubmerged(body);
     EXPECT_NEAR(K(5, 5), (1 + c.heave_error) * c.heave, 0.03 * c.heave) << c.shape;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kWater = 1000, kFloatGravity = 9.81;
 
 // A homogeneous box of given specific gravity, without added mass.
-FloatingBody floatingBox(const Vector3& size, double specific_gravity) {
+FloatingBody boxAfloat(const Vector3& size, double specific_gravity) {
   FloatingBody body;
   body.shape = std::make_shared<FluidBody>(boxBody(size));
   body.density = kWater;
@@ -40,7 +40,7 @@ FloatingAttitude mainAttitude(const FloatingBody& body) {
 
 // Neutral attitudes between flat and corner up: a cube turns about the vertical without moment.
 TEST(FloatingAttitudes, ATiltedCubeIsNeutral) {
-  const FloatingAttitude tilted = mainAttitude(floatingBox({1, 1, 1}, 0.225));
+  const FloatingAttitude tilted = mainAttitude(boxAfloat({1, 1, 1}, 0.225));
   EXPECT_NEAR(tilted.metacentres[0].height, 0, 1e-9);
   EXPECT_GT(tilted.metacentres[1].height, 0.01);
 }
@@ -49,7 +49,7 @@ TEST(FloatingAttitudes, ATiltedCubeIsNeutral) {
 TEST(FloatingAttitudes, ACubeIsFlatTiltedOrOnACorner) {
   const double kFlatBelow = 0.5 - std::sqrt(1.0 / 12);  // 0.2113
   for (const double s : {0.05, 0.2, kFlatBelow - 0.002, 1 - kFlatBelow + 0.002, 0.9}) {
-    const FloatingAttitude flat = mainAttitude(floatingBox({1, 1, 1}, s));
+    const FloatingAttitude flat = mainAttitude(boxAfloat({1, 1, 1}, s));
     EXPECT_NEAR(sortedSizes(flat.up)[2], 1, 1e-6) << s;
     EXPECT_NEAR(flat.draught, s, 1e-6) << s;  // slight tilt has little effect on the draught
     EXPECT_EQ(flat.alike, 6) << s;
@@ -59,12 +59,12 @@ TEST(FloatingAttitudes, ACubeIsFlatTiltedOrOnACorner) {
       EXPECT_NEAR(metacentre.height, 1 / (12 * s) - (1 - s) / 2, 1e-6) << s;
   }
   for (const double s : {kFlatBelow + 0.002, 0.225, 0.775}) {
-    const Vector3 tilted = sortedSizes(mainAttitude(floatingBox({1, 1, 1}, s)).up);
+    const Vector3 tilted = sortedSizes(mainAttitude(boxAfloat({1, 1, 1}, s)).up);
     EXPECT_LT(tilted[2], 0.9999) << s;
     EXPECT_GT(tilted[2], 0.8) << s;
   }
   for (const double s : {0.3, 0.5, 0.7}) {
-    const FloatingAttitude corner = mainAttitude(floatingBox({1, 1, 1}, s));
+    const FloatingAttitude corner = mainAttitude(boxAfloat({1, 1, 1}, s));
     EXPECT_LT((sortedSizes(corner.up) - Vector3::Constant(std::sqrt(1.0 / 3))).norm(), 1e-5) << s;
     EXPECT_EQ(corner.alike, 8) << s;
   }
@@ -73,12 +73,12 @@ TEST(FloatingAttitudes, ACubeIsFlatTiltedOrOnACorner) {
 // A long square bar floats on an edge for 9/32 < s < 23/32 (Reid 1963).
 TEST(FloatingAttitudes, ALongBarFloatsOnItsEdge) {
   for (const double s : {9.0 / 32 + 0.003, 0.5, 23.0 / 32 - 0.003}) {
-    const Vector3 up = sortedSizes(mainAttitude(floatingBox({9, 1, 1}, s)).up);
+    const Vector3 up = sortedSizes(mainAttitude(boxAfloat({9, 1, 1}, s)).up);
     EXPECT_NEAR(up[0], 0, 1e-6) << s;
     EXPECT_NEAR(up[1], std::sqrt(0.5), 1e-4) << s;
   }
   for (const double s : {9.0 / 32 - 0.003, 23.0 / 32 + 0.003})
-    EXPECT_LT(sortedSizes(mainAttitude(floatingBox({9, 1, 1}, s)).up)[1], 0.7) << s;
+    EXPECT_LT(sortedSizes(mainAttitude(boxAfloat({9, 1, 1}, s)).up)[1], 0.7) << s;
 }
 
 const FloatingAttitude* withUp(const std::vector<FloatingAttitude>& all, const Vector3& up) {
@@ -91,7 +91,7 @@ const FloatingAttitude* withUp(const std::vector<FloatingAttitude>& all, const V
 TEST(FloatingAttitudes, ABargeHasTheMetacentresAndPeriodsOfItsBox) {
   const Vector3 size(4, 2, 1);
   const double s = 0.4, draught = 0.4;
-  const FloatingBody body = floatingBox(size, s);
+  const FloatingBody body = boxAfloat(size, s);
   const auto all = findFloatingAttitudes(body);
   const FloatingAttitude* upright = withUp(all, Vector3::UnitZ());
   ASSERT_NE(upright, nullptr);
@@ -110,7 +110,7 @@ TEST(FloatingAttitudes, ABargeHasTheMetacentresAndPeriodsOfItsBox) {
   const double weight = body.mass * kFloatGravity;
   const double heave = period(body.mass, kWater * kFloatGravity * 8);
   int heaves = 0;
-  for (const FloatingMode& mode : upright->modes) {
+  for (const SmallOscillation& mode : upright->modes) {
     heaves += mode.is_heave;
     if (mode.is_heave) {
       EXPECT_NEAR(mode.period, heave, 1e-6);
@@ -126,14 +126,14 @@ TEST(FloatingAttitudes, ABargeHasTheMetacentresAndPeriodsOfItsBox) {
 }
 
 TEST(FloatingAttitudes, AddedMassMakesPeriodsLonger) {
-  FloatingBody body = floatingBox({4, 2, 1}, 0.4);
+  FloatingBody body = boxAfloat({4, 2, 1}, 0.4);
   const double dry = withUp(findFloatingAttitudes(body), Vector3::UnitZ())->modes[0].period;
   FluidBody heavy = *body.shape;
   // Body without parts: added mass times the wet share.
   heavy.added_mass = 3 * heavy.volume * Matrix6::Identity();
   body.shape = std::make_shared<FluidBody>(heavy);
   const auto all = findFloatingAttitudes(body);
-  for (const FloatingMode& mode : withUp(all, Vector3::UnitZ())->modes)
+  for (const SmallOscillation& mode : withUp(all, Vector3::UnitZ())->modes)
     if (mode.is_heave) {
       EXPECT_NEAR(mode.period, 2 * kPi * std::sqrt(4 * 0.4 / kFloatGravity), 1e-6);
     }
@@ -142,7 +142,7 @@ TEST(FloatingAttitudes, AddedMassMakesPeriodsLonger) {
 
 // Mass near the bottom: a single attitude for any shape.
 TEST(FloatingAttitudes, ALowCentreOfMassSettlesIt) {
-  FloatingBody body = floatingBox({1, 1, 1}, 0.5);
+  FloatingBody body = boxAfloat({1, 1, 1}, 0.5);
   body.centre_of_mass = {0, 0, -0.45};
   const auto all = findFloatingAttitudes(body);
   ASSERT_EQ(all.size(), 1U);
@@ -152,8 +152,8 @@ TEST(FloatingAttitudes, ALowCentreOfMassSettlesIt) {
 }
 
 TEST(FloatingAttitudes, DoNotDependOnSizeAndFrame) {
-  FloatingBody small = floatingBox({0.04, 0.02, 0.01}, 0.4);
-  const auto large = findFloatingAttitudes(floatingBox({400, 200, 100}, 0.4));
+  FloatingBody small = boxAfloat({0.04, 0.02, 0.01}, 0.4);
+  const auto large = findFloatingAttitudes(boxAfloat({400, 200, 100}, 0.4));
   const auto all = findFloatingAttitudes(small);
   ASSERT_EQ(all.size(), large.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -169,8 +169,8 @@ TEST(FloatingAttitudes, DoNotDependOnSizeAndFrame) {
 }
 
 TEST(FloatingAttitudes, WhatIsTooHeavyHasNone) {
-  EXPECT_TRUE(findFloatingAttitudes(floatingBox({1, 1, 1}, 1.0)).empty());
-  EXPECT_EQ(findFloatingAttitudes(floatingBox({1, 1, 1}, 0.999)).at(0).alike, 6);
+  EXPECT_TRUE(findFloatingAttitudes(boxAfloat({1, 1, 1}, 1.0)).empty());
+  EXPECT_EQ(findFloatingAttitudes(boxAfloat({1, 1, 1}, 0.999)).at(0).alike, 6);
 }
 
 TEST(FloatingAttitudes, SayWhatIsWrong) {
@@ -182,16 +182,16 @@ TEST(FloatingAttitudes, SayWhatIsWrong) {
     }
     return "";
   };
-  FloatingBody body = floatingBox({1, 1, 1}, 0.5);
+  FloatingBody body = boxAfloat({1, 1, 1}, 0.5);
   body.mass = 0;
   EXPECT_EQ(complaint(body), "fluid body 'hull': mass [kg] is 0; must be positive and finite");
   body.mass = 1e-7 * body.density;
   EXPECT_NE(complaint(body).find("must be at least a millionth of that of its volume of water"),
             std::string::npos);
-  body = floatingBox({1, 1, 1}, 0.5);
+  body = boxAfloat({1, 1, 1}, 0.5);
   body.centre_of_mass = {0, 0, -1e7};
   EXPECT_NE(complaint(body).find("must be at most a million times its size"), std::string::npos);
-  body = floatingBox({1, 1, 1}, 0.5);
+  body = boxAfloat({1, 1, 1}, 0.5);
   auto sheet = std::make_shared<FluidBody>(*body.shape);
   sheet->volume = 0;
   body.shape = sheet;

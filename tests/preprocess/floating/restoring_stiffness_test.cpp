@@ -11,7 +11,7 @@
 namespace ambient::test {
 namespace {
 
-constexpr double kSeaDensity = 1025, kSeaGravity = 9.81;
+constexpr double kDensityAtSea = 1025, kGravityAtSea = 9.81;
 
 // Energy of water and weight [J] after a displacement by a twist of unit time about `point`.
 double energyAfter(const Vector6& twist, const PackedHull& hull, const SurfacePlane& plane,
@@ -23,7 +23,7 @@ double energyAfter(const Vector6& twist, const PackedHull& hull, const SurfacePl
   const Vector3 moved = point + twist.tail<3>() - R * point;
   const SurfacePlane seen = seenFrom(plane, Matrix3(R), moved);
   return hydrostaticEnergy(computeWetVolume(hull, seen), seen) -
-         weight.mass * kSeaGravity * seen.depth(weight.centre);
+         weight.mass * kGravityAtSea * seen.depth(weight.centre);
 }
 
 // Second differences of the energy; of six motions, so that the error is of the order of step^2.
@@ -46,7 +46,7 @@ Matrix6 secondDifferences(const PackedHull& hull, const SurfacePlane& plane,
 // A tilted box, its weight anywhere and not that of the water, about any point.
 TEST(RestoringStiffness, IsTheSecondDerivativeOfTheEnergy) {
   const PackedHull hull(boxBody({2, 1, 0.6}, 4));
-  const SurfacePlane plane{Vector3(0.2, -0.1, 1).normalized(), 0.07, kSeaDensity, kSeaGravity};
+  const SurfacePlane plane{Vector3(0.2, -0.1, 1).normalized(), 0.07, kDensityAtSea, kGravityAtSea};
   const PointMass weight{700, {0.1, -0.05, -0.08}};
   const WetVolume wet = computeWetVolume(hull, plane);
   for (const Vector3& point : {Vector3(0, 0, 0), Vector3(0.4, -0.3, 0.5)}) {
@@ -60,11 +60,11 @@ TEST(RestoringStiffness, IsTheSecondDerivativeOfTheEnergy) {
 TEST(RestoringStiffness, OfABargeIsThatOfItsMetacentres) {
   const double L = 4, B = 1.5, depth = 1, draught = 0.4, height_of_mass = 0.1;
   const PackedHull hull(boxBody({L, B, depth}));
-  const SurfacePlane plane{Vector3::UnitZ(), draught - depth / 2, kSeaDensity, kSeaGravity};
+  const SurfacePlane plane{Vector3::UnitZ(), draught - depth / 2, kDensityAtSea, kGravityAtSea};
   const double volume = L * B * draught;
-  const PointMass weight{kSeaDensity * volume, {0, 0, height_of_mass}};
+  const PointMass weight{kDensityAtSea * volume, {0, 0, height_of_mass}};
   const Matrix6 K = restoringStiffness(computeWetVolume(hull, plane), plane, weight, weight.centre);
-  const double carried = kSeaDensity * kSeaGravity;
+  const double carried = kDensityAtSea * kGravityAtSea;
   const double lever = draught / 2 - depth / 2 - height_of_mass;  // of buoyancy over weight
   Vector6 expected;
   expected << carried * (L * B * B * B / 12 + volume * lever),

@@ -1,12 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
-#include "preprocess/builder/shape_builder.h"
-#include "preprocess/shape/shape_reader.h"
 #include "preprocess/waterline/waterline_builder.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/preprocess/builder/floating_swing.h"
@@ -14,30 +11,21 @@
 namespace ambient {
 namespace {
 
-FluidBody bodyOf(const std::string& shape, int subdivisions) {
+FluidBody bodyWith(const std::string& shape, int subdivisions) {
   ShapeBuildSettings settings;
-  settings.flow.max_panels = 1200;
   settings.waterline_subdivisions = subdivisions;
-  return buildShape(readShape(nlohmann::json::parse(shape), "", "shape.json"), settings).body;
+  return test::bodyOfShape(shape, settings);
 }
 
 constexpr const char* kCube = R"({"type": "box", "size": [1, 1, 1], "faces": 300})";
 constexpr const char* kBarge = R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})";
 
-/// Added mass of a half-submerged body, z axis up.
-Matrix6 halfSubmerged(const FluidBody& body) {
-  test::FloatingDef def;
-  def.shape = body;
-  const test::FloatingRun run(def);
-  return run.model().wetted->inertia(run.immersion());
-}
-
 // Heave, roll, sway and surge by Capytaine 3.0 at infinite frequency, finer meshes.
 TEST(Waterline, AddedMassIsThatOfAnotherBoundaryElementMethod) {
   const auto halfSubmergedWithTable = [](const char* shape, int panels) {
-    FluidBody body = bodyOf(shape, 0);
+    FluidBody body = bodyWith(shape, 0);
     body.waterline = makeWaterlineTable(body, {1, panels, 0});
-    return halfSubmerged(body);
+    return test::halfSubmerged(body);
   };
   const Matrix6 cube = halfSubmergedWithTable(kCube, 600);
   EXPECT_NEAR(cube(5, 5), 0.3213, 0.01 * 0.3213);
@@ -53,7 +41,7 @@ TEST(Waterline, AddedMassIsThatOfAnotherBoundaryElementMethod) {
 // Cummins' equation with Capytaine's coefficients, taken from floating_test.cpp, where periods
 // agree within 4 %.
 TEST(Waterline, PeriodsAreThoseOfLinearTheory) {
-  FluidBody body = bodyOf(kBarge, 0);
+  FluidBody body = bodyWith(kBarge, 0);
   body.waterline = makeWaterlineTable(body, {2, 350, 0});
   const double root = std::sqrt(std::sqrt(2.0) / 9.81);
   test::FloatingRun heave(test::floatingDef(body, 2, 1));
@@ -74,7 +62,7 @@ TEST(Waterline, PeriodsAreThoseOfLinearTheory) {
 
 // Bodies dropped on an edge, and released at depth with spin, in long and short steps.
 TEST(Waterline, ABodyWithATableGainsNoEnergy) {
-  FluidBody body = bodyOf(kBarge, 0);
+  FluidBody body = bodyWith(kBarge, 0);
   body.waterline = makeWaterlineTable(body, {1, 100, 0});
   for (const double gravity : {0.02, 0.5})
     for (const double step : {1.0 / 30, 1.0 / 240})
@@ -97,7 +85,7 @@ TEST(Waterline, ABodyWithATableGainsNoEnergy) {
 }
 
 TEST(Waterline, TheTableIsTheSameOnAnyNumberOfThreads) {
-  const FluidBody body = bodyOf(kBarge, 0);
+  const FluidBody body = bodyWith(kBarge, 0);
   WaterlineSettings settings{1, 100, 1};
   const WaterlineTable one = makeWaterlineTable(body, settings);
   settings.threads = 3;
@@ -108,14 +96,14 @@ TEST(Waterline, TellsOfEachAttitudeThatIsDone) {
   WaterlineSettings settings{1, 100, 2};
   std::vector<std::pair<int, int>> told;
   settings.progress = [&](int done, int attitudes) { told.emplace_back(done, attitudes); };
-  makeWaterlineTable(bodyOf(kBarge, 0), settings);
+  makeWaterlineTable(bodyWith(kBarge, 0), settings);
   // Of the six directions of an octahedron, three are left to solve by the planes of symmetry.
   const std::vector<std::pair<int, int>> expected{{1, 3}, {2, 3}, {3, 3}};
   EXPECT_EQ(told, expected);
 }
 
 TEST(Waterline, SymmetriesOfTheBodyAreThoseOfTheTable) {
-  const FluidBody body = bodyOf(kBarge, 0);
+  const FluidBody body = bodyWith(kBarge, 0);
   const WaterlineTable table = makeWaterlineTable(body, {2, 100, 0});
   const OctahedralLattice lattice(2);
   const Vector6 mirror = (Vector6() << 1, -1, -1, -1, 1, 1).finished();
@@ -133,7 +121,7 @@ TEST(Waterline, SymmetriesOfTheBodyAreThoseOfTheTable) {
 
 TEST(Waterline, SaysWhatCannotHaveATable) {
   const auto refusal = [](const char* shape, int subdivisions) {
-    return test::refusalOf([&] { bodyOf(shape, subdivisions); });
+    return test::refusalOf([&] { bodyWith(shape, subdivisions); });
   };
   EXPECT_EQ(refusal(R"({"type": "sheet", "size": [1, 1]})", 1),
             "shape.json: a sheet cannot have a waterline table");

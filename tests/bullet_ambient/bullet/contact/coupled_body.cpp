@@ -99,7 +99,7 @@ reference::DenseBody CoupledBody::dense(Real dt) const {
   result.inertia = inertia();
   DenseVector6 wrench;
   wrench << exact(body_->getTotalTorque()), exact(body_->getTotalForce());
-  result.free_velocity = velocity() + dt * result.inertia.inverse() * wrench;
+  result.free_velocity = velocity() + dt * reference::solved(result.inertia, wrench);
   // Rows use the velocity at half of the turning part, eq. (28).
   if (isAmbient())
     result.free_velocity += dt / 2 * reference::turningRate(result.inertia, velocity());

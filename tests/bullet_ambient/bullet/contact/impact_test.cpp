@@ -121,7 +121,7 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
     DenseVector6 of_force = wrench;
     of_force.head<3>() = pair.fromA().cross(Vector3r(wrench.tail<3>()));
     const DenseVector6 moved =
-        pair.a().velocity() + bodies[0].inertia.inverse() * (of_force - wrench);
+        pair.a().velocity() + reference::solved(bodies[0].inertia, of_force - wrench);
     worst_point_force = std::max(worst_point_force, pair.a().error(moved, before.a));
   }
   EXPECT_GT(sticking, 200);

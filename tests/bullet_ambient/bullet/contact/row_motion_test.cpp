@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
+#include "tests/support/matrices.h"
 
 // Corrections by the fluid's action after rows have moved a body, and motions without any.
 namespace ambient::test {
@@ -93,7 +93,7 @@ TEST(RowMotion, CountsTheEnergyThatItsBoundRemoves) {
             Vector6 momentum_W = turnedBy(from, K * turnedBy(from.conjugate(), moved_W));
             const Vector3 way = kStep * moved_W.tail<3>(), linear = momentum_W.tail<3>();
             momentum_W.head<3>() -= way.cross(linear);
-            by_momentum = K.inverse() * turnedBy(now.orientation.conjugate(), momentum_W);
+            by_momentum = solve(K, turnedBy(now.orientation.conjugate(), momentum_W));
           },
           true);
       if (kStep * moved_W.head<3>().norm() < 0.5) break;

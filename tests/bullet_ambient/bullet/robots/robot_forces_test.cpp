@@ -4,6 +4,7 @@
 #include "bullet_ambient/bullet/world/multibody_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/support/bodies/ellipsoid_body.h"
+#include "tests/support/matrices.h"
 
 // Joint forces, and forces for accelerations, including the fluid's.
 namespace ambient::test {
@@ -24,7 +25,7 @@ TEST_F(Robots, TellTheMassMatrixAndTheForcesOfAnAcceleration) {
   EXPECT_THROW(ambientInverseDynamics(fluid, body, Eigen::VectorXd::Zero(8)),
                std::invalid_argument);
   // What it does without any force, for a moment.
-  const Eigen::VectorXd rate = H.ldlt().solve(-ambientInverseDynamics(fluid, body, none));
+  const Eigen::VectorXd rate = solve(H, -ambientInverseDynamics(fluid, body, none));
   const double moment = byPrecision(1e-7, 1e-3);
   world.step(moment);
   const Eigen::VectorXd after = (velocityOf(body) - u) / moment;

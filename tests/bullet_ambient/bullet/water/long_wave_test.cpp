@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "bullet_ambient/force/medium/airy_waves.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/part_bodies.h"
+#include "tests/support/matrices.h"
 
 // A body small against a wave moves like the water at the surface. For the height a cos(theta),
 // theta = k x - omega t, displacement along the wave is -a sin(theta).
@@ -92,7 +92,7 @@ Responses responsesOf(const Track& track, const LongWave& wave) {
       basis.row(i) << 1, t, std::cos(angle), std::sin(angle);
       moved.row(i) << p.x(), p.z();
     }
-    fit = basis.colPivHouseholderQr().solve(moved);
+    fit = leastSquares(basis, moved);
   }
   // Phase of time is opposite to theta.
   return {{fit.col(1).tail<2>().norm() / wave.amplitude, std::atan2(fit(3, 1), fit(2, 1))},

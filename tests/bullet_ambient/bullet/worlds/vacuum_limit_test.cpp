@@ -5,6 +5,7 @@
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/kirchhoff_integration.h"
+#include "tests/support/matrices.h"
 
 // Motion in thin fluid tends to motion in a vacuum, at first order in the density.
 namespace ambient::test {
@@ -62,7 +63,7 @@ Vector6 exactFlight() {
   reference::KirchhoffState s = reference::KirchhoffState::Zero();
   s[3] = 1;
   s.segment<3>(7) = def.moments.cwiseProduct(def.start.twist.angular);
-  s = reference::integrate({inertia.inverse()}, s, duration, 60);
+  s = reference::integrate({inverse(inertia)}, s, duration, 60);
   const Vector3 spin =
       reference::orientationOf(s) * Eigen::Vector3d(s.segment<3>(7).cwiseQuotient(def.moments));
   return stack(spin, def.start.twist.linear + duration * Vector3(0, 0, -9.81));

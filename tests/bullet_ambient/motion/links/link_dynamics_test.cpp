@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <limits>
 
 #include "tests/reference/jointed_bodies.h"
 #include "tests/support/bodies/random_trees.h"
+#include "tests/support/matrices.h"
 
 namespace ambient {
 namespace {
@@ -206,7 +206,7 @@ TEST(LinkDynamics, FixedJointsMakeOneBodyOfAllInertias) {
   // Kirchhoff's equations of a single body.
   const Twist x{R.transpose() * test.u.head<3>(), R.transpose() * test.u.segment<3>(3)};
   const Vector6 rate =
-      K.llt().solve(gyroscopicWrench(Momentum::fromVector(K * x.vector()), x).vector());
+      test::solve(K, gyroscopicWrench(Momentum::fromVector(K * x.vector()), x).vector());
   Coordinates expected(6), a(6);
   expected << R * rate.head<3>(), R * (rate.tail<3>() + x.angular.cross(x.linear));
   dynamics.accelerations(test.u, a);

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/matrices.h"
 
 namespace ambient {
 namespace {
@@ -26,7 +26,7 @@ double speedAfterEntry(double gravity, double start, int steps) {
       K(5, 5) += depth * depth;
       return K;
     };
-    const Matrix6 before = inertiaAt(from), after = inertiaAt(to), inverse = after.inverse();
+    const Matrix6 before = inertiaAt(from), after = inertiaAt(to), inverse = test::inverse(after);
     Vector6 x = Vector6::Zero();
     x[5] = -speed;
     const double by_height = 0.5 * 2 * from * speed * speed;
@@ -49,7 +49,7 @@ TEST(SurfacePassage, NeverAddsEnergyWhateverChanges) {
   test::Arbitrary arbitrary(1);
   for (int i = 0; i < 300; ++i) {
     const Matrix6 before = arbitrary.positiveDefinite(), after = arbitrary.positiveDefinite();
-    const Matrix6 inverse = after.inverse();
+    const Matrix6 inverse = test::inverse(after);
     const Vector6 x = arbitrary.twist().vector();
     const SurfacePassage passage{before,
                                  after,
@@ -72,7 +72,7 @@ TEST(SurfacePassage, TellsTheEnergyThatItRemoves) {
   for (int i = 0; i < 100; ++i) {
     const Matrix6 before = arbitrary.positiveDefinite();
     const Matrix6 after = (i % 2 == 0 ? 0.5 : 1.5) * before;
-    const Matrix6 inverse = after.inverse();
+    const Matrix6 inverse = test::inverse(after);
     const Vector6 x = arbitrary.twist().vector(), end = inverse * (before * x);
     const double had = x.dot(before * x) / 2, gain = end.dot(after * end) / 2 - had;
     EXPECT_EQ(gain > 0, i % 2 == 0);
@@ -84,7 +84,7 @@ TEST(SurfacePassage, TellsTheEnergyThatItRemoves) {
 
 TEST(SurfacePassage, LeavesABodyAloneWhoseInertiaStays) {
   test::Arbitrary arbitrary(2);
-  const Matrix6 K = arbitrary.positiveDefinite(), inverse = K.inverse();
+  const Matrix6 K = arbitrary.positiveDefinite(), inverse = test::inverse(K);
   const Vector6 x = arbitrary.twist().vector();
   const SurfacePassage passage{K, K,    inverse, {{1, 2, 3}, {4, 5, 6}}, {0, 0, 1}, {0, 0, 0}, 1,
                                1, 9.81, 0.01};

@@ -12,7 +12,7 @@
 namespace ambient {
 namespace {
 
-constexpr double kGravity = 9.81;
+constexpr double kStandardGravity = 9.81;
 constexpr double kWater = 1000;
 
 constexpr double kRadius = 0.05;
@@ -65,7 +65,8 @@ double periodOf(const nlohmann::json& text) {
 TEST(PendulumInWater, SwingsWithItsAddedMass) {
   const double displaced = kWater * 4 / 3 * kPi * std::pow(kRadius, 3);
   const double inertia = 0.4 * kMass * kRadius * kRadius + (kMass + displaced / 2) * kRope * kRope;
-  const double period = 2 * kPi * std::sqrt(inertia / ((kMass - displaced) * kGravity * kRope));
+  const double period =
+      2 * kPi * std::sqrt(inertia / ((kMass - displaced) * kStandardGravity * kRope));
   EXPECT_NEAR(periodOf(pendulum()), period, 2e-3 * period);
   nlohmann::json hinged = pendulum();
   hinged["joints"][0]["axis"] = {0, 1, 0};
@@ -109,7 +110,7 @@ double liftingMoment(double t, const Scene& scene, const PreparedBody& body) {
   const double across = std::cos(t), z = across * across / 0.45 - 0.25;
   const double attached = 0.5 * (1 - z / std::sqrt(1 + z * z));
   const double pressure = 0.5 * rho * V * V * area * arm * 1.17 * (2 * across - across * across);
-  const double weight = (body.mass - rho * body.fluid_body->volume) * kGravity * arm;
+  const double weight = (body.mass - rho * body.fluid_body->volume) * kStandardGravity * arm;
   const Matrix6& added = body.fluid_body->added_mass;
   const double moment = rho * (added(3, 3) - added(5, 5)) * V * V * across;
   return pressure - (weight + attached * moment) * std::sin(t);
