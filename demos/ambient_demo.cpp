@@ -21,7 +21,6 @@
 #include "demos/simulation/run_signals.h"
 #include "demos/simulation/scene_run.h"
 #include "demos/simulation/summary.h"
-#include "demos/sweep/case_runs.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/parse_exit.h"
@@ -74,7 +73,7 @@ void checkChoice(const Arguments& arguments) {
   const bool has_more = !arguments.gltf.empty() || !arguments.log.isEmpty();
   if (has_cases && (!arguments.overrides.empty() || has_more))
     throw CLI::ExcludesError("--cases", "--set, --gltf and --log");
-  if (has_cases) Shard::parse(arguments.cases.shard);
+  if (has_cases) checkCases(arguments.cases);
 }
 
 Parsed parseArguments(int argc, char** argv) {

@@ -34,6 +34,8 @@ CaseSettings settingsOf(const CasesArguments& arguments) {
 
 }  // namespace
 
+void checkCases(const CasesArguments& arguments) { Shard::parse(arguments.shard); }
+
 bool runCasesCommand(const CasesArguments& arguments) {
   if (!arguments.collect.empty()) {
     writeTable(arguments);

@@ -12,6 +12,9 @@ struct CasesArguments {
   bool quiet = false;
 };
 
+/// Checks arguments that parse. @throws std::invalid_argument in one line.
+void checkCases(const CasesArguments& arguments);
+
 /// Runs the cases of a file, or, with `collect`, writes the table of their results. False if some
 /// have failed.
 /// @throws std::exception in one line.

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 
 namespace ambient {
 namespace {
@@ -24,8 +25,10 @@ InstructionSet findFastest() noexcept {
 
 bool isSupported(InstructionSet instruction_set) noexcept {
 #if defined(__x86_64__)
+#if BULLET_AMBIENT_AVX512
   if (instruction_set == InstructionSet::kAvx512)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+#endif
   if (instruction_set == InstructionSet::kAvx2)
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #endif

@@ -4,7 +4,7 @@ namespace ambient {
 
 enum class InstructionSet { kBaseline, kAvx2, kAvx512 };
 
-/// Returns true if this processor has the instruction set.
+/// Returns true if this processor has the instruction set, and this build the kernels for it.
 bool isSupported(InstructionSet instruction_set) noexcept;
 
 /// Largest instruction set that this processor has and that BULLET_AMBIENT_KERNELS allows. This
@@ -18,7 +18,7 @@ template <class Pointer>
 struct Kernels {
   Pointer baseline, avx2, avx512;
 
-  /// Function for the instruction set; null if this processor does not have that set.
+  /// Function for the instruction set; null if isSupported() returns false.
   Pointer of(InstructionSet set) const noexcept {
     if (!isSupported(set)) return nullptr;
     if (set == InstructionSet::kAvx512) return avx512;
@@ -34,3 +34,11 @@ struct Kernels {
 #define AMBIENT_JOIN_NAMES(name, suffix) name##suffix
 #define AMBIENT_KERNEL_OF_SET(name, suffix) AMBIENT_JOIN_NAMES(name, suffix)
 #define AMBIENT_KERNEL(name) AMBIENT_KERNEL_OF_SET(name, AMBIENT_INSTRUCTION_SET)
+
+// The three pointers of Kernels to a kernel `name` or to its table `&name`, in sources that CMake
+// gives BULLET_AMBIENT_AVX512: 0 in builds without the kernels for AVX-512, else 1.
+#if defined(BULLET_AMBIENT_AVX512) && BULLET_AMBIENT_AVX512
+#define AMBIENT_KERNELS(name) name##Baseline, name##Avx2, name##Avx512
+#else
+#define AMBIENT_KERNELS(name) name##Baseline, name##Avx2, nullptr
+#endif

@@ -46,7 +46,11 @@ endfunction()
 function(ambient_add_kernels box)
   cmake_parse_arguments(KERNELS "" "" "SOURCES;DEPENDS" ${ARGN})
   set(in_vectors "vector_loop:4096:noalign$<COMMA>libcall:-1:noalign")
-  foreach(set IN ITEMS Baseline Avx2 Avx512)
+  set(instruction_sets Baseline Avx2)
+  if(BULLET_AMBIENT_AVX512)
+    list(APPEND instruction_sets Avx512)
+  endif()
+  foreach(set IN LISTS instruction_sets)
     string(TOLOWER ${box}_${set} kernels)
     add_library(${kernels} OBJECT ${KERNELS_SOURCES})
     set_target_properties(${kernels} PROPERTIES UNITY_BUILD OFF)
@@ -64,6 +68,13 @@ function(ambient_add_kernels box)
     endif()
     target_sources(${box} PRIVATE $<TARGET_OBJECTS:${kernels}>)
   endforeach()
+endfunction()
+
+# ambient_set_instruction_sets(SOURCES...): tells sources of this folder for which instruction sets there are kernels. They
+# are compiled alone, so that the others do not depend on that.
+function(ambient_set_instruction_sets)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+    COMPILE_DEFINITIONS BULLET_AMBIENT_AVX512=$<BOOL:${BULLET_AMBIENT_AVX512}>)
 endfunction()
 
 # No target can link boxes of both precisions: CMake refuses to generate it.

@@ -3,9 +3,8 @@
 #include <memory>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/file/load_fluid_body.h"
+#include "demos/simulation/robots_in_world.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/robot/link_shape.h"
 #include "preprocess/shape/shape_mesh.h"
 
 namespace ambient {
@@ -37,29 +36,6 @@ PreparedBody prepareDynamic(const BodyDef& def, std::shared_ptr<const FluidBody>
   body.mass = def.mass;
   body.centre_of_mass = def.centre_of_mass.value_or(Vector3(body.fluid_origin + per_mass.centre));
   body.inertia = def.inertia.value_or(Matrix3(def.mass * per_mass.inertia));
-  return body;
-}
-
-/// Returns the fluid body that the link's <ambient> element names, else that of its collision
-/// shape.
-std::shared_ptr<const FluidBody> fluidBodyOf(const LinkModel& link, const std::string& name,
-                                             SceneBodyCache& fluid_bodies) {
-  if (link.fluid && !link.fluid->fluid_body.empty())
-    return loadFluidBody(link.fluid->fluid_body.string());
-  const LinkShape shape = makeLinkShape(link, RigidPose::Identity());
-  return fluid_bodies.get(*shape.in_link, name);
-}
-
-PreparedBody prepareLink(const Scene& scene, const BodyDef& def, SceneBodyCache& fluid_bodies) {
-  const LinkModel& link = scene.robots[def.link->robot].model->links[def.link->link];
-  PreparedBody body;
-  body.fluid_body = fluidBodyOf(link, def.name, fluid_bodies);
-  body.surface = body.fluid_body->surface;
-  body.mass = def.mass;
-  body.centre_of_mass = link.centre_of_mass;
-  body.inertia = link.inertia;
-  const bool has_fluid = !link.fluid || link.fluid->medium != "none";
-  if (!has_fluid || def.mass == 0) body.fluid_body = nullptr;
   return body;
 }
 

@@ -6,8 +6,6 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
-#include "preprocess/collision_shape/form_body.h"
-#include "preprocess/shape/shape_facts.h"
 
 namespace ambient {
 namespace fs = std::filesystem;
@@ -34,25 +32,6 @@ std::shared_ptr<const FluidBody> SceneBodyCache::get(const ShapeDescription& sha
   return known;
 }
 
-CollisionShapeSettings SceneBodyCache::solidSettings(const std::string& name) {
-  CollisionShapeSettings settings;
-  settings.name = name;
-  settings.flow.threads = threads_;
-  settings.report = [this](const std::string& line) { warnings_.push_back(line); };
-  return settings;
-}
-
-std::shared_ptr<const FluidBody> SceneBodyCache::get(const btCollisionShape& shape,
-                                                     const std::string& name) {
-  const CollisionShapeSettings settings = solidSettings(name);
-  const Provenance from = describeCollisionShape(shape, settings);
-  const std::string key =
-      from.source + " " + std::to_string(from.source_hash) + " " + from.settings;
-  std::shared_ptr<const FluidBody>& known = by_text_[key];
-  if (!known) known = readOr(name, from, [&] { return makeFluidBody(shape, settings); });
-  return known;
-}
-
 std::shared_ptr<const FluidBody> SceneBodyCache::readOr(const std::string& name,
                                                         const Provenance& provenance,
                                                         const std::function<FluidBody()>& build) {
@@ -68,14 +47,7 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOr(const std::string& name,
 std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescription& shape,
                                                              const std::string& name,
                                                              int waterline_subdivisions) {
-  if (isTabulatedSolid(shape.geometry)) {
-    requireUsualExtents(shape.geometry, 1, shape.source);
-    CollisionShapeSettings settings = solidSettings(name);
-    settings.faces = shape.faces;
-    settings.waterline_subdivisions = waterline_subdivisions;
-    const ShapeForm form{shape.text, {{shape.geometry, RigidPose::Identity(), name}}, 1};
-    return readOr(name, describeForm(form, settings), [&] { return makeFormBody(form, settings); });
-  }
+  if (isTabulatedSolid(shape.geometry)) return readOrMakeSolid(shape, name, waterline_subdivisions);
   ShapeBuildSettings settings;
   settings.waterline_subdivisions = waterline_subdivisions;
   settings.name = name;

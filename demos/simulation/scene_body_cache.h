@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "preprocess/collision_shape/collision_shape_body.h"
+#include "preprocess/collision_shape/collision_shape_settings.h"
 #include "preprocess/shape/shapes.h"
+
+class btCollisionShape;
 
 namespace ambient {
 
@@ -45,6 +47,11 @@ class SceneBodyCache {
   CollisionShapeSettings solidSettings(const std::string& name);
   std::shared_ptr<const FluidBody> readOrBuild(const ShapeDescription& shape,
                                                const std::string& name, int waterline_subdivisions);
+  /// The same for a box, cylinder, capsule or cone. A build with BULLET_AMBIENT_WHOLE_DEMO=OFF
+  /// refuses them.
+  std::shared_ptr<const FluidBody> readOrMakeSolid(const ShapeDescription& shape,
+                                                   const std::string& name,
+                                                   int waterline_subdivisions);
   /// Reads a body from the folder, or else calls `build`, whose result save() will write.
   std::shared_ptr<const FluidBody> readOr(const std::string& name, const Provenance& provenance,
                                           const std::function<FluidBody()>& build);

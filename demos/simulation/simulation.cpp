@@ -76,12 +76,12 @@ Simulation::~Simulation() {
   fluid_.clear();
   for (const WorldBody& body : bodies_)
     if (body.body) bullet_.world->removeRigidBody(body.body.get());
-  robots_.clear();
+  robots_.reset();
 }
 
 void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared) {
   if (def.link) {
-    bodies_.push_back(makeWorldLink(def, prepared, robots_[def.link->robot]->robot()));
+    bodies_.push_back(makeWorldLink(def, prepared, robots_->bodyToLink(*def.link)));
   } else {
     bodies_.push_back(makeWorldBody(def, prepared));
     bullet_.world->addRigidBody(bodies_.back().body.get());
@@ -95,11 +95,6 @@ void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody&
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(inputMessage(file_, "body \"", def.name, "\": ", error.what()));
   }
-}
-
-void Simulation::add(const RobotDef& def) {
-  robots_.push_back(std::make_unique<SceneRobot>(def));
-  robots_.back()->robot().addTo(*bullet_.multi_body_world);
 }
 
 void Simulation::add(const JointDef& def) {
@@ -117,16 +112,19 @@ bool Simulation::takesRobots() const { return bullet_.multi_body_world != nullpt
 
 // Links are the last bodies of a scene.
 void Simulation::addRobots(const Scene& scene, const std::vector<PreparedBody>& prepared) {
-  const std::size_t had = robots_.size();
-  for (std::size_t i = had; i < scene.robots.size(); ++i) add(scene.robots[i]);
-  // Adds all motors to the world now: restoring a saved state requires the same constraints.
-  for (std::size_t i = had; i < robots_.size(); ++i) robots_[i]->prepareStep(time(), time_step_);
+  if (robots_) {
+    const std::size_t had = robots_->count();
+    for (std::size_t i = had; i < scene.robots.size(); ++i)
+      robots_->add(scene.robots[i], *bullet_.multi_body_world);
+    // Adds all motors to the world now: restoring a saved state requires the same constraints.
+    robots_->prepareStep(had, time(), time_step_);
+  }
   for (std::size_t i = bodies_.size(); i < prepared.size(); ++i)
     add(scene, scene.bodies[i], prepared[i]);
 }
 
 void Simulation::step() {
-  for (const auto& robot : robots_) robot->prepareStep(time(), time_step_);
+  if (robots_) robots_->prepareStep(0, time(), time_step_);
   // 0 substeps: Bullet makes exactly one step of this length.
   bullet_.world->stepSimulation(static_cast<btScalar>(time_step_), 0);
   ++steps_;
@@ -136,7 +134,7 @@ void Simulation::step() {
 }
 
 btMultiBody& Simulation::multiBodyOf(const WorldBody& link) const {
-  return robots_[link.link->robot]->robot().multiBody();
+  return robots_->multiBody(*link.link);
 }
 
 btRigidBody& Simulation::find(const std::string& name) const {
@@ -156,7 +154,7 @@ MotionSample Simulation::sample(const WorldBody& of) const {
   if (steps_ == 0) return of.start;
   MotionSample now;
   if (of.link) {
-    now = robots_[of.link->robot]->sample(of.link->link);
+    now = robots_->sample(*of.link);
   } else {
     const btTransform& pose = of.body->getWorldTransform();
     now.position = toVector3(pose.getOrigin());

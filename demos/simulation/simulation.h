@@ -15,7 +15,7 @@
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
-#include "demos/simulation/scene_robot.h"
+#include "demos/simulation/robots_in_world.h"
 #include "demos/simulation/world_body.h"
 
 namespace ambient {
@@ -47,7 +47,7 @@ class Simulation {
   /// of prepareBodies() for `scene`. @pre takesRobots(), and the rest of the scene is the same
   void addRobots(const Scene& scene, const std::vector<PreparedBody>& bodies);
   /// A robot, in the order of the scene.
-  SceneRobot& robot(std::size_t index) const { return *robots_.at(index); }
+  SceneRobot& robot(std::size_t index) const { return robots_->robot(index); }
 
   /// Makes one step of scene.time_step.
   /// @throws std::runtime_error naming the scene's file, body and time if a state is not finite.
@@ -94,7 +94,6 @@ class Simulation {
 
  private:
   void add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared);
-  void add(const RobotDef& def);
   void add(const JointDef& def);
   btRigidBody& find(const std::string& name) const;
   btMultiBody& multiBodyOf(const WorldBody& link) const;
@@ -109,7 +108,7 @@ class Simulation {
   BulletWorld bullet_;
   Fluid fluid_;
   std::vector<WorldBody> bodies_;
-  std::vector<std::unique_ptr<SceneRobot>> robots_;
+  std::unique_ptr<RobotsInWorld> robots_ = makeRobotsInWorld();  ///< null: built without
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
   LoadLaw own_law_;  ///< law of all bodies; empty: this library's law
   double time_step_;

@@ -51,13 +51,13 @@ WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared) {
   return made;
 }
 
-WorldBody makeWorldLink(const BodyDef& def, const PreparedBody& prepared, const Robot& robot) {
+WorldBody makeWorldLink(const BodyDef& def, const PreparedBody& prepared, const Matrix3& R_SB) {
   WorldBody made;
   made.name = def.name;
   made.link = def.link;
   made.fluid_body = prepared.fluid_body;
   made.start = startOf(def);
-  made.R_SB = robot.linkInBody(made.linkNumber()).linear().transpose();
+  made.R_SB = R_SB;
   return made;
 }
 

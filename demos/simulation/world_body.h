@@ -9,7 +9,8 @@
 #include "bullet_ambient/bullet/world/immersed.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/simulation/collision_shape.h"
-#include "preprocess/robot/robot.h"
+
+class btMultiBodyDynamicsWorld;
 
 namespace ambient {
 
@@ -32,7 +33,7 @@ struct WorldBody {
 /// Makes a rigid body that never falls asleep; adds it to no world and no fluid.
 WorldBody makeWorldBody(const BodyDef& def, const PreparedBody& prepared);
 /// Describes a link of a robot, which has its shape and its Bullet body.
-WorldBody makeWorldLink(const BodyDef& def, const PreparedBody& prepared, const Robot& robot);
+WorldBody makeWorldLink(const BodyDef& def, const PreparedBody& prepared, const Matrix3& R_SB);
 
 /// Bullet's world and solver of a scene: a btMultiBodyDynamicsWorld if it takes robots.
 struct BulletWorld {

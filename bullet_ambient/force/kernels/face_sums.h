@@ -56,6 +56,6 @@ using SumFaces = FaceSums (*)(const FaceColumns&, const FaceMotion&, bool with_f
 FaceSums sumFacesBaseline(const FaceColumns&, const FaceMotion&, bool with_friction) noexcept;
 FaceSums sumFacesAvx2(const FaceColumns&, const FaceMotion&, bool with_friction) noexcept;
 FaceSums sumFacesAvx512(const FaceColumns&, const FaceMotion&, bool with_friction) noexcept;
-constexpr Kernels<SumFaces> kSumFaces{sumFacesBaseline, sumFacesAvx2, sumFacesAvx512};
+extern const Kernels<SumFaces> kSumFaces;
 
 }  // namespace ambient

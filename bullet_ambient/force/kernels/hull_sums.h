@@ -33,7 +33,6 @@ struct HullKernel {
 };
 
 extern const HullKernel kHullKernelBaseline, kHullKernelAvx2, kHullKernelAvx512;
-constexpr Kernels<const HullKernel*> kHullKernels{&kHullKernelBaseline, &kHullKernelAvx2,
-                                                  &kHullKernelAvx512};
+extern const Kernels<const HullKernel*> kHullKernels;
 
 }  // namespace ambient

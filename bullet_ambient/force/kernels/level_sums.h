@@ -26,7 +26,6 @@ LoadSums sumClustersBaseline(const LevelColumns&, const double (&x)[6],
                              const SingleMotion&) noexcept;
 LoadSums sumClustersAvx2(const LevelColumns&, const double (&x)[6], const SingleMotion&) noexcept;
 LoadSums sumClustersAvx512(const LevelColumns&, const double (&x)[6], const SingleMotion&) noexcept;
-constexpr Kernels<SumClusters> kSumClusters{sumClustersBaseline, sumClustersAvx2,
-                                            sumClustersAvx512};
+extern const Kernels<SumClusters> kSumClusters;
 
 }  // namespace ambient

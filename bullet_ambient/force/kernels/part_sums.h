@@ -38,7 +38,6 @@ struct PartKernel {
 };
 
 extern const PartKernel kPartKernelBaseline, kPartKernelAvx2, kPartKernelAvx512;
-constexpr Kernels<const PartKernel*> kPartKernels{&kPartKernelBaseline, &kPartKernelAvx2,
-                                                  &kPartKernelAvx512};
+extern const Kernels<const PartKernel*> kPartKernels;
 
 }  // namespace ambient

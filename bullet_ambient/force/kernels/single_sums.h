@@ -17,6 +17,6 @@ using SumBlocks = LoadSums (*)(const FaceBlocks&, const SingleMotion&) noexcept;
 LoadSums sumBlocksBaseline(const FaceBlocks&, const SingleMotion&) noexcept;
 LoadSums sumBlocksAvx2(const FaceBlocks&, const SingleMotion&) noexcept;
 LoadSums sumBlocksAvx512(const FaceBlocks&, const SingleMotion&) noexcept;
-constexpr Kernels<SumBlocks> kSumBlocks{sumBlocksBaseline, sumBlocksAvx2, sumBlocksAvx512};
+extern const Kernels<SumBlocks> kSumBlocks;
 
 }  // namespace ambient

@@ -7,8 +7,7 @@
 
 namespace ambient {
 
-constexpr Kernels<const FlightKernel*> kFlightKernels{&kFlightKernelBaseline, &kFlightKernelAvx2,
-                                                      &kFlightKernelAvx512};
+extern const Kernels<const FlightKernel*> kFlightKernels;
 
 /// Kernel of fastestInstructionSet().
 const FlightKernel& fastestFlightKernel() noexcept;

@@ -43,7 +43,6 @@ struct LinkKernel {
 
 extern const LinkKernel kLinkKernelBaseline, kLinkKernelAvx2, kLinkKernelAvx512;
 
-constexpr Kernels<const LinkKernel*> kLinkKernels{&kLinkKernelBaseline, &kLinkKernelAvx2,
-                                                  &kLinkKernelAvx512};
+extern const Kernels<const LinkKernel*> kLinkKernels;
 
 }  // namespace ambient

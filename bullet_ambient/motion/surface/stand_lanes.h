@@ -14,8 +14,7 @@ void completeStands(const SurfaceModel* const* models, SurfaceStand* const* stan
 /// hull of some hundred triangles.
 SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
 
-constexpr Kernels<const SurfaceKernel*> kSurfaceKernels{&kSurfaceKernelBaseline,
-                                                        &kSurfaceKernelAvx2, &kSurfaceKernelAvx512};
+extern const Kernels<const SurfaceKernel*> kSurfaceKernels;
 
 /// Kernel of fastestInstructionSet().
 const SurfaceKernel& fastestSurfaceKernel() noexcept;

@@ -1,0 +1,11 @@
+#include "bullet_ambient/motion/flight/flight_group.h"
+#include "bullet_ambient/motion/links/link_kernel.h"
+#include "bullet_ambient/motion/surface/stand_lanes.h"
+
+namespace ambient {
+
+const Kernels<const FlightKernel*> kFlightKernels{AMBIENT_KERNELS(&kFlightKernel)};
+const Kernels<const LinkKernel*> kLinkKernels{AMBIENT_KERNELS(&kLinkKernel)};
+const Kernels<const SurfaceKernel*> kSurfaceKernels{AMBIENT_KERNELS(&kSurfaceKernel)};
+
+}  // namespace ambient

@@ -1,0 +1,10 @@
+#include "demos/scene/scene_robots.h"
+#include "preprocess/mesh/input_error.h"
+
+namespace ambient {
+
+void addRobot(const nlohmann::json&, Scene& scene) {
+  raiseInputError(scene.file.string(), "a robot ", kNeedsWholeDemo);
+}
+
+}  // namespace ambient
