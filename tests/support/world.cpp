@@ -40,14 +40,8 @@ btMultiBodyLinkCollider& WorldContents::addCollider(btMultiBody& tree, int link,
   return *collider;
 }
 
-btTypedConstraint& WorldContents::join(std::unique_ptr<btTypedConstraint> joint) {
-  world_.addConstraint(joint.get(), true);
-  joints_.push_back(std::move(joint));
-  return *joints_.back();
-}
-
-void WorldContents::own(std::unique_ptr<btTypedConstraint> joint) {
-  world_.addConstraint(joint.get());
+void WorldContents::own(std::unique_ptr<btTypedConstraint> joint, bool may_touch) {
+  world_.addConstraint(joint.get(), !may_touch);
   joints_.push_back(std::move(joint));
 }
 

@@ -38,7 +38,12 @@ class WorldContents {
     return taken;
   }
   /// A joint of bodies that do not touch each other.
-  btTypedConstraint& join(std::unique_ptr<btTypedConstraint> joint);
+  template <class Joint>
+  Joint& join(std::unique_ptr<Joint> joint) {
+    Joint& taken = *joint;
+    own(std::move(joint), false);
+    return taken;
+  }
   /// Deletes a tree and its colliders. Its joints are gone by then.
   void remove(btMultiBody& tree);
   /// Deletes the body that was made last.
@@ -51,7 +56,7 @@ class WorldContents {
   const std::vector<std::unique_ptr<btTypedConstraint>>& joints() const { return joints_; }
 
  private:
-  void own(std::unique_ptr<btTypedConstraint> joint);
+  void own(std::unique_ptr<btTypedConstraint> joint, bool may_touch = true);
   void own(std::unique_ptr<btMultiBodyConstraint> joint);
   void own(std::unique_ptr<btMultiBody> tree);
   btMultiBodyDynamicsWorld& treeWorld() { return dynamic_cast<btMultiBodyDynamicsWorld&>(world_); }

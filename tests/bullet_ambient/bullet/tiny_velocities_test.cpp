@@ -89,7 +89,6 @@ TEST(TinyVelocity, NewtonsCradleHasNone) {
   scene.world.setGravity({0, bt(-9.81), 0});
   btSphereShape shape(bt(kBall));
   std::vector<btRigidBody*> balls;
-  std::vector<std::unique_ptr<btPoint2PointConstraint>> strings;
   for (int i = 0; i < 5; ++i) {
     const double angle = i == 0 ? kAngle : 0;
     const Vector3 rod(std::sin(angle), std::cos(angle), 0);
@@ -98,9 +97,8 @@ TEST(TinyVelocity, NewtonsCradleHasNone) {
     def.start.position = Vector3(2 * kBall * i, 0, 0) - kLength * rod;
     balls.push_back(&scene.add(def, ball(kBall), air()));
     balls.back()->setRestitution(1);
-    strings.push_back(
+    scene.contents.take(
         std::make_unique<btPoint2PointConstraint>(*balls.back(), toBullet(kLength * rod)));
-    scene.world.addConstraint(strings.back().get());
   }
   for (int i = 0; i < 600; ++i) {
     scene.step(kTinyStep);
@@ -109,7 +107,6 @@ TEST(TinyVelocity, NewtonsCradleHasNone) {
       ASSERT_FALSE(isTiny(body->getLinearVelocity())) << i;
     }
   }
-  for (const auto& string : strings) scene.world.removeConstraint(string.get());
 }
 
 }  // namespace

@@ -32,10 +32,8 @@ class Held {
     const Vector3 axis = arbitrary.vector().normalized();
     def.start.twist = {spin * axis, spin * kPivot.cross(axis)};
     body = &scene.add(def, unevenFluid(arbitrary, 3), idealFluid(1));
-    joint = std::make_unique<btPoint2PointConstraint>(*body, toBullet(kPivot));
-    scene.world.addConstraint(joint.get());
+    scene.contents.take(std::make_unique<btPoint2PointConstraint>(*body, toBullet(kPivot)));
   }
-  ~Held() { scene.world.removeConstraint(joint.get()); }
 
   /// Velocities after one step with the other action `act`.
   Vector6 after(std::function<void()> act, bool is_first) {
@@ -51,7 +49,6 @@ class Held {
   static inline const Vector3 kPivot{0.5, 0, 0};
   FluidWorld scene;
   btRigidBody* body;
-  std::unique_ptr<btPoint2PointConstraint> joint;
 };
 
 TEST(RowMotion, LeavesImpulsesOfOtherActionsWhole) {

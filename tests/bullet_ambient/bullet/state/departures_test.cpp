@@ -39,7 +39,7 @@ TEST(Departures, AreTheStatesOfSingleBodies) {
                 rounding);
       EXPECT_EQ(state.position, expected.position);
       EXPECT_LT((state.twist.vector() - expected.twist.vector()).norm(), 20 * rounding);
-      EXPECT_EQ(departures.twists_W[i].vector(), velocityOf(*bodies[i]->body).vector());
+      EXPECT_EQ(departures.twists_W[i].vector(), ambient::velocityOf(*bodies[i]->body).vector());
       EXPECT_EQ(departures.surroundings[i].applied.force,
                 toVector3(bodies[i]->body->getTotalForce()));
     }

@@ -39,9 +39,6 @@ class StateScene {
     stone.start.position = {0.1, 0.15, 2.5};
     scene.add(stone);
   }
-  ~StateScene() {
-    for (const auto& joint : joints) scene.world.removeConstraint(joint.get());
-  }
 
   void step(int count) { scene.step(kSceneStep, count); }
   btRigidBody& body(int i) {
@@ -72,7 +69,6 @@ class StateScene {
   std::shared_ptr<FluidBody> ball_fluid = named("ball", Vector3::Constant(0.1875));
   std::shared_ptr<FluidBody> plate_fluid = named("plate", Vector3(0.28, 0.28, 0.04));
   FluidWorld scene;
-  std::vector<std::unique_ptr<btTypedConstraint>> joints;
 
  private:
   static std::shared_ptr<FluidBody> named(const std::string& name, const Vector3& semi_axes) {
@@ -118,9 +114,8 @@ class StateScene {
       // A joint with one body would lose its place in a .bullet file.
       btRigidBody& other = last ? *last : body(0);
       const btVector3 place = last ? btVector3(-right) : btVector3(btScalar(2.75), 0, 3);
-      auto joint = std::make_unique<btHingeConstraint>(link, other, right, place, axis, axis);
-      scene.world.addConstraint(joint.get());
-      joints.push_back(std::move(joint));
+      scene.contents.take(
+          std::make_unique<btHingeConstraint>(link, other, right, place, axis, axis));
       last = &link;
     }
   }

@@ -94,7 +94,7 @@ TEST(WorldState, ChangesOfBodiesFluidsAndJointsAreTakenBack) {
   scene.body(5).setLinearFactor(btVector3(1, 0, 1));
   scene.body(6).applyCentralForce(btVector3(100, 0, 0));
   scene.body(7).setGravity(btVector3(0, 5, 0));
-  scene.joints[1]->setEnabled(false);
+  scene.scene.contents.joints()[1]->setEnabled(false);
   AttachDef stone;
   stone.fluid_body = scene.ball_fluid;
   stone.medium = water();
@@ -159,9 +159,8 @@ TEST(WorldState, BodiesThatWereJoinedInContactGoOnBitForBit) {
   }
   ASSERT_NE(a, nullptr);
   const btTransform to_b = b->getWorldTransform().inverse() * a->getWorldTransform();
-  scene.joints.push_back(
+  scene.scene.contents.join(
       std::make_unique<btPoint2PointConstraint>(*a, *b, btVector3(0, 0, 0), to_b.getOrigin()));
-  scene.scene.world.addConstraint(scene.joints.back().get(), true);
   scene.step(5);
   const WorldState state = scene.scene.fluid.save();
   const auto motions = record(scene, kAfter);

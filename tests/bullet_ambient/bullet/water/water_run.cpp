@@ -28,10 +28,6 @@ void WaterRun::fill(std::shared_ptr<const WaterSurface> surface) {
   fluid_.fluid.addRegion(sea);
 }
 
-WaterRun::~WaterRun() {
-  for (const auto& joint : joints_) fluid_.world.removeConstraint(joint.get());
-}
-
 btRigidBody& WaterRun::add(const WaterBodyDef& def) {
   FloatingBody& floating =
       bodies_.emplace_back(FloatingBody{makeWaterShape(def.shape, def.size), def.size, 0, nullptr});
@@ -65,11 +61,6 @@ void WaterRun::addPlane(const Vector3& normal, double height) {
   plane.moments.setZero();
   plane.shape = &planes_.emplace_back(toBullet(normal), bt(height));
   fluid_.add(plane);
-}
-
-void WaterRun::join(std::unique_ptr<btTypedConstraint> joint) {
-  fluid_.world.addConstraint(joint.get(), true);
-  joints_.push_back(std::move(joint));
 }
 
 bool WaterRun::isDeep() const {

@@ -34,13 +34,12 @@ class WaterRun {
   explicit WaterRun(Around around);
   /// Makes water with waves.
   explicit WaterRun(std::shared_ptr<const WaterSurface> surface);
-  ~WaterRun();
 
   btRigidBody& add(const WaterBodyDef& def);
   /// Adds a plane that holds bodies on the side of its normal.
   void addPlane(const Vector3& normal, double height);
   /// Adds and owns a joint; joined bodies do not collide.
-  void join(std::unique_ptr<btTypedConstraint> joint);
+  void join(std::unique_ptr<btTypedConstraint> joint) { fluid_.contents.join(std::move(joint)); }
   void step(double duration) { fluid_.step(duration); }
 
   /// Tells if all bodies are below five times their size.
@@ -67,7 +66,6 @@ class WaterRun {
   std::deque<FloatingBody> bodies_;
   std::deque<btStaticPlaneShape> planes_;
   FluidWorld fluid_;
-  std::deque<std::unique_ptr<btTypedConstraint>> joints_;
   double energy_scale_ = 0;
   std::vector<std::string> said_;
 };

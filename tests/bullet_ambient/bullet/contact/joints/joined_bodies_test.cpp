@@ -36,13 +36,8 @@ class Row {
       const FluidBody shape = unevenFluid(arbitrary, 2);
       bodies_.push_back(&scene_.add(def, shape, idealFluid(1)));
     }
-    for (int i = 1; i < count; ++i) {
-      links_.push_back(makeLink(link, *bodies_[i - 1], *bodies_[i]));
-      scene_.world.addConstraint(links_.back().get(), true);
-    }
-  }
-  ~Row() {
-    for (const auto& link : links_) scene_.world.removeConstraint(link.get());
+    for (int i = 1; i < count; ++i)
+      scene_.contents.join(makeLink(link, *bodies_[i - 1], *bodies_[i]));
   }
   void step(double duration) { scene_.step(duration); }
   double energy() const {
@@ -59,7 +54,6 @@ class Row {
  private:
   FluidWorld scene_;
   std::vector<btRigidBody*> bodies_;
-  std::vector<std::unique_ptr<btTypedConstraint>> links_;
 };
 
 struct Drift {

@@ -48,13 +48,10 @@ class Chain {
       if (i > 0) join(i - 1, i);
     }
   }
-  ~Chain() {
-    for (const auto& link : links_) scene_.world.removeConstraint(link.get());
-  }
 
   void hold(int body) {
-    links_.push_back(std::make_unique<btPoint2PointConstraint>(*bodies_[body], btVector3(0, 0, 0)));
-    scene_.world.addConstraint(links_.back().get());
+    scene_.contents.take(
+        std::make_unique<btPoint2PointConstraint>(*bodies_[body], btVector3(0, 0, 0)));
   }
   btContactSolverInfo& solverInfo() { return scene_.world.getSolverInfo(); }
   void step(double duration) { scene_.step(duration); }
@@ -80,13 +77,13 @@ class Chain {
     const btVector3 axis = toBullet(arbitrary_.vector().normalized());
     btRigidBody &first = *bodies_[a], &second = *bodies_[b];
     if (kind_ == JointKind::kBall)
-      links_.push_back(std::make_unique<btPoint2PointConstraint>(first, second, in_a, in_b));
+      scene_.contents.join(std::make_unique<btPoint2PointConstraint>(first, second, in_a, in_b));
     if (kind_ == JointKind::kHinge)
-      links_.push_back(std::make_unique<btHingeConstraint>(first, second, in_a, in_b, axis, axis));
+      scene_.contents.join(
+          std::make_unique<btHingeConstraint>(first, second, in_a, in_b, axis, axis));
     if (kind_ == JointKind::kFixed)
-      links_.push_back(std::make_unique<btFixedConstraint>(
+      scene_.contents.join(std::make_unique<btFixedConstraint>(
           first, second, btTransform(straight, in_a), btTransform(straight, in_b)));
-    scene_.world.addConstraint(links_.back().get(), true);
   }
 
   FluidWorld scene_;
@@ -94,7 +91,6 @@ class Chain {
   JointKind kind_;
   std::vector<btScalar> reaches_;
   std::vector<btRigidBody*> bodies_;
-  std::vector<std::unique_ptr<btTypedConstraint>> links_;
 };
 
 /// Largest rise of energy above an earlier value within two seconds, over the initial energy.
@@ -164,14 +160,10 @@ class BallOnBlock {
     block_ = &add(275, {0.3, 0.3, 0.25}, Vector3::Zero(), "block");
     ball_ = &add(0.05, Vector3::Constant(0.2), {0.18, 0.05, 0.4}, "ball");
   }
-  ~BallOnBlock() {
-    for (const auto& joint : joints_) scene_.world.removeConstraint(joint.get());
-  }
   void join(const btVector3& in_block) {
     const btVector3 in_ball = in_block - ball_->getWorldTransform().getOrigin();
-    joints_.push_back(
-        std::make_unique<btPoint2PointConstraint>(*block_, *ball_, in_block, in_ball));
-    scene_.world.addConstraint(joints_.back().get(), true);
+    joints_.push_back(&scene_.contents.join(
+        std::make_unique<btPoint2PointConstraint>(*block_, *ball_, in_block, in_ball)));
   }
   /// Returns the largest gap of the first joint in four seconds [m].
   double sink(double rate) {
@@ -199,7 +191,7 @@ class BallOnBlock {
 
   FluidWorld scene_;
   btRigidBody *block_, *ball_;
-  std::vector<std::unique_ptr<btPoint2PointConstraint>> joints_;
+  std::vector<const btPoint2PointConstraint*> joints_;
   std::vector<std::string> complaints_;
 };
 
@@ -250,18 +242,12 @@ class Tether {
       bodies_.push_back(&scene_.add(def, facelessEllipsoid(axes), medium));
       z -= axes.z();
       const btVector3 above(0, 0, bt(axes.z()));
-      if (i == 0) {
-        joints_.push_back(std::make_unique<btPoint2PointConstraint>(*bodies_[0], above));
-      } else {
-        joints_.push_back(
-            std::make_unique<btPoint2PointConstraint>(*bodies_[i - 1], *bodies_[i], below, above));
-      }
-      scene_.world.addConstraint(joints_.back().get(), true);
+      joints_.push_back(&scene_.contents.join(
+          i == 0 ? std::make_unique<btPoint2PointConstraint>(*bodies_[0], above)
+                 : std::make_unique<btPoint2PointConstraint>(*bodies_[i - 1], *bodies_[i], below,
+                                                             above)));
       below = -above;
     }
-  }
-  ~Tether() {
-    for (const auto& joint : joints_) scene_.world.removeConstraint(joint.get());
   }
 
   /// Returns the largest distance of two joined points in so many seconds [m].
@@ -285,7 +271,7 @@ class Tether {
 
   FluidWorld scene_;
   std::vector<btRigidBody*> bodies_;
-  std::vector<std::unique_ptr<btPoint2PointConstraint>> joints_;
+  std::vector<const btPoint2PointConstraint*> joints_;
   std::vector<std::string> complaints_;
 };
 
