@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "demos/python/python_world.h"
-#include "demos/simulation/scene_robot.h"
+#include "demos/simulation/robots/scene_robot.h"
 
 namespace ambient {
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "demos/simulation/robots_in_world.h"
+#include "demos/simulation/robots/robots_in_world.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/shape/shape_mesh.h"
 

@@ -15,7 +15,7 @@
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"
-#include "demos/simulation/robots_in_world.h"
+#include "demos/simulation/robots/robots_in_world.h"
 #include "demos/simulation/world_body.h"
 
 namespace ambient {

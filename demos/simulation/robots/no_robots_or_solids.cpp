@@ -1,5 +1,5 @@
 #include "demos/scene/scene_robots.h"
-#include "demos/simulation/robots_in_world.h"
+#include "demos/simulation/robots/robots_in_world.h"
 #include "preprocess/mesh/input_error.h"
 
 namespace ambient {

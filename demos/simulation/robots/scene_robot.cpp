@@ -1,4 +1,4 @@
-#include "demos/simulation/scene_robot.h"
+#include "demos/simulation/robots/scene_robot.h"
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 

@@ -1,9 +1,9 @@
-#include "demos/simulation/robots_in_world.h"
+#include "demos/simulation/robots/robots_in_world.h"
 
 #include <vector>
 
 #include "bullet_ambient/fluid_body/file/load_fluid_body.h"
-#include "demos/simulation/scene_robot.h"
+#include "demos/simulation/robots/scene_robot.h"
 #include "preprocess/robot/link_shape.h"
 
 namespace ambient {
