@@ -27,8 +27,4 @@ Eigen::VectorXd generalizedEigenvalues(const Eigen::MatrixXd& A, const Eigen::Ma
       .eigenvalues();
 }
 
-Eigen::Quaterniond rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to);
-}
-
 }  // namespace ambient::test

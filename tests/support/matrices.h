@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 namespace ambient::test {
 
@@ -21,8 +20,5 @@ Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& A);
 
 /// Values s with A x = s B x, ascending. A is symmetric, B symmetric and positive definite.
 Eigen::VectorXd generalizedEigenvalues(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
-
-/// The least rotation that turns the direction of `from` into that of `to`.
-Eigen::Quaterniond rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace ambient::test

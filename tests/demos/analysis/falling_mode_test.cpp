@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "bullet_ambient/base/pi.h"
-#include "tests/support/matrices.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 namespace ambient {
 namespace {
@@ -129,8 +129,8 @@ TEST(FallingMode, SpeedsAreThoseOfTheSecondHalf) {
 
 TEST(FallingMode, DoesNotDependOnDirectionsInTheWorld) {
   // Turns the fall: gravity along -x and the plate's normal along its y axis.
-  const Quaternion turn(test::rotationBetween(Vector3::UnitZ(), Vector3::UnitX()));
-  const Quaternion normal_to_z(test::rotationBetween(Vector3::UnitY(), Vector3::UnitZ()));
+  const Quaternion turn(rotationBetween(Vector3::UnitZ(), Vector3::UnitX()));
+  const Quaternion normal_to_z(rotationBetween(Vector3::UnitY(), Vector3::UnitZ()));
   auto samples = fallWithTilt([](double t) { return degrees(85) - 2 * kPi * t; });
   const Fall expected = analyse(samples);
   for (MotionSample& sample : samples) {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/worlds/world_setups.h"
 #include "tests/support/bodies/free_body.h"
-#include "tests/support/matrices.h"
 
 // Ambient bodies in flight, on a tether and on the floor, in every world and with every
 // solver.
@@ -50,7 +50,7 @@ class Tank {
     const Vector3 below(0, 0, -0.4);
     const Vector3 up = 2 * (kCentreOfVolume - below) + below;
     RigidState start;
-    start.orientation = rotationBetween(up, Eigen::Vector3d::UnitZ());
+    start.orientation = rotationBetween(up, Vector3::UnitZ());
     start.position = {3, 0, 2};
     tethered_ = &add(0.5, start);
     tethered_->setActivationState(DISABLE_DEACTIVATION);
