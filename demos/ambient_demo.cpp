@@ -5,6 +5,7 @@
 #include <iostream>
 #include <numeric>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -204,8 +205,9 @@ void runAndWrite(const Arguments& arguments) {
     cache.save();
   }
   if (!arguments.quiet) {
-    if (!record.warning.empty())
-      std::fprintf(stderr, "warning: %s\n", plainLine(record.warning).c_str());
+    std::istringstream sentences(record.warning);
+    for (std::string sentence; std::getline(sentences, sentence);)
+      std::fprintf(stderr, "warning: %s\n", plainLine(sentence).c_str());
     if (const long long count = bodiesWithLongSteps(record); count > 0)
       std::fprintf(stderr, "warning: steps were too long for the motion of %lld of %zu bodies\n",
                    count, record.work.size());

@@ -70,9 +70,11 @@ struct AmbientBody {
   StepErrors step_errors;
   std::shared_ptr<const FluidModels> models;
   std::shared_ptr<const AttachDef> def;  ///< equal bodies without a name share it
-  Medium medium;          ///< medium around the body now: its own, or that of its region
+  Medium medium;          ///< medium around the body now: its own, or that of its region; where no
+                          ///< acceleration is given, with the one that FlowMemory tells
   double load_share = 1;  ///< factor on the surface loads in this step, docs/theory.md eq. (51d)
   RegionPlace place;      ///< kNone: the body is in its own medium
+  FlowMemory flow;
   AmbientCounters counters;
   std::unique_ptr<SurfaceMeeting> meeting;  ///< null: the body meets no surface
   std::unique_ptr<Wake> wake;  ///< wake behind a smooth body, docs/theory.md eq. (51b); null: no

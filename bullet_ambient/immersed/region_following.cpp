@@ -1,5 +1,6 @@
 #include "bullet_ambient/immersed/region_following.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -50,6 +51,92 @@ RegionSample sampleFor(AmbientBody& ambient, const FluidRegions::Entry& entry,
   return sample;
 }
 
+// A step of one body in a fluid.
+struct FlowStep {
+  const FluidRegions& regions;
+  const FluidRegions::Entry* entry = nullptr;  // region of the fluid; null: the body's own medium
+  double duration = 0;                         // [s]
+};
+
+// Largest acceleration of the water around a body at its surface, in gravities: the surface stands
+// normal to gravity as the water feels it, so that it tilts by 14 degrees at most.
+constexpr double kLargestAtSurface = 0.25;
+
+RegionId idOf(const FlowStep& step) { return step.entry ? step.entry->id : RegionId::kNone; }
+
+const BareVelocity& bareOf(const RegionSample& sample, bool is_above) {
+  return is_above ? sample.bare_above : sample.bare_below;
+}
+
+// Returns the bare velocity of the fluid now at the place where the body was in its last substep.
+BareVelocity bareThere(const AmbientBody& ambient, const FlowStep& step, const BareVelocity& here) {
+  if (!step.entry || isSteady(step.entry->region)) return here;
+  RegionCall call(step.regions);
+  return bareOf(sampleRegion(step.entry->region, ambient.flow.position, step.regions.time,
+                             ambient.def->medium),
+                ambient.flow.is_above);
+}
+
+// Returns how much the velocity has changed, at that place, since the body saw it.
+Vector3 changeSince(const AmbientBody& ambient, const FlowStep& step, const BareVelocity& here) {
+  const FlowMemory& seen = ambient.flow;
+  const bool has_seen = seen.until == step.regions.time && seen.region == idOf(step);
+  if (!has_seen || seen.parts != here.parts || seen.velocity == here.velocity)
+    return Vector3::Zero();
+  const BareVelocity there = bareThere(ambient, step, here);
+  if (there.parts != seen.parts) return Vector3::Zero();
+  return there.velocity - seen.velocity;
+}
+
+// Returns the part of a change that comes about in this step.
+Vector3 partInStep(const AmbientBody& ambient, const Vector3& change, double duration) {
+  if (!ambient.place.is_at_surface || change.isZero(0)) return change;
+  const double gravity = static_cast<double>(ambient.body->getGravity().length());
+  return std::min(1.0, kLargestAtSurface * gravity * duration / change.norm()) * change;
+}
+
+// Makes the fluid of a sample go on from what the body has seen in its last substep: gives the
+// medium in which the body was its velocity of then, and the acceleration by which this becomes,
+// in the step, what the sample has; docs/theory.md eq. (19a). Changes nothing if the body was in
+// another region, or did not take part in the last substep. Remembers what the body sees. Calls
+// the region's functions once more, where the body was, if what they give differs from that.
+// Allocates nothing.
+void followFlow(AmbientBody& ambient, const FlowStep& step, RegionSample& sample) {
+  ambient.flow.change.setZero();
+  if (!(step.duration > 0)) return;  // the body is being attached or changed, and sees nothing
+  const bool is_above = ambient.flow.is_above;
+  const BareVelocity& bare = bareOf(sample, is_above);
+  const Vector3 change = changeSince(ambient, step, bare);
+  const Vector3 in_step = partInStep(ambient, change, step.duration);
+  Medium& medium = is_above ? sample.above : sample.below;
+  medium.velocity -= change;
+  medium.acceleration += in_step / step.duration;
+  ambient.flow = {step.regions.time + step.duration,
+                  toVector3(ambient.body->getWorldTransform().getOrigin()),
+                  bare.velocity - (change - in_step),
+                  change,
+                  bare.parts,
+                  idOf(step),
+                  is_above};
+}
+
+// Tells on which side of its region's surface the body really is, and the velocity there.
+void changeSide(FlowMemory& memory, bool is_above, const BareVelocity& bare) noexcept {
+  if (is_above == memory.is_above) return;
+  memory.is_above = is_above;
+  memory.change.setZero();
+  memory.velocity = bare.velocity;
+  memory.parts = bare.parts;
+}
+
+void enterOwnMedium(AmbientBody& ambient, const FluidRegions& regions, double duration) noexcept {
+  RegionSample sample;
+  sample.below = ambient.def->medium;
+  sample.bare_below = bareVelocityOf(sample.below);
+  followFlow(ambient, {regions, nullptr, duration}, sample);
+  enterMedium(ambient, {}, sample.below);
+}
+
 }  // namespace
 
 bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& medium) noexcept {
@@ -74,16 +161,13 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
 
 void followRegions(AmbientBody& ambient, const FluidRegions& regions, double duration,
                    Complaints& complaints) noexcept {
-  if (!ambient.def->follow_regions) return;
-  if (regions.empty() && ambient.place.region == RegionId::kNone) return;
-  const FluidRegions::Entry* entry =
-      regions.find(centreOf(ambient), ambient.counters.regions_asked);
+  const FluidRegions::Entry* entry = nullptr;
+  if (ambient.def->follow_regions && !regions.empty())
+    entry = regions.find(centreOf(ambient), ambient.counters.regions_asked);
   ambient.may_rest = !entry || isSteady(entry->region);
-  if (!entry) {
-    enterMedium(ambient, {}, ambient.def->medium);
-    return;
-  }
-  const RegionSample sample = sampleFor(ambient, *entry, regions, complaints);
+  if (!entry) return enterOwnMedium(ambient, regions, duration);
+  RegionSample sample = sampleFor(ambient, *entry, regions, complaints);
+  followFlow(ambient, {regions, entry, duration}, sample);
   if (entry->region.surface)
     checkUp(entry->id, entry->region.surface->up(), toVector3(ambient.body->getGravity()),
             complaints);
@@ -91,6 +175,7 @@ void followRegions(AmbientBody& ambient, const FluidRegions& regions, double dur
                                ? meetSurface(ambient, SurfaceKind(entry->region), sample, duration)
                                : SurfaceSide::kBelow;
   const bool is_above = side == SurfaceSide::kAbove;
+  changeSide(ambient.flow, is_above, is_above ? sample.bare_above : sample.bare_below);
   [[maybe_unused]] const bool is_known =
       enterMedium(ambient, {entry->id, is_above, side == SurfaceSide::kAt},
                   is_above ? sample.above : sample.below);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/spatial/vector_types.h"
 
 AMBIENT_BEGIN
 
@@ -16,6 +17,18 @@ struct RegionPlace {
   friend bool operator==(const RegionPlace& a, const RegionPlace& b) {
     return a.region == b.region && a.is_above == b.is_above && a.is_at_surface == b.is_at_surface;
   }
+};
+
+/// What a body has seen of the velocity of its fluid in its last substep: of the part that no
+/// acceleration is given for, BareVelocity.
+struct FlowMemory {
+  double until = -1;  ///< Fluid::time() at the end of the substep [s]; negative: there was none
+  Vector3 position{0, 0, 0};  ///< of the centre of mass at its start, in W [m]
+  Vector3 velocity{0, 0, 0};  ///< of the fluid there at its end, in W [m/s]
+  Vector3 change{0, 0, 0};    ///< of the fluid's velocity that AmbientBody::medium lacks [m/s]
+  unsigned parts = 0;         ///< BareVelocity::parts
+  RegionId region = RegionId::kNone;
+  bool is_above = false;  ///< true: of the fluid above the region's surface
 };
 
 AMBIENT_END

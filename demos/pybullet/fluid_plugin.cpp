@@ -32,14 +32,15 @@ std::string text(const Eigen::MatrixXd& matrix) {
   return rows.dump();
 }
 
-std::unique_ptr<WorldFluid> makeFluid(btDiscreteDynamicsWorld* world) {
+std::unique_ptr<WorldFluid> makeFluid(btDiscreteDynamicsWorld* world,
+                                      std::set<std::string>& printed) {
   auto* multi_bodies = dynamic_cast<btMultiBodyDynamicsWorld*>(world);
   if (!multi_bodies)
     throw std::invalid_argument("this PyBullet has another kind of world than the plugin knows");
   const btConstraintSolver* solver = multi_bodies->getConstraintSolver();
   if (solver && std::strstr(typeid(*solver).name(), "FluidSolver"))
     throw std::invalid_argument("another copy of this plugin has its fluid in this world");
-  return std::make_unique<WorldFluid>(*multi_bodies);
+  return std::make_unique<WorldFluid>(*multi_bodies, printed);
 }
 
 // Returns the value whose name the command gives for a key; `present` without the key. Fails with a
@@ -84,7 +85,7 @@ void FluidPlugin::meetWorld() {
   if (fluid_ && !fluid_->fluid().isWorldAlive()) forgetWorld();
   if (fluid_ || !refusal_.empty()) return;
   try {
-    fluid_ = makeFluid(findWorld(server_, client_));
+    fluid_ = makeFluid(findWorld(server_, client_), printed_);
     for (auto& [name, region] : regions_) region.id = fluid_->fluid().addRegion(region.region);
   } catch (const std::exception& error) {
     fluid_.reset();

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "demos/pybullet/command.h"
@@ -61,6 +62,7 @@ class FluidPlugin {
   Server& server_;
   Client& client_;
   std::unique_ptr<FluidBodyCache> shapes_;  // must outlive fluid_
+  std::set<std::string> printed_;           // sentences; must outlive fluid_
   std::unique_ptr<WorldFluid> fluid_;
   std::string refusal_;   // reason why the present world has no fluid
   bool has_news_ = true;  // true: bodies may have been added since they were last put in the fluid

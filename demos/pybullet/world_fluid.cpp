@@ -38,14 +38,14 @@ std::string nameOf(const btCollisionObject& object) {
 
 }  // namespace
 
-WorldFluid::WorldFluid(btMultiBodyDynamicsWorld& world)
-    : world_(requireLayout(world)), fluid_(world, SolverOwner::kAsksWorld) {
+WorldFluid::WorldFluid(btMultiBodyDynamicsWorld& world, std::set<std::string>& printed)
+    : world_(requireLayout(world)), printed_(printed), fluid_(world, SolverOwner::kAsksWorld) {
   fluid_.setNaming(nameOf);
   fluid_.setReport([this](const std::string& sentence) { say(sentence); });
 }
 
 void WorldFluid::say(const std::string& sentence) {
-  std::fprintf(stderr, "%s\n", sentence.c_str());
+  if (printed_.insert(sentence).second) std::fprintf(stderr, "%s\n", sentence.c_str());
   if (said_.size() < kKeptSentences) said_.push_back(sentence);
 }
 

@@ -30,7 +30,8 @@ class WorldFluid {
 
   /// Connects a fluid with the world. @throws std::invalid_argument, in one sentence, if the
   /// world's classes have other layouts than the plugin's, or Fluid refuses the world
-  explicit WorldFluid(btMultiBodyDynamicsWorld& world);
+  /// `printed`: sentences that need not be printed again, as of worlds before a reset.
+  WorldFluid(btMultiBodyDynamicsWorld& world, std::set<std::string>& printed);
 
   Fluid& fluid() { return fluid_; }
   /// Call before each substep. Puts the fluid's solver into the place of the world's present one.
@@ -64,6 +65,7 @@ class WorldFluid {
   void say(const std::string& sentence);
 
   btMultiBodyDynamicsWorld& world_;
+  std::set<std::string>& printed_;
   Fluid fluid_;
   bool was_added_ = false;  // true after addAll(): the fluid adds later bodies with its settings
   std::set<Key> excluded_;

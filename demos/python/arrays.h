@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/spatial/vector_types.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
 
@@ -38,6 +38,24 @@ inline Vector3 vectorFrom(const InputArray& array, const std::string& name) {
   if (array.ndim() != 1 || array.shape(0) != 3)
     throw pybind11::value_error(name + " must be three numbers");
   return {array.data()[0], array.data()[1], array.data()[2]};
+}
+
+/// Converts a twist (6,), angular part first. @throws ValueError that begins with "twist"
+inline Twist twistFrom(const InputArray& array) {
+  if (array.ndim() != 1 || array.shape(0) != 6)
+    throw pybind11::value_error("twist must be six numbers");
+  const double* x = array.data();
+  return {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+}
+
+/// Converts a quaternion (4,) w, x, y, z. @throws ValueError that begins with "orientation"
+inline Quaternion quaternionFrom(const InputArray& array) {
+  if (array.ndim() != 1 || array.shape(0) != 4)
+    throw pybind11::value_error("orientation must be four numbers");
+  const double* q = array.data();
+  const Quaternion quaternion(q[0], q[1], q[2], q[3]);
+  if (!(quaternion.norm() > 0)) throw pybind11::value_error("orientation must have a length > 0");
+  return quaternion.normalized();
 }
 
 /// Returns the shape of an array as text, such as "(4, 3)".

@@ -46,6 +46,45 @@ void setMotor(const PythonRobot& robot, const std::string& joint, std::optional<
   robot.get().setDrive(joint, drive);
 }
 
+Robot& changed(const PythonRobot& robot) {
+  return robot.world->simulation().changedRobot(robot.index);
+}
+
+void setPose(const PythonRobot& robot, const InputArray& position, const py::object& orientation) {
+  Robot& moved = changed(robot);
+  RigidPose pose = moved.linkPose(-1) * moved.model().links.front().joint.origin.inverse();
+  pose.translation() = vectorFrom(position, "position");
+  if (!orientation.is_none())
+    pose.linear() = quaternionFrom(orientation.cast<InputArray>()).toRotationMatrix();
+  moved.setPose(pose);
+}
+
+void setJoint(const PythonRobot& robot, const std::string& joint, std::optional<double> position,
+              std::optional<double> velocity) {
+  if (position) changed(robot).setPosition(joint, *position);
+  if (velocity) changed(robot).setVelocity(joint, *velocity);
+}
+
+void bindMotion(py::class_<PythonRobot>& type) {
+  type.def(
+          "set_pose", &setPose, py::arg("position"), py::arg("orientation") = py::none(),
+          "Puts the root link's frame to a position (3,) [m], with an orientation (4,) w, x, y, z; "
+          "default: the present one.")
+      .def(
+          "set_twist",
+          [](const PythonRobot& r, const InputArray& twist) {
+            changed(r).setTwist(twistFrom(twist));
+          },
+          py::arg("twist"),
+          "Sets the twist (6,) of the root link: angular velocity [rad/s], then velocity of its "
+          "centre "
+          "of mass [m/s], world axes.")
+      .def("set_joint", &setJoint, py::arg("joint"), py::kw_only(),
+           py::arg("position") = py::none(), py::arg("velocity") = py::none(),
+           "Sets position [rad] or [m] and velocity [rad/s] or [m/s] of a joint; default: as they "
+           "are.");
+}
+
 void bindJoints(py::class_<PythonRobot>& type) {
   type.def_property_readonly("joints", &jointNames, "Names of the J revolute and prismatic joints.")
       .def_property_readonly(
@@ -103,6 +142,7 @@ void bindRobot(py::module_& module) {
 ['yaw', 'shoulder', 'elbow']
 )");
   bindJoints(type);
+  bindMotion(type);
   type.def_property_readonly(
           "name", [](const PythonRobot& r) { return r.world->scene().robots[r.index].name; },
           "Name of the robot; its links are bodies NAME/LINK of the world.")

@@ -61,6 +61,12 @@ void applyForce(const PythonBody& body, const InputArray& force, const py::objec
   body.world->simulation().applyForce(body.index, vectorFrom(force, "force"), point);
 }
 
+void setPose(const PythonBody& body, const InputArray& position, const py::object& orientation) {
+  const Quaternion q = orientation.is_none() ? body.sample().orientation
+                                             : quaternionFrom(orientation.cast<InputArray>());
+  body.world->simulation().setPose(body.index, vectorFrom(position, "position"), q);
+}
+
 PythonRobot loadUrdf(const std::shared_ptr<PythonWorld>& world, const py::object& path,
                      const py::kwargs& settings) {
   if (!world->simulation().takesRobots())
@@ -121,6 +127,18 @@ void bindForces(py::class_<PythonBody>& type) {
             b.world->simulation().applyTorque(b.index, vectorFrom(torque, "torque"));
           },
           py::arg("torque"), "Adds a torque (3,) [N m] for one step.")
+      .def("set_pose", &setPose, py::arg("position"), py::arg("orientation") = py::none(),
+           "Puts the centre of mass to a position (3,) [m], with an orientation (4,) w, x, y, z; "
+           "default: the present one. Not of a link: Robot.set_pose() moves all of them.")
+      .def(
+          "set_twist",
+          [](const PythonBody& b, const InputArray& twist) {
+            b.world->simulation().setTwist(b.index, twistFrom(twist));
+          },
+          py::arg("twist"),
+          "Sets the twist (6,): angular velocity [rad/s], then velocity of the centre of mass "
+          "[m/s]. "
+          "Not of a link.")
       .def(
           "set_medium",
           [](const PythonBody& b, const Medium& medium) {
@@ -277,7 +295,7 @@ True
                              "Scene of the world, with the robots that were added.")
       .def_property_readonly(
           "warning", [](const PythonWorld& w) { return w.simulation().warning(); },
-          "Last report of the library; empty: none.")
+          "All reports of the library, a sentence a line; empty: none.")
       .def("close", &PythonWorld::close,
            "Frees the memory of the world, which cannot be used afterwards.")
       .def("__enter__", [](const std::shared_ptr<PythonWorld>& w) { return w; })

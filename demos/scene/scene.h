@@ -87,11 +87,14 @@ struct RobotDef {
   std::shared_ptr<const RobotModel> model;
   Vector3 position = Vector3::Zero();               ///< origin of the root link's frame in W [m]
   Quaternion orientation = Quaternion::Identity();  ///< root link's axes to W
+  Vector3 linear_velocity = Vector3::Zero();   ///< of the root link's centre of mass in W [m/s]
+  Vector3 angular_velocity = Vector3::Zero();  ///< of the root link in W [rad/s]
   bool fixed_base = false;
   bool self_collision = false;
-  std::map<std::string, double> joint_positions;  ///< positions at t = 0 by name of the joint
-  std::map<std::string, JointDrive> motors;       ///< motors by name of the joint
-  std::optional<Medium> medium;                   ///< medium of links that name none
+  std::map<std::string, double> joint_positions;   ///< positions at t = 0 by name of the joint
+  std::map<std::string, double> joint_velocities;  ///< velocities at t = 0
+  std::map<std::string, JointDrive> motors;        ///< motors by name of the joint
+  std::optional<Medium> medium;                    ///< medium of links that name none
   FlowSettings flow;
 
   RigidPose pose() const;

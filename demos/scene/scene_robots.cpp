@@ -62,8 +62,9 @@ void readFlow(const json& from, PressureLaw law, FlowSettings& flow) {
   flow.skin_friction = from.value("skin_friction", flow.skin_friction);
 }
 
-/// Reads motors and joint positions; checks that the joints are revolute or prismatic. A joint with
-/// a position motor starts at the motor's target, unless joint_positions names another position.
+/// Reads motors, joint positions and velocities; checks that the joints are revolute or prismatic.
+/// A joint with a position motor starts at the motor's target, unless joint_positions names another
+/// position.
 void readJoints(const json& from, const std::string& place, RobotDef& robot) {
   const auto require_axial = [&](const std::string& key, const std::string& joint) {
     const auto index = static_cast<std::size_t>(robot.model->jointIndex(joint));
@@ -77,11 +78,15 @@ void readJoints(const json& from, const std::string& place, RobotDef& robot) {
       robot.motors[joint] = drive;
       if (!drive.velocity) robot.joint_positions[joint] = drive.positionAt(0);
     }
-  if (from.contains("joint_positions"))
-    for (const auto& [joint, position] : from.at("joint_positions").items()) {
-      require_axial("joint_positions", joint);
-      robot.joint_positions[joint] = position.get<double>();
+  const auto read = [&](const std::string& key, std::map<std::string, double>& numbers) {
+    if (!from.contains(key)) return;
+    for (const auto& [joint, number] : from.at(key).items()) {
+      require_axial(key, joint);
+      numbers[joint] = number.get<double>();
     }
+  };
+  read("joint_positions", robot.joint_positions);
+  read("joint_velocities", robot.joint_velocities);
 }
 
 BodyDef toBody(const Scene& scene, const RobotDef& robot, std::size_t index,
@@ -146,6 +151,8 @@ void addRobot(const json& from, Scene& scene) {
     raiseInputError(place + "orientation", "has norm ", norm, "; must be 1 within ",
                     kQuaternionTolerance);
   robot.orientation.normalize();
+  robot.linear_velocity = vectorOr(from, "linear_velocity", Vector3::Zero());
+  robot.angular_velocity = vectorOr(from, "angular_velocity", Vector3::Zero());
   robot.fixed_base = from.value("fixed_base", false);
   robot.self_collision = from.value("self_collision", false);
   if (from.contains("medium")) robot.medium = toMedium(from.at("medium"), Medium{});

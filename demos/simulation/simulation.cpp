@@ -64,7 +64,10 @@ Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prep
       own_law_(loadLawOf(scene)),
       time_step_(scene.time_step),
       file_(scene.file.string()) {
-  fluid_.setReport([this](const std::string& sentence) { warning_ = sentence; });
+  fluid_.setReport([this](const std::string& sentence) {
+    if (!warning_.empty()) warning_ += '\n';
+    warning_ += sentence;
+  });
   bullet_.world->setGravity(toBullet(scene.gravity));
   for (FluidRegion& region : makeRegions(scene)) fluid_.addRegion(std::move(region));
   addRobots(scene, prepared);
@@ -87,6 +90,10 @@ void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody&
     bullet_.world->addRigidBody(bodies_.back().body.get());
   }
   WorldBody& added = bodies_.back();
+  if (added.link) {
+    const Twist twist = robots_[def.link->robot]->sample(def.link->link).twist;
+    if (!twist.vector().isZero(0)) added.start.twist = twist;
+  }
   if (scene.model == FluidModel::kVacuum || prepared.mass == 0 || !prepared.fluid_body) return;
   try {
     const AttachDef attach = makeAttachDef(scene, def, prepared, added.R_SB, own_law_);
@@ -140,6 +147,8 @@ btMultiBody& Simulation::multiBodyOf(const WorldBody& link) const {
 btRigidBody& Simulation::find(const std::string& name) const {
   const auto found = std::find_if(bodies_.begin(), bodies_.end(),
                                   [&](const WorldBody& body) { return body.name == name; });
+  if (found == bodies_.end() || !found->body)
+    raiseInputError(file_, "there is no rigid body \"", name, "\"");
   return *found->body;
 }
 
@@ -151,7 +160,7 @@ std::shared_ptr<const FluidBody> Simulation::findFluidBody(const std::string& na
 }
 
 MotionSample Simulation::sample(const WorldBody& of) const {
-  if (steps_ == 0) return of.start;
+  if (steps_ == 0 && of.is_at_start) return of.start;
   MotionSample now;
   if (of.link) {
     now = robots_->sample(*of.link);
@@ -215,6 +224,32 @@ void Simulation::applyForce(std::size_t body, const Vector3& force, const Vector
 
 void Simulation::applyTorque(std::size_t body, const Vector3& torque) {
   apply(bodies_.at(body), {torque, Vector3::Zero()});
+}
+
+btRigidBody& Simulation::rigidBody(std::size_t body) {
+  WorldBody& of = bodies_.at(body);
+  if (of.link)
+    throw std::invalid_argument("body \"" + of.name + "\" is a link; its robot can be set");
+  of.is_at_start = false;
+  return *of.body;
+}
+
+void Simulation::setPose(std::size_t body, const Vector3& position, const Quaternion& orientation) {
+  btRigidBody& moved = rigidBody(body);
+  const Quaternion to_W(Matrix3(orientation.normalized() * bodies_[body].R_SB));
+  moved.setCenterOfMassTransform(btTransform(toBullet(to_W), toBullet(position)));
+}
+
+void Simulation::setTwist(std::size_t body, const Twist& twist_W) {
+  btRigidBody& moved = rigidBody(body);
+  moved.setAngularVelocity(toBullet(twist_W.angular));
+  moved.setLinearVelocity(toBullet(twist_W.linear));
+}
+
+Robot& Simulation::changedRobot(std::size_t index) {
+  for (WorldBody& body : bodies_)
+    if (body.link && body.link->robot == index) body.is_at_start = false;
+  return robots_.at(index)->robot();
 }
 
 void Simulation::setMedium(std::size_t body, const Medium& medium) {

@@ -76,6 +76,15 @@ class Simulation {
   /// Adds a torque [N m] that acts during the next step; world axes.
   void applyTorque(std::size_t body, const Vector3& torque);
 
+  /// Puts a rigid body elsewhere: its centre of mass, and the turn of the shape's axes to W.
+  /// @throws std::invalid_argument if the body is a link.
+  void setPose(std::size_t body, const Vector3& position, const Quaternion& orientation);
+  /// Gives a rigid body a motion: velocity of its centre of mass, world axes.
+  /// @throws std::invalid_argument if the body is a link.
+  void setTwist(std::size_t body, const Twist& twist_W);
+  /// Returns a robot whose motion is going to be set.
+  Robot& changedRobot(std::size_t index);
+
   /// Changes the fluid around a body, as Immersed::setMedium().
   /// @throws std::invalid_argument naming the body if the fluid does not act on it or the medium is
   /// not physical.
@@ -89,14 +98,16 @@ class Simulation {
   /// of another scene; the simulation then stays as it was.
   void restoreState(std::string_view bytes);
 
-  /// Last report of the library, one sentence; empty: none.
+  /// All reports of the library, a sentence a line; empty: none.
   const std::string& warning() const { return warning_; }
 
  private:
   void add(const Scene& scene, const BodyDef& def, const PreparedBody& prepared);
   void add(const JointDef& def);
+  /// @throws std::runtime_error if no rigid body has this name.
   btRigidBody& find(const std::string& name) const;
   btMultiBody& multiBodyOf(const WorldBody& link) const;
+  btRigidBody& rigidBody(std::size_t body);
   std::shared_ptr<const FluidBody> findFluidBody(const std::string& name) const;
   MotionSample sample(const WorldBody& of) const;
   /// Applies a wrench during the next step: about the centre of mass, axes of W.

@@ -19,6 +19,7 @@ namespace ambient {
 struct WorldBody {
   std::string name;
   MotionSample start;                  ///< motion at t = 0
+  bool is_at_start = true;             ///< false: it was put elsewhere before the first step
   Matrix3 R_SB = Matrix3::Identity();  ///< rotation from B's axes to S's
   CollisionShape shape;
   std::unique_ptr<btRigidBody> body;  ///< null: the body is a link of a robot

@@ -20,6 +20,10 @@ SharedBodies::Body SharedBodies::get(const std::string& key, const std::function
     try {
       promise.set_value(make());
     } catch (...) {
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        bodies_.erase(key);
+      }
       promise.set_exception(std::current_exception());
     }
   }

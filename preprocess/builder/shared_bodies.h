@@ -17,7 +17,8 @@ class SharedBodies {
   using Body = std::shared_ptr<const FluidBody>;
 
   /// Returns the body of a key. The first thread that asks calls make(); others wait for it. An
-  /// exception of make() goes to all callers with this key, now and later.
+  /// exception of make() goes to all of them; the next caller makes the body again, as the memory
+  /// or the file that was missing may be there then.
   Body get(const std::string& key, const std::function<Body()>& make);
 
  private:

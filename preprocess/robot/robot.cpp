@@ -4,6 +4,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <cmath>
+#include <limits>
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "preprocess/mesh/input_error.h"
@@ -13,15 +14,16 @@ AMBIENT_BEGIN
 
 Robot::Robot(RobotModel model, const RobotSettings& settings) : model_(std::move(model)) {
   checkRobot(model_, settings.fixed_base);
-  if (!settings.pose.matrix().allFinite())
-    raiseInputError(model_.source, "the pose of the robot is not finite");
   for (const LinkModel& link : model_.links) {
     frames_.push_back(findMassFrame(link));
     shapes_.push_back(makeLinkShape(link, frames_.back().link_in_body));
   }
   makeBody(settings);
   makeColliders();
-  place(settings);
+  setPose(settings.pose);
+  setTwist(settings.twist_W);
+  for (const auto& [joint, position] : settings.positions) setPosition(joint, position);
+  for (const auto& [joint, velocity] : settings.velocities) setVelocity(joint, velocity);
   joints_ = std::make_unique<RobotJoints>(model_, *body_);
 }
 
@@ -37,6 +39,7 @@ void Robot::makeBody(const RobotSettings& settings) {
   body_->setHasSelfCollision(settings.self_collision);
   body_->setLinearDamping(0);
   body_->setAngularDamping(0);
+  body_->setMaxCoordinateVelocity(std::numeric_limits<btScalar>::max());
 }
 
 void Robot::setUpLink(std::size_t index) {
@@ -91,16 +94,42 @@ void Robot::makeColliders() {
   }
 }
 
-void Robot::place(const RobotSettings& settings) {
-  for (const auto& [joint, position] : settings.positions) {
-    requireAxial(joint);
-    if (!std::isfinite(position))
-      raiseInputError(model_.source, "the position of joint \"", joint, "\" is not finite");
-    body_->setJointPos(jointNumber(joint), static_cast<btScalar>(position));
-  }
-  const RigidPose base =
-      settings.pose * model_.links.front().joint.origin * linkInBody(-1).inverse();
+void Robot::setPose(const RigidPose& pose) {
+  if (!pose.matrix().allFinite())
+    raiseInputError(model_.source, "the pose of the robot is not finite");
+  const RigidPose base = pose * model_.links.front().joint.origin * linkInBody(-1).inverse();
   body_->setBaseWorldTransform(toBulletTransform(base));
+  moveColliders();
+}
+
+void Robot::setTwist(const Twist& twist_W) {
+  if (!twist_W.vector().allFinite())
+    raiseInputError(model_.source, "the velocity of the robot is not finite");
+  if (body_->hasFixedBase() && !twist_W.vector().isZero(0))
+    raiseInputError(model_.source,
+                    "the robot has a velocity and a fixed base; must have one of them");
+  body_->setBaseVel(toBullet(twist_W.linear));
+  body_->setBaseOmega(toBullet(twist_W.angular));
+}
+
+void Robot::requireFinite(const std::string& joint, const char* what, double value) const {
+  requireAxial(joint);
+  if (!std::isfinite(value))
+    raiseInputError(model_.source, "the ", what, " of joint \"", joint, "\" is not finite");
+}
+
+void Robot::setPosition(const std::string& joint, double position) {
+  requireFinite(joint, "position", position);
+  body_->setJointPos(jointNumber(joint), static_cast<btScalar>(position));
+  moveColliders();
+}
+
+void Robot::setVelocity(const std::string& joint, double velocity) {
+  requireFinite(joint, "velocity", velocity);
+  body_->setJointVel(jointNumber(joint), static_cast<btScalar>(velocity));
+}
+
+void Robot::moveColliders() {
   btAlignedObjectArray<btQuaternion> turns;
   btAlignedObjectArray<btVector3> places;
   body_->forwardKinematics(turns, places);

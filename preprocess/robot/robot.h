@@ -22,15 +22,19 @@ struct RobotSettings {
   RigidPose pose =
       RigidPose::Identity();  ///< pose of the robot's frame, that of the root link, in W
   bool fixed_base = false;
+  /// Motion of the root link: velocity of its centre of mass, world axes. @pre zero for a fixed
+  /// base
+  Twist twist_W;
   std::map<std::string, double>
       positions;  ///< positions of revolute and prismatic joints by name [rad, m]; others: 0
-  bool self_collision = false;  ///< true: links that no joint connects collide
+  std::map<std::string, double> velocities;  ///< their velocities [rad/s, m/s]; others: 0
+  bool self_collision = false;               ///< true: links that no joint connects collide
   bool can_sleep = false;
 };
 
 /// A btMultiBody made from a model, with its shapes, colliders, limits, mimics and motors. Bullet's
-/// own damping of multibodies is off; the fluid damps. Friction and damping of joints never reverse
-/// a velocity.
+/// own damping of multibodies is off, and its limit of 100 rad/s; the fluid damps. Friction and
+/// damping of joints never reverse a velocity.
 class Robot {
  public:
   /// For fewer links: withoutFixedJoints(model).
@@ -75,6 +79,18 @@ class Robot {
   double position(const std::string& joint) const;
   double velocity(const std::string& joint) const;
 
+  /// Sets the pose of the robot's frame, that of the root link, in W.
+  /// @throws std::runtime_error if it is not finite.
+  void setPose(const RigidPose& pose);
+  /// Sets the motion of the root link: velocity of its centre of mass, world axes. That of a fixed
+  /// base must be zero. Joints keep their velocities.
+  /// @throws std::runtime_error if it is not finite.
+  void setTwist(const Twist& twist_W);
+  /// Sets the position [rad] or [m] or the velocity [rad/s] or [m/s] of a revolute or prismatic
+  /// joint. @throws std::runtime_error as requireAxial(), or if it is not finite
+  void setPosition(const std::string& joint, double position);
+  void setVelocity(const std::string& joint, double velocity);
+
   /// Torque [N m] or force [N] that the motor of a revolute or prismatic joint used in the last
   /// step.
   /// @throws std::runtime_error as linkNumber()
@@ -94,7 +110,8 @@ class Robot {
   static std::size_t indexOf(int number) { return static_cast<std::size_t>(number) + 1; }
   void makeBody(const RobotSettings& settings);
   void setUpLink(std::size_t index);
-  void place(const RobotSettings& settings);
+  void requireFinite(const std::string& joint, const char* what, double value) const;
+  void moveColliders();
   void makeColliders();
 
   RobotModel model_;

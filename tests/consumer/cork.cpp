@@ -12,7 +12,8 @@ constexpr btScalar kGravity = btScalar(9.81);
 constexpr int kSteps = 120;
 constexpr btScalar kTimeStep = btScalar(1) / 240;
 
-/// Returns the rise of the ball [m] after half a second.
+/// Returns the rise of the ball [m] after half a second; negative if its saved state does not bring
+/// it back.
 btScalar riseInWater(const char* file) {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher(&configuration);
@@ -32,10 +33,14 @@ btScalar riseInWater(const char* file) {
   world.addRigidBody(&ball);
   fluid.add(ball, def);
 
+  const ambient::WorldState start = fluid.save();
   for (int step = 0; step < kSteps; ++step) world.stepSimulation(kTimeStep, 0, kTimeStep);
+  const btScalar rise = ball.getWorldTransform().getOrigin().z();
+  fluid.restore(start);
+  const bool is_back = ball.getWorldTransform().getOrigin().isZero();
 
   world.removeRigidBody(&ball);
-  return ball.getWorldTransform().getOrigin().z();
+  return is_back ? rise : -1;
 }
 
 }  // namespace

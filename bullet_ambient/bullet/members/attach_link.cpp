@@ -54,6 +54,19 @@ void checkLinkMass(const std::string& who, const LinkOf& at) {
   }
 }
 
+double wholeMass(const btMultiBody& body) {
+  if (body.hasFixedBase()) return std::numeric_limits<double>::infinity();
+  double mass = static_cast<double>(body.getBaseMass());
+  for (int i = 0; i < body.getNumLinks(); ++i) mass += static_cast<double>(body.getLinkMass(i));
+  return mass;
+}
+
+DisplacedMass displacedMassOf(const AmbientTree& tree) {
+  DisplacedMass all{wholeMass(*tree.multi_body), 0};
+  for (const auto& link : tree.links) all.medium += displacedMass(link->ambient).medium;
+  return all;
+}
+
 }  // namespace
 
 void standIn(AmbientLink& link, const btMultiBody& body, const btVector3& gravity) noexcept {
@@ -104,6 +117,18 @@ void wake(btMultiBody& body) noexcept {
   if (body.getBaseCollider()) body.getBaseCollider()->activate();
   for (int i = 0; i < body.getNumLinks(); ++i)
     if (body.getLink(i).m_collider) body.getLink(i).m_collider->activate();
+}
+
+std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const AmbientTree* tree,
+                                        const btVector3& gravity) {
+  const btRigidBody& body = *ambient.body;
+  const bool falls = !body.getGravity().isZero() || (!body.isInWorld() && !gravity.isZero());
+  if (!falls) return std::nullopt;
+  const DisplacedMass own = displacedMass(ambient);
+  const DisplacedMass all = tree ? displacedMassOf(*tree) : own;
+  const DisplacedMass before{all.body, all.medium - own.medium};
+  if (!all.isMuchLighter() || (tree && before.isMuchLighter())) return std::nullopt;
+  return all;
 }
 
 AMBIENT_END

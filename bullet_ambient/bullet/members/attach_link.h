@@ -2,7 +2,10 @@
 
 #include <LinearMath/btVector3.h>
 
+#include <optional>
+
 #include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/bullet/members/attach_body.h"
 #include "bullet_ambient/immersed/attach_def.h"
 
 class btMultiBody;
@@ -12,6 +15,7 @@ AMBIENT_BEGIN
 
 struct AmbientBody;
 struct AmbientLink;
+struct AmbientTree;
 class AmbientBodies;
 
 /// A link of a btMultiBody by Bullet's number; -1: the base.
@@ -30,5 +34,12 @@ AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, 
 
 /// Wakes a multibody and its colliders, like btCollisionObject::activate() for bodies.
 void wake(btMultiBody& multi_body) noexcept;
+
+/// Returns the masses of a new member by which it rises: it is much lighter than what it displaces,
+/// and there is gravity; else none. A robot is judged as a whole, when the link comes that makes it
+/// that light; one on a fixed base never. `tree`: that of the link; null: the member is a body.
+/// `gravity`: of the world, for bodies that are not in it yet [m/s^2].
+std::optional<DisplacedMass> risingMass(const AmbientBody& ambient, const AmbientTree* tree,
+                                        const btVector3& gravity);
 
 AMBIENT_END

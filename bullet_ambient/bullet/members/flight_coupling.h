@@ -39,8 +39,8 @@ void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept;
 void beginFlights(AmbientBody* const* bodies, int count, double time_step,
                   Twist* changes_W) noexcept;
 
-/// After Bullet has moved the body: gives it the velocity of the end of its flight, and the pose
-/// itself where Bullet limits the rotation per step.
+/// After Bullet has moved the body: gives it the velocity and the attitude of the end of its
+/// flight; where continuous collision detection has stopped it, the attitude there.
 void endFlight(AmbientBody& ambient, double time_step) noexcept;
 
 AMBIENT_END

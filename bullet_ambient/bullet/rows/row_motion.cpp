@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/bullet/core/attitude.h"
 #include "bullet_ambient/bullet/members/departures.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/rows/kept_motion.h"
@@ -17,8 +18,6 @@ AMBIENT_BEGIN
 namespace {
 
 constexpr double kRounding = 16 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
-
-const double kTurnRounding = std::sqrt(kRounding);  // [rad]
 
 Twist changeByRows(btSolverBody& b) {
   return {toVector3(b.internalGetDeltaAngularVelocity()),
@@ -34,18 +33,15 @@ Twist solvedVelocity(btSolverBody& b) {
 }
 
 // Returns the part of the way time_step * xi that the body has made: less than 1 if continuous
-// collision detection has stopped it; none if its pose is not on this way.
-std::optional<double> partOfWay(const RowMotion& rows, const Quaternion& orientation,
-                                const Vector3& position, double time_step) {
+// collision detection has stopped it; none if its position is not on this way.
+std::optional<double> partOfWay(const RowMotion& rows, const Vector3& position, double time_step) {
   const Vector3 way = time_step * (rows.flow_W + rows.velocity_W.linear);
   const Vector3 gone = position - rows.position;
   const double rounding = kRounding * (position.norm() + way.norm());
   double part = 1;
   if ((gone - way).norm() > rounding && way.squaredNorm() > 0)
     part = std::clamp(gone.dot(way) / way.squaredNorm(), 0.0, 1.0);
-  const bool is_beside = (gone - part * way).norm() > rounding;
-  if (is_beside || isTurnedFurther(rows.orientation, orientation, rows.turn + kTurnRounding))
-    return std::nullopt;
+  if ((gone - part * way).norm() > rounding) return std::nullopt;
   return part;
 }
 
@@ -95,18 +91,31 @@ BodyWithRows bodyWithRows(const SolvedBody& body, const BodyModel& model, const 
           changeByRows(*body.solver_body)};
 }
 
+// Corrects the attitude of a body as Bullet would, by the turn of the rows' split impulses, and
+// leaves Bullet nothing to turn. Returns the attitude that Bullet will move the body from.
+Quaternion correctedAttitude(const SolvedBody& body, double time_step) {
+  btSolverBody& solver_body = *body.solver_body;
+  const Quaternion& start = body.row_body->start.orientation;
+  const Vector3 turn_W =
+      body.turn_share * time_step * toVector3(solver_body.internalGetTurnVelocity());
+  if (turn_W.isZero(0)) return start;
+  const Quaternion corrected = turnedByBullet(start, turn_W);
+  solver_body.m_worldTransform.setRotation(toBullet(corrected));
+  solver_body.internalGetTurnVelocity().setZero();
+  return corrected;
+}
+
 RowMotion rowMotion(const SolvedBody& body, const BodyWithRows& with_rows, const KeptMotion& kept,
                     double time_step) {
   const RowBody& row_body = *body.row_body;
   btSolverBody& solver_body = *body.solver_body;
   RowMotion rows;
   rows.is_held = row_body.is_held;
-  rows.orientation = with_rows.orientation;
+  rows.orientation = correctedAttitude(body, time_step);
   rows.position =
       row_body.start.position + time_step * toVector3(solver_body.internalGetPushVelocity());
   rows.velocity_W = with_rows.velocity_W;
-  rows.turn = time_step * (rows.velocity_W.angular.norm() +
-                           toVector3(solver_body.internalGetTurnVelocity()).norm());
+  rows.turn = time_step * rows.velocity_W.angular.norm();
   AMBIENT_ASSERT(!(row_body.extent < 0));
   double extent = row_body.extent;
   if (!row_body.is_locked) {
@@ -115,6 +124,16 @@ RowMotion rowMotion(const SolvedBody& body, const BodyWithRows& with_rows, const
   }
   if (extent > kSlowTurn) rows.energy_bound = std::max(0.0, kept.twice_energy);
   return rows;
+}
+
+// Turns a body that Bullet has moved to where it has come on its way.
+void settle(AmbientBody& ambient, double time_step) {
+  btRigidBody& body = *ambient.body;
+  const RowMotion& rows = ambient.outcome.rows();
+  const auto part = partOfWay(rows, toVector3(body.getWorldTransform().getOrigin()), time_step);
+  if (!part) return;
+  const Vector3 turn_W = *part * time_step * rows.velocity_W.angular;
+  settleAttitude(body, turnedByBullet(rows.orientation, turn_W));
 }
 
 // A body that does not fly, where Bullet has moved it, in the course of endRowMotions().
@@ -146,8 +165,11 @@ int findArrivals(AmbientBody* const* bodies, int count, double time_step, Arriva
   for (int i = 0; i < found; ++i) {
     AmbientBody& ambient = *changing[i];
     const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
-    const auto part = partOfWay(ambient.outcome.rows(), now.orientations[i], position, time_step);
-    if (!part) continue;
+    const RowMotion& rows = ambient.outcome.rows();
+    const auto part = partOfWay(rows, position, time_step);
+    const bool is_turned_by_others =
+        isTurnedFurther(rows.orientation, now.orientations[i], rows.turn + kTurnRounding);
+    if (!part || is_turned_by_others) continue;
     Arrival& arrival = arrivals[arrived++];
     arrival.ambient = &ambient;
     arrival.orientation = now.orientations[i];
@@ -252,6 +274,7 @@ void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   Arrival arrivals[kFlightsTogether];
   BoundedTwist ends[kFlightsTogether];
+  for (int i = 0; i < count; ++i) settle(*bodies[i], time_step);
   const int arrived = findArrivals(bodies, count, time_step, arrivals);
   keepMomenta(arrivals, arrived, time_step, ends);
   for (int i = 0; i < arrived; ++i) boundEnergy(arrivals[i], ends[i]);

@@ -27,14 +27,16 @@ struct SolvedBody {
   AmbientBody* ambient;
   const RowBody* row_body;
   btSolverBody* solver_body;
+  double turn_share;  ///< part of the turn by split impulses that Bullet makes
 };
 
-/// Stores momentum, energy bound and start in AmbientBody::outcome for endRowMotions().
+/// Stores momentum, energy bound and start in AmbientBody::outcome for endRowMotions(). Makes the
+/// turns by split impulses.
 void beginRowMotions(const SolvedBody* bodies, int count, double time_step) noexcept;
 
 /// Adds the velocity changes x_(n+1) - xi of eq. (31), in world axes. Call after Bullet has moved
-/// the bodies. Does nothing for a body that is not on its way from the start along xi, because
-/// others have moved it.
+/// the bodies; turns them to the attitudes of their ways. Does nothing for a body that is not on
+/// its way from the start along xi, because others have moved it.
 void endRowMotions(AmbientBody* const* bodies, int count, double time_step,
                    Complaints& complaints) noexcept;
 

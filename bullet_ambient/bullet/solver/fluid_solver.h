@@ -150,7 +150,7 @@ class FluidSolver : public Base {
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
                                          const btContactSolverInfo& info) override {
     if constexpr (!kHasEvenFrictions) reportSecondFrictions();
-    group_.finish(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool);
+    group_.finish(this->m_tmpSolverBodyPool, this->m_tmpSolverNonContactConstraintPool, info);
     return Base::solveGroupCacheFriendlyFinish(bodies, body_count, info);
   }
 

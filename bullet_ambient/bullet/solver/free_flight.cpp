@@ -5,11 +5,13 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/core/attitude.h"
 #include "bullet_ambient/bullet/members/departures.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/surface/surface_flight.h"
+#include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -152,13 +154,36 @@ bool turnsTooFarForBullet(const LastFlight& flight, double time_step) {
          flight.left_W.angular.norm() * time_step > kPi;
 }
 
-// True if the body is at the end of its flight to rounding; false if continuous collision detection
-// has stopped it on its way.
-bool reachedEnd(const AmbientBody& ambient, const LastFlight& flight, double time_step) {
-  const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
-  const double size = flight.position.norm() + ambient.model().reference_length +
-                      time_step * flight.effective_W.linear.norm();
-  return (position - flight.position).norm() <= 16 * kEpsilon * size;
+// Returns the part of its way that the body lacks: 0 at the end of its flight to rounding, more if
+// continuous collision detection has stopped it; none if others have moved it.
+std::optional<double> missingPart(const AmbientBody& ambient, const LastFlight& flight,
+                                  double time_step) {
+  const Vector3 missing =
+      flight.position - toVector3(ambient.body->getWorldTransform().getOrigin());
+  const Vector3 way = time_step * flight.effective_W.linear;
+  const double size = flight.position.norm() + ambient.model().reference_length + way.norm();
+  const double rounding = 16 * kEpsilon * size;
+  if (missing.norm() <= rounding) return 0;
+  const double part = std::clamp(missing.dot(way) / way.squaredNorm(), 0.0, 1.0);
+  if (!((missing - part * way).norm() <= rounding)) return std::nullopt;
+  return part;
+}
+
+// Turns a body that Bullet has moved to where its flight was then.
+void settle(AmbientBody& ambient, const LastFlight& flight, double time_step) {
+  btRigidBody& body = *ambient.body;
+  const auto missing = missingPart(ambient, flight, time_step);
+  if (!missing) return;
+  if (*missing > 0) {
+    const Vector3 turn_W = -*missing * time_step * flight.effective_W.angular;
+    settleAttitude(body, rotationFromVector(turn_W) * flight.orientation);
+  } else if (turnsTooFarForBullet(flight, time_step)) {
+    btTransform end = body.getWorldTransform();
+    end.setRotation(toBullet(flight.orientation));
+    body.setCenterOfMassTransform(end);
+  } else {
+    settleAttitude(body, flight.orientation);
+  }
 }
 
 }  // namespace
@@ -198,11 +223,7 @@ void beginFlights(AmbientBody* const* bodies, int count, double time_step,
 void endFlight(AmbientBody& ambient, double time_step) noexcept {
   btRigidBody& body = *ambient.body;
   const LastFlight& flight = std::as_const(ambient.outcome).flight();
-  if (turnsTooFarForBullet(flight, time_step) && reachedEnd(ambient, flight, time_step)) {
-    btTransform end = body.getWorldTransform();
-    end.setRotation(toBullet(flight.orientation));
-    body.setCenterOfMassTransform(end);
-  }
+  settle(ambient, flight, time_step);
   const Twist &end = flight.left_W, &effective = flight.effective_W;
   addVelocity(body, {end.angular - effective.angular, end.linear - effective.linear});
 }

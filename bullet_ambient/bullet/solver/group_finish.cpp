@@ -85,7 +85,9 @@ class FlightTasks final : public Task {
 
 }  // namespace
 
-void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept {
+void SolverGroup::finish(SolverBodies& solver_bodies, btConstraintArray& joints,
+                         const btContactSolverInfo& info) noexcept {
+  turn_share_ = static_cast<double>(info.m_splitImpulseTurnErp);
   joint_gaps_->measure(joints, *row_bodies_, solver_bodies, time_step_);
   restoreFeedbackJacobians(joints);
   if (is_held_)
@@ -132,7 +134,7 @@ void SolverGroup::settleMoved(SolverBodies& solver_bodies) noexcept {
   int count = 0;
   for (const Member* member : moved_members_)
     bodies[count++] = {member->ambient, row_bodies_->find(member->solver_body),
-                       &solver_bodies[member->solver_body]};
+                       &solver_bodies[member->solver_body], turn_share_};
   beginRowMotions(bodies, count, time_step_);
   for (int i = 0; i < count; ++i)
     if (bodies[i].ambient->reading)

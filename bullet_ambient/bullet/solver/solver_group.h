@@ -87,7 +87,8 @@ class SolverGroup {
   /// Call after the iterations, before Bullet writes velocities back. Maps velocity changes from
   /// the bases to world axes, du = T du', and flies the members that no row has
   /// moved.
-  void finish(SolverBodies& solver_bodies, btConstraintArray& joints) noexcept;
+  void finish(SolverBodies& solver_bodies, btConstraintArray& joints,
+              const btContactSolverInfo& info) noexcept;
 
  private:
   static constexpr int kAlone = -1;  // solver body of a body that Bullet does not convert
@@ -135,6 +136,7 @@ class SolverGroup {
 
   AmbientBodies& bodies_;
   double time_step_ = 0;
+  double turn_share_ = 0;  // SolvedBody::turn_share
   bool may_hold_slopes_ = false;
   bool is_held_ = false;  // true: the time step is not finite, and no body of the group may move
   std::vector<Member> members_;

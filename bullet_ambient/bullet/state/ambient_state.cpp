@@ -42,15 +42,11 @@ std::unique_ptr<AmbientLink> makeLink(const LinkFluidState& saved, const MultiBo
 AmbientState saveAmbient(const AmbientBody& ambient) {
   const auto* last = std::get_if<LastFlight>(&ambient.outcome.motion);
   const LastFlight flight = last ? *last : LastFlight{};
-  AmbientState state{*ambient.def,
-                     ambient.medium,
-                     ambient.place,
-                     flight.memory,
-                     ambient.meeting ? ambient.encounter().waves : WaveMemory{},
-                     metPlane(ambient),
-                     ambient.wake ? *ambient.wake : Wake{},
-                     flight.left_W,
-                     ambient.counters};
+  AmbientState state{*ambient.def,      ambient.medium,
+                     ambient.place,     ambient.flow,
+                     flight.memory,     ambient.meeting ? ambient.encounter().waves : WaveMemory{},
+                     metPlane(ambient), ambient.wake ? *ambient.wake : Wake{},
+                     flight.left_W,     ambient.counters};
   if (isModelStale(ambient)) state.memory = {};  // as the next step will do
   return state;
 }
@@ -78,6 +74,7 @@ AmbientBody makeAmbient(const AmbientState& saved, btRigidBody& body, AmbientBod
   refreshModels(ambient, registered.regions, registered.load_tables);
   // A region that does not exist here is left to the next step.
   enterMedium(ambient, saved.place, saved.medium);
+  ambient.flow = saved.flow;
   LastFlight& flight = ambient.outcome.flight();
   flight.memory = saved.memory;
   flight.left_W = saved.left_W;

@@ -181,6 +181,13 @@ void wakeAll(btCollisionWorld& world) {
   for (btMultiBody* body : multiBodiesOf(world)) wakeColliders(*body);
 }
 
+// Moves the boxes of all objects to where they are. Bullet leaves out those of sleepers, where a
+// world asks for it (setForceUpdateAllAabbs).
+void updateBoxes(btCollisionWorld& world) {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) world.updateSingleAabb(objects[i]);
+}
+
 std::pair<int, int> inOrder(const PairState& pair) {
   return {std::min(pair.object_a, pair.object_b), std::max(pair.object_a, pair.object_b)};
 }
@@ -233,7 +240,7 @@ std::vector<ContactState> saveContacts(btCollisionWorld& world) {
 
 void restoreContacts(const std::vector<PairState>& pairs, const std::vector<ContactState>& contacts,
                      btCollisionWorld& world) {
-  world.updateAabbs();
+  updateBoxes(world);
   world.computeOverlappingPairs();
   restorePairs(pairs, Objects(world), world);
   wakeAll(world);

@@ -15,7 +15,7 @@ AMBIENT_BEGIN
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 12;
+constexpr std::uint32_t kStateVersion = 13;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -123,6 +123,11 @@ void fields(V& v, AmbientState& s) {
   fields(v, s.medium);
   v.check("medium is not physical", [&m = s.medium] { return !faultOf(m); });
   each(v, kAny, s.place.region, s.place.is_above, s.place.is_at_surface);
+  each(v, kAny, s.flow.until, s.flow.position, s.flow.velocity, s.flow.change, s.flow.parts,
+       s.flow.region, s.flow.is_above);
+  v.check("fluid has had a place, velocity or change that is not finite", [&f = s.flow] {
+    return f.position.allFinite() && f.velocity.allFinite() && f.change.allFinite();
+  });
   fields(v, s.waves);
   v.optional(s.met_B);
   each(v, kAny, s.memory.load_W.torque, s.memory.load_W.force, s.memory.has_load);

@@ -25,6 +25,7 @@ struct AmbientState {
   AttachDef def;
   Medium medium;  ///< medium around the body now
   RegionPlace place;
+  FlowMemory flow;
   FlightMemory memory;
   WaveMemory waves;
   std::optional<SurfacePlane> met_B;  ///< metPlane()

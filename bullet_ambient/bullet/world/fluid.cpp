@@ -45,9 +45,10 @@ Object& requireObject(Object* object) {
 }
 
 // Reports a new member that is light beside what it displaces. Returns the member.
-const AmbientBody& reportIfLight(AmbientBodies& members, const AmbientBody& ambient) {
-  const DisplacedMass mass = displacedMass(ambient);
-  if (mass.isMuchLighter()) warnOfLightBody(members.complaints, *ambient.def, mass, 1);
+const AmbientBody& reportIfLight(AmbientBodies& members, const AmbientBody& ambient,
+                                 const AmbientTree* tree, const btVector3& gravity) {
+  if (const auto mass = risingMass(ambient, tree, gravity))
+    warnOfLightBody(members.complaints, *ambient.def, *mass, 1);
   return ambient;
 }
 
@@ -74,10 +75,10 @@ Immersed Fluid::add(btRigidBody* body, AttachDef def) {
 }
 
 Immersed Fluid::add(btRigidBody& body, AttachDef def) {
-  connection_->world("add");
+  const btDynamicsWorld& world = connection_->world("add");
   members_->requireChangeable("add");
   const AmbientBody& ambient = attachBody(*members_, body, std::move(def));
-  return Immersed(*members_, reportIfLight(*members_, ambient));
+  return Immersed(*members_, reportIfLight(*members_, ambient, nullptr, world.getGravity()));
 }
 
 Immersed Fluid::add(btMultiBody* multi_body, int link, AttachDef def) {
@@ -88,7 +89,8 @@ Immersed Fluid::add(btMultiBody& multi_body, int link, AttachDef def) {
   btMultiBodyDynamicsWorld& world = connection_->multiBodyWorld("add");
   members_->requireChangeable("add");
   const AmbientBody& ambient = attachLink(*members_, world, {multi_body, link}, std::move(def));
-  return Immersed(*members_, reportIfLight(*members_, ambient));
+  const AmbientTree* tree = members_->trees.find(&multi_body);
+  return Immersed(*members_, reportIfLight(*members_, ambient, tree, world.getGravity()));
 }
 
 AttachReport Fluid::addAll(FluidBodySource& shapes, const Medium& medium, AttachSettings settings) {

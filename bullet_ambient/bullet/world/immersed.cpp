@@ -51,7 +51,10 @@ bool changeMedium(AmbientBody& ambient, const Medium& medium, AmbientBodies& bod
   if (medium.velocity == before.velocity && medium.acceleration == before.acceleration)
     return false;
   ambient.def = std::make_shared<const AttachDef>(std::move(def));
-  if (ambient.place.region == RegionId::kNone) ambient.medium = medium;
+  if (ambient.place.region == RegionId::kNone) {
+    ambient.medium = medium;
+    ambient.flow.change.setZero();
+  }
   return true;
 }
 
@@ -119,7 +122,12 @@ void Immersed::setFluidBody(std::shared_ptr<const FluidBody> fluid_body,
   wakeUp(held.member);
 }
 
-Medium Immersed::medium() const { return require("medium").member.ambient->medium; }
+Medium Immersed::medium() const {
+  const Held held = require("medium");
+  Medium medium = held.member.ambient->medium;
+  medium.velocity += held.member.ambient->flow.change;
+  return medium;
+}
 
 RegionId Immersed::region() const { return require("region").member.ambient->place.region; }
 

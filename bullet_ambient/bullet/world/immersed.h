@@ -42,7 +42,8 @@ class Immersed {
                     const FrameOffset& fluid_frame) const;
 
   /// Returns the fluid around the body, that of its region or its own, at the start of its last
-  /// step; before the first step, when it was added.
+  /// step; before the first step, when it was added. Its acceleration is the one given, or that by
+  /// which a velocity without one has changed since the step before.
   Medium medium() const;
   /// Returns the region of medium(); kNone: the own medium of the body.
   RegionId region() const;

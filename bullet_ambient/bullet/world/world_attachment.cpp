@@ -1,7 +1,7 @@
 #include "bullet_ambient/bullet/world/world_attachment.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
-#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -72,6 +72,11 @@ auto callOf(const char* name, const Call& call) -> decltype(call()) {
   }
 }
 
+// PyBullet gives links without collision elements such a shape.
+bool isEmpty(const btCollisionShape& shape) {
+  return shape.isCompound() && static_cast<const btCompoundShape&>(shape).getNumChildShapes() == 0;
+}
+
 // Counts bodies that were just attached, for one report of all.
 struct Tally {
   std::set<const FluidBody*> shapes;
@@ -79,15 +84,16 @@ struct Tally {
   DisplacedMass mass;
   int light_count = 0;
 
-  void add(int index, const AmbientBody& ambient, AttachReport& report) {
+  void add(int index, const AmbientBody& ambient, const AmbientTree* tree, AttachReport& report) {
     ++report.attached;
     shapes.insert(ambient.def->fluid_body.get());
     const DisplacedMass own = displacedMass(ambient);
     if (own.isLighter()) report.light.push_back({index, own.body, own.medium});
-    if (!own.isMuchLighter()) return;
-    if (light_count++ > 0 && own.body * mass.medium >= mass.body * own.medium) return;
+    const auto rising = risingMass(ambient, tree, btVector3(0, 0, 0));
+    if (!rising) return;
+    if (light_count++ > 0 && rising->body * mass.medium >= mass.body * rising->medium) return;
     lightest = *ambient.def;
-    mass = own;
+    mass = *rising;
   }
 };
 
@@ -114,7 +120,8 @@ AttachDef WorldAttachment::makeDef(const btCollisionShape* shape, Met& met) cons
   def.medium = medium_;
   def.flow = settings_.flow;
   def.flight = settings_.flight;
-  if (!shape) throw std::invalid_argument("it has no collision shape");
+  if (!shape || isEmpty(*shape))
+    throw std::invalid_argument("it has no collision shape, so that no fluid acts on it");
   def.fluid_body = source_.fluidBody(*shape);
   met.given = def.fluid_body.get();
   return def;
@@ -189,7 +196,9 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
     const int index = static_cast<int>(i);
     try {
       if (const AmbientBody* ambient = attach(*object, met_[i], report)) {
-        tally.add(index, *ambient, report);
+        const auto* collider = btMultiBodyLinkCollider::upcast(object);
+        const AmbientTree* tree = collider ? bodies_.trees.find(collider->m_multiBody) : nullptr;
+        tally.add(index, *ambient, tree, report);
       }
     } catch (const std::exception& error) {
       report.refused.push_back({index, nameOf(index, *object, bodies_) + error.what()});

@@ -24,9 +24,13 @@ void checkRegionMedium(const Medium& medium, const std::string& which) {
                  fault->value, fault->limit);
 }
 
-void add(const FlowSample& flow, Medium& medium) {
+// Bits of BareVelocity::parts.
+constexpr unsigned kMedium = 1, kWaves = 2, kFlow = 4;
+
+void add(unsigned part, const FlowSample& flow, Medium& medium, BareVelocity& bare) {
   medium.velocity += flow.velocity;
   medium.acceleration += flow.acceleration;
+  bare.add(part, flow.velocity, flow.acceleration);
 }
 
 // An exception of the function counts as a sample that is not finite.
@@ -67,22 +71,30 @@ Medium unnamedAbove(double water_density, const Medium& own) {
   return own.density > 0 && own.density < water_density ? own : air();
 }
 
+BareVelocity bareVelocityOf(const Medium& medium) noexcept {
+  BareVelocity bare;
+  bare.add(kMedium, medium.velocity, medium.acceleration);
+  return bare;
+}
+
 RegionSample sampleRegion(const FluidRegion& region, const Vector3& point_W, double time,
                           const Medium& own) noexcept {
   AMBIENT_ASSERT(isFinite(region.below));
   const Medium above = region.above.value_or(unnamedAbove(region.below.density, own));
   RegionSample sample{region.below, above, std::numeric_limits<double>::infinity()};
+  sample.bare_below = bareVelocityOf(region.below);
+  sample.bare_above = bareVelocityOf(above);
   bool is_finite = true;
   if (region.surface) {
     const WaterSample water = region.surface->sample(point_W, time);
     sample.height = water.height;
     is_finite = std::isfinite(water.height);
-    add({water.velocity, water.acceleration}, sample.below);
+    add(kWaves, {water.velocity, water.acceleration}, sample.below, sample.bare_below);
   }
   if (region.flow) {
     const FlowSample flow = sampleFlow(region.flow, point_W, time);
-    add(flow, sample.below);
-    add(flow, sample.above);
+    add(kFlow, flow, sample.below, sample.bare_below);
+    add(kFlow, flow, sample.above, sample.bare_above);
   }
   if (is_finite && isFinite(sample.below) && isFinite(sample.above)) return sample;
   return {region.below, above, is_finite ? sample.height : 0, false};

@@ -36,6 +36,7 @@ struct FluidRegion {
   std::shared_ptr<const WaterSurface> surface = nullptr;  ///< null: filled with `below`
   /// Wind or current, added to velocity and acceleration of the media. Velocity and acceleration of
   /// waves are added to `below`. Sampled at each body's centre of mass at the start of each step.
+  /// Where it gives no acceleration, that is how its velocity changes, see BareVelocity.
   FlowField flow = nullptr;
   int priority = 0;  ///< in overlaps the highest priority wins; if equal, the region added last
 };
@@ -56,12 +57,30 @@ inline bool isSteady(const FluidRegion& region) {
 /// has a density [kg/m^3] and that is below the water's, else air at rest.
 Medium unnamedAbove(double water_density, const Medium& own);
 
+/// Part of a fluid's velocity at a point that no acceleration is given for: the sum over medium,
+/// waves and flow where their acceleration is zero. Its change with time is an acceleration of the
+/// fluid, docs/theory.md eq. (19a).
+struct BareVelocity {
+  Vector3 velocity{0, 0, 0};  ///< [m/s]
+  unsigned parts = 0;         ///< which of the three are in it: 1, 2 and 4
+
+  /// Adds one of the three if it has no acceleration.
+  void add(unsigned part, const Vector3& part_velocity, const Vector3& acceleration) noexcept {
+    if (!acceleration.isZero(0)) return;
+    velocity += part_velocity;
+    parts |= part;
+  }
+};
+/// Returns that of a medium which is in no region.
+BareVelocity bareVelocityOf(const Medium& medium) noexcept;
+
 /// The fluids of a region around a point: surface and flow sampled.
 struct RegionSample {
   Medium below, above;
   double height = 0;  ///< surface above the point, vertically [m]; infinite without a surface
   /// False if a sample of surface or flow was not finite; the media then lack both samples.
   bool is_finite = true;
+  BareVelocity bare_below = {}, bare_above = {};  ///< without parts if a sample was not finite
 
   bool isAbove() const { return !(height > 0); }  ///< true if the point is dry
   const Medium& here() const { return isAbove() ? above : below; }

@@ -15,7 +15,9 @@ RobotSettings settingsOf(const RobotDef& def) {
   RobotSettings settings;
   settings.pose = def.pose();
   settings.fixed_base = def.fixed_base;
+  settings.twist_W = {def.angular_velocity, def.linear_velocity};
   settings.positions = def.joint_positions;
+  settings.velocities = def.joint_velocities;
   settings.self_collision = def.self_collision;
   return settings;
 }

@@ -166,6 +166,24 @@ TEST_F(WorldInFluid, OneLightBodyIsSaidWithBothMasses) {
       << said[0];
 }
 
+TEST_F(WorldInFluid, WithoutACollisionShapeABodyIsDryAndSaidToBe) {
+  static btCompoundShape nothing;
+  add(kHeavy, nothing);
+  const AttachReport report = fluid.addAll(shapes, water());
+  EXPECT_EQ(shapes.asked, 0);
+  ASSERT_EQ(report.refused.size(), 1u);
+  EXPECT_NE(report.refused[0].reason.find("it has no collision shape, so that no fluid acts on it"),
+            std::string::npos)
+      << report.refused[0].reason;
+}
+
+TEST_F(WorldInFluid, WithoutGravityNothingRises) {
+  world.setGravity({0, 0, 0});
+  fluid.add(add(1, sphere), {shapes.ball, water()});
+  fluid.addAll(shapes, water());
+  EXPECT_TRUE(said.empty());
+}
+
 TEST_F(WorldInFluid, TakesBodiesThatComeLater) {
   AttachSettings settings;
   settings.later_bodies = true;

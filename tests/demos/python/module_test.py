@@ -317,6 +317,30 @@ class WorldTest(Temporary):
         carried = 2 / 3 * np.pi * 0.1**3 * 1000
         self.assertAlmostEqual(world.twist[0, 3], 0.01 / (0.5 + carried), delta=1e-6)
 
+    def test_a_medium_that_is_set_anew_in_each_step_carries_the_body(self):
+        scene = ba.Scene(STILL, {"model": "ideal", "bodies.0.mass": 4 / 3 * np.pi * 0.1**3 * 1000})
+        world = ba.World(scene)
+        places = []
+        for _ in range(400):  # one period
+            speed = 0.5 * np.sin(2 * np.pi * world.time / 4)
+            world.bodies["ball"].set_medium(ba.Medium(density=1000, velocity=[speed, 0, 0]))
+            world.step()
+            places.append(world.position[0, 0])
+        self.assertAlmostEqual(np.ptp(places), 0.5 * 4 / np.pi, delta=0.01)
+
+    def test_pose_and_twist_may_be_set(self):
+        world = ba.World(ba.Scene(STILL, {"model": "vacuum"}))
+        ball = world.bodies["ball"]
+        ball.set_twist([0, 0, 2, 1, 0, 0])
+        ball.set_pose([5, 6, 7], [0, 1, 0, 0])
+        np.testing.assert_allclose(ball.position, [5, 6, 7])
+        np.testing.assert_allclose(np.abs(ball.orientation), [0, 1, 0, 0])
+        np.testing.assert_allclose(ball.twist, [0, 0, 2, 1, 0, 0])
+        world.step(10)
+        np.testing.assert_allclose(ball.position, [5.1, 6, 7])
+        with self.assertRaisesRegex(ValueError, "twist must be six numbers"):
+            ball.set_twist([1, 2, 3])
+
     def test_another_medium_may_be_set(self):
         world = ba.World(ba.Scene(STILL, {"bodies.0.linear_velocity": [1, 0, 0]}))
         world.bodies["ball"].set_medium(ba.water())
@@ -501,6 +525,17 @@ class RobotTest(Temporary):
         arm.set_motor("elbow", velocity=0, effort=0)
         self.world.step()
         self.assertEqual(arm.motor_efforts[2], 0)
+
+    def test_robots_may_begin_in_motion_and_be_put_elsewhere(self):
+        arm = self.world.load_urdf(self.ARM, name="turning", fixed_base=True, position=[0, 9, 0], joint_velocities={"yaw": 0.5})
+        np.testing.assert_allclose(arm.joint_velocities, [0.5, 0, 0])
+        arm.set_joint("elbow", position=0.4, velocity=-0.2)
+        np.testing.assert_allclose(arm.joint_positions, [0, 0, 0.4])
+        np.testing.assert_allclose(arm.joint_velocities, [0.5, 0, -0.2])
+        arm.set_pose([1, 2, 3])
+        np.testing.assert_allclose(arm.pose("turntable")[:3, 3], [1, 2, 3], atol=1e-12)
+        with self.assertRaisesRegex(RuntimeError, "fixed base"):
+            arm.set_twist([0, 0, 0, 1, 0, 0])
 
     def test_torques_act_for_one_step(self):
         arm = self.arm()

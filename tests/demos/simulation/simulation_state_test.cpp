@@ -33,6 +33,18 @@ TEST(SimulationForces, ActForOneStepAtTheirPoint) {
   EXPECT_NEAR((twist.angular - Vector3(0.01, 0, -0.0075)).norm(), 0, 1e-5);
 }
 
+TEST(SimulationJoints, OfABodyThatIsNotThereAreRefused) {
+  Scene scene = sceneFrom(stillBall());
+  scene.joints.push_back({{"nobody"}, Vector3(0, 0, 1), std::nullopt});
+  try {
+    Simulation simulation(scene, prepare(scene));
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("there is no rigid body \"nobody\""),
+              std::string::npos);
+  }
+}
+
 TEST(SimulationState, GoesOnBitForBit) {
   const Scene scene = readNamedScene("plate_9cm");
   const auto bodies = prepare(scene);

@@ -52,6 +52,54 @@ TEST(Robot, LinksAreWhereTheModelHasThem) {
   }
 }
 
+TEST(Robot, MayBeginInMotion) {
+  RobotSettings settings;
+  settings.pose = skewPose();
+  settings.twist_W = {Vector3(1, 2, 3), Vector3(-1, 0, 4)};
+  settings.velocities = {{"ab", 0.7}, {"bc", -0.4}};
+  RobotWorld in;
+  Robot robot(skewRobot(), settings);
+  robot.addTo(in.world);
+  EXPECT_NEAR(robot.velocity("ab"), 0.7, rounding());
+  EXPECT_NEAR(robot.velocity("bc"), -0.4, rounding());
+  const btMultiBody& body = robot.multiBody();
+  EXPECT_LT((body.getBaseVel() - btVector3(-1, 0, 4)).length(), rounding());
+  EXPECT_LT((body.getBaseOmega() - btVector3(1, 2, 3)).length(), rounding());
+  const Vector3 before = robot.linkPose("a") * robot.model().links[0].centre_of_mass;
+  robot.setTwist({});
+  robot.setVelocity("ab", 0);
+  robot.setVelocity("bc", 0);
+  RigidPose moved = skewPose();
+  moved.translation() += Vector3(5, 0, 0);
+  robot.setPose(moved);
+  robot.setPosition("ab", 0.3);
+  in.step(robot, 1e-3);
+  const Vector3 after = robot.linkPose("a") * robot.model().links[0].centre_of_mass;
+  EXPECT_LT((after - before - Vector3(5, 0, 0)).norm(), 10 * rounding());
+  EXPECT_NEAR(robot.position("ab"), 0.3, rounding());
+}
+
+TEST(Robot, WithAFixedBaseHasNoVelocity) {
+  RobotSettings settings;
+  settings.fixed_base = true;
+  settings.twist_W.linear = {1, 0, 0};
+  EXPECT_THROW(Robot(skewRobot(), settings), std::runtime_error);
+}
+
+// Bullet's own limit is 100 rad/s.
+TEST(Robot, TurnsAsFastAsItIsDriven) {
+  RobotSettings settings;
+  settings.velocities = {{"ab", 628}};
+  settings.fixed_base = true;
+  RobotWorld in;
+  Robot robot(parseRobot("<link name=\"a\"/>" + skewLink("b") +
+                         joint("ab", "continuous", "a", "b", kSkewAxis)),
+              settings);
+  robot.addTo(in.world);
+  in.step(robot, 1e-4, 3);
+  EXPECT_NEAR(robot.velocity("ab"), 628, 1);
+}
+
 TEST(Robot, MassPropertiesAreThoseOfTheModel) {
   const Robot robot(skewRobot(), {});
   const LinkModel& link = robot.model().links[1];

@@ -1,5 +1,9 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/world/multibody_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/support/bodies/ellipsoid_body.h"
@@ -55,6 +59,74 @@ TEST_F(Robots, AreAttachedWithTheWorld) {
   EXPECT_FALSE(fluid.find(fixed, 2));
   EXPECT_FALSE(fluid.find(fixed, -1));
   EXPECT_EQ(world.fluid.addAll(shapes, water(), settings).attached_before, 6);
+}
+
+// Water that is given 0.5 sin(2 pi t / 4 s) m/s in each step carries a neutral robot 0.637 m to and
+// fro, docs/theory.md eq. (19a).
+TEST_F(Robots, GoWithAFluidWhoseVelocityChanges) {
+  constexpr double kRate = 2 * kPi / 4, kStep = 1.0 / 60;
+  for (const int links : {0, 3}) {
+    RobotWorld in;
+    RobotDef still;
+    still.links = links;
+    still.speed = 0;
+    btMultiBody& body = in.add(arbitrary, still);
+    FluidRegion sea;
+    sea.below = idealFluid(1000);
+    const RegionId id = in.fluid.addRegion(sea);
+    for (int link = -1; link < links; ++link) {
+      FluidBody shape = facelessEllipsoid(Vector3(0.1, 0.1, 0.1));
+      const btScalar mass = link < 0 ? body.getBaseMass() : body.getLinkMass(link);
+      shape.volume = static_cast<double>(mass) / 1000;
+      AttachDef def;
+      def.fluid_body = std::make_shared<FluidBody>(shape);
+      in.fluid.add(body, link, def);
+    }
+    double least = 0, most = 0;
+    const double start = static_cast<double>(body.getBasePos().x());
+    for (int i = 0; i < 240; ++i) {
+      sea.below.velocity.x() = 0.5 * std::sin(kRate * i * kStep);
+      in.fluid.setRegion(id, sea);
+      in.step(kStep);
+      const double x = static_cast<double>(body.getBasePos().x()) - start;
+      least = std::min(least, x);
+      most = std::max(most, x);
+    }
+    EXPECT_NEAR(most - least, 2 * 0.5 / kRate, 1e-3) << links;
+  }
+}
+
+// Links are light beside what they displace; a robot rises if all of it is.
+TEST_F(Robots, AreLightAsAWhole) {
+  std::vector<std::string> said;
+  world.fluid.setReport([&](const std::string& sentence) { said.push_back(sentence); });
+  world.world.setGravity({0, 0, bt(-9.81)});
+  AttachDef def;
+  FluidBody shape = facelessEllipsoid(Vector3(0.1, 0.1, 0.1));
+  shape.name = "link";
+  RobotDef heavy_base;
+  btMultiBody& neutral = add(heavy_base);
+  neutral.setBaseMass(50);
+  btMultiBody& light = add(heavy_base);
+  RobotDef on_the_ground;
+  on_the_ground.has_fixed_base = true;
+  btMultiBody& fixed = add(on_the_ground);
+  double mass = static_cast<double>(light.getBaseMass());
+  for (int i = 0; i < light.getNumLinks(); ++i) mass += static_cast<double>(light.getLinkMass(i));
+  shape.volume = 0.9 * mass / 1000;  // of each of three links
+  def.fluid_body = std::make_shared<FluidBody>(shape);
+  def.medium = idealFluid(1000);
+  for (int link = 0; link < 3; ++link) {
+    world.fluid.add(neutral, link, def);
+    world.fluid.add(fixed, link, def);
+  }
+  EXPECT_TRUE(said.empty());
+  for (int link = 0; link < 3; ++link) {
+    EXPECT_TRUE(said.empty()) << link;
+    world.fluid.add(light, link, def);
+  }
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("so that it rises"), std::string::npos) << said[0];
 }
 
 TEST_F(Robots, OfTheWorldAreAttachedByTheFilterOfLinks) {

@@ -62,7 +62,8 @@ void fill(Numbers& n, AmbientState& s) {
     def.flow.stall_lag, def.flow.maximum_load_error, def.flight.tolerance, def.flight.max_substeps,
     def.fluid_frame.rotation, def.fluid_frame.translation);
   n(s.medium.density, s.medium.viscosity, s.medium.velocity, s.medium.acceleration, s.place.region,
-    s.place.is_above, s.place.is_at_surface);
+    s.place.is_above, s.place.is_at_surface, s.flow.until, s.flow.position, s.flow.velocity,
+    s.flow.change, s.flow.parts, s.flow.region, s.flow.is_above);
   SurfacePlane& met = s.met_B.emplace();
   n(met.normal, met.height, met.density, met.gravity);
   n(s.waves.heave[0], s.waves.tilt_W[0], s.waves.heave[1], s.waves.tilt_W[1], s.waves.heave_energy,

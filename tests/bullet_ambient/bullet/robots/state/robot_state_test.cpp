@@ -195,6 +195,29 @@ TEST(RobotState, RobotsFallAsleepWhenTheyWouldHave) {
   expectSame(run.record(kAfter), third.record(kAfter));
 }
 
+// In a world that moves the boxes of what is awake alone, as PyBullet's.
+TEST(RobotState, BoxesOfSleepersComeBackToo) {
+  RobotStateScene run(RobotStateKind::kTethers);
+  run.world().setForceUpdateAllAabbs(false);
+  run.step(10);
+  btMultiBody& robot = run.robot(0);
+  robot.setCanSleep(true);
+  robot.goToSleep();
+  btMultiBodyLinkCollider& collider = *robot.getBaseCollider();
+  collider.setActivationState(ISLAND_SLEEPING);
+  run.world().updateSingleAabb(&collider);
+  const btVector3 place = collider.getWorldTransform().getOrigin();
+  const WorldState state = run.save();
+  robot.setBasePos(place + btVector3(50, 0, 0));
+  RobotWorld::moveColliders(robot);
+  run.world().updateSingleAabb(&collider);
+  ASSERT_GT(collider.getBroadphaseHandle()->m_aabbMin.x(), place.x() + 40);
+  run.restore(state);
+  EXPECT_EQ(collider.getActivationState(), ISLAND_SLEEPING);
+  EXPECT_LT(collider.getBroadphaseHandle()->m_aabbMin.x(), place.x());
+  EXPECT_GT(collider.getBroadphaseHandle()->m_aabbMax.x(), place.x());
+}
+
 TEST(RobotState, TheInertiaAtTheSurfaceIsThatBeforeSaving) {
   RobotStateScene run(RobotStateKind::kWater), other(RobotStateKind::kWater);
   run.step(40);
