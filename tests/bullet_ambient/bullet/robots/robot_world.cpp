@@ -81,9 +81,9 @@ RobotWorld::~RobotWorld() {
 
 btMultiBody& RobotWorld::add(Arbitrary& arbitrary, const RobotDef& def) {
   const btScalar mass = bt(arbitrary.between(0.7, 1.3));
-  robots_.push_back(std::make_unique<btMultiBody>(
-      def.links, mass, btVector3(bt(0.02), bt(0.03), bt(0.025)), def.has_fixed_base, true));
-  btMultiBody& body = *robots_.back();
+  auto robot = std::make_unique<btMultiBody>(
+      def.links, mass, btVector3(bt(0.02), bt(0.03), bt(0.025)), def.has_fixed_base, true);
+  btMultiBody& body = *robot;
   body.setLinearDamping(0);
   body.setAngularDamping(0);
   body.setMaxCoordinateVelocity(bt(1e10));
@@ -98,9 +98,15 @@ btMultiBody& RobotWorld::add(Arbitrary& arbitrary, const RobotDef& def) {
     body.setBaseOmega(bt(2 * def.speed) * direction(arbitrary));
     body.setBaseVel(bt(def.speed) * direction(arbitrary));
   }
+  return take(std::move(robot), def.collider_radius);
+}
+
+btMultiBody& RobotWorld::take(std::unique_ptr<btMultiBody> robot, double collider_radius) {
+  btMultiBody& body = *robot;
+  robots_.push_back(std::move(robot));
   world.addMultiBody(&body);
-  if (def.collider_radius > 0)
-    for (int i = -1; i < def.links; ++i) addCollider(body, i, def.collider_radius);
+  if (collider_radius > 0)
+    for (int i = -1; i < body.getNumLinks(); ++i) addCollider(body, i, collider_radius);
   moveColliders(body);
   return body;
 }
