@@ -63,6 +63,32 @@ WetPart wetPart(const SurfaceModel& model, const SurfaceStand& stand) {
           wetShare(stand.immersion_F, model.shape->volume)};
 }
 
+/// Weight and buoyancy of a body, in B.
+struct Fall {
+  Vector6 lift;          ///< of the water
+  Vector6 wrench;        ///< of both
+  double potential = 0;  ///< of both [J]
+
+  /// @param mass less that of the fluid above that the body displaces [kg]
+  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
+      : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
+    wrench.tail<3>() -= mass * plane.gravity * plane.normal;
+    potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
+  }
+};
+
+// Returns the mass of a body less that of the fluid above that it displaces [kg].
+double fallingMass(const SurfaceModel& model) {
+  return model.above.mass - model.above.displaced_mass;
+}
+
+// Returns weight and buoyancy of a body at its last stand.
+Fall fallOf(const AmbientBody& ambient) {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();
+  return {stand.plane, wetVolume(model, stand), fallingMass(model)};
+}
+
 }  // namespace
 
 bool hasSurface(const RegionSample& sample, const Vector3& gravity) noexcept {
@@ -144,7 +170,7 @@ const SurfaceStand& standNow(AmbientBody& ambient) noexcept { return standAfter(
 StepModel::StepModel(const AmbientBody& ambient, double duration) noexcept {
   if (ambient.surface()) {
     freeze(ambient);
-    stiffen(ambient.stand(), duration);
+    stiffen(ambient.stand(), ambient.stand().modes, duration);
   } else {
     model_ = &ambient.model();
   }
@@ -163,13 +189,22 @@ void StepModel::freeze(const AmbientBody& ambient) noexcept {
   model_ = &at_surface_.emplace(*ambient.surface(), ambient.stand()).model;
 }
 
-void StepModel::stiffen(const SurfaceStand& stand, double duration) noexcept {
+void StepModel::stiffen(const SurfaceStand& stand, const FloatingModes& modes,
+                        double duration) noexcept {
   if (!(duration * stand.swing > kLongestSwing)) return;
-  const Matrix6 stiff = stiffInertia(stand, duration);
+  const Matrix6 stiff = stiffInertia(stand, modes, duration);
   if (const auto inverse = positiveInverse(stiff)) {
     at_surface_->model.inertia = stiff;
     at_surface_->model.inverse_inertia = *inverse;
   }
+}
+
+void StepModel::floatAt(AmbientBody& ambient, const FrameOffset& pose, double time) noexcept {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfacePlane plane_B = seenFrom(movedPlane(ambient, time), pose);
+  const WetVolume wet = immersionOf(model, plane_B).wet.inB(model.fluid_frame);
+  displace(model, wet, at_surface_->model);
+  ambient.encounter().fall = Fall(plane_B, wet, fallingMass(model)).wrench;
 }
 
 void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
@@ -188,6 +223,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
   ambient.encounter().twist_before_rows = x;
+  ambient.encounter().fall = fallOf(ambient).wrench;
   WaveMemory& waves = ambient.encounter().waves_with_rows;
   waves = ambient.encounter().waves;
   Vector6 end = exchangeWaves(stand.modes, R, stand.inverse.full(), duration, x, waves);
@@ -229,20 +265,6 @@ void meetAgain(AmbientBody& ambient, int media) noexcept {
 
 namespace {
 
-/// Weight and buoyancy of a body, in B.
-struct Fall {
-  Vector6 lift;          ///< of the water
-  Vector6 wrench;        ///< of both
-  double potential = 0;  ///< of both [J]
-
-  /// @param mass less that of the fluid above that the body displaces [kg]
-  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
-      : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
-    wrench.tail<3>() -= mass * plane.gravity * plane.normal;
-    potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
-  }
-};
-
 /// Inertia and Fall of a body where its step began.
 struct Departure {
   Matrix6 inertia;
@@ -253,15 +275,16 @@ struct RowStep {
   const Fall& before;
   Fall after;
   const Matrix6& inverse;  ///< of the inertia after it
-  Vector6 x_before;
+  const SurfaceEncounter& encounter;
   double duration;
 };
 
-/// The buoyancy of the start has acted over the whole step, and the body has come to where it is
-/// another one: gives back the energy that weight and water did not have, docs/theory.md eq. (68a).
+/// One buoyancy has acted over the whole step, and the body has come to where it is another one:
+/// gives back the energy that weight and water did not have, docs/theory.md eq. (68a).
 BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
   const Fall &before = step.before, &after = step.after;
-  const double given = step.duration / 2 * before.wrench.dot(step.x_before + x);
+  const double given =
+      step.duration / 2 * step.encounter.fall.dot(step.encounter.twist_before_rows + x);
   const double excess = given - (before.potential - after.potential);
   const Vector6 along = before.lift + after.lift;
   const double rate = along.dot(x);
@@ -274,13 +297,6 @@ BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
   return {x - std::copysign(part, rate) * response, removed};
 }
 
-// Returns weight and buoyancy of a body at its last stand.
-Fall fallOf(const AmbientBody& ambient) {
-  const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
-  return {stand.plane, wetVolume(model, stand), model.above.mass - model.above.displaced_mass};
-}
-
 // Returns the twist after the passage from `before` to the present stand of the body.
 BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axes axes,
                         double duration, const Vector6& x) {
@@ -289,8 +305,8 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   if (axes == Axes::kLocked)
     return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.inertia * x));
   const Matrix6 inverse = after.inverse.full();
-  const BoundedTwist moved = withinPotential(
-      {before.fall, fallOf(ambient), inverse, ambient.encounter().twist_before_rows, duration}, x);
+  const BoundedTwist moved =
+      withinPotential({before.fall, fallOf(ambient), inverse, ambient.encounter(), duration}, x);
   const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
   BoundedTwist end = passSurface({model, before.inertia, after, duration, gradient}, moved.twist);
   end.energy_removed += moved.energy_removed;

@@ -71,9 +71,12 @@ class StepModel {
   /// Takes the stand of a body. @pre it is at a surface, and standNow() or passWithRows() has found
   /// its stand
   void freeze(const AmbientBody& ambient) noexcept;
-  /// Stiffens the model for a step that is long against the floating period, so that buoyancy does
-  /// not push the body past its balance; docs/theory.md eq. (68).
-  void stiffen(const SurfaceStand& stand, double duration) noexcept;
+  /// Stiffens the model by `modes` for a step that is long against the floating period, so that
+  /// buoyancy does not push the body past its balance; docs/theory.md eq. (68).
+  void stiffen(const SurfaceStand& stand, const FloatingModes& modes, double duration) noexcept;
+  /// Gives the model the buoyancy of another pose B to W, a time [s] after freeze(). Inertia and
+  /// loads stay.
+  void floatAt(AmbientBody& ambient, const FrameOffset& pose, double time) noexcept;
 
   const BodyModel& operator*() const noexcept { return *model_; }
   const BodyModel* operator->() const noexcept { return model_; }

@@ -56,6 +56,7 @@ class TreeFlight {
 
  private:
   void flyPart(double duration) {
+    if (step_.meets_surface) floatInMiddle(tree_);
     const LinkFlightResult result = tree_.flight.fly(step_.pose, step_.start, duration, settings_);
     is_finite_ = is_finite_ && result.is_finite;
     step_.end = tree_.flight.endVelocity();

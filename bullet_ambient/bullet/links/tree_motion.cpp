@@ -85,6 +85,7 @@ bool fly(AmbientTree& tree, const TreeTask& task) {
 bool prepareRows(AmbientTree& tree, double h) {
   TreeStep& step = tree.step;
   LinkFlight& flight = tree.flight;
+  if (step.meets_surface) stiffenForRows(tree);
   const LinkFlightResult result = flight.computeRowVelocity(step.pose, step.start, h);
   addCount(result.count, tree);
   if (!result.is_finite) return false;

@@ -72,8 +72,27 @@ void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   });
   step.meets_surface = addResponse(tree, step.start);
   forEachAtSurface(tree, [&](AmbientLink& link, int) {
-    link.frozen.stiffen(link.ambient.stand(), task.duration);
     warnOfCoarseSwing(link.ambient, task.duration, task.bodies.complaints);
+  });
+}
+
+void stiffenForRows(AmbientTree& tree) noexcept {
+  forEachAtSurface(tree, [&](AmbientLink& link, int) {
+    const SurfaceStand& stand = link.ambient.stand();
+    link.frozen.stiffen(stand, stand.modes, tree.step.surface.time);
+  });
+}
+
+void floatInMiddle(AmbientTree& tree) noexcept {
+  SurfaceStep& surface = tree.step.surface;
+  const double half = surface.time / 2;
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  movePose(tree.tree, tree.step.pose, tree.step.start, half, surface.middle);
+  dynamics.moveTo(surface.middle);
+  forEachAtSurface(tree, [&](AmbientLink& link, int i) {
+    const SurfaceStand& stand = link.ambient.stand();
+    link.frozen.floatAt(link.ambient, {dynamics.rotation(i), dynamics.position(i)}, half);
+    link.frozen.stiffen(stand, modesOfWaterplane(stand), surface.time);
   });
 }
 

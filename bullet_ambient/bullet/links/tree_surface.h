@@ -16,9 +16,17 @@ AMBIENT_BEGIN
 // It has no more energy than the links would have alone, the sum of y_l.K_l y_l / 2.
 
 /// Call before a step, or before each part of a step that is flown in parts. Changes `step.start`
-/// by the waves that links make and by the wind. Stiffens the inertia of links whose floating
-/// period is too short for the step, docs/theory.md eq. (68). @pre prepareLinks()
+/// by the waves that links make and by the wind. @pre prepareLinks()
 void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept;
+
+/// Call before rows that turn with the tree are prepared. Stiffens the inertia of links whose
+/// floating period is too short for the step, docs/theory.md eq. (68). @pre kickAtSurface()
+void stiffenForRows(AmbientTree& tree) noexcept;
+
+/// Call before a flight. Gives the links the buoyancy of where `step.start` brings them to in half
+/// the time, and stiffens them by their waterplanes if their floating period is too short for the
+/// step; docs/theory.md section 14. @pre kickAtSurface()
+void floatInMiddle(AmbientTree& tree) noexcept;
 
 /// Changes `step.end` by the change of added mass on the way from the pose of kickAtSurface() to
 /// `step.pose`, and removes energy above the work of weight and buoyancy, docs/theory.md eq. (66),

@@ -26,6 +26,7 @@ TreeStep::TreeStep(Eigen::Index n, std::size_t links)
       impulses(links) {
   surface.start.resize(n);
   surface.pose.joints.resize(links);
+  surface.middle.joints.resize(links);
 }
 
 AmbientTree::AmbientTree(btMultiBody& attached)

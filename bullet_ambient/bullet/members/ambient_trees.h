@@ -43,6 +43,7 @@ enum class TreeOutcome {
 /// One step of a tree at a water surface, or a part of it.
 struct SurfaceStep {
   TreePose pose;          ///< q_0
+  TreePose middle;        ///< where the start velocity brings the tree to in half the time
   Coordinates start;      ///< u_0 before the kicks of the surface
   double time = 0;        ///< time since these kicks [s]
   bool is_bound = false;  ///< true: the energy must not grow in the step, because there is no wind,

@@ -32,9 +32,8 @@ void beginReading(const AmbientBody& ambient, const RigidState& start,
 struct ReadStep {
   const RigidState& middle;  ///< state in the middle of the path, with the mean twist
   const RigidState& end;
-  const BodyModel&
-      model;  ///< model; at a water surface, if rows or joints have moved the body, the frozen one
-  bool has_flown;   ///< true: the body has flown, and at a surface `model` is not the frozen one
+  const BodyModel& model;  ///< at a water surface, if rows or joints have moved it, the frozen one
+  bool has_flown;   ///< true: at a surface the buoyancy is that of the middle, not of `model`
   double duration;  ///< [s]
 };
 /// Computes FluidReading::wrench. Allocates nothing. Cost: one or two evaluations of the loads.

@@ -66,7 +66,9 @@ void finishTreeReading(AmbientTree& tree, double duration) noexcept {
   dynamics.setVelocity(step.moved);
   forEachRead(tree, [&](AmbientBody& ambient, int link) {
     FluidReading& reading = *ambient.reading;
-    finishReading(ambient, {stateOf(dynamics, link), reading.end, reading.model, is_free, duration},
+    finishReading(ambient,
+                  {stateOf(dynamics, link), reading.end, reading.model,
+                   step.outcome == TreeOutcome::kFlown, duration},
                   reading);
   });
 }

@@ -30,8 +30,16 @@ bool isStable(const FloatingModes& modes) noexcept {
   return modes[0].stiffness > 0 && modes[1].stiffness > 0 && modes[2].stiffness > 0;
 }
 
-Matrix6 stiffInertia(const SurfaceStand& stand, double duration) noexcept {
-  return stiffened(stand.inertia.full(), stand.modes, duration);
+Matrix6 stiffInertia(const SurfaceStand& stand, const FloatingModes& modes,
+                     double duration) noexcept {
+  return stiffened(stand.inertia.full(), modes, duration);
+}
+
+FloatingModes modesOfWaterplane(const SurfaceStand& stand) noexcept {
+  FloatingModes modes = stand.modes;
+  for (FloatingMode* tilt : {&modes[1], &modes[2]})
+    tilt->stiffness = stand.plane.density * stand.plane.gravity * tilt->second_moment;
+  return modes;
 }
 
 BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept {
@@ -39,7 +47,12 @@ BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcep
   frozen.inertia = stand.inertia.full();
   frozen.inverse_inertia = stand.inverse.full();
   frozen.has_diagonal_inertia = false;
-  const WetVolume wet = wetVolume(model, stand);
+  frozen.loads = nullptr;
+  displace(model, wetVolume(model, stand), frozen);
+  return frozen;
+}
+
+void displace(const SurfaceModel& model, const WetVolume& wet, BodyModel& frozen) noexcept {
   const double water = model.excess_density * wet.volume;
   frozen.displaced_mass = model.above.displaced_mass + water;
   if (frozen.displaced_mass > 0) {
@@ -47,8 +60,6 @@ BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcep
                                model.excess_density * wet.moment) /
                               frozen.displaced_mass;
   }
-  frozen.loads = nullptr;
-  return frozen;
 }
 
 Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept {

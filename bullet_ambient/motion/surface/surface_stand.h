@@ -38,13 +38,21 @@ bool isStable(const FloatingModes& modes) noexcept;
 /// Longest step that needs no stiffInertia(), times the largest natural frequency [1].
 constexpr double kLongestSwing = 0.5;
 
-/// Returns K stiffened() for a long step of `duration` [s], so that the step does not overshoot the
-/// balance of buoyancy; implicit trapezoidal rule.
-Matrix6 stiffInertia(const SurfaceStand& stand, double duration) noexcept;
+/// Returns K stiffened() by `modes` for a long step of `duration` [s], so that the step does not
+/// overshoot the balance of buoyancy; implicit trapezoidal rule.
+Matrix6 stiffInertia(const SurfaceStand& stand, const FloatingModes& modes,
+                     double duration) noexcept;
+
+/// Returns the modes with the stiffness of the waterplane alone, rho g A_w and rho g I_i: what
+/// buoyancy lacks if the volume that is wet now turns with the body. Never negative.
+FloatingModes modesOfWaterplane(const SurfaceStand& stand) noexcept;
 
 /// Returns a model with constant inertia and displacement, for a step in which constraint rows move
 /// the body. The caller adds the loads, in the frame of SurfaceModel::loads_below.
 BodyModel frozenAt(const SurfaceModel& model, const SurfaceStand& stand) noexcept;
+
+/// Sets mass and centre of what a frozen model displaces; `wet`: in B.
+void displace(const SurfaceModel& model, const WetVolume& wet, BodyModel& frozen) noexcept;
 
 /// Computes F_K of docs/theory.md eq. (66) for a twist x in B relative to the water.
 Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept;

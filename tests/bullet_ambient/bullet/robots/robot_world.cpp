@@ -76,9 +76,9 @@ RobotWorld::~RobotWorld() {
 
 btMultiBody& RobotWorld::add(Arbitrary& arbitrary, const RobotDef& def) {
   const btScalar mass = bt(arbitrary.between(0.7, 1.3));
-  auto owned = std::make_unique<btMultiBody>(
+  auto robot = std::make_unique<btMultiBody>(
       def.links, mass, btVector3(bt(0.02), bt(0.03), bt(0.025)), def.has_fixed_base, true);
-  btMultiBody& body = *owned;
+  btMultiBody& body = *robot;
   body.setLinearDamping(0);
   body.setAngularDamping(0);
   body.setMaxCoordinateVelocity(bt(1e10));
@@ -93,9 +93,14 @@ btMultiBody& RobotWorld::add(Arbitrary& arbitrary, const RobotDef& def) {
     body.setBaseOmega(bt(2 * def.speed) * direction(arbitrary));
     body.setBaseVel(bt(def.speed) * direction(arbitrary));
   }
-  contents.take(std::move(owned));
-  for (int i = -1; def.collider_radius > 0 && i < def.links; ++i) {
-    shapes_.push_back(std::make_unique<btSphereShape>(bt(def.collider_radius)));
+  return take(std::move(robot), def.collider_radius);
+}
+
+btMultiBody& RobotWorld::take(std::unique_ptr<btMultiBody> robot, double collider_radius) {
+  btMultiBody& body = *robot;
+  contents.take(std::move(robot));
+  for (int i = -1; collider_radius > 0 && i < body.getNumLinks(); ++i) {
+    shapes_.push_back(std::make_unique<btSphereShape>(bt(collider_radius)));
     btMultiBodyLinkCollider& collider =
         contents.addCollider(body, i, *shapes_.back(), btBroadphaseProxy::StaticFilter);
     collider.setFriction(0);

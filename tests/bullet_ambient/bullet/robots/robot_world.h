@@ -31,6 +31,8 @@ struct RobotWorld : TreeWorld {
 
   /// Adds a robot to the world: links of 0.3 kg to 1.3 kg, 0.3 m apart, random pose and motion.
   btMultiBody& add(Arbitrary& arbitrary, const RobotDef& def);
+  /// Adds a finished robot, with spheres of a radius [m] as colliders of its links; 0: without.
+  btMultiBody& take(std::unique_ptr<btMultiBody> robot, double collider_radius);
   void take(std::unique_ptr<btMultiBodyConstraint> constraint);
   void remove(btMultiBody& body) { contents.remove(body); }
   btCollisionObject& addFixed(std::unique_ptr<btCollisionShape> shape, const btTransform& place);

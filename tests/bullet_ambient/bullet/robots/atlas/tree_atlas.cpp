@@ -1,5 +1,6 @@
 #include "tests/bullet_ambient/bullet/robots/atlas/tree_atlas.h"
 
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 
 #include <algorithm>
@@ -58,6 +59,14 @@ void tie(RobotWorld& world, btMultiBody& body) {
       body.getLink(tip).m_cachedWorldTransform * point);
   joint->setMaxAppliedImpulse(bt(1e9));
   world.take(std::move(joint));
+}
+
+// Gives each revolute and prismatic joint a motor that stops it with 0.01 to 10 N m or N.
+void brake(Arbitrary& arbitrary, RobotWorld& world, btMultiBody& body, double hertz) {
+  const double effort = std::pow(10, arbitrary.between(-2, 1));
+  for (int link = 0; link < body.getNumLinks(); ++link)
+    if (body.getLink(link).m_dofCount == 1)
+      world.take(std::make_unique<btMultiBodyJointMotor>(&body, link, bt(0), bt(effort / hertz)));
 }
 
 // Adds walls around the initial places of all links.
@@ -166,6 +175,8 @@ const char* nameOf(TreeSetting setting) {
       return "free, of 100 links";
     case TreeSetting::kThroughSurface:
       return "through a surface";
+    case TreeSetting::kBraked:
+      return "through a surface, with brakes";
     case TreeSetting::kInLongSteps:
       break;
   }
@@ -187,6 +198,7 @@ TreeResult runTree(const TreeCase& tree_case) {
   attachFluid(arbitrary, world, body, tree_case.fluid, has_surface);
   if (setting == TreeSetting::kTethered || setting == TreeSetting::kTetheredInBox) tie(world, body);
   if (setting == TreeSetting::kInBox || setting == TreeSetting::kTetheredInBox) addBox(world, body);
+  if (setting == TreeSetting::kBraked) brake(arbitrary, world, body, hertz);
   if (!has_surface) return watch(world, body, hertz, nullptr);
   world.world.setGravity({0, 0, bt(-kGravity)});
   if (tree_case.fluid == TreeFluid::kWater) fillSea(world);

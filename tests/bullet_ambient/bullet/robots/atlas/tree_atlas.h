@@ -5,7 +5,7 @@
 
 namespace ambient::test {
 
-/// Surroundings of a random tree besides fluid; only the last two have gravity.
+/// Surroundings of a random tree besides fluid; those at a surface have gravity.
 enum class TreeSetting {
   kFree,
   kTethered,
@@ -13,9 +13,10 @@ enum class TreeSetting {
   kTetheredInBox,
   kLong,            ///< as kFree, with 100 links
   kThroughSurface,  ///< gravity, and the surface of still water; not in ideal fluid
-  kInLongSteps,     ///< the same, in steps of 1/5 to 1/40 s
+  kBraked,          ///< the same, with motors that brake all revolute and prismatic joints
+  kInLongSteps,     ///< as kThroughSurface, in steps of 1/5 to 1/40 s
 };
-constexpr int kTreeSettings = 7;
+constexpr int kTreeSettings = 8;
 const char* nameOf(TreeSetting setting);
 
 /// Fluid around the links.

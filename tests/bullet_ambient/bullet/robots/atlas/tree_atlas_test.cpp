@@ -56,6 +56,13 @@ TEST(TreeAtlas, InLongStepsThroughASurfaceGainsLittle) {
     EXPECT_LT(result.over_earlier, 0.01);
 }
 
+// With the buoyancy of the start of a step these rise by 6e-5 to 4e-4.
+TEST(TreeAtlas, BrakedThroughASurfaceGainsNothing) {
+  if (!kDouble) return;  // float: different trees
+  for (const unsigned seed : {1014u, 1028u, 1119u, 1216u})
+    EXPECT_LT(runTree({TreeSetting::kBraked, TreeFluid::kWater, seed}).over_earlier, 1e-6) << seed;
+}
+
 // Ball joints beyond Bullet's limit of turns, an eighth of a revolution per step.
 TEST(TreeAtlas, FastBallJointsGainRoundingAtMost) {
   if (!kDouble) return;  // float: different trees
