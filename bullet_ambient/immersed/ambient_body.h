@@ -30,6 +30,7 @@ struct SurfaceEncounter {
   WaveMemory waves_with_rows;  ///< waves after the step, if rows move the body
   Vector6 twist_before_rows =
       Vector6::Zero();  ///< velocity in B, relative to the water, that constraint rows start from
+  SurfacePlane plane_before_rows;  ///< surface in B at the pose that rows start from
 };
 
 /// Memory of a body that a surface may cut, from step to step.

@@ -44,18 +44,39 @@ const SurfaceStand& standAfter(AmbientBody& ambient, double time) {
   return standAt(ambient, planeAfter(ambient, time));
 }
 
-// Sets the plane of the stand after the body has met a plane in B.
-void meetPlane(AmbientBody& ambient, const SurfacePlane& plane_B) {
-  SurfaceMeeting& meeting = *ambient.meeting;
-  const SurfacePlane& met = meeting.stand.plane;
-  const double size =
-      ambient.surface()->radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
-  if (meeting.has_met && isNear(met, plane_B, size)) return;
-  if (meeting.is_valid && isSame(met, plane_B)) {
+// Sets the plane of the stand to a plane in B.
+void moveTo(const SurfacePlane& plane_B, SurfaceMeeting& meeting) {
+  if (meeting.is_valid && isSame(meeting.stand.plane, plane_B)) {
     meeting.has_met = true;
   } else {
     meeting.meet(plane_B);
   }
+}
+
+// Sets the plane of the stand to a plane in B, unless they differ by the rounding of the pose only.
+void meetPlane(AmbientBody& ambient, const SurfacePlane& plane_B) {
+  SurfaceMeeting& meeting = *ambient.meeting;
+  const double size =
+      ambient.surface()->radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
+  if (meeting.has_met && isNear(meeting.stand.plane, plane_B, size)) return;
+  moveTo(plane_B, meeting);
+}
+
+// Computes the stands of up to kFlightsTogether bodies for the planes that they have met.
+void completeMet(AmbientBody* const* bodies, int count) {
+  const SurfaceModel* models[kFlightsTogether] = {};
+  SurfaceStand* stands[kFlightsTogether] = {};
+  int made = 0;
+  for (int i = 0; i < count; ++i) {
+    SurfaceMeeting& meeting = *bodies[i]->meeting;
+    if (meeting.is_valid) continue;
+    const SurfaceModel& model = *bodies[i]->surface();
+    static_cast<SurfacePlace&>(meeting.stand) = placeAt(model, meeting.stand.plane);
+    meeting.is_valid = true;
+    models[made] = &model;
+    stands[made++] = &meeting.stand;
+  }
+  if (made > 0) completeStands(models, stands, made);
 }
 
 WetPart wetPart(const SurfaceModel& model, const SurfaceStand& stand) {
@@ -104,20 +125,8 @@ SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const Reg
 
 void standAt(AmbientBody* const* bodies, const SurfacePlane* planes_B, int count) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
-  const SurfaceModel* models[kFlightsTogether] = {};
-  SurfaceStand* stands[kFlightsTogether] = {};
-  int made = 0;
-  for (int i = 0; i < count; ++i) {
-    meetPlane(*bodies[i], planes_B[i]);
-    SurfaceMeeting& meeting = *bodies[i]->meeting;
-    if (meeting.is_valid) continue;
-    const SurfaceModel& model = *bodies[i]->surface();
-    static_cast<SurfacePlace&>(meeting.stand) = placeAt(model, meeting.stand.plane);
-    meeting.is_valid = true;
-    models[made] = &model;
-    stands[made++] = &meeting.stand;
-  }
-  if (made > 0) completeStands(models, stands, made);
+  for (int i = 0; i < count; ++i) meetPlane(*bodies[i], planes_B[i]);
+  completeMet(bodies, count);
 }
 
 const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept {
@@ -188,6 +197,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
   ambient.encounter().twist_before_rows = x;
+  ambient.encounter().plane_before_rows = planeAfter(ambient, 0);
   WaveMemory& waves = ambient.encounter().waves_with_rows;
   waves = ambient.encounter().waves;
   Vector6 end = exchangeWaves(stand.modes, R, stand.inverse.full(), duration, x, waves);
@@ -235,11 +245,15 @@ struct Fall {
   Vector6 wrench;        ///< of both
   double potential = 0;  ///< of both [J]
 
-  /// @param mass less that of the fluid above that the body displaces [kg]
-  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
-      : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
-    wrench.tail<3>() -= mass * plane.gravity * plane.normal;
-    potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
+  /// @param plane that of the stand, up to the rounding of Bullet's poses
+  Fall(const SurfaceModel& model, const SurfaceStand& stand, const SurfacePlane& plane) {
+    const WetVolume wet = wetVolume(model, stand);
+    const double mass = model.above.mass - model.above.displaced_mass;
+    lift = hydrostaticWrench(wet, stand.plane).vector();
+    wrench = lift;
+    wrench.tail<3>() -= mass * stand.plane.gravity * stand.plane.normal;
+    potential = hydrostaticEnergy(wet, stand.plane) + energyOfRounding(model, stand, plane) -
+                mass * plane.gravity * plane.height;
   }
 };
 
@@ -251,7 +265,7 @@ struct Departure {
 
 struct RowStep {
   const Fall& before;
-  Fall after;
+  const Fall& after;
   const Matrix6& inverse;  ///< of the inertia after it
   Vector6 x_before;
   double duration;
@@ -274,13 +288,6 @@ BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
   return {x - std::copysign(part, rate) * response, removed};
 }
 
-// Returns weight and buoyancy of a body at its last stand.
-Fall fallOf(const AmbientBody& ambient) {
-  const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
-  return {stand.plane, wetVolume(model, stand), model.above.mass - model.above.displaced_mass};
-}
-
 // Returns the twist after the passage from `before` to the present stand of the body.
 BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axes axes,
                         double duration, const Vector6& x) {
@@ -289,8 +296,9 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   if (axes == Axes::kLocked)
     return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.inertia * x));
   const Matrix6 inverse = after.inverse.full();
+  const Fall fall_after(model, after, after.plane);
   const BoundedTwist moved = withinPotential(
-      {before.fall, fallOf(ambient), inverse, ambient.encounter().twist_before_rows, duration}, x);
+      {before.fall, fall_after, inverse, ambient.encounter().twist_before_rows, duration}, x);
   const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
   BoundedTwist end = passSurface({model, before.inertia, after, duration, gradient}, moved.twist);
   end.energy_removed += moved.energy_removed;
@@ -299,17 +307,18 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
 
 }  // namespace
 
-void passWithRows(AmbientBody* const* bodies, int count, Axes axes, double duration,
-                  BoundedTwist* twists) noexcept {
+void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int count, Axes axes,
+                  double duration, BoundedTwist* twists) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   std::optional<Departure> departures[kFlightsTogether];
-  SurfacePlane planes_B[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
-    departures[i] =
-        Departure{bodies[i]->stand().inertia.full(), fallOf(*bodies[i])};  // since standNow()
-    planes_B[i] = planeAfter(*bodies[i], duration);
+    AmbientBody& ambient = *bodies[i];
+    const SurfaceStand& before = ambient.stand();  // since standNow()
+    departures[i] = Departure{before.inertia.full(), Fall(*ambient.surface(), before,
+                                                          ambient.encounter().plane_before_rows)};
+    moveTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.meeting);
   }
-  standAt(bodies, planes_B, count);
+  completeMet(bodies, count);
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     ambient.encounter().plane_W = movedPlane(ambient, duration);
@@ -324,6 +333,6 @@ double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
   return hydrostaticEnergy(immersionOf(model, plane_B).wet.inB(model.fluid_frame), plane_B);
 }
 
-bool mayRestAtSurface(AmbientBody& ambient) noexcept { return isStable(standNow(ambient).modes); }
+bool mayRestAtSurface(AmbientBody& ambient) noexcept { return isStable(standNow(ambient)); }
 
 AMBIENT_END
