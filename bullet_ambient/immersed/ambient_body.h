@@ -32,6 +32,7 @@ struct SurfaceEncounter {
       Vector6::Zero();  ///< velocity in B, relative to the water, that constraint rows start from
   Vector6 fall = Vector6::Zero();  ///< weight and buoyancy that act in the step, if rows move the
                                    ///< body, in B [N m, N]
+  SurfacePlane plane_before_rows;  ///< surface in B at the pose that rows start from
 };
 
 /// Memory of a body that a surface may cut, from step to step.

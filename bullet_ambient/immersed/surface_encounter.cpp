@@ -44,18 +44,39 @@ const SurfaceStand& standAfter(AmbientBody& ambient, double time) {
   return standAt(ambient, planeAfter(ambient, time));
 }
 
-// Sets the plane of the stand after the body has met a plane in B.
-void meetPlane(AmbientBody& ambient, const SurfacePlane& plane_B) {
-  SurfaceMeeting& meeting = *ambient.meeting;
-  const SurfacePlane& met = meeting.stand.plane;
-  const double size =
-      ambient.surface()->radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
-  if (meeting.has_met && isNear(met, plane_B, size)) return;
-  if (meeting.is_valid && isSame(met, plane_B)) {
+// Sets the plane of the stand to a plane in B.
+void moveTo(const SurfacePlane& plane_B, SurfaceMeeting& meeting) {
+  if (meeting.is_valid && isSame(meeting.stand.plane, plane_B)) {
     meeting.has_met = true;
   } else {
     meeting.meet(plane_B);
   }
+}
+
+// Sets the plane of the stand to a plane in B, unless they differ by the rounding of the pose only.
+void meetPlane(AmbientBody& ambient, const SurfacePlane& plane_B) {
+  SurfaceMeeting& meeting = *ambient.meeting;
+  const double size =
+      ambient.surface()->radius + toVector3(ambient.body->getWorldTransform().getOrigin()).norm();
+  if (meeting.has_met && isNear(meeting.stand.plane, plane_B, size)) return;
+  moveTo(plane_B, meeting);
+}
+
+// Computes the stands of up to kFlightsTogether bodies for the planes that they have met.
+void completeMet(AmbientBody* const* bodies, int count) {
+  const SurfaceModel* models[kFlightsTogether] = {};
+  SurfaceStand* stands[kFlightsTogether] = {};
+  int made = 0;
+  for (int i = 0; i < count; ++i) {
+    SurfaceMeeting& meeting = *bodies[i]->meeting;
+    if (meeting.is_valid) continue;
+    const SurfaceModel& model = *bodies[i]->surface();
+    static_cast<SurfacePlace&>(meeting.stand) = placeAt(model, meeting.stand.plane);
+    meeting.is_valid = true;
+    models[made] = &model;
+    stands[made++] = &meeting.stand;
+  }
+  if (made > 0) completeStands(models, stands, made);
 }
 
 WetPart wetPart(const SurfaceModel& model, const SurfaceStand& stand) {
@@ -87,6 +108,17 @@ Fall fallOf(const AmbientBody& ambient) {
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& stand = ambient.stand();
   return {stand.plane, wetVolume(model, stand), fallingMass(model)};
+}
+
+// Returns the same with the energy at a plane in B that differs from that of the stand by the
+// rounding of Bullet's poses.
+Fall fallOf(const AmbientBody& ambient, const SurfacePlane& plane) {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();
+  Fall fall = fallOf(ambient);
+  fall.potential += energyOfRounding(model, stand, plane) -
+                    fallingMass(model) * plane.gravity * (plane.height - stand.plane.height);
+  return fall;
 }
 
 }  // namespace
@@ -130,20 +162,8 @@ SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const Reg
 
 void standAt(AmbientBody* const* bodies, const SurfacePlane* planes_B, int count) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
-  const SurfaceModel* models[kFlightsTogether] = {};
-  SurfaceStand* stands[kFlightsTogether] = {};
-  int made = 0;
-  for (int i = 0; i < count; ++i) {
-    meetPlane(*bodies[i], planes_B[i]);
-    SurfaceMeeting& meeting = *bodies[i]->meeting;
-    if (meeting.is_valid) continue;
-    const SurfaceModel& model = *bodies[i]->surface();
-    static_cast<SurfacePlace&>(meeting.stand) = placeAt(model, meeting.stand.plane);
-    meeting.is_valid = true;
-    models[made] = &model;
-    stands[made++] = &meeting.stand;
-  }
-  if (made > 0) completeStands(models, stands, made);
+  for (int i = 0; i < count; ++i) meetPlane(*bodies[i], planes_B[i]);
+  completeMet(bodies, count);
 }
 
 const SurfaceStand& standAt(AmbientBody& ambient, const SurfacePlane& plane_B) noexcept {
@@ -224,6 +244,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
   const Vector6 x = relative.vector();
   ambient.encounter().twist_before_rows = x;
   ambient.encounter().fall = fallOf(ambient).wrench;
+  ambient.encounter().plane_before_rows = planeAfter(ambient, 0);
   WaveMemory& waves = ambient.encounter().waves_with_rows;
   waves = ambient.encounter().waves;
   Vector6 end = exchangeWaves(stand.modes, R, stand.inverse.full(), duration, x, waves);
@@ -315,17 +336,17 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
 
 }  // namespace
 
-void passWithRows(AmbientBody* const* bodies, int count, Axes axes, double duration,
-                  BoundedTwist* twists) noexcept {
+void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int count, Axes axes,
+                  double duration, BoundedTwist* twists) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   std::optional<Departure> departures[kFlightsTogether];
-  SurfacePlane planes_B[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
-    departures[i] =
-        Departure{bodies[i]->stand().inertia.full(), fallOf(*bodies[i])};  // since standNow()
-    planes_B[i] = planeAfter(*bodies[i], duration);
+    AmbientBody& ambient = *bodies[i];
+    departures[i] = Departure{ambient.stand().inertia.full(),  // since standNow()
+                              fallOf(ambient, ambient.encounter().plane_before_rows)};
+    moveTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.meeting);
   }
-  standAt(bodies, planes_B, count);
+  completeMet(bodies, count);
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     ambient.encounter().plane_W = movedPlane(ambient, duration);
@@ -340,6 +361,6 @@ double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
   return hydrostaticEnergy(immersionOf(model, plane_B).wet.inB(model.fluid_frame), plane_B);
 }
 
-bool mayRestAtSurface(AmbientBody& ambient) noexcept { return isStable(standNow(ambient).modes); }
+bool mayRestAtSurface(AmbientBody& ambient) noexcept { return isStable(standNow(ambient)); }
 
 AMBIENT_END

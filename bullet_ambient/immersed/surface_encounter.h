@@ -122,17 +122,18 @@ void meetAgain(AmbientBody& ambient, int media) noexcept;
 /// Replaces the twists of up to kFlightsTogether bodies that Bullet has moved with rows by those
 /// after the change of their added mass on the way; in B, relative to the water. Removes energy
 /// above the work of weight and buoyancy, docs/theory.md eq. (68a). Axes::kLocked: removes only the
-/// energy that the change of added mass would add. The bits of a body do not depend on the others.
+/// energy that the change of added mass would add. `poses`: B to W, where the step has brought the
+/// bodies before Bullet rounded that. The bits of a body do not depend on the others.
 enum class Axes { kFree, kLocked };
-void passWithRows(AmbientBody* const* bodies, int count, Axes axes, double duration,
-                  BoundedTwist* twists) noexcept;
+void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int count, Axes axes,
+                  double duration, BoundedTwist* twists) noexcept;
 
 /// Returns the energy of the water that the body lifts or displaces [J], at a pose B to W that the
 /// step may reach a time `duration` [s] after standNow(). @pre the body is at a surface
 double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
                            double duration) noexcept;
 
-/// True if a body that hardly moves may fall asleep where it floats: its balance is stable.
+/// True if a body that hardly moves may fall asleep where it floats: its balance is not unstable.
 bool mayRestAtSurface(AmbientBody& ambient) noexcept;
 
 AMBIENT_END

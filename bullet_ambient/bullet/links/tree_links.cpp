@@ -37,17 +37,22 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
   in_tree.surroundings.load_share = ambient.load_share;
 }
 
+template <class IsTrue>
+bool isOfAny(const AmbientTree& tree, const IsTrue& is_true) {
+  return std::any_of(tree.links.begin(), tree.links.end(),
+                     [&](const auto& link) { return is_true(link->ambient); });
+}
+
 // True if a link has a wake that depends on its motion (followWake()): then its stand-in needs the
 // velocity.
 bool hasWakes(const AmbientTree& tree) {
-  return std::any_of(tree.links.begin(), tree.links.end(), [](const auto& link) {
-    const auto& loads = link->ambient.model().loads;
+  return isOfAny(tree, [](const AmbientBody& ambient) {
+    const auto& loads = ambient.model().loads;
     return loads && loads->wakeShare() > 0;
   });
 }
 
-// True if a link moves by more than a hundredth of its size in 2 s, Bullet's time before sleep, or
-// its fluid changes with time.
+// True if a link moves by more than a hundredth of its size in 2 s, Bullet's time before sleep.
 bool moves(AmbientTree& tree) {
   constexpr double kRestingTravel = 0.01, kRestingTime = 2;  // those of bodies
   LinkDynamics& dynamics = tree.flight.dynamics();
@@ -57,7 +62,7 @@ bool moves(AmbientTree& tree) {
     const Twist twist = dynamics.twist(link->link + 1);
     const double size = ambient.model().reference_length;
     const double travel = kRestingTime * (twist.linear.norm() + size * twist.angular.norm());
-    return !ambient.may_rest || travel > kRestingTravel * size;
+    return travel > kRestingTravel * size;
   });
 }
 
@@ -149,7 +154,12 @@ void countEnergyRemoved(double energy, AmbientTree& tree) noexcept {
 
 void keepTreeAwake(AmbientTree& tree) noexcept {
   if (!tree.multi_body->getCanSleep()) return;
-  if (moves(tree) || standsOnSaddle(tree)) tree.multi_body->wakeUp();
+  const bool has_rows = tree.step.outcome == TreeOutcome::kRows;
+  const auto floats = [](const AmbientBody& ambient) { return ambient.surface() != nullptr; };
+  const bool is_carried = !has_rows || isOfAny(tree, floats);
+  const bool is_unsteady = isOfAny(tree, [](const auto& ambient) { return !ambient.may_rest; });
+  if (is_unsteady || (is_carried && moves(tree)) || (!has_rows && standsOnSaddle(tree)))
+    tree.multi_body->wakeUp();
 }
 
 AMBIENT_END

@@ -36,8 +36,8 @@ void addCount(const FlightCount& count, AmbientTree& tree) noexcept;
 /// link.
 void countEnergyRemoved(double energy, AmbientTree& tree) noexcept;
 
-/// Wakes a tree that drifts, whose fluid changes with time, or that floats in an unstable balance;
-/// like keepAwakeWhileMoving() and keepAwakeInUnsteadyFluid() of bodies.
+/// Wakes a tree that drifts or moves afloat, whose fluid changes with time, or that floats in an
+/// unstable balance; like keepAwakeWhileMoving() and keepAwakeInUnsteadyFluid() of bodies.
 void keepTreeAwake(AmbientTree& tree) noexcept;
 
 AMBIENT_END

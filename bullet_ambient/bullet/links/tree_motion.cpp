@@ -331,7 +331,7 @@ void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
   }
   step.change = step.end - step.moved;
   addVelocity(body, step.change);
-  if (step.outcome == TreeOutcome::kFlown) keepTreeAwake(tree);
+  keepTreeAwake(tree);
   if (wantsJointForces(body)) writeJointForces(tree, task);
   finishTreeReading(tree, task.duration);
 }

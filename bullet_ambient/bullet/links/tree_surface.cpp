@@ -40,6 +40,7 @@ struct SurfaceArrivals {
   int count = 0;
   AmbientLink* links[kFlightsTogether] = {};
   AmbientBody* bodies[kFlightsTogether] = {};  // of the links
+  FrameOffset poses[kFlightsTogether];         // of the links, to W
   Vector6 twists[kFlightsTogether];
 };
 
@@ -48,7 +49,7 @@ struct SurfaceArrivals {
 double passTogether(const SurfaceArrivals& some, double duration, std::vector<Wrench>& impulses) {
   BoundedTwist after[kFlightsTogether];
   for (int i = 0; i < some.count; ++i) after[i].twist = some.twists[i];
-  passWithRows(some.bodies, some.count, Axes::kFree, duration, after);
+  passWithRows(some.bodies, some.poses, some.count, Axes::kFree, duration, after);
   double energy_removed = 0;
   for (int i = 0; i < some.count; ++i) {
     AmbientLink& link = *some.links[i];
@@ -111,6 +112,7 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
     some.links[some.count] = &link;
     some.bodies[some.count] = &link.ambient;
+    some.poses[some.count] = {dynamics.rotation(i), dynamics.position(i)};
     some.twists[some.count++] = endTwist(dynamics, i, link.ambient.medium, duration);
     if (some.count == kFlightsTogether) arrive();
   });

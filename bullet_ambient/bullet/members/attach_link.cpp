@@ -77,6 +77,10 @@ void standIn(AmbientLink& link, const btMultiBody& body, const btVector3& gravit
   if (!(stand_in.getGravity() == gravity)) stand_in.setGravity(gravity);
 }
 
+bool isReloaded(const AmbientLink& link, const btMultiBody& body) noexcept {
+  return !hasMass(link.stand_in, massOf(body, link.link), inertiaOf(body, link.link));
+}
+
 AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& at,
                         AttachDef def) {
   if (!def.fluid_body) {

@@ -27,6 +27,9 @@ struct LinkOf {
 /// Gives the stand-in body of a link the mass of the link and the gravity of the world.
 void standIn(AmbientLink& link, const btMultiBody& multi_body, const btVector3& gravity) noexcept;
 
+/// True if the link's mass properties have been changed since standIn().
+bool isReloaded(const AmbientLink& link, const btMultiBody& multi_body) noexcept;
+
 /// Implements Fluid::add() for a link, except the warning about light links. @throws
 /// std::invalid_argument as Fluid::add()
 AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& link,

@@ -63,14 +63,17 @@ void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept {
   complaints.say(Complaint::kNotFinite);
 }
 
-void keepAwakeWhileMoving(AmbientBody& ambient) noexcept {
+void keepAwakeWhileMoving(AmbientBody& ambient, Outcome kind) noexcept {
+  const bool has_rows = kind == Outcome::kRows;
+  if (has_rows && !ambient.surface()) return;
   btRigidBody& body = *ambient.body;
   const double size = ambient.model().reference_length;
   const double travel =
       kRestingTime * (static_cast<double>(body.getLinearVelocity().length()) +
                       size * static_cast<double>(body.getAngularVelocity().length()));
   const bool moves = travel > kRestingTravel * size;
-  if (moves || (ambient.surface() && !mayRestAtSurface(ambient))) body.setDeactivationTime(0);
+  const bool may_turn_over = ambient.surface() && !has_rows && !mayRestAtSurface(ambient);
+  if (moves || may_turn_over) body.setDeactivationTime(0);
 }
 
 void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept {

@@ -25,9 +25,10 @@ void release(AmbientBody& ambient) noexcept;
 /// Counts and reports it.
 void stopIfNotFinite(AmbientBody& ambient, Complaints& complaints) noexcept;
 
-/// Keeps Bullet from putting a body to sleep that drifts freely: it may rest only when it moves by
-/// less than a hundredth of its size within Bullet's two seconds.
-void keepAwakeWhileMoving(AmbientBody& ambient) noexcept;
+/// Keeps Bullet from putting a body to sleep that drifts freely or floats: it may rest only when it
+/// moves by less than a hundredth of its size within Bullet's two seconds and, unless joints or
+/// contacts hold it, would not turn over.
+void keepAwakeWhileMoving(AmbientBody& ambient, Outcome kind) noexcept;
 
 /// Keeps a body awake if the fluid around it changes with time.
 void keepAwakeInUnsteadyFluid(const AmbientBody& ambient) noexcept;

@@ -45,6 +45,18 @@ std::optional<double> partOfWay(const RowMotion& rows, const Vector3& position, 
   return part;
 }
 
+// Returns the pose to which the velocity xi turns and carries the body; that of Bullet, `reached`,
+// where it is another one by more than rounding.
+FrameOffset poseAfter(const RowMotion& rows, const Quaternion& orientation, const Vector3& position,
+                      double part, double time_step) {
+  const Quaternion turned =
+      rotationFromVector(time_step * rows.velocity_W.angular) * rows.orientation;
+  const bool turns = (turned.conjugate() * orientation).vec().norm() <= kRounding;
+  return {
+      (turns ? turned : orientation).toRotationMatrix(),
+      part == 1 ? rows.position + time_step * (rows.flow_W + rows.velocity_W.linear) : position};
+}
+
 // Returns the twist farthest from `from` towards `to` whose squared norm in K is at most `bound`;
 // if that of `from` is larger, `from` scaled down.
 BoundedTwist withinEnergy(const BodyModel& model, const Vector6& from, const Vector6& to,
@@ -140,6 +152,7 @@ void settle(AmbientBody& ambient, double time_step) {
 struct Arrival {
   AmbientBody* ambient = nullptr;
   Quaternion orientation;  // B to W
+  FrameOffset pose;        // B to W, before Bullet rounded it
   double part = 1;         // partOfWay()
   Vector6 moved;           // xi in B
   std::optional<StepModel> model;
@@ -174,6 +187,9 @@ int findArrivals(AmbientBody* const* bodies, int count, double time_step, Arriva
     arrival.ambient = &ambient;
     arrival.orientation = now.orientations[i];
     arrival.part = *part;
+    if (ambient.surface())
+      arrival.pose =
+          poseAfter(ambient.outcome.rows(), arrival.orientation, position, *part, time_step);
     arrival.moved = now.twists_B[i].vector();
     arrival.model.emplace(ambient, time_step);
   }
@@ -214,17 +230,19 @@ void boundEnergy(const Arrival& arrival, BoundedTwist& end) {
 void passSurfaces(const Arrival* arrivals, int count, Axes axes, double time_step,
                   BoundedTwist* ends) {
   AmbientBody* bodies[kFlightsTogether] = {};
+  FrameOffset poses[kFlightsTogether];
   BoundedTwist twists[kFlightsTogether];
   int places[kFlightsTogether] = {}, found = 0;
   for (int i = 0; i < count; ++i) {
     const bool is_free = arrivals[i].rows().momentum_W.has_value();
     if (!arrivals[i].ambient->surface() || is_free != (axes == Axes::kFree)) continue;
     bodies[found] = arrivals[i].ambient;
+    poses[found] = arrivals[i].pose;
     twists[found] = ends[i];
     places[found++] = i;
   }
   if (found == 0) return;
-  passWithRows(bodies, found, axes, time_step, twists);
+  passWithRows(bodies, poses, found, axes, time_step, twists);
   for (int i = 0; i < found; ++i) {
     ends[places[i]].twist = twists[i].twist;
     ends[places[i]].energy_removed += twists[i].energy_removed;

@@ -73,7 +73,7 @@ class Completion {
 
  private:
   void finish(Outcome kind, const Twist& before_W, AmbientBody& ambient) const {
-    if (kind != Outcome::kRows) keepAwakeWhileMoving(ambient);
+    keepAwakeWhileMoving(ambient, kind);
     keepAwakeInUnsteadyFluid(ambient);
     if (ambient.reading) finishBodyReading(ambient, kind, before_W, time_step_);
   }
@@ -99,6 +99,19 @@ void forgetBrokenImpulses(btCollisionWorld& world) {
         if (!std::isfinite(*impulse)) *impulse = 0;
     }
   }
+}
+
+// Wakes the sleeping members whose mass was changed: it is another load. Models without a mass are
+// of a body that has none that is physical.
+void wakeReloaded(const btCollisionWorld& world, const AmbientBodies& bodies) {
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i) {
+    if (objects[i]->getActivationState() != ISLAND_SLEEPING) continue;
+    const AmbientBody* ambient = bodies.find(objects[i]);
+    if (!ambient || !ambient->isInFluid() || objects[i]->isStaticOrKinematicObject()) continue;
+    if (ambient->models->inverse_mass.mass > 0 && isModelStale(*ambient)) objects[i]->activate();
+  }
+  wakeReloadedTrees(world, bodies);
 }
 
 // Wakes the followers that the world still has: others may have been destroyed.
@@ -139,6 +152,7 @@ void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     forgetBrokenImpulses(*world);
   }
   if (std::exchange(bodies_.regions.has_changed, false)) wakeFollowers(*world, bodies_);
+  wakeReloaded(*world, bodies_);
   if (isSolverMissing(*world)) {
     const bool has_multibodies = dynamic_cast<const btMultiBodyDynamicsWorld*>(world);
     bodies_.complaints.say(has_multibodies ? Complaint::kNoMultiBodySolver : Complaint::kNoSolver);

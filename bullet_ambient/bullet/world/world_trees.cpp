@@ -34,6 +34,15 @@ void wakeFollowingTrees(const btCollisionWorld& world, const AmbientBodies& bodi
   });
 }
 
+void wakeReloadedTrees(const btCollisionWorld& world, const AmbientBodies& bodies) noexcept {
+  if (!isOf(world, bodies.trees)) return;
+  forEachTree(*bodies.trees.world(), bodies.trees, [](const AmbientTree& tree) {
+    if (!isAsleep(*tree.multi_body)) return;
+    for (const auto& link : tree.links)
+      if (isReloaded(*link, *tree.multi_body)) return wake(*tree.multi_body);
+  });
+}
+
 void drawTrees(const btCollisionWorld& world, const AmbientBodies& bodies, const FluidDrawing& what,
                btIDebugDraw& drawer) {
   if (!isOf(world, bodies.trees)) return;

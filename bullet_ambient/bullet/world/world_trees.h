@@ -13,6 +13,10 @@ struct FluidDrawing;
 /// True if the world has a multibody that is awake and in a fluid.
 bool hasAwakeTree(const btCollisionWorld& world, const AmbientBodies& bodies) noexcept;
 
+/// Wakes the sleeping multibodies of the world of which a link in fluid has another mass than
+/// before.
+void wakeReloadedTrees(const btCollisionWorld& world, const AmbientBodies& bodies) noexcept;
+
 /// Wakes the multibodies of the world that follow regions.
 void wakeFollowingTrees(const btCollisionWorld& world, const AmbientBodies& bodies) noexcept;
 

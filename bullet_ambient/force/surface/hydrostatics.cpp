@@ -46,6 +46,17 @@ WetVolume WetVolume::inB(const FrameOffset& frame) const {
            R * waterplane.spread * R.transpose()}};
 }
 
+double hydrostaticEnergyChange(const WetVolume& wet, const SurfacePlane& plane,
+                               const SurfacePlane& near) noexcept {
+  const Waterplane& section = wet.waterplane;
+  const Vector3 turn = near.normal - plane.normal;
+  const double rise = near.height - plane.height;
+  const double heave = rise - section.centroid.dot(turn);
+  const double first = wet.volume * rise - wet.moment.dot(turn);
+  const double second = section.area * heave * heave + turn.dot(section.spread * turn);
+  return plane.density * plane.gravity * (first + second / 2);
+}
+
 WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) noexcept {
   AMBIENT_ASSERT(isUnit(plane.normal));
   const PlaneAxes axes(plane.normal);

@@ -49,4 +49,9 @@ inline double hydrostaticEnergy(const WetVolume& wet, const SurfacePlane& plane)
   return plane.density * plane.gravity * wet.depth_integral;
 }
 
+/// Returns that energy at the plane `near` less that at `plane`, to which the wet volume belongs;
+/// to second order in the way between them, docs/theory.md eq. (53a) [J].
+double hydrostaticEnergyChange(const WetVolume& wet, const SurfacePlane& plane,
+                               const SurfacePlane& near) noexcept;
+
 }  // namespace ambient

@@ -29,6 +29,7 @@ struct Progress {
   bool is_done = false;           ///< an attempt was accepted
   bool has_load = false;          ///< flight.load_W holds a load
   bool has_gained = false;        ///< more energy of place than it had in all
+  double rounding = 0;            ///< energy at the start less that at the stand [J]
   double swing = 0;               ///< the largest natural frequency that was met [1/s]
   double energy = 0;              ///< at the start of the step [J]
   double energy_removed = 0;      ///< by the bound of the energy [J]
@@ -100,7 +101,10 @@ class SurfaceFlights {
     lanes_.flight.precision[i] = kFlowAccuracy * task.settings.tolerance;
     setLane(lanes_.flight.centre_of_volume_B, i, task.model.above.centre_of_volume);
     setLane(lanes_.normal_W, i, task.plane_W.normal);
-    lanes_.height_W[i] = task.plane_W.depth(p.start.position);
+    const SurfacePlane plane_B =
+        seenFrom(task.plane_W, p.start.orientation.toRotationMatrix(), p.start.position);
+    lanes_.height_W[i] = plane_B.height;
+    p.rounding = energyOfRounding(task.model, flight.stand, plane_B);
     setLane(lanes_.wind_W, i, p.wind_W);
     AMBIENT_ASSERT(task.duration > 0 && isUnit(task.plane_W.normal));
     has_loads_below_ = has_loads_below_ || task.model.loads_below.loads;
@@ -140,7 +144,9 @@ class SurfaceFlights {
       if (isActive(i)) restartBody(i);
     kernel_.measure(lanes_);
     for (int i = 0; i < count_; ++i)
-      if (isActive(i)) progress_[i].energy = 0.5 * lanes_.kinetic2[i] + lanes_.potential[i];
+      if (isActive(i))
+        progress_[i].energy =
+            0.5 * lanes_.kinetic2[i] + lanes_.potential[i] + progress_[i].rounding;
   }
 
   /// Makes the substeps of the active bodies, and bounds their energy.

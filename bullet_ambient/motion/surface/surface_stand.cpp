@@ -1,5 +1,7 @@
 #include "bullet_ambient/motion/surface/surface_stand.h"
 
+#include <algorithm>
+
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/body/passive_kick.h"
@@ -26,8 +28,12 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noe
   return place;
 }
 
-bool isStable(const FloatingModes& modes) noexcept {
-  return modes[0].stiffness > 0 && modes[1].stiffness > 0 && modes[2].stiffness > 0;
+bool isStable(const SurfaceStand& stand) noexcept {
+  constexpr double kNeutral = 0.005;  // the flat sides of a barrel's mesh make 0.0022
+  const double pull = stand.plane.density * stand.plane.gravity;
+  return std::all_of(stand.modes.begin(), stand.modes.end(), [pull](const FloatingMode& mode) {
+    return mode.stiffness >= -kNeutral * pull * mode.second_moment;
+  });
 }
 
 Matrix6 stiffInertia(const SurfaceStand& stand, const FloatingModes& modes,

@@ -31,9 +31,18 @@ inline WetVolume wetVolume(const SurfaceModel& model, const SurfacePlace& place)
   return model.fluid_frame.isIdentity() ? wet_F : wet_F.inB(model.fluid_frame);
 }
 
-/// True if buoyancy turns small displacements back: up and down, and about both axes of the
-/// waterplane.
-bool isStable(const FloatingModes& modes) noexcept;
+/// Returns the energy of the buoyancy at a plane in B less that at a place that is near, where
+/// Bullet has not yet rounded the pose, docs/theory.md eq. (53a) [J].
+inline double energyOfRounding(const SurfaceModel& model, const SurfacePlace& place,
+                               const SurfacePlane& plane_B) noexcept {
+  const Immersion& at = place.immersion_F;
+  return hydrostaticEnergyChange(at.wet, at.plane, seenFrom(plane_B, model.fluid_frame));
+}
+
+/// True if no small displacement grows, up and down or about an axis of the waterplane. A balance
+/// is neutral, and does not count as growth, if the stiffness of a tilt is within half a per cent
+/// of the waterplane's part of it.
+bool isStable(const SurfaceStand& stand) noexcept;
 
 /// Longest step that needs no stiffInertia(), times the largest natural frequency [1].
 constexpr double kLongestSwing = 0.5;

@@ -1,3 +1,5 @@
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+
 #include "bullet_ambient/force/medium/airy_waves.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/support/bodies/part_bodies.h"
@@ -144,6 +146,63 @@ TEST(LinksAtASurface, SleepInStillWaterButNotOnASaddle) {
   }
   EXPECT_FALSE(flat.multi.isAwake());
   EXPECT_TRUE(on_its_side.multi.isAwake());
+}
+
+// A barge of 3500 kg with a mast of 20 kg, which a motor holds, 0.06 m above its balance.
+struct MotorBarge {
+  explicit MotorBarge(double above) {
+    world.world.setGravity({0, 0, bt(-9.81)});
+    FluidRegion sea;
+    sea.below = water();
+    sea.above = air();
+    sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
+    world.fluid.addRegion(sea);
+    barge.setLinearDamping(0);
+    barge.setAngularDamping(0);
+    barge.setupRevolute(0, 20, {5, 5, 1}, -1, btQuaternion::getIdentity(), {0, 0, 1},
+                        {0, 0, bt(0.4)}, {0, 0, bt(0.4)}, true);
+    barge.finalizeMultiDof();
+    barge.setBasePos({0, 0, bt(kBalance + above)});
+    world.world.addMultiBody(&barge);
+    world.take(std::make_unique<btMultiBodyJointMotor>(&barge, 0, bt(0), bt(1)));
+    AttachDef def;
+    def.fluid_body = std::make_shared<FluidBody>(floatingBox({5, 2, 0.8}));
+    world.fluid.add(barge, -1, def);
+  }
+  ~MotorBarge() { world.remove(barge); }
+  /// Steps until the barge sleeps. Returns the time, 300 s at most.
+  double timeUntilSleep() {
+    for (int i = 0; i < 300 * 60; ++i) {
+      if (!barge.isAwake()) return i / 60.0;
+      world.step(1.0 / 60);
+    }
+    return 300;
+  }
+  double height() const { return static_cast<double>(barge.getBasePos().z()); }
+
+  static constexpr double kBalance = 0.4 - 3520.0 / 9970;
+  RobotWorld world;
+  btMultiBody barge{1, 3500, {1353, 7478, 8458}, false, true};
+};
+
+TEST(LinksAtASurface, SleepAtTheirBalanceWithAMotor) {
+  MotorBarge boat(0.06);
+  const double slept = boat.timeUntilSleep();
+  EXPECT_GT(slept, 4);
+  EXPECT_LT(slept, 290);
+  EXPECT_NEAR(boat.height(), MotorBarge::kBalance, 0.01);
+}
+
+TEST(LinksAtASurface, WakeWhereALinkIsLoaded) {
+  MotorBarge boat(0);
+  ASSERT_LT(boat.timeUntilSleep(), 290);
+  boat.world.step(1.0 / 60, 10);
+  ASSERT_FALSE(boat.barge.isAwake());
+  boat.barge.setBaseMass(3850);
+  boat.world.step(1.0 / 60);
+  EXPECT_TRUE(boat.barge.isAwake());
+  EXPECT_LT(boat.timeUntilSleep(), 290);
+  EXPECT_NEAR(boat.height(), MotorBarge::kBalance - 350 / 9970.0, 0.01);
 }
 
 TEST_F(Robots, SayThatALinkIsLight) {

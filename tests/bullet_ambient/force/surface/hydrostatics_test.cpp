@@ -43,6 +43,29 @@ TEST(Hydrostatics, BothSidesOfThePlaneMakeUpABox) {
   }
 }
 
+// Twice the way has eight times the error: planes of 1e-2 and 2e-2 beside the first.
+TEST(Hydrostatics, TheEnergyAtANearPlaneErrsToThirdOrder) {
+  Arbitrary arbitrary(2);
+  const PackedHull hull = arbitraryHull(arbitrary);
+  for (int i = 0; i < 50; ++i) {
+    const SurfacePlane plane = planeAt(arbitrary.vector(), arbitrary.between(-0.5, 0.5));
+    const WetVolume wet = computeWetVolume(hull, plane);
+    const Vector3 turn = arbitrary.vector();
+    const double rise = arbitrary.between(-1, 1);
+    double errors[2] = {};
+    for (const int k : {0, 1}) {
+      const double way = 0.01 * (k + 1);
+      const SurfacePlane near =
+          planeAt(plane.normal + way * turn.normalized(), plane.height + way * rise);
+      const double exact =
+          hydrostaticEnergy(computeWetVolume(hull, near), near) - hydrostaticEnergy(wet, plane);
+      errors[k] = std::abs(hydrostaticEnergyChange(wet, plane, near) - exact);
+      EXPECT_LT(errors[k], 5 * way * way * way);
+    }
+    EXPECT_LT(errors[0], std::max(errors[1] / 4, 1e-7));
+  }
+}
+
 TEST(Hydrostatics, UprightBoxHasItsWaterplaneAndCentreOfBuoyancy) {
   const double draught = 0.3;
   const PackedHull box(boxBody({2, 1, 0.5}));

@@ -1,0 +1,262 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/airy_waves.h"
+#include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/bodies/part_bodies.h"
+
+// Bodies that float at rest: whatever Bullet's precision, they can be pushed, are not halted, sleep
+// where they do not move, and wake where their load changes.
+namespace ambient::test {
+namespace {
+
+constexpr double kPull = 9.81;  // [m/s^2]
+
+struct Float {
+  FluidBody shape;
+  double mass = 1;
+  Vector3 moments{1, 1, 1};
+};
+
+Float boxOf(const Vector3& size, double mass) {
+  const Vector3 q = mass / 12 * size.cwiseAbs2();
+  return {floatingBox(size), mass, {q.y() + q.z(), q.z() + q.x(), q.x() + q.y()}};
+}
+
+Float ballOf(double radius, double mass) {
+  return {floatingBall(radius), mass, Vector3::Constant(0.4 * mass * radius * radius)};
+}
+
+// A cylinder along x whose mesh has `sides` sides.
+Float barrelOf(double radius, double length, int sides, double mass) {
+  Triangulation mesh;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * kPi * i / sides;
+    const Vector3 rim(0, radius * portable::cos(angle), radius * portable::sin(angle));
+    for (const double end : {-length / 2, length / 2})
+      mesh.vertices.push_back(rim + Vector3(end, 0, 0));
+  }
+  mesh.vertices.push_back({-length / 2, 0, 0});
+  mesh.vertices.push_back({length / 2, 0, 0});
+  for (int i = 0; i < sides; ++i) {
+    const int a = 2 * i, b = 2 * ((i + 1) % sides);
+    mesh.triangles.emplace_back(a, b + 1, a + 1);
+    mesh.triangles.emplace_back(a, b, b + 1);
+    mesh.triangles.emplace_back(2 * sides, b, a);
+    mesh.triangles.emplace_back(2 * sides + 1, a + 1, b + 1);
+  }
+  Float barrel{hullBody(mesh), mass, {}};
+  const double across = mass * (3 * radius * radius + length * length) / 12;
+  barrel.moments = Vector3(mass * radius * radius / 2, across, across);
+  barrel.shape.added_mass = facelessEllipsoid(Vector3(0.6 * length, radius, radius)).added_mass;
+  return barrel;
+}
+
+// Water below air.
+struct Pool {
+  explicit Pool(std::shared_ptr<const WaterSurface> surface =
+                    std::make_shared<StillWater>(0.0, Vector3(0, 0, 1))) {
+    scene.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    scene.world.setGravity({0, 0, bt(-kPull)});
+    scene.fluid.setReport([this](const std::string& sentence) { said.push_back(sentence); });
+    FluidRegion sea;
+    sea.below = water();
+    sea.above = air();
+    sea.surface = std::move(surface);
+    scene.fluid.addRegion(sea);
+  }
+  btRigidBody& add(const Float& what, const Vector3& position,
+                   const Quaternion& orientation = Quaternion::Identity(),
+                   btCollisionShape* shape = nullptr) {
+    btRigidBody& body = addDry(what, position, orientation, shape);
+    AttachDef attach;
+    attach.fluid_body = std::make_shared<FluidBody>(what.shape);
+    scene.fluid.add(body, attach);
+    return body;
+  }
+  btRigidBody& addDry(const Float& what, const Vector3& position, const Quaternion& orientation,
+                      btCollisionShape* shape) {
+    BodyDef def{what.mass, what.moments, {}, shape};
+    def.start.position = position;
+    def.start.orientation = orientation;
+    return scene.add(def);
+  }
+  // Steps until a body sleeps. Returns the time, `most` [s] at most.
+  double timeUntilSleep(btRigidBody& body, double most, double step = 1.0 / 60) {
+    for (int i = 0; i * step < most; ++i) {
+      if (!body.isActive()) return i * step;
+      scene.step(step);
+    }
+    return most;
+  }
+
+  FluidWorld scene;
+  std::vector<std::string> said;
+};
+
+double heightOf(const btRigidBody& body) {
+  return static_cast<double>(body.getWorldTransform().getOrigin().z());
+}
+
+double alongX(const btRigidBody& body) {
+  return static_cast<double>(body.getWorldTransform().getOrigin().x());
+}
+
+/// Distance over which a force [N] along x moves a body in 5 s that has floated for 20 s [m].
+double pushed(const Float& what, double force, double hertz) {
+  Pool pool;
+  btRigidBody& body = pool.add(what, {0, 0, 0});
+  pool.scene.step(1 / hertz, static_cast<int>(20 * hertz));
+  const double start = alongX(body);
+  for (int i = 0; i < 5 * hertz; ++i) {
+    body.applyCentralForce({bt(force), 0, 0});
+    pool.scene.step(1 / hertz);
+  }
+  EXPECT_EQ(pool.scene.fluid.counters().halted, 0);
+  EXPECT_EQ(pool.scene.fluid.counters().too_long, 0);
+  EXPECT_TRUE(pool.said.empty()) << pool.said.front();
+  return alongX(body) - start;
+}
+
+// The distances are those in double at 1000 Hz.
+TEST(FloatingRest, ABodyIsPushedInFloatAsInDouble) {
+  for (const double hertz : {60.0, 240.0, 1000.0}) {
+    EXPECT_NEAR(pushed(boxOf({0.8, 0.6, 0.5}, 150), 5, hertz), 0.3001, 0.003) << hertz;
+    EXPECT_NEAR(pushed(ballOf(0.5, 60), 2, hertz), 0.344, 0.0034) << hertz;
+  }
+}
+
+TEST(FloatingRest, NobodyIsHaltedByRounding) {
+  const auto halted = [](const std::shared_ptr<const WaterSurface>& surface, double scale) {
+    Pool pool(surface);
+    const double weight = scale * scale * scale;
+    const double density[] = {20, 500, 900};
+    for (int i = 0; i < 3; ++i) {
+      const double mass = density[i] * weight;
+      const Quaternion turn(Eigen::AngleAxisd(0.05, Vector3(1, 0.4, 0.2).normalized()));
+      const Vector3 size = scale * Vector3(1.2, 1, 0.4);
+      pool.add(boxOf(size, 0.48 * mass), scale * Vector3(3 * i, 0, 0), turn);
+      pool.add(ballOf(0.5 * scale, 0.5236 * mass), scale * Vector3(3 * i, 3, 0), turn);
+    }
+    for (const double hertz : {60.0, 240.0, 1000.0})
+      pool.scene.step(1 / hertz, static_cast<int>(5 * hertz));
+    EXPECT_TRUE(pool.said.empty()) << pool.said.front();
+    return pool.scene.fluid.counters().halted;
+  };
+  for (const double scale : {0.02, 1.0, 20.0}) {
+    EXPECT_EQ(halted(std::make_shared<StillWater>(0.0, Vector3(0, 0, 1)), scale), 0) << scale;
+    const std::vector<WaveComponent> waves{{0.05 * scale, 3 * std::sqrt(scale), {1, 0.3, 0}, 0}};
+    EXPECT_EQ(halted(std::make_shared<AiryWaves>(CalmSea{}, waves), scale), 0) << scale;
+  }
+}
+
+// A rail that lets a body move up and down only: rows move it.
+TEST(FloatingRest, ABodyOnARailComesToItsBalance) {
+  for (const double hertz : {60.0, 240.0, 1000.0}) {
+    Pool pool;
+    btRigidBody& body = pool.add(boxOf({1, 0.8, 0.6}, 240), {0, 0, 0.02});
+    btGeneric6DofConstraint rail(body, btTransform::getIdentity(), false);
+    rail.setLinearLowerLimit({0, 0, -1});
+    rail.setLinearUpperLimit({0, 0, 1});
+    rail.setAngularLowerLimit({0, 0, 0});
+    rail.setAngularUpperLimit({0, 0, 0});
+    pool.scene.world.addConstraint(&rail, true);
+    pool.scene.step(1 / hertz, static_cast<int>(15 * hertz));
+    EXPECT_NEAR(heightOf(body), 0, 2e-4) << hertz;
+    pool.scene.world.removeConstraint(&rail);
+  }
+}
+
+// A small displacement of these grows as little as it is turned back.
+TEST(FloatingRest, SleepsInANeutralBalance) {
+  const Quaternion edge_up(Eigen::AngleAxisd(kPi / 4, Vector3::UnitX()));
+  const std::pair<Float, Quaternion> floats[] = {
+      {ballOf(0.5, 0.3 * 523.6), Quaternion::Identity()},
+      {barrelOf(0.4, 1.5, 48, 0.5 * 1000 * kPi * 0.16 * 1.5), Quaternion::Identity()},
+      {boxOf({1, 1, 1}, (water().density + air().density) / 2), edge_up}};
+  for (const auto& [what, orientation] : floats) {
+    Pool pool;
+    btRigidBody& body = pool.add(what, {0, 0, 0}, orientation);
+    body.forceActivationState(ACTIVE_TAG);
+    EXPECT_LT(pool.timeUntilSleep(body, 120), 100) << what.shape.volume;
+  }
+}
+
+struct Barge {
+  Vector3 size{5, 2, 0.8};
+  double mass = 3500;
+  btBoxShape shape{btVector3(bt(2.5), 1, bt(0.4))};
+  Float what = boxOf(size, mass);
+  /// Height of the centre with a load [m].
+  double balance(double load) const {
+    return 0.4 - (mass + load) / (water().density * size.x() * size.y());
+  }
+};
+
+void expectRestAtBalance(Pool& pool, btRigidBody& body, double height) {
+  const double slept = pool.timeUntilSleep(body, 300);
+  EXPECT_GT(slept, 4);
+  EXPECT_LT(slept, 290);
+  EXPECT_NEAR(heightOf(body), height, 0.01);
+}
+
+TEST(FloatingRest, ABargeWithACrateSleepsAtItsBalance) {
+  Pool pool;
+  Barge barge;
+  btBoxShape box(btVector3(bt(0.4), bt(0.4), bt(0.4)));
+  btRigidBody& body =
+      pool.add(barge.what, {0, 0, barge.balance(200) + 0.1}, Quaternion::Identity(), &barge.shape);
+  btRigidBody& crate = pool.add(boxOf({0.8, 0.8, 0.8}, 200), {0, 0, barge.balance(200) + 0.9},
+                                Quaternion::Identity(), &box);
+  for (btRigidBody* each : {&body, &crate}) each->forceActivationState(ACTIVE_TAG);
+  expectRestAtBalance(pool, body, barge.balance(200));
+  EXPECT_FALSE(crate.isActive());
+}
+
+TEST(FloatingRest, BargesOnAHingeSleepAtTheirBalance) {
+  Pool pool;
+  Barge barge;
+  btRigidBody* bodies[2] = {};
+  for (int i = 0; i < 2; ++i) {
+    bodies[i] = &pool.add(barge.what, {5.4 * i, 0, barge.balance(0) + 0.1}, Quaternion::Identity(),
+                          &barge.shape);
+    bodies[i]->forceActivationState(ACTIVE_TAG);
+  }
+  btHingeConstraint hinge(*bodies[0], *bodies[1], {bt(2.7), 0, 0}, {bt(-2.7), 0, 0}, {0, 1, 0},
+                          {0, 1, 0});
+  pool.scene.world.addConstraint(&hinge, true);
+  expectRestAtBalance(pool, *bodies[0], barge.balance(0));
+  EXPECT_FALSE(bodies[1]->isActive());
+  pool.scene.world.removeConstraint(&hinge);
+}
+
+TEST(FloatingRest, AChangeOfMassWakes) {
+  Pool pool;
+  Barge barge;
+  btRigidBody& body = pool.add(barge.what, {0, 0, barge.balance(0)});
+  pool.scene.step(1.0 / 60);  // the pool is new, and wakes all
+  body.forceActivationState(ISLAND_SLEEPING);
+  pool.scene.step(1.0 / 60, 10);
+  ASSERT_FALSE(body.isActive());
+  const double factor = 1.1;
+  body.setMassProps(bt(factor * barge.mass), toBullet(Vector3(factor * barge.what.moments)));
+  body.updateInertiaTensor();
+  pool.scene.step(1.0 / 60);
+  EXPECT_TRUE(body.isActive());
+  EXPECT_LT(pool.timeUntilSleep(body, 300), 290);
+  EXPECT_NEAR(heightOf(body), barge.balance(0.1 * barge.mass), 0.01);
+  // A mass that is not physical is no load.
+  body.setMassProps(bt(barge.mass), {0, 0, 0});
+  pool.scene.step(1.0 / 60, 400);
+  EXPECT_FALSE(body.isActive());
+}
+
+}  // namespace
+}  // namespace ambient::test
