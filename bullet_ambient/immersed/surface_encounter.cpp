@@ -243,9 +243,9 @@ struct Fall {
   }
 };
 
-/// Inertia and Fall of a body where its step began.
+/// Place and Fall of a body where its step began.
 struct Departure {
-  Matrix6 inertia;
+  SurfacePlace place;
   Fall fall;
 };
 
@@ -287,12 +287,11 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& after = ambient.stand();
   if (axes == Axes::kLocked)
-    return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.inertia * x));
+    return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
   const Matrix6 inverse = after.inverse.full();
   const BoundedTwist moved = withinPotential(
       {before.fall, fallOf(ambient), inverse, ambient.encounter().twist_before_rows, duration}, x);
-  const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
-  BoundedTwist end = passSurface({model, before.inertia, after, duration, gradient}, moved.twist);
+  BoundedTwist end = passSurface({model, before.place, after, duration}, moved.twist);
   end.energy_removed += moved.energy_removed;
   return end;
 }
@@ -305,8 +304,7 @@ void passWithRows(AmbientBody* const* bodies, int count, Axes axes, double durat
   std::optional<Departure> departures[kFlightsTogether];
   SurfacePlane planes_B[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
-    departures[i] =
-        Departure{bodies[i]->stand().inertia.full(), fallOf(*bodies[i])};  // since standNow()
+    departures[i] = Departure{bodies[i]->stand(), fallOf(*bodies[i])};  // since standNow()
     planes_B[i] = planeAfter(*bodies[i], duration);
   }
   standAt(bodies, planes_B, count);
