@@ -286,9 +286,9 @@ void meetAgain(AmbientBody& ambient, int media) noexcept {
 
 namespace {
 
-/// Inertia and Fall of a body where its step began.
+/// Place and Fall of a body where its step began.
 struct Departure {
-  Matrix6 inertia;
+  SurfacePlace place;
   Fall fall;
 };
 
@@ -324,12 +324,11 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   const SurfaceModel& model = *ambient.surface();
   const SurfaceStand& after = ambient.stand();
   if (axes == Axes::kLocked)
-    return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.inertia * x));
+    return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
   const Matrix6 inverse = after.inverse.full();
   const BoundedTwist moved =
       withinPotential({before.fall, fallOf(ambient), inverse, ambient.encounter(), duration}, x);
-  const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
-  BoundedTwist end = passSurface({model, before.inertia, after, duration, gradient}, moved.twist);
+  BoundedTwist end = passSurface({model, before.place, after, duration}, moved.twist);
   end.energy_removed += moved.energy_removed;
   return end;
 }
@@ -342,7 +341,7 @@ void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int coun
   std::optional<Departure> departures[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
-    departures[i] = Departure{ambient.stand().inertia.full(),  // since standNow()
+    departures[i] = Departure{ambient.stand(),  // since standNow()
                               fallOf(ambient, ambient.encounter().plane_before_rows)};
     moveTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.meeting);
   }

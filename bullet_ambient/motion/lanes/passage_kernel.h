@@ -13,8 +13,9 @@ struct Passages {
   const FullMatrices &before, &after, &inverse_after;  ///< K_0, K_1, K_1^-1 of eq. (68)
   Spatials gradient;                                   ///< F_K of eq. (66)
   Vectors normal, centre_of_buoyancy;
-  Lanes draught, cover;  ///< depth of the lowest and of the highest point [m]
+  Lanes draught, cover;  ///< MeanDepths [m]
   Lanes gravity, duration;
+  Lanes fall_scale;  ///< second term of the denominator of eq. (25) [sqrt(J)]
 };
 
 /// Returns theta sigma of eq. (67), the share of the momentum that goes into spray, in [-1, 1].
@@ -32,14 +33,19 @@ inline Lanes sprayShare(const Passages& p, const Spatials& x) {
   return moves ? theta * sigma : zero;
 }
 
+/// Works at the twist before the passage [J].
+struct PassageWorks {
+  Lanes of_gradient;  ///< F_K . x dt
+  Lanes of_change;    ///< half of x . (K_1 - K_0) x
+};
+
 /// Returns F_K dt. The force is multiplied by r of eq. (68), so that its work equals the change of
 /// the kinetic energy by that of K, if r is between 0 and 3. The torque stays, because it belongs
 /// to the gyroscopic terms of the flow.
-inline Spatials impulseOf(const Passages& p, const FullMatrices& change, const Spatials& x) {
+inline Spatials impulseOf(const Passages& p, const PassageWorks& works) {
   constexpr double kMostCorrection = 3;
   const Lanes one = all(1);
-  const Lanes work = p.duration * dot(p.gradient, x);
-  const Lanes ratio = 0.5 * dot(x, change * x) / work;
+  const Lanes ratio = works.of_change / works.of_gradient;
   const Mask is_near = (ratio > Lanes{}) & (ratio < all(kMostCorrection));
   return {p.duration * p.gradient.angular,
           (p.duration * (is_near ? ratio : one)) * p.gradient.linear};
@@ -65,6 +71,11 @@ struct BoundedTwists {
   Lanes energy_removed;
 };
 
+struct PassedTwists {
+  BoundedTwists end;
+  Lanes error;  ///< relative to the motion, eq. (68b) [1]
+};
+
 /// Scales x so that twice its energy, `twice_energy`, does not exceed `twice_allowed` [J].
 inline BoundedTwists scaledWithin(const Spatials& x, const Lanes& twice_energy,
                                   const Lanes& twice_allowed) {
@@ -74,19 +85,33 @@ inline BoundedTwists scaledWithin(const Spatials& x, const Lanes& twice_energy,
   return {scale * x, gains ? 0.5 * (twice_energy - twice_allowed) : zero};
 }
 
-/// Returns the twists after the passage, eq. (67) and (68), and the energy removed [J]. Bodies
-/// whose K has not changed keep their twists.
-inline BoundedTwists passSurface(const Passages& p, const Spatials& x) {
+/// Returns eq. (68b): the velocity that F_K of one pose misses, over the motion. `twice_energy`:
+/// x . K_0 x.
+inline Lanes passageError(const Passages& p, const PassageWorks& works, const Lanes& spray_share,
+                          const Lanes& twice_energy) {
+  const Lanes norm = squareRoot(twice_energy), scale = norm * (norm + p.fall_scale);
+  const Lanes missed = (1 - spray_share) * (works.of_change - works.of_gradient);
+  const Mask moves = scale > Lanes{};
+  return moves ? larger(missed, -missed) / (moves ? scale : all(1)) : Lanes{};
+}
+
+/// Returns the twists after the passage, eq. (67) and (68), the energy removed [J] and the error.
+/// Bodies whose K has not changed keep their twists.
+inline PassedTwists passSurface(const Passages& p, const Spatials& x) {
   constexpr double kRounding = 1e-12;
   const FullMatrices change = changeOf(p);
   const Mask changes = largestEntry(change) >= kRounding * largestEntry(p.before);
-  Spatials impulse = impulseOf(p, change, x);
-  const Lanes lost = sprayShare(p, x) * larger(Lanes{} - dot(p.normal, impulse.linear), Lanes{});
+  const PassageWorks works{p.duration * dot(p.gradient, x), 0.5 * dot(x, change * x)};
+  Spatials impulse = impulseOf(p, works);
+  const Lanes spray_share = sprayShare(p, x);
+  const Lanes lost = spray_share * larger(Lanes{} - dot(p.normal, impulse.linear), Lanes{});
   impulse = impulse + lost * Spatials{cross(p.centre_of_buoyancy, p.normal), p.normal};
   const Spatials momentum = p.before * x;
   const Spatials end = p.inverse_after * (momentum + impulse);
-  const BoundedTwists bounded = scaledWithin(end, dot(end, p.after * end), dot(x, momentum));
-  return {select(changes, bounded.twist, x), changes ? bounded.energy_removed : Lanes{}};
+  const Lanes twice_energy = dot(x, momentum);
+  const BoundedTwists bounded = scaledWithin(end, dot(end, p.after * end), twice_energy);
+  return {{select(changes, bounded.twist, x), changes ? bounded.energy_removed : Lanes{}},
+          changes ? passageError(p, works, spray_share, twice_energy) : Lanes{}};
 }
 
 }  // namespace

@@ -89,12 +89,15 @@ struct PassStep {
     FlightLanes& flight = bodies.flight;
     const FullMatrices before(flight.inertia, at), after(bodies.stand.inertia, at),
         inverse_after(bodies.stand.inverse, at);
-    const BoundedTwists end = passSurface(
+    const PassedTwists passed = passSurface(
         {before, after, inverse_after, load6(bodies.gradient, at), load(bodies.stand.normal, at),
          load(bodies.centre_of_buoyancy, at), load(bodies.draught + at), load(bodies.cover + at),
-         load(bodies.stand.gravity + at), load(flight.flow_time + at)},
+         load(bodies.stand.gravity + at), load(flight.flow_time + at),
+         load(flight.fall_scale + at)},
         load6(flight.twist_B, at));
+    const BoundedTwists& end = passed.end;
     setTwist(flight, at, active, end.twist);
+    store(bodies.passage_error + at, passed.error);
     const Lanes removed = load(flight.energy_removed + at);
     store(flight.energy_removed + at, active ? removed + end.energy_removed : removed);
     for (int i = 0; i < kSymmetricEntries; ++i) {

@@ -44,8 +44,9 @@ struct alignas(64) SurfaceLanes {
   FlightLane wind_W[3];  ///< velocity of the water minus that of the fluid above, in W [m/s]
 
   FlightLane gradient[6];     ///< F_K of docs/theory.md eq. (66) at the start of the flow
-  FlightLane draught, cover;  ///< depth of the lowest and of the highest point [m]
+  FlightLane draught, cover;  ///< MeanDepths of the flow [m]
   FlightLane centre_of_buoyancy[3];
+  FlightLane passage_error;  ///< result of pass(), eq. (68b) [1]
 
   FlightLane wave_heave[2], heave_energy, wave_tilt_W[2][3], tilt_energy;  ///< WaveMemory: s_1, s_2
 
@@ -60,7 +61,7 @@ struct SurfaceKernel {
   /// Sets normal and height of the stand to the plane of the surface in B at the present pose.
   void (*see)(SurfaceLanes&) noexcept;
   /// Changes the inertia from that of the flight to that of the stand, and the twist by the passage
-  /// of the surface over flow_time; eq. (66) to (68).
+  /// of the surface over flow_time; eq. (66) to (68b).
   void (*pass)(SurfaceLanes&) noexcept;
   /// Applies weight, applied forces and buoyancy for half a kick. Sets flight.momentum_B.
   void (*fall)(SurfaceLanes&) noexcept;

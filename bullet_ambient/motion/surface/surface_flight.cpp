@@ -33,7 +33,7 @@ struct Progress {
   double swing = 0;               ///< the largest natural frequency that was met [1/s]
   double energy = 0;              ///< at the start of the step [J]
   double energy_removed = 0;      ///< by the bound of the energy [J]
-  double error = 0;               ///< the largest of the substeps, eq. (25)
+  double error = 0;               ///< the largest of the substeps, eq. (25) and (68b)
   SurfacePlace later;             ///< where a substep has come to
   SurfacePlace* place = nullptr;  ///< that of now: that of the stand at the start, or `later`
 
@@ -207,19 +207,25 @@ class SurfaceFlights {
     }
     computeStands(lanes_.stand, bodies, count_);
     kernel_.pass(lanes_);
+    for (int i = 0; i < count_; ++i)
+      if (isActive(i)) meetError(i, lanes_.passage_error[i]);
   }
+
+  void meetError(int i, double error) { progress_[i].error = std::max(progress_[i].error, error); }
 
   void findPlace(int i) {
     Progress& p = progress_[i];
-    const SurfacePlane& before = p.place->plane;
+    const SurfacePlane& plane = p.place->plane;
     const SurfacePlane plane_B{vectorOf(lanes_.stand.normal, i), lanes_.stand.height[i],
-                               before.density, before.gravity};
+                               plane.density, plane.gravity};
+    const Immersion before = p.place->immersion_F;
     p.later = placeAt(p.model(), plane_B);
     p.place = &p.later;
     setPlace(lanes_.stand, i, p.model(), p.later);
     setLane(lanes_.centre_of_buoyancy, i, centreOfBuoyancy(p.model(), p.later));
-    lanes_.draught[i] = p.later.immersion_F.draught();
-    lanes_.cover[i] = p.later.immersion_F.cover();
+    const MeanDepths depths = meanDepths(before, p.later.immersion_F);
+    lanes_.draught[i] = depths.draught;
+    lanes_.cover[i] = depths.cover;
   }
 
   /// The first half of a kick, at the pose where the flow has come to.
@@ -263,7 +269,7 @@ class SurfaceFlights {
       Progress& p = progress_[i];
       if (!isActive(i) || !p.model().loads_below.loads) continue;
       p.has_load = true;
-      p.error = std::max(p.error, lanes_.flight.error[i]);
+      meetError(i, lanes_.flight.error[i]);
     }
   }
 

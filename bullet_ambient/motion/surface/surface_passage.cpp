@@ -12,12 +12,12 @@ BoundedTwist passSurface(const SurfacePassage& p, const Vector6& x) noexcept {
   AMBIENT_ASSERT(isUnit(p.normal) && isSymmetric(p.after, 1e-9));
   const FullMatrices before = inAllLanes(p.before), after = inAllLanes(p.after),
                      inverse_after = inAllLanes(p.inverse_after);
-  const BoundedTwists end =
+  const PassedTwists passed =
       passSurface({before, after, inverse_after, inAllLanes(p.gradient.vector()),
                    inAllLanes(p.normal), inAllLanes(p.centre_of_buoyancy), all(p.draught),
-                   all(p.cover), all(p.gravity), all(p.duration)},
+                   all(p.cover), all(p.gravity), all(p.duration), Lanes{}},
                   inAllLanes(x));
-  return {ofFirstLane(end.twist), end.energy_removed[0]};
+  return {ofFirstLane(passed.end.twist), passed.end.energy_removed[0]};
 }
 
 }  // namespace ambient

@@ -14,7 +14,7 @@ struct SurfacePassage {
   Wrench gradient;               ///< F_K of docs/theory.md eq. (66), for the twist before [N m, N]
   Vector3 normal;                ///< unit normal of the surface, out of the water
   Vector3 centre_of_buoyancy;    ///< [m]
-  double draught, cover;         ///< depth of the lowest and of the highest point [m]
+  double draught, cover;         ///< MeanDepths [m]
   double gravity;                ///< [m/s^2]
   double duration;               ///< [s]
 };

@@ -82,14 +82,23 @@ Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) n
   return wet.volume > 0 ? Vector3(wet.moment / wet.volume) : model.above.centre_of_volume;
 }
 
+MeanDepths meanDepths(const Immersion& before, const Immersion& after) noexcept {
+  const auto mean = [](double a, double b) { return (std::max(0.0, a) + std::max(0.0, b)) / 2; };
+  return {mean(before.draught(), after.draught()), mean(before.cover(), after.cover())};
+}
+
 BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
   const SurfaceStand& after = move.after;
   const Immersion& at = after.immersion_F;
-  const Matrix6 inertia = after.inertia.full(), inverse = after.inverse.full();
-  return passSurface({move.inertia_before, inertia, inverse, move.gradient, after.plane.normal,
-                      centreOfBuoyancy(move.model, after), at.draught(), at.cover(),
-                      after.plane.gravity, move.duration},
-                     x);
+  const SurfacePlace& wet = at.isDry() ? move.before : after;
+  const Wrench gradient = gradientAt(move.model, wet, Twist::fromVector(x));
+  const MeanDepths depths = meanDepths(move.before.immersion_F, at);
+  const Matrix6 before = move.before.inertia.full(), inertia = after.inertia.full(),
+                inverse = after.inverse.full();
+  return passSurface(
+      {before, inertia, inverse, gradient, after.plane.normal, centreOfBuoyancy(move.model, after),
+       depths.draught, depths.cover, after.plane.gravity, move.duration},
+      x);
 }
 
 Wrench loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept {

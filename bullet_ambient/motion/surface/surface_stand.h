@@ -69,16 +69,23 @@ Wrench gradientAt(const SurfaceModel& model, const SurfacePlace& place, const Tw
 /// Returns the centre of the wet volume in B [m]; of a dry body, the centre of its volume.
 Vector3 centreOfBuoyancy(const SurfaceModel& model, const SurfacePlace& place) noexcept;
 
+/// Depths of a body's lowest and highest point on a way, the means of those at its two ends [m]. A
+/// point in the air counts as at the surface.
+struct MeanDepths {
+  double draught, cover;
+};
+MeanDepths meanDepths(const Immersion& before, const Immersion& after) noexcept;
+
 /// Input of passSurface(): a body that has moved between two poses near the surface.
 struct SurfaceMove {
   const SurfaceModel& model;
-  const Matrix6& inertia_before;
+  const SurfacePlace& before;
   const SurfaceStand& after;
   double duration;
-  Wrench gradient;  ///< F_K at the first pose or the second
 };
 /// Computes x_1 of docs/theory.md eq. (66) to (68). x: twist in B that the body would have at the
-/// second pose with the inertia K_0 of the first.
+/// second pose with the inertia K_0 of the first. F_K is that of the second pose, or of the first
+/// if the body has left the water.
 BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept;
 
 /// Load on the part of a body in one of the fluids, in B, for a twist in B relative to that fluid.
