@@ -47,7 +47,7 @@ void setMotor(const PythonRobot& robot, const std::string& joint, std::optional<
 }
 
 Robot& changed(const PythonRobot& robot) {
-  return robot.world->simulation().changedRobot(robot.index);
+  return robot.world->simulation().changedRobot(robot.index).robot();
 }
 
 void setPose(const PythonRobot& robot, const InputArray& position, const py::object& orientation) {

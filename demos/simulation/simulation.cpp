@@ -91,7 +91,7 @@ void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody&
   }
   WorldBody& added = bodies_.back();
   if (added.link) {
-    const Twist twist = robots_[def.link->robot]->sample(def.link->link).twist;
+    const Twist twist = robots_->sample(*def.link).twist;
     if (!twist.vector().isZero(0)) added.start.twist = twist;
   }
   if (scene.model == FluidModel::kVacuum || prepared.mass == 0 || !prepared.fluid_body) return;
@@ -246,10 +246,10 @@ void Simulation::setTwist(std::size_t body, const Twist& twist_W) {
   moved.setLinearVelocity(toBullet(twist_W.linear));
 }
 
-Robot& Simulation::changedRobot(std::size_t index) {
+SceneRobot& Simulation::changedRobot(std::size_t index) {
   for (WorldBody& body : bodies_)
     if (body.link && body.link->robot == index) body.is_at_start = false;
-  return robots_.at(index)->robot();
+  return robot(index);
 }
 
 void Simulation::setMedium(std::size_t body, const Medium& medium) {

@@ -83,7 +83,7 @@ class Simulation {
   /// @throws std::invalid_argument if the body is a link.
   void setTwist(std::size_t body, const Twist& twist_W);
   /// Returns a robot whose motion is going to be set.
-  Robot& changedRobot(std::size_t index);
+  SceneRobot& changedRobot(std::size_t index);
 
   /// Changes the fluid around a body, as Immersed::setMedium().
   /// @throws std::invalid_argument naming the body if the fluid does not act on it or the medium is
