@@ -63,32 +63,6 @@ WetPart wetPart(const SurfaceModel& model, const SurfaceStand& stand) {
           wetShare(stand.immersion_F, model.shape->volume)};
 }
 
-/// Weight and buoyancy of a body, in B.
-struct Fall {
-  Vector6 lift;          ///< of the water
-  Vector6 wrench;        ///< of both
-  double potential = 0;  ///< of both [J]
-
-  /// @param mass less that of the fluid above that the body displaces [kg]
-  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
-      : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
-    wrench.tail<3>() -= mass * plane.gravity * plane.normal;
-    potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
-  }
-};
-
-// Returns the mass of a body less that of the fluid above that it displaces [kg].
-double fallingMass(const SurfaceModel& model) {
-  return model.above.mass - model.above.displaced_mass;
-}
-
-// Returns weight and buoyancy of a body at its last stand.
-Fall fallOf(const AmbientBody& ambient) {
-  const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
-  return {stand.plane, wetVolume(model, stand), fallingMass(model)};
-}
-
 }  // namespace
 
 bool hasSurface(const RegionSample& sample, const Vector3& gravity) noexcept {
@@ -199,14 +173,6 @@ void StepModel::stiffen(const SurfaceStand& stand, const FloatingModes& modes,
   }
 }
 
-void StepModel::floatAt(AmbientBody& ambient, const FrameOffset& pose, double time) noexcept {
-  const SurfaceModel& model = *ambient.surface();
-  const SurfacePlane plane_B = seenFrom(movedPlane(ambient, time), pose);
-  const WetVolume wet = immersionOf(model, plane_B).wet.inB(model.fluid_frame);
-  displace(model, wet, at_surface_->model);
-  ambient.encounter().fall = Fall(plane_B, wet, fallingMass(model)).wrench;
-}
-
 void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
                        Complaints& complaints) noexcept {
   const double swing = ambient.stand().swing;
@@ -223,7 +189,6 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
   ambient.encounter().twist_before_rows = x;
-  ambient.encounter().fall = fallOf(ambient).wrench;
   WaveMemory& waves = ambient.encounter().waves_with_rows;
   waves = ambient.encounter().waves;
   Vector6 end = exchangeWaves(stand.modes, R, stand.inverse.full(), duration, x, waves);
@@ -265,6 +230,20 @@ void meetAgain(AmbientBody& ambient, int media) noexcept {
 
 namespace {
 
+/// Weight and buoyancy of a body, in B.
+struct Fall {
+  Vector6 lift;          ///< of the water
+  Vector6 wrench;        ///< of both
+  double potential = 0;  ///< of both [J]
+
+  /// @param mass less that of the fluid above that the body displaces [kg]
+  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
+      : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
+    wrench.tail<3>() -= mass * plane.gravity * plane.normal;
+    potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
+  }
+};
+
 /// Inertia and Fall of a body where its step began.
 struct Departure {
   Matrix6 inertia;
@@ -275,7 +254,7 @@ struct RowStep {
   const Fall& before;
   Fall after;
   const Matrix6& inverse;  ///< of the inertia after it
-  const SurfaceEncounter& encounter;
+  Vector6 x_before;
   double duration;
 };
 
@@ -283,8 +262,7 @@ struct RowStep {
 /// gives back the energy that weight and water did not have, docs/theory.md eq. (68a).
 BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
   const Fall &before = step.before, &after = step.after;
-  const double given =
-      step.duration / 2 * step.encounter.fall.dot(step.encounter.twist_before_rows + x);
+  const double given = step.duration / 2 * before.wrench.dot(step.x_before + x);
   const double excess = given - (before.potential - after.potential);
   const Vector6 along = before.lift + after.lift;
   const double rate = along.dot(x);
@@ -297,6 +275,17 @@ BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
   return {x - std::copysign(part, rate) * response, removed};
 }
 
+Fall fallAt(const SurfaceModel& model, const SurfacePlane& plane_B, const WetVolume& wet) {
+  return {plane_B, wet, model.above.mass - model.above.displaced_mass};
+}
+
+// Returns weight and buoyancy of a body at its last stand.
+Fall fallOf(const AmbientBody& ambient) {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();
+  return fallAt(model, stand.plane, wetVolume(model, stand));
+}
+
 // Returns the twist after the passage from `before` to the present stand of the body.
 BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axes axes,
                         double duration, const Vector6& x) {
@@ -305,8 +294,8 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   if (axes == Axes::kLocked)
     return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.inertia * x));
   const Matrix6 inverse = after.inverse.full();
-  const BoundedTwist moved =
-      withinPotential({before.fall, fallOf(ambient), inverse, ambient.encounter(), duration}, x);
+  const BoundedTwist moved = withinPotential(
+      {before.fall, fallOf(ambient), inverse, ambient.encounter().twist_before_rows, duration}, x);
   const Wrench gradient = gradientAt(model, after, Twist::fromVector(moved.twist));
   BoundedTwist end = passSurface({model, before.inertia, after, duration, gradient}, moved.twist);
   end.energy_removed += moved.energy_removed;
@@ -315,14 +304,24 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
 
 }  // namespace
 
+Vector6 StepModel::floatAt(const AmbientBody& ambient, const FrameOffset& pose,
+                           double time) noexcept {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfacePlane plane_B = seenFrom(movedPlane(ambient, time), pose);
+  const WetVolume wet = wetVolumeAt(model, plane_B);
+  displace(model, wet, at_surface_->model);
+  return fallAt(model, plane_B, wet).wrench;
+}
+
 void passWithRows(AmbientBody* const* bodies, int count, Axes axes, double duration,
-                  BoundedTwist* twists) noexcept {
+                  BoundedTwist* twists, const Vector6* falls) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   std::optional<Departure> departures[kFlightsTogether];
   SurfacePlane planes_B[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
     departures[i] =
         Departure{bodies[i]->stand().inertia.full(), fallOf(*bodies[i])};  // since standNow()
+    if (falls) departures[i]->fall.wrench = falls[i];
     planes_B[i] = planeAfter(*bodies[i], duration);
   }
   standAt(bodies, planes_B, count);
@@ -337,7 +336,7 @@ double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
                            double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
   const SurfacePlane plane_B = seenFrom(movedPlane(ambient, duration), pose);
-  return hydrostaticEnergy(immersionOf(model, plane_B).wet.inB(model.fluid_frame), plane_B);
+  return hydrostaticEnergy(wetVolumeAt(model, plane_B), plane_B);
 }
 
 bool mayRestAtSurface(AmbientBody& ambient) noexcept { return isStable(standNow(ambient).modes); }
