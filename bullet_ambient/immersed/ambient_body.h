@@ -30,8 +30,6 @@ struct SurfaceEncounter {
   WaveMemory waves_with_rows;  ///< waves after the step, if rows move the body
   Vector6 twist_before_rows =
       Vector6::Zero();  ///< velocity in B, relative to the water, that constraint rows start from
-  Vector6 fall = Vector6::Zero();  ///< weight and buoyancy that act in the step, if rows move the
-                                   ///< body, in B [N m, N]
   SurfacePlane plane_before_rows;  ///< surface in B at the pose that rows start from
 };
 

@@ -84,43 +84,6 @@ WetPart wetPart(const SurfaceModel& model, const SurfaceStand& stand) {
           wetShare(stand.immersion_F, model.shape->volume)};
 }
 
-/// Weight and buoyancy of a body, in B.
-struct Fall {
-  Vector6 lift;          ///< of the water
-  Vector6 wrench;        ///< of both
-  double potential = 0;  ///< of both [J]
-
-  /// @param mass less that of the fluid above that the body displaces [kg]
-  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
-      : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
-    wrench.tail<3>() -= mass * plane.gravity * plane.normal;
-    potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
-  }
-};
-
-// Returns the mass of a body less that of the fluid above that it displaces [kg].
-double fallingMass(const SurfaceModel& model) {
-  return model.above.mass - model.above.displaced_mass;
-}
-
-// Returns weight and buoyancy of a body at its last stand.
-Fall fallOf(const AmbientBody& ambient) {
-  const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
-  return {stand.plane, wetVolume(model, stand), fallingMass(model)};
-}
-
-// Returns the same with the energy at a plane in B that differs from that of the stand by the
-// rounding of Bullet's poses.
-Fall fallOf(const AmbientBody& ambient, const SurfacePlane& plane) {
-  const SurfaceModel& model = *ambient.surface();
-  const SurfaceStand& stand = ambient.stand();
-  Fall fall = fallOf(ambient);
-  fall.potential += energyOfRounding(model, stand, plane) -
-                    fallingMass(model) * plane.gravity * (plane.height - stand.plane.height);
-  return fall;
-}
-
 }  // namespace
 
 bool hasSurface(const RegionSample& sample, const Vector3& gravity) noexcept {
@@ -219,14 +182,6 @@ void StepModel::stiffen(const SurfaceStand& stand, const FloatingModes& modes,
   }
 }
 
-void StepModel::floatAt(AmbientBody& ambient, const FrameOffset& pose, double time) noexcept {
-  const SurfaceModel& model = *ambient.surface();
-  const SurfacePlane plane_B = seenFrom(movedPlane(ambient, time), pose);
-  const WetVolume wet = immersionOf(model, plane_B).wet.inB(model.fluid_frame);
-  displace(model, wet, at_surface_->model);
-  ambient.encounter().fall = Fall(plane_B, wet, fallingMass(model)).wrench;
-}
-
 void warnOfCoarseSwing(const AmbientBody& ambient, double duration,
                        Complaints& complaints) noexcept {
   const double swing = ambient.stand().swing;
@@ -243,7 +198,6 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
   relative.linear -= R.transpose() * ambient.medium.velocity;
   const Vector6 x = relative.vector();
   ambient.encounter().twist_before_rows = x;
-  ambient.encounter().fall = fallOf(ambient).wrench;
   ambient.encounter().plane_before_rows = planeAfter(ambient, 0);
   WaveMemory& waves = ambient.encounter().waves_with_rows;
   waves = ambient.encounter().waves;
@@ -286,6 +240,20 @@ void meetAgain(AmbientBody& ambient, int media) noexcept {
 
 namespace {
 
+/// Weight and buoyancy of a body, in B.
+struct Fall {
+  Vector6 lift;          ///< of the water
+  Vector6 wrench;        ///< of both
+  double potential = 0;  ///< of both [J]
+
+  /// @param mass less that of the fluid above that the body displaces [kg]
+  Fall(const SurfacePlane& plane, const WetVolume& wet, double mass)
+      : lift(hydrostaticWrench(wet, plane).vector()), wrench(lift) {
+    wrench.tail<3>() -= mass * plane.gravity * plane.normal;
+    potential = hydrostaticEnergy(wet, plane) - mass * plane.gravity * plane.height;
+  }
+};
+
 /// Place and Fall of a body where its step began.
 struct Departure {
   SurfacePlace place;
@@ -296,7 +264,7 @@ struct RowStep {
   const Fall& before;
   Fall after;
   const Matrix6& inverse;  ///< of the inertia after it
-  const SurfaceEncounter& encounter;
+  Vector6 x_before;
   double duration;
 };
 
@@ -304,8 +272,7 @@ struct RowStep {
 /// gives back the energy that weight and water did not have, docs/theory.md eq. (68a).
 BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
   const Fall &before = step.before, &after = step.after;
-  const double given =
-      step.duration / 2 * step.encounter.fall.dot(step.encounter.twist_before_rows + x);
+  const double given = step.duration / 2 * before.wrench.dot(step.x_before + x);
   const double excess = given - (before.potential - after.potential);
   const Vector6 along = before.lift + after.lift;
   const double rate = along.dot(x);
@@ -318,6 +285,33 @@ BoundedTwist withinPotential(const RowStep& step, const Vector6& x) {
   return {x - std::copysign(part, rate) * response, removed};
 }
 
+// Returns the mass of a body less that of the fluid above that it displaces [kg].
+double fallingMass(const SurfaceModel& model) {
+  return model.above.mass - model.above.displaced_mass;
+}
+
+Fall fallAt(const SurfaceModel& model, const SurfacePlane& plane_B, const WetVolume& wet) {
+  return {plane_B, wet, fallingMass(model)};
+}
+
+// Returns weight and buoyancy of a body at its last stand.
+Fall fallOf(const AmbientBody& ambient) {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();
+  return fallAt(model, stand.plane, wetVolume(model, stand));
+}
+
+// Returns the same with the energy at a plane in B that differs from that of the stand by the
+// rounding of Bullet's poses.
+Fall fallOf(const AmbientBody& ambient, const SurfacePlane& plane) {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfaceStand& stand = ambient.stand();
+  Fall fall = fallOf(ambient);
+  fall.potential += energyOfRounding(model, stand, plane) -
+                    fallingMass(model) * plane.gravity * (plane.height - stand.plane.height);
+  return fall;
+}
+
 // Returns the twist after the passage from `before` to the present stand of the body.
 BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axes axes,
                         double duration, const Vector6& x) {
@@ -326,8 +320,8 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
   if (axes == Axes::kLocked)
     return scaledWithin(x, x.dot(after.inertia.full() * x), x.dot(before.place.inertia.full() * x));
   const Matrix6 inverse = after.inverse.full();
-  const BoundedTwist moved =
-      withinPotential({before.fall, fallOf(ambient), inverse, ambient.encounter(), duration}, x);
+  const BoundedTwist moved = withinPotential(
+      {before.fall, fallOf(ambient), inverse, ambient.encounter().twist_before_rows, duration}, x);
   BoundedTwist end = passSurface({model, before.place, after, duration}, moved.twist);
   end.energy_removed += moved.energy_removed;
   return end;
@@ -335,14 +329,24 @@ BoundedTwist passedFrom(const Departure& before, const AmbientBody& ambient, Axe
 
 }  // namespace
 
+Vector6 StepModel::floatAt(const AmbientBody& ambient, const FrameOffset& pose,
+                           double time) noexcept {
+  const SurfaceModel& model = *ambient.surface();
+  const SurfacePlane plane_B = seenFrom(movedPlane(ambient, time), pose);
+  const WetVolume wet = wetVolumeAt(model, plane_B);
+  displace(model, wet, at_surface_->model);
+  return fallAt(model, plane_B, wet).wrench;
+}
+
 void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int count, Axes axes,
-                  double duration, BoundedTwist* twists) noexcept {
+                  double duration, BoundedTwist* twists, const Vector6* falls) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   std::optional<Departure> departures[kFlightsTogether];
   for (int i = 0; i < count; ++i) {
     AmbientBody& ambient = *bodies[i];
     departures[i] = Departure{ambient.stand(),  // since standNow()
                               fallOf(ambient, ambient.encounter().plane_before_rows)};
+    if (falls) departures[i]->fall.wrench = falls[i];
     moveTo(seenFrom(movedPlane(ambient, duration), poses[i]), *ambient.meeting);
   }
   completeMet(bodies, count);
@@ -357,7 +361,7 @@ double hydrostaticEnergyAt(const AmbientBody& ambient, const FrameOffset& pose,
                            double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
   const SurfacePlane plane_B = seenFrom(movedPlane(ambient, duration), pose);
-  return hydrostaticEnergy(immersionOf(model, plane_B).wet.inB(model.fluid_frame), plane_B);
+  return hydrostaticEnergy(wetVolumeAt(model, plane_B), plane_B);
 }
 
 bool mayRestAtSurface(AmbientBody& ambient) noexcept { return isStable(standNow(ambient)); }

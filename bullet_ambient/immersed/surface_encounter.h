@@ -75,8 +75,8 @@ class StepModel {
   /// buoyancy does not push the body past its balance; docs/theory.md eq. (68).
   void stiffen(const SurfaceStand& stand, const FloatingModes& modes, double duration) noexcept;
   /// Gives the model the buoyancy of another pose B to W, a time [s] after freeze(). Inertia and
-  /// loads stay.
-  void floatAt(AmbientBody& ambient, const FrameOffset& pose, double time) noexcept;
+  /// loads stay. Returns weight and buoyancy there, in B [N m, N].
+  Vector6 floatAt(const AmbientBody& ambient, const FrameOffset& pose, double time) noexcept;
 
   const BodyModel& operator*() const noexcept { return *model_; }
   const BodyModel* operator->() const noexcept { return model_; }
@@ -123,10 +123,11 @@ void meetAgain(AmbientBody& ambient, int media) noexcept;
 /// after the change of their added mass on the way; in B, relative to the water. Removes energy
 /// above the work of weight and buoyancy, docs/theory.md eq. (68a). Axes::kLocked: removes only the
 /// energy that the change of added mass would add. `poses`: B to W, where the step has brought the
-/// bodies before Bullet rounded that. The bits of a body do not depend on the others.
+/// bodies before Bullet rounded that. `falls`: weight and buoyancy that have acted, in B; null:
+/// those where the step began. The bits of a body do not depend on the others.
 enum class Axes { kFree, kLocked };
 void passWithRows(AmbientBody* const* bodies, const FrameOffset* poses, int count, Axes axes,
-                  double duration, BoundedTwist* twists) noexcept;
+                  double duration, BoundedTwist* twists, const Vector6* falls = nullptr) noexcept;
 
 /// Returns the energy of the water that the body lifts or displaces [J], at a pose B to W that the
 /// step may reach a time `duration` [s] after standNow(). @pre the body is at a surface

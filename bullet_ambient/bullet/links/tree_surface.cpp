@@ -42,14 +42,17 @@ struct SurfaceArrivals {
   AmbientBody* bodies[kFlightsTogether] = {};  // of the links
   FrameOffset poses[kFlightsTogether];         // of the links, to W
   Vector6 twists[kFlightsTogether];
+  Vector6 falls[kFlightsTogether];  // AmbientLink::fall
 };
 
 // Lets the links pass the surface side by side, and writes the impulses that change their twists.
 // Returns the energy removed [J].
-double passTogether(const SurfaceArrivals& some, double duration, std::vector<Wrench>& impulses) {
+double passTogether(const SurfaceArrivals& some, const SurfaceStep& step,
+                    std::vector<Wrench>& impulses) {
   BoundedTwist after[kFlightsTogether];
   for (int i = 0; i < some.count; ++i) after[i].twist = some.twists[i];
-  passWithRows(some.bodies, some.poses, some.count, Axes::kFree, duration, after);
+  passWithRows(some.bodies, some.poses, some.count, Axes::kFree, step.time, after,
+               step.has_flown ? some.falls : nullptr);
   double energy_removed = 0;
   for (int i = 0; i < some.count; ++i) {
     AmbientLink& link = *some.links[i];
@@ -67,6 +70,7 @@ double passTogether(const SurfaceArrivals& some, double duration, std::vector<Wr
 void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
   step.surface.time = task.duration;
+  step.surface.has_flown = false;
   std::fill(step.impulses.begin(), step.impulses.end(), Wrench{});
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
     step.impulses[i] = impulseOf(link, kickByWavesAndWind(link.ambient, task.duration));
@@ -87,12 +91,14 @@ void stiffenForRows(AmbientTree& tree) noexcept {
 void floatInMiddle(AmbientTree& tree) noexcept {
   SurfaceStep& surface = tree.step.surface;
   const double half = surface.time / 2;
+  surface.has_flown = true;
   LinkDynamics& dynamics = tree.flight.dynamics();
   movePose(tree.tree, tree.step.pose, tree.step.start, half, surface.middle);
   dynamics.moveTo(surface.middle);
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
     const SurfaceStand& stand = link.ambient.stand();
-    link.frozen.floatAt(link.ambient, {dynamics.rotation(i), dynamics.position(i)}, half);
+    link.fall =
+        link.frozen.floatAt(link.ambient, {dynamics.rotation(i), dynamics.position(i)}, half);
     link.frozen.stiffen(stand, modesOfWaterplane(stand), surface.time);
   });
 }
@@ -106,13 +112,14 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
   double energy_removed = 0;
   SurfaceArrivals some;
   const auto arrive = [&] {
-    energy_removed += passTogether(some, duration, step.impulses);
+    energy_removed += passTogether(some, step.surface, step.impulses);
     some.count = 0;
   };
   forEachAtSurface(tree, [&](AmbientLink& link, int i) {
     some.links[some.count] = &link;
     some.bodies[some.count] = &link.ambient;
     some.poses[some.count] = {dynamics.rotation(i), dynamics.position(i)};
+    some.falls[some.count] = link.fall;
     some.twists[some.count++] = endTwist(dynamics, i, link.ambient.medium, duration);
     if (some.count == kFlightsTogether) arrive();
   });

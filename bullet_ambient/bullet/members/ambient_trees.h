@@ -30,6 +30,7 @@ struct AmbientLink {
   AmbientBody ambient;
   StepModel frozen;    ///< at a water surface: the model in the present or last step
   SurfaceStart start;  ///< encounter at the start of the step, to repeat a flight from there
+  Vector6 fall = Vector6::Zero();  ///< weight and buoyancy of a flight, in the link's frame
 };
 
 /// Outcome of a substep for a tree, from the solver; docs/bullet_step.md has the transitions.
@@ -42,10 +43,11 @@ enum class TreeOutcome {
 
 /// One step of a tree at a water surface, or a part of it.
 struct SurfaceStep {
-  TreePose pose;          ///< q_0
-  TreePose middle;        ///< where the start velocity brings the tree to in half the time
-  Coordinates start;      ///< u_0 before the kicks of the surface
-  double time = 0;        ///< time since these kicks [s]
+  TreePose pose;           ///< q_0
+  TreePose middle;         ///< where the start velocity brings the tree to in half the time
+  Coordinates start;       ///< u_0 before the kicks of the surface
+  double time = 0;         ///< time since these kicks [s]
+  bool has_flown = false;  ///< true: AmbientLink::fall has acted; false: buoyancy of the start
   bool is_bound = false;  ///< true: the energy must not grow in the step, because there is no wind,
                           ///< torque or motor
   double energy = 0;      ///< before the step, docs/theory.md eq. (64), relative to the flow [J]

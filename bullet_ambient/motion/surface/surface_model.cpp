@@ -50,6 +50,11 @@ bool isFeltAbove(const SurfaceModelDef& def) {
   return def.above.density >= kLittle * def.below.density || !def.above.velocity.isZero(0);
 }
 
+WetVolume wetVolumeInF(const SurfaceModel& model, const SurfacePlane& plane_F) {
+  if (model.hull) return computeWetVolume(*model.hull, plane_F);
+  return computeWetSphere(model.shape->sphere_radius, model.shape->centre_of_volume, plane_F);
+}
+
 }  // namespace
 
 SurfaceModel makeSurfaceModel(const SurfaceModelDef& def, LoadTables& tables) {
@@ -107,13 +112,14 @@ SurfaceSide sideOf(const SurfaceModel& model, const SurfacePlane& plane_B, doubl
 Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
   const SurfacePlane plane = seenFrom(plane_B, model.fluid_frame);
   Immersion immersion = withExtent(model, plane);
-  if (model.hull) {
-    immersion.wet = computeWetVolume(*model.hull, plane);
-  } else {
-    immersion.wet =
-        computeWetSphere(model.shape->sphere_radius, model.shape->centre_of_volume, plane);
-  }
+  immersion.wet = wetVolumeInF(model, plane);
   return immersion;
+}
+
+WetVolume wetVolumeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept {
+  const FrameOffset& frame = model.fluid_frame;
+  if (frame.isIdentity()) return wetVolumeInF(model, plane_B);
+  return wetVolumeInF(model, seenFrom(plane_B, frame)).inB(frame);
 }
 
 Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept {

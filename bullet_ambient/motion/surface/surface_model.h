@@ -59,6 +59,8 @@ SurfaceSide sideOf(const SurfaceModel& model, const SurfacePlane& plane_B, doubl
 
 /// Computes the immersion in F, for a plane in B.
 Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
+/// Computes the wet volume in B for a plane in B.
+WetVolume wetVolumeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
 
 /// Computes the total inertia K of body and fluids in B at an immersion; docs/theory.md eq. (63).
 /// Errors of the wetted part may make it indefinite, see positiveInertia().
