@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bullet_ambient/motion/flight/flight.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/floating_runs.h"
 
@@ -168,13 +169,13 @@ TEST(SurfaceFlight, LightBodyDoesNotFallDeeperThanItsEnergyReaches) {
 // Two substeps are too few. The chip keeps the motion after the first one if allowed; else it comes
 // to rest and loses all its motion.
 TEST(SurfaceFlight, HaltsAfterTheLastSubstepThatItsEnergyReaches) {
-  FloatingRun body = chipAt(0.02);
+  FloatingRun body = chipAt(0.03);
   body.settings.max_substeps = 2;
   int stopped = 0, rested = 0;
   for (int n = 0; n < 30; ++n) {
     const Vector3 from = body.state.position;
     const double before = body.energy();
-    body.step(0.022);
+    body.step(0.025);
     EXPECT_LE(body.energy(), before * (1 + 1e-12)) << n;
     if (!body.count.halted) continue;
     EXPECT_TRUE(body.count.coarse);
