@@ -1,5 +1,6 @@
 #include "bullet_ambient/bullet/core/attitude.h"
 
+#include <BulletDynamics/Dynamics/btActionInterface.h>
 #include <LinearMath/btTransformUtil.h>
 #include <gtest/gtest.h>
 
@@ -39,33 +40,39 @@ TEST(Attitudes, AreSettledUnlessOthersHaveTurnedTheBody) {
   EXPECT_EQ(body.getWorldTransform(), before);
 }
 
-// Continuous collision detection stops a ball on its way; it has turned for that part of the step.
-TEST(Attitudes, AreThoseWhereABodyWasStopped) {
-  for (const bool spins : {false, true}) {
-    FluidWorld scene;
-    btSphereShape ball(bt(0.1));
-    btBoxShape wall(btVector3(bt(0.01), 9, 9));
-    BodyDef floor{0, Vector3::Zero(), {}, &wall};
-    floor.start.position = {3, 0, 0};
-    scene.add(floor);
-    BodyDef def{1, ellipsoidMoments(Vector3::Constant(0.1), 1), {}, &ball};
-    def.start.twist = {spins ? Vector3(6, 0, 0) : Vector3(0, 0, 0), Vector3(60, 0, 0)};
-    btRigidBody& body = scene.add(def, facelessEllipsoid(Vector3::Constant(0.1)), idealFluid(1));
-    body.setCcdMotionThreshold(bt(0.05));
-    body.setCcdSweptSphereRadius(bt(0.05));
-    double turned = 0;
-    for (int i = 0; i < 12; ++i) {
-      const btTransform before = body.getWorldTransform();
-      scene.step(kWorldStep);
-      const double way =
-          static_cast<double>((body.getWorldTransform().getOrigin() - before.getOrigin()).length());
-      turned = toQuaternion(before.getRotation())
-                   .angularDistance(toQuaternion(body.getWorldTransform().getRotation()));
-      if (way < 0.4) break;  // of half a metre
-    }
-    EXPECT_LT(body.getWorldTransform().getOrigin().x(), 3);
-    EXPECT_LT(turned, spins ? 6 * kWorldStep : 1e-9);
+// Stops a body in the middle of its way, as continuous collision detection does.
+struct HalfWay : btActionInterface {
+  explicit HalfWay(btRigidBody& stopped) : body(stopped), start(stopped.getWorldTransform()) {}
+  void updateAction(btCollisionWorld*, btScalar time_step) override {
+    btTransform half;
+    btTransformUtil::integrateTransform(start, body.getLinearVelocity(), body.getAngularVelocity(),
+                                        time_step / 2, half);
+    body.proceedToTransform(half);
   }
+  void debugDraw(btIDebugDraw*) override {}
+
+  btRigidBody& body;
+  btTransform start;
+};
+
+TEST(Attitudes, OfABodyThatWasStoppedAreThoseOfItsWay) {
+  FluidWorld scene;
+  BodyDef def{1, ellipsoidMoments(Vector3::Constant(0.1), 1), {}, nullptr};
+  def.start.twist = {Vector3(6, 0, 0), Vector3(60, 0, 0)};
+  btRigidBody& body = scene.add(def, facelessEllipsoid(Vector3::Constant(0.1)), idealFluid(1));
+  HalfWay stop(body);
+  scene.removeAction();
+  scene.world.addAction(&stop);
+  scene.addAction();
+  scene.step(kWorldStep);
+  const btTransform& pose = body.getWorldTransform();
+  EXPECT_NEAR(static_cast<double>(pose.getOrigin().x()), 30 * kWorldStep, byPrecision(1e-12, 1e-6));
+  const double turned = 3 * kWorldStep;
+  EXPECT_LT(toQuaternion(pose.getRotation())
+                .angularDistance(Quaternion(Eigen::AngleAxisd(turned, Vector3(1, 0, 0)))),
+            byPrecision(1e-7, 1e-3));
+  EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().x()), 6, byPrecision(1e-12, 1e-5));
+  scene.world.removeAction(&stop);
 }
 
 }  // namespace
