@@ -164,12 +164,18 @@ struct MotorBarge {
     barge.finalizeMultiDof();
     barge.setBasePos({0, 0, bt(kBalance + above)});
     world.world.addMultiBody(&barge);
+    collider.setCollisionShape(&ball);
+    barge.setBaseCollider(&collider);
+    world.world.addCollisionObject(&collider);
     world.take(std::make_unique<btMultiBodyJointMotor>(&barge, 0, bt(0), bt(1)));
     AttachDef def;
     def.fluid_body = std::make_shared<FluidBody>(floatingBox({5, 2, 0.8}));
     world.fluid.add(barge, -1, def);
   }
-  ~MotorBarge() { world.remove(barge); }
+  ~MotorBarge() {
+    world.world.removeCollisionObject(&collider);
+    world.world.removeMultiBody(&barge);
+  }
   /// Steps until the barge sleeps. Returns the time, 300 s at most.
   double timeUntilSleep() {
     for (int i = 0; i < 300 * 60; ++i) {
@@ -183,6 +189,8 @@ struct MotorBarge {
   static constexpr double kBalance = 0.4 - 3520.0 / 9970;
   RobotWorld world;
   btMultiBody barge{1, 3500, {1353, 7478, 8458}, false, true};
+  btSphereShape ball{bt(0.1)};
+  btMultiBodyLinkCollider collider{&barge, -1};
 };
 
 TEST(LinksAtASurface, SleepAtTheirBalanceWithAMotor) {
