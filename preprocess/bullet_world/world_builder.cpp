@@ -16,7 +16,6 @@ using Status = WorldShapeResult::Status;
 void build(const WorldShape& shape, const WorldBuildSettings& settings, WorldShapeResult& result) {
   CollisionShapeSettings shape_settings;
   shape_settings.name = shape.name;
-  shape_settings.margins = settings.margins;
   shape_settings.flow = settings.flow;
   shape_settings.tables = settings.tables;
   shape_settings.report = [&](const std::string& text) { result.warnings.push_back(text); };

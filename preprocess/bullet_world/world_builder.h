@@ -11,7 +11,6 @@ namespace ambient {
 
 /// Settings for making the fluid bodies of a world.
 struct WorldBuildSettings {
-  bool margins = true;                                ///< as in CollisionShapeSettings
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
   bool tables = true;                                 ///< as in CollisionShapeSettings
   bool reuse = true;  ///< true: keep a file that was made from the same geometry and settings

@@ -14,9 +14,10 @@ AMBIENT_BEGIN
 ///
 /// Accepts spheres, boxes, cylinders, capsules, cones, convex hulls, tetrahedra, multi-spheres,
 /// btGImpactMeshShape (a closed mesh), btUniformScalingShape, and btCompoundShape of these, nested;
-/// children that touch or overlap are united. Local scalings count. docs/preprocessor.md says what
-/// margins do. Added mass is within 0.5 % of the largest entry of its block, for convex hulls
-/// within 1 % and, where a margin rounds them, 3 %; docs/preprocessor.md has the table.
+/// children that touch or overlap are united. Local scalings count. A margin is the distance at
+/// which contacts begin and displaces nothing; that of boxes and cylinders lies inside their size.
+/// Added mass is within 0.5 % of the largest entry of its block, for convex hulls within 1 %;
+/// docs/preprocessor.md has the table.
 /// @throws std::runtime_error in one line that begins with the name: a plane, a height field, a
 /// static triangle mesh, an empty or flat shape, a size that is not positive and finite, a mesh
 /// that is not closed, settings that cannot be.

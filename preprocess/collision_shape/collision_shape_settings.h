@@ -20,10 +20,8 @@ constexpr int kInstantFaces = 400;
 struct CollisionShapeSettings {
   CollisionShapeSettings();
 
-  std::string name;     ///< name of the body, begins every message; empty: the shape's name
-  bool margins = true;  ///< convex hulls and cones are as large as Bullet collides with them,
-                        ///< margin included; false: as they were given
-  int faces = 1300;     ///< triangles aimed at, where the shape has no mesh of its own
+  std::string name;  ///< name of the body, begins every message; empty: the shape's name
+  int faces = 1300;  ///< triangles aimed at, where the shape has no mesh of its own
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
   /// Allowed error of the few faces that carry the loads by the form law in place of all,
   /// FormLevel::p99_error; 0: there are none. Bodies take them as far as
@@ -38,9 +36,8 @@ struct CollisionShapeSettings {
   /// kInstant: at most kInstantFaces faces; closed forms stay. A FluidBodyCache then goes on to
   /// kStandard in the background.
   Quality quality = Quality::kStandard;
-  /// Receives one line for everything a user should know about a body that was made: margins that
-  /// add more than a tenth to its volume, triangles that were turned round, children that could not
-  /// be united. Default: standard error; null: nobody.
+  /// Receives one line for everything a user should know about a body that was made: triangles that
+  /// were turned round, children that could not be united. Default: standard error; null: nobody.
   std::function<void(const std::string&)> report;
 };
 

@@ -84,15 +84,10 @@ std::vector<Solid> solidsOf(const std::vector<PlacedShape>& parts,
 }
 
 /// Reports warnings about the body and its solids, one line each.
-void reportSolids(const std::vector<Solid>& solids, const FluidBody& body, double size,
+void reportSolids(const std::vector<Solid>& solids, const FluidBody& body,
                   const CollisionShapeSettings& settings) {
-  constexpr double kMuch = 0.1;
-  const double unit = size * size * size, volume = unit * body.volume;
-  double margins = 0;
-  for (const Solid& solid : solids) {
-    margins += unit * solid.margin_volume;
+  for (const Solid& solid : solids)
     for (const std::string& warning : solid.warnings) settings.report(warning);
-  }
   const auto unknown = std::count_if(solids.begin(), solids.end(),
                                      [](const Solid& solid) { return !solid.added_mass; });
   if (areMany(solids, settings) && unknown > 0) {
@@ -102,14 +97,6 @@ void reportSolids(const std::vector<Solid>& solids, const FluidBody& body, doubl
                                  " faces with all: the added mass may be some per cent off; give "
                                  "more faces (CollisionShapeSettings::faces)"));
   }
-  if (margins <= kMuch * (volume - margins)) return;
-  std::ostringstream text;
-  text.precision(4);
-  text << body.name << ": the margin that Bullet collides with is part of the body: its volume is "
-       << volume << " m^3, without the margin it would be " << volume - margins
-       << " m^3; set a smaller margin, or leave margins out (CollisionShapeSettings::margins, "
-       << "--no-margins)";
-  settings.report(text.str());
 }
 
 /// One surface of all solids, or of all cavities.
@@ -225,7 +212,7 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
   if (settings.load_error > 0 && body.sphere_radius == 0)
     if (std::optional<FormLevel> level = smallestFormLevel(body, settings.load_error))
       body.form_levels.push_back(*std::move(level));
-  if (settings.report) reportSolids(solids, body, form.size, settings);
+  if (settings.report) reportSolids(solids, body, settings);
   return body;
 }
 
@@ -262,8 +249,8 @@ Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& set
   provenance.source = "collision shape " + form.kind;
   provenance.source_hash = fnv1a64(contentOf(form.parts));
   std::ostringstream text;
-  text << (settings.margins ? "with" : "without") << " margins, faces " << settings.faces
-       << ", load error " << settings.load_error << ", " << sourceOf(form.parts, settings);
+  text << "faces " << settings.faces << ", load error " << settings.load_error << ", "
+       << sourceOf(form.parts, settings);
   if (settings.waterline_subdivisions != 0)
     text << ", waterline " << settings.waterline_subdivisions;
   provenance.settings = text.str();

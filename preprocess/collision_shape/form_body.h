@@ -6,8 +6,7 @@
 
 namespace ambient {
 
-/// Makes the fluid body of a form at size 1, in the shape's frame; reports give volumes at the size
-/// of the shape.
+/// Makes the fluid body of a form at size 1, in the shape's frame.
 /// @throws std::runtime_error as makeFluidBody() of a collision shape.
 FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& settings);
 

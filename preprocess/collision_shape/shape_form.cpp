@@ -16,7 +16,6 @@ struct Lengths {
   char kind = 0;
   std::vector<double*> sizes = {};
   std::vector<Eigen::Vector3d*> points = {};
-  double* margin = nullptr;
 };
 
 /// Addresses of the items of a list.
@@ -32,7 +31,7 @@ struct LengthFinder {
   Lengths operator()(Box& s) const { return {'b', addressesOf(s.half_sizes)}; }
   Lengths operator()(Cylinder& s) const { return {'c', {&s.radius, &s.height}}; }
   Lengths operator()(Capsule& s) const { return {'d', {&s.radius, &s.height}}; }
-  Lengths operator()(Cone& s) const { return {'e', {&s.radius, &s.height}, {}, &s.margin}; }
+  Lengths operator()(Cone& s) const { return {'e', {&s.radius, &s.height}}; }
   Lengths operator()(BallHull& s) const {
     Lengths lengths{'f'};
     for (BallHull::Ball& ball : s.balls) {
@@ -41,7 +40,7 @@ struct LengthFinder {
     }
     return lengths;
   }
-  Lengths operator()(Hull& s) const { return {'g', {}, addressesOf(s.points), &s.margin}; }
+  Lengths operator()(Hull& s) const { return {'g', {}, addressesOf(s.points)}; }
   Lengths operator()(TriangleSoup& s) const { return {'h', {}, addressesOf(s.corners)}; }
   template <class Other>
   Lengths operator()(Other&) const {
@@ -58,7 +57,6 @@ void changeLengths(PlacedShape& part, const Size& size, const Coordinate& coordi
   const Lengths lengths = lengthsOf(part);
   for (double* length : lengths.sizes) *length = size(*length);
   for (Eigen::Vector3d* point : lengths.points) *point = point->unaryExpr(coordinate);
-  if (lengths.margin) *lengths.margin = size(*lengths.margin);
   part.pose.translation() = part.pose.translation().unaryExpr(size).eval();
 }
 
@@ -110,7 +108,6 @@ std::string contentOf(std::vector<PlacedShape> parts) {
   std::string bytes;
   for (PlacedShape& part : parts) {
     const Lengths lengths = lengthsOf(part);
-    const double margin = lengths.margin ? *lengths.margin : 0;
     const Matrix3 rotation = part.pose.linear();
     const Vector3 translation = part.pose.translation();
     bytes += lengths.kind;
@@ -118,7 +115,6 @@ std::string contentOf(std::vector<PlacedShape> parts) {
     for (const double* size : lengths.sizes) appendNumbers(bytes, size, 1);
     appendCount(bytes, 3 * lengths.points.size());
     for (const Eigen::Vector3d* point : lengths.points) appendNumbers(bytes, point->data(), 3);
-    append(bytes, &margin, 1);
     append(bytes, rotation.data(), 9);
     append(bytes, translation.data(), 3);
   }

@@ -44,9 +44,34 @@ Matrix3 axisAlong(int up_axis) {
   return turn;
 }
 
+/// Axes of which the third is a unit vector.
+Matrix3 axesAlong(const Vector3& third) {
+  int aside = 0;
+  third.cwiseAbs().minCoeff(&aside);
+  Matrix3 axes;
+  axes.col(2) = third;
+  axes.col(0) = third.cross(Vector3(Vector3::Unit(aside))).normalized();
+  axes.col(1) = third.cross(Vector3(axes.col(0)));
+  return axes;
+}
+
 PlacedShape alongAxis(const Shape& shape, int up_axis) {
   PlacedShape part{shape};
   part.pose.linear() = axisAlong(up_axis);
+  return part;
+}
+
+/// Two equal balls are the ends of a capsule; other hulls of balls stay what they are.
+PlacedShape asCapsule(const BallHull& hull) {
+  if (hull.balls.size() != 2) return {hull};
+  const BallHull::Ball &first = hull.balls[0], &last = hull.balls[1];
+  const double radius = first.semi_axes[0];
+  for (const BallHull::Ball& ball : hull.balls)
+    if (ball.semi_axes != Vector3::Constant(radius)) return {hull};
+  const Vector3 way = last.centre - first.centre;
+  PlacedShape part{Capsule{radius, way.norm()}};
+  if (!way.isZero(0)) part.pose.linear() = axesAlong(way.normalized());
+  part.pose.translation() = (first.centre + last.centre) / 2;
   return part;
 }
 
@@ -72,8 +97,6 @@ struct CornerCollector : btInternalTriangleIndexCallback {
 /// Walks through a shape and collects its parts.
 class PartCollector {
  public:
-  explicit PartCollector(bool margins) : margins_(margins) {}
-
   void add(const btCollisionShape& shape, const Place& place) {
     switch (shape.getShapeType()) {
       case COMPOUND_SHAPE_PROXYTYPE:
@@ -94,7 +117,7 @@ class PartCollector {
     parts_.push_back(scaled(part, place.scale));
     PlacedShape& taken = parts_.back();
     taken.pose.linear() = place.rotation * part.pose.linear();
-    taken.pose.translation() = place.translation;
+    taken.pose.translation() = place.translation + place.rotation * taken.pose.translation();
     taken.name = place.name;
     if (place.is_child) taken.name += std::string(" (") + shape.getName() + ")";
   }
@@ -137,7 +160,7 @@ class PartCollector {
     take({soup}, shape, place);
   }
 
-  PlacedShape readConvex(const btCollisionShape& shape, const std::string& name) const {
+  static PlacedShape readConvex(const btCollisionShape& shape, const std::string& name) {
     switch (shape.getShapeType()) {
       case SPHERE_SHAPE_PROXYTYPE:
         return {Sphere{static_cast<const btSphereShape&>(shape).getRadius()}};
@@ -156,11 +179,10 @@ class PartCollector {
       }
       case CONE_SHAPE_PROXYTYPE: {
         const auto& cone = static_cast<const btConeShape&>(shape);
-        return alongAxis(Cone{cone.getRadius(), cone.getHeight(), marginOf(shape)},
-                         cone.getConeUpIndex());
+        return alongAxis(Cone{cone.getRadius(), cone.getHeight()}, cone.getConeUpIndex());
       }
       case MULTI_SPHERE_SHAPE_PROXYTYPE:
-        return {readBalls(static_cast<const btMultiSphereShape&>(shape), name)};
+        return asCapsule(readBalls(static_cast<const btMultiSphereShape&>(shape), name));
       case CONVEX_HULL_SHAPE_PROXYTYPE:
         return {readHull(static_cast<const btConvexHullShape&>(shape))};
       case CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE:
@@ -169,10 +191,6 @@ class PartCollector {
       default:
         refuseShape(shape, name);
     }
-  }
-
-  double marginOf(const btCollisionShape& shape) const {
-    return margins_ ? static_cast<double>(shape.getMargin()) : 0;
   }
 
   static BallHull readBalls(const btMultiSphereShape& shape, const std::string& name) {
@@ -188,17 +206,17 @@ class PartCollector {
   }
 
   // Scaled in double, so that scaled hulls have one form.
-  Hull readHull(const btConvexHullShape& shape) const {
+  static Hull readHull(const btConvexHullShape& shape) {
     const Vector3 scaling = toVector3(shape.getLocalScalingNV());
-    Hull hull{{}, marginOf(shape)};
+    Hull hull;
     for (int i = 0; i < shape.getNumPoints(); ++i) {
       hull.points.emplace_back(scaling.cwiseProduct(toVector3(shape.getUnscaledPoints()[i])));
     }
     return hull;
   }
 
-  Hull readPolyhedron(const btPolyhedralConvexShape& shape) const {
-    Hull hull{{}, marginOf(shape)};
+  static Hull readPolyhedron(const btPolyhedralConvexShape& shape) {
+    Hull hull;
     if (shape.getShapeType() == CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE) {
       // This kind of shape gives triangles only, no list of points.
       CornerCollector corners;
@@ -216,7 +234,6 @@ class PartCollector {
     return hull;
   }
 
-  bool margins_;
   std::vector<PlacedShape> parts_;
 };
 
@@ -225,7 +242,7 @@ class PartCollector {
 ShapeForm readForm(const btCollisionShape& shape, const CollisionShapeSettings& settings) {
   const std::string name = settings.name.empty() ? shape.getName() : settings.name;
   requireUsable(settings, name);
-  PartCollector collector(settings.margins);
+  PartCollector collector;
   Place place;
   place.name = name;
   collector.add(shape, place);

@@ -9,9 +9,8 @@
 AMBIENT_BEGIN
 
 /// Reads the form of a collision shape as it is, at size 1, in its frame, local scalings applied;
-/// keeps nothing of the shape. With settings.margins, convex hulls and cones are as large as Bullet
-/// collides with them; the margins of boxes and cylinders are part of their size anyhow. Triangle
-/// meshes have none. Cost: copying its numbers.
+/// keeps nothing of the shape. Convex hulls and cones are taken without their margin; that of boxes
+/// and cylinders lies inside their size. Cost: copying its numbers.
 /// @throws std::runtime_error in one line that begins with the name and says where in the shape and
 /// why, for a shape that cannot be a body in a fluid, settings that cannot be, and as
 /// requireUsualNumbers(). Whether sizes are positive makeSolids() looks at.

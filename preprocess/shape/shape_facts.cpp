@@ -1,6 +1,5 @@
 #include "preprocess/shape/shape_facts.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -98,24 +97,13 @@ struct FactFinder {
   ShapeFacts operator()(const Cone& s) const {
     ShapeFacts facts;
     facts.half_extents = roundExtents(s.radius, s.height / 2);
-    const double sharp_volume = kPi * s.radius * s.radius * s.height / 3;
-    if (s.margin > 0) {
-      const double volume = roundedConeVolume(s.radius, s.height, s.margin);
-      facts.mesh = [s, volume](int faces) {
-        return withVolume(makeRoundedConeMesh(s.radius, s.height, s.margin, faces), volume);
-      };
-      facts.least_faces = [] { return 640; };
-      facts.is_smooth = true;
-      facts.margin_volume = volume - sharp_volume;
-    } else {
-      facts.mesh = [s, sharp_volume](int faces) {
-        return withVolumeAcross(makeConeMesh(s.radius, s.height, faces), sharp_volume);
-      };
-      facts.least_faces = [s] { return leastConeFaces(s.radius, s.height); };
-    }
+    facts.mesh = [s](int faces) {
+      const double volume = kPi * s.radius * s.radius * s.height / 3;
+      return withVolumeAcross(makeConeMesh(s.radius, s.height, faces), volume);
+    };
+    facts.least_faces = [s] { return leastConeFaces(s.radius, s.height); };
     facts.added_mass = [s](double scale) {
-      return tabulated(
-          coneAddedMass(scale * s.radius, scale * s.height, scale * std::max(s.margin, 0.0)));
+      return tabulated(coneAddedMass(scale * s.radius, scale * s.height));
     };
     return facts;
   }

@@ -34,7 +34,6 @@ struct ShapeFacts {
   bool is_smooth = false;  ///< true: the shape has no edges; errors of its meshes shrink evenly as
                            ///< these get finer
   double sphere_radius = 0;  ///< [m]; 0: no sphere
-  double margin_volume = 0;  ///< volume that the margin adds [m^3]
 };
 
 ShapeFacts factsOf(const Shape& shape);

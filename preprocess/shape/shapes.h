@@ -31,12 +31,10 @@ struct Capsule {
 struct Cone {
   double radius = 0;
   double height = 0;  ///< apex at +height/2
-  double margin = 0;  ///< all points within that distance belong to it
 };
 /// Convex hull of points.
 struct Hull {
   std::vector<Eigen::Vector3d> points;
-  double margin = 0;  ///< all points within that distance belong to it
 };
 /// Convex hull of ellipsoids whose axes are those of S.
 struct BallHull {

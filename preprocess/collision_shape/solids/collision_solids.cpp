@@ -65,7 +65,6 @@ struct SolidMaker {
     Solid solid;
     if (known && (resolution.tables || !known->is_tabulated)) solid.added_mass = known->added_mass;
     solid.sphere_radius = facts.sphere_radius;
-    solid.margin_volume = facts.margin_volume;
     const int faces = std::max(resolution.faces, facts.least_faces());
     solid.mesh = facts.mesh(faces);
     if (solid.added_mass || !facts.is_smooth || resolution.flow_faces <= faces) return solid;

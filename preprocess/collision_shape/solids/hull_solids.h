@@ -18,7 +18,7 @@ struct SolidResolution {
 // Functions below throw std::runtime_error, beginning with `name`, if sizes are not positive and
 // finite or points lie in a plane.
 
-/// Makes the solid of a hull; its volume follows Steiner's formula.
+/// Makes the solid of a hull.
 Solid makeHullSolid(const Hull& hull, const SolidResolution& resolution, const std::string& name);
 
 /// Makes the solid of the hull of several ellipsoids; its volume is extrapolated from two

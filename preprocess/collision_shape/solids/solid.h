@@ -25,7 +25,6 @@ struct Solid {
   /// For a united solid: estimated sum of the added masses of its parts, per unit density.
   std::optional<Matrix6> parts_added_mass;
   double sphere_radius = 0;           ///< radius of a sphere [m]; 0: any other shape
-  double margin_volume = 0;           ///< volume that Bullet's margin adds [m^3]
   std::string name;                   ///< name of the part: "crane: child 1: child 0 (Box)"
   std::vector<std::string> warnings;  ///< what a user should know about it, one line each
 };

@@ -66,7 +66,6 @@ Solid uniteGroup(const std::vector<Solid>& group, int faces, const std::string& 
     parts.push_back(mergeFlatTriangles(own.mesh, false, kDefaultPanels));
     cavities.push_back(own.cavities);
     parts_added_mass += quickAddedMass(own);
-    solid.margin_volume += own.margin_volume;
     solid.warnings.insert(solid.warnings.end(), own.warnings.begin(), own.warnings.end());
   }
   const CheckedMesh united = uniteMeshes(parts, name);

@@ -22,7 +22,7 @@ struct BuildArguments {
   std::string solver;
   std::optional<double> memory;  // [GB]
   int waterline = 0;             // subdivisions
-  bool no_tables = false, no_margins = false, rebuild = false, json = false;
+  bool no_tables = false, rebuild = false, json = false;
 };
 
 /// Builds the fluid bodies of a .bullet file into a folder; returns the exit status, 1 if a shape

@@ -129,7 +129,6 @@ int runBuild(const BuildArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   requireValues(arguments);
   if (hasExtension(arguments.input, ".bullet")) return buildWorldFile(arguments);
-  if (arguments.no_margins) raiseUsageError("--no-margins", "only worlds have margins");
   const ShapeBuildSettings settings = settingsOf(arguments);
   const ShapeDescription shape = describeInput(arguments.input, arguments.options);
   requireWritablePlace(arguments.output, arguments.input);
@@ -201,8 +200,6 @@ void addBuild(CLI::App& app) {
       ->required();
   addBodyOptions(command, *arguments);
   addFlowOptions(command, *arguments);
-  command.add_flag("--no-margins", arguments->no_margins,
-                   "Worlds: convex hulls and cones without their margins");
   command.add_flag("--rebuild", arguments->rebuild, "Build also where nothing has changed");
   addJson(command, arguments->json);
   command.callback([arguments] {

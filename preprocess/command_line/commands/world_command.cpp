@@ -124,7 +124,6 @@ void printTroubles(const WorldBuild& built, const std::string& input) {
 int buildWorldFile(const BuildArguments& arguments) {
   requireWorldOptions(arguments);
   WorldBuildSettings settings;
-  settings.margins = !arguments.no_margins;
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;
   settings.tables = !arguments.no_tables;

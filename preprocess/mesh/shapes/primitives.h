@@ -37,13 +37,6 @@ TriangleMesh makeCapsuleMesh(double radius, double height, int faces);
 /// faces, slender ones up to 320.
 TriangleMesh makeConeMesh(double radius, double height, int faces);
 
-/// The cone within the distance `rounding` [m]: its Minkowski sum with a ball, as Bullet's cone
-/// with a margin. Rounding above 0; at least 640 faces.
-TriangleMesh makeRoundedConeMesh(double radius, double height, double rounding, int faces);
-
-/// Volume of the smooth body that makeRoundedConeMesh() stands for [m^3].
-double roundedConeVolume(double radius, double height, double rounding);
-
 /// Flat sheets of zero thickness in the x-y plane, normal +z, graded towards the boundary. No
 /// triangle has all corners on the boundary, where a sheet carries no potential jump. At least 8
 /// faces.

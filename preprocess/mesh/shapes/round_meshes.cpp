@@ -169,56 +169,6 @@ std::vector<Ring> coneRings(double radius, double height, int n) {
   return rings;
 }
 
-/// Angle between the cone's axis and the outward normal of its side.
-double coneNormalAngle(double radius, double height) { return portable::atan2(height, radius); }
-
-std::vector<Ring> roundedConeRings(double radius, double height, double rounding, int n) {
-  const double side = coneNormalAngle(radius, height);
-  const auto arcRows = [&](double angle, double distance) {
-    const double wanted = n * angle * rounding / (rounding + distance);
-    return std::max(3, static_cast<int>(std::lround(wanted)));
-  };
-  const int least = (n + 1) / 2;  // as coneRings()
-  std::vector<Ring> rings{{0, height / 2 + rounding, 0}};
-  const auto add = [&](double r, double z) {
-    rings.push_back({r, z, std::min(n, least + static_cast<int>(rings.size()) - 1)});
-  };
-  const int tip_rows = arcRows(side, 0);
-  for (int k = 1; k <= tip_rows; ++k) {
-    const double angle = side * k / tip_rows;
-    add(rounding * portable::sin(angle), height / 2 + rounding * portable::cos(angle));
-  }
-  const double slant = portable::hypot(radius, height);
-  const int rows = std::max(n, static_cast<int>(std::lround(n * rowsPerRing(slant, radius))));
-  for (int k = 1; k <= rows; ++k) {
-    const double fraction = gradedRadius(1, k, rows);
-    add(radius * fraction + rounding * portable::sin(side),
-        height * (0.5 - fraction) + rounding * portable::cos(side));
-  }
-  const int rim_rows = arcRows(kPi - side, radius);
-  for (int k = 1; k <= rim_rows; ++k) {
-    const double angle = k == rim_rows ? kPi : side + (kPi - side) * k / rim_rows;
-    add(radius + (k == rim_rows ? 0 : rounding * portable::sin(angle)),
-        -height / 2 + rounding * portable::cos(angle));
-  }
-  const int last = rings.back().m;
-  for (int k = last - 1; k >= 0; --k) {
-    rings.push_back({gradedRadius(radius, k, last), -height / 2 - rounding, k});
-  }
-  return rings;
-}
-
-/// Integral of pi r^2 dz over an arc of the profile, between two angles from the axis; `offset` is
-/// the distance of its centre from the axis.
-double arcVolume(double offset, double rounding, double from, double to) {
-  const auto integral = [&](double angle) {
-    const double c = portable::cos(angle);
-    return offset * offset * -c + offset * rounding * (angle - portable::sin(2 * angle) / 2) +
-           rounding * rounding * (c * c * c / 3 - c);
-  };
-  return kPi * rounding * (integral(to) - integral(from));
-}
-
 /// A size of a round shape, by its name in messages [m].
 struct NamedSize {
   const char* name;
@@ -235,18 +185,6 @@ TriangleMesh latheMesh(const char* shape, std::initializer_list<NamedSize> sizes
 }
 
 }  // namespace
-
-TriangleMesh makeRoundedConeMesh(double radius, double height, double rounding, int faces) {
-  return latheMesh("rounded cone", {{"radius", radius}, {"height", height}, {"rounding", rounding}},
-                   faces, [&](int n) { return roundedConeRings(radius, height, rounding, n); });
-}
-
-double roundedConeVolume(double radius, double height, double rounding) {
-  const double side = coneNormalAngle(radius, height);
-  const double narrow = rounding * portable::sin(side), wide = radius + narrow;
-  return arcVolume(0, rounding, 0, side) + arcVolume(radius, rounding, side, kPi) +
-         kPi * height / 3 * (narrow * narrow + narrow * wide + wide * wide);
-}
 
 int leastCylinderFaces(double radius, double height) {
   return static_cast<int>(triangleCount(cylinderRings(radius, height, 1)));

@@ -122,22 +122,6 @@ TriangleMesh divideLongEdges(const TriangleMesh& mesh, double longest_edge) {
   }
 }
 
-TriangleMesh refineTowardsFirst(const TriangleMesh& mesh, Index vertex_count, int max_triangles) {
-  DividedSurface fine = undivided(mesh);
-  for (int level = 0; level < kEdgeLevels; ++level) {
-    const MeshEdges edges = computeMeshEdges(fine.mesh);
-    Marks marks;
-    for (const EdgeGroup& edge : edges.edges) {
-      const HalfEdge& side = edges.half_edges[edge.first];
-      marks.push_back((side.low < vertex_count) != (side.high < vertex_count));
-    }
-    DividedSurface finer = cutEdges(fine, edges, marks);
-    if (finer.mesh.triangleCount() > max_triangles || !any(marks)) break;
-    fine = std::move(finer);
-  }
-  return fine.mesh;
-}
-
 SurfaceLevels refineInLevels(const TriangleMesh& mesh, bool sheet, int max_triangles) {
   if (mesh.triangleCount() >= max_triangles) return {undivided(mesh), std::nullopt, std::nullopt};
   std::vector<DividedSurface> uniform = {undivided(mesh)};

@@ -36,10 +36,4 @@ TriangleMesh divideTriangles(const TriangleMesh& mesh, int least_triangles);
 /// @pre longest_edge > 0; every edge has one or two triangles.
 TriangleMesh divideLongEdges(const TriangleMesh& mesh, double longest_edge);
 
-/// Refines a mesh towards its first `vertex_count` vertices, which lie on narrow rounded edges:
-/// halves edges that end there, up to four times, as long as at most `max_triangles` result. The
-/// surface stays the same. Vertices of the mesh come first.
-TriangleMesh refineTowardsFirst(const TriangleMesh& mesh, Eigen::Index vertex_count,
-                                int max_triangles);
-
 }  // namespace ambient

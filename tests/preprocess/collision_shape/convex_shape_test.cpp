@@ -3,6 +3,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/reference/body_added_mass.h"
 #include "tests/reference/ellipsoid_added_mass.h"
@@ -28,11 +29,14 @@ TEST(ConvexShape, SphereHasTheClosedForm) {
   checkFluidBody(ball, "ball");
 }
 
-TEST(ConvexShape, BoxIncludesItsMargin) {
+TEST(ConvexShape, BoxAndCylinderHaveTheirMarginInside) {
   for (const double margin : {0.0, 0.04, 0.3}) {
     btBoxShape box(btVector3(1, 1, 1));
     box.setMargin(btScalar(margin));
     EXPECT_NEAR(makeFluidBody(box, coarse()).volume / 8, 1, 4 * kScalarRounding);
+    btCylinderShapeZ cylinder(btVector3(1, 1, 2));
+    cylinder.setMargin(btScalar(margin));
+    EXPECT_NEAR(makeFluidBody(cylinder, coarse()).volume / (4 * kPi), 1, 4 * kScalarRounding);
   }
 }
 
@@ -70,19 +74,17 @@ TEST(ConvexShape, SimpleShapesNeedNoSolver) {
   const btBoxShape box(btVector3(1, 2, 3));
   const btCylinderShape cylinder(btVector3(1, 2, 1));
   const btCapsuleShapeX capsule(1, 2);
-  btConeShape rounded(1, 2), sharp(1, 2);
-  sharp.setMargin(0);
-  for (const btCollisionShape* shape : std::initializer_list<const btCollisionShape*>{
-           &box, &cylinder, &capsule, &rounded, &sharp}) {
+  const btConeShape cone(1, 2);
+  for (const btCollisionShape* shape :
+       std::initializer_list<const btCollisionShape*>{&box, &cylinder, &capsule, &cone}) {
     const Provenance made = makeFluidBody(*shape, settings).provenance;
-    EXPECT_EQ(made.settings, "with margins, faces 350, load error 0.01, added mass tables 1")
-        << shape->getName();
+    EXPECT_EQ(made.settings, "faces 350, load error 0.01, added mass tables 1") << shape->getName();
     EXPECT_EQ(made.settings, describeCollisionShape(*shape, settings).settings);
   }
   settings.tables = false;
   EXPECT_THROW(makeFluidBody(box, settings), std::runtime_error);
   EXPECT_EQ(describeCollisionShape(box, settings).settings,
-            "with margins, faces 350, load error 0.01, panels 100000, hull, no tables");
+            "faces 350, load error 0.01, panels 100000, hull, no tables");
 }
 
 // Entries forbidden by mirrors are exactly 0: steps have a shorter path for diagonal inertia.
@@ -125,6 +127,37 @@ TEST(ConvexShape, ScaledSphereOfAMultiSphereIsAnEllipsoid) {
   EXPECT_LT(test::differenceOf(ellipsoid.added_mass, exact), 1e-13);
 }
 
+// Limbs of MJCF files.
+TEST(ConvexShape, TwoEqualBallsOfAMultiSphereAreACapsuleOfTheTables) {
+  const btScalar r(0.4);
+  const btScalar radii[2] = {r, r};
+  const btVector3 along_y[2] = {btVector3(0, btScalar(-0.6), 0), btVector3(0, btScalar(0.6), 0)};
+  const FluidBody capsule = makeFluidBody(btCapsuleShape(r, btScalar(1.2)), coarse());
+  const FluidBody balls = makeFluidBody(btMultiSphereShape(along_y, radii, 2), coarse());
+  EXPECT_EQ(balls.provenance.settings, capsule.provenance.settings);
+  EXPECT_NEAR(balls.volume / capsule.volume, 1, 4 * kScalarRounding);
+  EXPECT_LT(test::differenceOf(balls.added_mass, capsule.added_mass), 10 * kScalarRounding);
+  EXPECT_EQ(balls.faces.size(), capsule.faces.size());
+  EXPECT_LT((balls.centre_of_volume - capsule.centre_of_volume).norm(), 1e-12);
+
+  const btVector3 aslant[2] = {btVector3(1, 2, 3), btVector3(2, 3, 5)};
+  const FluidBody limb = makeFluidBody(btMultiSphereShape(aslant, radii, 2), coarse());
+  EXPECT_LT((limb.centre_of_volume - Vector3(1.5, 2.5, 4)).norm(), 1e-5);
+  const double ends = 4.0 / 3 * 0.4;  // as a cylinder
+  EXPECT_NEAR(limb.volume / (kPi * 0.4 * 0.4 * (std::sqrt(6.0) + ends)), 1, 4 * kScalarRounding);
+  const Vector3 axis = Vector3(1, 1, 2).normalized();
+  const SymmetricEigen<3> eigen = symmetricEigen<3>(limb.added_mass.bottomRightCorner<3, 3>());
+  EXPECT_NEAR(std::abs(axis.dot(eigen.vectors.col(0))), 1, 1e-6);
+
+  btTransform moved = btTransform::getIdentity();
+  moved.setOrigin(btVector3(-3, 0, 1));
+  btMultiSphereShape child(aslant, radii, 2);
+  btCompoundShape compound;
+  compound.addChildShape(moved, &child);
+  EXPECT_LT((makeFluidBody(compound, coarse()).centre_of_volume - Vector3(-1.5, 2.5, 5)).norm(),
+            1e-5);
+}
+
 /// Checks that K of a shape about axis x or y is K about z with permuted axes.
 template <class AlongX, class AlongY, class AlongZ>
 void expectSameAlongAllAxes(const AlongX& x, const AlongY& y, const AlongZ& z) {
@@ -153,22 +186,15 @@ TEST(ConvexShape, RoundShapesAreTheSameAlongEveryAxis) {
   expectSameAlongAllAxes(btConeShapeX(r, h), btConeShape(r, h), btConeShapeZ(r, h));
 }
 
-TEST(ConvexShape, ConeHasItsApexUpAndItsMarginOnTop) {
-  btConeShapeZ cone(1, 2);
-  cone.setMargin(btScalar(0.1));
-  CollisionShapeSettings bare = coarse();
-  bare.margins = false;
-  const FluidBody sharp = makeFluidBody(cone, bare);
-  EXPECT_NEAR(sharp.volume / (2 * kPi / 3), 1, 1e-12);
-  // Centre: a quarter of the height above the base, up to the facets.
-  EXPECT_NEAR(sharp.centre_of_volume.z(), -0.5, 1e-2);
-  // Steiner: V + m A + m^2 M + 4/3 pi m^3, M = half the integral of the curvatures. Turn at the
-  // rim: pi - atan(h / r); of the side about the axis: pi/2 - atan(r / h).
-  const double slant = std::sqrt(5.0), m = 0.1;
-  const double area = kPi * (1 + slant);
-  const double curvature = kPi * (kPi - std::atan2(2.0, 1.0)) + kPi * 2;
-  const double volume = 2 * kPi / 3 + m * area + m * m * curvature + 4 * kPi / 3 * m * m * m;
-  EXPECT_NEAR(makeFluidBody(cone, coarse()).volume / volume, 1, 1e-6);
+TEST(ConvexShape, ConeHasItsApexUpAndNoMargin) {
+  btConeShapeZ cone(btScalar(0.05), btScalar(0.1));
+  for (const double margin : {0.0, 0.04}) {  // Bullet's default
+    cone.setMargin(btScalar(margin));
+    const FluidBody body = makeFluidBody(cone, coarse());
+    EXPECT_NEAR(body.volume / (kPi * 0.05 * 0.05 * 0.1 / 3), 1, 10 * kScalarRounding);
+    // Centre: a quarter of the height above the base, up to the facets.
+    EXPECT_NEAR(body.centre_of_volume.z(), -0.025, 5e-4);
+  }
 }
 
 TEST(ConvexShape, LocalScalingCounts) {

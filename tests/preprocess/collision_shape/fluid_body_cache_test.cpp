@@ -33,10 +33,9 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
 // Corners of a wedge.
 const std::vector<btVector3> kWedge{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}, {3, 0, 1}};
 
-std::unique_ptr<btConvexHullShape> wedge(double factor = 1, double margin = 0.04) {
+std::unique_ptr<btConvexHullShape> wedge(double factor = 1) {
   auto hull = std::make_unique<btConvexHullShape>();
   for (const btVector3& point : kWedge) hull->addPoint(point * static_cast<btScalar>(factor));
-  hull->setMargin(static_cast<btScalar>(margin));
   return hull;
 }
 
@@ -48,7 +47,7 @@ TEST(FluidBodyCache, EqualShapesAreOneWhereverTheyAre) {
   EXPECT_NE(cache.fluidBody(other), body);
   EXPECT_EQ(cache.counts().made, 2);
   EXPECT_EQ(cache.fluidBody(*wedge()), cache.fluidBody(*wedge()));
-  EXPECT_NE(cache.fluidBody(*wedge()), cache.fluidBody(*wedge(1, 0.05)));
+  EXPECT_NE(cache.fluidBody(*wedge()), cache.fluidBody(*wedge(1.05)));
   EXPECT_EQ(cache.counts().made, 4);
 }
 
@@ -104,9 +103,7 @@ TEST(FluidBodyCache, ScaledShapesAreSolvedOnce) {
 }
 
 TEST(FluidBodyCache, KnowsHullsByTheirLocalScaling) {
-  CollisionShapeSettings settings = coarse();
-  settings.margins = false;
-  FluidBodyCache cache(settings);
+  FluidBodyCache cache(coarse());
   const auto own = wedge(), scaled_hull = wedge(), stretched = wedge();
   scaled_hull->setLocalScaling(sizes(0.3, 0.3, 0.3));
   stretched->setLocalScaling(sizes(1, 1, 2));

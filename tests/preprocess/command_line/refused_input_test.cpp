@@ -94,7 +94,6 @@ TEST_F(CommandLine, BadValuesOfOptionsAreRefusedByName) {
   EXPECT_EQ(refused("--separation-angle", "1.5"), "1.5 rad must lie between pi/2 and pi");
   EXPECT_EQ(refused("--solver", "sparse"), "\"sparse\" is neither dense nor hierarchical");
   EXPECT_EQ(refused("--memory", "-2"), "-2 GB must be finite and positive");
-  EXPECT_EQ(buildUsageRefusal(ball, {"--no-margins"}), "--no-margins: only worlds have margins");
   for (const char* origin : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf", "centre", "1,2,3x", "nan,0,0"}) {
     EXPECT_EQ(refused("--origin", origin), "\"" + std::string(origin) +
                                                "\" is neither centre-of-volume nor three finite "

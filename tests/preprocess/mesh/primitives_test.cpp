@@ -217,24 +217,5 @@ TEST(Primitives, ImpossibleSizesAreRefusedByName) {
             "box: faces = 1000000000 is above the largest number 1000000");
 }
 
-// Steiner's formula: V + m A + m^2 M + 4/3 pi m^3, M the integral of mean curvature.
-TEST(RoundedCone, HasTheVolumeWithinItsRounding) {
-  const double radius = 0.7, height = 1.1;
-  const double slant = std::hypot(radius, height);
-  for (const double rounding : {1e-3, 0.05, 2.0}) {
-    const double area = kPi * radius * (radius + slant);
-    const double curvature = kPi * (radius * (kPi - std::atan2(height, radius)) + height);
-    const double volume = kPi * radius * radius * height / 3 + rounding * area +
-                          rounding * rounding * curvature + 4 * kPi / 3 * std::pow(rounding, 3);
-    EXPECT_NEAR(roundedConeVolume(radius, height, rounding) / volume, 1, 1e-13);
-    const TriangleMesh mesh = makeRoundedConeMesh(radius, height, rounding, 3000);
-    EXPECT_TRUE(checkMesh(mesh, "rounded cone").warnings.empty());
-    EXPECT_LE(mesh.triangleCount(), 3000);
-    EXPECT_NEAR(computeMassProperties(mesh).volume / volume, 1, 0.02);
-    EXPECT_NEAR(mesh.vertices.row(2).maxCoeff(), height / 2 + rounding, 1e-13);
-    EXPECT_NEAR(mesh.vertices.row(2).minCoeff(), -height / 2 - rounding, 1e-13);
-  }
-}
-
 }  // namespace
 }  // namespace ambient

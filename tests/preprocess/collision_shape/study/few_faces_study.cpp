@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kLoadError = 0.01;
 
-std::unique_ptr<btConvexHullShape> hull(int points, double margin) {
+std::unique_ptr<btConvexHullShape> hull(int points) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   auto shape = std::make_unique<btConvexHullShape>();
@@ -30,7 +30,6 @@ std::unique_ptr<btConvexHullShape> hull(int points, double margin) {
     shape->addPoint(
         toBullet(Vector3(Vector3(x, y, z).normalized().cwiseProduct(Vector3(0.5, 0.4, 0.3)))));
   }
-  shape->setMargin(static_cast<btScalar>(margin));
   return shape;
 }
 
@@ -65,9 +64,8 @@ void run() {
   study("box 1 : 1 : 1", btBoxShape(btVector3(0.5, 0.5, 0.5)));
   study("box 1 : 1/2 : 1/4", btBoxShape(btVector3(0.5, 0.25, 0.125)));
   study("box 1 : 1 : 1/10", btBoxShape(btVector3(0.5, 0.5, 0.05)));
-  study("hull of 40 points, margin 0.02", *hull(40, 0.02));
-  study("hull of 10 points, margin 0.02", *hull(10, 0.02));
-  study("hull of 40 points, no margin", *hull(40, 0));
+  study("hull of 40 points", *hull(40));
+  study("hull of 10 points", *hull(10));
 }
 
 }  // namespace
