@@ -111,8 +111,10 @@ void followFlow(AmbientBody& ambient, const FlowStep& step, RegionSample& sample
   Medium& medium = is_above ? sample.above : sample.below;
   medium.velocity -= change;
   medium.acceleration += in_step / step.duration;
+  // Stand-ins of links are placed in regions only.
+  const Vector3 position = step.entry ? centreOf(ambient) : Vector3(Vector3::Zero());
   ambient.flow = {step.regions.time + step.duration,
-                  toVector3(ambient.body->getWorldTransform().getOrigin()),
+                  position,
                   bare.velocity - (change - in_step),
                   change,
                   bare.parts,

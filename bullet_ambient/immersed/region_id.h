@@ -23,7 +23,7 @@ struct RegionPlace {
 /// acceleration is given for, BareVelocity.
 struct FlowMemory {
   double until = -1;  ///< Fluid::time() at the end of the substep [s]; negative: there was none
-  Vector3 position{0, 0, 0};  ///< of the centre of mass at its start, in W [m]
+  Vector3 position{0, 0, 0};  ///< of the centre of mass at its start, in W; in a region [m]
   Vector3 velocity{0, 0, 0};  ///< of the fluid there at its end, in W [m/s]
   Vector3 change{0, 0, 0};    ///< of the fluid's velocity that AmbientBody::medium lacks [m/s]
   unsigned parts = 0;         ///< BareVelocity::parts

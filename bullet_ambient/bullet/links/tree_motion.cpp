@@ -275,6 +275,7 @@ bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept {
   readPose(body, step.pose);
   stopIfNotFinite(tree, task.bodies);
   if (!prepareLinks(tree, task)) return true;
+  settleLinks(body);
   beginTreeReading(tree);
   if (body.isUsingRK4Integration()) {
     task.bodies.complaints.say(Complaint::kRungeKutta);

@@ -197,6 +197,10 @@ void writeAttitudes(btMultiBody& body, const TreePose& pose, ColliderScratch& sc
   body.updateCollisionObjectWorldTransforms(scratch.turns, scratch.places);
 }
 
+void settleLinks(btMultiBody& body) noexcept {
+  for (int i = 0; i < body.getNumLinks(); ++i) settleLink(body.getLink(i));
+}
+
 void readVelocity(const btMultiBody& body, CoordinatesOut u) noexcept {
   AMBIENT_ASSERT(u.size() == coordinatesOf(body));
   readAll(body.getVelocityVector(), u);

@@ -36,6 +36,11 @@ struct ColliderScratch {
 void writeAttitudes(btMultiBody& multi_body, const TreePose& pose,
                     ColliderScratch& scratch) noexcept;
 
+/// Sets what Bullet keeps of the places of links from the positions of their joints, by our sine
+/// and cosine: after others have set these, or a state was restored. Bits stay if they are ours
+/// already.
+void settleLinks(btMultiBody& multi_body) noexcept;
+
 void readVelocity(const btMultiBody& multi_body, CoordinatesOut u) noexcept;
 /// Reads the change of the velocity by rows in this substep.
 void readChange(const btMultiBody& multi_body, CoordinatesOut change) noexcept;

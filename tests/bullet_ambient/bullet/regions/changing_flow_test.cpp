@@ -36,9 +36,9 @@ btRigidBody& addNeutralBall(FluidWorld& scene, const Medium& medium, double heig
 }
 
 // Speeds that are the rounding of those of the fluid, some m/s [m/s].
-const double kStill = byPrecision(1e-12, 1e-5);
+const double kFlowRounding = byPrecision(1e-12, 1e-5);
 
-double speedOf(const btRigidBody& body) {
+double speedLeft(const btRigidBody& body) {
   return static_cast<double>(body.getLinearVelocity().length());
 }
 
@@ -116,7 +116,7 @@ TEST(ChangingFlow, ThatTellsItsAccelerationIsTakenAtItsWord) {
     scene.fluid.setRegion(id, filledWith(medium));
     scene.step(kFlowStep);
   }
-  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()), 0, kStill);
+  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()), 0, kFlowRounding);
   EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().y()), 0.25, byPrecision(1e-12, 1e-5));
 }
 
@@ -159,10 +159,10 @@ TEST(ChangingFlow, DoesNotPushABodyThatHasNotSeenItsPast) {
   btRigidBody& body = addNeutralBall(scene, Medium{});
   scene.fluid.setRegion(left, halfSpace(0, -kFar, flowingWater({0, 3, 0})));
   scene.step(kFlowStep, 2);  // the first step after it was added
-  EXPECT_LT(speedOf(body), kStill);
+  EXPECT_LT(speedLeft(body), kFlowRounding);
   body.getWorldTransform().setOrigin({9, 0, 0});
   scene.step(kFlowStep, 2);  // in another region
-  EXPECT_LT(speedOf(body), kStill);
+  EXPECT_LT(speedLeft(body), kFlowRounding);
   EXPECT_EQ(scene.of(body).medium().velocity, Vector3(0, 0, 2));
   scene.world.removeRigidBody(&body);
   scene.step(kFlowStep, 2);
@@ -170,7 +170,7 @@ TEST(ChangingFlow, DoesNotPushABodyThatHasNotSeenItsPast) {
   scene.fluid.setRegion(static_cast<RegionId>(1), right);
   scene.world.addRigidBody(&body);
   scene.step(kFlowStep, 2);  // it was not in the world when the region changed
-  EXPECT_LT(speedOf(body), kStill);
+  EXPECT_LT(speedLeft(body), kFlowRounding);
 }
 
 TEST(ChangingFlow, DoesNotPushASleeper) {
@@ -183,7 +183,7 @@ TEST(ChangingFlow, DoesNotPushASleeper) {
   scene.fluid.setRegion(id, filledWith(flowingWater({1, 0, 0})));
   scene.step(kFlowStep, 3);
   EXPECT_TRUE(body.isActive());
-  EXPECT_LT(speedOf(body), kStill);
+  EXPECT_LT(speedLeft(body), kFlowRounding);
   EXPECT_EQ(scene.of(body).medium().velocity.x(), 1);
 }
 
@@ -198,7 +198,7 @@ TEST(ChangingFlow, DoesNotTakeAShearForOne) {
   scene.step(kFlowStep, 30);
   body.getWorldTransform().setOrigin({-7, 0, 0});
   scene.step(kFlowStep, 30);
-  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().y()), 0, kStill);
+  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().y()), 0, kFlowRounding);
   EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()), 2, byPrecision(1e-12, 1e-5));
 }
 
