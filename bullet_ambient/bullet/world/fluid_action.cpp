@@ -105,7 +105,7 @@ void forgetBrokenImpulses(btCollisionWorld& world) {
 // of a body that has none that is physical.
 void wakeReloaded(const btCollisionWorld& world, const AmbientBodies& bodies) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  for (int i = 0; i < objects.size(); ++i) {
+  for (int i = 0; bodies.size() > 0 && i < objects.size(); ++i) {
     if (objects[i]->getActivationState() != ISLAND_SLEEPING) continue;
     const AmbientBody* ambient = bodies.find(objects[i]);
     if (!ambient || !ambient->isInFluid() || objects[i]->isStaticOrKinematicObject()) continue;
