@@ -1,5 +1,6 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,7 @@ class Barge {
  private:
   Barge(Load load, std::unique_ptr<btMultiBody> robot) : body_(*robot) {
     world_.world.setGravity({0, 0, bt(-9.81)});
+    world_.world.getSolverInfo().m_numIterations = 10;  // Bullet's default
     FluidRegion sea;
     sea.below = water();
     sea.above = air();
