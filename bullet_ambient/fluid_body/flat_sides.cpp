@@ -25,6 +25,7 @@ class SideFinder {
       if (isTaken(t)) continue;
       FlatSide side{planeFrom(t), {}, mesh_.normal(t)};
       side.corners = cornersOf(side);
+      side.has_sharp_rim = hasSharpRim(side);
       if (side.corners.size() >= 3) found.push_back(std::move(side));
     }
     return found;
@@ -57,6 +58,16 @@ class SideFinder {
         triangles.push_back(next);
       }
     return triangles;
+  }
+
+  bool hasSharpRim(const FlatSide& side) const {
+    for (const int t : side.triangles)
+      for (int corner = 0; corner < 3; ++corner) {
+        const int next = beyond(edge(t, corner));
+        if (next < 0 || isOnPlaneOf(next, side)) continue;
+        if (mesh_.normal(next).dot(side.normal) >= kEdgeCosine) return false;
+      }
+    return true;
   }
 
   /// Vertices around the side in order; empty if they do not form a single ring.

@@ -86,7 +86,7 @@ struct FluidBody {
   Vector3 centre_of_volume{0, 0, 0};  ///< in F [m]
   Vector3 origin{0, 0, 0};            ///< F's origin in the source mesh's frame [m]
   MassDistribution uniform_mass;      ///< uniform density inside
-  MassDistribution surface_mass;      ///< uniform mass per area, at face barycentres
+  MassDistribution surface_mass;      ///< uniform mass per area
   FaceTable faces;
   Surface surface;
   std::vector<LoadLevel> levels;       ///< reduced loads by the published law; may be empty

@@ -46,10 +46,8 @@ bool isSharp(const SurfaceTriangles& mesh, const Edge& edge, const std::vector<E
 }
 
 /// E of eq. (45c).
-double edgeShare(const FluidBody& body) {
-  if (body.surface.triangles.empty()) return 1;
-  const SurfaceTriangles mesh(body);
-  if (mesh.isSheet()) return 1;
+double edgeShare(const FluidBody& body, const SurfaceTriangles& mesh) {
+  if (mesh.size() == 0 || mesh.isSheet()) return 1;
   double length = 0;
   for (const auto& [edge, sides] : edgesOf(mesh))
     if (isSharp(mesh, edge, sides))
@@ -59,11 +57,22 @@ double edgeShare(const FluidBody& body) {
 
 /// Means over the area.
 struct SurfaceMoments {
-  Matrix3 places = Matrix3::Zero();   ///< (c - c_0)(c - c_0)^T [m^2], c_0: mean place
+  Matrix3 places = Matrix3::Zero();   ///< (z - z_0)(z - z_0)^T [m^2], z_0: mean place
   Matrix3 normals = Matrix3::Zero();  ///< n n^T
 };
 
-SurfaceMoments momentsOf(const FaceTable& faces) {
+/// Mean of (z - c)(z - c)^T over a triangle with the barycentre c [m^2].
+Matrix3 spreadOf(const SurfaceTriangles& mesh, int triangle) {
+  const auto corner = [&](int k) { return mesh.place(mesh.vertex(triangle, k)); };
+  const Vector3 centre = (corner(0) + corner(1) + corner(2)) / 3;
+  Matrix3 spread = Matrix3::Zero();
+  for (int k = 0; k < 3; ++k)
+    spread += (corner(k) - centre) * (corner(k) - centre).transpose() / 12;
+  return spread;
+}
+
+/// Integrates over the triangles of `mesh`; faces without triangles count as points.
+SurfaceMoments momentsOf(const FaceTable& faces, const SurfaceTriangles& mesh) {
   Vector3 mean = Vector3::Zero();
   double area = 0;
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -77,8 +86,15 @@ SurfaceMoments momentsOf(const FaceTable& faces) {
     const double share = faces.area[i] / area;
     moments.places += share * c * c.transpose();
     moments.normals += share * n * n.transpose();
+    if (mesh.size() > 0)
+      moments.places += share * spreadOf(mesh, static_cast<int>(i) % mesh.size());
   }
   return moments;
+}
+
+/// The triangles of a body's surface; none: it has no surface.
+SurfaceTriangles trianglesOf(const FluidBody& body) {
+  return body.surface.triangles.empty() ? SurfaceTriangles(Surface{}) : SurfaceTriangles(body);
 }
 
 /// Fills in the mean plane with its span, aspect ratio and chord, eq. (45b). Returns
@@ -108,12 +124,13 @@ FormShape formShapeOf(const FluidBody& body) {
   const SymmetricEigen<3> mass = symmetricEigen<3>(body.added_mass.bottomRightCorner<3, 3>());
   const double largest = mass.values[2];
   if (!(largest > 0) || !(body.area > 0) || body.faces.size() == 0) return shape;
-  const SurfaceMoments moments = momentsOf(body.faces);
+  const SurfaceTriangles mesh = trianglesOf(body);
+  const SurfaceMoments moments = momentsOf(body.faces, mesh);
   if (!setPlane(moments, shape)) return shape;
   const double aside = 1.5 * (1 - symmetricEigen<3>(moments.normals).values[2]);
   shape.wing =
       square(positivePart(1 - square(body.volume / largest))) * positivePart(1 - square(aside));
-  shape.edges = edgeShare(body);
+  shape.edges = edgeShare(body, mesh);
   const double smooth = positivePart(1 - 2 * shape.edges);
   const double slender = positivePart(mass.values[1] - mass.values[0]) / mass.values[1];
   if (mass.values[1] > 0)

@@ -13,9 +13,6 @@
 namespace ambient {
 namespace {
 
-/// Cosine of 41 degrees: a larger angle between the normals of two faces is an edge.
-constexpr double kSmooth = 0.75470958;
-
 /// Normals at the vertices of a mesh.
 class VertexNormals {
  public:
@@ -30,7 +27,7 @@ class VertexNormals {
   Vector3 normal(int vertex, int triangle) const {
     Vector3 sum = Vector3::Zero();
     for (const Face& face : stars_[static_cast<std::size_t>(vertex)])
-      if (mesh_.normal(face.triangle).dot(mesh_.normal(triangle)) >= kSmooth)
+      if (mesh_.normal(face.triangle).dot(mesh_.normal(triangle)) >= kEdgeCosine)
         sum += face.weight * mesh_.normal(face.triangle);
     const double length = sum.norm();
     return length > 0 ? Vector3(sum / length) : mesh_.normal(triangle);

@@ -16,9 +16,10 @@ struct FormShape;
 std::vector<double> computeSharpness(const FluidBody& body);
 
 /// Returns the faces that the form law is summed over: those of the body with their sharpness,
-/// except that 16 Gauss points per four corners replace the triangles of most flat sides. The form
-/// law has no jump at the edge of the wake: fewer points suffice, docs/accuracy.md. Round faces of
-/// a wing are as sharp as its edges are: s + W (1 - s). Cost O(F).
+/// except that Gauss points replace the triangles of most flat sides, 16 per four corners, and
+/// triangles that are long against the body. The form law has no jump at the edge of the wake:
+/// fewer points suffice, docs/accuracy.md. Round faces of a wing are as sharp as its edges are:
+/// s + W (1 - s). Cost O(F).
 /// @throws std::invalid_argument as computeSharpness().
 FaceTable formLawFaces(const FluidBody& body, const FormShape& shape);
 

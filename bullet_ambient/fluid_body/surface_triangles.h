@@ -7,6 +7,9 @@
 
 namespace ambient {
 
+/// Cosine of 41 degrees: a larger angle between the normals of two faces is an edge.
+constexpr double kEdgeCosine = 0.75470958;
+
 /// Triangles of a fluid body's surface; corners with equal coordinates share one vertex.
 class SurfaceTriangles {
  public:

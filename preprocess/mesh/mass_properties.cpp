@@ -43,13 +43,6 @@ Moments triangleMoments(const Corners& p) {
   return {area, area / 3 * s, area / 12 * (p * p.transpose() + s * s.transpose())};
 }
 
-// The triangle's mass at its barycentre.
-Moments barycentreMoments(const Corners& p) {
-  const double area = areaOf(p);
-  const Eigen::Vector3d centre = p.rowwise().sum() / 3;
-  return {area, area * centre, area * centre * centre.transpose()};
-}
-
 template <class MomentsOf>
 Moments sumMoments(const TriangleMesh& mesh, const Eigen::Vector3d& reference,
                    MomentsOf momentsOf) {
@@ -114,13 +107,13 @@ MassAndDistribution distributionOf(const TriangleMesh& mesh, MomentsOf momentsOf
 MeshProperties computeMassProperties(const TriangleMesh& mesh) {
   AMBIENT_ASSERT(isClosed(computeMeshEdges(mesh)));
   const MassAndDistribution inside = distributionOf(mesh, tetrahedronMoments);
-  const MassAndDistribution shell = distributionOf(mesh, barycentreMoments);
+  const MassAndDistribution shell = distributionOf(mesh, triangleMoments);
   return {inside.mass, shell.mass, inside.distribution, shell.distribution};
 }
 
 MeshProperties computeSheetMassProperties(const TriangleMesh& mesh) {
   const MassAndDistribution sheet = distributionOf(mesh, triangleMoments);
-  return {0, sheet.mass, sheet.distribution, distributionOf(mesh, barycentreMoments).distribution};
+  return {0, sheet.mass, sheet.distribution, sheet.distribution};
 }
 
 double sumOfVolumes(const std::vector<TriangleMesh>& meshes) {

@@ -14,8 +14,7 @@ struct MeshProperties {
   /// Uniform density inside, per unit mass; its centre is the centre of volume. For a sheet:
   /// uniform mass per area.
   MassDistribution uniform;
-  /// Masses proportional to the area, as points at the barycentres of the triangles (Padilla et al.
-  /// 2025), per unit mass: a thin shell.
+  /// Uniform mass per area, per unit mass: a thin shell.
   MassDistribution surface;
 };
 
