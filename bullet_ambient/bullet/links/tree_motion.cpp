@@ -214,17 +214,6 @@ void keepIntegrals(AmbientTree& tree, double h) {
   countEnergyRemoved(tree.flight.arriveAt(step.pose, has_rows, step.end), tree);
 }
 
-// Turns a tree that Bullet has moved to where it has come on its way.
-void settle(AmbientTree& tree, double h) {
-  TreeStep& step = tree.step;
-  if (step.is_at_end) {
-    step.settled = step.pose;
-  } else {
-    movePose(tree.tree, step.pose, step.moved, h, step.settled);
-  }
-  writeAttitudes(*tree.multi_body, step.settled, tree.scratch);
-}
-
 // Computes the velocity that rows are solved against, and sets the outcome. Returns false if the
 // velocity is not finite.
 bool begin(AmbientTree& tree, const TreeTask& task) {
@@ -257,7 +246,6 @@ void arriveAsBody(AmbientTree& tree) {
   const LastFlight& end = tree.links.front()->ambient.outcome.flight();
   step.pose.orientation = end.orientation;
   step.pose.position = end.position;
-  step.is_at_end = true;
   tree.flight.stay(step.pose, step.end);
   writeVelocity(*tree.multi_body, step.end);
 }
@@ -270,12 +258,10 @@ bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept {
   btMultiBody& body = *tree.multi_body;
   if (isAsleep(body)) return true;
   step.outcome = TreeOutcome::kStock;
-  step.is_at_end = false;
   step.meets_surface = false;
   readPose(body, step.pose);
   stopIfNotFinite(tree, task.bodies);
   if (!prepareLinks(tree, task)) return true;
-  settleLinks(body);
   beginTreeReading(tree);
   if (body.isUsingRK4Integration()) {
     task.bodies.complaints.say(Complaint::kRungeKutta);
@@ -319,7 +305,6 @@ void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
   btMultiBody& body = *tree.multi_body;
   if (!hasMet(tree) || isAsleep(body)) return;
-  settle(tree, task.duration);
   if (step.outcome == TreeOutcome::kRows) {
     turnAfterRows(tree, task.duration);
   } else {

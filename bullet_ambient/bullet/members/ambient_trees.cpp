@@ -36,9 +36,6 @@ AmbientTree::AmbientTree(btMultiBody& attached)
       flight(tree),
       step(coordinateCount(tree), tree.links.size()) {
   readPose(attached, step.pose);
-  step.settled = step.pose;
-  scratch.turns.reserve(tree.size());
-  scratch.places.reserve(tree.size());
 }
 
 AmbientLink* AmbientTree::find(int link) const noexcept {

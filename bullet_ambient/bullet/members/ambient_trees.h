@@ -66,12 +66,10 @@ struct TreeStep {
                             ///< joints to other bodies)
   bool meets_surface = false;  ///< true: the links have taken the kicks of a water surface
   SurfaceStep surface;
-  TreePose pose;           ///< q_0
-  bool is_at_end = false;  ///< true: `pose` is where the flight ends
-  TreePose settled;        ///< where Bullet has moved the tree, by our sine and cosine
-  Coordinates start;       ///< u_0, after the kicks of a water surface
-  Coordinates moved;       ///< velocity that Bullet moves the tree by
-  Coordinates end;         ///< velocity after the step; with rows, that without the turning part
+  TreePose pose;       ///< q_0
+  Coordinates start;   ///< u_0, after the kicks of a water surface
+  Coordinates moved;   ///< velocity that Bullet moves the tree by
+  Coordinates end;     ///< velocity after the step; with rows, that without the turning part
   Coordinates share;   ///< part of the turning velocity change included in the velocity that rows
                        ///< were solved for
   Coordinates change;  ///< velocity change by the rows
@@ -97,7 +95,6 @@ struct AmbientTree {
       tree;  ///< links and joints at the time of addition; all other data from the last substep
   LinkFlight flight;
   TreeStep step;
-  ColliderScratch scratch;
 
   /// True if the btMultiBody at the address is still the added one. Compares instance numbers; with
   /// RK4 integration, which overwrites them, links and joints. @pre a btMultiBody is alive at that

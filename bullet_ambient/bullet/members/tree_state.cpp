@@ -6,8 +6,6 @@
 #include <algorithm>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/bullet/core/attitude.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 
 AMBIENT_BEGIN
@@ -89,58 +87,6 @@ void readLink(const btMultiBody& body, int index, Link& link) {
   link.keeps_position = from.m_collider && from.m_collider->isStaticOrKinematic();
 }
 
-// Bullet's quaternion of `attitude`, of the sign of `now`.
-btQuaternion withSignOf(const btQuaternion& now, const Quaternion& attitude) {
-  const btQuaternion q = toBullet(attitude);
-  return q.dot(now) < 0 ? -q : q;
-}
-
-bool isNear(const btQuaternion& a, const btQuaternion& b) {
-  return 2 * static_cast<double>((a - b).length()) <= kTurnRounding;
-}
-
-// Rotation of the parent's axes to those of a link at angle zero that turns by -`angle` [rad].
-btQuaternion turnBack(const btVector3& axis, btScalar angle) {
-  const Vector3 along = toVector3(axis).normalized();
-  const double half = static_cast<double>(angle) / 2;
-  const Vector3 u = -portable::sin(half) * along;
-  return toBullet(Quaternion(portable::cos(half), u.x(), u.y(), u.z()));
-}
-
-// Sets what Bullet keeps of the place of a link, which depends on the position of its joint.
-void settleLink(btMultibodyLink& link) {
-  btQuaternion& to_link = link.m_cachedRotParentToThis;
-  btVector3& arm = link.m_cachedRVector;
-  const btScalar* q = link.m_jointPos;
-  if (link.m_jointType == btMultibodyLink::eRevolute) {
-    to_link = turnBack(link.getAxisTop(0), q[0]) * link.m_zeroRotParentToThis;
-    arm = link.m_dVector + quatRotate(to_link, link.m_eVector);
-  } else if (link.m_jointType == btMultibodyLink::eSpherical) {
-    to_link = btQuaternion(q[0], q[1], q[2], -q[3]) * link.m_zeroRotParentToThis;
-    arm = link.m_dVector + quatRotate(to_link, link.m_eVector);
-  } else if (link.m_jointType == btMultibodyLink::ePlanar) {
-    const btQuaternion turn = turnBack(link.getAxisTop(0), q[0]);
-    to_link = turn * link.m_zeroRotParentToThis;
-    const btVector3 way = q[1] * link.getAxisBottom(1) + q[2] * link.getAxisBottom(2);
-    arm = quatRotate(turn, way) + quatRotate(to_link, link.m_eVector);
-  } else {
-    return;
-  }
-  link.m_cachedRotParentToThis_interpolate = to_link;
-  link.m_cachedRVector_interpolate = arm;
-}
-
-// Sets the position of a ball joint, which Bullet has as a quaternion.
-void settleBall(btMultibodyLink& link, const JointPosition& position) {
-  if (link.m_jointType != btMultibodyLink::eSpherical) return;
-  btScalar* q = link.m_jointPos;
-  const btQuaternion now(q[0], q[1], q[2], q[3]);
-  const Quaternion there(position[3], position[0], position[1], position[2]);
-  const btQuaternion settled = withSignOf(now, there);
-  if (!isNear(now, settled)) return;
-  for (int i = 0; i < 4; ++i) q[i] = settled[i];
-}
-
 }  // namespace
 
 LinkTree makeLinkTree(const btMultiBody& body) {
@@ -181,24 +127,6 @@ void readPose(const btMultiBody& body, TreePose& pose) noexcept {
     for (std::size_t k = 0; k < joint.size(); ++k)
       joint[k] = static_cast<double>(body.getLink(i).m_jointPos[k]);
   }
-}
-
-void writeAttitudes(btMultiBody& body, const TreePose& pose, ColliderScratch& scratch) noexcept {
-  if (!body.isBaseStaticOrKinematic()) {
-    const btQuaternion& now = body.getWorldToBaseRot();
-    const btQuaternion settled = withSignOf(now, pose.orientation.conjugate());
-    if (!isNear(now, settled)) return;
-    body.setWorldToBaseRot(settled);
-  }
-  for (int i = 0; i < body.getNumLinks(); ++i) {
-    settleBall(body.getLink(i), pose.joints[i + 1]);
-    settleLink(body.getLink(i));
-  }
-  body.updateCollisionObjectWorldTransforms(scratch.turns, scratch.places);
-}
-
-void settleLinks(btMultiBody& body) noexcept {
-  for (int i = 0; i < body.getNumLinks(); ++i) settleLink(body.getLink(i));
 }
 
 void readVelocity(const btMultiBody& body, CoordinatesOut u) noexcept {

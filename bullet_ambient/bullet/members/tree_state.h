@@ -1,6 +1,5 @@
 #pragma once
 
-#include <LinearMath/btAlignedObjectArray.h>
 #include <LinearMath/btTransform.h>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
@@ -23,23 +22,6 @@ void readLinks(const btMultiBody& multi_body, LinkTree& tree) noexcept;
 
 /// Copies the pose. Allocates nothing if `pose` has the right size.
 void readPose(const btMultiBody& multi_body, TreePose& pose) noexcept;
-
-/// Scratch memory for the places of colliders, one of each per link.
-struct ColliderScratch {
-  btAlignedObjectArray<btQuaternion> turns;
-  btAlignedObjectArray<btVector3> places;
-};
-/// Turns base and links of a multibody that Bullet has moved to `pose`, up to kTurnRounding, by our
-/// sine and cosine in place of the C library's, see attitude.h, and moves its colliders with them.
-/// Leaves a multibody alone that others have turned, and the displacements of planar joints.
-/// Allocates nothing if `scratch` has reserved enough.
-void writeAttitudes(btMultiBody& multi_body, const TreePose& pose,
-                    ColliderScratch& scratch) noexcept;
-
-/// Sets what Bullet keeps of the places of links from the positions of their joints, by our sine
-/// and cosine: after others have set these, or a state was restored. Bits stay if they are ours
-/// already.
-void settleLinks(btMultiBody& multi_body) noexcept;
 
 void readVelocity(const btMultiBody& multi_body, CoordinatesOut u) noexcept;
 /// Reads the change of the velocity by rows in this substep.
