@@ -37,7 +37,7 @@ struct FaceTable {
 
 /// Revision of the form law that levels are fitted to. 1: eq. (43) for every body; 2: with wings
 /// and slender hulls.
-constexpr int kFormLawRevision = 2;
+constexpr int kFormLawRevision = 3;
 
 /// Smaller set of faces that replaces all faces in the sums of the form law.
 struct FormLevel {

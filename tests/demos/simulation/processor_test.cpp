@@ -1,6 +1,7 @@
-// The bits of the scenes of data/scenes without robots do not hang on the processor's variants of the C library's
-// sine and cosine. `processor_test --run FOLDER` prints a hash for each body of each scene; FOLDER
-// keeps the fluid bodies. The C library chooses its variants when a program starts.
+// The bits of the scenes of data/scenes without robots do not hang on the processor's variants of
+// the C library's sine and cosine. `processor_test --run FOLDER` prints a hash for each body of
+// each scene; FOLDER keeps the fluid bodies. The C library chooses its variants when a program
+// starts.
 
 #include <gtest/gtest.h>
 
