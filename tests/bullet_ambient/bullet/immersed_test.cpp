@@ -137,6 +137,7 @@ TEST(Immersed, RefusesNothing) {
 
 TEST(Naming, NamesBodiesInReportsAndErrors) {
   FluidWorld scene;
+  scene.world.setGravity({0, 0, bt(-9.81)});
   std::vector<std::string> said;
   scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
   scene.fluid.setNaming([](const btCollisionObject& object) {

@@ -25,12 +25,12 @@ struct Float {
   Vector3 moments{1, 1, 1};
 };
 
-Float boxOf(const Vector3& size, double mass) {
+Float boxAfloat(const Vector3& size, double mass) {
   const Vector3 q = mass / 12 * size.cwiseAbs2();
   return {floatingBox(size), mass, {q.y() + q.z(), q.z() + q.x(), q.x() + q.y()}};
 }
 
-Float ballOf(double radius, double mass) {
+Float ballAfloat(double radius, double mass) {
   return {floatingBall(radius), mass, Vector3::Constant(0.4 * mass * radius * radius)};
 }
 
@@ -128,8 +128,8 @@ double pushed(const Float& what, double force, double hertz) {
 // The distances are those in double at 1000 Hz.
 TEST(FloatingRest, ABodyIsPushedInFloatAsInDouble) {
   for (const double hertz : {60.0, 240.0, 1000.0}) {
-    EXPECT_NEAR(pushed(boxOf({0.8, 0.6, 0.5}, 150), 5, hertz), 0.3001, 0.003) << hertz;
-    EXPECT_NEAR(pushed(ballOf(0.5, 60), 2, hertz), 0.344, 0.0034) << hertz;
+    EXPECT_NEAR(pushed(boxAfloat({0.8, 0.6, 0.5}, 150), 5, hertz), 0.3001, 0.003) << hertz;
+    EXPECT_NEAR(pushed(ballAfloat(0.5, 60), 2, hertz), 0.344, 0.0034) << hertz;
   }
 }
 
@@ -142,8 +142,8 @@ TEST(FloatingRest, NobodyIsHaltedByRounding) {
       const double mass = density[i] * weight;
       const Quaternion turn(Eigen::AngleAxisd(0.05, Vector3(1, 0.4, 0.2).normalized()));
       const Vector3 size = scale * Vector3(1.2, 1, 0.4);
-      pool.add(boxOf(size, 0.48 * mass), scale * Vector3(3 * i, 0, 0), turn);
-      pool.add(ballOf(0.5 * scale, 0.5236 * mass), scale * Vector3(3 * i, 3, 0), turn);
+      pool.add(boxAfloat(size, 0.48 * mass), scale * Vector3(3 * i, 0, 0), turn);
+      pool.add(ballAfloat(0.5 * scale, 0.5236 * mass), scale * Vector3(3 * i, 3, 0), turn);
     }
     for (const double hertz : {60.0, 240.0, 1000.0}) pool.scene.step(1 / hertz, 600);
     EXPECT_TRUE(pool.said.empty()) << pool.said.front();
@@ -161,7 +161,7 @@ TEST(FloatingRest, ABodyOnARailComesToItsBalance) {
   const double draught = 0.6 * (500 - air().density) / (water().density - air().density);
   for (const double hertz : {60.0, 240.0, 1000.0}) {
     Pool pool;
-    btRigidBody& body = pool.add(boxOf({1, 0.8, 0.6}, 240), {0, 0, 0.02});
+    btRigidBody& body = pool.add(boxAfloat({1, 0.8, 0.6}, 240), {0, 0, 0.02});
     btGeneric6DofConstraint rail(body, btTransform::getIdentity(), false);
     rail.setLinearLowerLimit({0, 0, -1});
     rail.setLinearUpperLimit({0, 0, 1});
@@ -178,9 +178,9 @@ TEST(FloatingRest, ABodyOnARailComesToItsBalance) {
 TEST(FloatingRest, SleepsInANeutralBalance) {
   const Quaternion edge_up(Eigen::AngleAxisd(kPi / 4, Vector3::UnitX()));
   const std::pair<Float, Quaternion> floats[] = {
-      {ballOf(0.5, 0.3 * 523.6), Quaternion::Identity()},
+      {ballAfloat(0.5, 0.3 * 523.6), Quaternion::Identity()},
       {barrelOf(0.4, 1.5, 48, 0.5 * 1000 * kPi * 0.16 * 1.5), Quaternion::Identity()},
-      {boxOf({1, 1, 1}, (water().density + air().density) / 2), edge_up}};
+      {boxAfloat({1, 1, 1}, (water().density + air().density) / 2), edge_up}};
   for (const auto& [what, orientation] : floats) {
     Pool pool;
     btRigidBody& body = pool.add(what, {0, 0, 0}, orientation);
@@ -193,7 +193,7 @@ struct Barge {
   Vector3 size{5, 2, 0.8};
   double mass = 3500;
   btBoxShape shape{btVector3(bt(2.5), 1, bt(0.4))};
-  Float what = boxOf(size, mass);
+  Float what = boxAfloat(size, mass);
   /// Height of the centre with a load [m].
   double balance(double load) const {
     return 0.4 - (mass + load) / (water().density * size.x() * size.y());
@@ -213,7 +213,7 @@ TEST(FloatingRest, ABargeWithACrateSleepsAtItsBalance) {
   btBoxShape box(btVector3(bt(0.4), bt(0.4), bt(0.4)));
   btRigidBody& body =
       pool.add(barge.what, {0, 0, barge.balance(200) + 0.1}, Quaternion::Identity(), &barge.shape);
-  btRigidBody& crate = pool.add(boxOf({0.8, 0.8, 0.8}, 200), {0, 0, barge.balance(200) + 0.9},
+  btRigidBody& crate = pool.add(boxAfloat({0.8, 0.8, 0.8}, 200), {0, 0, barge.balance(200) + 0.9},
                                 Quaternion::Identity(), &box);
   for (btRigidBody* each : {&body, &crate}) each->forceActivationState(ACTIVE_TAG);
   expectRestAtBalance(pool, body, barge.balance(200));
