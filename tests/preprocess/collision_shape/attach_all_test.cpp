@@ -74,7 +74,8 @@ TEST(AttachAll, SaysWhatHasNoShape) {
   const AttachReport report = scene.fluid.addAll(shapes, water(), settings);
   EXPECT_EQ(report.attached, 6);
   ASSERT_EQ(report.refused.size(), 2u);
-  EXPECT_EQ(report.refused[0].reason, "body 1: it has no collision shape");
+  EXPECT_EQ(report.refused[0].reason,
+            "body 1: it has no collision shape, so that no fluid acts on it");
   EXPECT_EQ(report.refused[1].reason, "body 2 (CylinderZ): filter threw something unknown");
   scene.bodies[1]->setCollisionShape(scene.shapes[1].get());
 }
