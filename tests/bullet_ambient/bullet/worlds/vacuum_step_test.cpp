@@ -18,6 +18,8 @@ namespace {
 
 constexpr int kSteps = 300;
 constexpr double kVacuumTolerance = kDouble ? 3e-15 : 3e-7;
+// In float Bullet turns a body with eight roundings, this library in double with one.
+constexpr double kPoseTolerance = kDouble ? 3e-15 : 1e-6;
 // A ball that hits a stack: rows amplify rounding. Measured: 1.5e-14, 3e-7.
 constexpr double kStackTolerance = kDouble ? 3e-14 : 1e-6;
 
@@ -116,7 +118,7 @@ TEST_P(VacuumStep, EndsAsInStockBullet) {
   EXPECT_GT(ambient_.host().fluid().counters().rows, rows_per_step * kSteps);
   EXPECT_LT(velocity_error_, kStackTolerance);
   EXPECT_LT(jointed_velocity_error_, kVacuumTolerance);
-  EXPECT_LT(pose_error_, kVacuumTolerance);
+  EXPECT_LT(pose_error_, kPoseTolerance);
   std::cout << "    velocity " << velocity_error_ << ", on joints " << jointed_velocity_error_
             << ", pose " << pose_error_ << "\n";
 }
