@@ -61,7 +61,8 @@ void applyForce(const PythonBody& body, const InputArray& force, const py::objec
   body.world->simulation().applyForce(body.index, vectorFrom(force, "force"), point);
 }
 
-void setPose(const PythonBody& body, const InputArray& position, const py::object& orientation) {
+void setBodyPose(const PythonBody& body, const InputArray& position,
+                 const py::object& orientation) {
   const Quaternion q = orientation.is_none() ? body.sample().orientation
                                              : quaternionFrom(orientation.cast<InputArray>());
   body.world->simulation().setPose(body.index, vectorFrom(position, "position"), q);
@@ -127,7 +128,7 @@ void bindForces(py::class_<PythonBody>& type) {
             b.world->simulation().applyTorque(b.index, vectorFrom(torque, "torque"));
           },
           py::arg("torque"), "Adds a torque (3,) [N m] for one step.")
-      .def("set_pose", &setPose, py::arg("position"), py::arg("orientation") = py::none(),
+      .def("set_pose", &setBodyPose, py::arg("position"), py::arg("orientation") = py::none(),
            "Puts the centre of mass to a position (3,) [m], with an orientation (4,) w, x, y, z; "
            "default: the present one. Not of a link: Robot.set_pose() moves all of them.")
       .def(

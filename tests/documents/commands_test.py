@@ -66,7 +66,7 @@ def wrong_options(program, words):
         known = set().union(*options_of(program, command))
     else:
         known = words_of("tests/**/*.cpp", "demos/**/*.cpp", "preprocess/**/*.cpp")
-    return (f"{program} has no {option}" for option in used - known if not option.startswith("--benchmark_"))
+    return (f"{program} has no {option}" for option in used - known if not option.startswith(("--benchmark_", "--gtest_")))
 
 
 def wrong_in_command(program, words):
