@@ -19,8 +19,8 @@ struct RegionPlace {
   }
 };
 
-/// What a body has seen of the velocity of its fluid in its last substep: of the part that no
-/// acceleration is given for, BareVelocity.
+/// Memory of a body's last substep: the velocity that its fluid had there, of the part without a
+/// given acceleration, BareVelocity.
 struct FlowMemory {
   double until = -1;  ///< Fluid::time() at the end of the substep [s]; negative: there was none
   Vector3 position{0, 0, 0};  ///< of the centre of mass at its start, in W; in a region [m]

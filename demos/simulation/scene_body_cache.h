@@ -47,8 +47,8 @@ class SceneBodyCache {
   CollisionShapeSettings solidSettings(const std::string& name);
   std::shared_ptr<const FluidBody> readOrBuild(const ShapeDescription& shape,
                                                const std::string& name, int waterline_subdivisions);
-  /// The same for a box, cylinder, capsule or cone. A build with BULLET_AMBIENT_WHOLE_DEMO=OFF
-  /// refuses them.
+  /// Reads or makes the fluid body of a box, cylinder, capsule or cone. A build with
+  /// BULLET_AMBIENT_WHOLE_DEMO=OFF refuses them.
   std::shared_ptr<const FluidBody> readOrMakeSolid(const ShapeDescription& shape,
                                                    const std::string& name,
                                                    int waterline_subdivisions);

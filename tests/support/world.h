@@ -13,7 +13,7 @@
 
 namespace ambient::test {
 
-/// What was put into a world. It leaves the world before it is deleted.
+/// Owner of the bodies, joints and trees of a world. They leave the world before they are deleted.
 class WorldContents {
  public:
   explicit WorldContents(btDiscreteDynamicsWorld& world) : world_(world) {}

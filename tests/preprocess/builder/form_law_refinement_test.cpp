@@ -110,7 +110,7 @@ TEST(FormLawRefinement, LeavesAPlateItsAspectRatioAndChord) {
   EXPECT_NEAR(plate.chord, 1, 0.05);
 }
 
-// Of the load itself, or of the mean of all where those on the sides cancel.
+// A per cent of the load, or of the mean of all loads where those on the sides cancel.
 TEST(FormLawRefinement, KeepsForceAndMomentWithinAPercent) {
   test::Arbitrary arbitrary(76);
   for (const Blade& blade : blades()) {

@@ -187,7 +187,7 @@ TEST(ChangingFlow, DoesNotPushASleeper) {
   EXPECT_EQ(scene.of(body).medium().velocity.x(), 1);
 }
 
-// What differs from place to place alone is no acceleration, nor is another place.
+// A velocity that differs from place to place, but not with time, is no acceleration.
 TEST(ChangingFlow, DoesNotTakeAShearForOne) {
   FluidWorld scene;
   FluidRegion river = filledWith(idealFluid(1000));
