@@ -1,5 +1,4 @@
 #pragma once
 
-// Saved states of a world and its fluid, as bytes and in .bullet files.
+// Saved states of a world and its fluid, as bytes.
 #include "bullet_ambient/bullet/state/world_state.h"
-#include "bullet_ambient/bullet/world/ambient_serializer.h"

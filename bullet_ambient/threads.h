@@ -2,5 +2,4 @@
 
 // Flights of many bodies on several threads.
 #include "bullet_ambient/base/task_runner.h"
-#include "bullet_ambient/base/thread_pool.h"
 #include "bullet_ambient/bullet/world/bullet_task_runner.h"

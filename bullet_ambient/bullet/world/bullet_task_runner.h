@@ -9,7 +9,7 @@ AMBIENT_BEGIN
 
 /// Runs tasks by Bullet's own task scheduler, set by btSetTaskScheduler(). If Bullet was built
 /// without BT_THREADSAFE, as Debian's is, its scheduler does not work: tasks then run one after
-/// another; use ambient::ThreadPool.
+/// another: derive a TaskRunner that uses the threads of the program.
 class BulletTaskRunner : public TaskRunner {
  public:
   void runAll(const Task& task, int count) noexcept override {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/base/thread_pool.h"
+#include "tests/support/thread_pool.h"
 #include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/force/medium/airy_waves.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"

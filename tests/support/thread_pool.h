@@ -4,7 +4,7 @@
 
 #include "bullet_ambient/base/task_runner.h"
 
-namespace ambient {
+namespace ambient::test {
 
 /// Owns threads that sleep between calls. The calling thread works, too. While the pool's threads
 /// are busy for another caller, the calling thread does all items alone.
@@ -25,4 +25,4 @@ class ThreadPool : public TaskRunner {
   std::unique_ptr<Shared> shared_;
 };
 
-}  // namespace ambient
+}  // namespace ambient::test

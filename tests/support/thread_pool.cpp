@@ -1,4 +1,4 @@
-#include "bullet_ambient/base/thread_pool.h"
+#include "tests/support/thread_pool.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace ambient {
+namespace ambient::test {
 namespace {
 
 // Items are taken in portions: large for few accesses to the counter, small for an even share.
@@ -99,4 +99,4 @@ void ThreadPool::runAll(const Task& task, int count) noexcept {
   s.ended.wait(lock, [&] { return s.working == 0; });
 }
 
-}  // namespace ambient
+}  // namespace ambient::test

@@ -1,4 +1,4 @@
-#include "bullet_ambient/base/thread_pool.h"
+#include "tests/support/thread_pool.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "tests/support/no_more_threads.h"
 
-namespace ambient {
+namespace ambient::test {
 namespace {
 
 // Counts the runs of each item.
@@ -94,4 +94,4 @@ TEST(ThreadPool, ServesSeveralCallersAtATime) {
 }
 
 }  // namespace
-}  // namespace ambient
+}  // namespace ambient::test
