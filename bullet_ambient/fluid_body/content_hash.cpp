@@ -21,15 +21,6 @@ std::uint64_t contentHash(const FluidBody& body) {
     append(faces.sharpness.data(), faces.sharpness.size());
   };
   appendFaces(body.faces);
-  for (const LoadLevel& level : body.levels) {
-    for (const double* value :
-         {&level.separation_angle, &level.length, &level.error.p99, &level.cost})
-      append(value, 1);
-    append(level.centre.data(), 3);
-    append(level.even.data(), static_cast<std::size_t>(level.even.size()));
-    bytes.append(reinterpret_cast<const char*>(level.blocks.data()),
-                 level.blocks.size() * sizeof(ClusterBlock));
-  }
   for (const FormLevel& level : body.form_levels) appendFaces(level.faces);
   if (!body.drag.isZero(0)) append(body.drag.data(), 3);
   if (body.sphere_radius > 0) append(&body.sphere_radius, 1);

@@ -75,10 +75,6 @@ FluidBody scaled(const FluidBody& body, double factor) {
   scale(result.faces, factor);
   scale(result.surface.vertices, factor);
   result.sphere_radius *= factor;
-  for (LoadLevel& level : result.levels) {
-    level.centre *= factor;
-    level.length *= factor;
-  }
   for (AddedMassPart& part : result.added_mass_parts) {
     part.centre *= factor;
     part.spread *= factor * factor;

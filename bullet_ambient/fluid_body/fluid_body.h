@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/added_mass_part.h"
-#include "bullet_ambient/fluid_body/load_level.h"
 #include "bullet_ambient/fluid_body/waterline_table.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
@@ -89,8 +88,7 @@ struct FluidBody {
   MassDistribution surface_mass;      ///< uniform mass per area
   FaceTable faces;
   Surface surface;
-  std::vector<LoadLevel> levels;       ///< reduced loads by the published law; may be empty
-  std::vector<FormLevel> form_levels;  ///< reduced loads by the form law; may be empty
+  std::vector<FormLevel> form_levels;  ///< fewer faces for the form law; may be empty
   /// Radius of a sphere about the centre of volume [m]; 0: the body is no sphere. Loads on a sphere
   /// have a closed form, docs/theory.md section 10; faces and levels are not evaluated.
   double sphere_radius = 0;

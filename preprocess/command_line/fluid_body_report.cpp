@@ -19,36 +19,11 @@ ordered_json massJson(const MassDistribution& mass) {
   return {{"centre", vectorJson(mass.centre)}, {"inertia", matrixJson(mass.inertia)}};
 }
 
-ordered_json levelsJson(const std::vector<LoadLevel>& levels) {
-  ordered_json list = ordered_json::array();
-  for (const LoadLevel& level : levels)
-    list.push_back({{"clusters", level.clusters},
-                    {"separation_angle", level.separation_angle},
-                    {"cost", level.cost},
-                    {"p99_error", level.error.p99},
-                    {"maximum_error", level.error.maximum},
-                    {"rms_error", level.error.rms},
-                    {"broadside_error", level.error.broadside},
-                    {"friction_error", level.error.friction}});
-  return list;
-}
-
 ordered_json levelsJson(const std::vector<FormLevel>& levels) {
   ordered_json list = ordered_json::array();
   for (const FormLevel& level : levels)
     list.push_back({{"faces", level.faces.size()}, {"p99_error", level.p99_error}});
   return list;
-}
-
-std::string levelText(const LoadLevel& level) {
-  const LoadLevelError& error = level.error;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "p99 %.3g %%, rms %.3g %%, largest found %.3g %%, broadside %.3g %% of itself, "
-                "friction %.3g %%; costs %.0f faces",
-                100 * error.p99, 100 * error.rms, 100 * error.maximum, 100 * error.broadside,
-                100 * error.friction, level.cost);
-  return text;
 }
 
 bool isSheet(const FluidBody& body) { return body.volume == 0; }
@@ -109,7 +84,6 @@ std::string reportJson(const FluidBody& body, std::optional<double> seconds) {
                       {"source_hash", hashText(body.provenance.source_hash)},
                       {"settings", body.provenance.settings},
                       {"generator", body.provenance.generator}};
-  if (!body.levels.empty()) report["levels"] = levelsJson(body.levels);
   if (!body.form_levels.empty()) report["form_levels"] = levelsJson(body.form_levels);
   if (!body.waterline.empty())
     report["waterline_table"] = {{"subdivisions", body.waterline.subdivisions},
@@ -132,8 +106,6 @@ std::string reportTable(const FluidBody& body, const std::string& file) {
   table.row("origin", vectorText(body.origin), " m in the mesh's frame");
   table.row("centre of volume", vectorText(body.centre_of_volume), " m");
   table.row("asymmetry", body.asymmetry, " of the added mass before it was made symmetric");
-  for (const LoadLevel& level : body.levels)
-    table.row(std::to_string(level.clusters) + " clusters", levelText(level));
   for (const FormLevel& level : body.form_levels)
     table.row("form law, " + std::to_string(level.faces.size()) + " faces", "p99 ",
               100 * level.p99_error, " %");

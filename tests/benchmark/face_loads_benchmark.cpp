@@ -12,7 +12,6 @@
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/support/bodies/geodesic.h"
 
 namespace ambient {
@@ -143,23 +142,6 @@ BENCHMARK_CAPTURE(boxLoads, pressure, false, PressureLaw::kPublished);
 BENCHMARK_CAPTURE(boxLoads, friction, true, PressureLaw::kPublished);
 BENCHMARK_CAPTURE(boxLoads, form_pressure, false, PressureLaw::kForm);
 BENCHMARK_CAPTURE(boxLoads, form_friction, true, PressureLaw::kForm);
-
-/// Arguments: subdivision level of the mesh, clusters.
-void levelLoads(benchmark::State& state, bool friction, double angle) {
-  FluidBody body;
-  body.faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
-  const LoadLevel level =
-      buildLoadLevels(body, {static_cast<int>(state.range(1))}, angle * kRightAngle).front();
-  const LoadSettings settings{1.204, 1.82e-5, separationCosine(angle * kRightAngle), friction};
-  Twist twist = someTwist();
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(twist);
-    benchmark::DoNotOptimize(computeLevelLoad(level, 1, twist, settings));
-  }
-}
-BENCHMARK_CAPTURE(levelLoads, pressure, false, 1.0)->ArgsProduct({{3}, {48, 96, 200}});
-BENCHMARK_CAPTURE(levelLoads, friction, true, 1.0)->ArgsProduct({{3}, {48, 96, 200}});
-BENCHMARK_CAPTURE(levelLoads, friction_1_5, true, 1.5)->ArgsProduct({{3}, {48, 96}});
 
 void sphereLoads(benchmark::State& state, bool friction, double angle) {
   const LoadSettings settings{1.204, 1.82e-5, separationCosine(angle * kRightAngle), friction};

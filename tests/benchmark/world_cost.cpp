@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/bullet_ambient/bullet/pile/pile_scene.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 
@@ -125,25 +124,12 @@ void compareFlocks(const std::string& name, const FluidBody& shape, const Plan& 
   print(scene, compare([&] { stock.step(); }, [&] { ambient.step(); }, plan.turns, 20));
 }
 
-void compareReduced(FluidBody shape, const Plan& plan) {
+void comparePrecisions(const FluidBody& shape, const Plan& plan) {
   const std::string faces = std::to_string(shape.faces.size()) + " faces";
   FlowSettings flow;
   compareFlocks(faces + ", default", shape, plan, {flow});
   flow.precision = LoadPrecision::kDouble;
   compareFlocks(faces + ", double precision", shape, plan, {flow});
-  flow.precision = LoadPrecision::kSingle;
-  shape.levels = buildLoadLevels(shape, {48, 96, 144, 200, 400});
-  for (const double error : {0.01, 0.02, 0.03}) {
-    flow.maximum_load_error = error;
-    int clusters = 0;  // 0: chosen by makeSurfaceLoads()
-    for (const LoadLevel& level : shape.levels)
-      if (clusters == 0 && level.error.p99 <= error &&
-          level.cost < static_cast<double>(shape.faces.size()))
-        clusters = level.clusters;
-    const std::string used = clusters ? std::to_string(clusters) + " clusters" : "all faces";
-    compareFlocks(faces + ", " + std::to_string(static_cast<int>(100 * error)) + " %: " + used,
-                  shape, plan, {flow});
-  }
 }
 
 void run(const Plan& plan) {
@@ -157,8 +143,8 @@ void run(const Plan& plan) {
   for (const int level : {2, 3})
     compareFlocks(std::to_string(20 << (2 * level)) + " faces", meshedEllipsoid(semi_axes, level),
                   plan);
-  compareReduced(latticeEllipsoid(semi_axes, 25, 11), plan);
-  compareReduced(meshedEllipsoid(semi_axes, 4), plan);
+  comparePrecisions(latticeEllipsoid(semi_axes, 25, 11), plan);
+  comparePrecisions(meshedEllipsoid(semi_axes, 4), plan);
 }
 
 }  // namespace

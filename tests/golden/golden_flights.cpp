@@ -2,7 +2,6 @@
 
 #include "bullet_ambient/bullet/world/ambient_impulse.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "preprocess/reduced_loads/reduced_loads.h"
 #include "tests/golden/golden_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 
@@ -37,14 +36,6 @@ AttachDef sphereInWater() {
   attach.fluid_body = std::make_shared<FluidBody>(sphere);
   attach.medium = water();
   attach.flow.law = PressureLaw::kPublished;
-  return attach;
-}
-
-AttachDef withLevel(AttachDef attach) {
-  FluidBody reduced = *attach.fluid_body;
-  reduced.levels = buildLoadLevels(reduced, {32}, attach.flow.separation_angle);
-  attach.fluid_body = std::make_shared<FluidBody>(reduced);
-  attach.flow.maximum_load_error = 10;
   return attach;
 }
 
@@ -93,12 +84,7 @@ std::vector<NamedDef> integratorVariants(const std::string& prefix, const Attach
 std::vector<NamedDef> shapeVariants() {
   AttachDef faceless = symmetricInWater();
   faceless.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid({0.3, 0.2, 0.1}));
-  AttachDef attached = bumpyInWater();
-  attached.flow.separation_angle = 2.2;
-  return {{"symmetric_level", withLevel(symmetricInWater())},
-          {"bumpy_level", withLevel(bumpyInWater())},
-          {"bumpy_attached_level", withLevel(attached)},
-          {"faceless", faceless}};
+  return {{"faceless", faceless}};
 }
 
 std::vector<NamedDef> allVariants() {

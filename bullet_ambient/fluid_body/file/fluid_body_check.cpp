@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
@@ -115,7 +114,6 @@ void checkPlaces(const FluidBody& body, const Checker& check) {
   check.near(body.surface_mass.centre, size, "centre of surface mass");
   for (std::size_t i = 0; i < body.faces.size(); ++i)
     check.near(body.faces.centroid(i), size, "centroid of a face");
-  for (const LoadLevel& level : body.levels) check.near(level.centre, size, "centre of a level");
 }
 
 void checkFaces(const FaceTable& faces, const Checker& check) {
@@ -162,47 +160,6 @@ void checkSurface(const Surface& surface, const Checker& check) {
       check.fail("triangle ", i / 3, " refers to vertex ", index, ", but there are ", vertex_count,
                  " vertices");
   }
-}
-
-void checkBlocks(const LoadLevel& level, const Checker& check) {
-  const std::size_t needed =
-      (static_cast<std::size_t>(level.clusters) + ClusterBlock::kClusters - 1) /
-      ClusterBlock::kClusters;
-  if (level.blocks.size() != needed)
-    check.fail("a level of reduced loads has ", level.blocks.size(), " blocks, but its ",
-               level.clusters, " clusters need ", needed);
-  for (const ClusterBlock& block : level.blocks) {
-    for (const auto* rows :
-         {&block.switching, &block.spread[0], &block.spread[1], &block.by_slip, &block.by_normal})
-      for (const auto& row : *rows)
-        for (const float value : row)
-          check.finite(static_cast<double>(value), "value of a cluster");
-    for (const auto& row : block.centroid)
-      for (const float value : row)
-        check.finite(static_cast<double>(value), "centroid of a cluster");
-    for (const float area : block.area)
-      check.notNegative(static_cast<double>(area), "area of a cluster");
-  }
-}
-
-void checkLevel(const LoadLevel& level, const Checker& check) {
-  if (level.clusters < 1)
-    check.fail("a level of reduced loads has ", level.clusters,
-               " clusters, but must have 1 or more");
-  if (!(level.separation_angle >= kPi / 2 * (1 - kRounding)) ||
-      !(level.separation_angle <= kPi * (1 + kRounding)))
-    check.fail("separation angle of a level is ", level.separation_angle,
-               ", but must be between pi/2 and pi");
-  check.finiteMatrix(level.centre, "centre of a level");
-  check.finite(level.length, "length of a level");
-  if (!(level.length > 0))
-    check.fail("length of a level is ", level.length, ", but must be positive");
-  check.finiteMatrix(level.even, "even part of a level");
-  const LoadLevelError& error = level.error;
-  for (const double value : {error.maximum, error.p99, error.rms, error.broadside, error.friction})
-    check.notNegative(value, "error of a level");
-  check.notNegative(level.cost, "cost of a level");
-  checkBlocks(level, check);
 }
 
 void checkFormLevel(const FormLevel& level, const Checker& check) {
@@ -267,7 +224,6 @@ void checkFluidBody(const FluidBody& body, const std::string& source) {
                         "inertia of surface mass");
   checkFaces(body.faces, check);
   checkSurface(body.surface, check);
-  for (const LoadLevel& level : body.levels) checkLevel(level, check);
   for (const FormLevel& level : body.form_levels) checkFormLevel(level, check);
   for (const AddedMassPart& part : body.added_mass_parts) checkPart(part, sizeOf(body), check);
   checkWaterline(body, check);

@@ -13,8 +13,6 @@ namespace {
 using flatbuffers::FlatBufferBuilder;
 using flatbuffers::Offset;
 
-constexpr std::size_t kBlockValues = sizeof(ClusterBlock) / sizeof(float);
-
 template <class Struct, class Matrix>
 Struct packMatrix(const Matrix& matrix) {
   constexpr int kRows = Matrix::RowsAtCompileTime;
@@ -102,56 +100,6 @@ Offset<file::Surface> pack(FlatBufferBuilder& builder, const Surface& surface) {
 
 Surface unpack(const file::Surface& packed) {
   return {unpackVector(*packed.vertices()), unpackVector(*packed.triangles())};
-}
-
-Offset<file::LoadLevel> pack(FlatBufferBuilder& builder, const LoadLevel& level) {
-  const auto centre = packMatrix<file::Vector3>(level.centre);
-  std::vector<double> rows;
-  for (Eigen::Index i = 0; i < level.even.size(); ++i)
-    rows.push_back(level.even(i / level.even.cols(), i % level.even.cols()));
-  const auto even = builder.CreateVector(rows);
-  float* values = nullptr;
-  const auto blocks =
-      builder.CreateUninitializedVector(level.blocks.size() * kBlockValues, &values);
-  if (!level.blocks.empty())
-    std::memcpy(values, level.blocks.data(), level.blocks.size() * sizeof(ClusterBlock));
-  const LoadLevelError& error = level.error;
-  return file::CreateLoadLevel(builder, level.clusters, level.separation_angle, &centre,
-                               level.length, even, blocks, error.maximum, error.p99, error.rms,
-                               error.broadside, error.friction, level.cost);
-}
-
-LoadLevel unpack(const file::LoadLevel& packed, const std::string& source) {
-  LoadLevel level;
-  level.clusters = packed.clusters();
-  level.separation_angle = packed.separation_angle();
-  level.centre = unpackMatrix<Vector3>(*packed.centre());
-  level.length = packed.length();
-  const auto& even = *packed.even();
-  const auto& blocks = *packed.blocks();
-  if (static_cast<Eigen::Index>(even.size()) != level.even.size() ||
-      blocks.size() % kBlockValues != 0)
-    throw std::runtime_error(
-        source + ": a level of reduced loads has " + std::to_string(even.size()) +
-        " even terms and " + std::to_string(blocks.size()) +
-        " cluster values, but must have 126 and a multiple of " + std::to_string(kBlockValues));
-  for (flatbuffers::uoffset_t i = 0; i < even.size(); ++i)
-    level.even(i / level.even.cols(), i % level.even.cols()) = elementOf(even, i);
-  level.blocks.resize(blocks.size() / kBlockValues);
-  if (!level.blocks.empty())
-    std::memcpy(level.blocks.data(), blocks.Data(), level.blocks.size() * sizeof(ClusterBlock));
-  level.error = {packed.maximum_error(), packed.p99_error(), packed.rms_error(),
-                 packed.broadside_error(), packed.friction_error()};
-  level.cost = packed.cost();
-  return level;
-}
-
-Offset<flatbuffers::Vector<Offset<file::LoadLevel>>> pack(FlatBufferBuilder& builder,
-                                                          const std::vector<LoadLevel>& levels) {
-  if (levels.empty()) return 0;  // no entry: the same bytes as version 1
-  std::vector<Offset<file::LoadLevel>> packed;
-  for (const LoadLevel& level : levels) packed.push_back(pack(builder, level));
-  return builder.CreateVector(packed);
 }
 
 Offset<flatbuffers::Vector<Offset<file::FormLevel>>> pack(FlatBufferBuilder& builder,
@@ -245,7 +193,6 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
   const auto surface_mass = pack(builder, body.surface_mass);
   const auto faces = pack(builder, body.faces);
   const auto surface = pack(builder, body.surface);
-  const auto levels = pack(builder, body.levels);
   const auto form_levels = pack(builder, body.form_levels);
   const auto parts = pack(builder, body.added_mass_parts);
   const auto waterline = pack(builder, body.waterline);
@@ -259,7 +206,7 @@ void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
       builder,
       file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry, body.volume,
                             body.area, &centre_of_volume, &origin, uniform_mass, surface_mass,
-                            faces, surface, levels, sphere_radius, form_levels,
+                            faces, surface, sphere_radius, form_levels,
                             body.drag.isZero(0) ? nullptr : &drag, parts, waterline));
 }
 
@@ -277,9 +224,6 @@ FluidBody unpack(const file::FluidBody& packed, const std::string& source) {
   body.surface_mass = unpack(*packed.surface_mass());
   body.faces = unpack(*packed.faces());
   body.surface = unpack(*packed.surface());
-  if (packed.levels())
-    for (const file::LoadLevel* level : *packed.levels())
-      body.levels.push_back(unpack(*level, source));
   if (packed.form_levels())
     for (const file::FormLevel* level : *packed.form_levels())
       body.form_levels.push_back(
@@ -303,8 +247,6 @@ std::size_t payloadBound(const FluidBody& body) {
   constexpr std::size_t kFixedPart = 4096;
   std::size_t doubles = body.surface.vertices.size() + numbersIn(body.faces);
   std::size_t level_bytes = 0;
-  for (const LoadLevel& level : body.levels)
-    level_bytes += kFixedPart + level.blocks.size() * sizeof(ClusterBlock);
   for (const FormLevel& level : body.form_levels)
     level_bytes += kFixedPart + numbersIn(level.faces) * sizeof(double);
   level_bytes += body.added_mass_parts.size() * AddedMassPart::kNumbers * sizeof(float);
@@ -318,8 +260,7 @@ std::size_t payloadBound(const FluidBody& body) {
 
 /// Oldest format version that can hold the body: older programs can then read the file.
 std::uint32_t versionFor(const FluidBody& body) {
-  if (body.sphere_radius > 0) return kFormatVersion;
-  return body.levels.empty() ? 1 : 2;
+  return body.sphere_radius > 0 ? kFormatVersion : 1;
 }
 
 bool isAligned(const char* address) {

@@ -5,9 +5,10 @@
 namespace ambient {
 namespace {
 
-/// Adds a quadratic map of the twist x to the wrench of `sums`: T(x, x) of docs/theory.md eq. (36),
-/// or the lee side of the form law, eq. (43) for u_n <= 0. `even`: 6 x 21 coefficients, column by
-/// column, for the products x_0 x_0, x_0 x_1 to x_5 x_5. No operation is fused.
+/// Adds the lee side of the form law to the wrench of `sums`: docs/theory.md eq. (43) for u_n <= 0,
+/// summed over all faces, as the quadratic map of the twist x in eq. (36). `even`: 6 x 21
+/// coefficients, column by column, for the products x_0 x_0, x_0 x_1 to x_5 x_5. No operation is
+/// fused.
 inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums) {
   constexpr int kProducts = 21;
   double products[kProducts];

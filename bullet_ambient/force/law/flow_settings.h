@@ -35,9 +35,9 @@ struct FlowSettings {
   bool skin_friction = true;  ///< turbulent 1/5-power law, docs/theory.md eq. (16)
   LoadLaw own_law = nullptr;  ///< empty: this library's pressure and friction
   LoadPrecision precision = LoadPrecision::kSingle;
-  /// Allowed p99 error of reduced loads, see LoadLevelError and FormLevel. The cheapest level of
-  /// the fluid body within this error, for law and separation angle, replaces the faces. 0, or no
-  /// such level: all faces.
+  /// Allowed error of fewer faces by the form law, FormLevel::p99_error [1]. The level of the fluid
+  /// body with the fewest faces within this error stands in for all. 0, or no such level: all
+  /// faces.
   double maximum_load_error = 0.01;
   PressureLaw law = PressureLaw::kForm;  ///< spheres have the same loads by both laws
   /// Lag lambda of separation behind the incidence, eq. (48): in body lengths over speed; kForm.

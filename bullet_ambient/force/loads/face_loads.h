@@ -63,11 +63,4 @@ Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
                        const Twist& relative_twist, const LoadSettings& settings,
                        const SurfacePlane* plane = nullptr) noexcept;
 
-/// Total of computeFaceLoads() by the clusters of a level, docs/theory.md eq. (36) to (39), with
-/// the error level.error. The pressure may feed energy to the body: use removePositivePower().
-/// Cost: that of level.cost faces; allocates nothing. The same bits on every machine.
-/// @pre settings.separation_cosine is the cosine of level.separation_angle
-Wrench computeLevelLoad(const LoadLevel& level, double reference_length,
-                        const Twist& relative_twist, const LoadSettings& settings) noexcept;
-
 }  // namespace ambient

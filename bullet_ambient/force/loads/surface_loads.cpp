@@ -63,12 +63,6 @@ Wrench sumInDouble(const FaceTable& faces, double length, const Twist& x,
   return computeFaceLoads(faces, length, x, settings, plane).total();
 }
 
-/// Ignores the plane: clusters cannot be cut, see LevelLoads::wetLoad().
-Wrench sumClusters(const LoadLevel& level, double length, const Twist& x,
-                   const LoadSettings& settings, const SurfacePlane*) noexcept {
-  return computeLevelLoad(level, length, x, settings);
-}
-
 using SingleLoads = SummedLoads<PackedFaces, computeFaceLoad>;
 
 struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
@@ -76,18 +70,6 @@ struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
   FaceLoads parts(const Twist& x) const noexcept override {
     return computeFaceLoads(*table_, length_, x, settings_);
   }
-};
-
-struct LevelLoads final : SummedLoads<LoadLevel, sumClusters> {
-  using SummedLoads::SummedLoads;
-  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return wet.share * load(x);
-  }
-  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
-    const FaceLoads whole = parts(x);
-    return {wet.share * whole.pressure, wet.share * whole.friction};
-  }
-  bool needsGuard() const noexcept override { return true; }  // fitted wrenches may feed energy
 };
 
 /// Form law: loads on faces, scaled by DragScale, plus FormLift on the body as a whole.
@@ -256,21 +238,6 @@ void checkFlow(const FluidBody& body, const FlowSettings& flow) {
   }
 }
 
-// Cheapest level within the allowed error; null if no level is cheaper than all faces.
-const LoadLevel* chooseLevel(const FluidBody& body, const FlowSettings& flow) {
-  constexpr double kSameAngle = 1e-9;
-  const LoadLevel* best = nullptr;
-  double least = static_cast<double>(body.faces.size());
-  for (const LoadLevel& level : body.levels) {
-    const bool fits = std::abs(level.separation_angle - flow.separation_angle) <= kSameAngle &&
-                      level.error.p99 <= flow.maximum_load_error;
-    if (!fits || !(level.cost < least)) continue;
-    least = level.cost;
-    best = &level;
-  }
-  return best;
-}
-
 using Body = std::shared_ptr<const FluidBody>;
 
 // Returns the faces that the form law is summed over: those of the smallest level within the
@@ -345,10 +312,6 @@ std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& 
   if (flow.own_law) return flow.own_law(body, settings);
   if (body->sphere_radius > 0)
     return std::make_shared<SphereLoads>(*body, ofBall(settings), tables);
-  if (flow.law == PressureLaw::kPublished)
-    if (const LoadLevel* level = chooseLevel(*body, flow))
-      return std::make_shared<LevelLoads>(std::shared_ptr<const LoadLevel>(body, level),
-                                          level->clusters, referenceLength(*body), settings);
   return loadsOnFaces(body, settings, flow, tables);
 }
 

@@ -43,7 +43,7 @@ class SurfaceLoads {
     const FaceLoads whole = parts(relative_twist);
     return {wet.share * whole.pressure, wet.share * whole.friction};
   }
-  /// Number of faces or clusters that one evaluation sums.
+  /// Number of faces that one evaluation sums.
   virtual int faces() const noexcept { return 0; }
   /// True if a load may feed energy to the body; docs/theory.md eq. (20) then removes this power.
   virtual bool needsGuard() const noexcept { return true; }
@@ -59,7 +59,7 @@ LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow);
 
 /// Makes the loads by the law of the settings, evaluated in the cheapest way that body, medium and
 /// settings allow; null if the body has no surface or the density is 0. docs/theory.md eq. (13) to
-/// (17), reduced loads (36) to (39), spheres (40) to (42), form law (43) to (51). Cost: O(F); more
+/// (17), spheres (40) to (42), form law (43) to (51). Cost: O(F); more
 /// if a table is made.
 /// @throws std::invalid_argument, naming value and limit, if faces or settings are not physical.
 std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
@@ -67,7 +67,7 @@ std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const
                                                      LoadTables& tables);
 
 /// Makes the loads of a body that the surface of its fluid may cut. Sums over faces even if
-/// makeSurfaceLoads() has a closed form or clusters. Without faces, or with flow.own_law, returns
+/// makeSurfaceLoads() has a closed form. Without faces, or with flow.own_law, returns
 /// the loads of makeSurfaceLoads().
 std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
                                                        const Medium& medium,

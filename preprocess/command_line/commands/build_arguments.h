@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/base/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/command_line/input_shape.h"
 
@@ -17,7 +16,6 @@ struct BuildArguments {
   std::string origin = "centre-of-volume";
   int least_faces = 0, panels = kDefaultPanels, threads = 0;
   std::vector<int> levels;
-  double separation_angle = kPi / 2;  // [rad]
   std::vector<double> drag;
   std::string solver;
   std::optional<double> memory;  // [GB]

@@ -17,7 +17,6 @@
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
 #include "preprocess/reduced_loads/form_levels.h"
-#include "preprocess/reduced_loads/reduced_loads.h"
 #include "preprocess/waterline/waterline_builder.h"
 
 namespace ambient {
@@ -74,10 +73,8 @@ Provenance describeBody(const ShapeDescription& shape, const ShapeBuildSettings&
   Provenance provenance = describeShape(shape, settings);
   std::ostringstream text;
   text.precision(17);
-  for (const int clusters : arguments.levels)
-    text << (text.tellp() == 0 ? "; levels " : ",") << clusters;
-  if (!arguments.levels.empty())
-    text << ", separation angle " << separationAngleOf(arguments.separation_angle);
+  for (const int faces : arguments.levels)
+    text << (text.tellp() == 0 ? "; levels " : ",") << faces;
   if (!arguments.drag.empty()) text << "; drag " << dragOf(arguments).transpose();
   provenance.settings += text.str();
   return provenance;
@@ -91,8 +88,6 @@ FluidBody buildAndWrite(const ShapeDescription& shape, ShapeBuildSettings settin
     settings.begin = [&display](const std::string& stage) { display.begin(stage); };
     built = buildShape(shape, settings);
     display.begin("reducing the loads");
-    built.body.levels = buildLoadLevels(built.body, arguments.levels,
-                                        separationAngleOf(arguments.separation_angle));
     built.body.drag = dragOf(arguments);
     if (built.body.sphere_radius > 0 && !arguments.drag.empty())
       raiseInputError(arguments.input,
@@ -115,12 +110,11 @@ void requireValues(const BuildArguments& arguments) {
   if (arguments.waterline < 0 || arguments.waterline > kMostWaterlineSubdivisions)
     raiseUsageError("--waterline-table", "its N is not between 1 and ", kMostWaterlineSubdivisions);
   if (arguments.memory) requirePositive("--memory", *arguments.memory, " GB");
-  for (const int clusters : arguments.levels) {
-    if (clusters < kFewestClusters || clusters > kMostClusters)
-      raiseUsageError("--levels", clusters, " clusters are not ", kFewestClusters, " to ",
-                      kMostClusters);
+  for (const int faces : arguments.levels) {
+    if (faces < kFewestLevelFaces || faces > kMostLevelFaces)
+      raiseUsageError("--levels", faces, " faces are not ", kFewestLevelFaces, " to ",
+                      kMostLevelFaces);
   }
-  separationAngleOf(arguments.separation_angle);
   dragOf(arguments);
 }
 
@@ -176,14 +170,12 @@ void addBodyOptions(CLI::App& command, BuildArguments& arguments) {
   addOption(command, "--least-faces", arguments.least_faces, "N",
             "Divide the mesh into at least so many faces (default 0: faces as they are)");
   addOption(command, "--levels", arguments.levels, "N,N,...",
-            "Levels of reduced loads, of so many clusters each (default none)")
+            "Sets of so many faces that stand for all in the form law (default none)")
       ->delimiter(',');
   addOption(command, "--drag", arguments.drag, "C[,C,C]",
             "Measured drag coefficients along the axes, on the frontal areas, that the form law is "
             "scaled to (default none)")
       ->delimiter(',');
-  addOption(command, "--separation-angle", arguments.separation_angle, "RAD",
-            "For which the levels are fitted (default pi/2)");
 }
 
 }  // namespace

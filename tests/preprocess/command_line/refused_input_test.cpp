@@ -87,11 +87,10 @@ TEST_F(CommandLine, BadValuesOfOptionsAreRefusedByName) {
     EXPECT_EQ(refused(option, "2000000"), "2000000 is above 1000000");
     EXPECT_EQ(refused(option, "-1"), "-1 is below 0 (0: no division)");
   }
-  EXPECT_EQ(refused("--levels", "15"), "15 clusters are not 16 to 1024");
+  EXPECT_EQ(refused("--levels", "15"), "15 faces are not 16 to 1024");
   for (const char* option : {"--waterline-table=17", "--waterline-table=0"})
     EXPECT_EQ(buildUsageRefusal(ball, {option}),
               "--waterline-table: its N is not between 1 and 16");
-  EXPECT_EQ(refused("--separation-angle", "1.5"), "1.5 rad must lie between pi/2 and pi");
   EXPECT_EQ(refused("--solver", "sparse"), "\"sparse\" is neither dense nor hierarchical");
   EXPECT_EQ(refused("--memory", "-2"), "-2 GB must be finite and positive");
   for (const char* origin : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf", "centre", "1,2,3x", "nan,0,0"}) {
