@@ -23,7 +23,6 @@ py::object exportAs(const std::shared_ptr<FluidBody>& body, const std::string& f
     settings.centre_of_mass = vectorFrom(py::cast<InputArray>(centre_of_mass), "centre_of_mass");
   const ExportedBody made = exportFluidBody(body, format, settings);
   if (!path.is_none()) writeOrOsError([&] { made.write(pathFrom(path)); });
-  if (format == ExportFormat::kBemio) return py::bytes(made.bytes);
   return py::str(made.bytes);
 }
 
@@ -39,7 +38,7 @@ void bindExport(py::class_<FluidBody, std::shared_ptr<FluidBody>>& type) {
 
 Parameters
 ----------
-format : "sdf" (SDFormat, Gazebo), "mjcf" (MuJoCo), "fossen" (JSON) or "bemio" (HDF5, WEC-Sim)
+format : "sdf" (SDFormat, Gazebo), "mjcf" (MuJoCo) or "fossen" (JSON)
 path : file that is also written, completely or not at all
 medium : only its density and viscosity are used
 gravity : [m/s^2]
@@ -49,8 +48,8 @@ forward, up : axes of F with a sign
 draught : depth of the lowest point below the surface of the fluid [m]; default: no surface is near
 speed : along forward [m/s], for the linearised drag of "fossen"
 
-Returns the text of the file, bytes of "bemio". Raises ValueError in one line if a number is not
-physical or the body has no parts for a draught, RuntimeError if the module was built without HDF5.
+Returns the text of the file. Raises ValueError in one line if a number is not physical or the body
+has no parts for a draught.
 
 >>> import json
 >>> ball = FluidBody.from_shape({"type": "sphere", "radius": 0.1})

@@ -11,7 +11,7 @@ namespace ambient {
 
 ExportFormat exportFormatOf(const std::string& name) {
   if (const auto format = valueOf(kExportFormatNames, name)) return *format;
-  throw std::invalid_argument("\"" + name + "\" is none of sdf, mjcf, fossen, bemio");
+  throw std::invalid_argument("\"" + name + "\" is none of sdf, mjcf, fossen");
 }
 
 void ExportedBody::write(const std::filesystem::path& file) const { writeFile(file, bytes); }
@@ -20,8 +20,6 @@ ExportedBody exportFluidBody(const std::shared_ptr<const FluidBody>& body, Expor
                              const ExportSettings& settings) {
   if (settings.speed && format != ExportFormat::kFossen)
     reject(*body, "speed [m/s]", *settings.speed, "given for fossen only");
-  if (!settings.draught && format == ExportFormat::kBemio)
-    reject(*body, "draught [m]", 0, "given for bemio, whose origin is in the surface");
   const HandedBody handed = handedBody(body, settings);
   switch (format) {
     case ExportFormat::kSdf:
@@ -30,8 +28,6 @@ ExportedBody exportFluidBody(const std::shared_ptr<const FluidBody>& body, Expor
       return makeMjcf(handed);
     case ExportFormat::kFossen:
       return makeFossen(handed);
-    case ExportFormat::kBemio:
-      return makeBemio(handed);
   }
   AMBIENT_ASSERT(false);
   return {};

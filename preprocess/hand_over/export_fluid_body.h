@@ -16,7 +16,6 @@ ExportFormat exportFormatOf(const std::string& name);
 /// and what each format loses. The same body and settings give the same bytes.
 /// @throws std::invalid_argument in one line that names the fluid body, the value and the limit, if
 /// a number is not physical, or a draught is asked for of a body without parts of its added mass.
-/// @throws std::runtime_error for BEMIO, if the library was built without HDF5.
 ExportedBody exportFluidBody(const std::shared_ptr<const FluidBody>& body, ExportFormat format,
                              const ExportSettings& settings);
 

@@ -9,14 +9,13 @@
 namespace ambient {
 
 /// File formats of other programs for fluid bodies.
-enum class ExportFormat { kSdf, kMjcf, kFossen, kBemio };
+enum class ExportFormat { kSdf, kMjcf, kFossen };
 
 /// Names of the formats in commands.
-constexpr std::array<std::pair<ExportFormat, const char*>, 4> kExportFormatNames{
+constexpr std::array<std::pair<ExportFormat, const char*>, 3> kExportFormatNames{
     {{ExportFormat::kSdf, "sdf"},
      {ExportFormat::kMjcf, "mjcf"},
-     {ExportFormat::kFossen, "fossen"},
-     {ExportFormat::kBemio, "bemio"}}};
+     {ExportFormat::kFossen, "fossen"}}};
 
 /// Body, fluid and place for which a fluid body is handed over. Vectors are in F.
 struct ExportSettings {

@@ -7,7 +7,7 @@ namespace ambient {
 
 /// A fluid body in the file format of another program.
 struct ExportedBody {
-  std::string bytes;   ///< content of the file: text, binary for BEMIO
+  std::string bytes;   ///< content of the file, text
   std::string report;  ///< lines for people on what the format leaves out; may be empty
 
   /// Writes the file completely or not at all.

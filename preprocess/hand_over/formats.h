@@ -19,8 +19,4 @@ ExportedBody makeMjcf(const HandedBody& body);
 /// JSON: Fossen's matrices in SNAME's body axes, origin at that of F.
 ExportedBody makeFossen(const HandedBody& body);
 
-/// HDF5 in the layout of BEMIO: the added mass of infinite frequency and the hydrostatics, about
-/// the centre of mass. @throws std::runtime_error if the library was built without HDF5.
-ExportedBody makeBemio(const HandedBody& body);
-
 }  // namespace ambient

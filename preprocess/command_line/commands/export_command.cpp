@@ -36,10 +36,6 @@ ExportSettings settingsOf(const ExportArguments& arguments, ExportFormat format)
   if (settings.speed) requirePositive("--speed", *settings.speed, " m/s");
   if (settings.speed && format != ExportFormat::kFossen)
     raiseUsageError("--speed", *settings.speed, " m/s is for fossen only");
-  if (!settings.draught && format == ExportFormat::kBemio)
-    raiseUsageError("--draught", "bemio needs it");
-  if (arguments.output.empty() && format == ExportFormat::kBemio)
-    raiseUsageError("--output", "bemio, which is no text, needs it");
   if (!arguments.centre_of_mass.empty())
     settings.centre_of_mass =
         Vector3(Eigen::Map<const Eigen::Vector3d>(arguments.centre_of_mass.data()));
@@ -80,7 +76,7 @@ void addExport(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("export", "Hands a fluid body over to other programs");
   command.add_option("FILE", arguments->file, "An .ambient file")->required();
   addOption(command, "--format", arguments->format, "FORMAT",
-            "sdf (SDFormat, Gazebo), mjcf (MuJoCo), fossen (JSON) or bemio (HDF5, WEC-Sim)")
+            "sdf (SDFormat, Gazebo), mjcf (MuJoCo) or fossen (JSON)")
       ->required();
   addOption(command, "-o,--output", arguments->output, "FILE",
             "Where it goes; default: standard output");

@@ -247,7 +247,7 @@ class FluidBodyTest(Temporary):
 
     def test_bad_exports_are_refused(self):
         ball = ba.FluidBody.from_shape({"type": "sphere", "radius": 0.5}, name="ball")
-        with self.assertRaisesRegex(ValueError, '"urdf" is none of sdf, mjcf, fossen, bemio'):
+        with self.assertRaisesRegex(ValueError, '"urdf" is none of sdf, mjcf, fossen'):
             ball.export("urdf")
         with self.assertRaisesRegex(ValueError, r"fluid body 'ball': draught \[m\] is -1, must be positive and finite"):
             ball.export("sdf", draught=-1)

@@ -59,7 +59,7 @@ TEST_F(Export, OptionsReachTheFile) {
 }
 
 TEST_F(Export, BadOptionsAreRefusedInOneLine) {
-  EXPECT_EQ(optionRefusal({}, "urdf"), "--format: \"urdf\" is none of sdf, mjcf, fossen, bemio");
+  EXPECT_EQ(optionRefusal({}, "urdf"), "--format: \"urdf\" is none of sdf, mjcf, fossen");
   EXPECT_EQ(optionRefusal({"--density", "-1"}), "--density: -1 kg/m^3 must be finite and positive");
   EXPECT_EQ(optionRefusal({"--density", "nan"}),
             "--density: nan kg/m^3 must be finite and positive");
@@ -73,9 +73,6 @@ TEST_F(Export, BadOptionsAreRefusedInOneLine) {
   EXPECT_EQ(optionRefusal({"--up", "w"}), "--up: \"w\" is none of x, y, z, -x, -y, -z");
   EXPECT_EQ(optionRefusal({"--up", "-x"}), "--up: -x is along --forward x");
   EXPECT_EQ(optionRefusal({"--speed", "1"}, "mjcf"), "--speed: 1 m/s is for fossen only");
-  EXPECT_EQ(optionRefusal({}, "bemio"), "--draught: bemio needs it");
-  EXPECT_EQ(usageRefusal({"export", ball(), "--format", "bemio", "--draught", "1"}),
-            "--output: bemio, which is no text, needs it");
 }
 
 TEST_F(Export, BadInputIsRefusedInOneLine) {

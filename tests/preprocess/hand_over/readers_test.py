@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What MuJoCo and h5py read of ambient_preprocess export: readers_test.py AMBIENT_PREPROCESS FOLDER [-v]. FOLDER gets the npm
+"""What MuJoCo reads of ambient_preprocess export: readers_test.py AMBIENT_PREPROCESS FOLDER [-v]. FOLDER gets the npm
 packages."""
 
 import json
@@ -11,7 +11,6 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
@@ -78,27 +77,6 @@ class ReadersTest(unittest.TestCase):
 
     def volume(self, file):
         return json.loads(run("inspect", file.with_suffix(".ambient"), "--json"))["volume"]
-
-    def test_h5py_reads_the_layout_of_bemio(self):
-        file, _ = self.export("brick", "bemio", "--draught", 0.3)
-        matrices = json.loads(run("export", self.folder / "brick.ambient", "--format", "fossen", "--draught", 0.3,
-                                  "--density", DENSITY, "--gravity", GRAVITY))  # fmt: skip
-        # From SNAME's axes about the origin, which is the centre of mass here, to those of BEMIO.
-        turn = np.diag([1, -1, -1, 1, -1, -1])
-        with h5py.File(file) as made:
-            body = made["body1"]
-            added = body["hydro_coeffs/added_mass/inf_freq"]
-            expected = turn @ matrices["M_A"] @ turn / DENSITY
-            np.testing.assert_allclose(added[:], expected, rtol=1e-12, atol=1e-12)
-            self.assertEqual(added.attrs["units"].decode(), "kg")
-            stiffness = np.array([2, 2 / 12 - 0.6 * 0.1, 8 / 12 - 0.6 * 0.1])
-            np.testing.assert_allclose(np.diag(body["hydro_coeffs/linear_restoring_stiffness"])[2:5], stiffness)
-            np.testing.assert_allclose(body["properties/cb"][:, 0], [0, 0, -0.15], atol=1e-12)
-            np.testing.assert_allclose(body["properties/cg"][:, 0], [0, 0, -0.05], atol=1e-12)
-            self.assertAlmostEqual(body["properties/disp_vol"][0, 0], 0.6)
-            self.assertEqual(body["properties/name"][()].decode(), "brick")
-            self.assertEqual(made["simulation_parameters/rho"][0, 0], DENSITY)
-            self.assertEqual(made["simulation_parameters/w"].shape, (0, 1))
 
 
 if __name__ == "__main__":

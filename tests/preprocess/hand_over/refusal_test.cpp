@@ -79,9 +79,6 @@ TEST(ExportRefusal, ASheetNeedsAMass) {
 TEST(ExportRefusal, WhatAFormatHasNoPlaceForIsNamed) {
   EXPECT_EQ(exportRefusal(sphereBody(1), ExportFormat::kSdf, [](auto& s) { s.speed = 1; }),
             "fluid body 'ellipsoid': speed [m/s] is 1, must be given for fossen only");
-  EXPECT_EQ(exportRefusal(sphereBody(1), ExportFormat::kBemio, [](auto&) {}),
-            "fluid body 'ellipsoid': draught [m] is 0, must be given for bemio, whose origin is in "
-            "the surface");
   EXPECT_THROW(exportFormatOf("urdf"), std::invalid_argument);
 }
 
