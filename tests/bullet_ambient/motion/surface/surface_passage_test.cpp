@@ -45,6 +45,22 @@ TEST(SurfacePassage, KeepsMomentumWhereItIsFastAndEnergyWhereItIsSlow) {
   EXPECT_NEAR(speedAfterEntry(kHuge, 2, 1000), std::sqrt(2), 2e-3);
 }
 
+// At a Froude number of infinity all momentum of a body that sinks goes into spray: the force that
+// returns it acts at the centre of buoyancy, eq. (67).
+TEST(SurfacePassage, SprayTakesMomentumAtTheCentreOfBuoyancy) {
+  const Matrix6 before = Matrix6::Identity();
+  Matrix6 after = before;
+  after(5, 5) = 1.1;
+  const Matrix6 inverse = test::inverse(after);
+  Vector6 x = Vector6::Zero();
+  x[5] = -2;
+  const SurfacePassage passage{
+      before, after, inverse, {{0, 0, 0}, {0, 0, -10}}, {0, 0, 1}, {0.3, 0, 0}, 1, -9, 0, 0.01};
+  Vector6 change = Vector6::Zero();  // c x n dt 10 N
+  change[1] = -0.03;
+  EXPECT_LT((after * passSurface(passage, x).twist - before * x - change).norm(), 1e-15);
+}
+
 TEST(SurfacePassage, NeverAddsEnergyWhateverChanges) {
   test::Arbitrary arbitrary(1);
   for (int i = 0; i < 300; ++i) {
