@@ -12,7 +12,6 @@
 #include "bullet_ambient/base/output_file.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "demos/cases_command.h"
-#include "demos/gltf/gltf_text.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
@@ -36,7 +35,6 @@ struct Arguments {
   bool quiet = false;
   std::string scene;
   std::string out;
-  std::string gltf;
   FluidLog log;
   std::vector<SceneOverride> overrides;
   CasesArguments cases;
@@ -71,9 +69,8 @@ void checkChoice(const Arguments& arguments) {
   const int choices = arguments.list + has_cases + !arguments.scene.empty();
   if (choices != 1) throw CLI::RequiredError("One of SCENE, --cases or --list");
   if (has_cases && arguments.out.empty()) throw CLI::RequiredError("--out (with --cases)");
-  const bool has_more = !arguments.gltf.empty() || !arguments.log.isEmpty();
-  if (has_cases && (!arguments.overrides.empty() || has_more))
-    throw CLI::ExcludesError("--cases", "--set, --gltf and --log");
+  if (has_cases && !(arguments.overrides.empty() && arguments.log.isEmpty()))
+    throw CLI::ExcludesError("--cases", "--set and --log");
   if (has_cases) checkCases(arguments.cases);
 }
 
@@ -90,11 +87,6 @@ Parsed parseArguments(int argc, char** argv) {
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false)
       ->take_all();
-  app.add_option("--gltf", parsed.arguments.gltf, "Write an animated glTF too (.glb or .gltf)")
-      ->type_name("FILE")
-      ->check([](const std::string& file) {
-        return isGltfName(file) ? "" : file + ": the name must end in .glb or .gltf";
-      });
   app.add_option("--log", log, "Further columns of trajectory.csv: wrench, wet, or both")
       ->type_name("WORDS");
   app.add_flag("--quiet", parsed.arguments.quiet, "Print errors only");
@@ -135,35 +127,29 @@ std::vector<PreparedBody> prepare(const Scene& scene, SceneBodyCache& cache, boo
 
 /// Files that a run writes, none of them under its name yet.
 struct RunFiles {
-  RunFiles(const fs::path& out, const std::string& gltf_file)
+  explicit RunFiles(const fs::path& out)
       : folder(out),
         trajectory(out / "trajectory.csv"),
         geometry(out / "geometry.json"),
         summary(out / "summary.json") {
-    if (!gltf_file.empty()) gltf.emplace(gltf_file);
-    Unfinished unfinished{{trajectory.partial(), geometry.partial(), summary.partial()},
-                          folder.made()};
-    if (gltf) unfinished.files.push_back(gltf->partial());
-    hearSignals(unfinished);
+    hearSignals({{trajectory.partial(), geometry.partial(), summary.partial()}, folder.made()});
   }
 
   OutputFolder folder;
   OutputFile trajectory, geometry, summary;
-  std::optional<OutputFile> gltf;
 
   void commit() {
     trajectory.commit();
     geometry.commit();
     summary.commit();
-    if (gltf) gltf->commit();
     folder.keep();
   }
 };
 
 /// Signals that come while the files are made arrive when all are known.
-RunFiles openFiles(const fs::path& out, const std::string& gltf) {
+RunFiles openFiles(const fs::path& out) {
   const BlockedSignals until_known;
-  return RunFiles(out, gltf);
+  return RunFiles(out);
 }
 
 RunRecord runShown(const Scene& scene, const std::vector<PreparedBody>& bodies,
@@ -192,13 +178,12 @@ void runAndWrite(const Arguments& arguments) {
     if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", plainLine(warning).c_str());
 
   // Before, there is nothing to tidy up: signals end the program at once.
-  RunFiles files = openFiles(out, arguments.gltf);
+  RunFiles files = openFiles(out);
   files.geometry.write(makeGeometryText(scene, bodies));
   const RunRecord record = runShown(scene, bodies, arguments);
   files.trajectory.write(
       makeTrajectoryText(scene, record.motion, fluidLogHeader(arguments.log), record.log));
   files.summary.write(makeSummary(scene, bodies, record));
-  if (files.gltf) files.gltf->write(makeGltf(arguments.gltf, scene, bodies, record.motion));
   {
     const BlockedSignals until_all_have_their_names;
     files.commit();

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What ambient_demo --gltf writes: gltf_files_test.py AMBIENT_DEMO FOLDER [-v]. FOLDER gets the npm packages."""
+"""What make_gltf.py writes: gltf_files_test.py AMBIENT_DEMO FOLDER [-v]. FOLDER gets the npm packages."""
 
 import csv
 import json
@@ -15,13 +15,16 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 SCENES = HERE.parents[2] / "data/scenes"
+MAKE = HERE.parents[2] / "demos/page/make_gltf.py"
 DEMO = FOLDER = None
 KINDS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 
 
 def run_scene(out, scene, *changes, gltf=None):
-    words = [word for change in changes for word in ("--set", change)] + (["--gltf", gltf] if gltf else [])
+    words = [word for change in changes for word in ("--set", change)]
     subprocess.run([DEMO, SCENES / f"{scene}.json", "--quiet", "--out", out, *words], check=True)
+    if gltf:
+        subprocess.run(["/usr/bin/python3", "-B", MAKE, out, "-o", gltf], check=True)
 
 
 def rows_of(folder, body):
@@ -106,6 +109,25 @@ class GltfTest(unittest.TestCase):
             np.testing.assert_allclose(place, row[1:4], atol=5e-5)
             x, y, z, w = slerp(turn_times, turns, row[0])
             self.assertGreater(abs(np.dot([w, x, y, z], row[4:8])), 1 - 1e-6)
+
+    def test_turns_are_small_and_along_the_shorter_way(self):
+        turns = Container(self.out / "golf.glb").keys("ball", "rotation")[1]
+        cosines = np.sum(turns[1:] * turns[:-1], axis=1)
+        self.assertGreater(cosines.min(), np.cos(np.pi / 8 * 1.01))
+
+    def test_up_is_y_and_what_stands_still_has_no_keys(self):
+        floor = Container(self.out / "floor.glb")
+        x, y, z, w = floor.text["nodes"][0]["rotation"]
+        up = [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]  # of z
+        np.testing.assert_allclose(up, [0, 1, 0], atol=1e-15)
+        moved = {channel["target"]["node"] for channel in floor.text["animations"][0]["channels"]}
+        self.assertEqual({floor.text["nodes"][node]["name"] for node in moved}, {"ball"})
+
+    def test_what_is_no_run_is_refused_in_one_line(self):
+        for run, file in ((self.out, "a.glb"), (self.out / "golf", "a.obj"), (self.out / "golf", "none/a.glb")):
+            made = subprocess.run(["/usr/bin/python3", "-B", MAKE, run, "-o", self.out / file], capture_output=True, text=True)
+            self.assertEqual((made.returncode, len(made.stderr.splitlines())), (1, 1), made.stderr)
+        self.assertFalse((self.out / "a.glb").exists())
 
     def test_shapes_are_in_metres(self):
         golf = Container(self.out / "golf.glb")
