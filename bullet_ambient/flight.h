@@ -1,4 +1,4 @@
 #pragma once
 
-// FlightSettings: integrator and tolerance of one body.
+// FlightSettings: tolerance and substeps of one body.
 #include "bullet_ambient/motion/flight/flight_settings.h"

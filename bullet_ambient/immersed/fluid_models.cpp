@@ -133,9 +133,10 @@ std::shared_ptr<const AttachDef> shareDef(AttachDef def, ModelTables& tables) {
   Key key = keyOf(def);
   append(key, def.medium.velocity);
   append(key, def.medium.acceleration);
-  append(key, def.flight.integrator, def.flight.tolerance, def.flight.max_substeps);
+  append(key, def.flight.tolerance, def.flight.max_substeps);
   const auto make = [&] { return std::make_shared<const AttachDef>(def); };
-  const bool is_shared = def.name.empty() && !def.flow.own_law && isFinite(key);
+  const bool is_shared =
+      def.name.empty() && !def.flow.own_law && !def.flight.own_flight && isFinite(key);
   return is_shared ? tables.defs.get(def.fluid_body, key, make) : make();
 }
 

@@ -16,6 +16,7 @@
 #include "bullet_ambient/immersed/attach_def.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/spatial/vector_types.h"
+#include "demos/integrators/integrators.h"
 #include "preprocess/robot/robot_model.h"
 #include "preprocess/shape/shapes.h"
 

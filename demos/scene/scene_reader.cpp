@@ -30,7 +30,7 @@ FlightSettings toFlightSettings(const json& scene) {
   FlightSettings settings;
   const auto found = scene.find("integrator");
   if (found == scene.end()) return settings;
-  settings.integrator = valueOf(kIntegratorNames, found->value("method", "leapfrog")).value();
+  settings.own_flight = valueOf(kIntegratorNames, found->value("method", "leapfrog")).value();
   settings.tolerance = found->value("tolerance", settings.tolerance);
   settings.max_substeps = found->value("max_substeps", settings.max_substeps);
   return settings;

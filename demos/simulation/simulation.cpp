@@ -39,12 +39,16 @@ AttachDef makeAttachDef(const Scene& scene, const BodyDef& def, const PreparedBo
   return attach;
 }
 
-/// Sets the law of all bodies: the bytes of a state cannot hold a function.
-void setLaw(WorldState& state, const LoadLaw& law) {
+/// Sets the law and the integrator of all bodies: the bytes of a state cannot hold a function.
+void setFunctions(WorldState& state, const LoadLaw& law, OwnFlight flight) {
+  const auto set = [&](AttachDef& def) {
+    def.flow.own_law = law;
+    def.flight.own_flight = flight;
+  };
   for (BodyState& body : state.bodies)
-    if (body.ambient) body.ambient->def.flow.own_law = law;
+    if (body.ambient) set(body.ambient->def);
   for (MultiBodyState& body : state.multi_bodies)
-    for (LinkFluidState& fluid : body.fluids) fluid.ambient.def.flow.own_law = law;
+    for (LinkFluidState& fluid : body.fluids) set(fluid.ambient.def);
 }
 
 [[noreturn]] void throwNotFinite(const std::string& scene, const std::string& body, double time) {
@@ -62,6 +66,7 @@ Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prep
                               configuration_)),
       fluid_(*bullet_.world),
       own_law_(loadLawOf(scene)),
+      own_flight_(scene.flight.own_flight),
       time_step_(scene.time_step),
       file_(scene.file.string()) {
   fluid_.setReport([this](const std::string& sentence) {
@@ -276,7 +281,7 @@ void Simulation::restoreState(std::string_view bytes) {
   if (steps < 0) throw std::runtime_error(source + ": is damaged: its steps are below 0");
   const auto lookup = [this](const std::string& name) { return findFluidBody(name); };
   WorldState state = decodeState(bytes.substr(sizeof steps), source, lookup);
-  setLaw(state, own_law_);
+  setFunctions(state, own_law_, own_flight_);
   fluid_.restore(state);
   steps_ = steps;
 }

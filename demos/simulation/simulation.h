@@ -121,7 +121,8 @@ class Simulation {
   std::vector<WorldBody> bodies_;
   std::unique_ptr<RobotsInWorld> robots_ = makeRobotsInWorld();  ///< null: built without
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;
-  LoadLaw own_law_;  ///< law of all bodies; empty: this library's law
+  LoadLaw own_law_;       ///< law of all bodies; empty: this library's law
+  OwnFlight own_flight_;  ///< integrator of all bodies; null: the passive leapfrog
   double time_step_;
   std::string file_;  ///< file of the scene; begins every message
   std::string warning_;

@@ -88,7 +88,7 @@ std::string makeSummary(const Scene& scene, const std::vector<PreparedBody>& bod
                   {"time_step", scene.time_step},
                   {"duration", scene.duration},
                   {"output_step", scene.output_step},
-                  {"integrator", wordOf(kIntegratorNames, scene.flight.integrator)},
+                  {"integrator", wordOf(kIntegratorNames, scene.flight.own_flight)},
                   {"gravity", toJson(scene.gravity)},
                   {"wall_seconds_simulation", record.wall_seconds},
                   {"bodies", json::array()}};

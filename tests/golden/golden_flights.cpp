@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/bullet/world/ambient_impulse.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "demos/integrators/integrators.h"
 #include "tests/golden/golden_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 
@@ -69,16 +70,14 @@ AttachDef inDoublePrecision(AttachDef attach) {
 }
 
 std::vector<NamedDef> integratorVariants(const std::string& prefix, const AttachDef& attach) {
-  const auto named = [&](const std::string& name, Integrator integrator, int substeps) {
+  const auto named = [&](const std::string& name, OwnFlight integrator, int substeps) {
     return withChange(prefix + "_" + name, attach, [&](AttachDef& a) {
-      a.flight.integrator = integrator;
+      a.flight.own_flight = integrator;
       a.flight.max_substeps = substeps;
     });
   };
-  return {named("one_substep", Integrator::kPassiveLeapfrog, 1),
-          named("dormand_prince", Integrator::kDormandPrince, 0),
-          named("runge_kutta", Integrator::kRungeKutta4, 0),
-          named("symplectic_euler", Integrator::kSymplecticEuler, 0)};
+  return {named("one_substep", nullptr, 1), named("dormand_prince", flyDormandPrince, 0),
+          named("runge_kutta", flyRungeKutta, 0), named("symplectic_euler", flySymplecticEuler, 0)};
 }
 
 std::vector<NamedDef> shapeVariants() {

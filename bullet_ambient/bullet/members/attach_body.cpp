@@ -59,7 +59,6 @@ void checkChoice(const std::string& who, const char* what, Choice choice, const 
 
 void checkDef(const std::string& who, const AttachDef& def) {
   checkFlight(who, def.flight);
-  checkChoice(who, "the integrator", def.flight.integrator, kIntegratorNames);
   checkChoice(who, "the pressure law", def.flow.law, kPressureLawNames);
   checkChoice(who, "the load precision", def.flow.precision, kLoadPrecisionNames);
 }

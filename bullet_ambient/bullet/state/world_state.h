@@ -33,8 +33,8 @@ void restoreState(const WorldState& state, btDynamicsWorld& world, AmbientBodies
 using FluidBodyLookup = std::function<std::shared_ptr<const FluidBody>(const std::string& name)>;
 
 /// Converts a saved state to bytes: little-endian, with version, precision and checksum. The same
-/// state gives the same bytes. FlowSettings::own_law, a function, is not included: set it in the
-/// result of decodeState().
+/// state gives the same bytes. FlowSettings::own_law and FlightSettings::own_flight, functions, are
+/// not included: set them in the result of decodeState().
 /// @throws std::runtime_error if two fluid bodies of one name have different contents.
 std::string encodeState(const WorldState& state);
 

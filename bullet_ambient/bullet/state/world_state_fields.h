@@ -15,7 +15,7 @@ AMBIENT_BEGIN
 // All stored fields, listed once for all operations: write, read, check, copy from Bullet and back
 // to Bullet. Their order is that of the bytes. To add a field, add it to the structure and here,
 // and raise the version.
-constexpr std::uint32_t kStateVersion = 13;
+constexpr std::uint32_t kStateVersion = 14;
 
 /// Condition that each number of a field must meet, and the words of the message if one does not.
 /// The message begins with the name of the object; the value follows if the words end with a blank.
@@ -86,7 +86,6 @@ void fields(V& v, AttachDef& s) {
   each(v, kAny, s.flow.skin_friction, s.flow.stall_lag);
   v.choice(s.flow.precision, kLoadPrecisionNames);
   each(v, kAny, s.flow.maximum_load_error);
-  v.choice(s.flight.integrator, kIntegratorNames);
   each(v, kAny, s.flight.tolerance, s.flight.max_substeps, s.fluid_frame.rotation,
        s.fluid_frame.translation);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/flight/integrators.h"
 
 namespace ambient {
 
@@ -23,22 +22,16 @@ bool isFluidAtRest(const Surroundings& s) {
   return s.ambient_velocity.cwiseAbs().sum() + s.ambient_acceleration.cwiseAbs().sum() == 0;
 }
 
-FlightResult flyAlone(const FlightTask& task, const FlightResult& start) {
-  for (const auto& [integrator, fly] : kLoneIntegrators)
-    if (integrator == task.settings.integrator) return fly(task, start.state, start.memory);
-  return start;
-}
-
 // Moves up to kFlightsTogether bodies, whose states are in the frames that move with the flow.
 void flyGroup(Flight* const* flights, int count) {
   Flight* leaps[kFlightsTogether];
   int leap_count = 0;
   for (int i = 0; i < count; ++i) {
     Flight& flight = *flights[i];
-    if (flight.task.settings.integrator == Integrator::kPassiveLeapfrog) {
-      leaps[leap_count++] = &flight;
+    if (const OwnFlight own = flight.task.settings.own_flight) {
+      flight.body = own(flight.task, flight.body.state, flight.body.memory);
     } else {
-      flight.body = flyAlone(flight.task, flight.body);
+      leaps[leap_count++] = &flight;
     }
   }
   if (leap_count > 0) flyLeapfrog(leaps, leap_count);

@@ -14,4 +14,8 @@ FlightResult fly(const FlightTask& task, const RigidState& start,
 /// With the passive leapfrog kFlightsTogether bodies cost little more than one, loads excepted.
 void flyTogether(Flight* const* flights, int count) noexcept;
 
+/// Passive leapfrog with bounded adaptive substeps, docs/theory.md eq. (22) to (25), for each of up
+/// to kFlightsTogether bodies. States are relative to the frame that moves with the ambient flow.
+void flyLeapfrog(Flight* const* flights, int count) noexcept;
+
 }  // namespace ambient

@@ -1,34 +1,26 @@
 #pragma once
 
-#include <array>
-#include <utility>
-
 namespace ambient {
 
-/// Integrator of free flight over one step of the world.
-enum class Integrator {
-  kPassiveLeapfrog,  ///< default: energy cannot grow at any step, one load evaluation per substep
-  kDormandPrince,    ///< accurate: orders 5 and 4 with error control, six evaluations per substep
-  kRungeKutta4,      ///< Padilla 2025: |w| h < 5.7 degrees, four load evaluations per substep
-  kSymplecticEuler,  ///< default of Padilla 2025: one evaluation per substep; may be unstable
-};
+struct FlightMemory;
+struct FlightResult;
+struct FlightTask;
+struct RigidState;
 
-/// Names of the integrators in scenes and summaries.
-constexpr std::array<std::pair<Integrator, const char*>, 4> kIntegratorNames{
-    {{Integrator::kPassiveLeapfrog, "leapfrog"},
-     {Integrator::kDormandPrince, "dormand_prince"},
-     {Integrator::kRungeKutta4, "rk4"},
-     {Integrator::kSymplecticEuler, "symplectic_euler"}}};
+/// Flies one body over the task's duration in place of the passive leapfrog. States are relative to
+/// the frame that moves with the ambient flow. Must allocate nothing; runs on any thread.
+using OwnFlight = FlightResult (*)(const FlightTask&, const RigidState& start,
+                                   const FlightMemory&) noexcept;
 
+/// Free flight of one body over one step of the world.
 struct FlightSettings {
-  Integrator integrator = Integrator::kPassiveLeapfrog;
-  double tolerance =
-      1e-3;  ///< leapfrog: velocity error per substep relative to the motion [1], docs eq. (25);
-             ///< Dormand-Prince: also error of orientation [rad] and position [body lengths]
-  /// Largest number of substeps per step. 0: leapfrog 16 (64 for bodies lighter than their added
-  /// mass), Dormand-Prince 1024, RK4 4096. 1: fast mode of the leapfrog, one evaluation per step.
-  /// Symplectic Euler takes exactly this number; 0: one.
+  /// Velocity error per substep relative to the motion [1], docs/theory.md eq. (25).
+  double tolerance = 1e-3;
+  /// Largest number of substeps per step. 0: 16, or 64 for bodies lighter than their added mass; 1:
+  /// fast mode, one evaluation per step. Other integrators have their own meaning of 0.
   int max_substeps = 0;
+  /// Null: the passive leapfrog, whose energy cannot grow at any step. Not part of saved states.
+  OwnFlight own_flight = nullptr;
 };
 
 }  // namespace ambient

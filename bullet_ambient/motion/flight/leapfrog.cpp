@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
-#include "bullet_ambient/motion/flight/integrators.h"
 
 namespace ambient {
 namespace {

@@ -52,9 +52,6 @@ TEST(Attach, RefusesFlightSettingsThatCannotBe) {
 
 TEST(Attach, RefusesChoicesThatDoNotExist) {
   AttachDef def = unitBallIn(air());
-  def.flight.integrator = static_cast<Integrator>(9);
-  expectSays(refusal({}, def), "has the integrator number 9; there are 0 to 3");
-  def = unitBallIn(air());
   def.flow.law = static_cast<PressureLaw>(-1);
   expectSays(refusal({}, def), "has the pressure law number -1; there are 0 to 1");
   def = unitBallIn(air());

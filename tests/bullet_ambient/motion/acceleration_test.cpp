@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/motion/rows/row_velocity.h"
+#include "demos/integrators/integrators.h"
 #include "tests/reference/full_inertia_accelerations.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/extrapolation.h"
@@ -62,7 +63,7 @@ TEST(RungeKutta, HasTheAccelerationsOfAnotherSimulator) {
   for (const AccelerationCase& c : reference::fullInertiaAccelerations()) {
     const auto difference = [&](double h) {
       FreeBody body = bodyOf(c);
-      body.settings = {Integrator::kRungeKutta4, 1e-3, 1};
+      body.settings = {1e-3, 1, flyRungeKutta};
       const Vector6 start = worldVelocity(body);
       body.advance(h);
       return Vector6((worldVelocity(body) - start) / h);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "demos/integrators/integrators.h"
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -17,7 +18,7 @@ using test::tumblingEllipsoid;
 constexpr int kFlightSteps = 24;  // at 60 Hz
 
 FlightSettings accurate(double tolerance, int max_substeps = 0) {
-  return {Integrator::kDormandPrince, tolerance, max_substeps};
+  return {tolerance, max_substeps, flyDormandPrince};
 }
 
 FreeBody fliesWith(MakeBody make, const FlightSettings& settings) {

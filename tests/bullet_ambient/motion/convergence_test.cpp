@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "demos/integrators/integrators.h"
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
 
 namespace ambient {
@@ -23,7 +24,7 @@ double positionError(MakeBody make, const FlightSettings& settings, int steps,
 
 TEST(Leapfrog, IsOfSecondOrderWhereTheLoadsAreSmooth) {
   const RigidState exact = exactEnd(glidingDisc, 8000);
-  const FlightSettings settings{Integrator::kPassiveLeapfrog, 1e-3, 1};
+  const FlightSettings settings{1e-3, 1};
   const double coarse = positionError(glidingDisc, settings, 40, exact);
   const double fine = positionError(glidingDisc, settings, 160, exact);
   EXPECT_NEAR(std::log2(coarse / fine) / 2, 2, 0.15);
@@ -31,7 +32,7 @@ TEST(Leapfrog, IsOfSecondOrderWhereTheLoadsAreSmooth) {
 
 TEST(RungeKutta, IsOfFourthOrderWhereTheLoadsAreSmooth) {
   const RigidState exact = exactEnd(glidingDisc, 8000);
-  const FlightSettings settings{Integrator::kRungeKutta4, 1e-3, 1};
+  const FlightSettings settings{1e-3, 1, flyRungeKutta};
   const double coarse = positionError(glidingDisc, settings, 320, exact);
   const double fine = positionError(glidingDisc, settings, 1280, exact);
   EXPECT_NEAR(std::log2(coarse / fine) / 2, 4, 0.3);
@@ -39,15 +40,15 @@ TEST(RungeKutta, IsOfFourthOrderWhereTheLoadsAreSmooth) {
 
 TEST(SymplecticEuler, IsOfFirstOrder) {
   const RigidState exact = exactEnd(glidingDisc, 8000);
-  const FlightSettings settings{Integrator::kSymplecticEuler, 1e-3, 1};
+  const FlightSettings settings{1e-3, 1, flySymplecticEuler};
   const double coarse = positionError(glidingDisc, settings, 5120, exact);
   const double fine = positionError(glidingDisc, settings, 20480, exact);
   EXPECT_NEAR(std::log2(coarse / fine) / 2, 1, 0.1);
 }
 
 TEST(SymplecticEuler, TakesAsManySubstepsAsItIsTold) {
-  FreeBody many = glidingDisc({Integrator::kSymplecticEuler, 1e-3, 4});
-  FreeBody few = glidingDisc({Integrator::kSymplecticEuler, 1e-3, 0});
+  FreeBody many = glidingDisc({1e-3, 4, flySymplecticEuler});
+  FreeBody few = glidingDisc({1e-3, 0, flySymplecticEuler});
   many.advance(kDuration / 100, 100);
   few.advance(kDuration / 400, 400);
   EXPECT_EQ(many.count.load_evaluations, 400);
@@ -58,8 +59,8 @@ TEST(Integrators, ConvergeToTheSameMotionWhereFacesSwitch) {
   // Switching faces leave order 1 with a small constant. Measured 4e-4 (leapfrog) and 1e-4 m
   // (Runge-Kutta) at 60 Hz, 2e-6 and 3e-6 m at 960 Hz.
   const RigidState exact = exactEnd(tumblingEllipsoid, 8000);
-  for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kRungeKutta4}) {
-    const FlightSettings settings{integrator, 1e-3, 1};
+  for (const OwnFlight integrator : std::initializer_list<OwnFlight>{nullptr, flyRungeKutta}) {
+    const FlightSettings settings{1e-3, 1, integrator};
     const double coarse = positionError(tumblingEllipsoid, settings, 24, exact);
     const double fine = positionError(tumblingEllipsoid, settings, 384, exact);
     EXPECT_LT(fine, 2e-5);
@@ -70,8 +71,8 @@ TEST(Integrators, ConvergeToTheSameMotionWhereFacesSwitch) {
 TEST(Leapfrog, SubstepsAreChosenByTheTolerance) {
   const RigidState exact = exactEnd(tumblingEllipsoid, 8000);
   constexpr int kSteps = 24;  // at 60 Hz
-  FreeBody loose = tumblingEllipsoid({Integrator::kPassiveLeapfrog, 1e-2, 0});
-  FreeBody tight = tumblingEllipsoid({Integrator::kPassiveLeapfrog, 1e-4, 64});
+  FreeBody loose = tumblingEllipsoid({1e-2, 0});
+  FreeBody tight = tumblingEllipsoid({1e-4, 64});
   loose.advance(kDuration / kSteps, kSteps);
   tight.advance(kDuration / kSteps, kSteps);
   EXPECT_GT(tight.count.substeps, 3 * loose.count.substeps);
@@ -83,11 +84,11 @@ TEST(Leapfrog, SubstepsAreChosenByTheTolerance) {
 
 TEST(Leapfrog, ReportsAStepThatStaysAboveTheTolerance) {
   FreeBody plate = tumblingEllipsoid({});
-  const FlightSettings hopeless{Integrator::kPassiveLeapfrog, 1e-12, 2};
+  const FlightSettings hopeless{1e-12, 2};
   const FlightResult result =
       fly({plate.model(), plate.surroundings, hopeless, 1.0 / 60}, plate.state, {});
   EXPECT_TRUE(result.count.coarse);
-  const FlightSettings easy{Integrator::kPassiveLeapfrog, 10, 2};
+  const FlightSettings easy{10, 2};
   EXPECT_FALSE(
       fly({plate.model(), plate.surroundings, easy, 1.0 / 60}, plate.state, {}).count.coarse);
 }
@@ -96,7 +97,7 @@ TEST(Leapfrog, ReportsAStepThatStaysAboveTheTolerance) {
 // the tolerance far below max_substeps.
 TEST(Leapfrog, ReportsAStepThatRetriesLeaveAboveTheTolerance) {
   FreeBody plate = tumblingEllipsoid({});
-  const FlightSettings strict{Integrator::kPassiveLeapfrog, 1e-6, 1000000};
+  const FlightSettings strict{1e-6, 1000000};
   const FlightResult result =
       fly({plate.model(), plate.surroundings, strict, 1.0 / 60}, plate.state, {});
   EXPECT_LT(result.count.substeps, strict.max_substeps / 2);
@@ -105,7 +106,7 @@ TEST(Leapfrog, ReportsAStepThatRetriesLeaveAboveTheTolerance) {
 }
 
 TEST(RungeKutta, TurnsByLessThanSixDegreesPerSubstep) {
-  FreeBody plate = tumblingEllipsoid({Integrator::kRungeKutta4, 1e-3, 0});
+  FreeBody plate = tumblingEllipsoid({1e-3, 0, flyRungeKutta});
   plate.state.twist.angular = {0, 0, 100};
   plate.advance(1.0 / 60);
   // 100 / 60 rad in parts of 5.7 degrees.
@@ -114,10 +115,10 @@ TEST(RungeKutta, TurnsByLessThanSixDegreesPerSubstep) {
 }
 
 TEST(Flight, GivesTheSameBitsTwice) {
-  for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kDormandPrince,
-                                      Integrator::kRungeKutta4, Integrator::kSymplecticEuler}) {
-    FreeBody a = tumblingEllipsoid({integrator, 1e-3, 0});
-    FreeBody b = tumblingEllipsoid({integrator, 1e-3, 0});
+  for (const OwnFlight integrator : std::initializer_list<OwnFlight>{
+           nullptr, flyDormandPrince, flyRungeKutta, flySymplecticEuler}) {
+    FreeBody a = tumblingEllipsoid({1e-3, 0, integrator});
+    FreeBody b = tumblingEllipsoid({1e-3, 0, integrator});
     a.advance(1.0 / 60, 60);
     b.advance(1.0 / 60, 60);
     EXPECT_EQ(a.state.position, b.state.position);

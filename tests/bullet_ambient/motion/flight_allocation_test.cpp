@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/motion/rows/row_velocity.h"
+#include "demos/integrators/integrators.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"
@@ -15,9 +16,9 @@ TEST(Flight, AllocatesNothing) {
   FreeBody body({test::meshedEllipsoid(semi_axes, 1), {10, Matrix3::Identity()}, water(), {2.0}});
   body.setGravity({0, 0, -9.81});
   for (const double spin : {1.0, 1e3, 1e5}) {
-    for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kRungeKutta4}) {
+    for (const OwnFlight integrator : std::initializer_list<OwnFlight>{nullptr, flyRungeKutta}) {
       body.state.twist = {{spin, 2, 3}, {1, 2, 3}};
-      body.settings = {integrator, 1e-3, 16};
+      body.settings = {1e-3, 16, integrator};
       const std::size_t before = test::allocationCount();
       body.advance(1.0 / 60, 3);
       EXPECT_EQ(test::allocationCount(), before);

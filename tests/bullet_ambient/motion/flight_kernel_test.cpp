@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/motion/flight/flight_group.h"
+#include "demos/integrators/integrators.h"
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -145,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(All, FlightKernels,
 // Body `i` of many that differ in speed, loads, integrator and current.
 FreeBody oneOfMany(unsigned i) {
   FlightSettings settings;
-  if (i % 7 == 5) settings.integrator = Integrator::kRungeKutta4;
+  if (i % 7 == 5) settings.own_flight = flyRungeKutta;
   FreeBody body = i % 3 == 0   ? test::glidingDisc(settings)
                   : i % 3 == 1 ? test::tumblingEllipsoid(settings)
                                : movingBody(i);

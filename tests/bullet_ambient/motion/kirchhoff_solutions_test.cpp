@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
+#include "demos/integrators/integrators.h"
 #include "tests/reference/kirchhoff_motion.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"
@@ -95,7 +96,7 @@ TEST(RungeKutta, RocksLikeTheEllipticFunction) {
   const double momentum = 2 * ellipsoid.mass;
   const reference::PlanarMotion motion = ellipsoid.planarMotion(momentum);
   FreeBody body = ellipsoid.body();
-  body.settings.integrator = Integrator::kRungeKutta4;
+  body.settings.own_flight = flyRungeKutta;
   release(body, 1.0, momentum);
   for (int i = 1; i <= 240; ++i) {
     body.advance(1.0 / 60);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "demos/integrators/integrators.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"
 
@@ -48,7 +49,7 @@ using MakeBody = FreeBody (*)(const FlightSettings&);
 
 /// End of such a flight, to rounding for a large number of `steps`.
 inline RigidState exactEnd(MakeBody make, int steps) {
-  FreeBody body = make({Integrator::kRungeKutta4, 1e-3, 1});
+  FreeBody body = make({1e-3, 1, flyRungeKutta});
   body.advance(kDuration / steps, steps);
   return body.state;
 }

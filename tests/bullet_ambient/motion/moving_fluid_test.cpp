@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/motion/rows/row_velocity.h"
+#include "demos/integrators/integrators.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -14,7 +15,7 @@ using test::FreeBody;
 constexpr double kWaterDensity = 1000;  // [kg/m^3]
 
 // A faceted ellipsoid with its mass off centre: no term of the equations vanishes.
-FreeBody loadedBody(Integrator integrator) {
+FreeBody loadedBody(OwnFlight integrator) {
   const Vector3 semi_axes(0.3, 0.2, 0.1);
   const FluidBody shape = test::meshedEllipsoid(semi_axes, 1);
   const double mass = 1.2 * kWaterDensity * shape.volume;
@@ -25,20 +26,20 @@ FreeBody loadedBody(Integrator integrator) {
                  {kWaterDensity, 1e-3, Vector3::Zero(), Vector3::Zero()},
                  {1.2 * 1.5707963267948966, true},
                  frame});
-  body.settings.integrator = integrator;
+  body.settings.own_flight = integrator;
   body.setGravity({0, 0, -9.81});
   body.state.orientation = Quaternion(Arbitrary(7).rotation());
   body.state.twist = {{1, -2, 3}, {0.5, 1, -0.3}};
   return body;
 }
 
-constexpr Integrator kIntegrators[] = {Integrator::kPassiveLeapfrog, Integrator::kRungeKutta4};
+constexpr OwnFlight kIntegrators[] = {nullptr, flyRungeKutta};
 constexpr double kStep = 1.0 / 60;
 constexpr int kDriftSteps = 60;
 
 TEST(MovingFluid, ASteadyCurrentIsStillWaterSeenFromAMovingFrame) {
   const Vector3 current(0.7, -0.4, 0.2);
-  for (const Integrator integrator : kIntegrators) {
+  for (const OwnFlight integrator : kIntegrators) {
     FreeBody still = loadedBody(integrator);
     FreeBody carried = loadedBody(integrator);
     carried.surroundings.ambient_velocity = current;
@@ -58,7 +59,7 @@ TEST(MovingFluid, ASteadyCurrentIsStillWaterSeenFromAMovingFrame) {
 
 TEST(MovingFluid, ItsAccelerationActsLikeGravityOnBodyAndDisplacedFluid) {
   const Vector3 acceleration(1, -2, 0.5), gravity(0, 0, -9.81);
-  for (const Integrator integrator : kIntegrators) {
+  for (const OwnFlight integrator : kIntegrators) {
     FreeBody still = loadedBody(integrator);
     still.setGravity(gravity - acceleration);
     FreeBody carried = loadedBody(integrator);
@@ -81,11 +82,11 @@ TEST(MovingFluid, CarriesANeutrallyBuoyantSphereAlong) {
   const FluidBody shape = test::gaussSphere(radius);
   const double mass = kWaterDensity * shape.volume;
   const Vector3 acceleration(1, -2, 0.5);
-  for (const Integrator integrator : kIntegrators) {
+  for (const OwnFlight integrator : kIntegrators) {
     FreeBody sphere({shape,
                      {mass, test::ellipsoidMoments(Vector3::Constant(radius), mass).asDiagonal()},
                      {kWaterDensity, 1e-3, Vector3::Zero(), Vector3::Zero()}});
-    sphere.settings.integrator = integrator;
+    sphere.settings.own_flight = integrator;
     sphere.setGravity({0, 0, -9.81});
     sphere.surroundings.ambient_acceleration = acceleration;
     sphere.advance(0.5);
@@ -96,7 +97,7 @@ TEST(MovingFluid, CarriesANeutrallyBuoyantSphereAlong) {
 
 TEST(MovingFluid, ChangesTheRowVelocityLikeFreeFlight) {
   // Over a short step both equal acceleration times step, except half of the turning part.
-  FreeBody body = loadedBody(Integrator::kRungeKutta4);
+  FreeBody body = loadedBody(flyRungeKutta);
   body.surroundings.ambient_velocity = {0.7, -0.4, 0.2};
   body.surroundings.ambient_acceleration = {1, -2, 0.5};
   constexpr double kShort = 1e-6;

@@ -105,7 +105,7 @@ TEST(Leapfrog, CountsTheEnergyThatItsBoundRemoves) {
     free.loads = nullptr;
     loaded.loads = std::make_shared<NoLoads>();
     const double before = body.totalEnergy(), step = wildStep(arbitrary);
-    const FlightSettings one{Integrator::kPassiveLeapfrog, 1e-6, 1};
+    const FlightSettings one{1e-6, 1};
     const RigidState start = body.state;
     body.state = fly({free, body.surroundings, one, step}, start, {}).state;
     const double gain = body.totalEnergy() - before, moved = body.kineticEnergy();

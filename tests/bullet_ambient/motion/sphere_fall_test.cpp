@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "demos/integrators/integrators.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"
 
@@ -50,7 +51,7 @@ double largestError(const SphereFall& fall, const FlightSettings& settings, int 
 }
 
 TEST(Leapfrog, FallsAndRisesLikeTheClosedFormToSecondOrder) {
-  const FlightSettings one_substep{Integrator::kPassiveLeapfrog, 1e-3, 1};
+  const FlightSettings one_substep{1e-3, 1};
   for (const SphereFall& fall : {kBasketball, kCork}) {
     const double coarse = largestError(fall, one_substep, 25);
     const double fine = largestError(fall, one_substep, 100);
@@ -60,7 +61,7 @@ TEST(Leapfrog, FallsAndRisesLikeTheClosedFormToSecondOrder) {
 }
 
 TEST(RungeKutta, FallsAndRisesLikeTheClosedFormToFourthOrder) {
-  const FlightSettings settings{Integrator::kRungeKutta4, 1e-3, 1};
+  const FlightSettings settings{1e-3, 1, flyRungeKutta};
   for (const SphereFall& fall : {kBasketball, kCork}) {
     const double coarse = largestError(fall, settings, 15);
     const double fine = largestError(fall, settings, 60);

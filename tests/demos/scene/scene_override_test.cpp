@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "demos/integrators/integrators.h"
 #include "tests/demos/scene/scene_text.h"
 
 namespace ambient {
@@ -28,7 +29,7 @@ TEST(SceneOverride, TakesAVectorAsJsonAndAWordAsString) {
 }
 
 TEST(SceneOverride, MakesWhatIsOnTheWayToAKnownKey) {
-  EXPECT_EQ(readWith({{"integrator.method", "rk4"}}).flight.integrator, Integrator::kRungeKutta4);
+  EXPECT_EQ(readWith({{"integrator.method", "rk4"}}).flight.own_flight, flyRungeKutta);
 }
 
 TEST(SceneOverride, TheLastOneWins) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/plain_text.h"
+#include "demos/integrators/integrators.h"
 #include "tests/demos/scene/scene_text.h"
 
 namespace ambient {
@@ -56,7 +57,7 @@ TEST(SceneReader, TakesEveryValueOver) {
   EXPECT_EQ(scene.gravity, Vector3(0, 0, -9.81));
   EXPECT_EQ(scene.medium.density, 1.204);
   EXPECT_EQ(scene.medium.viscosity, 1.82e-5);
-  EXPECT_EQ(scene.flight.integrator, Integrator::kRungeKutta4);
+  EXPECT_EQ(scene.flight.own_flight, flyRungeKutta);
   EXPECT_EQ(scene.flight.tolerance, 1e-4);
   EXPECT_EQ(scene.flight.max_substeps, 7);
   ASSERT_EQ(scene.bodies.size(), 1u);
@@ -156,7 +157,7 @@ TEST(SceneReader, TellsTheNameOfEveryIntegrator) {
   for (const char* const name : {"leapfrog", "dormand_prince", "rk4", "symplectic_euler"}) {
     json scene = ballScene();
     scene["integrator"] = {{"method", name}};
-    EXPECT_STREQ(wordOf(kIntegratorNames, readText(scene).flight.integrator), name);
+    EXPECT_STREQ(wordOf(kIntegratorNames, readText(scene).flight.own_flight), name);
   }
 }
 
@@ -339,7 +340,7 @@ TEST(SceneReader, KnowsEveryIntegratorAndLaw) {
   nlohmann::json scene = ballScene();
   for (const auto& [integrator, name] : kIntegratorNames) {
     scene["integrator"]["method"] = name;
-    EXPECT_EQ(sceneFrom(scene).flight.integrator, integrator);
+    EXPECT_EQ(sceneFrom(scene).flight.own_flight, integrator);
   }
   for (const auto& [law, name] : kPressureLawNames) {
     scene["law"] = scene["bodies"][0]["law"] = name;

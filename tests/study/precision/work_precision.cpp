@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/output_file.h"
+#include "demos/integrators/integrators.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
@@ -58,17 +59,15 @@ const std::vector<PrecisionCase>& allCases() {
 }
 
 std::vector<PrecisionMethod> methodsAt(double step) {
-  constexpr Integrator kLeapfrog = Integrator::kPassiveLeapfrog;
-  constexpr Integrator kPair = Integrator::kDormandPrince;
-  return {{"fast", {kLeapfrog, 1e-3, 1}, step},
-          {"leapfrog 1e-2", {kLeapfrog, 1e-2, 0}, step},
-          {"leapfrog 1e-3", {kLeapfrog, 1e-3, 0}, step},
-          {"leapfrog 1e-4", {kLeapfrog, 1e-4, 256}, step},
-          {"pair 1e-3", {kPair, 1e-3, 0}, step},
-          {"pair 1e-5", {kPair, 1e-5, 0}, step, LoadPrecision::kDouble},
-          {"pair 1e-7", {kPair, 1e-7, 0}, step, LoadPrecision::kDouble},
-          {"rk4", {Integrator::kRungeKutta4, 1e-3, 0}, step},
-          {"symplectic euler", {Integrator::kSymplecticEuler, 1e-3, 0}, step}};
+  return {{"fast", {1e-3, 1}, step},
+          {"leapfrog 1e-2", {1e-2, 0}, step},
+          {"leapfrog 1e-3", {1e-3, 0}, step},
+          {"leapfrog 1e-4", {1e-4, 256}, step},
+          {"pair 1e-3", {1e-3, 0, flyDormandPrince}, step},
+          {"pair 1e-5", {1e-5, 0, flyDormandPrince}, step, LoadPrecision::kDouble},
+          {"pair 1e-7", {1e-7, 0, flyDormandPrince}, step, LoadPrecision::kDouble},
+          {"rk4", {1e-3, 0, flyRungeKutta}, step},
+          {"symplectic euler", {1e-3, 0, flySymplecticEuler}, step}};
 }
 
 constexpr const char* kHeader =
@@ -92,7 +91,7 @@ std::string studyCase(const PrecisionCase& c, int takes) {
   const std::vector<PreparedBody> bodies = prepareBodies(scene, cache);
   // Contacts have errors of first order in the world's step, with any integrator of flight.
   const PrecisionMethod exact{
-      "reference", {Integrator::kDormandPrince, 1e-9, 0}, 1.0 / 7680, LoadPrecision::kDouble};
+      "reference", {1e-9, 0, flyDormandPrince}, 1.0 / 7680, LoadPrecision::kDouble};
   const PrecisionRun reference = runWithMethod(scene, bodies, exact, 1);
   if (!reference.finite) throw std::runtime_error(c.name + ": the reference is not finite");
   std::string lines;

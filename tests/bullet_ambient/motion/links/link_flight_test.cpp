@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "demos/integrators/integrators.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/bodies/random_trees.h"
 
@@ -197,7 +198,7 @@ TEST(LinkFlight, OfABaseAloneIsTheFlightOfARigidBody) {
                    {R.transpose() * test.u.head<3>(), R.transpose() * test.u.segment<3>(3)}};
   double last = 0;
   for (const int steps : {20, 40}) {
-    const FlightSettings settings{Integrator::kDormandPrince, 1e-12, 0};
+    const FlightSettings settings{1e-12, 0, flyDormandPrince};
     TestTree moved;
     moved.tree = test.tree;
     moved.pose = test.pose;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "demos/integrators/integrators.h"
 #include "tests/support/bodies/free_body.h"
 
 namespace ambient {
@@ -29,21 +30,21 @@ class Thrust : public SurfaceLoads {
   }
 };
 
-FreeBody ballUnder(std::shared_ptr<const SurfaceLoads> loads, Integrator integrator) {
+FreeBody ballUnder(std::shared_ptr<const SurfaceLoads> loads, OwnFlight integrator) {
   FreeBodyDef def;
   Matrix6 added = Matrix6::Zero();
   added.bottomRightCorner<3, 3>() = 0.5 * Matrix3::Identity();
   def.shape = test::shapeWithoutFaces(added);
   def.flow.own_law = [loads = std::move(loads)](const auto&, const LoadSettings&) { return loads; };
   FreeBody ball(def);
-  ball.settings.integrator = integrator;
+  ball.settings.own_flight = integrator;
   ball.state.twist.linear = {3, 0, 4};
   return ball;
 }
 
 TEST(LoadLaw, SlowsABodyByItsOwnLaw) {
   const double c = 0.2, m = 1.5, speed = 5, time = 2;
-  for (const Integrator integrator : {Integrator::kPassiveLeapfrog, Integrator::kRungeKutta4}) {
+  for (const OwnFlight integrator : std::initializer_list<OwnFlight>{nullptr, flyRungeKutta}) {
     FreeBody ball = ballUnder(std::make_shared<QuadraticDrag>(c), integrator);
     ball.advance(time / 240, 240);
     const double exact = speed / (1 + c / m * speed * time);
@@ -53,7 +54,7 @@ TEST(LoadLaw, SlowsABodyByItsOwnLaw) {
 }
 
 TEST(LoadLaw, CannotFeedTheBody) {
-  FreeBody ball = ballUnder(std::make_shared<Thrust>(), Integrator::kPassiveLeapfrog);
+  FreeBody ball = ballUnder(std::make_shared<Thrust>(), nullptr);
   const double before = ball.kineticEnergy();
   ball.advance(1.0 / 60, 60);
   EXPECT_NEAR(ball.kineticEnergy(), before, 1e-12 * before);

@@ -1,16 +1,14 @@
 #pragma once
 
+#include <array>
 #include <utility>
 
-#include "bullet_ambient/motion/flight/flight_task.h"
+#include "bullet_ambient/motion/flight/flight.h"
 
 namespace ambient {
 
-// Functions of enum Integrator. States are relative to the frame that moves with the ambient flow.
-
-/// Passive leapfrog with bounded adaptive substeps, docs/theory.md eq. (22) to (25), for each of up
-/// to kFlightsTogether bodies.
-void flyLeapfrog(Flight* const* flights, int count) noexcept;
+// The paper's integrators and a reference, as FlightSettings::own_flight. States are relative to
+// the frame that moves with the ambient flow.
 
 /// Fourth-order Runge-Kutta with substeps so that |w| h < 5.7 degrees, docs/theory.md eq. (21),
 /// Padilla et al. 2025, section 4.4. Unlike [Padilla 2025], the unknowns are the momenta in world
@@ -32,12 +30,11 @@ FlightResult flyDormandPrince(const FlightTask& task, const RigidState& start,
 FlightResult flySymplecticEuler(const FlightTask& task, const RigidState& start,
                                 const FlightMemory&) noexcept;
 
-using FlyAlone = FlightResult (*)(const FlightTask&, const RigidState& start,
-                                  const FlightMemory&) noexcept;
-/// All but the leapfrog, which flies several bodies together.
-constexpr std::pair<Integrator, FlyAlone> kLoneIntegrators[] = {
-    {Integrator::kDormandPrince, flyDormandPrince},
-    {Integrator::kRungeKutta4, flyRungeKutta},
-    {Integrator::kSymplecticEuler, flySymplecticEuler}};
+/// Names of the integrators in scenes and summaries.
+constexpr std::array<std::pair<OwnFlight, const char*>, 4> kIntegratorNames{
+    {{nullptr, "leapfrog"},
+     {flyDormandPrince, "dormand_prince"},
+     {flyRungeKutta, "rk4"},
+     {flySymplecticEuler, "symplectic_euler"}}};
 
 }  // namespace ambient

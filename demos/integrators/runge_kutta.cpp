@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/motion/flight/integrators.h"
-#include "bullet_ambient/motion/flight/momentum_equations.h"
+#include "demos/integrators/integrators.h"
+#include "demos/integrators/momentum_equations.h"
 
 namespace ambient {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/motion/flight/integrators.h"
-#include "bullet_ambient/motion/flight/momentum_equations.h"
+#include "demos/integrators/integrators.h"
+#include "demos/integrators/momentum_equations.h"
 
 namespace ambient {
 namespace {
@@ -146,7 +146,11 @@ FlightResult flyDormandPrince(const FlightTask& task, const RigidState& start,
   }
   flight.state = pair.state();
   if (left > 0) {
-    Flight rest({task.model, task.surroundings, task.settings, left}, flight.state, {});
+    Flight rest({task.model,
+                 task.surroundings,
+                 {task.settings.tolerance, task.settings.max_substeps},
+                 left},
+                flight.state, {});
     Flight* const rests[] = {&rest};
     flyLeapfrog(rests, 1);
     flight.state = rest.body.state;

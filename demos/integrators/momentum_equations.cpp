@@ -1,4 +1,4 @@
-#include "bullet_ambient/motion/flight/momentum_equations.h"
+#include "demos/integrators/momentum_equations.h"
 
 namespace ambient {
 namespace {

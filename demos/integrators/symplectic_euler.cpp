@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "bullet_ambient/motion/body/kirchhoff.h"
-#include "bullet_ambient/motion/flight/integrators.h"
 #include "bullet_ambient/spatial/rotation.h"
+#include "demos/integrators/integrators.h"
 
 namespace ambient {
 
