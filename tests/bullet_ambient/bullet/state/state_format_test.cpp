@@ -126,8 +126,8 @@ WorldState filledState() {
   return s;
 }
 
-// Recorded with the first program of version 13. Who changes the bytes raises the version.
-TEST(StateFormat, HasTheBytesOfVersion13) {
+// Recorded with the first program of version 14. Who changes the bytes raises the version.
+TEST(StateFormat, HasTheBytesOfVersion14) {
   const std::string bytes = encodeState(filledState());
   const bool in_double = sizeof(btScalar) == 8;
   EXPECT_EQ(bytes.size(), in_double ? 4926u : 3710u);
