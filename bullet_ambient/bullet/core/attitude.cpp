@@ -9,13 +9,16 @@ namespace {
 constexpr double kMostTurn = kPi / 4;  // [rad] per step, Bullet's ANGULAR_MOTION_THRESHOLD
 constexpr double kSine = 0.38268343236508977, kCosine = 0.92387953251128674;  // of its half
 
-// Largest difference of two entries.
-double differenceOf(const btMatrix3x3& a, const btMatrix3x3& b) {
-  double largest = 0;
+// Returns the sum of the squared differences of entries: twice the square of a small angle between
+// the two attitudes [rad^2].
+double squaredDifference(const btMatrix3x3& a, const btMatrix3x3& b) {
+  double sum = 0;
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      largest = std::fmax(largest, std::abs(static_cast<double>(a[i][k] - b[i][k])));
-  return largest;
+    for (int k = 0; k < 3; ++k) {
+      const auto difference = static_cast<double>(a[i][k] - b[i][k]);
+      sum += difference * difference;
+    }
+  return sum;
 }
 
 }  // namespace
@@ -31,8 +34,8 @@ Quaternion turnedByBullet(const Quaternion& from, const Vector3& turn_W) noexcep
 void settleAttitude(btRigidBody& body, const Quaternion& attitude) noexcept {
   const btTransform& now = body.getWorldTransform();
   const btMatrix3x3 basis(toBullet(attitude));
-  const double difference = differenceOf(now.getBasis(), basis);
-  if (difference > 0 && difference <= kTurnRounding)
+  const double difference = squaredDifference(now.getBasis(), basis);
+  if (difference > 0 && difference <= 2 * kTurnRounding * kTurnRounding)
     body.setCenterOfMassTransform(btTransform(basis, now.getOrigin()));
 }
 
