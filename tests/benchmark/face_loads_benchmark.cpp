@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
-#include "bullet_ambient/force/kernels/face_sums.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 #include "bullet_ambient/force/loads/face_loads.h"
@@ -28,28 +27,6 @@ void reportPerFace(benchmark::State& state, std::size_t faces) {
 }
 
 /// The kernel alone: arguments are subdivision level, instruction set, friction, angle in pi/2.
-void sumFacesKernel(benchmark::State& state, InstructionSet set, bool friction, double angle) {
-  const SumFaces sum_faces = kSumFaces.of(set);
-  if (!sum_faces) {
-    state.SkipWithError("this processor does not have the instruction set");
-    return;
-  }
-  const FaceTable faces = test::faceTableOf(test::geodesicSphere(static_cast<int>(state.range(0))));
-  const FaceColumns columns{
-      {faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
-      {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
-      faces.area.data(),
-      faces.size()};
-  const double cosine = separationCosine(angle * kRightAngle);
-  FaceMotion motion{{3, -2, 5}, {4, 1, -2}, -cosine * std::abs(cosine), 1 - cosine * cosine};
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(motion);
-    benchmark::DoNotOptimize(sum_faces(columns, motion, friction));
-  }
-  reportPerFace(state, faces.size());
-}
-
-/// The kernel in single precision; arguments of sumFacesKernel().
 void sumBlocksKernel(benchmark::State& state, InstructionSet set, bool friction, double angle) {
   const SumBlocks sum_blocks = kSumBlocks.of(set);
   if (!sum_blocks) {
@@ -72,12 +49,6 @@ void sumBlocksKernel(benchmark::State& state, InstructionSet set, bool friction,
 }
 
 #define AMBIENT_KERNEL_BENCHMARK(set)                                                        \
-  BENCHMARK_CAPTURE(sumFacesKernel, set##_pressure, InstructionSet::k##set, false, 1.0)      \
-      ->DenseRange(2, 5);                                                                    \
-  BENCHMARK_CAPTURE(sumFacesKernel, set##_pressure_1_5, InstructionSet::k##set, false, 1.5)  \
-      ->DenseRange(2, 5);                                                                    \
-  BENCHMARK_CAPTURE(sumFacesKernel, set##_friction, InstructionSet::k##set, true, 1.0)       \
-      ->DenseRange(2, 5);                                                                    \
   BENCHMARK_CAPTURE(sumBlocksKernel, set##_pressure, InstructionSet::k##set, false, 1.0)     \
       ->DenseRange(2, 5);                                                                    \
   BENCHMARK_CAPTURE(sumBlocksKernel, set##_pressure_1_5, InstructionSet::k##set, false, 1.5) \

@@ -6,7 +6,7 @@
 #include "bullet_ambient/bullet/reading/fluid_reading.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/shape_factors.h"
-#include "bullet_ambient/force/loads/face_flow.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/surface/buoyancy.h"
 #include "bullet_ambient/immersed/ambient_body.h"

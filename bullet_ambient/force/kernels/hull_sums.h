@@ -6,7 +6,7 @@
 
 namespace ambient {
 
-// Sums over a hull for computeWetVolume(). Plain data only, see face_sums.h.
+// Sums over a hull for computeWetVolume(). Plain data only, see single_sums.h.
 
 /// Sums over the wet part of a hull, docs/theory.md eq. (54), (58); moments along e_1 and e_2,
 /// about the point h s of the plane.

@@ -1,4 +1,3 @@
-#include "bullet_ambient/force/kernels/face_sums.h"
 #include "bullet_ambient/force/kernels/hull_sums.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
@@ -6,7 +5,6 @@
 namespace ambient {
 
 const Kernels<SumBlocks> kSumBlocks{AMBIENT_KERNELS(sumBlocks)};
-const Kernels<SumFaces> kSumFaces{AMBIENT_KERNELS(sumFaces)};
 const Kernels<const HullKernel*> kHullKernels{AMBIENT_KERNELS(&kHullKernel)};
 const Kernels<const PartKernel*> kPartKernels{AMBIENT_KERNELS(&kPartKernel)};
 

@@ -5,22 +5,23 @@
 
 namespace ambient {
 
-// Input and output of sums in single precision. Plain data only, see face_sums.h.
+// Input and output of sums in single precision. Plain data only, see single_sums.h.
 
-/// FaceCut in the unit of length of the faces.
+/// Water surface as a plane in F, for the wet shares of docs/theory.md eq. (59), in the unit of
+/// length of the faces.
 struct SingleCut {
-  float normal[3];
-  float height;
-  float disc;  ///< 1/pi in these units: squared radius of a disc over its area
+  float normal[3];  ///< out of the fluid
+  float height;     ///< height of the plane above F's origin along the normal
+  float disc;       ///< 1/pi in these units: squared radius of a disc over its area
 };
 
-/// FaceMotion and skin friction, in units of length and speed in which all components are at
-/// most 1.
+/// Motion of the body relative to the ambient flow, in F, separation angle and skin friction, in
+/// units of length and speed in which all components are at most 1.
 struct SingleMotion {
   float angular[3];
   float linear[3];
-  float signed_cosine_sq;
-  float sine_sq;
+  float signed_cosine_sq;          ///< -cos(alpha) |cos(alpha)|; 0 at a right angle
+  float sine_sq;                   ///< sin^2(alpha)
   float friction;                  ///< C_f of eq. (16) at unit slip speed; 0: no friction
   const SingleCut* cut = nullptr;  ///< null: all faces are in the fluid
   PressureLaw law = PressureLaw::kPublished;

@@ -6,7 +6,7 @@
 namespace ambient {
 
 // Sums over the patches of eq. (60), here called parts, for WettedParts. Plain data only, see
-// face_sums.h.
+// single_sums.h.
 
 /// Water surface. A point at depth zeta > 0 has the weight zeta / (zeta + reach), docs/theory.md
 /// eq. (60); `reach`: kappa H [m].

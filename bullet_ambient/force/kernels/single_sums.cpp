@@ -20,7 +20,8 @@ static_assert(FaceBlock::kFaces == kLanes, "a block has one face per lane");
 static_assert(FaceBounds::kBlocks == kLanes, "bounds are those of one block per lane");
 static_assert(kRun == kLanes, "a run has its own bounds");
 
-/// Returns `strength` if the flow is attached, else 0; face_sums.cpp explains the test.
+/// Returns `strength` if the flow is attached, n.u > cos(alpha) |u|, else 0. Test without a root,
+/// by |u|^2 = (n.u)^2 + |u_s|^2: (n.u) |n.u| sin^2(alpha) > cos(alpha) |cos(alpha)| |u_s|^2.
 template <bool kRightAngle>
 inline Floats strengthWhereAttached(Floats normal_speed, Floats strength, Floats speed_sq,
                                     const SingleMotion& motion) {

@@ -6,7 +6,8 @@
 
 namespace ambient {
 
-// Sums over faces in single precision. Plain data only, see face_sums.h.
+// Sums over faces in single precision. Plain data only: the kernels are compiled once per
+// instruction set, and must not share an inline function with the rest of the program.
 
 /// Sums all blocks. Skips blocks without load: bounds show that the flow is detached from all their
 /// faces. Face i of a block goes to lane i. Runs of 16 blocks are summed in single precision, and

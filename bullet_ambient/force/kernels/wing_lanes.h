@@ -6,7 +6,7 @@ namespace ambient {
 namespace {
 
 /// Constants of the form law for lifting and slender shapes, the same in all lanes; zero if
-/// motion.wing is null. `Motion`: FaceMotion or SingleMotion.
+/// motion.wing is null. `Motion`: SingleMotion.
 template <class Lanes>
 struct WingLanes {
   VectorsOf<Lanes> facing = {}, span = {}, slender = {};

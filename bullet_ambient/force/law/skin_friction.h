@@ -43,13 +43,6 @@ inline Real reynoldsPower(Real x) {
   return r + (r * e) * (0.2 + 0.12 * e);
 }
 
-/// Returns s |u|^(-6/5); input: |u|^2. The factor turns the square law |u|^2 u into |u|^0.8 u.
-template <class Bits = std::uint64_t, class Real>
-inline Real timesSlipPower(Real s, Real slip_sq) {
-  const Real r = reynoldsPower<Bits>(slip_sq);
-  return (s * r) * (r * r);
-}
-
 /// Returns |u|^(-6/5) in single precision, relative error 3e-7; input: a normal |u|^2 > 0. Finite
 /// for 0. `Ints`: integers of the same shape; `plusProduct(c, a, b)`: c + a b, rounded once.
 template <class Ints, class Floats, class PlusProduct>

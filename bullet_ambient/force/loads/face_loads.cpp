@@ -5,48 +5,62 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/force/kernels/face_sums.h"
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/force/law/shape_factors.h"
 #include "bullet_ambient/force/law/skin_friction.h"
+#include "bullet_ambient/force/law/wet_share.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
-#include "bullet_ambient/spatial/invariants.h"
 
 namespace ambient {
 namespace {
 
-FaceColumns columnsOf(const FaceTable& faces, PressureLaw law) noexcept {
-  const bool is_form = law == PressureLaw::kForm;
-  AMBIENT_ASSERT(faces.normal_x.size() == faces.size() && faces.centroid_z.size() == faces.size());
-  AMBIENT_ASSERT(!is_form || faces.sharpness.size() == faces.size());
-  return {{faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
-          {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
-          faces.area.data(),
-          faces.size(),
-          is_form ? faces.sharpness.data() : nullptr};
+/// Returns the share of a face below the plane, docs/theory.md eq. (59).
+double wetShare(const FaceTable& faces, std::size_t face, const SurfacePlane& plane) noexcept {
+  return wetShareOf(plane.depth(faces.centroid(face)), plane.normal.dot(faces.normal(face)),
+                    faces.area[face] / kPi, [](double x) { return std::sqrt(x); });
 }
 
-FaceCut cutBy(const SurfacePlane& plane) noexcept {
-  AMBIENT_ASSERT(isUnit(plane.normal));
-  const Vector3& s = plane.normal;
-  return {{s.x(), s.y(), s.z()}, plane.height};
-}
+/// q of the pressure on a face, and q_L mu of wings, eq. (43d).
+struct PressureOnFace {
+  double total, pitch;
+};
 
-/// Adds what the form law asks of a shape, eq. (43d) and (43e).
-void addShape(const ShapeFactors& factors, const Vector3& angular, double separation_cosine,
-              FaceMotion& motion) noexcept {
-  motion.slip_share = factors.slipShare(separation_cosine);
-  if (!factors.actOnFaces()) return;
-  motion.wing = &factors.in_double;
-  motion.pitching_rate = factors.shape.pitching.dot(angular);
-  for (int axis = 0; axis < 3; ++axis) {
-    motion.pitching[axis] = factors.shape.pitching[axis];
-    motion.centre[axis] = factors.shape.centre[axis];
-  }
-}
-
-Wrench scaled(const double (&sums)[6], double factor) noexcept {
-  return {{factor * sums[0], factor * sums[1], factor * sums[2]},
-          {factor * sums[3], factor * sums[4], factor * sums[5]}};
+/// `strength`: squared slip where the flow is attached [m^2/s^2].
+PressureOnFace pressureOn(const FaceTable& faces, std::size_t face, const Twist& x, double strength,
+                          const LoadSettings& settings) noexcept {
+  const Vector3 n = faces.normal(face), u = x.at(faces.centroid(face));
+  const double normal_speed = n.dot(u), whole_sq = u.squaredNorm();
+  const ShapeFactors* const factors = settings.shape;
+  const double slip_share = factors ? factors->slipShare(settings.separation_cosine) : 0;
+  const auto speed = [&] {
+    if (!factors) return u.norm();
+    const Vector3 t = u - normal_speed * n;
+    const double along = factors->shape.slender.dot(t);
+    return speedAcross(normal_speed, t.squaredNorm() - along * along, u.norm());
+  };
+  double pitch = 0;
+  const auto wing = [&](const auto& law) {
+    const FormShape& shape = factors->shape;
+    const double rate = shape.pitching.dot(x.angular);
+    const double arm = shape.pitchingArm(n, faces.centroid(face));
+    const WingFactors<double>& numbers = factors->in_double;
+    const double(&h)[3] = numbers.span;
+    constexpr double kLeast = 1e-200;  // at rest its inverse is finite
+    const WingFlow<PlainArithmetic<double>> flow{
+        shape.facing.dot(u), Vector3(h[0], h[1], h[2]).dot(u), normal_speed - rate * arm,
+        whole_sq + kLeast, std::sqrt(whole_sq)};
+    const FacePressure<double> pressure = law(flow, numbers);
+    pitch = pressure.lift * arm;
+    return pressure;
+  };
+  const auto of_face = [&] { return formFactors<double>(faces.sharpness[face]); };
+  const FaceState state{normal_speed, 1.0, strength, slip_share, speed, of_face, wing};
+  const bool acts = factors && factors->actOnFaces();
+  const double total =
+      withPressure(settings.law, acts ? &factors->in_double : nullptr,
+                   [&](auto law) { return decltype(law)::template of<false>(state).total; });
+  return {total, pitch};
 }
 
 }  // namespace
@@ -58,32 +72,44 @@ double separationCosine(double separation_angle) {
   return portable::cos(separation_angle);
 }
 
+FaceFlow computeFaceFlow(const FaceTable& faces, std::size_t face, double reference_length,
+                         const Twist& relative_twist, const LoadSettings& settings) noexcept {
+  AMBIENT_ASSERT(face < faces.size());
+  AMBIENT_ASSERT(settings.law != PressureLaw::kForm || face < faces.sharpness.size());
+  const Vector3 n = faces.normal(face);
+  const Vector3 u = relative_twist.at(faces.centroid(face));
+  FaceFlow flow;
+  const double normal_speed = n.dot(u);
+  const double force = -0.5 * settings.density * faces.area[face];
+  flow.is_attached = normal_speed > settings.separation_cosine * u.norm();
+  if (flow.is_attached) flow.slip = normal_speed * n - u;
+  const double speed = flow.slip.norm();
+  const PressureOnFace pressure = pressureOn(faces, face, relative_twist, speed * speed, settings);
+  flow.pressure = force * pressure.total * n;
+  if (settings.shape) flow.moment = -force * pressure.pitch * settings.shape->shape.pitching;
+  if (!flow.is_attached) return flow;
+  const double reynolds = settings.reynoldsPerSpeed(reference_length) * speed;
+  if (!(reynolds > 0)) return flow;
+  const double coefficient = kFrictionCoefficient * reynoldsPower(reynolds);
+  flow.friction = -coefficient * force * speed * flow.slip;
+  return flow;
+}
+
 FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                            const Twist& relative_twist, const LoadSettings& settings,
                            const SurfacePlane* plane) noexcept {
-  static const SumFaces sum_faces = kSumFaces.fastest();
-  const double cosine = settings.separation_cosine;
-  const Vector3& w = relative_twist.angular;
-  const Vector3& v = relative_twist.linear;
-  AMBIENT_ASSERT(cosine >= -1 && cosine <= 0);
+  AMBIENT_ASSERT(settings.separation_cosine >= -1 && settings.separation_cosine <= 0);
   AMBIENT_ASSERT(settings.density >= 0 && reference_length >= 0);
-  const FaceCut cut = plane ? cutBy(*plane) : FaceCut{};
-  FaceMotion motion{{w.x(), w.y(), w.z()}, {v.x(), v.y(), v.z()},  -cosine * std::abs(cosine),
-                    1 - cosine * cosine,   plane ? &cut : nullptr, settings.law};
-  const double reynolds_per_speed = settings.reynoldsPerSpeed(reference_length);
-  const bool with_friction = reynolds_per_speed > 0;
-
   AMBIENT_ASSERT(!settings.shape || settings.law == PressureLaw::kForm);
-  if (settings.shape) addShape(*settings.shape, w, cosine, motion);
-  const FaceSums sums = sum_faces(columnsOf(faces, settings.law), motion, with_friction);
-  const double half_density = 0.5 * settings.density;
   FaceLoads loads;
-  loads.pressure = scaled(sums.pressure, -half_density);
-  if (motion.wing)
-    loads.pressure.torque += half_density * sums.pitch * settings.shape->shape.pitching;
-  if (with_friction) {
-    const double friction_scale = kFrictionCoefficient * reynoldsPower(reynolds_per_speed);
-    loads.friction = scaled(sums.friction, -half_density * friction_scale);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const double share = plane ? wetShare(faces, i, *plane) : 1;
+    if (!(share > 0)) continue;
+    const FaceFlow flow = computeFaceFlow(faces, i, reference_length, relative_twist, settings);
+    const Vector3 c = faces.centroid(i);
+    loads.pressure += share * Wrench::ofForceAt(flow.pressure, c);
+    loads.pressure.torque += share * flow.moment;
+    loads.friction += share * Wrench::ofForceAt(flow.friction, c);
   }
   return loads;
 }

@@ -38,15 +38,30 @@ struct FaceLoads {
   Wrench total() const { return pressure + friction; }
 };
 
+/// Flow at one face and the resulting forces, in F.
+struct FaceFlow {
+  bool is_attached = false;
+  Vector3 slip = Vector3::Zero();      ///< u_s, fluid relative to the wall [m/s]; 0 if separated
+  Vector3 pressure = Vector3::Zero();  ///< force of the dynamic pressure [N]
+  Vector3 friction = Vector3::Zero();  ///< force of skin friction [N]
+  Vector3 moment = Vector3::Zero();    ///< of the lift of wings beside its force, eq. (43d) [N m]
+};
+
+/// Computes the flow at one face, docs/theory.md eq. (12) to (17), (43) to (44). The forces and
+/// moments of all faces add up to computeFaceLoads(), which has the same arguments.
+/// @pre face < faces.size()
+FaceFlow computeFaceFlow(const FaceTable& faces, std::size_t face, double reference_length,
+                         const Twist& relative_twist, const LoadSettings& settings) noexcept;
+
 /// Sums dynamic pressure with flow separation, and skin friction, over all faces; docs/theory.md
 /// eq. (13) to (17), Padilla et al. 2025 with the departures listed there. The form law has (43)
 /// and (44) in place of (15). Frame F: twist of the body relative to the ambient flow, wrenches
 /// about F's origin. `reference_length` [m] of the Reynolds number is sqrt(total area). A `plane`
 /// in F scales the area of each face by its wet share, eq. (59); null: all faces are in the fluid.
 /// Fixed summation order without fused operations: the same bits on every machine. Pressure is
-/// homogeneous of degree 2 in the twist, friction of degree 1.8. Cost O(F), about 1.5 ns per face,
-/// 3 ns with friction (AVX2); allocates nothing. A twist that is not finite gives loads that are
-/// not finite, or 0.
+/// homogeneous of degree 2 in the twist, friction of degree 1.8. Cost O(F), one face after another,
+/// for references and fits: computeFaceLoad() is made for every step. Allocates nothing. A twist
+/// that is not finite gives loads that are not finite, or 0.
 /// @pre all columns of `faces` have one length; by the form law the sharpness, too.
 FaceLoads computeFaceLoads(const FaceTable& faces, double reference_length,
                            const Twist& relative_twist, const LoadSettings& settings,

@@ -6,10 +6,9 @@
 #include <cmath>
 
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
-#include "bullet_ambient/force/kernels/face_sums.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/shape_factors.h"
-#include "bullet_ambient/force/loads/face_flow.h"
+#include "bullet_ambient/force/loads/face_loads.h"
 #include "tests/support/bits_of.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -34,19 +33,6 @@ FaceTable firstOf(const FaceTable& faces, std::size_t count) {
   return first;
 }
 
-FaceColumns columnsOf(const FaceTable& faces) {
-  return {{faces.normal_x.data(), faces.normal_y.data(), faces.normal_z.data()},
-          {faces.centroid_x.data(), faces.centroid_y.data(), faces.centroid_z.data()},
-          faces.area.data(),
-          faces.size(),
-          faces.sharpness.data()};
-}
-
-FaceMotion motionFor(double cosine) {
-  return {{0.75, -1.5, 0.3},   {1.25, 0.4, -2.0}, -cosine * std::abs(cosine),
-          1 - cosine * cosine, nullptr,           PressureLaw::kForm};
-}
-
 SingleMotion singleMotionFor(float cosine, float friction) {
   return {{0.75f, -0.5f, 0.3f},
           {0.25f, 0.4f, -1.0f},
@@ -62,15 +48,12 @@ TEST(FormSums, HaveTheSameBitsWithEveryInstructionSet) {
   const FaceTable all = facesOf(arbitrary, 3);
   int compared = 0;
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-    const SumFaces in_double = kSumFaces.of(set);
     const SumBlocks in_single = kSumBlocks.of(set);
-    if (!in_double || !in_single) continue;
+    if (!in_single) continue;
     for (const std::size_t count : {1, 7, 16, 17, 257, 1280})
       for (const double cosine : {0.0, -0.3, -1.0})
         for (const bool friction : {false, true}) {
           const FaceTable faces = firstOf(all, count);
-          EXPECT_EQ(test::bitsOf(in_double(columnsOf(faces), motionFor(cosine), friction)),
-                    test::bitsOf(sumFacesBaseline(columnsOf(faces), motionFor(cosine), friction)));
           const PackedFaces packed(faces, FormShape{});
           const SingleMotion motion =
               singleMotionFor(static_cast<float>(cosine), friction ? 0.01f : 0);
@@ -97,19 +80,11 @@ TEST(FormSums, OfWingsAndHullsHaveTheSameBitsWithEveryInstructionSet) {
     shape.wing = wing;
     const ShapeFactors factors(shape);
     for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-      const SumFaces in_double = kSumFaces.of(set);
       const SumBlocks in_single = kSumBlocks.of(set);
-      if (!in_double || !in_single) continue;
+      if (!in_single) continue;
       for (const std::size_t count : {1, 17, 257, 1280})
         for (const double cosine : {0.0, -0.3}) {
           const FaceTable faces = firstOf(all, count);
-          FaceMotion motion = motionFor(cosine);
-          motion.wing = &factors.in_double;
-          motion.pitching_rate = 0.4;
-          motion.slip_share = 0.25;
-          for (int axis = 0; axis < 3; ++axis) motion.pitching[axis] = shape.pitching[axis];
-          EXPECT_EQ(test::bitsOf(in_double(columnsOf(faces), motion, true)),
-                    test::bitsOf(sumFacesBaseline(columnsOf(faces), motion, true)));
           SingleMotion single = singleMotionFor(static_cast<float>(cosine), 0.01f);
           single.wing = &factors.in_single;
           single.pitching_rate = 0.4f;
@@ -152,26 +127,6 @@ TEST(FormSums, AreThoseOfTheLaw) {
     const Vector6 in_single =
         computeFaceLoad(PackedFaces(faces, FormShape{}), 1, x, settings).vector();
     EXPECT_LE((in_single - expected).norm(), 3e-6 * expected.norm());
-  }
-}
-
-TEST(FormSums, AreThoseOfTheFlowAtEachFace) {
-  test::Arbitrary arbitrary(13);
-  const FaceTable faces = facesOf(arbitrary, 2);
-  const Twist x = arbitrary.twist(2, 3);
-  for (const double cosine : {0.0, -0.6}) {
-    const LoadSettings settings{1.3, 1e-3, cosine, true, PressureLaw::kForm};
-    Wrench pressure, friction;
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      const FaceFlow flow = computeFaceFlow(faces, i, 0.7, x, settings);
-      pressure += Wrench::ofForceAt(flow.pressure, faces.centroid(i));
-      friction += Wrench::ofForceAt(flow.friction, faces.centroid(i));
-    }
-    const FaceLoads loads = computeFaceLoads(faces, 0.7, x, settings);
-    EXPECT_LE((pressure.vector() - loads.pressure.vector()).norm(),
-              1e-12 * loads.pressure.vector().norm());
-    EXPECT_LE((friction.vector() - loads.friction.vector()).norm(),
-              1e-12 * loads.friction.vector().norm());
   }
 }
 
