@@ -15,8 +15,16 @@ class SideFinder {
  public:
   explicit SideFinder(const SurfaceTriangles& mesh)
       : mesh_(mesh), is_taken_(static_cast<std::size_t>(mesh.size())) {
+    first_.resize(static_cast<std::size_t>(mesh.vertexCount()) + 1);
+    ends_.resize(3 * is_taken_.size());
     for (int t = 0; t < mesh.size(); ++t)
-      for (int corner = 0; corner < 3; ++corner) triangle_at_[edge(t, corner)] = t;
+      for (int corner = 0; corner < 3; ++corner) ++first_[at(mesh.vertex(t, corner))];
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    for (int t = mesh.size() - 1; t >= 0; --t)
+      for (int corner = 0; corner < 3; ++corner) {
+        const auto [begin, end] = edge(t, corner);
+        ends_[--first_[at(begin)]] = {end, t};
+      }
   }
 
   std::vector<FlatSide> sides() {
@@ -37,10 +45,12 @@ class SideFinder {
   }
   std::vector<bool>::reference isTaken(int t) { return is_taken_[static_cast<std::size_t>(t)]; }
 
-  /// Index of the triangle on the other side of an edge; -1: none.
+  /// Index of the triangle on the other side of an edge, of several the last one; -1: none.
   int beyond(const Edge& edge) const {
-    const auto found = triangle_at_.find({edge.second, edge.first});
-    return found == triangle_at_.end() ? -1 : found->second;
+    int triangle = -1;
+    for (std::size_t i = first_[at(edge.second)]; i < first_[at(edge.second) + 1]; ++i)
+      if (ends_[i].vertex == edge.first) triangle = ends_[i].triangle;
+    return triangle;
   }
   bool isOnPlaneOf(int t, const FlatSide& side) const {
     return t >= 0 && (mesh_.normal(t) - side.normal).cwiseAbs().maxCoeff() <= kFlat;
@@ -107,8 +117,15 @@ class SideFinder {
     return corners;
   }
 
+  /// End of an edge, and the triangle whose edge it is.
+  struct End {
+    int vertex, triangle;
+  };
+  static std::size_t at(int vertex) { return static_cast<std::size_t>(vertex); }
+
   const SurfaceTriangles& mesh_;
-  std::map<Edge, int> triangle_at_;
+  std::vector<std::size_t> first_;  ///< place in ends_ of the first edge that begins at a vertex
+  std::vector<End> ends_;           ///< of edges by their first vertex, then by triangle
   std::vector<bool> is_taken_;
 };
 

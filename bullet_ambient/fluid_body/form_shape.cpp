@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "bullet_ambient/base/ambient_assert.h"
@@ -22,26 +21,35 @@ double positivePart(double x) { return std::max(x, 0.0); }
 
 /// Side of an edge: a triangle, and its corner that is not on the edge.
 struct EdgeSide {
+  int low, high;  ///< ends of the edge
   int triangle, corner;
-};
-using Edge = std::pair<int, int>;
 
-std::map<Edge, std::vector<EdgeSide>> edgesOf(const SurfaceTriangles& mesh) {
-  std::map<Edge, std::vector<EdgeSide>> edges;
+  bool isOfEdgeOf(const EdgeSide& other) const { return low == other.low && high == other.high; }
+};
+
+/// The sides of all edges, those of one edge next to each other.
+std::vector<EdgeSide> edgeSidesOf(const SurfaceTriangles& mesh) {
+  std::vector<EdgeSide> sides;
+  sides.reserve(3 * static_cast<std::size_t>(mesh.size()));
   for (int t = 0; t < mesh.size(); ++t)
     for (int k = 0; k < 3; ++k) {
-      const int a = mesh.vertex(t, k), b = mesh.vertex(t, (k + 1) % 3);
-      edges[std::minmax(a, b)].push_back({t, mesh.vertex(t, (k + 2) % 3)});
+      const auto [low, high] = std::minmax({mesh.vertex(t, k), mesh.vertex(t, (k + 1) % 3)});
+      sides.push_back({low, high, t, mesh.vertex(t, (k + 2) % 3)});
     }
-  return edges;
+  std::sort(sides.begin(), sides.end(), [](const EdgeSide& a, const EdgeSide& b) {
+    return std::tie(a.low, a.high, a.triangle, a.corner) <
+           std::tie(b.low, b.high, b.triangle, b.corner);
+  });
+  return sides;
 }
 
-/// True of a border, and of a convex edge sharper than 55 degrees.
-bool isSharp(const SurfaceTriangles& mesh, const Edge& edge, const std::vector<EdgeSide>& sides) {
+/// True of a border, and of a convex edge sharper than 55 degrees; `sides`: the `count` sides of an
+/// edge.
+bool isSharp(const SurfaceTriangles& mesh, const EdgeSide* sides, std::size_t count) {
   constexpr double kSharpCosine = 0.57357644;  // cos 55 degrees
-  if (sides.size() != 2) return sides.size() == 1;
+  if (count != 2) return count == 1;
   const Vector3& normal = mesh.normal(sides[0].triangle);
-  const Vector3 across = mesh.place(sides[1].corner) - mesh.place(edge.first);
+  const Vector3 across = mesh.place(sides[1].corner) - mesh.place(sides[0].low);
   return across.dot(normal) < 0 && normal.dot(mesh.normal(sides[1].triangle)) < kSharpCosine;
 }
 
@@ -49,9 +57,12 @@ bool isSharp(const SurfaceTriangles& mesh, const Edge& edge, const std::vector<E
 double edgeShare(const FluidBody& body, const SurfaceTriangles& mesh) {
   if (mesh.size() == 0 || mesh.isSheet()) return 1;
   double length = 0;
-  for (const auto& [edge, sides] : edgesOf(mesh))
-    if (isSharp(mesh, edge, sides))
-      length += (mesh.place(edge.first) - mesh.place(edge.second)).norm();
+  const std::vector<EdgeSide> sides = edgeSidesOf(mesh);
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].isOfEdgeOf(sides[begin])) ++end;
+    if (isSharp(mesh, &sides[begin], end - begin))
+      length += (mesh.place(sides[begin].low) - mesh.place(sides[begin].high)).norm();
+  }
   return square(length) / (square(length) + body.area);
 }
 

@@ -28,16 +28,19 @@ SurfaceTriangles::SurfaceTriangles(const Surface& surface) {
 
 void SurfaceTriangles::weld(const Surface& surface) {
   AMBIENT_ASSERT(surface.triangles.size() % 3 == 0 && surface.vertices.size() % 3 == 0);
+  constexpr int kUnknown = -1;
   std::map<std::array<double, 3>, int> seen;
+  std::vector<int> numbers(surface.vertices.size() / 3, kUnknown);
   const auto corner = [&](std::size_t i) {
-    AMBIENT_ASSERT(surface.triangles[i] >= 0 &&
-                   3 * static_cast<std::size_t>(surface.triangles[i]) + 2 <
-                       surface.vertices.size());
-    const double* p = &surface.vertices[3 * static_cast<std::size_t>(surface.triangles[i])];
+    const auto vertex = static_cast<std::size_t>(surface.triangles[i]);
+    AMBIENT_ASSERT(surface.triangles[i] >= 0 && vertex < numbers.size());
+    if (numbers[vertex] != kUnknown) return numbers[vertex];
+    const double* p = &surface.vertices[3 * vertex];
     const auto [entry, is_new] = seen.insert({{p[0], p[1], p[2]}, vertexCount()});
     if (is_new) places_.emplace_back(p[0], p[1], p[2]);
-    return entry->second;
+    return numbers[vertex] = entry->second;
   };
+  corners_.reserve(surface.triangles.size() / 3);
   for (std::size_t t = 0; t < surface.triangles.size() / 3; ++t)
     corners_.push_back({corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)});
 }

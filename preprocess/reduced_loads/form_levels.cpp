@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/shape_factors.h"
 #include "bullet_ambient/force/loads/face_loads.h"
@@ -21,10 +23,11 @@ constexpr std::uint64_t kErrorSeed = 3, kFitSeed = 4;
 constexpr int kErrorMotions = 1000, kFitMotions = 200, kFitTranslations = 50;
 constexpr double kTranslationWeight = 3;  // of a translation in the fit, over a motion with spin
 
-/// Pressure and friction at a Reynolds number of 1000, where the law of friction has most of it.
-Vector6 loadOn(const FaceTable& faces, const ShapeFactors& shape, const Vector6& motion) {
+/// Pressure and friction at a Reynolds number of 1000, where the law of friction has most of it; in
+/// single precision, which is 1e-6 off.
+Vector6 loadOn(const PackedFaces& faces, const ShapeFactors& shape, const Vector6& motion) {
   const LoadSettings settings{1, 1e-3, 0, true, PressureLaw::kForm, &shape};
-  return computeFaceLoads(faces, 1, Twist::fromVector(motion), settings).total().vector();
+  return computeFaceLoad(faces, 1, Twist::fromVector(motion), settings).vector();
 }
 
 /// 1/2 sum A_i |u_i|^2 as a form of the motion: what errors are compared with.
@@ -46,21 +49,41 @@ struct LoadSamples {
   LoadSamples(const FaceTable& faces, const ShapeFactors& of_body, std::uint64_t seed, int count,
               int translations = 0)
       : shape(of_body) {
+    const PackedFaces packed(faces, shape.shape);
     const Matrix6 form = scaleOf(faces);
     ArbitraryNumbers numbers(seed);
-    for (int i = 0; i < count; ++i) add(faces, form, sampleMotion(numbers), 1);
+    for (int i = 0; i < count; ++i) add(packed, form, sampleMotion(numbers), 1);
     for (int i = 0; i < translations; ++i)
-      add(faces, form, stack(Vector3::Zero(), numbers.direction()), kTranslationWeight);
+      add(packed, form, stack(Vector3::Zero(), numbers.direction()), kTranslationWeight);
   }
 
-  /// The error of other faces that one motion in a hundred exceeds.
-  double p99Error(const FaceTable& others) const {
+  /// Error of the loads on other faces in one motion.
+  double errorOf(const PackedFaces& others, std::size_t motion) const {
+    return (loadOn(others, shape, motions[motion]) / scales[motion] - loads[motion]).norm();
+  }
+
+  /// Returns the error of other faces that one motion in a hundred exceeds; infinity once so many
+  /// exceed `largest`.
+  double p99Error(const FaceTable& others, double largest) const {
+    const PackedFaces packed(others, shape.shape);
+    const std::size_t rank = motions.size() * 99 / 100;
+    std::size_t allowed = motions.size() - rank;
     std::vector<double> errors;
-    for (std::size_t i = 0; i < motions.size(); ++i)
-      errors.push_back((loadOn(others, shape, motions[i]) / scales[i] - loads[i]).norm());
-    const auto at = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() * 99 / 100);
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      errors.push_back(errorOf(packed, i));
+      if (errors.back() > largest && --allowed == 0) return std::numeric_limits<double>::infinity();
+    }
+    const auto at = errors.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(errors.begin(), at, errors.end());
     return *at;
+  }
+
+  /// Returns true if no error of other faces in the first `count` motions exceeds `largest`.
+  bool areSame(const FaceTable& others, double largest, std::size_t count) const {
+    const PackedFaces packed(others, shape.shape);
+    for (std::size_t i = 0; i < count; ++i)
+      if (errorOf(packed, i) > largest) return false;
+    return true;
   }
 
   ShapeFactors shape;
@@ -68,7 +91,7 @@ struct LoadSamples {
   std::vector<double> scales, weights;  ///< weights: in the fit
 
  private:
-  void add(const FaceTable& faces, const Matrix6& form, const Vector6& motion, double weight) {
+  void add(const PackedFaces& faces, const Matrix6& form, const Vector6& motion, double weight) {
     motions.push_back(motion);
     weights.push_back(weight);
     scales.push_back(motion.dot(form * motion));
@@ -125,14 +148,14 @@ class LevelMaker {
 
   std::size_t size() const { return centred_.faces.size(); }
 
-  /// Makes a level of about so many faces.
-  FormLevel level(int count) const {
+  /// Makes a level of about so many faces. An error above `largest` is told as infinity.
+  FormLevel level(int count, double largest = std::numeric_limits<double>::infinity()) const {
     const int clusters = std::max(1, count / mirrors_.images());
     FaceTable folded = joined(folded_, clusterFaces(folded_, clusters));
     fitAreas(folded);
     FormLevel level;
     level.faces = mirrors_.unfolded(withArea(folded));
-    level.p99_error = for_error_.p99Error(level.faces);
+    level.p99_error = for_error_.p99Error(level.faces, largest);
     centred_.moveBack(level.faces);
     return level;
   }
@@ -147,10 +170,12 @@ class LevelMaker {
   /// Finds the mirrors in which the loads look the same, up to what the mesh has left.
   FaceMirrors findMirrors() const {
     constexpr double kSame = 2e-3;
+    constexpr std::size_t kMirrorMotions = 64;
     unsigned axes = 0;
     for (unsigned axis = 0; axis < 3; ++axis) {
       const FaceMirrors mirror(1u << axis);
-      if (for_fit_.p99Error(mirror.mirrored(centred_.faces)) <= kSame) axes |= 1u << axis;
+      if (for_fit_.areSame(mirror.mirrored(centred_.faces), kSame, kMirrorMotions))
+        axes |= 1u << axis;
     }
     return FaceMirrors(axes);
   }
@@ -165,7 +190,7 @@ class LevelMaker {
       FaceTable unit;
       unit.add(folded.normal(k), folded.centroid(k), 1);
       unit.sharpness = {folded.sharpness[k]};
-      const FaceTable images = mirrors_.unfolded(unit);
+      const PackedFaces images(mirrors_.unfolded(unit), shape_.shape);
       for (std::size_t i = 0; i < motions; ++i)
         A.block<6, 1>(static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(k)) =
             for_fit_.weights[i] / for_fit_.scales[i] * loadOn(images, shape_, for_fit_.motions[i]);
@@ -206,7 +231,7 @@ std::optional<FormLevel> smallestFormLevel(const FluidBody& body, double p99_err
   // Whole blocks of those that the loads are summed in.
   for (const std::size_t count : {16, 32, 48, 64, 96, 128, 192, 256}) {
     if (count >= maker.size()) break;
-    FormLevel level = maker.level(static_cast<int>(count));
+    FormLevel level = maker.level(static_cast<int>(count), p99_error);
     if (level.p99_error <= p99_error) return level;
   }
   return std::nullopt;

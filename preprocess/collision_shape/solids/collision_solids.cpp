@@ -1,6 +1,7 @@
 #include "preprocess/collision_shape/solids/collision_solids.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/check/mesh_checks.h"
@@ -65,6 +66,7 @@ struct SolidMaker {
     Solid solid;
     if (known && (resolution.tables || !known->is_tabulated)) solid.added_mass = known->added_mass;
     solid.sphere_radius = facts.sphere_radius;
+    solid.is_polyhedron = std::is_same_v<Simple, Box>;
     const int faces = std::max(resolution.faces, facts.least_faces());
     solid.mesh = facts.mesh(faces);
     if (solid.added_mass || !facts.is_smooth || resolution.flow_faces <= faces) return solid;

@@ -63,7 +63,12 @@ TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces) {
 }
 
 Solid makeHullSolid(const Hull& hull, const SolidResolution& resolution, const std::string& name) {
-  return solidOf(evenlyDivided(hullOf(hull.points, name), resolution.faces));
+  // Hulls of more triangles are taken for round bodies that their points lie on.
+  constexpr Eigen::Index kMostOfPolyhedron = 150;
+  const TriangleMesh mesh = hullOf(hull.points, name);
+  Solid solid = solidOf(evenlyDivided(mesh, resolution.faces));
+  solid.is_polyhedron = mesh.triangleCount() <= kMostOfPolyhedron;
+  return solid;
 }
 
 Solid makeBallHullSolid(const BallHull& hull, const SolidResolution& resolution,

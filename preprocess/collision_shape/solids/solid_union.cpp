@@ -62,6 +62,7 @@ Solid uniteGroup(const std::vector<Solid>& group, int faces, const std::string& 
   Meshes parts, cavities;
   Matrix6 parts_added_mass = Matrix6::Zero();
   Solid solid;
+  solid.is_polyhedron = arePolyhedra(group);
   for (const Solid& own : group) {
     parts.push_back(mergeFlatTriangles(own.mesh, false, kDefaultPanels));
     cavities.push_back(own.cavities);
@@ -93,6 +94,7 @@ Solid hullOf(const std::vector<Solid>& group, const UnionSettings& settings,
   const double sum = sumOfVolumes(meshes);
   Solid hull;
   hull.mesh = evenlyDivided(cleanHull(joinMeshes(meshes), name), settings.faces);
+  hull.is_polyhedron = arePolyhedra(group);
   std::ostringstream text;
   text.precision(3);
   text << name << ": " << namesOf(group, name) << " cannot be united (" << reason
@@ -137,6 +139,11 @@ void fallBack(const std::vector<Solid>& group, const UnionSettings& settings,
 }
 
 }  // namespace
+
+bool arePolyhedra(const std::vector<Solid>& solids) {
+  return std::all_of(solids.begin(), solids.end(),
+                     [](const Solid& solid) { return solid.is_polyhedron; });
+}
 
 SeparateSolids uniteSolids(const std::vector<Solid>& solids, const UnionSettings& settings,
                            const std::string& name) {

@@ -27,6 +27,9 @@ struct SeparateSolids {
   bool is_sum = false;  ///< true: CompoundFallback::kSum was needed; some of them touch or overlap
 };
 
+/// Returns true if all of them are polyhedra.
+bool arePolyhedra(const std::vector<Solid>& solids);
+
 /// Unites solids that touch or overlap, or leave gaps too narrow for the flow (kLeastGap). Each
 /// keeps what of its surface lies outside the others; where that leaves no closed surface, as when
 /// they touch in an edge, they are blown up about their centres by 0.03 %, then by 0.12 %. Cost

@@ -23,6 +23,9 @@ struct PotentialFlowSettings {
   int threads = 0;     ///< 0: all cores; the result does not depend on it, bit for bit
   FlowSolverKind solver = FlowSolverKind::Automatic;
   double memory_limit = 0;  ///< [bytes]; 0: the memory available on the machine
+  /// The body is this polyhedron, and not a round one that its triangles approximate: see
+  /// solveRefinedFlow().
+  bool polyhedron = false;
 };
 
 /// Potentials of the six unit motions and the fluid's inertia, per unit density, about the mesh's

@@ -51,6 +51,11 @@ double changeOf(const Matrix6& before, const Matrix6& after) {
 // 10 % off.
 constexpr double kLargeChange = 0.02;
 constexpr double kLongTriangle = 3;  // aspect
+constexpr double kLargePolyhedronChange = 0.1;
+
+// Error of the energy after a halving of the panels across edges over that before it: 2^(-4/3), for
+// the potential at the edges of a box goes with r^(2/3).
+constexpr double kThinnedError = 0.3968502629920499;
 
 /// Whether all triangles but a few stand for a part of a smooth surface. To divide them would
 /// resolve the flow around facets that the body does not have.
@@ -71,6 +76,11 @@ Matrix6 withSymmetriesOf(const TriangleMesh& mesh, bool sheet, double stretch,
   AMBIENT_ASSERT(isSymmetric(unit, 1e-9));
   const Matrix6 shifted = shiftOrigin(scaleShape(unit, size), -centre);
   return (shifted + shifted.transpose()) / 2;  // the shift rounds both halves apart
+}
+
+/// To panels that are infinitely thin at the edges, from one level of thinning to the next.
+Matrix6 extrapolatedAcrossEdges(const Matrix6& fine, const Matrix6& less_thinned) {
+  return fine + kThinnedError / (1 - kThinnedError) * (fine - less_thinned);
 }
 
 // On up to settings.max_panels.
@@ -116,6 +126,32 @@ RefinedFlow solveOnPanels(const TriangleMesh& mesh, const PotentialFlowSettings&
   }
   refined.added_mass = withSymmetriesOf(mesh, settings.sheet, stretch, refined.added_mass);
   return refined;
+}
+
+RefinedFlow solvePolyhedron(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  const SurfaceLevels levels =
+      refineInLevels(mergePolyhedronSides(mesh), false, settings.max_panels);
+  PotentialFlowSettings undivided = settings;
+  undivided.max_panels = 0;
+  const PotentialFlow flow = solvePotentialFlow(levels.fine.mesh, undivided);
+  RefinedFlow refined{flow.added_mass, flow.parts, flow.asymmetry, flow.panels};
+  if (levels.coarse) {
+    const PotentialFlow coarse = solvePotentialFlow(*levels.coarse, undivided);
+    refined.added_mass =
+        extrapolated(flow.added_mass, coarse.added_mass,
+                     static_cast<double>(flow.panels) / static_cast<double>(coarse.panels));
+  } else if (levels.less_thinned) {
+    refined.added_mass = extrapolatedAcrossEdges(
+        flow.added_mass, solvePotentialFlow(*levels.less_thinned, undivided).added_mass);
+  }
+  refined.is_coarse = changeOf(flow.added_mass, refined.added_mass) > kLargePolyhedronChange;
+  refined.added_mass = withSymmetriesOf(mesh, false, 1, refined.added_mass);
+  return refined;
+}
+
+RefinedFlow solveDivided(const TriangleMesh& mesh, const PotentialFlowSettings& settings) {
+  AMBIENT_ASSERT(!settings.polyhedron || !settings.sheet);
+  return settings.polyhedron ? solvePolyhedron(mesh, settings) : solveOnPanels(mesh, settings);
 }
 
 constexpr int kPanelsPerTriangle = 5;  // where triangles are to be divided
@@ -164,12 +200,13 @@ RefinedFlow solveRefinedFlow(const TriangleMesh& mesh, const PotentialFlowSettin
     if (const auto fewer = inTrianglesFor(settings.max_panels, mesh))
       return solveInOtherTriangles(*fewer, mesh, settings);
   }
-  const RefinedFlow refined = solveOnPanels(mesh, settings);
+  const RefinedFlow refined = solveDivided(mesh, settings);
   if (!refined.is_coarse || settings.solver == FlowSolverKind::Dense) return refined;
   if (const auto compact = solveOnCompactPanels(mesh, settings)) return *compact;
   PotentialFlowSettings finer = settings;
-  finer.max_panels = 4 * settings.max_panels;
-  return solveOnPanels(mesh, finer);
+  finer.max_panels =
+      settings.polyhedron ? static_cast<int>(kMostDensePanels) : 4 * settings.max_panels;
+  return solveDivided(mesh, finer);
 }
 
 }  // namespace ambient

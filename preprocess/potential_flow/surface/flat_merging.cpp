@@ -34,4 +34,6 @@ TriangleMesh mergeFlatTriangles(const TriangleMesh& mesh, bool sheet, int max_pa
   return skinny ? merged(mesh, 1 / kSkinny).mesh() : mesh;
 }
 
+TriangleMesh mergePolyhedronSides(const TriangleMesh& mesh) { return merged(mesh, 1).mesh(); }
+
 }  // namespace ambient

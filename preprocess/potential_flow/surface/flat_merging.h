@@ -16,4 +16,8 @@ namespace ambient {
 /// @pre the mesh passed checkMesh().
 TriangleMesh mergeFlatTriangles(const TriangleMesh& mesh, bool sheet, int max_panels);
 
+/// Merges the flat triangles of a polyhedron to the few large Delaunay triangles between its
+/// corners, whatever the angles between its sides. Otherwise as mergeFlatTriangles().
+TriangleMesh mergePolyhedronSides(const TriangleMesh& mesh);
+
 }  // namespace ambient
