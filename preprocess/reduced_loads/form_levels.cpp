@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/shape_factors.h"
@@ -136,6 +137,42 @@ void fitPositive(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, std::vector
     }
 }
 
+/// Turns faces about an axis of their frame by an angle that no regular polygon of few corners has.
+FaceTable turned(const FaceTable& faces, int axis) {
+  const double cosine = portable::cos(1), sine = portable::sin(1);
+  const auto turn = [&](const Vector3& v) {
+    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    Vector3 result = v;
+    result[j] = cosine * v[j] - sine * v[k];
+    result[k] = sine * v[j] + cosine * v[k];
+    return result;
+  };
+  FaceTable result;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    result.add(turn(faces.normal(i)), turn(faces.centroid(i)), faces.area[i]);
+  result.sharpness = faces.sharpness;
+  return result;
+}
+
+/// Turns each normal into the plane of the axis and the face's place: pressure on a body of
+/// revolution has no moment about its axis.
+void alignWithMeridians(FaceTable& faces, int axis) {
+  FaceTable aligned;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    Vector3 radius = faces.centroid(i), normal = faces.normal(i);
+    radius[axis] = 0;
+    const double along = normal[axis], across = radius.norm();
+    normal =
+        across > 0 ? Vector3(normal.dot(radius) / (across * across) * radius) : Vector3::Zero();
+    normal[axis] = along;
+    const bool keeps = normal.norm() > 0;
+    aligned.add(keeps ? Vector3(normal.normalized()) : faces.normal(i), faces.centroid(i),
+                faces.area[i]);
+  }
+  aligned.sharpness = std::move(faces.sharpness);
+  faces = std::move(aligned);
+}
+
 class LevelMaker {
  public:
   LevelMaker(const FluidBody& body, const FormShape& shape)
@@ -144,6 +181,7 @@ class LevelMaker {
         for_error_(centred_.faces, shape_, kErrorSeed, kErrorMotions),
         for_fit_(centred_.faces, shape_, kFitSeed, kFitMotions, kFitTranslations),
         mirrors_(findMirrors()),
+        axis_(findAxis()),
         folded_(mirrors_.folded(centred_.faces)) {}
 
   std::size_t size() const { return centred_.faces.size(); }
@@ -152,6 +190,7 @@ class LevelMaker {
   FormLevel level(int count, double largest = std::numeric_limits<double>::infinity()) const {
     const int clusters = std::max(1, count / mirrors_.images());
     FaceTable folded = joined(folded_, clusterFaces(folded_, clusters));
+    if (axis_) alignWithMeridians(folded, *axis_);
     fitAreas(folded);
     FormLevel level;
     level.faces = mirrors_.unfolded(withArea(folded));
@@ -167,17 +206,29 @@ class LevelMaker {
     return ShapeFactors(shape);
   }
 
-  /// Finds the mirrors in which the loads look the same, up to what the mesh has left.
+  /// True if the loads on other faces look the same, up to what the mesh has left.
+  bool areSame(const FaceTable& others) const {
+    constexpr double kSame = 5e-3;
+    constexpr std::size_t kMotions = 64;
+    return for_fit_.areSame(others, kSame, kMotions);
+  }
+
   FaceMirrors findMirrors() const {
-    constexpr double kSame = 2e-3;
-    constexpr std::size_t kMirrorMotions = 64;
     unsigned axes = 0;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const FaceMirrors mirror(1u << axis);
-      if (for_fit_.areSame(mirror.mirrored(centred_.faces), kSame, kMirrorMotions))
-        axes |= 1u << axis;
-    }
+    for (unsigned axis = 0; axis < 3; ++axis)
+      if (areSame(FaceMirrors(1u << axis).mirrored(centred_.faces))) axes |= 1u << axis;
     return FaceMirrors(axes);
+  }
+
+  /// Finds the axis through the centroid that the body is one of revolution about; balls have none.
+  std::optional<int> findAxis() const {
+    std::optional<int> found;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!areSame(turned(centred_.faces, axis))) continue;
+      if (found) return std::nullopt;
+      found = axis;
+    }
+    return found;
   }
 
   void fitAreas(FaceTable& folded) const {
@@ -212,6 +263,7 @@ class LevelMaker {
   ShapeFactors shape_;
   LoadSamples for_error_, for_fit_;
   FaceMirrors mirrors_;
+  std::optional<int> axis_;
   FaceTable folded_;
 };
 

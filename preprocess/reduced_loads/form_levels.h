@@ -14,7 +14,8 @@ constexpr int kFewestLevelFaces = 16, kMostLevelFaces = 1024;
 /// Makes reduced faces for the form law: one level per number in `faces` that is below the number
 /// of faces of the full sum; docs/theory.md eq. (51a). Each cluster of faces with similar normal
 /// and place becomes one face, which only takes energy, as its faces do; areas are fitted to the
-/// loads. Mirror symmetries of the body along the axes of F are kept. The same bits on every run.
+/// loads. Mirror symmetries of the body along the axes of F are kept, and so is that of a body of
+/// revolution about one of them: pressure then has no moment about it. The same bits on every run.
 /// Cost: 10 us per face.
 /// @throws std::invalid_argument naming the body, if no faces that are apart have an area, and as
 /// formLawFaces().

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/shape_factors.h"
@@ -92,6 +94,55 @@ TEST(FormLevels, KeepTheMirrorsOfTheBody) {
 }
 
 /// A wedge has one mirror, across its length; the fit must not impose further mirrors.
+/// A float of two cylinders: rings of 40 quads, each turned against the last by an angle that is no
+/// part of a corner, each quad divided along either diagonal. No mirror maps the mesh on itself.
+FluidBody crookedFloat() {
+  struct Ring {
+    double radius, height;
+  };
+  constexpr Ring kRings[] = {{0, -2}, {0.4, -2}, {0.4, -1}, {0.4, 0},
+                             {1, 0},  {1, 0.5},  {1, 1},    {0, 1}};
+  constexpr int kCorners = 40;
+  const auto corner = [&](std::size_t ring, int i) {
+    const double angle = 2 * kPi * (i + 0.37 * static_cast<double>(ring % 3)) / kCorners;
+    return Vector3(kRings[ring].radius * std::cos(angle), kRings[ring].radius * std::sin(angle),
+                   kRings[ring].height);
+  };
+  FluidBody body;
+  body.area = 1;
+  for (std::size_t ring = 0; ring + 1 < std::size(kRings); ++ring)
+    for (int i = 0; i < kCorners; ++i) {
+      const Vector3 a = corner(ring, i), b = corner(ring, i + 1), c = corner(ring + 1, i + 1),
+                    d = corner(ring + 1, i);
+      const bool other = (7 * i + static_cast<int>(ring)) % 3 == 0;
+      const Vector3 triangles[2][3] = {{a, b, other ? d : c}, {other ? b : a, c, d}};
+      for (const auto& t : triangles) {
+        const Vector3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+        if (normal.norm() < 1e-9) continue;  // at the axis
+        body.faces.add(normal.normalized(), (t[0] + t[1] + t[2]) / 3, normal.norm() / 2);
+        body.faces.sharpness.push_back(std::abs(normal.normalized().z()));
+      }
+    }
+  return body;
+}
+
+TEST(FormLevels, OfBodiesOfRevolutionHaveNoMomentAboutTheirAxis) {
+  const FluidBody body = crookedFloat();
+  const LoadSettings smooth{1.2, 0, 0, false, PressureLaw::kForm};
+  double largest = 0;
+  for (const FormLevel& level : buildFormLevels(body, {48, 96})) {
+    EXPECT_LT(level.p99_error, 0.05);
+    for (int i = 0; i < 32; ++i) {
+      const double angle = 2 * kPi * i / 32;
+      const Twist along{Vector3::Zero(), {std::cos(angle), std::sin(angle), 0.3}};
+      const Wrench load = computeFaceLoads(level.faces, 1, along, smooth).pressure;
+      EXPECT_GT(load.force.norm(), 0.5);
+      largest = std::max(largest, std::abs(load.torque.z()) / load.force.norm());
+    }
+  }
+  EXPECT_LT(largest, 1e-6);  // [m]; the body is 2 m wide
+}
+
 TEST(FormLevels, AddNoMirrors) {
   FluidBody body;
   body.name = "wedge";
