@@ -47,7 +47,7 @@ TEST_P(PlateModes, AreThoseOfThePaperWithEveryStepAndIntegrator) {
     for (const double time_step : {0.03, 0.01, 1.0 / 240, 1.0 / 480, 1.0 / 960}) {
       const Fall fall = fallWith({integrator, time_step});
       EXPECT_EQ(fallingModeName(fall.mode), fallingModeName(GetParam().mode))
-          << "integrator " << static_cast<int>(integrator) << ", time step " << time_step;
+          << "integrator " << wordOf(kIntegratorNames, integrator) << ", time step " << time_step;
     }
 }
 
