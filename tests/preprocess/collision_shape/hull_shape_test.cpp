@@ -5,6 +5,7 @@
 #include <random>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/potential_flow/results/refined_flow.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/reference/body_added_mass.h"
 
@@ -125,6 +126,36 @@ TEST(HullShape, RandomHullsAreBodiesOfModestSize) {
     EXPECT_GT(body.volume, 0) << points << " points";
     EXPECT_LT(body.faces.size(), 4500u) << points << " points";
   }
+}
+
+// Measured 0.2 % in rotation and translation, on 1338 panels; without merged sides 1.5 % on 1158.
+TEST(HullShape, FewPanelsDoForAPolyhedron) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  btConvexHullShape hull;
+  for (int i = 0; i < 20; ++i) {
+    const Vector3 way(coordinate(random), coordinate(random), coordinate(random));
+    hull.addPoint(toBullet(Vector3(way.normalized().cwiseProduct(Vector3(0.3, 0.25, 0.2)))), false);
+  }
+  hull.recalcLocalAabb();
+  const FluidBody body = makeFluidBody(hull);
+  const Surface& surface = body.surface;
+  TriangleMesh mesh;
+  mesh.vertices = Eigen::Map<const Eigen::Matrix3Xd>(
+      surface.vertices.data(), 3, static_cast<Eigen::Index>(surface.vertices.size() / 3));
+  mesh.triangles = Eigen::Map<const Eigen::Matrix3Xi>(
+      surface.triangles.data(), 3, static_cast<Eigen::Index>(surface.triangles.size() / 3));
+  PotentialFlowSettings settings;
+  settings.polyhedron = true;
+  settings.max_panels = 1500;
+  const RefinedFlow few = solveRefinedFlow(mesh, settings);
+  EXPECT_LE(few.panels, 1500);
+  EXPECT_LT(test::rotationError(body.added_mass, few.added_mass), 1e-9) << "these are the body's";
+  settings.max_panels = static_cast<int>(kMostDensePanels);
+  const RefinedFlow many = solveRefinedFlow(mesh, settings);
+  EXPECT_GT(many.panels, 2 * few.panels);
+  EXPECT_LT(test::rotationError(few.added_mass, many.added_mass), 1e-2);
+  EXPECT_LT(test::translationError(few.added_mass, many.added_mass), 5e-3);
 }
 
 TEST(HullShape, LocalScalingCounts) {
