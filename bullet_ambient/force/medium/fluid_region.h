@@ -81,6 +81,9 @@ struct RegionSample {
   /// False if a sample of surface or flow was not finite; the media then lack both samples.
   bool is_finite = true;
   BareVelocity bare_below = {}, bare_above = {};  ///< without parts if a sample was not finite
+  /// Slope of the surface beyond the one that its acceleration gives, horizontal, in W; of a body
+  /// that is not small against the waves, docs/theory.md eq. (84) [1].
+  Vector3 tilt = {0, 0, 0};
 
   bool isAbove() const { return !(height > 0); }  ///< true if the point is dry
   const Medium& here() const { return isAbove() ? above : below; }

@@ -97,7 +97,7 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   RowVelocity result;
   Vector6 forced = model.inverse_inertia * externalWrench(model, s, R).vector();
   if (model.loads) {
-    const SurfaceLoad load = computeSurfaceLoad(model, relative, s.load_share);
+    const SurfaceLoad load = computeSurfaceLoad(model, relative, s);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;
     const DualPair motion = pairOfTwist(model, x);

@@ -35,7 +35,7 @@ FlightCount begin(const RowTask& body, int lane, PushLanes& push) {
   setLane(lanes.load_B, lane, Wrench{});
   FlightCount count;
   if (!task.model.loads) return count;
-  const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s.load_share);
+  const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s);
   setLane(lanes.load_B, lane, load.wrench);
   count.load_evaluations = 1;
   count.guarded = load.guarded;
