@@ -39,7 +39,8 @@ Wrench pushByFlow(const AmbientBody& ambient) noexcept {
   const btRigidBody& body = *ambient.body;
   const Quaternion q = toQuaternion(body.getWorldTransform().getRotation());
   const double mass = 1 / static_cast<double>(body.getInvMass());
-  return {q * flow.at_rest_B.torque, q * flow.at_rest_B.force + mass * flow.lean_W};
+  const Wrench push_B = flow.at_rest_B + flow.push_B;
+  return {q * push_B.torque, q * push_B.force + mass * flow.lean_W};
 }
 
 void addFlowAlong(const AmbientBody& ambient, Surroundings& surroundings) noexcept {

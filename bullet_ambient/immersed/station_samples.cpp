@@ -33,6 +33,12 @@ const WaterSurface* bendingSurface(const RegionEntry* entry) {
   return surface->waveNumber() > 0 ? surface : nullptr;
 }
 
+// Returns the one that is nearer to 0 if both have one sign, else 0.
+double lesserOf(double a, double b) {
+  if (!(a * b > 0)) return 0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
 Vector3 upOf(const Vector3& gravity) { return -gravity.normalized(); }
 
 }  // namespace
@@ -120,68 +126,87 @@ void StationSamples::fitSurface(const Vector3& gravity, RegionSample& sample) co
   if (squares.trace() > 0) sample.tilt = squares.inverse() * sum;
 }
 
-// Returns the angular velocity of the rigid motion nearest to the velocities [rad/s].
-Vector3 StationSamples::turning(Medium RegionSample::*side) const {
+StationSamples::AxisFlow StationSamples::alongAxis(int axis, Medium RegionSample::*side) const {
+  const Matrix3 to_body = to_world_.transpose();
+  const Vector3 ahead = to_body * difference(2 * axis, side, &Medium::velocity);
+  const Vector3 behind = to_body * difference(2 * axis + 1, side, &Medium::velocity);
+  AxisFlow flow;
+  flow.way_B = to_body * stations_[2 * axis].way_W;
+  for (int i = 0; i < 3; ++i) flow.even_B[i] = lesserOf(ahead[i], -behind[i]);
+  flow.ahead_B = ahead - flow.even_B;
+  flow.behind_B = behind + flow.even_B;
+  flow.largest = std::max(ahead.norm(), behind.norm());
+  flow.acceleration_B = to_body *
+                        (difference(2 * axis, side, &Medium::acceleration) -
+                         difference(2 * axis + 1, side, &Medium::acceleration)) /
+                        2;
+  return flow;
+}
+
+Vector3 StationSamples::turning(const AxisFlow (&axes)[kPairs], Vector3 AxisFlow::*ahead_B) {
   constexpr double kThin = 1e-9;  // part of the moments of inertia that an axis without them gets
   Matrix3 moments = Matrix3::Zero();
   Vector3 sum = Vector3::Zero();
-  for (int axis = 0; axis < kPairs; ++axis) {
-    if (!isUsed(axis)) continue;
-    const Vector3& way = stations_[2 * axis].way_W;
-    moments += 2 * kWeight * (way.squaredNorm() * Matrix3::Identity() - way * way.transpose());
-    sum += kWeight * way.cross(difference(2 * axis, side, &Medium::velocity) -
-                               difference(2 * axis + 1, side, &Medium::velocity));
+  for (const AxisFlow& axis : axes) {
+    moments += axis.way_B.squaredNorm() * Matrix3::Identity() - axis.way_B * axis.way_B.transpose();
+    sum += axis.way_B.cross(axis.*ahead_B);
   }
   if (sum.isZero(0)) return sum;
   moments.diagonal().array() += kThin * moments.trace();
   return moments.inverse() * sum;
 }
 
-FlowAlongBody StationSamples::alongAxis(int axis, const Vector3 (&rest_W)[3],
-                                        const Vector3& turn_W) const {
-  FlowAlongBody flow;
-  const Matrix3 to_body = to_world_.transpose();
-  const double weights[] = {1 - 2 * kWeight, kWeight, kWeight};
-  Vector3 mean = Vector3::Zero();
-  for (int i = 0; i < 3; ++i) mean += weights[i] * rest_W[i];
-  flow.stations = axis < 0 ? 1 : 3;
-  for (int i = 0; i < flow.stations; ++i) {
-    flow.twists_B[i].angular = to_body * turn_W;
-    if (axis >= 0) flow.twists_B[i].linear = to_body * (rest_W[i] - mean);
-    flow.weights[i] = axis < 0 ? 1 : weights[i];
+void StationSamples::divide(const AxisFlow& axis, FlowAlongBody& flow) {
+  const Vector3 mean = kWeight * (axis.ahead_B + axis.behind_B);
+  const Vector3 rest_B[] = {-mean, axis.ahead_B - mean, axis.behind_B - mean};
+  const Vector3 ways_B[] = {Vector3::Zero(), axis.way_B, -axis.way_B};
+  flow.stations = 3;
+  for (int i = 0; i < 3; ++i) {
+    flow.twists_B[i] = {flow.twists_B[0].angular, rest_B[i]};
+    flow.places_B[i] = ways_B[i];
+    flow.weights[i] = i == 0 ? 1 - 2 * kWeight : kWeight;
   }
-  return flow;
 }
 
 FlowAlongBody StationSamples::flowAlong(Medium RegionSample::*side) const noexcept {
-  constexpr double kRigid = 1e-3;  // part of the differences, below the error of the loads
-  if (!may_turn_) return {};
-  const Vector3 mean = meanDifference(side, &Medium::velocity);
-  const Vector3 turn = turning(side);
-  double largest = 0, most = 0;
-  int along = -1;
-  Vector3 rest_W[3] = {-mean, Vector3::Zero(), Vector3::Zero()};
+  constexpr double kEven = 1e-3;  // part of the differences, below the error of the loads
+  AxisFlow axes[kPairs];
+  const AxisFlow* most_uneven = axes;
+  double largest = 0;
   for (int axis = 0; axis < kPairs; ++axis) {
     if (!isUsed(axis)) continue;
-    Vector3 rest[2];
-    for (int i = 0; i < 2; ++i) {
-      const Vector3 apart = difference(2 * axis + i, side, &Medium::velocity);
-      rest[i] = apart - mean - turn.cross(stations_[2 * axis + i].way_W);
-      largest = std::max(largest, apart.norm());
-    }
-    const double size = std::max({rest[0].norm(), rest[1].norm(), (rest[0] - rest[1]).norm()});
-    if (!(size > most)) continue;
-    most = size;
-    along = axis;
-    rest_W[1] = rest[0];
-    rest_W[2] = rest[1];
+    axes[axis] = alongAxis(axis, side);
+    largest = std::max(largest, axes[axis].largest);
+    if (axes[axis].rest() > most_uneven->rest()) most_uneven = axes + axis;
   }
-  if (!(largest > 0)) return {};
-  return alongAxis(most > kRigid * largest ? along : -1, rest_W, turn);
+  FlowAlongBody flow;
+  flow.spin_up_B = turning(axes, &AxisFlow::acceleration_B);
+  if (!may_turn_ || !(largest > 0)) return flow;
+  flow.stations = 1;
+  flow.weights[0] = 1;
+  flow.twists_B[0].angular = turning(axes, &AxisFlow::even_B);
+  if (most_uneven->rest() > kEven * largest) divide(*most_uneven, flow);
+  return flow;
 }
 
-void findLoadAtRest(AmbientBody& ambient) noexcept {
+namespace {
+
+// Returns the wrench in B by which fluid that is spun up takes a body along, eq. (88).
+Wrench pushBySpinUp(AmbientBody& ambient) {
+  const Matrix6 inertia =
+      ambient.surface() ? standNow(ambient).inertia.full() : ambient.model().inertia;
+  const Vector3& rate = ambient.flow_along.spin_up_B;
+  Wrench push = Wrench::fromVector(inertia.leftCols<3>() * rate);
+  const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
+  push.torque -= moments.cwiseProduct(rate);
+  return push;
+}
+
+}  // namespace
+
+void findPushes(AmbientBody& ambient) noexcept {
   FlowAlongBody& flow = ambient.flow_along;
+  if (!flow.spin_up_B.isZero(0)) flow.push_B = pushBySpinUp(ambient);
   if (flow.stations == 0) return;
   if (!loadsOn(ambient)) {
     flow.stations = 0;

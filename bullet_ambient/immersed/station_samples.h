@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
@@ -47,8 +48,22 @@ class StationSamples {
   bool isUsed(int axis) const { return !stations_[2 * axis].way_W.isZero(0); }
   Vector3 difference(int station, Medium RegionSample::*side, Vector3 Medium::*what) const;
   Vector3 meanDifference(Medium RegionSample::*side, Vector3 Medium::*what) const;
-  Vector3 turning(Medium RegionSample::*side) const;
-  FlowAlongBody alongAxis(int axis, const Vector3 (&rest_W)[3], const Vector3& turn_W) const;
+  // Velocities at the stations of an axis less that at the centre, in B [m/s].
+  struct AxisFlow {
+    Vector3 way_B{0, 0, 0};
+    Vector3 even_B{0, 0, 0};  // what grows evenly along the axis, at the station ahead
+    Vector3 ahead_B{0, 0, 0}, behind_B{0, 0, 0};  // the rest
+    Vector3 acceleration_B{0, 0, 0};              // odd part, at the station ahead [m/s^2]
+    double largest = 0;                           // of either side, with what is even
+
+    double rest() const { return std::max(ahead_B.norm(), behind_B.norm()); }
+  };
+
+  AxisFlow alongAxis(int axis, Medium RegionSample::*side) const;
+  // Returns the angular velocity or acceleration of the rigid motion nearest to what is ahead.
+  static Vector3 turning(const AxisFlow (&axes)[kPairs], Vector3 AxisFlow::*ahead_B);
+  // Adds the rest along an axis, at three stations.
+  static void divide(const AxisFlow& axis, FlowAlongBody& flow);
 
   const Vector3 centre_W_;
   const Matrix3 to_world_;
@@ -59,8 +74,8 @@ class StationSamples {
   std::array<Station, 2 * kPairs> stations_;  // of each axis those on both sides
 };
 
-/// Finds the load on a body that moves with the mean of the flow along it,
-/// FlowAlongBody::at_rest_B. Allocates nothing. Cost: nothing where the fluid moves as one.
-void findLoadAtRest(AmbientBody& ambient) noexcept;
+/// Finds what the flow along a body adds to its applied wrench: FlowAlongBody::push_B, at_rest_B.
+/// Allocates nothing. Cost: nothing where the fluid moves as one.
+void findPushes(AmbientBody& ambient) noexcept;
 
 AMBIENT_END

@@ -172,6 +172,8 @@ void finishReading(const AmbientBody& ambient, const ReadStep& step,
     wrench.added_mass = without(unapplied, wrench.total() + wrench.constraints);
   } else {
     wrench.added_mass = rate * addedMassImpulse(ambient, step, reading);
+    if (const FlowAlongBody* flow = reading.surroundings.flow)
+      wrench.added_mass += turned(reading.start.orientation.toRotationMatrix(), flow->push_B);
     wrench.constraints = without(unapplied, wrench.total());
   }
 }

@@ -9,15 +9,18 @@ namespace ambient {
 /// in the axes of the body over one step.
 struct FlowAlongBody {
   static constexpr int kMost = 3;
-  int stations = 0;         ///< 0: the fluid moves as one; 1: it turns; 3: it differs along an axis
-  Twist twists_B[kMost];    ///< of the fluid at the stations, less its mean velocity
-  double weights[kMost]{};  ///< sum 1
+  int stations = 0;       ///< 0: the fluid moves as one; 1: it turns; 3: it differs along an axis
+  Twist twists_B[kMost];  ///< of the fluid at the stations, less its mean velocity
+  Vector3 places_B[kMost]{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};  ///< of the stations [m]
+  double weights[kMost]{};                                   ///< sum 1
   /// Load on a body that moves with the mean velocity. It acts as an applied wrench; loads that
   /// loadAlong() returns are less by it.
   Wrench at_rest_B;
+  Vector3 spin_up_B{0, 0, 0};  ///< angular acceleration of the fluid along the body [rad/s^2]
+  Wrench push_B;               ///< by the added mass that is spun up, eq. (88)
   Vector3 lean_W{0, 0, 0};  ///< what gravity is inclined by at a tilted surface, eq. (84) [m/s^2]
 
-  bool isNone() const { return stations == 0 && lean_W.isZero(0); }
+  bool isNone() const { return stations == 0 && lean_W.isZero(0) && spin_up_B.isZero(0); }
 };
 
 /// Returns the mean of a law over the stations of a body, less FlowAlongBody::at_rest_B.
@@ -33,6 +36,7 @@ SurfaceLoad loadAlong(const FlowAlongBody* flow, const Twist& relative_twist,
     const SurfaceLoad load = loadFor(
         {relative_twist.angular - of_fluid.angular, relative_twist.linear - of_fluid.linear});
     mean.wrench += flow->weights[i] * load.wrench;
+    mean.wrench.torque += flow->weights[i] * flow->places_B[i].cross(load.wrench.force);
     mean.guarded = mean.guarded || load.guarded;
   }
   mean.wrench -= flow->at_rest_B;
