@@ -169,7 +169,7 @@ Twist twistIn(const FluidRegion& region, bool has_stations) {
   btRigidBody& body = scene.add(def);
   scene.fluid.add(body, attach);
   scene.contents.step(kWorldStep, 50);
-  return velocityOf(body);
+  return ambient::velocityOf(body);
 }
 
 TEST(AlongBody, AFlowThatIsTheSameEverywhereKeepsTheBits) {
