@@ -33,6 +33,24 @@ AxisFactors axisFactors(const btRigidBody& body) {
   return {toVector3(body.getAngularFactor()), toVector3(body.getLinearFactor())};
 }
 
+Wrench pushByFlow(const AmbientBody& ambient) noexcept {
+  const FlowAlongBody& flow = ambient.flow_along;
+  if (flow.isNone()) return {};
+  const btRigidBody& body = *ambient.body;
+  const Quaternion q = toQuaternion(body.getWorldTransform().getRotation());
+  const double mass = 1 / static_cast<double>(body.getInvMass());
+  const Wrench push_B = flow.at_rest_B + flow.push_B;
+  return {q * push_B.torque, q * push_B.force + mass * flow.lean_W};
+}
+
+void addFlowAlong(const AmbientBody& ambient, Surroundings& surroundings) noexcept {
+  const FlowAlongBody& flow = ambient.flow_along;
+  if (flow.isNone()) return;
+  surroundings.flow = &flow;
+  surroundings.gravity += flow.lean_W;
+  surroundings.applied += pushByFlow(ambient);
+}
+
 void followWake(AmbientBody& ambient, double duration) noexcept {
   const auto& loads = loadsOn(ambient);
   const double by_wake = loads ? loads->wakeShare() : 0;

@@ -2,6 +2,7 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -80,6 +81,7 @@ struct AmbientBody {
   std::unique_ptr<SurfaceMeeting> meeting;  ///< null: the body meets no surface
   std::unique_ptr<Wake> wake;  ///< wake behind a smooth body, docs/theory.md eq. (51b); null: no
                                ///< load on the body depends on it
+  FlowAlongBody flow_along;    ///< in this step
   int slot = -1;               ///< in MemberSlots; -1: not yet there
   int gaping =
       0;  ///< number of steps in a row in which a joint of the body was open by much of its size
@@ -108,10 +110,11 @@ inline const std::shared_ptr<const SurfaceLoads>& loadsOn(const AmbientBody& amb
   return surface ? surface->loads_below.loads : ambient.model().loads;
 }
 
-/// Adds a number of load evaluations to the counters of a body.
+/// Adds a number of load evaluations, each at all stations, to the counters of a body.
 inline void countLoads(AmbientBody& ambient, int evaluations) noexcept {
   if (evaluations == 0) return;
   const auto& loads = loadsOn(ambient);
+  evaluations *= std::max(1, ambient.flow_along.stations);
   ambient.counters.load_evaluations += evaluations;
   if (loads) ambient.counters.faces += static_cast<long long>(evaluations) * loads->faces();
 }
@@ -134,15 +137,23 @@ RigidState readState(const btRigidBody& body);
 /// Reads the linear and angular factors of a btRigidBody, world axes.
 AxisFactors axisFactors(const btRigidBody& body);
 
+/// Returns what the flow along a body adds to the applied wrench; world axes, about the centre of
+/// mass.
+Wrench pushByFlow(const AmbientBody& ambient) noexcept;
+/// Adds the flow along a body to its surroundings, if there is any.
+void addFlowAlong(const AmbientBody& ambient, Surroundings& surroundings) noexcept;
+
 /// Collects gravity, applied forces and torques, and the ambient flow at the start of a step; world
 /// axes.
 inline Surroundings readSurroundings(const AmbientBody& ambient) {
   const btRigidBody& body = *ambient.body;
-  return {toVector3(body.getGravity()),
-          {toVector3(body.getTotalTorque()), toVector3(body.getTotalForce())},
-          ambient.medium.velocity,
-          ambient.medium.acceleration,
-          ambient.load_share};
+  Surroundings surroundings{toVector3(body.getGravity()),
+                            {toVector3(body.getTotalTorque()), toVector3(body.getTotalForce())},
+                            ambient.medium.velocity,
+                            ambient.medium.acceleration,
+                            ambient.load_share};
+  addFlowAlong(ambient, surroundings);
+  return surroundings;
 }
 
 /// Lets the wake of a smooth body follow its motion over a step of `duration` [s], and sets

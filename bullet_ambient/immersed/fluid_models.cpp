@@ -57,7 +57,7 @@ SurfaceMedia atSurface(const AttachDef& def, const InverseMass& mass, const Surf
 
 FluidModels makeModels(const AttachDef& def, const InverseMass& mass, const RegionFluids& fluids,
                        LoadTables& tables) {
-  FluidModels models{mass, {}, {}};
+  FluidModels models{mass, {}, {}, makeBodyStations(def)};
   const auto add = [&](const FluidKind& kind, const Medium& medium) {
     const auto loads = makeSurfaceLoads(def.fluid_body, medium, def.flow, tables);
     models.media.push_back(inMedium(def, mass, kind, loads));

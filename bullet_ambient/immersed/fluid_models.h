@@ -7,6 +7,7 @@
 #include "bullet_ambient/bullet/core/velocity_basis.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/immersed/attach_def.h"
+#include "bullet_ambient/immersed/body_stations.h"
 #include "bullet_ambient/immersed/region_fluids.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
 
@@ -45,6 +46,7 @@ struct FluidModels {
   InverseMass inverse_mass;
   std::vector<MediumModel> media;  ///< the first is that of the body's own medium
   std::vector<SurfaceMedia> surfaces;
+  BodyStations stations = {};
 
   /// Null: the body does not meet this medium.
   const MediumModel* find(const FluidKind& kind) const noexcept;

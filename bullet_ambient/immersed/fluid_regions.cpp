@@ -58,6 +58,11 @@ const FluidRegions::Entry* FluidRegions::find(const Vector3& point_W,
   return index_.find(point_W, asked);
 }
 
+RegionsAround FluidRegions::findAround(const Vector3& point_W, double reach,
+                                       long long& asked) const noexcept {
+  return index_.findAround(point_W, reach, asked);
+}
+
 const FluidRegion& FluidRegions::require(RegionId id) const {
   const auto found = entries_.find(id);
   if (found == entries_.end())

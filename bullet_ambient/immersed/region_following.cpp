@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/immersed/region_call.h"
+#include "bullet_ambient/immersed/station_samples.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN
@@ -131,12 +133,60 @@ void changeSide(FlowMemory& memory, bool is_above, const BareVelocity& bare) noe
   memory.parts = bare.parts;
 }
 
-void enterOwnMedium(AmbientBody& ambient, const FluidRegions& regions, double duration) noexcept {
+// Returns the fluid around a body in no region.
+RegionSample ownSample(const AmbientBody& ambient) {
   RegionSample sample;
   sample.below = ambient.def->medium;
   sample.bare_below = bareVelocityOf(sample.below);
+  return sample;
+}
+
+// Samples the stations of a body of which the fluid may differ along it; none: it does not.
+std::optional<StationSamples> sampleStations(AmbientBody& ambient, const FluidRegions& regions,
+                                             const RegionsAround& around,
+                                             const RegionSample& centre,
+                                             Complaints& complaints) noexcept {
+  if (!needsStations(ambient, around)) return std::nullopt;
+  std::optional<StationSamples> stations(std::in_place, ambient, regions, around, centre);
+  ambient.may_rest = ambient.may_rest && stations->isSteady();
+  if (stations->isFinite()) return stations;
+  ++ambient.counters.rejected;
+  if (around.entry) sayNotFinite(around.entry->id, complaints);
+  return stations;
+}
+
+void enterOwnMedium(AmbientBody& ambient, const FluidRegions& regions, const RegionsAround& around,
+                    double duration, Complaints& complaints) noexcept {
+  RegionSample sample = ownSample(ambient);
+  const auto stations = sampleStations(ambient, regions, around, sample, complaints);
   followFlow(ambient, {regions, nullptr, duration}, sample);
+  if (stations) {
+    stations->addMeans(&RegionSample::below, sample);
+    ambient.flow_along = stations->flowAlong(&RegionSample::below);
+  }
   enterMedium(ambient, {}, sample.below);
+}
+
+// Finds on which side of the surface of its region a body is, and what of the flow differs along
+// it.
+SurfaceSide meetFluids(AmbientBody& ambient, const FluidRegion& region,
+                       const std::optional<StationSamples>& stations, double duration,
+                       RegionSample& sample) noexcept {
+  const Vector3 gravity = toVector3(ambient.body->getGravity());
+  if (stations) {
+    stations->addMeans(&RegionSample::below, sample);
+    stations->fitSurface(gravity, sample);
+  }
+  const SurfaceSide side = region.surface
+                               ? meetSurface(ambient, SurfaceKind(region), sample, duration)
+                               : SurfaceSide::kBelow;
+  if (!stations) return side;
+  const bool is_above = side == SurfaceSide::kAbove;
+  if (is_above) stations->addMeans(&RegionSample::above, sample);
+  ambient.flow_along = stations->flowAlong(is_above ? &RegionSample::above : &RegionSample::below);
+  if (side == SurfaceSide::kAt && !sample.tilt.isZero(0))
+    ambient.flow_along.lean_W = leanOf(sample, gravity);
+  return side;
 }
 
 }  // namespace
@@ -163,19 +213,21 @@ bool enterMedium(AmbientBody& ambient, const RegionPlace& place, const Medium& m
 
 void followRegions(AmbientBody& ambient, const FluidRegions& regions, double duration,
                    Complaints& complaints) noexcept {
-  const FluidRegions::Entry* entry = nullptr;
+  RegionsAround around;
   if (ambient.def->follow_regions && !regions.empty())
-    entry = regions.find(centreOf(ambient), ambient.counters.regions_asked);
+    around = regions.findAround(centreOf(ambient), ambient.models->stations.reach,
+                                ambient.counters.regions_asked);
+  const FluidRegions::Entry* entry = around.entry;
+  if (!ambient.flow_along.isNone()) ambient.flow_along = {};
   ambient.may_rest = !entry || isSteady(entry->region);
-  if (!entry) return enterOwnMedium(ambient, regions, duration);
+  if (!entry) return enterOwnMedium(ambient, regions, around, duration, complaints);
   RegionSample sample = sampleFor(ambient, *entry, regions, complaints);
+  const auto stations = sampleStations(ambient, regions, around, sample, complaints);
   followFlow(ambient, {regions, entry, duration}, sample);
   if (entry->region.surface)
     checkUp(entry->id, entry->region.surface->up(), toVector3(ambient.body->getGravity()),
             complaints);
-  const SurfaceSide side = entry->region.surface
-                               ? meetSurface(ambient, SurfaceKind(entry->region), sample, duration)
-                               : SurfaceSide::kBelow;
+  const SurfaceSide side = meetFluids(ambient, entry->region, stations, duration, sample);
   const bool is_above = side == SurfaceSide::kAbove;
   changeSide(ambient.flow, is_above, is_above ? sample.bare_above : sample.bare_below);
   [[maybe_unused]] const bool is_known =

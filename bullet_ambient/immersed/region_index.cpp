@@ -20,11 +20,20 @@ double placeOf(const RegionEntry* entry, int axis) noexcept {
   return std::isinf(high) ? low : low / 2 + high / 2;
 }
 
-// False is certain: a point whose numbers are not is left to the bounds of each region.
-bool mayHold(const RegionBounds& box, const Vector3& point) noexcept {
+// True if a box may hold a part of the cube with its half edge `reach` around a point. False is
+// certain: a point whose numbers are not finite is left to the bounds of each region.
+bool mayMeet(const RegionBounds& box, const Vector3& point, double reach) noexcept {
   for (int axis = 0; axis < 3; ++axis)
-    if (point[axis] < box.lowest[axis] || point[axis] > box.highest[axis]) return false;
+    if (point[axis] < box.lowest[axis] - reach || point[axis] > box.highest[axis] + reach)
+      return false;
   return true;
+}
+
+// True if a region holds all of the cube.
+bool holdsAll(const FluidRegion& region, const Vector3& point_W, double reach) noexcept {
+  const Vector3 half = Vector3::Constant(reach);
+  return !region.bounds ||
+         (region.bounds->hold(point_W - half) && region.bounds->hold(point_W + half));
 }
 
 bool holds(const FluidRegion& region, const Vector3& point_W) noexcept {
@@ -106,17 +115,18 @@ void RegionIndex::sortLeaves(std::size_t first, std::size_t count) {
   sortLeaves(first + count / 2, count / 2);
 }
 
-const RegionEntry* RegionIndex::find(const Vector3& point_W, long long& asked) const noexcept {
+RegionsAround RegionIndex::findAround(const Vector3& point_W, double reach,
+                                      long long& asked) const noexcept {
   Found found;
   for (Tree tree{leaves_.size(), 0}; tree.first > 0;) {
     tree = lastTree(tree.first);
-    search(tree, point_W, found, asked);
+    search(tree, {point_W, reach}, found, asked);
   }
-  return found.entry;
+  return found.around;
 }
 
 // The box of the higher rank first: what is found there makes most others needless.
-void RegionIndex::search(const Tree& tree, const Vector3& point_W, Found& found,
+void RegionIndex::search(const Tree& tree, const Cube& cube, Found& found,
                          long long& asked) const noexcept {
   constexpr int kDeepest = std::numeric_limits<std::size_t>::digits + 1;
   std::size_t waiting[kDeepest] = {1};
@@ -126,10 +136,15 @@ void RegionIndex::search(const Tree& tree, const Vector3& point_W, Found& found,
     const Node& box = node(tree, i);
     if (!(found.rank < box.best)) continue;
     ++asked;
-    if (!mayHold(box.box, point_W)) continue;
+    if (!mayMeet(box.box, cube.centre_W, cube.reach)) continue;
     if (i >= tree.count) {
       const RegionEntry* entry = leaves_[tree.first + i - tree.count];
-      if (holds(entry->region, point_W)) found = {entry, box.best};
+      const bool is_alone = holdsAll(entry->region, cube.centre_W, cube.reach);
+      found.around.is_alone = found.around.is_alone && is_alone;
+      if (holds(entry->region, cube.centre_W)) {
+        found.around.entry = entry;
+        found.rank = box.best;
+      }
       continue;
     }
     const bool is_second_higher = node(tree, 2 * i).best < node(tree, 2 * i + 1).best;

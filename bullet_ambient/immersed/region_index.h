@@ -23,6 +23,13 @@ struct RegionEntry {
   RegionRank rank() const noexcept { return {region.priority, static_cast<int>(id)}; }
 };
 
+/// Region at a point and around it.
+struct RegionsAround {
+  const RegionEntry* entry = nullptr;  ///< of highest rank at the point; null: none
+  /// False: the bounds of a region may cross a cube around the point.
+  bool is_alone = true;
+};
+
 /// Finds the region of highest rank at a point, by binary trees of bounding boxes. There is one
 /// tree for each binary digit 1 of the number of leaves: adding a region rebuilds only small trees,
 /// as adding 1 to a number changes only its last digits. Holds addresses of regions, which must not
@@ -38,7 +45,12 @@ class RegionIndex {
 
   /// Finds the region of highest rank that holds the point; null: none. Adds the number of tested
   /// boxes to `asked`. Cost: O(log n) where few regions overlap. Allocates nothing.
-  const RegionEntry* find(const Vector3& point_W, long long& asked) const noexcept;
+  const RegionEntry* find(const Vector3& point_W, long long& asked) const noexcept {
+    return findAround(point_W, 0, asked).entry;
+  }
+  /// The same, and whether other regions or none may be within `reach` [m] of the point along each
+  /// axis of W.
+  RegionsAround findAround(const Vector3& point_W, double reach, long long& asked) const noexcept;
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -54,8 +66,12 @@ class RegionIndex {
     std::size_t first, count;
   };
   struct Found {
-    const RegionEntry* entry = nullptr;
+    RegionsAround around;
     RegionRank rank = kNoRank;
+  };
+  struct Cube {
+    const Vector3& centre_W;
+    double reach;  ///< half of its edge [m]
   };
 
   // The last tree of those over leaves 0 to `end`.
@@ -67,8 +83,7 @@ class RegionIndex {
   void build(const Tree& tree);
   void sortLeaves(std::size_t first, std::size_t count);
   void dropEmptyLeaves();
-  void search(const Tree& tree, const Vector3& point_W, Found& found,
-              long long& asked) const noexcept;
+  void search(const Tree& tree, const Cube& cube, Found& found, long long& asked) const noexcept;
 
   std::vector<RegionEntry*> leaves_;  // null: removed
   std::vector<Node> nodes_;           // two for each leaf

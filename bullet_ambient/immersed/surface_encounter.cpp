@@ -90,9 +90,14 @@ bool hasSurface(const RegionSample& sample, const Vector3& gravity) noexcept {
   return gravity.norm() > 0 && (gravity - sample.below.acceleration).norm() > 0;
 }
 
+Vector3 leanOf(const RegionSample& sample, const Vector3& gravity) noexcept {
+  return (gravity - sample.below.acceleration).dot(gravity.normalized()) * sample.tilt;
+}
+
 SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
                        const Vector3& gravity) noexcept {
-  const Vector3 felt = gravity - sample.below.acceleration;
+  Vector3 felt = gravity - sample.below.acceleration;
+  if (!sample.tilt.isZero(0)) felt += leanOf(sample, gravity);
   const Vector3 normal = -felt.normalized();
   const Vector3 above = position - sample.height * gravity.normalized();
   return {normal, normal.dot(above), sample.below.density - sample.above.density, felt.norm()};

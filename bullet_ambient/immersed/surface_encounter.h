@@ -14,8 +14,13 @@ AMBIENT_BEGIN
 /// is not zero (no free fall).
 bool hasSurface(const RegionSample& sample, const Vector3& gravity) noexcept;
 
+/// Returns what gravity is inclined by in a sample whose surface has a tilt, docs/theory.md eq.
+/// (84) [m/s^2]. @pre hasSurface()
+Vector3 leanOf(const RegionSample& sample, const Vector3& gravity) noexcept;
+
 /// Returns the surface near a position as a plane in W: normal against gravity as the water feels
-/// it, g - a; through the surface point straight above or below the position. @pre hasSurface()
+/// it, g - a, and as it is inclined, leanOf(); through the surface point straight above or below
+/// the position. @pre hasSurface()
 SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
                        const Vector3& gravity) noexcept;
 

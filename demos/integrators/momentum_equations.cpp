@@ -21,8 +21,7 @@ MomentumPhase MomentumEquations::rate(const MomentumPhase& s) const {
   const Quaternion& q = state.orientation;
   Wrench wrench = externalWrench(task_.model, task_.surroundings, q.toRotationMatrix());
   if (task_.model.loads) {
-    const SurfaceLoad load =
-        computeSurfaceLoad(task_.model, state.twist, task_.surroundings.load_share);
+    const SurfaceLoad load = computeSurfaceLoad(task_.model, state.twist, task_.surroundings);
     ++count_.load_evaluations;
     count_.guarded += load.guarded;
     wrench += load.wrench;

@@ -17,7 +17,7 @@ FlightResult flySymplecticEuler(const FlightTask& task, const RigidState& start,
     Wrench wrench = externalWrench(model, task.surroundings, s.orientation.toRotationMatrix()) +
                     gyroscopicWrench(pairOfTwist(model, s.twist.vector()));
     if (model.loads) {
-      const SurfaceLoad load = computeSurfaceLoad(model, s.twist, task.surroundings.load_share);
+      const SurfaceLoad load = computeSurfaceLoad(model, s.twist, task.surroundings);
       ++flight.count.load_evaluations;
       flight.count.guarded += load.guarded;
       wrench += load.wrench;

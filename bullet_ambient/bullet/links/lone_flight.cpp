@@ -12,10 +12,12 @@ namespace {
 
 AmbientLink& baseOf(const AmbientTree& tree) { return *tree.links.front(); }
 
-// Applies the forces on the base to the stand-in.
+// Applies the forces on the base to the stand-in, without those of the flow along it, which the
+// flight adds.
 void applyForces(AmbientTree& tree) {
   btRigidBody& stand_in = baseOf(tree).stand_in;
-  const Wrench applied = tree.flight.dynamics().appliedWrench(0);
+  Wrench applied = tree.flight.dynamics().appliedWrench(0);
+  applied -= pushByFlow(baseOf(tree).ambient);
   stand_in.clearForces();
   stand_in.applyCentralForce(toBullet(applied.force));
   stand_in.applyTorque(toBullet(applied.torque));

@@ -20,9 +20,7 @@ void addOuterWrenches(AmbientTree& tree, double duration) {
         {toVector3(bullet.m_appliedConstraintTorque), toVector3(bullet.m_appliedConstraintForce)};
     Wrench load;
     if (link.model && link.model->loads)
-      load =
-          computeSurfaceLoad(*link.model, dynamics.relativeTwist(i), link.surroundings.load_share)
-              .wrench;
+      load = computeSurfaceLoad(*link.model, dynamics.relativeTwist(i), link.surroundings).wrench;
     if (tree.step.meets_surface) load += 1 / duration * tree.step.impulses[i];
     const Matrix3& R = dynamics.rotation(i);
     link.surroundings.applied += {R * load.torque, R * load.force};

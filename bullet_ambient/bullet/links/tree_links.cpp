@@ -17,6 +17,7 @@ namespace {
 void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
   Link& in_tree = tree.tree.links[link.link + 1];
   AmbientBody& ambient = link.ambient;
+  in_tree.surroundings.flow = nullptr;
   if (!prepareFluid(ambient, task.bodies, task.duration)) {
     in_tree.model = nullptr;
     in_tree.surroundings.ambient_velocity.setZero();
@@ -35,6 +36,7 @@ void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {
   in_tree.surroundings.ambient_velocity = ambient.medium.velocity;
   in_tree.surroundings.ambient_acceleration = ambient.medium.acceleration;
   in_tree.surroundings.load_share = ambient.load_share;
+  addFlowAlong(ambient, in_tree.surroundings);
 }
 
 template <class IsTrue>

@@ -33,8 +33,7 @@ void TreeNow::applyLoads() {
     Link& link = tree_.links[i];
     if (!link.model || !link.model->loads) continue;
     const Wrench load =
-        computeSurfaceLoad(*link.model, at_rest.relativeTwist(i), link.surroundings.load_share)
-            .wrench;
+        computeSurfaceLoad(*link.model, at_rest.relativeTwist(i), link.surroundings).wrench;
     const Matrix3& R = at_rest.rotation(i);
     link.surroundings.applied += {R * load.torque, R * load.force};
   }
@@ -50,6 +49,7 @@ void TreeNow::immerse(AmbientLink& ambient, const btMultiBody& body, const Vecto
   link.surroundings.ambient_velocity = ambient.ambient.medium.velocity;
   link.surroundings.ambient_acceleration = ambient.ambient.medium.acceleration;
   link.surroundings.load_share = ambient.ambient.load_share;
+  addFlowAlong(ambient.ambient, link.surroundings);
 }
 
 AMBIENT_END

@@ -4,6 +4,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/immersed/region_following.h"
+#include "bullet_ambient/immersed/station_samples.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN
@@ -34,6 +35,7 @@ bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step)
     return false;
   }
   followWake(ambient, time_step);
+  findPushes(ambient);
   return true;
 }
 

@@ -83,11 +83,27 @@ class MiddleWrenches {
     const Surroundings& s = reading_.surroundings;
     found_.buoyancy = buoyancy(model.displaced_mass, model.centre_of_volume,
                                to_world_.transpose() * (s.gravity - s.ambient_acceleration));
+    if (s.flow) found_.buoyancy.force += model.mass * (to_world_.transpose() * s.flow->lean_W);
   }
 
+  // `all`: less the load at rest in the mean flow.
   void setLoads(const Wrench& all, const Wrench& friction) {
     found_.friction = friction;
     found_.pressure = without(all, friction);
+    if (reading_.surroundings.flow) found_.pressure += reading_.surroundings.flow->at_rest_B;
+  }
+
+  // Returns the mean of the friction over the stations of the body.
+  template <class FrictionFor>
+  Wrench frictionAlong(const FrictionFor& frictionFor) {
+    FlowAlongBody in_full;
+    if (reading_.surroundings.flow) in_full = *reading_.surroundings.flow;
+    in_full.at_rest_B = {};
+    return loadAlong(&in_full, seen_,
+                     [&](const Twist& x) -> SurfaceLoad {
+                       return {ambient_.load_share * frictionFor(x)};
+                     })
+        .wrench;
   }
 
   void findSubmerged() {
@@ -95,8 +111,10 @@ class MiddleWrenches {
     setBuoyancy(model);
     if (!model.loads) return;
     const FrameOffset& frame = model.load_frame;
-    setLoads(computeSurfaceLoad(model, seen_, ambient_.load_share).wrench,
-             ambient_.load_share * frame.toB(model.loads->parts(frame.toF(seen_)).friction));
+    setLoads(computeSurfaceLoad(model, seen_, reading_.surroundings).wrench,
+             frictionAlong([&](const Twist& x) {
+               return frame.toB(model.loads->parts(frame.toF(x)).friction);
+             }));
   }
 
   void findAtSurface(const SurfaceModel& model) {
@@ -109,8 +127,8 @@ class MiddleWrenches {
         standAtSurface(model, seenFrom(plane_W, to_world_, step_.middle.position));
     setBuoyancy(step_.has_flown ? frozenAt(model, stand) : step_.model);
     if (model.loads_below.loads)
-      setLoads(ambient_.load_share * loadBelow(model, stand, seen_),
-               ambient_.load_share * frictionBelow(model, stand, seen_));
+      setLoads(loadBelow(model, stand, seen_, {s.load_share, s.flow}).wrench,
+               frictionAlong([&](const Twist& x) { return frictionBelow(model, stand, x); }));
     found_.waves = waveWrench(stand.modes, to_world_, reading_.waves, ambient_.encounter().waves);
     if (!model.loads_above.loads) return;
     Twist seen_above = step_.middle.twist;
@@ -133,6 +151,7 @@ void beginReading(const AmbientBody& ambient, const RigidState& start,
   reading = {};
   reading.start = start;
   reading.surroundings = surroundings;
+  reading.surroundings.applied -= pushByFlow(ambient);
   if (ambient.surface()) {
     reading.plane_W = ambient.encounter().plane_W;
     reading.waves = ambient.encounter().waves;
@@ -153,6 +172,8 @@ void finishReading(const AmbientBody& ambient, const ReadStep& step,
     wrench.added_mass = without(unapplied, wrench.total() + wrench.constraints);
   } else {
     wrench.added_mass = rate * addedMassImpulse(ambient, step, reading);
+    if (const FlowAlongBody* flow = reading.surroundings.flow)
+      wrench.added_mass += turned(reading.start.orientation.toRotationMatrix(), flow->push_B);
     wrench.constraints = without(unapplied, wrench.total());
   }
 }

@@ -76,15 +76,20 @@ WetState cutBy(const SurfacePlane& plane_W, const SurfaceModel& model, const Amb
   return state;
 }
 
-WetState inRegion(const AmbientBody& ambient, const FluidRegions::Entry& entry,
+WetState inRegion(const AmbientBody& ambient, const RegionsAround& around,
                   const FluidRegions& regions) {
+  const FluidRegions::Entry& entry = *around.entry;
   if (!entry.region.surface) return wholly(ambient, entry.region.below.density > 0);
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   RegionCall call(regions);
-  const RegionSample sample =
-      sampleRegion(entry.region, position, regions.time, ambient.def->medium);
+  RegionSample sample = sampleRegion(entry.region, position, regions.time, ambient.def->medium);
   const int media = ambient.models->findSurface(SurfaceKind(entry.region));
   const Vector3 gravity = toVector3(ambient.body->getGravity());
+  if (needsStations(ambient, around)) {
+    const StationSamples stations(ambient, regions, around, sample);
+    stations.addMeans(&RegionSample::below, sample);
+    stations.fitSurface(gravity, sample);
+  }
   if (media < 0 || !hasSurface(sample, gravity)) return wholly(ambient, !sample.isAbove());
   return cutBy(planeNear(position, sample, gravity),
                ambient.models->surfaces[static_cast<std::size_t>(media)].model, ambient);
@@ -95,11 +100,12 @@ WetState inRegion(const AmbientBody& ambient, const FluidRegions::Entry& entry,
 WetState wetStateOf(const AmbientBody& ambient, const FluidRegions& regions) {
   long long asked = 0;
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
-  const FluidRegions::Entry* entry =
-      ambient.def->follow_regions ? regions.find(position, asked) : nullptr;
-  if (!entry) return wholly(ambient, ambient.def->medium.density > 0);
-  WetState state = inRegion(ambient, *entry, regions);
-  state.region = entry->id;
+  RegionsAround around;
+  if (ambient.def->follow_regions)
+    around = regions.findAround(position, ambient.models->stations.reach, asked);
+  if (!around.entry) return wholly(ambient, ambient.def->medium.density > 0);
+  WetState state = inRegion(ambient, around, regions);
+  state.region = around.entry->id;
   return state;
 }
 

@@ -143,7 +143,7 @@ void drawFluid(const AmbientBody& ambient, const FluidDrawing& what, btIDebugDra
   }
   if (what.total_wrench) {
     Wrench total = lift;
-    if (model.loads) total += computeSurfaceLoad(model, relative, s.load_share).wrench;
+    if (model.loads) total += computeSurfaceLoad(model, relative, s).wrench;
     arrows.draw(Vector3::Zero(), what.length_per_force * total.force, fluid_colours::kForce);
     arrows.draw(Vector3::Zero(), what.length_per_torque * total.torque, fluid_colours::kTorque);
   }

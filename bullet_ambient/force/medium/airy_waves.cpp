@@ -36,6 +36,7 @@ AiryWaves::AiryWaves(const CalmSea& sea, const std::vector<WaveComponent>& compo
   if (!(sea.gravity > 0) || !std::isfinite(sea.gravity))
     rejectSea("gravity of the sea [m/s^2]", sea.gravity, "positive and finite");
   if (!current_.allFinite()) rejectSea("speed of the current [m/s]", current_.norm(), "finite");
+  double energy = 0, slope_squared = 0;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const WaveComponent& wave = components[i];
     checkWave(wave, i);
@@ -52,7 +53,10 @@ AiryWaves::AiryWaves(const CalmSea& sea, const std::vector<WaveComponent>& compo
       rejectSea("slope (amplitude times wave number) of wave " + std::to_string(i),
                 wave.amplitude * wave_number, "at most 1");
     waves_.push_back({wave.amplitude, frequency, wave.phase, wave_number, direction / length});
+    energy += wave.amplitude * wave.amplitude;
+    slope_squared += wave.amplitude * wave_number * wave.amplitude * wave_number;
   }
+  if (energy > 0) wave_number_ = std::sqrt(slope_squared / energy);
 }
 
 WaterSample AiryWaves::sample(const Vector3& point_W, double time) const noexcept {

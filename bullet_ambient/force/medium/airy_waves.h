@@ -36,6 +36,8 @@ class AiryWaves final : public WaterSurface {
   /// Cost: O(waves), a sine, a cosine and an exponential each.
   WaterSample sample(const Vector3& point_W, double time) const noexcept override;
   Vector3 up() const noexcept override { return calm_.up(); }
+  /// Root of the mean of k^2, weighted by the energies a^2 of the waves [1/m]; 0: there are none.
+  double waveNumber() const noexcept override { return wave_number_; }
 
  private:
   struct Wave {
@@ -47,6 +49,7 @@ class AiryWaves final : public WaterSurface {
   StillWater calm_;
   Vector3 current_;
   std::vector<Wave> waves_;
+  double wave_number_ = 0;
 };
 
 }  // namespace ambient

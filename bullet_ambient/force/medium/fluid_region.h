@@ -35,7 +35,7 @@ struct FluidRegion {
   std::optional<Medium> above = std::nullopt;
   std::shared_ptr<const WaterSurface> surface = nullptr;  ///< null: filled with `below`
   /// Wind or current, added to velocity and acceleration of the media. Velocity and acceleration of
-  /// waves are added to `below`. Sampled at each body's centre of mass at the start of each step.
+  /// waves are added to `below`. Sampled along each body at the start of each step, docs/theory.md eq. (83).
   /// Where it gives no acceleration, that is how its velocity changes, see BareVelocity.
   FlowField flow = nullptr;
   int priority = 0;  ///< in overlaps the highest priority wins; if equal, the region added last
@@ -81,6 +81,9 @@ struct RegionSample {
   /// False if a sample of surface or flow was not finite; the media then lack both samples.
   bool is_finite = true;
   BareVelocity bare_below = {}, bare_above = {};  ///< without parts if a sample was not finite
+  /// Slope of the surface beyond the one that its acceleration gives, horizontal, in W; of a body
+  /// that is not small against the waves, docs/theory.md eq. (84) [1].
+  Vector3 tilt = {0, 0, 0};
 
   bool isAbove() const { return !(height > 0); }  ///< true if the point is dry
   const Medium& here() const { return isAbove() ? above : below; }

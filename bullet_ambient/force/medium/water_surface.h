@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "bullet_ambient/spatial/vector_types.h"
 
@@ -24,6 +25,12 @@ class WaterSurface {
   virtual WaterSample sample(const Vector3& point_W, double time) const noexcept = 0;
   /// True if the surface never moves: bodies may then fall asleep.
   virtual bool isStill() const noexcept { return false; }
+  /// Wave number k that the surface bends with [1/m]: a body of length L with k L <= 0.3 samples it
+  /// at one point, a longer one along its length; docs/theory.md eq. (83). Default: 0 where the
+  /// surface never moves, else infinite.
+  virtual double waveNumber() const noexcept {
+    return isStill() ? 0 : std::numeric_limits<double>::infinity();
+  }
   /// Direction against gravity that heights are measured along, unit; zero: any.
   virtual Vector3 up() const noexcept { return Vector3::Zero(); }
 };

@@ -135,12 +135,14 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
 }
 
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
-                               double load_share) noexcept {
+                               double load_share, const FlowAlongBody* flow) noexcept {
   AMBIENT_ASSERT(model.loads);
-  const Wrench wrench =
-      load_share * model.load_frame.toB(model.loads->load(model.load_frame.toF(relative_twist)));
-  if (!model.loads->needsGuard()) return {wrench, false};
-  return removePositivePower(wrench, relative_twist, model.inertia);
+  return loadAlong(flow, relative_twist, [&](const Twist& x) -> SurfaceLoad {
+    const Wrench wrench =
+        load_share * model.load_frame.toB(model.loads->load(model.load_frame.toF(x)));
+    if (!model.loads->needsGuard()) return {wrench, false};
+    return removePositivePower(wrench, x, model.inertia);
+  });
 }
 
 }  // namespace ambient

@@ -7,6 +7,7 @@
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/motion/body/dual_pair.h"
 #include "bullet_ambient/motion/body/even_response.h"
+#include "bullet_ambient/motion/body/flow_along_body.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -47,9 +48,9 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
 
 /// The share of pressure and friction in B for a twist in B relative to the ambient flow, after
 /// removePositivePower(); docs/theory.md eq. (13) to (17) and (20). `load_share`: factor of eq.
-/// (51d).
+/// (51d). `flow`: how the fluid moves along the body, null: as one; see loadAlong().
 SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
-                               double load_share = 1) noexcept;
+                               double load_share = 1, const FlowAlongBody* flow = nullptr) noexcept;
 
 /// Pair of a twist x and its momentum K x.
 inline DualPair pairOfTwist(const BodyModel& model, const Vector6& x) {

@@ -15,7 +15,15 @@ struct Surroundings {
   Vector3 ambient_velocity = Vector3::Zero();      ///< at the start of the step [m/s]
   Vector3 ambient_acceleration = Vector3::Zero();  ///< [m/s^2]
   double load_share = 1;  ///< factor on the surface loads, docs/theory.md eq. (51d)
+  /// How the fluid moves along the body besides; null: as one.
+  const FlowAlongBody* flow = nullptr;
 };
+
+/// Computes the surface load of a body in its surroundings.
+inline SurfaceLoad computeSurfaceLoad(const BodyModel& model, const Twist& relative_twist,
+                                      const Surroundings& s) noexcept {
+  return computeSurfaceLoad(model, relative_twist, s.load_share, s.flow);
+}
 
 struct FlightCount {
   int substeps = 0;

@@ -145,8 +145,7 @@ class Leapfrog {
       const FlightTask& task = progress_[i].flight->task;
       const BodyModel& model = task.model;
       if (!(lanes_.active[i] > 0) || !model.loads || !wants(progress_[i])) continue;
-      const SurfaceLoad load =
-          computeSurfaceLoad(model, twistOf(twists, i), task.surroundings.load_share);
+      const SurfaceLoad load = computeSurfaceLoad(model, twistOf(twists, i), task.surroundings);
       setLane(loads, i, load.wrench);
       FlightCount& count = progress_[i].flight->body.count;
       ++count.load_evaluations;

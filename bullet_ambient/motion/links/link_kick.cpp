@@ -11,8 +11,7 @@ namespace {
 bool isLoaded(const Link& link) { return link.model && link.model->loads; }
 
 Wrench evaluate(const Link& link, const Twist& relative_twist, FlightCount& count) {
-  const SurfaceLoad load =
-      computeSurfaceLoad(*link.model, relative_twist, link.surroundings.load_share);
+  const SurfaceLoad load = computeSurfaceLoad(*link.model, relative_twist, link.surroundings);
   ++count.load_evaluations;
   count.guarded += load.guarded;
   return load.wrench;

@@ -97,13 +97,18 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
   RowVelocity result;
   Vector6 forced = model.inverse_inertia * externalWrench(model, s, R).vector();
   if (model.loads) {
-    const SurfaceLoad load = computeSurfaceLoad(model, relative, s.load_share);
+    const SurfaceLoad load = computeSurfaceLoad(model, relative, s);
     result.count.load_evaluations = 1;
     result.count.guarded = load.guarded;
-    const DualPair motion = pairOfTwist(model, x);
-    // The wrench that K^-1 would need for the acceleration that the locks allow.
-    const DualPair sample = pairOfTwist(model, model.inverse_inertia * load.wrench.vector());
-    forced += (passiveKick(motion, {motion, sample}, dt).twist - x) / dt;
+    if (turnsWithFluid(s)) {
+      const Wrench mean = meanLoadInTurningFluid(task, model, relative, load.wrench);
+      forced += model.inverse_inertia * mean.vector();
+    } else {
+      const DualPair motion = pairOfTwist(model, x);
+      // The wrench that K^-1 would need for the acceleration that the locks allow.
+      const DualPair sample = pairOfTwist(model, model.inverse_inertia * load.wrench.vector());
+      forced += (passiveKick(motion, {motion, sample}, dt).twist - x) / dt;
+    }
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
   result.extent =

@@ -2,6 +2,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/one_body.h"
+#include "bullet_ambient/motion/body/passive_kick.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/lanes/row_lanes.h"
 #include "bullet_ambient/motion/lanes/turning_kernel.h"
@@ -35,14 +36,35 @@ FlightCount begin(const RowTask& body, int lane, PushLanes& push) {
   setLane(lanes.load_B, lane, Wrench{});
   FlightCount count;
   if (!task.model.loads) return count;
-  const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s.load_share);
-  setLane(lanes.load_B, lane, load.wrench);
+  const SurfaceLoad load = computeSurfaceLoad(task.model, relative, s);
+  if (turnsWithFluid(s)) {
+    const Wrench mean = meanLoadInTurningFluid(task, task.model, relative, load.wrench);
+    Surroundings with = s;
+    const Quaternion& q = body.start.orientation;
+    with.applied += {q * mean.torque, q * mean.force};
+    setForces(lanes, lane, {task.model, with, task.settings, task.duration});
+  } else {
+    setLane(lanes.load_B, lane, load.wrench);
+  }
   count.load_evaluations = 1;
   count.guarded = load.guarded;
   return count;
 }
 
 }  // namespace
+
+Wrench meanLoadInTurningFluid(const FlightTask& task, const BodyModel& model, const Twist& relative,
+                              const Wrench& load) noexcept {
+  const FlowAlongBody& flow = *task.surroundings.flow;
+  Twist seen = relative;
+  seen.angular -= flow.twists_B[0].angular;
+  const Wrench whole = load + flow.at_rest_B;
+  const DualPair motion = pairOfTwist(model, seen.vector());
+  const DualPair sample = pairOfTwist(model, model.inverse_inertia * whole.vector());
+  const Vector6 change = passiveKick(motion, {motion, sample}, task.duration).twist - motion.twist;
+  Wrench mean = Wrench::fromVector(model.inertia * change / task.duration);
+  return mean -= flow.at_rest_B;
+}
 
 double extentOf(const BodyModel& model, const Vector6& change, const DualPair& motion,
                 const TurnLimits& limits) noexcept {

@@ -40,4 +40,12 @@ struct RowTask {
 void computeRowVelocities(const RowTask* const* bodies, int count, RowVelocity* results) noexcept;
 RowVelocity computeRowVelocity(const FlightTask& task, const RigidState& start) noexcept;
 
+/// Returns the mean wrench in B of the kick by a load in fluid that turns with a body,
+/// FlowAlongBody with one station, less FlowAlongBody::at_rest_B; docs/theory.md eq. (87). `load`:
+/// of computeSurfaceLoad() at the twist `relative`.
+Wrench meanLoadInTurningFluid(const FlightTask& task, const BodyModel& model, const Twist& relative,
+                              const Wrench& load) noexcept;
+/// True if the surroundings have such a fluid.
+inline bool turnsWithFluid(const Surroundings& s) { return s.flow && s.flow->stations == 1; }
+
 }  // namespace ambient

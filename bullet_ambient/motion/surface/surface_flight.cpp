@@ -240,13 +240,11 @@ class SurfaceFlights {
 
   Wrench loadAt(int i, const Twist& x) {
     Progress& p = progress_[i];
-    const Wrench wrench =
-        p.flight->task.surroundings.load_share * loadBelow(p.model(), *p.place, x);
+    const Surroundings& s = p.flight->task.surroundings;
+    const SurfaceLoad load = loadBelow(p.model(), *p.place, x, {s.load_share, s.flow});
     ++p.count.load_evaluations;
-    if (!p.model().loads_below.loads->needsGuard()) return wrench;
-    const SurfaceLoad guarded = removePositivePower(wrench, x, p.place->inertia.full());
-    p.count.guarded += guarded.guarded;
-    return guarded.wrench;
+    p.count.guarded += load.guarded;
+    return load.wrench;
   }
 
   void findFirstLoad(int i) {

@@ -101,9 +101,14 @@ BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
       x);
 }
 
-Wrench loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept {
-  const double share = wetShare(place.immersion_F, model.shape->volume);
-  return loadOn(model.loads_below, place.plane, share, x);
+SurfaceLoad loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x,
+                      const LoadTerms& terms) noexcept {
+  const double wet = wetShare(place.immersion_F, model.shape->volume);
+  return loadAlong(terms.flow, x, [&](const Twist& at_station) -> SurfaceLoad {
+    const Wrench wrench = terms.share * loadOn(model.loads_below, place.plane, wet, at_station);
+    if (!model.loads_below.loads->needsGuard()) return {wrench, false};
+    return removePositivePower(wrench, at_station, place.inertia.full());
+  });
 }
 
 Wrench frictionBelow(const SurfaceModel& model, const SurfacePlace& place,

@@ -88,10 +88,18 @@ struct SurfaceMove {
 /// if the body has left the water.
 BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept;
 
-/// Load on the part of a body in one of the fluids, in B, for a twist in B relative to that fluid.
-Wrench loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept;
-/// Part of loadBelow() that is friction.
+/// What computeSurfaceLoad() takes besides the twist.
+struct LoadTerms {
+  double share = 1;
+  const FlowAlongBody* flow = nullptr;
+};
+/// Load on the part of a body in the fluid below, in B, for a twist in B relative to that fluid; as
+/// computeSurfaceLoad().
+SurfaceLoad loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x,
+                      const LoadTerms& terms) noexcept;
+/// Part of loadBelow() that is friction, at one station and in full.
 Wrench frictionBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept;
+/// Load of the fluid above.
 Wrench loadAbove(const SurfaceModel& model, const SurfacePlace& place, const Twist& x) noexcept;
 
 /// Input of takeWind(): the fluid above blows on the dry part of a body.

@@ -1,0 +1,222 @@
+#include "bullet_ambient/immersed/station_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_ambient/immersed/region_call.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
+
+AMBIENT_BEGIN
+namespace {
+
+constexpr double kWeight = BodyStations::kWeight;
+// Largest k L of a body that takes a wave at one place: its heave errs by (k L)^2 / 24.
+constexpr double kSmallAgainstWave = 0.3;
+
+bool isSmall(const FluidRegion& region, double length) {
+  return !region.surface || !(region.surface->waveNumber() * length > kSmallAgainstWave);
+}
+
+// True if velocities along an axis may differ by anything.
+bool mayDiffer(const RegionsAround& around) {
+  return !around.is_alone || (around.entry && around.entry->region.flow);
+}
+
+bool isTaken(const RegionsAround& around, double length) {
+  return length > 0 && (mayDiffer(around) || !isSmall(around.entry->region, length));
+}
+
+// Returns the surface of a region if it is no plane; null: there is none.
+const WaterSurface* bendingSurface(const RegionEntry* entry) {
+  if (!entry || !entry->region.surface) return nullptr;
+  const WaterSurface* surface = entry->region.surface.get();
+  return surface->waveNumber() > 0 ? surface : nullptr;
+}
+
+// Returns the one that is nearer to 0 if both have one sign, else 0.
+double lesserOf(double a, double b) {
+  if (!(a * b > 0)) return 0;
+  return std::abs(a) < std::abs(b) ? a : b;
+}
+
+Vector3 upOf(const Vector3& gravity) { return -gravity.normalized(); }
+
+}  // namespace
+
+bool needsStations(const AmbientBody& ambient, const RegionsAround& around) noexcept {
+  if (around.is_alone && !around.entry) return false;
+  return isTaken(around, ambient.models->stations.lengths.maxCoeff());
+}
+
+StationSamples::StationSamples(const AmbientBody& ambient, const FluidRegions& regions,
+                               const RegionsAround& around, const RegionSample& centre) noexcept
+    : centre_W_(toVector3(ambient.body->getWorldTransform().getOrigin())),
+      to_world_(toQuaternion(ambient.body->getWorldTransform().getRotation()).toRotationMatrix()),
+      centre_(centre),
+      surface_(bendingSurface(around.entry)),
+      may_turn_(mayDiffer(around)) {
+  const BodyStations& of_body = ambient.models->stations;
+  for (int axis = 0; axis < kPairs; ++axis) {
+    if (!isTaken(around, of_body.lengths[axis])) continue;
+    const Vector3 way_W = to_world_ * of_body.ways_B.col(axis);
+    stations_[2 * axis].way_W = way_W;
+    stations_[2 * axis + 1].way_W = -way_W;
+    for (int side = 0; side < 2; ++side) take(ambient, regions, around, stations_[2 * axis + side]);
+  }
+}
+
+void StationSamples::take(const AmbientBody& ambient, const FluidRegions& regions,
+                          const RegionsAround& around, Station& station) noexcept {
+  const Vector3 point_W = centre_W_ + station.way_W;
+  long long asked = 0;
+  const RegionEntry* entry = around.is_alone ? around.entry : regions.find(point_W, asked);
+  if (!entry) {
+    station.sample.below = ambient.def->medium;
+    return;
+  }
+  RegionCall call(regions);
+  station.sample = sampleRegion(entry->region, point_W, regions.time, ambient.def->medium);
+  is_steady_ = is_steady_ && ambient::isSteady(entry->region);
+  if (station.sample.is_finite) {
+    station.has_surface = surface_ && entry->region.surface.get() == surface_;
+  } else {
+    is_finite_ = false;
+    station.sample = centre_;
+  }
+}
+
+Vector3 StationSamples::difference(int station, Medium RegionSample::*side,
+                                   Vector3 Medium::*what) const {
+  const Medium &there = stations_[station].sample.*side, &here = centre_.*side;
+  if (!isUsed(station / 2) || !(FluidKind(there) == FluidKind(here))) return Vector3::Zero();
+  return there.*what - here.*what;
+}
+
+Vector3 StationSamples::meanDifference(Medium RegionSample::*side, Vector3 Medium::*what) const {
+  Vector3 sum = Vector3::Zero();
+  for (int i = 0; i < 2 * kPairs; ++i) sum += kWeight * difference(i, side, what);
+  return sum;
+}
+
+void StationSamples::addMeans(Medium RegionSample::*side, RegionSample& sample) const noexcept {
+  Medium& medium = sample.*side;
+  medium.velocity += meanDifference(side, &Medium::velocity);
+  medium.acceleration += meanDifference(side, &Medium::acceleration);
+}
+
+void StationSamples::fitSurface(const Vector3& gravity, RegionSample& sample) const noexcept {
+  if (!surface_ || !hasSurface(sample, gravity)) return;
+  constexpr double kUpright = 1e-6;  // part of the squares that tells no slope of an upright axis
+  const Vector3 up = upOf(gravity), felt = gravity - sample.below.acceleration;
+  const Vector3 slope = up - felt / felt.dot(up);  // that of the plane across `felt`
+  Matrix3 squares = Matrix3::Zero();
+  Vector3 sum = Vector3::Zero();
+  for (int i = 0; i < 2 * kPairs; ++i) {
+    const Station& station = stations_[i];
+    if (!isUsed(i / 2) || !station.has_surface) continue;
+    const double rise = up.dot(station.way_W);
+    const Vector3 way = station.way_W - rise * up;
+    const double above =
+        station.sample.height - centre_.height + rise - slope.dot(way);  // that plane
+    sample.height += kWeight * above;
+    sum += kWeight * above * way;
+    squares += kWeight * way * way.transpose();
+    squares += kUpright * kWeight * station.way_W.squaredNorm() * Matrix3::Identity();
+  }
+  if (squares.trace() > 0) sample.tilt = squares.inverse() * sum;
+}
+
+StationSamples::AxisFlow StationSamples::alongAxis(int axis, Medium RegionSample::*side) const {
+  const Matrix3 to_body = to_world_.transpose();
+  const Vector3 ahead = to_body * difference(2 * axis, side, &Medium::velocity);
+  const Vector3 behind = to_body * difference(2 * axis + 1, side, &Medium::velocity);
+  AxisFlow flow;
+  flow.way_B = to_body * stations_[2 * axis].way_W;
+  for (int i = 0; i < 3; ++i) flow.even_B[i] = lesserOf(ahead[i], -behind[i]);
+  flow.ahead_B = ahead - flow.even_B;
+  flow.behind_B = behind + flow.even_B;
+  flow.largest = std::max(ahead.norm(), behind.norm());
+  flow.acceleration_B = to_body *
+                        (difference(2 * axis, side, &Medium::acceleration) -
+                         difference(2 * axis + 1, side, &Medium::acceleration)) /
+                        2;
+  return flow;
+}
+
+Vector3 StationSamples::turning(const AxisFlow (&axes)[kPairs], Vector3 AxisFlow::*ahead_B) {
+  constexpr double kThin = 1e-9;  // part of the moments of inertia that an axis without them gets
+  Matrix3 moments = Matrix3::Zero();
+  Vector3 sum = Vector3::Zero();
+  for (const AxisFlow& axis : axes) {
+    moments += axis.way_B.squaredNorm() * Matrix3::Identity() - axis.way_B * axis.way_B.transpose();
+    sum += axis.way_B.cross(axis.*ahead_B);
+  }
+  if (sum.isZero(0)) return sum;
+  moments.diagonal().array() += kThin * moments.trace();
+  return moments.inverse() * sum;
+}
+
+void StationSamples::divide(const AxisFlow& axis, FlowAlongBody& flow) {
+  const Vector3 mean = kWeight * (axis.ahead_B + axis.behind_B);
+  const Vector3 rest_B[] = {-mean, axis.ahead_B - mean, axis.behind_B - mean};
+  const Vector3 ways_B[] = {Vector3::Zero(), axis.way_B, -axis.way_B};
+  flow.stations = 3;
+  for (int i = 0; i < 3; ++i) {
+    flow.twists_B[i] = {flow.twists_B[0].angular, rest_B[i]};
+    flow.places_B[i] = ways_B[i];
+    flow.weights[i] = i == 0 ? 1 - 2 * kWeight : kWeight;
+  }
+}
+
+FlowAlongBody StationSamples::flowAlong(Medium RegionSample::*side) const noexcept {
+  constexpr double kEven = 1e-3;  // part of the differences, below the error of the loads
+  AxisFlow axes[kPairs];
+  const AxisFlow* most_uneven = axes;
+  double largest = 0;
+  for (int axis = 0; axis < kPairs; ++axis) {
+    if (!isUsed(axis)) continue;
+    axes[axis] = alongAxis(axis, side);
+    largest = std::max(largest, axes[axis].largest);
+    if (axes[axis].rest() > most_uneven->rest()) most_uneven = axes + axis;
+  }
+  FlowAlongBody flow;
+  flow.spin_up_B = turning(axes, &AxisFlow::acceleration_B);
+  if (!may_turn_ || !(largest > 0)) return flow;
+  flow.stations = 1;
+  flow.weights[0] = 1;
+  flow.twists_B[0].angular = turning(axes, &AxisFlow::even_B);
+  if (most_uneven->rest() > kEven * largest) divide(*most_uneven, flow);
+  return flow;
+}
+
+namespace {
+
+// Returns the wrench in B by which fluid that is spun up takes a body along, eq. (88).
+Wrench pushBySpinUp(AmbientBody& ambient) {
+  const Matrix6 inertia =
+      ambient.surface() ? standNow(ambient).inertia.full() : ambient.model().inertia;
+  const Vector3& rate = ambient.flow_along.spin_up_B;
+  Wrench push = Wrench::fromVector(inertia.leftCols<3>() * rate);
+  const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
+  push.torque -= moments.cwiseProduct(rate);
+  return push;
+}
+
+}  // namespace
+
+void findPushes(AmbientBody& ambient) noexcept {
+  FlowAlongBody& flow = ambient.flow_along;
+  if (!flow.spin_up_B.isZero(0)) flow.push_B = pushBySpinUp(ambient);
+  if (flow.stations == 0) return;
+  if (!loadsOn(ambient)) {
+    flow.stations = 0;
+    return;
+  }
+  const SurfaceModel* surface = ambient.surface();
+  flow.at_rest_B =
+      surface ? loadBelow(*surface, standNow(ambient), {}, {ambient.load_share, &flow}).wrench
+              : computeSurfaceLoad(ambient.model(), {}, ambient.load_share, &flow).wrench;
+  countLoads(ambient, 1);
+}
+
+AMBIENT_END

@@ -1,0 +1,352 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/airy_waves.h"
+#include "tests/bullet_ambient/bullet/regions/region_world.h"
+#include "tests/bullet_ambient/bullet/robots/robot_world.h"
+#include "tests/support/bodies/part_bodies.h"
+
+// Bodies that are not small against what moves around them, docs/theory.md section 16.
+namespace ambient::test {
+namespace {
+
+/// What moves a body: a btRigidBody, or the base of a btMultiBody that carries a pendulum.
+enum class Kind { kRigid, kLink };
+constexpr Kind kKinds[] = {Kind::kRigid, Kind::kLink};
+constexpr double kRates[] = {60, 240};  // [1/s]
+
+struct LongCase {
+  Kind kind;
+  double rate;  // steps per second
+
+  std::string text() const {
+    return (kind == Kind::kRigid ? "rigid body, " : "link, ") + std::to_string(rate) + " Hz";
+  }
+};
+
+std::vector<LongCase> longCases() {
+  std::vector<LongCase> cases;
+  for (const Kind kind : kKinds)
+    for (const double rate : kRates) cases.push_back({kind, rate});
+  return cases;
+}
+
+Vector3 boxMoments(const Vector3& size, double mass) {
+  const Vector3 q = size.cwiseAbs2();
+  return mass / 12 * Vector3(q.y() + q.z(), q.z() + q.x(), q.x() + q.y());
+}
+
+std::shared_ptr<FluidBody> longBox(const Vector3& size, int divisions = 2) {
+  auto body = std::make_shared<FluidBody>(floatingBox(size, divisions));
+  body->uniform_mass.inertia = boxMoments(size, 1).asDiagonal();
+  return body;
+}
+
+/// A box at the origin in a world without gravity, with one degree of freedom. As a link it hangs
+/// by a joint on a base that is fixed.
+struct LongScene : RobotWorld {
+  enum class Freedom { kTurnsAboutZ, kMovesAlongY };
+
+  void add(const Vector3& size, double density, Kind kind, Freedom freedom) {
+    const double mass = density * size.prod();
+    const btVector3 moments = toBullet(boxMoments(size, mass));
+    const bool turns = freedom == Freedom::kTurnsAboutZ;
+    AttachDef def;
+    def.fluid_body = longBox(size, 8);
+    def.flow.law = PressureLaw::kForm;
+    if (kind == Kind::kRigid) {
+      body = &contents.add(mass, moments, no_shape_, btTransform::getIdentity());
+      body->setActivationState(DISABLE_DEACTIVATION);
+      body->setAngularFactor({0, 0, bt(turns ? 1 : 0)});
+      fluid.add(*body, def);
+      return;
+    }
+    auto robot = std::make_unique<btMultiBody>(1, 0, btVector3(0, 0, 0), true, false);
+    const btQuaternion straight = btQuaternion::getIdentity();
+    const btVector3 none(0, 0, 0);
+    if (turns) {
+      robot->setupRevolute(0, bt(mass), moments, -1, straight, {0, 0, 1}, none, none, true);
+    } else {
+      robot->setupPrismatic(0, bt(mass), moments, -1, straight, {0, 1, 0}, none, none, true);
+    }
+    robot->finalizeMultiDof();
+    tree = &take(std::move(robot), 0);
+    tree->setCanSleep(false);
+    tree->setLinearDamping(0);
+    tree->setAngularDamping(0);
+    fluid.add(*tree, 0, def);
+  }
+  /// About z [rad/s], or along y [m/s].
+  double speed(Freedom freedom) const {
+    if (tree) return static_cast<double>(tree->getJointVel(0));
+    return static_cast<double>(freedom == Freedom::kTurnsAboutZ ? body->getAngularVelocity().z()
+                                                                : body->getLinearVelocity().y());
+  }
+  void setSpin(double spin) {
+    if (body) body->setAngularVelocity({0, 0, bt(spin)});
+    if (tree) tree->setJointVel(0, bt(spin));
+  }
+
+  btRigidBody* body = nullptr;
+  btMultiBody* tree = nullptr;
+
+ private:
+  btEmptyShape no_shape_;
+};
+
+Medium longWater(const Vector3& velocity = Vector3::Zero()) {
+  return {1000, 0, velocity, Vector3::Zero()};
+}
+
+constexpr double kTurning = 0.5;  // [rad/s]
+
+FluidRegion turningWater(double rate) {
+  FluidRegion region = filledWith(longWater());
+  region.flow = [rate](const Vector3& p, double) {
+    return FlowSample{{-rate * p.y(), rate * p.x(), 0}, {0, 0, 0}};
+  };
+  return region;
+}
+
+// Spins of a stick after each second, in water that turns, with a spin at the start.
+std::vector<double> spins(const LongCase& with, double rate, double start) {
+  LongScene scene;
+  scene.fluid.addRegion(turningWater(rate));
+  scene.add({1, 0.04, 0.05}, 1000, with.kind, LongScene::Freedom::kTurnsAboutZ);
+  scene.setSpin(start);
+  std::vector<double> result;
+  for (int second = 0; second < 20; ++second) {
+    scene.step(1 / with.rate, static_cast<int>(with.rate));
+    result.push_back(scene.speed(LongScene::Freedom::kTurnsAboutZ));
+  }
+  return result;
+}
+
+// A stick is taken along as one that turns in still water is slowed down. The error is of second
+// order in the step: 0.003 rad/s at 60 Hz.
+TEST(AlongBody, AStickTurnsWithItsWater) {
+  for (const LongCase& with : longCases()) {
+    const std::vector<double> taken = spins(with, kTurning, 0), left = spins(with, 0, kTurning);
+    const double error = 12 / (with.rate * with.rate) + byPrecision(0, 1e-4);
+    for (std::size_t i = 0; i < taken.size(); ++i)
+      EXPECT_NEAR(taken[i] + left[i], kTurning, error) << with.text() << ", second " << i;
+    EXPECT_GT(taken.back(), 0.96 * kTurning) << with.text();
+  }
+}
+
+// Of a bar of 20 m the last 5 m are in a current across it, of 1 m/s. Drag balances at
+// 5 (1 - v)^2 = 15 v^2, by stations at 5/18 (1 - v)^2 = 13/18 v^2.
+TEST(AlongBody, ABarAtTheEdgeOfACurrentTakesItsShare) {
+  const double by_stations = 1 / (1 + std::sqrt(13.0 / 5)), right = 1 / (1 + std::sqrt(3.0));
+  for (const LongCase& with : longCases()) {
+    LongScene scene;
+    scene.fluid.addRegion(filledWith(longWater()));
+    scene.fluid.addRegion(halfSpace(0, 5, longWater({0, 1, 0})));
+    scene.add({20, 0.5, 0.6}, 1000, with.kind, LongScene::Freedom::kMovesAlongY);
+    scene.step(1 / with.rate, static_cast<int>(20 * with.rate));
+    const double found = scene.speed(LongScene::Freedom::kMovesAlongY);
+    EXPECT_NEAR(found, by_stations, 0.002) << with.text();
+    EXPECT_NEAR(found, right, 0.05 * right) << with.text();
+  }
+}
+
+// Velocities of a bar after some steps in a sea with a flow.
+Twist twistIn(const FluidRegion& region, bool has_stations) {
+  FluidWorld scene;
+  scene.fluid.addRegion(region);
+  const Vector3 size(1.5, 0.3, 0.4);
+  BodyDef def{90, boxMoments(size, 90), {}, nullptr};
+  def.start.twist = {Vector3(0.3, 0.7, -0.4), Vector3(0.2, -0.1, 0.3)};
+  AttachDef attach;
+  auto shape = longBox(size, 4);
+  if (!has_stations) shape->uniform_mass = {};
+  attach.fluid_body = shape;
+  btRigidBody& body = scene.add(def);
+  scene.fluid.add(body, attach);
+  scene.contents.step(kWorldStep, 50);
+  return ambient::velocityOf(body);
+}
+
+TEST(AlongBody, AFlowThatIsTheSameEverywhereKeepsTheBits) {
+  FluidRegion region = filledWith({1000, 1e-3, {0.1, 0, 0}, {0, 0, 0}});
+  region.flow = [](const Vector3&, double time) {
+    return FlowSample{{0.3, 0.2 * time, 0}, {0, 0, 0}};
+  };
+  EXPECT_EQ(twistIn(region, true).vector(), twistIn(region, false).vector());
+  region.flow = [](const Vector3& p, double) { return FlowSample{{0.3 * p.y(), 0, 0}, {0, 0, 0}}; };
+  EXPECT_NE(twistIn(region, true).vector(), twistIn(region, false).vector());
+}
+
+/// Counts its samples. Its waves have a number of which it tells.
+class CountedSea final : public WaterSurface {
+ public:
+  explicit CountedSea(double number) : number_(number) {}
+  WaterSample sample(const Vector3& point_W, double) const noexcept override {
+    ++count;
+    return {-point_W.z(), {0, 0, 0}, {0, 0, 0}};
+  }
+  double waveNumber() const noexcept override { return number_; }
+  mutable int count = 0;
+
+ private:
+  double number_;
+};
+
+TEST(AlongBody, ABodyIsSampledAtOnePlaceWhereItIsSmallAgainstTheWaves) {
+  // Of the axes of 1.5 m, 0.31 m and 0.29 m the last is shorter than a fifth of the first.
+  const Vector3 size(1.5, 0.31, 0.29);
+  const auto samples = [&size](double number) {
+    FluidWorld scene;
+    const auto sea = std::make_shared<CountedSea>(number);
+    FluidRegion region = filledWith(longWater());
+    region.surface = sea;
+    scene.fluid.addRegion(region);
+    AttachDef attach;
+    attach.fluid_body = longBox(size);
+    scene.fluid.add(scene.add({60, boxMoments(size, 60), {}, nullptr}), attach);
+    const int before = sea->count;
+    scene.step(kWorldStep);
+    return sea->count - before;
+  };
+  EXPECT_EQ(samples(0.29 / 1.5), 1);
+  EXPECT_EQ(samples(0.31 / 1.5), 3);
+  EXPECT_EQ(samples(0.31 / 0.31), 5);
+}
+
+// A float of 8 m as one body, or as two halves on a rigid joint.
+const Vector3 kFloat(8, 2, 1);  // [m]
+constexpr double kFloatMass = 500 * 16;
+constexpr double kWaveNumber = 0.25, kWaveHeight = 0.1;  // k L = 2
+
+/// The half of the float, or the whole with the added mass of its halves. The law of waves that
+/// bodies make differs with the size of the body: none are made.
+AttachDef floatDef(int parts) {
+  const Vector3 half(kFloat.x() / 2, kFloat.y(), kFloat.z());
+  AttachDef def;
+  auto shape = longBox(parts == 2 ? half : kFloat, 8);
+  if (parts == 1) {
+    shape->added_mass.setZero();
+    const Matrix6 of_half = longBox(half)->added_mass;
+    for (const double x : {-half.x() / 2, half.x() / 2})
+      shape->added_mass += FrameOffset{Matrix3::Identity(), {x, 0, 0}}.inertiaToB(of_half);
+  }
+  def.fluid_body = shape;
+  def.flow.law = PressureLaw::kForm;
+  def.wave_damping = 0;
+  return def;
+}
+
+struct FloatScene : RobotWorld {
+  FloatScene(int parts, Kind kind) {
+    world.setGravity({0, 0, bt(-9.81)});
+    FluidRegion sea = filledWith(longWater());
+    sea.above = Medium{};
+    const double period = 2 * kPi / std::sqrt(9.81 * kWaveNumber);
+    sea.surface = std::make_shared<AiryWaves>(
+        CalmSea{}, std::vector<WaveComponent>{{kWaveHeight, period, {1, 0, 0}, 0}});
+    fluid.addRegion(sea);
+    const Vector3 size(kFloat.x() / parts, kFloat.y(), kFloat.z());
+    const double mass = kFloatMass / parts, apart = kFloat.x() / 2;
+    const btVector3 moments = toBullet(boxMoments(size, mass));
+    const AttachDef def = floatDef(parts);
+    if (kind == Kind::kRigid) {
+      for (int i = 0; i < parts; ++i) {
+        const btVector3 place(bt(parts == 2 ? (i - 0.5) * apart : 0), 0, 0);
+        btRigidBody& body =
+            contents.add(mass, moments, no_shape_, btTransform(btQuaternion::getIdentity(), place));
+        body.setActivationState(DISABLE_DEACTIVATION);
+        fluid.add(body, def);
+        bodies.push_back(&body);
+      }
+      if (parts == 2) {
+        const btVector3 half(bt(apart / 2), 0, 0);
+        contents.join(std::make_unique<btFixedConstraint>(
+            *bodies[0], *bodies[1], btTransform(btQuaternion::getIdentity(), half),
+            btTransform(btQuaternion::getIdentity(), -half)));
+      }
+      return;
+    }
+    auto robot = std::make_unique<btMultiBody>(parts - 1, bt(mass), moments, false, false);
+    if (parts == 2)
+      robot->setupFixed(0, bt(mass), moments, -1, btQuaternion::getIdentity(),
+                        {bt(apart / 2), 0, 0}, {bt(apart / 2), 0, 0});
+    robot->finalizeMultiDof();
+    robot->setBasePos({bt(parts == 2 ? -apart / 2 : 0), 0, 0});
+    tree = &take(std::move(robot), 0);
+    tree->setCanSleep(false);
+    tree->setLinearDamping(0);
+    tree->setAngularDamping(0);
+    for (int link = -1; link < parts - 1; ++link) fluid.add(*tree, link, def);
+  }
+  /// Height of the middle [m] and pitch, down at the end ahead [rad].
+  Eigen::Vector2d motion() const {
+    if (tree) {
+      const btQuaternion q = tree->getWorldToBaseRot().inverse();
+      const Vector3 x = toVector3(quatRotate(q, {1, 0, 0}));
+      const double way = tree->getNumLinks() > 0 ? kFloat.x() / 4 : 0;
+      return {static_cast<double>(tree->getBasePos().z()) + way * x.z(), -x.z()};
+    }
+    double height = 0;
+    for (const btRigidBody* body : bodies)
+      height += static_cast<double>(body->getWorldTransform().getOrigin().z());
+    return {height / static_cast<double>(bodies.size()),
+            -static_cast<double>(bodies[0]->getWorldTransform().getBasis()[2].x())};
+  }
+
+  std::vector<btRigidBody*> bodies;
+  btMultiBody* tree = nullptr;
+
+ private:
+  btEmptyShape no_shape_;
+};
+
+// Amplitudes of heave over that of the wave, and of pitch over its slope, from the fifth period to
+// the tenth.
+Eigen::Vector2d amplitudes(int parts, const LongCase& with) {
+  FloatScene scene(parts, with.kind);
+  const double frequency = std::sqrt(9.81 * kWaveNumber);
+  const int steps = static_cast<int>(10 * 2 * kPi / frequency * with.rate);
+  Eigen::Matrix<double, 5, 5> squares = Eigen::Matrix<double, 5, 5>::Zero();
+  Eigen::Matrix<double, 5, 2> sums = Eigen::Matrix<double, 5, 2>::Zero();
+  for (int i = 1; i <= steps; ++i) {
+    scene.step(1 / with.rate);
+    if (i < steps / 2) continue;
+    const double angle = frequency * i / with.rate;
+    Eigen::Matrix<double, 5, 1> row;
+    row << 1, i / static_cast<double>(steps), std::cos(angle), std::sin(angle),
+        i * i / double(steps) / double(steps);
+    squares += row * row.transpose();
+    sums += row * scene.motion().transpose();
+  }
+  const Eigen::Matrix<double, 5, 2> fit = squares.ldlt().solve(sums);
+  return {fit.block<2, 1>(2, 0).norm() / kWaveHeight,
+          fit.block<2, 1>(2, 1).norm() / (kWaveHeight * kWaveNumber)};
+}
+
+TEST(AlongBody, TwoHalvesOnARigidJointMoveInWavesAsTheWhole) {
+  for (const LongCase& with : longCases()) {
+    const Eigen::Vector2d one = amplitudes(1, with), two = amplitudes(2, with);
+    EXPECT_NEAR(two[0] / one[0], 1, 0.03) << with.text() << ", heave";
+    EXPECT_NEAR(two[1] / one[1], 1, 0.03) << with.text() << ", pitch";
+    printf("%s heave %.4f %.4f pitch %.4f %.4f\n", with.text().c_str(), one[0], two[0], one[1],
+           two[1]);
+  }
+}
+
+// Of the velocity of a wave along a bar with the mean of a cosine, sin x / x, x = k L / 2 = 1.
+TEST(AlongBody, AFloatFeelsTheMeanOfAWave) {
+  FloatScene scene(1, Kind::kRigid);
+  scene.step(1.0 / 60);
+  const Medium water = scene.fluid.find(*scene.bodies[0])->medium();
+  const double speed = kWaveHeight * std::sqrt(9.81 * kWaveNumber);
+  EXPECT_NEAR(water.velocity.x() / speed, std::sin(1.0), 1e-4);
+  EXPECT_NEAR(water.acceleration.z() / (-9.81 * kWaveNumber * kWaveHeight), std::sin(1.0), 1e-4);
+}
+
+}  // namespace
+}  // namespace ambient::test
