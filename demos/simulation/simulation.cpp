@@ -94,7 +94,7 @@ void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody&
     const Twist twist = robots_->sample(*def.link).twist;
     if (!twist.vector().isZero(0)) added.start.twist = twist;
   }
-  if (scene.model == FluidModel::kVacuum || prepared.mass == 0 || !prepared.fluid_body) return;
+  if (scene.model == FluidModel::kVacuum || !prepared.fluid_body) return;
   try {
     const AttachDef attach = makeAttachDef(scene, def, prepared, added.R_SB, own_law_);
     added.immersed = added.link ? fluid_.add(multiBodyOf(added), added.linkNumber(), attach)

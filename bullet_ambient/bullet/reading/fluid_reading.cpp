@@ -157,4 +157,12 @@ void finishReading(const AmbientBody& ambient, const ReadStep& step,
   }
 }
 
+FluidWrench wrenchNow(const AmbientBody& ambient) noexcept {
+  if (!ambient.isInFluid()) return {};
+  const RigidState now = readState(*ambient.body);
+  FluidReading reading;
+  beginReading(ambient, now, readSurroundings(ambient), reading);
+  return MiddleWrenches(ambient, {now, now, ambient.model(), true, 0}, reading).find();
+}
+
 AMBIENT_END

@@ -40,4 +40,8 @@ struct ReadStep {
 void finishReading(const AmbientBody& ambient, const ReadStep& step,
                    FluidReading& reading) noexcept;
 
+/// Returns the parts that the present pose and velocity decide, in the fluid and at the surface
+/// that the body has met last; those of added mass and constraints are 0.
+FluidWrench wrenchNow(const AmbientBody& ambient) noexcept;
+
 AMBIENT_END
