@@ -44,4 +44,8 @@ void finishReading(const AmbientBody& ambient, const ReadStep& step,
 /// that the body has met last; those of added mass and constraints are 0.
 FluidWrench wrenchNow(const AmbientBody& ambient) noexcept;
 
+/// Returns the kinetic energy of the dry body and of the fluid that moves along, relative to the
+/// ambient flow [J].
+double kineticEnergyNow(const AmbientBody& ambient) noexcept;
+
 AMBIENT_END

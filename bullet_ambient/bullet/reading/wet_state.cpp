@@ -76,9 +76,19 @@ WetState cutBy(const SurfacePlane& plane_W, const SurfaceModel& model, const Amb
   return state;
 }
 
+/// Whether a body away from surfaces is in a fluid that does not lie above one: on land beside the
+/// water, the air that is above the water does not make it wet.
+bool isWetIn(const Medium& medium, const AmbientBody& ambient) {
+  const auto& surfaces = ambient.models->surfaces;
+  return medium.density > 0 &&
+         std::none_of(surfaces.begin(), surfaces.end(), [&](const SurfaceMedia& surface) {
+           return FluidKind(surface.kind.mediumAbove(ambient.def->medium)) == FluidKind(medium);
+         });
+}
+
 WetState inRegion(const AmbientBody& ambient, const FluidRegions::Entry& entry,
                   const FluidRegions& regions) {
-  if (!entry.region.surface) return wholly(ambient, entry.region.below.density > 0);
+  if (!entry.region.surface) return wholly(ambient, isWetIn(entry.region.below, ambient));
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   RegionCall call(regions);
   const RegionSample sample =
@@ -97,7 +107,7 @@ WetState wetStateOf(const AmbientBody& ambient, const FluidRegions& regions) {
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   const FluidRegions::Entry* entry =
       ambient.def->follow_regions ? regions.find(position, asked) : nullptr;
-  if (!entry) return wholly(ambient, ambient.def->medium.density > 0);
+  if (!entry) return wholly(ambient, isWetIn(ambient.def->medium, ambient));
   WetState state = inRegion(ambient, *entry, regions);
   state.region = entry->id;
   return state;

@@ -138,6 +138,12 @@ RegionId Immersed::region() const { return require("region").member.ambient->pla
 
 Matrix6 Immersed::inertia() const { return modelNow(*require("inertia").member.ambient).inertia; }
 
+double Immersed::kineticEnergy() const {
+  const Held held = require("kineticEnergy");
+  if (held.member.tree) moveStandIns(*held.member.tree);
+  return kineticEnergyNow(*held.member.ambient);
+}
+
 AmbientCounters Immersed::counters() const { return require("counters").member.ambient->counters; }
 
 void Immersed::readWrench(bool is_read) const {

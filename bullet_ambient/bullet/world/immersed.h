@@ -52,6 +52,9 @@ class Immersed {
   /// Returns the total inertia K of body and fluid, in the frame of the body or link, rotation
   /// first; docs/theory.md eq. (3).
   Matrix6 inertia() const;
+  /// Returns the kinetic energy of the body, and of the fluid relative to the ambient flow, for the
+  /// present velocity [J].
+  double kineticEnergy() const;
   AmbientCounters counters() const;
 
   /// Switches the reading of the wrench on or off. Off at first: then nothing is computed or stored

@@ -24,12 +24,12 @@ std::string hull(const std::string& name, const std::string& size, const std::st
 const char* const kJointPose = R"(<origin xyz="0.05 0.1 -0.3" rpy="0.2 0.3 -0.4"/>)";
 
 /// A root with the mass and a hull without; the other way round; both on the child of such a root.
-const std::string kLoadedRoot = massiveLink("load") + hull("hull", "1 0.4 0.2") +
+const std::string kLoadedRoot = massiveLink("load") + hull("hull", "0.2 0.1 0.1") +
                                 joint("fixed", "fixed", "load", "hull", kJointPose);
-const std::string kHullRoot = hull("hull", "1 0.4 0.2") + massiveLink("load") +
+const std::string kHullRoot = hull("hull", "0.2 0.1 0.1") + massiveLink("load") +
                               joint("fixed", "fixed", "hull", "load", kJointPose);
-const std::string kSiblings = "<link name=\"root\"/>" + hull("hull", "1 0.4 0.2") +
-                              hull("keel", "0.1 0.1 0.5") + massiveLink("load") +
+const std::string kSiblings = "<link name=\"root\"/>" + hull("hull", "0.2 0.1 0.1") +
+                              hull("keel", "0.1 0.1 0.05") + massiveLink("load") +
                               joint("a", "fixed", "root", "hull", kJointPose) +
                               joint("b", "fixed", "root", "load", R"(<origin rpy="0 0.5 0"/>)") +
                               joint("c", "fixed", "load", "keel", kJointPose);
@@ -44,12 +44,14 @@ void attachWorld(FluidRobotWorld& in, Robot&, FluidBodyCache& shapes) {
   EXPECT_TRUE(report.refused.empty()) << report.text();
 }
 
-/// Pose of the link "load" after 1 s from the surface of water.
+/// Pose of the link "load" after 1 s in water. Box and mass are about neutral.
 template <class Attach>
 RigidPose poseAfloat(RobotModel model, const Attach& attach) {
   FluidRobotWorld in;
   in.world.setGravity({0, 0, btScalar(-9.81)});
-  in.fluid.addRegion(waterBelow(0));
+  FluidRegion everywhere;
+  everywhere.below = water();
+  in.fluid.addRegion(everywhere);
   Robot robot(std::move(model));
   robot.addTo(in.world);
   FluidBodyCache shapes;
@@ -63,10 +65,11 @@ TEST(CarriedHull, FloatsTheLinkThatHasTheMass) {
   for (const std::string& text : {kLoadedRoot, kHullRoot, kSiblings}) {
     const RobotModel model = parseRobot(text);
     const RigidPose merged = poseAfloat(withoutFixedJoints(model), attachLinks);
-    EXPECT_GT(merged.translation().z(), -0.5);
+    EXPECT_GT(merged.translation().z(), -1);  // in a vacuum: -4.9
+    EXPECT_GT((merged.matrix() - RigidPose::Identity().matrix()).norm(), 0.1);
     for (const auto& attach : {attachLinks, attachWorld}) {
       const RigidPose pose = poseAfloat(model, attach);
-      EXPECT_LT((pose.matrix() - merged.matrix()).norm(), 1e-6) << text;
+      EXPECT_LT((pose.matrix() - merged.matrix()).norm(), 1e-3) << text;
     }
   }
 }
@@ -116,7 +119,7 @@ TEST(CarriedHull, IsWhereItsLinkIs) {
   EXPECT_EQ(report.attached, 1) << report.text();
   ASSERT_TRUE(in.fluid.find(own.body, -1));
   const WetState wet = in.fluid.find(own.body, -1)->wet();
-  EXPECT_NEAR(wet.volume, 0.08, 1e-9);
+  EXPECT_NEAR(wet.volume, 0.08, 1e-7);
   const btVector3 centre = own.body.localPosToWorld(0, {0, 0, 0});
   EXPECT_LT((wet.centre_of_buoyancy - toVector3(centre)).norm(), 1e-6);
 
