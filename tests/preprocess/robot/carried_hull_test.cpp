@@ -54,9 +54,11 @@ RigidPose poseAfloat(RobotModel model, const Attach& attach) {
   in.fluid.addRegion(everywhere);
   Robot robot(std::move(model));
   robot.addTo(in.world);
-  FluidBodyCache shapes;
+  CollisionShapeSettings coarse;
+  coarse.flow.max_panels = 300;
+  FluidBodyCache shapes(coarse);
   attach(in, robot, shapes);
-  for (int i = 0; i < 100; ++i) in.world.stepSimulation(btScalar(0.01), 0);
+  for (int i = 0; i < 400; ++i) in.world.stepSimulation(btScalar(0.0025), 0);
   in.fluid.clear();
   return robot.linkPose("load");
 }
