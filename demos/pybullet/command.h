@@ -30,6 +30,18 @@ class Command {
   /// without the key.
   std::vector<std::vector<double>> lists(const std::string& key, std::size_t fewest,
                                          std::size_t most);
+  /// Returns the value whose name the text gives for a key, out of pairs of value and name;
+  /// `absent` without the key.
+  template <class Names, class Value>
+  Value choose(const std::string& key, const Names& names, Value absent) {
+    if (!has(key)) return absent;
+    std::string all;
+    for (const auto& [value, name] : names) {
+      if (name == values_[key]) return value;
+      all += (all.empty() ? "" : ", ") + std::string(name);
+    }
+    fail(key + " is one of: " + all);
+  }
   /// Returns the first integer, PyBullet's number of a body.
   int body() const;
   /// Returns the second integer, PyBullet's number of a link.

@@ -43,21 +43,6 @@ std::unique_ptr<WorldFluid> makeFluid(btDiscreteDynamicsWorld* world,
   return std::make_unique<WorldFluid>(*multi_bodies, printed);
 }
 
-// Returns the value whose name the command gives for a key; `present` without the key. Fails with a
-// list of names if there is no such name.
-template <class Names>
-auto choose(Command& command, const char* key, const Names& names, decltype(names[0].first) present)
-    -> std::decay_t<decltype(present)> {
-  if (!command.has(key)) return present;
-  const std::string wanted = command.text(key, "");
-  std::string all;
-  for (const auto& [value, name] : names) {
-    if (name == wanted) return value;
-    all += (all.empty() ? "" : ", ") + std::string(name);
-  }
-  command.fail(std::string(key) + " is one of: " + all);
-}
-
 constexpr std::array<std::pair<Quality, const char*>, 2> kQualityNames{
     {{Quality::kInstant, "instant"}, {Quality::kStandard, "standard"}}};
 
@@ -69,6 +54,7 @@ const FluidPlugin::NamedAnswer FluidPlugin::kCommands[] = {
     {"region", &FluidPlugin::setRegion},
     {"remove", &FluidPlugin::removeRegion},
     {"settings", &FluidPlugin::setSettings},
+    {"body", &FluidPlugin::chooseBody},
     {"exclude", &FluidPlugin::exclude},
     {"inertia", &FluidPlugin::inertia},
     {"mass_matrix", &FluidPlugin::massMatrix},
@@ -113,16 +99,20 @@ void FluidPlugin::beforeStep() {
   if (regions_.empty() && !fluid_) return;
   meetWorld();
   if (!fluid_) return;
-  if (!shapes_) shapes_ = std::make_unique<FluidBodyCache>(shape_settings_, folder_);
   const bool adds = has_news_ && !regions_.empty();
   try {
-    fluid_->prepare({*shapes_, flow_}, adds);
+    fluid_->prepare({shapes(), flow_}, adds);
   } catch (const std::exception& error) {
     fluid_.reset();
     refusal_ = error.what();
     throw;
   }
   if (adds) has_news_ = false;
+}
+
+FluidBodyCache& FluidPlugin::shapes() {
+  if (!shapes_) shapes_ = std::make_unique<FluidBodyCache>(shape_settings_, folder_);
+  return *shapes_;
 }
 
 WorldFluid& FluidPlugin::requireFluid() {
@@ -160,15 +150,17 @@ std::string FluidPlugin::removeRegion(Command& command) {
 }
 
 std::string FluidPlugin::setSettings(Command& command) {
-  if (shapes_)
+  if (fluid_ && !fluid_->fluid().isWorldAlive()) forgetWorld();
+  if (fluid_ && fluid_->hasBodies())
     command.fail("comes too late: bodies are in the fluid; give it before the first step");
   FlowSettings flow = flow_;
-  flow.law = choose(command, "law", kPressureLawNames, flow.law);
+  flow.law = command.choose("law", kPressureLawNames, flow.law);
   flow.separation_angle = command.number("separation", flow.separation_angle);
-  const Quality quality = choose(command, "quality", kQualityNames, shape_settings_.quality);
+  const Quality quality = command.choose("quality", kQualityNames, shape_settings_.quality);
   const std::string folder = command.text("folder", folder_);
   command.finish();
   flow_ = flow;
+  if (quality != shape_settings_.quality || folder != folder_) shapes_.reset();
   shape_settings_.quality = quality;
   folder_ = folder;
   return "";
@@ -177,6 +169,13 @@ std::string FluidPlugin::setSettings(Command& command) {
 std::string FluidPlugin::exclude(Command& command) {
   command.finish();
   requireFluid().exclude(command.body(), command.link(WorldFluid::kAllLinks));
+  return "";
+}
+
+std::string FluidPlugin::chooseBody(Command& command) {
+  const ChosenBody chosen = readChosenBody(command, flow_);
+  command.finish();
+  requireFluid().choose(command.body(), command.link(-1), chosen, shapes());
   return "";
 }
 
@@ -248,6 +247,18 @@ std::string FluidPlugin::status(Command& command) {
     status["rejected"] = counters.rejected;
     status["energy_removed"] = counters.energy_removed;
     status["said"] = fluid_->said();
+    status["bodies"] = json::array();
+    fluid_->forEach([&](int body, int link, double mass, const FluidBody& shape) {
+      json one;
+      one["body"] = body;
+      one["link"] = link;
+      one["mass"] = mass;
+      one["volume"] = shape.volume;
+      if (shape.volume > 0) one["density"] = mass / shape.volume;
+      one["shape"] = shape.name;
+      one["made"] = shape.provenance.source + "; " + shape.provenance.settings;
+      status["bodies"].push_back(std::move(one));
+    });
   }
   return status.dump();
 }

@@ -36,6 +36,7 @@ class FluidPlugin {
   std::string setRegion(Command& command);
   std::string removeRegion(Command& command);
   std::string setSettings(Command& command);
+  std::string chooseBody(Command& command);
   std::string exclude(Command& command);
   std::string inertia(Command& command);
   std::string massMatrix(Command& command);
@@ -49,6 +50,7 @@ class FluidPlugin {
   // Makes the fluid of the present world, or sets refusal_. Does nothing if that was done before.
   void meetWorld();
   void forgetWorld();
+  FluidBodyCache& shapes();
   // Return the fluid of the present world, or throw refusal_; requireCurrent() adds new bodies
   // first.
   WorldFluid& requireFluid();

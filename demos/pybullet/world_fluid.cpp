@@ -1,5 +1,6 @@
 #include "demos/pybullet/world_fluid.h"
 
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -14,6 +15,7 @@
 namespace ambient::pybullet {
 namespace {
 
+const char* const kHulls = "hulls";  // entry of printed_: it was said
 constexpr std::size_t kKeptSentences = 100;
 const char* const kOtherLayout =
     "this PyBullet has other layouts than the plugin, which is for 3.1.7 and later in double";
@@ -34,6 +36,13 @@ std::string nameOf(const btCollisionObject& object) {
   std::string name = "PyBullet's body " + std::to_string(multi_body.getUserIndex2());
   if (link >= 0) name += ", link " + std::to_string(link);
   return given ? name + " " + given : name;
+}
+
+// True for a convex hull, also one in a compound of its own.
+bool isLoneHull(const btCollisionShape& shape) {
+  if (!shape.isCompound()) return shape.getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE;
+  const auto& compound = static_cast<const btCompoundShape&>(shape);
+  return compound.getNumChildShapes() == 1 && isLoneHull(*compound.getChildShape(0));
 }
 
 }  // namespace
@@ -62,6 +71,20 @@ void WorldFluid::prepare(const Settings& settings, bool has_news) {
     addAll(settings);
   }
   storeHandles();
+  sayHulls();
+}
+
+// PyBullet replaces a mesh in <collision> by its convex hull, and keeps no trace of the mesh.
+void WorldFluid::sayHulls() {
+  for (const auto& [key, multi_body] : new_links_) {
+    const auto* collider = find(key.first, key.second).collider;
+    if (!collider || members_.count(key) == 0 || !isLoneHull(*collider->getCollisionShape()))
+      continue;
+    if (!printed_.insert(kHulls).second) return;
+    return say("bullet_ambient: " + nameOf(*collider) +
+               " displaces the convex hull that PyBullet has made of its mesh or cylinder, without "
+               "hollows and gaps; Fluid.body() gives a link another fluid body");
+  }
 }
 
 void WorldFluid::checkLayouts() const {
@@ -101,6 +124,42 @@ void WorldFluid::storeHandles() {
   for (const auto& [key, multi_body] : new_links_)
     if (const auto member = fluid_.find(*multi_body, key.second))
       members_.insert_or_assign(key, *member);
+}
+
+WorldFluid::Found WorldFluid::find(int body, int link) const {
+  Found found;
+  for (int i = 0; i < world_.getNumMultibodies(); ++i) {
+    btMultiBody& multi_body = *world_.getMultiBody(i);
+    if (multi_body.getUserIndex2() != body || link >= multi_body.getNumLinks()) continue;
+    found.multi_body = &multi_body;
+    found.collider = link < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(link);
+    found.mass = link < 0 ? multi_body.getBaseMass() : multi_body.getLinkMass(link);
+    return found;
+  }
+  const btCollisionObjectArray& objects = world_.getCollisionObjectArray();
+  for (int i = 0; link < 0 && i < objects.size(); ++i) {
+    found.rigid = btRigidBody::upcast(objects[i]);
+    if (!found.rigid || found.rigid->getUserIndex2() != body) continue;
+    found.collider = found.rigid;
+    found.mass = found.rigid->getMass();
+    return found;
+  }
+  throw std::invalid_argument("there is no body " + std::to_string(body) + " with link " +
+                              std::to_string(link));
+}
+
+void WorldFluid::choose(int body, int link, const ChosenBody& chosen, FluidBodySource& shapes) {
+  const Found found = find(body, link);
+  const btCollisionShape* shape = found.collider ? found.collider->getCollisionShape() : nullptr;
+  if (chosen.file.empty() && !shape)
+    throw std::invalid_argument("body: it has no collision shape; choose a file");
+  AttachDef def =
+      definitionOf(chosen, chosen.file.empty() ? shapes.fluidBody(*shape) : nullptr, found.mass);
+  if (found.collider) def.name = nameOf(*found.collider);
+  exclude(body, link);  // from what is added by its collision shape
+  const Immersed member = found.rigid ? fluid_.add(*found.rigid, std::move(def))
+                                      : fluid_.add(*found.multi_body, link, std::move(def));
+  members_.insert_or_assign({body, link}, member);
 }
 
 void WorldFluid::forget(int body) {

@@ -9,6 +9,7 @@
 
 #include "bullet_ambient/ambient.h"
 #include "bullet_ambient/saved_state.h"
+#include "demos/pybullet/chosen_body.h"
 
 class btCollisionObject;
 class btMultiBody;
@@ -34,12 +35,17 @@ class WorldFluid {
   WorldFluid(btMultiBodyDynamicsWorld& world, std::set<std::string>& printed);
 
   Fluid& fluid() { return fluid_; }
+  /// True once bodies have met the settings.
+  bool hasBodies() const { return was_added_ || fluid_.size() > 0; }
   /// Call before each substep. Puts the fluid's solver into the place of the world's present one.
   /// With `has_news`, also adds all bodies that are in the world and not yet in the fluid. @throws
   /// std::invalid_argument, in one sentence, if a multibody has another layout than the plugin's
   void prepare(const Settings& settings, bool has_news);
   /// Removes a body that PyBullet has destroyed. Its number may be given to a new body.
   void forget(int body);
+  /// Gives a body or link a fluid body that the user has chosen, in place of the one that it has.
+  /// @throws std::exception, in one line, if there is no such body or link, or it cannot have it
+  void choose(int body, int link, const ChosenBody& chosen, FluidBodySource& shapes);
   /// Removes a body or link from the fluid, and never adds it again.
   void exclude(int body, int link);
   /// Returns the handle of a body or link; link -1: the base, or a rigid body. @throws
@@ -48,6 +54,14 @@ class WorldFluid {
   /// Returns the multibody with PyBullet's number `body`. @throws std::invalid_argument if there is
   /// none
   const btMultiBody& multiBody(int body) const;
+
+  /// Calls visit(body, link, mass [kg], fluid body) for all that is in the fluid.
+  template <class Visit>
+  void forEach(const Visit& visit) const {
+    for (const auto& [key, member] : members_)
+      if (member.isValid())
+        visit(key.first, key.second, find(key.first, key.second).mass, *member.fluidBody());
+  }
 
   /// Saves the state of the world in memory. Returns its number, from 0 on.
   std::size_t save();
@@ -58,7 +72,16 @@ class WorldFluid {
 
  private:
   using Key = std::pair<int, int>;  // numbers of body and link; link -1: base, or a rigid body
+  // A rigid body, or a link of a multibody.
+  struct Found {
+    btRigidBody* rigid = nullptr;
+    btMultiBody* multi_body = nullptr;
+    const btCollisionObject* collider = nullptr;  // null: it has no collision shape
+    double mass = 0;
+  };
+  Found find(int body, int link) const;
   void checkLayouts() const;
+  void sayHulls();
   void addAll(const Settings& settings);
   void storeHandles();
   bool isWanted(int body, int link) const;

@@ -73,6 +73,7 @@ PolarQuestion polarQuestion(const FluidBody& body, const py::kwargs& given) {
   flight.density = question.medium.density;
   flight.speed = get("speed", py::float_(1.0)).cast<double>();
   flight.reference = usualReference(body, flight.axes);
+  flight.added_mass = body.added_mass.bottomRightCorner<3, 3>();
   flight.reference.area = get("reference_area", py::float_(flight.reference.area)).cast<double>();
   flight.reference.length =
       get("reference_length", py::float_(flight.reference.length)).cast<double>();

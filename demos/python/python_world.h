@@ -41,6 +41,11 @@ class PythonWorld {
     }
     scene_ = scene;
   }
+  /// Takes water and regions of a scene that differs from that of the world in these alone.
+  void setRegions(const Scene& scene) {
+    simulation().setRegions(scene);
+    scene_ = scene;
+  }
   MotionSample sample(std::size_t body) const { return simulation().sample()[body]; }
   void close() { simulation_.reset(); }
 

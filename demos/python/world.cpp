@@ -244,9 +244,8 @@ void bindStates(py::class_<PythonWorld, std::shared_ptr<PythonWorld>>& type) {
           },
           py::arg("state"),
           "Restores a state of this world or of another one of the same scene. The motion then "
-          "goes on "
-          "bit for bit, except where boxes, hulls and the like touch, because their contacts are "
-          "found anew.");
+          "goes on bit for bit, except where bodies touch each other with several parts of robots' "
+          "links.");
 }
 
 }  // namespace
@@ -274,9 +273,17 @@ True
   bindWorldMotion(type);
   bindWorldRobots(type);
   bindStates(type);
-  type.def(py::init([](const Scene& scene, const py::object& cache, bool robots) {
+  type.def(
+      "set_regions", [](PythonWorld& w, const Scene& scene) { w.setRegions(scene); },
+      py::arg("scene"),
+      "Takes water and regions from another scene from the next step on, such as "
+      "world.scene.replace({\"water.level\": 0.5}).");
+  type.def(py::init([](const py::object& scene, const py::object& cache, bool robots) {
+             if (!py::isinstance<Scene>(scene))
+               throw py::type_error("World takes a Scene, as in World(Scene(...))");
              return std::make_shared<PythonWorld>(
-                 scene, cache.is_none() ? std::filesystem::path() : pathFrom(cache), robots);
+                 scene.cast<const Scene&>(),
+                 cache.is_none() ? std::filesystem::path() : pathFrom(cache), robots);
            }),
            py::arg("scene"), py::kw_only(), py::arg("cache") = py::none(),
            py::arg("robots") = false)

@@ -137,9 +137,6 @@ void checkFluids(const Scene& scene) {
 
 void checkScene(const Scene& scene) {
   checkTimes(scene);
-  Checker(scene, "").require(
-      !scene.bodies.empty(),
-      "bodies is empty, and no robot has a link that collides; must be at least one");
   checkFluids(scene);
   checkNames(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

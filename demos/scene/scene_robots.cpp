@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
@@ -45,8 +46,9 @@ RobotModel readModel(const json& from, const std::filesystem::path& scene_file) 
   RobotModel model =
       readUrdf(folder / from.at("urdf").get<std::string>(), toPackages(from, folder));
   if (from.value("merge_fixed_links", true)) model = withoutFixedJoints(model);
-  checkRobot(model, from.value("fixed_base", false));
-  return model;
+  const bool fixed_base = from.value("fixed_base", false);
+  checkRobot(model, fixed_base);
+  return withCarriedCollisions(std::move(model), fixed_base);
 }
 
 /// Medium named by <ambient medium=.../>; none: that of the robot.

@@ -69,12 +69,16 @@ Simulation::Simulation(const Scene& scene, const std::vector<PreparedBody>& prep
       own_flight_(scene.flight.own_flight),
       time_step_(scene.time_step),
       file_(scene.file.string()) {
+  if (scene.bodies.empty() && !takes_robots)
+    raiseInputError(file_,
+                    "bodies is empty, and no robot has a link that collides; must be at least one");
   fluid_.setReport([this](const std::string& sentence) {
     if (!warning_.empty()) warning_ += '\n';
     warning_ += sentence;
   });
   bullet_.world->setGravity(toBullet(scene.gravity));
-  for (FluidRegion& region : makeRegions(scene)) fluid_.addRegion(std::move(region));
+  for (FluidRegion& region : makeRegions(scene))
+    regions_.push_back(fluid_.addRegion(std::move(region)));
   addRobots(scene, prepared);
   for (const JointDef& joint : scene.joints) add(joint);
 }
@@ -99,7 +103,7 @@ void Simulation::add(const Scene& scene, const BodyDef& def, const PreparedBody&
     const Twist twist = robots_->sample(*def.link).twist;
     if (!twist.vector().isZero(0)) added.start.twist = twist;
   }
-  if (scene.model == FluidModel::kVacuum || prepared.mass == 0 || !prepared.fluid_body) return;
+  if (scene.model == FluidModel::kVacuum || !prepared.fluid_body) return;
   try {
     const AttachDef attach = makeAttachDef(scene, def, prepared, added.R_SB, own_law_);
     added.immersed = added.link ? fluid_.add(multiBodyOf(added), added.linkNumber(), attach)
@@ -143,6 +147,15 @@ void Simulation::step() {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (work(i).rejected > 0 || !sample(bodies_[i]).isFinite())
       throwNotFinite(file_, bodies_[i].name, time());
+}
+
+void Simulation::setRegions(const Scene& scene) {
+  std::vector<FluidRegion> regions = makeRegions(scene);
+  if (regions.size() != regions_.size())
+    raiseInputError(scene.file.string(), "it has ", regions.size(),
+                    " waters and regions, the world ", regions_.size(), "; must be as many");
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    fluid_.setRegion(regions_[i], std::move(regions[i]));
 }
 
 btMultiBody& Simulation::multiBodyOf(const WorldBody& link) const {

@@ -90,10 +90,15 @@ class Simulation {
   /// not physical.
   void setMedium(std::size_t body, const Medium& medium);
 
+  /// Replaces water and regions by those of another scene, from the next step on.
+  /// @throws std::invalid_argument or std::runtime_error, one sentence, if it has another number of
+  /// them, or a body may not meet them.
+  void setRegions(const Scene& scene);
+
   /// Serialises all that changes from step to step, including applied forces.
   std::string saveState() const;
   /// Goes on from there in this simulation or another one of the same scene, bit for bit where
-  /// Fluid::restore() does: contacts of bodies that move are those of compound shapes.
+  /// Fluid::restore() does.
   /// @throws std::runtime_error or std::invalid_argument, one sentence, if the bytes are damaged or
   /// of another scene; the simulation then stays as it was.
   void restoreState(std::string_view bytes);
@@ -118,6 +123,7 @@ class Simulation {
   btDbvtBroadphase broadphase_;
   BulletWorld bullet_;
   Fluid fluid_;
+  std::vector<RegionId> regions_;
   std::vector<WorldBody> bodies_;
   std::unique_ptr<RobotsInWorld> robots_ = makeRobotsInWorld();  ///< null: built without
   std::vector<std::unique_ptr<btTypedConstraint>> joints_;

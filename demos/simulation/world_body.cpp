@@ -78,6 +78,8 @@ BulletWorld makeBulletWorld(bool takes_robots, btCollisionDispatcher& dispatcher
                                                            &configuration);
     made.solver = std::move(solver);
   }
+  // Contacts, and so their rounding, then depend on the state alone and not on its history.
+  made.world->getDispatchInfo().m_deterministicOverlappingPairs = true;
   return made;
 }
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "bullet_ambient/fluid_body/displaced_mass.h"
+#include "bullet_ambient/force/medium/medium.h"
 #include "preprocess/command_line/json_numbers.h"
 
 namespace ambient {
@@ -20,21 +22,26 @@ std::string line(const char* format, Numbers... numbers) {
   return text;
 }
 
+// Components of a unit vector to four decimals: what is below is noise of the search.
 std::string directionText(const Vector3& v) {
-  return line("%.4g, %.4g, %.4g", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+  const auto rounded = [](double x) { return std::round(1e4 * x) / 1e4 + 0.0; };
+  return line("%.4g, %.4g, %.4g", rounded(v.x()), rounded(v.y()), rounded(v.z()));
 }
 
 // Period of a mode of body and added mass, without damping by waves; "none" where nothing turns the
 // body back.
 std::string modeText(const SmallOscillation& mode) {
-  const std::string name = mode.is_heave ? "heave" : "turn about " + directionText(mode.turn);
+  const bool has_period = std::isfinite(mode.period);
+  if (!has_period && mode.turn.isZero(0)) return "";  // nothing to tell
+  const bool is_heave = mode.is_heave && has_period;
   return "    period          " +
-         (std::isfinite(mode.period) ? line("%.4g s, ", mode.period) : std::string("none, ")) +
-         name + "\n";
+         (has_period ? line("%.4g s, ", mode.period) : std::string("none, ")) +
+         (is_heave ? "heave" : "turn about " + directionText(mode.turn)) + "\n";
 }
 
 std::string attitudeText(const FloatingAttitude& attitude) {
   std::string text = "  up is " + directionText(attitude.up);
+  if (attitude.up.z() < -attitude.up.head<2>().norm()) text += ", z downwards";
   if (attitude.alike > kMostAlike) {
     text += ", or turned freely";
   } else if (attitude.alike > 1) {
@@ -77,6 +84,10 @@ ordered_json attitudeJson(const FloatingAttitude& attitude) {
 
 std::string floatingTable(const FloatingBody& body) {
   std::string text = line("with %.6g kg on water of %.6g kg/m^3\n", body.mass, body.density);
+  const double air_mass = air().density * body.shape->volume;
+  if (DisplacedMass{body.mass, air_mass}.isMuchLighter())
+    text += line("  it is lighter than the %.6g kg of air in its place: is its mesh in metres?\n",
+                 air_mass);
   const auto attitudes = findFloatingAttitudes(body);
   if (attitudes.empty())
     return text + line("  it sinks: it displaces %.6g kg\n", body.density * body.shape->volume);

@@ -27,8 +27,9 @@ void requireUsualWidth(const MeshProperties& properties, double size, bool sheet
   }
 }
 
-// Beyond these a file's unit is likelier to be another one than the body to be of that size.
-constexpr double kSmallestLikely = 1e-3, kLargestLikely = 10;  // [m]
+// Beyond these a file's unit is likelier to be another one than the body to be of that size: no
+// ship is larger.
+constexpr double kSmallestLikely = 1e-3, kLargestLikely = 500;  // [m]
 
 }  // namespace
 
@@ -39,9 +40,10 @@ std::string extentsText(const Eigen::Vector3d& extents) {
   return text.str();
 }
 
-std::string unlikelySizeWarning(const TriangleMesh& mesh, const std::string& source) {
+std::string unlikelySizeWarning(const TriangleMesh& mesh, bool is_scaled,
+                                const std::string& source) {
   const double size = mesh.extents().maxCoeff();
-  if (size >= kSmallestLikely && size <= kLargestLikely) return {};
+  if (size >= kSmallestLikely && (size <= kLargestLikely || is_scaled)) return {};
   return source + ": its size is " + extentsText(mesh.extents()) +
          (size > kLargestLikely
               ? "; lengths are metres: if the file is in millimetres, --scale 0.001"

@@ -20,8 +20,10 @@ void requireUsualSize(const TriangleMesh& mesh, bool sheet, const std::string& s
 /// Text of extents [m]: "1 x 2 x 3 m".
 std::string extentsText(const Eigen::Vector3d& extents);
 
-/// Returns one line that begins with `source` if the longest extent is above 10 m or below 1 mm, as
-/// of a mesh in millimetres; else empty.
-std::string unlikelySizeWarning(const TriangleMesh& mesh, const std::string& source);
+/// Returns one line that begins with `source` if the longest extent is above 500 m or below 1 mm,
+/// as of a mesh in millimetres; else empty. `is_scaled`: the user has chosen a factor, and knows of
+/// large sizes.
+std::string unlikelySizeWarning(const TriangleMesh& mesh, bool is_scaled,
+                                const std::string& source);
 
 }  // namespace ambient

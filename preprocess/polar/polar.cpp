@@ -59,7 +59,9 @@ PolarCoefficients polarCoefficients(const BodyLoads& loads, const PolarFlight& f
   const Vector3 motion(ca * cb, -sb, -sa * cb), lift(sa, 0, ca);
   const Vector3 side = motion.cross(lift);  // to the right
   const Twist twist{Vector3::Zero(), flight.axes * motion * flight.speed};
-  const Wrench load = loads.at(twist).total();
+  Wrench load = loads.at(twist).total();
+  const Vector3 momentum = flight.density * (flight.added_mass * twist.linear);
+  load.torque -= twist.linear.cross(momentum);
   const PolarReference& reference = flight.reference;
   const double scale = 0.5 * flight.density * flight.speed * flight.speed * reference.area;
   const Vector3 force = flight.axes.transpose() * load.force / scale;

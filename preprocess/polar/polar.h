@@ -20,6 +20,8 @@ struct PolarFlight {
   double density = 1;                  ///< of the fluid [kg/m^3]
   double speed = 1;                    ///< [m/s]
   PolarReference reference;
+  /// Linear block of the added mass over density, in F [m^3]: for Munk's moment, as in a world.
+  Matrix3 added_mass = Matrix3::Zero();
 };
 
 /// C_L, C_D, C_Y (to the right), C_l, C_m, C_n about F's origin, as a pilot counts them.

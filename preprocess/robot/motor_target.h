@@ -15,6 +15,11 @@ struct MotorTarget {
   double position_gain = 0.1;
   double velocity_gain = 1;
   double effort = JointModel::kUnlimited;  ///< [N m] or [N]; at most the joint's
+
+  /// Returns the target of a motor that holds a velocity [rad/s or m/s], whatever the position.
+  static MotorTarget speed(double velocity, double effort = JointModel::kUnlimited) {
+    return {0, velocity, 0, 1, effort};
+  }
 };
 
 }  // namespace ambient

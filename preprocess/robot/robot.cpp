@@ -12,7 +12,8 @@
 
 AMBIENT_BEGIN
 
-Robot::Robot(RobotModel model, const RobotSettings& settings) : model_(std::move(model)) {
+Robot::Robot(RobotModel model, const RobotSettings& settings)
+    : model_(withCarriedCollisions(std::move(model), settings.fixed_base)) {
   checkRobot(model_, settings.fixed_base);
   for (const LinkModel& link : model_.links) {
     frames_.push_back(findMassFrame(link));

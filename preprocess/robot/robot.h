@@ -37,7 +37,7 @@ struct RobotSettings {
 /// damping of joints never reverse a velocity.
 class Robot {
  public:
-  /// For fewer links: withoutFixedJoints(model).
+  /// For fewer links: withoutFixedJoints(model). Collisions are those of withCarriedCollisions().
   /// @throws std::runtime_error in one line as checkRobot() and makeLinkShape(), for a pose or
   /// positions that are not finite, or a joint that is not known.
   explicit Robot(RobotModel model, const RobotSettings& settings = {});

@@ -1,6 +1,7 @@
 #include "preprocess/robot/robot_model.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bullet_ambient/spatial/principal_frame.h"
 #include "preprocess/mesh/input_error.h"
@@ -90,6 +91,58 @@ RobotModel withoutRoot(RobotModel model) {
   return model;
 }
 
+/// Merges links at fixed joints with their parents, as far as may(link).
+template <class May>
+RobotModel merged(const RobotModel& model, const May& may) {
+  RobotModel merged = model;
+  merged.links.clear();
+  // For each link: the index of the link that holds it after merging, and its pose in that link's
+  // frame.
+  std::vector<std::pair<int, RigidPose>> holders;
+  for (const LinkModel& link : model.links) {
+    const bool merges = link.parent >= 0 && link.joint.kind == UrdfJointKind::kFixed && may(link);
+    LinkModel kept = link;
+    if (link.parent >= 0) {
+      const auto& [holder, pose] = holders[static_cast<std::size_t>(link.parent)];
+      kept.parent = holder;
+      kept.joint.origin = pose * link.joint.origin;
+    }
+    if (merges) {
+      takeIn(merged.links[static_cast<std::size_t>(kept.parent)], link, kept.joint.origin);
+      holders.emplace_back(kept.parent, kept.joint.origin);
+    } else {
+      holders.emplace_back(static_cast<int>(merged.links.size()), RigidPose::Identity());
+      merged.links.push_back(std::move(kept));
+    }
+  }
+  return floatsInRoot(merged) ? withoutRoot(std::move(merged)) : merged;
+}
+
+/// Finds the link with mass that fixed joints hold to a link, and the given link's pose in its
+/// frame; -1: there is none, or it is held to a fixed base.
+std::pair<int, RigidPose> findCarrier(const RobotModel& model, int link, bool fixed_base) {
+  std::vector<std::pair<int, RigidPose>> reached{{link, RigidPose::Identity()}};
+  const auto reach = [&](int next, const RigidPose& pose) {
+    if (std::none_of(reached.begin(), reached.end(),
+                     [next](const auto& known) { return known.first == next; }))
+      reached.emplace_back(next, pose);
+  };
+  const auto at = [&](int index) -> const LinkModel& {
+    return model.links[static_cast<std::size_t>(index)];
+  };
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const auto [here, pose] = reached[i];
+    if (here == 0 && fixed_base) break;
+    if (at(here).mass > 0) return {here, pose};
+    if (here > 0 && at(here).joint.kind == UrdfJointKind::kFixed)
+      reach(at(here).parent, at(here).joint.origin * pose);
+    for (int child = here + 1; child < static_cast<int>(model.links.size()); ++child)
+      if (at(child).parent == here && at(child).joint.kind == UrdfJointKind::kFixed)
+        reach(child, at(child).joint.origin.inverse() * pose);
+  }
+  return {-1, RigidPose::Identity()};
+}
+
 }  // namespace
 
 int RobotModel::linkIndex(const std::string& link) const {
@@ -107,7 +160,9 @@ int RobotModel::jointIndex(const std::string& joint) const {
 }
 
 void checkRobot(const RobotModel& model, bool fixed_base) {
-  if (!fixed_base) checkMovingLink(model, model.links.front());
+  const RobotModel rigid = merged(model, [](const LinkModel&) { return true; });
+  for (const LinkModel& link : rigid.links)
+    if (link.parent >= 0 || !fixed_base) checkMovingLink(model, link);
   for (const LinkModel& link : model.links) {
     if (link.parent < 0) continue;
     const JointModel& joint = link.joint;
@@ -115,34 +170,26 @@ void checkRobot(const RobotModel& model, bool fixed_base) {
       raiseInputError(model.source, "joint \"", joint.name,
                       "\": it is floating; only the one child of a root without mass and collision "
                       "may float");
-    if (joint.kind != UrdfJointKind::kFixed) checkMovingLink(model, link);
     checkMimic(model, joint);
   }
 }
 
 RobotModel withoutFixedJoints(const RobotModel& model) {
-  RobotModel merged = model;
-  merged.links.clear();
-  // For each link: the index of the link that holds it after merging, and its pose in that link's
-  // frame.
-  std::vector<std::pair<int, RigidPose>> holders;
-  for (const LinkModel& link : model.links) {
-    const bool merges = link.parent >= 0 && link.joint.kind == UrdfJointKind::kFixed && !link.fluid;
-    LinkModel kept = link;
-    if (link.parent >= 0) {
-      const auto& [holder, pose] = holders[static_cast<std::size_t>(link.parent)];
-      kept.parent = holder;
-      kept.joint.origin = pose * link.joint.origin;
-    }
-    if (merges) {
-      takeIn(merged.links[static_cast<std::size_t>(kept.parent)], link, kept.joint.origin);
-      holders.emplace_back(kept.parent, kept.joint.origin);
-    } else {
-      holders.emplace_back(static_cast<int>(merged.links.size()), RigidPose::Identity());
-      merged.links.push_back(std::move(kept));
+  return merged(model, [](const LinkModel& link) { return !link.fluid; });
+}
+
+RobotModel withCarriedCollisions(RobotModel model, bool fixed_base) {
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    LinkModel& link = model.links[i];
+    if (link.mass > 0 || link.collisions.empty() || link.fluid) continue;
+    const auto [carrier, pose] = findCarrier(model, static_cast<int>(i), fixed_base);
+    if (carrier < 0) continue;
+    for (PlacedShape part : std::exchange(link.collisions, {})) {
+      part.pose = pose * part.pose;
+      model.links[static_cast<std::size_t>(carrier)].collisions.push_back(std::move(part));
     }
   }
-  return floatsInRoot(merged) ? withoutRoot(std::move(merged)) : merged;
+  return model;
 }
 
 std::vector<RigidPose> linkPoses(const RobotModel& model, const RigidPose& robot,

@@ -94,8 +94,9 @@ struct RobotModel {
   int jointIndex(const std::string& joint) const;
 };
 
-/// Checks that a robot can move: moving links need a mass and positive moments of inertia, and
-/// joints must be in allowed places. `fixed_base`: the root needs no mass.
+/// Checks that a robot can move: links that move, each with all that fixed joints hold to it, need
+/// a mass and positive moments of inertia, and joints must be in allowed places. `fixed_base`: the
+/// root needs no mass.
 /// @throws std::runtime_error in one line that names file, link or joint, value and limit.
 void checkRobot(const RobotModel& model, bool fixed_base);
 
@@ -103,6 +104,11 @@ void checkRobot(const RobotModel& model, bool fixed_base);
 /// with mass, inertia and collisions, unless it has an element `ambient`. A root without mass and
 /// collisions is removed if its only child floats.
 RobotModel withoutFixedJoints(const RobotModel& model);
+
+/// Returns the robot with the collisions of each link without mass at the link with mass that fixed
+/// joints hold to it, as they are one rigid body: parents before children. A link stays as it is if
+/// it has an element `ambient`, or is held to a fixed base.
+RobotModel withCarriedCollisions(RobotModel model, bool fixed_base);
 
 /// Computes the poses of the links' frames from that of the robot and the positions of revolute and
 /// prismatic joints by name; other joints are at 0.

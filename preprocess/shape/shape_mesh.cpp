@@ -84,7 +84,7 @@ CheckedMesh scaled(CheckedMesh checked, const ShapeDescription& shape, double sc
   // Shapes are described in metres; what the unit of a file is, is not known.
   const std::filesystem::path file = fileOf(shape);
   if (file.empty()) return checked;
-  const std::string warning = unlikelySizeWarning(checked.mesh, file.string());
+  const std::string warning = unlikelySizeWarning(checked.mesh, scale != 1, file.string());
   if (!warning.empty()) checked.warnings.push_back(warning);
   return checked;
 }

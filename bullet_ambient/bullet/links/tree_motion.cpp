@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/links/tree_energy.h"
 #include "bullet_ambient/bullet/links/tree_feedback.h"
 #include "bullet_ambient/bullet/links/tree_flight.h"
@@ -250,6 +251,21 @@ void arriveAsBody(AmbientTree& tree) {
   writeVelocity(*tree.multi_body, step.end);
 }
 
+// Reports links that their joints turn by half a turn or more in a step: blades then meet the flow
+// from few sides, whose mean is not that of a turn.
+void reportFastJoints(const AmbientTree& tree, const TreeTask& task) noexcept {
+  for (const auto& link : tree.links) {
+    AmbientBody& ambient = link->ambient;
+    if (link->link < 0 || ambient.counters.too_long > 0 || !ambient.isInFluid()) continue;
+    const btMultiBody& body = *tree.multi_body;
+    if (body.getLink(link->link).m_jointType != btMultibodyLink::eRevolute) continue;
+    const auto rate = static_cast<double>(body.getJointVel(link->link));
+    if (std::abs(rate) * task.duration < kPi) continue;
+    ambient.counters.too_long = 1;
+    task.bodies.complaints.sayTooLong(*ambient.def);
+  }
+}
+
 }  // namespace
 
 bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept {
@@ -317,6 +333,7 @@ void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
   }
   step.change = step.end - step.moved;
   addVelocity(body, step.change);
+  reportFastJoints(tree, task);
   keepTreeAwake(tree);
   if (wantsJointForces(body)) writeJointForces(tree, task);
   finishTreeReading(tree, task.duration);

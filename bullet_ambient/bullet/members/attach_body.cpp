@@ -1,5 +1,6 @@
 #include "bullet_ambient/bullet/members/attach_body.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -69,12 +70,12 @@ void refresh(AmbientBody& ambient, AmbientBodies& bodies) {
 }
 
 DisplacedMass displacedMass(const AmbientBody& ambient) {
-  // A body that rises to a surface floats, which may be meant.
-  const bool may_float =
-      ambient.place.region != RegionId::kNone && !ambient.models->surfaces.empty();
-  if (may_float) return {1 / static_cast<double>(ambient.body->getInvMass()), 0};
+  double density = ambient.medium.density;
+  if (ambient.place.region != RegionId::kNone)
+    for (const SurfaceMedia& surface : ambient.models->surfaces)
+      density = std::min(density, surface.kind.mediumAbove(ambient.def->medium).density);
   return {1 / static_cast<double>(ambient.body->getInvMass()),
-          ambient.def->fluid_body->volume * ambient.medium.density};
+          ambient.def->fluid_body->volume * density};
 }
 
 AmbientBody& attachBody(AmbientBodies& bodies, btRigidBody& body, AttachDef def) {

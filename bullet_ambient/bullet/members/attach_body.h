@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/fluid_body/displaced_mass.h"
 #include "bullet_ambient/immersed/attach_def.h"
 
 class btRigidBody;
@@ -13,19 +14,8 @@ struct AmbientBody;
 class AmbientBodies;
 class Complaints;
 
-/// Mass of a body, and mass of the medium that it displaces.
-struct DisplacedMass {
-  double body = 0;    ///< [kg]
-  double medium = 0;  ///< [kg]
-
-  bool isLighter() const { return body < medium; }
-  /// True if the body has less than half the mass of the medium and so rises fast, which is hardly
-  /// meant in air.
-  bool isMuchLighter() const { return 2 * body < medium; }
-};
-
 /// Computes both masses in the medium around the body now. A body in a region with a water surface
-/// counts as floating: its displaced mass is 0. @pre the body is dynamic
+/// counts as floating. @pre the body is dynamic
 DisplacedMass displacedMass(const AmbientBody& ambient);
 
 /// Makes the models of a body again, in the medium around it now. If this throws, nothing has

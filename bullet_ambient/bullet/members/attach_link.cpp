@@ -9,8 +9,10 @@
 #include <string>
 #include <utility>
 
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/bullet/members/link_carrier.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 
 AMBIENT_BEGIN
@@ -50,8 +52,19 @@ void checkLinkMass(const std::string& who, const LinkOf& at) {
   const btScalar mass = massOf(at.multi_body, at.link);
   if (!(mass > 0)) {
     throw std::invalid_argument(who + " has a mass of " + std::to_string(mass) +
-                                " kg; must be positive");
+                                " kg; must be positive, or that of a link at a fixed joint");
   }
+}
+
+// Moves a definition to the link that carries the given one.
+LinkOf carry(const LinkOf& at, AttachDef& def) {
+  const auto carrier = carrierOf(at.multi_body, at.link);
+  if (!carrier || carrier->link == at.link) return at;
+  const Matrix3 turn = toQuaternion(carrier->pose.getRotation()).toRotationMatrix();
+  def.fluid_frame.translation =
+      turn * def.fluid_frame.translation + toVector3(carrier->pose.getOrigin());
+  def.fluid_frame.rotation = turn * def.fluid_frame.rotation;
+  return {at.multi_body, carrier->link};
 }
 
 double wholeMass(const btMultiBody& body) {
@@ -81,19 +94,20 @@ bool isReloaded(const AmbientLink& link, const btMultiBody& body) noexcept {
   return !hasMass(link.stand_in, massOf(body, link.link), inertiaOf(body, link.link));
 }
 
-AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& at,
+AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& given,
                         AttachDef def) {
   if (!def.fluid_body) {
     throw std::invalid_argument("add: the fluid body is null; load one with loadFluidBody()");
   }
-  const std::string link_name = "add: link " + std::to_string(at.link);
-  checkTreeOf(link_name + " with fluid body '" + def.fluid_body->name + "'", at);
-  const btCollisionObject* collider =
-      at.link < 0 ? at.multi_body.getBaseCollider() : at.multi_body.getLinkCollider(at.link);
+  const std::string link_name = "add: link " + std::to_string(given.link);
+  checkTreeOf(link_name + " with fluid body '" + def.fluid_body->name + "'", given);
+  const btCollisionObject* collider = given.link < 0 ? given.multi_body.getBaseCollider()
+                                                     : given.multi_body.getLinkCollider(given.link);
   if (def.name.empty() && collider && bodies.naming) def.name = bodies.naming(*collider);
   const std::string who = def.name.empty()
                               ? link_name + " with fluid body '" + def.fluid_body->name + "'"
                               : link_name + ", '" + def.name + "',";
+  const LinkOf at = carry(given, def);
   checkLinkMass(who, at);
   const AmbientTree* known = bodies.trees.at(&at.multi_body);
   if (known && !(known->isSame() && hasLinksOf(at.multi_body, known->tree))) {
@@ -101,6 +115,9 @@ AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, 
     known = nullptr;
   }
   if (known && known->find(at.link)) {
+    if (at.link != given.link)
+      throw std::invalid_argument(who + " has no mass, and link " + std::to_string(at.link) +
+                                  ", which carries it, was added already");
     throw std::invalid_argument(
         who + " was added already; use Immersed::setMedium(), or remove it first");
   }

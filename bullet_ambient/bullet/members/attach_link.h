@@ -30,7 +30,8 @@ void standIn(AmbientLink& link, const btMultiBody& multi_body, const btVector3& 
 /// True if the link's mass properties have been changed since standIn().
 bool isReloaded(const AmbientLink& link, const btMultiBody& multi_body) noexcept;
 
-/// Implements Fluid::add() for a link, except the warning about light links. @throws
+/// Implements Fluid::add() for a link, except the warning about light links. A link without mass is
+/// carried by one at a fixed joint, link_carrier.h: then that one is added. @throws
 /// std::invalid_argument as Fluid::add()
 AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& link,
                         AttachDef def);

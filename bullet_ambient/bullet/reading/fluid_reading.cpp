@@ -1,6 +1,7 @@
 #include "bullet_ambient/bullet/reading/fluid_reading.h"
 
 #include "bullet_ambient/force/surface/buoyancy.h"
+#include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/surface/body_waves.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
@@ -176,6 +177,23 @@ void finishReading(const AmbientBody& ambient, const ReadStep& step,
       wrench.added_mass += turned(reading.start.orientation.toRotationMatrix(), flow->push_B);
     wrench.constraints = without(unapplied, wrench.total());
   }
+}
+
+double kineticEnergyNow(const AmbientBody& ambient) noexcept {
+  const RigidState now = readState(*ambient.body);
+  const Matrix6 inertia = modelNow(ambient).inertia;
+  const Matrix6 added = addedInertia(ambient, inertia);
+  const Vector6 x = now.twist.vector();
+  const Vector6 relative = relativeTwist(now, readSurroundings(ambient), 0).vector();
+  return (x.dot((inertia - added) * x) + relative.dot(added * relative)) / 2;
+}
+
+FluidWrench wrenchNow(const AmbientBody& ambient) noexcept {
+  if (!ambient.isInFluid()) return {};
+  const RigidState now = readState(*ambient.body);
+  FluidReading reading;
+  beginReading(ambient, now, readSurroundings(ambient), reading);
+  return MiddleWrenches(ambient, {now, now, ambient.model(), true, 0}, reading).find();
 }
 
 AMBIENT_END

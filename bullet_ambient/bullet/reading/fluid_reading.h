@@ -40,4 +40,12 @@ struct ReadStep {
 void finishReading(const AmbientBody& ambient, const ReadStep& step,
                    FluidReading& reading) noexcept;
 
+/// Returns the parts that the present pose and velocity decide, in the fluid and at the surface
+/// that the body has met last; those of added mass and constraints are 0.
+FluidWrench wrenchNow(const AmbientBody& ambient) noexcept;
+
+/// Returns the kinetic energy of the dry body and of the fluid that moves along, relative to the
+/// ambient flow [J].
+double kineticEnergyNow(const AmbientBody& ambient) noexcept;
+
 AMBIENT_END

@@ -76,10 +76,20 @@ WetState cutBy(const SurfacePlane& plane_W, const SurfaceModel& model, const Amb
   return state;
 }
 
+/// Whether a body away from surfaces is in a fluid that does not lie above one: on land beside the
+/// water, the air that is above the water does not make it wet.
+bool isWetIn(const Medium& medium, const AmbientBody& ambient) {
+  const auto& surfaces = ambient.models->surfaces;
+  return medium.density > 0 &&
+         std::none_of(surfaces.begin(), surfaces.end(), [&](const SurfaceMedia& surface) {
+           return FluidKind(surface.kind.mediumAbove(ambient.def->medium)) == FluidKind(medium);
+         });
+}
+
 WetState inRegion(const AmbientBody& ambient, const RegionsAround& around,
                   const FluidRegions& regions) {
   const FluidRegions::Entry& entry = *around.entry;
-  if (!entry.region.surface) return wholly(ambient, entry.region.below.density > 0);
+  if (!entry.region.surface) return wholly(ambient, isWetIn(entry.region.below, ambient));
   const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   RegionCall call(regions);
   RegionSample sample = sampleRegion(entry.region, position, regions.time, ambient.def->medium);
@@ -103,7 +113,7 @@ WetState wetStateOf(const AmbientBody& ambient, const FluidRegions& regions) {
   RegionsAround around;
   if (ambient.def->follow_regions)
     around = regions.findAround(position, ambient.models->stations.reach, asked);
-  if (!around.entry) return wholly(ambient, ambient.def->medium.density > 0);
+  if (!around.entry) return wholly(ambient, isWetIn(ambient.def->medium, ambient));
   WetState state = inRegion(ambient, around, regions);
   state.region = around.entry->id;
   return state;

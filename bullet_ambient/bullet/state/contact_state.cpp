@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -156,14 +155,16 @@ class CollisionsAllowed {
 
 // Makes places for contacts like Bullet's near callback, but also for pairs that do not collide at
 // present: because they sleep, or were joined since, which leaves their last points in force.
-void makePlaces(btBroadphasePair& pair, btCollisionWorld& world) {
+// `move_b`: moves the second object for the search.
+void makePlaces(btBroadphasePair& pair, const btVector3& move_b, btCollisionWorld& world) {
   auto& a = *static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
   auto& b = *static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
   const CollisionsAllowed allowed(a, b);
   const btCollisionObjectWrapper of_a(nullptr, a.getCollisionShape(), &a, a.getWorldTransform(), -1,
                                       -1);
-  const btCollisionObjectWrapper of_b(nullptr, b.getCollisionShape(), &b, b.getWorldTransform(), -1,
-                                      -1);
+  btTransform pose_b = b.getWorldTransform();
+  pose_b.getOrigin() += move_b;
+  const btCollisionObjectWrapper of_b(nullptr, b.getCollisionShape(), &b, pose_b, -1, -1);
   if (!pair.m_algorithm) {
     pair.m_algorithm =
         world.getDispatcher()->findAlgorithm(&of_a, &of_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
@@ -192,17 +193,66 @@ std::pair<int, int> inOrder(const PairState& pair) {
   return {std::min(pair.object_a, pair.object_b), std::max(pair.object_a, pair.object_b)};
 }
 
+int countManifolds(const btBroadphasePair& pair) {
+  btManifoldArray manifolds;
+  if (pair.m_algorithm) pair.m_algorithm->getAllContactManifolds(manifolds);
+  return manifolds.size();
+}
+
+// Makes places for the contacts of a pair. Bullet keeps a contact of two parts of compounds across
+// gaps at which it would not find it anew: then the second object is moved into contact.
+void makePlaces(btBroadphasePair& pair, const std::vector<const ContactState*>& contacts,
+                const Objects& objects, btCollisionWorld& world) {
+  makePlaces(pair, btVector3(0, 0, 0), world);
+  for (const ContactState* contact : contacts) {
+    if (countManifolds(pair) >= static_cast<int>(contacts.size())) return;
+    if (contact->points.empty()) continue;
+    const btManifoldPoint& point = contact->points.front();
+    const btCollisionObject& first = *objects[contact->pair.object_a];
+    const btVector3 gap =
+        first.getWorldTransform() * point.m_localPointA -
+        objects[contact->pair.object_b]->getWorldTransform() * point.m_localPointB;
+    const bool is_in_order = pair.m_pProxy0->m_clientObject == &first;
+    makePlaces(pair, is_in_order ? 2 * gap : -2 * gap, world);
+  }
+}
+
 void makePlaces(const std::vector<ContactState>& contacts, btCollisionWorld& world) {
-  std::set<std::pair<int, int>> touching;
-  for (const ContactState& contact : contacts) touching.insert(inOrder(contact.pair));
+  std::map<std::pair<int, int>, std::vector<const ContactState*>> touching;
+  for (const ContactState& contact : contacts) touching[inOrder(contact.pair)].push_back(&contact);
+  const Objects objects(world);
   const ObjectNumbers numbers(world);
   btOverlappingPairCache& cache = *world.getPairCache();
   for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
     btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
     const PairState found =
         numbers.pair(pair.m_pProxy0->m_clientObject, pair.m_pProxy1->m_clientObject);
-    if (touching.count(inOrder(found)) > 0) makePlaces(pair, world);
+    const auto saved = touching.find(inOrder(found));
+    if (saved != touching.end()) makePlaces(pair, saved->second, objects, world);
   }
+}
+
+// Name of a place that is the same before and after: the pair, and the parts of compounds that
+// touch, which Bullet writes in the points; without points, or parts, the number of the place.
+using PlaceName = std::tuple<int, int, int, int, int>;
+using PlacesByName = std::map<PlaceName, btPersistentManifold*>;
+
+PlaceName nameOf(const PairState& pair, int part, const btManifoldPoint* point) {
+  const bool has_parts = point && point->m_partId0 == -1 && point->m_partId1 == -1 &&
+                         (point->m_index0 >= 0 || point->m_index1 >= 0);
+  if (!has_parts) return {pair.object_a, pair.object_b, -1, -1, part};
+  return {pair.object_a, pair.object_b, point->m_index0, point->m_index1, 0};
+}
+
+PlaceName nameOf(const Place& place) {
+  const btPersistentManifold& manifold = *place.manifold;
+  return nameOf(place.pair, place.part,
+                manifold.getNumContacts() > 0 ? &manifold.getContactPoint(0) : nullptr);
+}
+
+PlaceName nameOf(const ContactState& contact) {
+  return nameOf(contact.pair, contact.part,
+                contact.points.empty() ? nullptr : &contact.points.front());
 }
 
 }  // namespace
@@ -246,15 +296,13 @@ void restoreContacts(const std::vector<PairState>& pairs, const std::vector<Cont
   wakeAll(world);
   makePlaces(contacts, world);
 
-  std::map<std::tuple<int, int, int>, btPersistentManifold*> places;
-  for (const Place& place : placesOf(world)) {
-    place.manifold->clearManifold();
-    places[{place.pair.object_a, place.pair.object_b, place.part}] = place.manifold;
-  }
+  PlacesByName places;
+  for (const Place& place : placesOf(world)) places.emplace(nameOf(place), place.manifold);
+  for (const auto& [name, manifold] : places) manifold->clearManifold();
   btPersistentManifold** array = world.getDispatcher()->getInternalManifoldPointer();
   int restored = 0;
   for (const ContactState& contact : contacts) {
-    const auto found = places.find({contact.pair.object_a, contact.pair.object_b, contact.part});
+    const auto found = places.find(nameOf(contact));
     if (found == places.end()) continue;
     fill(*found->second, contact.points);
     swapManifolds(restored++, found->second->m_index1a, array);

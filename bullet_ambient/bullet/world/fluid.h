@@ -73,7 +73,8 @@ class Fluid {
   Immersed add(btRigidBody* body, AttachDef def);
   /// Puts a link of a btMultiBody into a fluid; -1 is its base. `fluid_frame` is in the link's
   /// frame: that of its centre of mass. The btMultiBody is finalized, and is or will be in this
-  /// world; docs/robots.md.
+  /// world; docs/robots.md. In place of a link without mass the link with mass is added that fixed
+  /// joints hold to it.
   /// @throws std::invalid_argument, saying what and the limit: null, a world without multibodies,
   /// no such link, added twice, a fixed base, mass or settings as of a body, a btMultiBody that
   /// uses RK4.

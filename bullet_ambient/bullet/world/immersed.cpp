@@ -9,6 +9,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/links/impulse_response.h"
+#include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
 #include "bullet_ambient/bullet/members/attach_link.h"
@@ -129,18 +130,31 @@ Medium Immersed::medium() const {
   return medium;
 }
 
+std::shared_ptr<const FluidBody> Immersed::fluidBody() const {
+  return require("fluidBody").member.ambient->def->fluid_body;
+}
+
 RegionId Immersed::region() const { return require("region").member.ambient->place.region; }
 
 Matrix6 Immersed::inertia() const { return modelNow(*require("inertia").member.ambient).inertia; }
+
+double Immersed::kineticEnergy() const {
+  const Held held = require("kineticEnergy");
+  if (held.member.tree) moveStandIns(*held.member.tree);
+  return kineticEnergyNow(*held.member.ambient);
+}
 
 AmbientCounters Immersed::counters() const { return require("counters").member.ambient->counters; }
 
 void Immersed::readWrench(bool is_read) const {
   const Held held = require("readWrench");
   held.bodies->requireChangeable("readWrench");
-  std::shared_ptr<FluidReading>& reading = held.member.ambient->reading;
-  if (is_read != (reading != nullptr))
-    reading = is_read ? std::make_shared<FluidReading>() : nullptr;
+  AmbientBody& ambient = *held.member.ambient;
+  if (is_read == (ambient.reading != nullptr)) return;
+  ambient.reading = is_read ? std::make_shared<FluidReading>() : nullptr;
+  if (!is_read) return;
+  if (held.member.tree) moveStandIns(*held.member.tree);
+  ambient.reading->wrench = wrenchNow(ambient);
 }
 
 FluidWrench Immersed::wrench() const {

@@ -45,18 +45,24 @@ class Immersed {
   /// step; before the first step, when it was added. Its acceleration is the one given, or that by
   /// which a velocity without one has changed since the step before.
   Medium medium() const;
+  /// Returns the fluid body, AttachDef::fluid_body.
+  std::shared_ptr<const FluidBody> fluidBody() const;
   /// Returns the region of medium(); kNone: the own medium of the body.
   RegionId region() const;
   /// Returns the total inertia K of body and fluid, in the frame of the body or link, rotation
   /// first; docs/theory.md eq. (3).
   Matrix6 inertia() const;
+  /// Returns the kinetic energy of the body, and of the fluid relative to the ambient flow, for the
+  /// present velocity [J].
+  double kineticEnergy() const;
   AmbientCounters counters() const;
 
-  /// Switches the reading of the wrench on or off, from the next substep on. Off at first: then
-  /// nothing is computed or stored for it.
+  /// Switches the reading of the wrench on or off. Off at first: then nothing is computed or stored
+  /// for it.
   void readWrench(bool is_read) const;
   /// Returns the wrench of the fluid by part (reading.h) in the last substep in which the body was
-  /// awake; zero before the first one, and outside of any fluid.
+  /// awake; zero outside of any fluid. Before the first substep with reading: that of the pose and
+  /// velocity when it was switched on, without added mass and constraints.
   /// @throws std::logic_error if it is not read.
   FluidWrench wrench() const;
   /// Returns the wet part at the present pose. Cost: functions of the region, and a sum over the

@@ -18,6 +18,7 @@
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
 #include "bullet_ambient/bullet/members/attach_link.h"
+#include "bullet_ambient/bullet/members/link_carrier.h"
 #include "bullet_ambient/bullet/members/multibody_identity.h"
 #include "bullet_ambient/bullet/world/immersed.h"
 
@@ -77,6 +78,14 @@ bool isEmpty(const btCollisionShape& shape) {
   return shape.isCompound() && static_cast<const btCompoundShape&>(shape).getNumChildShapes() == 0;
 }
 
+bool hasShape(const btCollisionObject& object) {
+  return object.getCollisionShape() && !isEmpty(*object.getCollisionShape());
+}
+
+const btMultiBodyLinkCollider* colliderOf(const btMultiBody& body, int link) {
+  return link < 0 ? body.getBaseCollider() : body.getLinkCollider(link);
+}
+
 // Counts bodies that were just attached, for one report of all.
 struct Tally {
   std::set<const FluidBody*> shapes;
@@ -115,11 +124,36 @@ WorldAttachment::WorldAttachment(AmbientBodies& bodies, FluidBodySource& source,
       settings_(std::move(settings)),
       revision_(source.revision()) {}
 
-AttachDef WorldAttachment::makeDef(const btCollisionShape* shape, Met& met) const {
+bool WorldAttachment::isWanted(const btMultiBody& multi_body, int link) const {
+  return !settings_.filter_link ||
+         callOf("filter_link", [&] { return settings_.filter_link(multi_body, link); });
+}
+
+std::shared_ptr<const btCollisionShape> WorldAttachment::shapeOf(
+    const btCollisionObject& object) const {
+  // It belongs to the object.
+  std::shared_ptr<const btCollisionShape> own(object.getCollisionShape(), [](const auto*) {});
+  const auto* collider = btMultiBodyLinkCollider::upcast(&object);
+  if (!collider) return own;
+  auto all = std::make_shared<btCompoundShape>();
+  const auto include = [&all](const btCollisionObject* part, const btTransform& pose) {
+    if (part && hasShape(*part))
+      all->addChildShape(pose, const_cast<btCollisionShape*>(part->getCollisionShape()));
+  };
+  const btMultiBody& body = *collider->m_multiBody;
+  for (const FixedLink& carried : carriedBy(body, collider->m_link))
+    if (isWanted(body, carried.link)) include(colliderOf(body, carried.link), carried.pose);
+  if (all->getNumChildShapes() == 0) return own;
+  include(&object, btTransform::getIdentity());
+  return all;
+}
+
+AttachDef WorldAttachment::makeDef(const btCollisionObject& object, Met& met) const {
   AttachDef def;
   def.medium = medium_;
   def.flow = settings_.flow;
   def.flight = settings_.flight;
+  const auto shape = shapeOf(object);
   if (!shape || isEmpty(*shape))
     throw std::invalid_argument("it has no collision shape, so that no fluid acts on it");
   def.fluid_body = source_.fluidBody(*shape);
@@ -134,7 +168,7 @@ const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, Met& met, Atta
     ++report.attached_before;
     return nullptr;
   }
-  AttachDef def = makeDef(body.getCollisionShape(), met);
+  AttachDef def = makeDef(body, met);
   if (settings_.adjust) callOf("adjust", [&] { settings_.adjust(body, def); });
   if (!def.fluid_body) return nullptr;
   return &ambient::attachBody(bodies_, body, std::move(def));
@@ -142,17 +176,20 @@ const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, Met& met, Atta
 
 const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link, Met& met,
                                                AttachReport& report) {
-  if (!canMove(multi_body, link)) return nullptr;
-  if (settings_.filter_link &&
-      !callOf("filter_link", [&] { return settings_.filter_link(multi_body, link); }))
+  const btMultiBodyLinkCollider& collider = *colliderOf(multi_body, link);
+  if (!canMove(multi_body, link)) {
+    if (hasShape(collider) && !carrierOf(multi_body, link) && isWanted(multi_body, link))
+      throw std::invalid_argument(
+          "it has no mass, and no fixed joint holds it to a link that has one, so that no fluid "
+          "acts on it");
     return nullptr;
+  }
+  if (!isWanted(multi_body, link)) return nullptr;
   if (bodies_.trees.find(&multi_body, link)) {
     ++report.attached_before;
     return nullptr;
   }
-  const btMultiBodyLinkCollider* collider =
-      link < 0 ? multi_body.getBaseCollider() : multi_body.getLinkCollider(link);
-  AttachDef def = makeDef(collider->getCollisionShape(), met);
+  AttachDef def = makeDef(collider, met);
   if (settings_.adjust_link)
     callOf("adjust_link", [&] { settings_.adjust_link(multi_body, link, def); });
   if (!def.fluid_body) return nullptr;
@@ -239,7 +276,7 @@ void WorldAttachment::replaceFluidBodies(btCollisionWorld& world) {
     const AmbientBody* ambient = ambientOf(*objects[i], bodies_);
     if (!ambient || ambient->def->fluid_body.get() != met->second->given) continue;
     try {
-      std::shared_ptr<const FluidBody> better = source_.fluidBody(*objects[i]->getCollisionShape());
+      std::shared_ptr<const FluidBody> better = source_.fluidBody(*shapeOf(*objects[i]));
       if (better.get() == met->second->given) continue;
       Immersed(bodies_, *ambient).setFluidBody(better);
       met->second->given = better.get();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -91,7 +92,11 @@ class WorldAttachment {
   const AmbientBody* attach(btCollisionObject& object, Met& met, AttachReport& report);
   const AmbientBody* attachBody(btRigidBody& body, Met& met, AttachReport& report);
   const AmbientBody* attachLink(btMultiBody& multi_body, int link, Met& met, AttachReport& report);
-  AttachDef makeDef(const btCollisionShape* shape, Met& met) const;
+  AttachDef makeDef(const btCollisionObject& object, Met& met) const;
+  // Returns the collision shape of an object; that of a link includes those of the links without
+  // mass that it carries.
+  std::shared_ptr<const btCollisionShape> shapeOf(const btCollisionObject& object) const;
+  bool isWanted(const btMultiBody& multi_body, int link) const;
   void replaceFluidBodies(btCollisionWorld& world);
   void tell(const std::string& sentence) const;
 

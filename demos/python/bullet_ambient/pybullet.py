@@ -10,12 +10,16 @@ All bodies of the world then float or sink in the water, also those that are add
 
 import importlib
 import json
-from collections.abc import Iterable, Sequence
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
+
+from bullet_ambient import FluidBody
 
 __all__ = ["Fluid", "Spectrum", "Wave", "plugin_path"]
 
@@ -107,13 +111,13 @@ class Fluid:
         one with the highest priority counts, and among equals the one added last.
         """
         wave_text = None if waves is None else ";".join(_text(Wave(*wave)) for wave in waves)
-        self._region("water", level=level, density=density, viscosity=viscosity, current=current, waves=wave_text or None,
+        self._give("water", level=level, density=density, viscosity=viscosity, current=current, waves=wave_text or None,
                      spectrum=spectrum, wind=wind, bounds=bounds, up=up, priority=priority, name=name)
 
     def air(self, wind: Optional[_Vector] = None, *, bounds: Optional[_Vector] = None, density: Optional[float] = None,
             priority: int = 0, name: str = "air") -> None:
         """Adds or changes air with a wind [m/s], everywhere or within bounds."""
-        self._region("air", wind=wind, bounds=bounds, density=density, priority=priority, name=name)
+        self._give("air", wind=wind, bounds=bounds, density=density, priority=priority, name=name)
 
     def region(self, name: str = "region", *, density: Optional[float] = None, viscosity: Optional[float] = None,
                velocity: Optional[_Vector] = None, bounds: Optional[_Vector] = None, priority: int = 0) -> None:
@@ -121,12 +125,60 @@ class Fluid:
 
         Units: density [kg/m^3], viscosity [Pa s], velocity [m/s].
         """
-        self._region("region", name=name, density=density, viscosity=viscosity, velocity=velocity, bounds=bounds,
+        self._give("region", name=name, density=density, viscosity=viscosity, velocity=velocity, bounds=bounds,
                      priority=priority)
 
     def remove(self, name: str = "water") -> None:
         """Removes a region."""
         self._command("remove", name=name)
+
+    def body(self, body: int, link: int = -1, source: Union[str, Path, FluidBody, Mapping[str, Any], None] = None, *,
+             density: Optional[float] = None, drag: Optional[_Vector] = None, medium: Optional[str] = None,
+             law: Optional[str] = None) -> None:
+        """Gives a body (link -1: its base) or link a fluid body of your choice; call it anew to change it.
+
+        `source`: an .ambient file, a FluidBody, or a shape as in scenes, {"type": "mesh", "file": "catamaran.stl"}, each in
+        the frame of the URDF's link; None: the collision shape. `density`: the body is scaled about its centre of volume
+        until it displaces the link's mass over this density [kg/m^3]: for what is mostly air, such as a drone. `drag`:
+        measured drag coefficients along x, y, z, on the frontal areas. `medium`, "water" or "air", counts where no region
+        is; `law` is that of settings().
+        """
+        more: dict[str, Any] = {"density": density, "drag": drag, "medium": medium, "law": law}
+        if source is None:
+            return self._give("body", [body, link], **more)
+        inertial = self._bullet.getDynamicsInfo(body, link, physicsClientId=self._client)[3:5]
+        more["origin"], more["rotation"] = self._bullet.invertTransform(*inertial)
+        if isinstance(source, Mapping):
+            source = FluidBody.from_shape(source, origin=(0, 0, 0))
+        if isinstance(source, (str, Path)):
+            return self._give("body", [body, link], file=str(Path(source).resolve()), **more)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "chosen.ambient"
+            source.write(file)
+            self._give("body", [body, link], file=str(file), **more)
+
+    def read_urdf(self, body: int, file: Union[str, Path]) -> None:
+        """Honours the `<ambient>` elements of the URDF file that a body came from; PyBullet itself passes over them.
+
+        Files of fluid bodies are looked for beside the URDF file.
+        """
+        names = [self._bullet.getBodyInfo(body, physicsClientId=self._client)[0].decode()]
+        joints = self._bullet.getNumJoints(body, physicsClientId=self._client)
+        names += [self._bullet.getJointInfo(body, i, physicsClientId=self._client)[12].decode() for i in range(joints)]
+        for element in ElementTree.parse(file).iter("link"):
+            own = element.find("ambient")
+            if own is None:
+                continue
+            name = str(element.get("name"))
+            if name not in names:
+                raise ValueError(f"{file}: link {name} has an element <ambient>, and body {body} has no such link")
+            link = names.index(name) - 1
+            if own.get("medium") == "none":
+                self.exclude(body, link)
+            else:
+                source = own.get("fluid_body")
+                self.body(body, link, Path(file).parent / source if source else None, medium=own.get("medium"),
+                          law=own.get("law"))
 
     def exclude(self, body: int, link: Optional[int] = None) -> None:
         """Removes a body, or one link of it (-1: the base), from the fluid for good; it then moves as in stock PyBullet."""
@@ -139,7 +191,7 @@ class Fluid:
         `law` of the pressure, "form" or "published". `quality` "standard" takes seconds for each new mesh, "instant" does
         not. `separation`: separation angle [rad]. `folder`: computed shapes are stored there for other runs.
         """
-        self._region("settings", law=law, quality=quality, separation=separation, folder=folder)
+        self._give("settings", law=law, quality=quality, separation=separation, folder=folder)
 
     def inertia(self, body: int, link: int = -1) -> npt.NDArray[np.float64]:
         """Returns the total inertia (6, 6) of a body or link, rotation first, in its frame at its centre of mass."""
@@ -158,7 +210,7 @@ class Fluid:
 
         Each: torque about the centre of mass [N m], then force [N], in world axes. The fluid's parts are "pressure",
         "friction", "buoyancy", "waves", "wind" and "added_mass"; "constraints" are those of contacts and joints. The first
-        call returns zeros: the parts are computed in steps after it.
+        call returns those of the present pose and velocity, without the last two; later ones those of the last substep.
         """
         parts = json.loads(self._command("wrench", [body, link]))
         return {name: np.array(part) for name, part in parts.items()}
@@ -185,7 +237,11 @@ class Fluid:
         self._command("restore", [state])
 
     def status(self) -> dict[str, Any]:
-        """Returns the names of regions, counters of the steps, and the first 100 reports of the fluid ("said")."""
+        """Returns the names of regions, counters of the steps, the first 100 reports of the fluid ("said"), and "bodies".
+
+        Each of "bodies" has the numbers of body and link, "mass" [kg], "volume" [m^3], their "density", and how its fluid
+        body was "made".
+        """
         answer: dict[str, Any] = json.loads(self._command("status"))
         return answer
 
@@ -196,8 +252,8 @@ class Fluid:
         """
         self._command("off")
 
-    def _region(self, command: str, **values: _Value) -> None:
-        self._command(command, **{key: value for key, value in values.items() if value is not None})
+    def _give(self, command: str, integers: Sequence[int] = (), /, **values: _Value) -> None:
+        self._command(command, integers, **{key: value for key, value in values.items() if value is not None})
 
     def _command(self, name: str, integers: Sequence[int] = (), /, **values: _Value) -> str:
         text = " ".join([name, *(_word(key, value) for key, value in values.items())])

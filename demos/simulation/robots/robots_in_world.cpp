@@ -61,7 +61,8 @@ PreparedBody prepareLink(const Scene& scene, const BodyDef& def, SceneBodyCache&
   body.centre_of_mass = link.centre_of_mass;
   body.inertia = link.inertia;
   const bool has_fluid = !link.fluid || link.fluid->medium != "none";
-  if (!has_fluid || def.mass == 0) body.fluid_body = nullptr;
+  const bool is_ground = scene.robots[def.link->robot].fixed_base && link.parent < 0;
+  if (!has_fluid || is_ground) body.fluid_body = nullptr;
   return body;
 }
 

@@ -90,7 +90,8 @@ void runPolar(const PolarArguments& arguments) {
   const FluidBody body = readFluidBody(arguments.file);
   const BodyLoads loads(body, medium, flow);
   const PolarFlight flight{axes, arguments.density, arguments.speed,
-                           referenceOf(arguments, body, axes)};
+                           referenceOf(arguments, body, axes),
+                           body.added_mass.bottomRightCorner<3, 3>()};
   const double dynamic_pressure = 0.5 * arguments.density * arguments.speed * arguments.speed;
   std::string text = "attack,side_slip,C_L,C_D,C_Y,C_l,C_m,C_n\n";
   for (int j = 0; j < side_slip.count(); ++j) {

@@ -73,6 +73,7 @@ MeshDiagnosis diagnoseMesh(const TriangleMesh& mesh, const std::string& name,
   Defects& defects = diagnosis.defects;
   if (!defects.empty()) return diagnosis;
   checked.takeStep(withoutCopies(checked.mesh, name));
+  checked.takeStep(withoutFolds(checked.mesh, name));
   checked.takeStep(withoutFlatTriangles(checked.mesh, name));
   appendDefects(defects, findFlatTriangles(checked.mesh));
   const bool has_normals = defects.empty();

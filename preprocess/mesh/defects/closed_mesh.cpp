@@ -38,6 +38,7 @@ CheckedMesh withoutUnusedVertices(const TriangleMesh& mesh, const std::string& n
 CheckedMesh mendTriangles(const TriangleMesh& mesh, const std::string& name) {
   requireNone(findValueDefects(mesh), name);
   CheckedMesh result = withoutCopies(mesh, name);
+  result.takeStep(withoutFolds(result.mesh, name));
   result.takeStep(withoutFlatTriangles(result.mesh, name));
   requireNone(findFlatTriangles(result.mesh), name);
   result.takeStep(withoutUnusedVertices(result.mesh, name));

@@ -79,6 +79,14 @@ bool hasBoundary(const TriangleMesh& mesh) {
                      [](const EdgeGroup& edge) { return edge.size() == 1; });
 }
 
+/// True if the corners of a triangle are an even permutation of the sorted ones.
+bool isEven(const TriangleMesh& mesh, const SortedTriangle& t) {
+  const auto corners = mesh.triangles.col(t.triangle);
+  return (corners[0] == t.corners[0] && corners[1] == t.corners[1]) ||
+         (corners[1] == t.corners[0] && corners[2] == t.corners[1]) ||
+         (corners[2] == t.corners[0] && corners[0] == t.corners[1]);
+}
+
 bool hasFlatTriangle(const TriangleMesh& mesh) {
   for (Eigen::Index t = 0; t < mesh.triangleCount(); ++t)
     if (heightRatio(mesh, t) < kLeastHeight) return true;
@@ -110,6 +118,32 @@ CheckedMesh withoutCopies(const TriangleMesh& mesh, const std::string& name) {
     result.mesh.triangles.col(static_cast<Eigen::Index>(i)) = mesh.triangles.col(kept[i]);
   result.mesh.triangles.conservativeResize(3, static_cast<Eigen::Index>(kept.size()));
   result.warnings.push_back(name + ": every triangle stands twice, one copy of each was left out");
+  return result;
+}
+
+CheckedMesh withoutFolds(const TriangleMesh& mesh, const std::string& name) {
+  const std::vector<SortedTriangle> entries = sortedByCorners(mesh);
+  const auto is_fold = [&](std::size_t i) {  // entries i and i + 1
+    return i + 1 < entries.size() && entries[i].corners == entries[i + 1].corners &&
+           isEven(mesh, entries[i]) != isEven(mesh, entries[i + 1]);
+  };
+  std::vector<int> kept;
+  int folds = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (is_fold(i)) {
+      ++folds;
+      ++i;
+    } else {
+      kept.push_back(entries[i].triangle);
+    }
+  }
+  if (folds == 0 || kept.empty()) return {mesh, {}};
+  std::sort(kept.begin(), kept.end());
+  CheckedMesh result{mesh, {}};
+  result.mesh.triangles = mesh.triangles(Eigen::all, kept);
+  result.warnings.push_back(
+      name +
+      ": folds, opposite triangles on the same corners, were left out: " + std::to_string(folds));
   return result;
 }
 

@@ -16,6 +16,12 @@ double heightRatio(const TriangleMesh& mesh, Eigen::Index triangle);
 /// @pre indices are in range.
 CheckedMesh withoutCopies(const TriangleMesh& mesh, const std::string& name);
 
+/// Removes folds, pairs of triangles on the same corners that look in opposite directions, with a
+/// warning: a quadrilateral with two equal corners leaves one. Edges beside them keep their two
+/// triangles. A mesh of nothing else stays as it is. Cost O(T log T).
+/// @pre indices are in range.
+CheckedMesh withoutFolds(const TriangleMesh& mesh, const std::string& name);
+
 /// Mends flat triangles (height below kLeastHeight of the longest edge) by an edge flip: a flat
 /// triangle and its one neighbour across the longest edge are divided along the other diagonal,
 /// which opens no hole. Adds a warning. Triangles that cannot be mended so stay. Cost O(T log T)

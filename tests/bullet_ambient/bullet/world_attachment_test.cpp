@@ -137,6 +137,21 @@ TEST_F(WorldInFluid, NamesWhatIsNoMassAndGoesOn) {
   EXPECT_TRUE(isAttached(*contents.bodies()[2]));
 }
 
+// Four cubic metres afloat may be light, but not lighter than air.
+TEST_F(WorldInFluid, SaysWhichBodiesAfloatAreLighterThanAir) {
+  fluid.addRegion(waterBelow(0));
+  add(20, sphere);
+  fluid.addAll(shapes, Medium{});
+  EXPECT_TRUE(said.empty());
+  add(1, sphere);
+  EXPECT_EQ(fluid.addAll(shapes, Medium{}).light.size(), 1u);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(
+      said[0].find("has a mass of 1 kg and displaces 5.04 kg of its medium, so that it rises"),
+      std::string::npos)
+      << said[0];
+}
+
 TEST_F(WorldInFluid, SaysOnceWhichBodiesAreLight) {
   add(3000, sphere);  // floats like wood
   add(2000, sphere);

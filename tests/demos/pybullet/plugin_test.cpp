@@ -118,6 +118,35 @@ TEST_F(PyBulletPlugin, LeavesBodiesOut) {
   EXPECT_TRUE(server.floats());
 }
 
+TEST_F(PyBulletPlugin, GivesABodyTheFluidBodyThatIsChosen) {
+  server.command("water level=0 density=1000");
+  const int body = server.add(0.1, 4);
+  EXPECT_NEAR(number("wet", body, "volume"), 0.008, 1e-6);
+  EXPECT_EQ(server.command("body density=2000 drag=1,1,2", {body, -1}), "0 ");
+  EXPECT_NEAR(number("wet", body, "volume"), 0.002, 1e-6);
+  EXPECT_EQ(server.command("exclude", {body}), "0 ");
+  EXPECT_EQ(server.command("body density=400", {body}), "0 ");  // in the fluid again
+  EXPECT_NEAR(number("wet", body, "volume"), 0.01, 1e-6);
+  EXPECT_NEAR(number("status", body, "volume"), 0.01, 1e-9);
+  EXPECT_NEAR(number("status", body, "density"), 400, 1e-6);
+  server.step(1);
+  expectRefusal("body density=0", "must be > 0");
+  EXPECT_NE(server.command("body file=none.ambient", {body}).find("-1 none.ambient"),
+            std::string::npos);
+  EXPECT_NE(server.command("body", {body, 3}).find("there is no body 0 with link 3"),
+            std::string::npos);
+}
+
+// A new world may have other settings.
+TEST_F(PyBulletPlugin, TakesOtherSettingsAfterAReset) {
+  server.command("water level=0");
+  EXPECT_TRUE(server.floats());
+  server.reset();
+  EXPECT_EQ(server.command("settings quality=standard law=published"), "0 ");
+  EXPECT_TRUE(server.floats());
+  expectRefusal("settings law=form", "too late");
+}
+
 TEST_F(PyBulletPlugin, RestoresItsStates) {
   server.command("water level=0");
   const int body = server.add(0.1, 4);
@@ -139,8 +168,6 @@ TEST_F(PyBulletPlugin, TellsWhatIsWetAndWhatTheFluidDoes) {
   EXPECT_NEAR(number("wet", body, "volume"), 0.004, 1e-6);
   EXPECT_NEAR(number("wet", body, "share"), 0.5, 1e-3);
   EXPECT_NEAR(number("wet", body, "draught"), 0.1, 1e-6);
-  server.command("wrench", {body});
-  server.step(1);
   const std::string parts = server.command("wrench", {body});
   const std::size_t buoyancy = parts.find("\"buoyancy\":[");
   ASSERT_NE(buoyancy, std::string::npos) << parts;

@@ -5,7 +5,9 @@ import importlib.util
 import math
 import subprocess
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 
 if importlib.util.find_spec("pybullet") is None:
     print("SKIPPED: PyBullet does not import; PYTHONPATH=FOLDER ctest finds one in FOLDER")
@@ -15,6 +17,7 @@ import numpy as np
 import pybullet as p
 
 import bullet_ambient.pybullet
+from bullet_ambient import FluidBody
 from bullet_ambient.pybullet import Fluid, Spectrum, Wave
 
 RHO = 998.0
@@ -106,7 +109,7 @@ class MotionTest(Case):
         self.assertAlmostEqual(self.fluid.wet_volume(body), 0.004, delta=1e-6)
         self.assertAlmostEqual(self.fluid.wet_volume(deep), 0.008, delta=1e-6)
         self.assertAlmostEqual(self.fluid.wet(body)["draught"], 0.1, delta=1e-6)
-        self.assertEqual(abs(self.fluid.wrench(deep)["buoyancy"]).max(), 0)
+        self.assertAlmostEqual(self.fluid.wrench(deep)["buoyancy"][5], 1000 * 9.81 * 0.008, delta=0.1)
         self.steps(1)
         wrench = self.fluid.wrench(deep)
         self.assertAlmostEqual(wrench["buoyancy"][5], 1000 * 9.81 * 0.008, delta=0.1)
@@ -310,6 +313,62 @@ class LifeTest(Case):
         self.steps(60)
         self.assertGreater(self.height(bodies[0]), -1)
         self.assertLess(self.height(bodies[1]), -1.25)
+
+    def catamaran(self, folder):
+        """Files of two pontoons of 2 x 0.2 x 0.2 m, 0.8 m apart, as a mesh and as a URDF of 20 kg."""
+        vertices, faces = [], []
+        for y in (-0.4, 0.4):
+            first = len(vertices) + 1
+            vertices += [(x, y + v, z) for x in (-1, 1) for v in (-0.1, 0.1) for z in (-0.1, 0.1)]
+            for a, b, c in ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6),
+                            (0, 6, 4), (1, 5, 7), (1, 7, 3)):
+                faces.append((first + a, first + b, first + c))
+        lines = ["o cat", *("v %g %g %g" % v for v in vertices), *("f %d %d %d" % f for f in faces)]
+        (folder / "cat.obj").write_text("\n".join(lines) + "\n")
+        (folder / "cat.urdf").write_text(
+            '<robot name="cat"><link name="hull"><ambient fluid_body="cat.ambient"/><inertial><origin xyz="0 0 0.05"/>'
+            '<mass value="20"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+            '<collision><geometry><mesh filename="cat.obj"/></geometry></collision></link></robot>')
+        return {"type": "mesh", "file": str(folder / "cat.obj")}
+
+    def test_a_link_gets_the_fluid_body_of_choice(self):
+        self.fluid.settings(quality="instant")
+        self.fluid.water(level=0, density=1000)
+        self.gravity()
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            mesh = self.catamaran(folder)
+            body = p.loadURDF(str(folder / "cat.urdf"), [0, 0, 0.05], physicsClientId=self.client)
+            self.steps(1)
+            (as_hull,) = self.fluid.status()["bodies"]
+            self.assertAlmostEqual(as_hull["volume"], 2 * 1.0 * 0.2, delta=1e-6)
+            self.assertTrue(any("convex hull" in said for said in self.fluid.status()["said"]))
+            FluidBody.from_shape(mesh, origin=(0, 0, 0), panels=400).write(folder / "cat.ambient")
+            self.fluid.read_urdf(body, folder / "cat.urdf")
+        (chosen,) = self.fluid.status()["bodies"]
+        self.assertAlmostEqual(chosen["volume"], 0.16, delta=1e-6)
+        self.assertAlmostEqual(chosen["density"], 125, delta=0.01)
+        self.steps(240 * 10)
+        self.assertAlmostEqual(self.fluid.wet(body)["draught"], 20 / 0.8 / 1000, delta=5e-4)
+        self.fluid.body(body, -1, {"type": "box", "size": [1, 1, 0.1]}, density=400)
+        self.assertAlmostEqual(self.fluid.status()["bodies"][0]["volume"], 0.05, delta=1e-6)
+        with self.assertRaisesRegex(ValueError, "no such file"):
+            self.fluid.body(body, -1, "nothing.ambient")
+
+    def test_a_hull_without_mass_floats_the_link_that_has_it(self):
+        self.fluid.settings(quality="instant")
+        self.fluid.water(level=0, density=1000)
+        self.gravity()
+        box = p.createCollisionShape(p.GEOM_BOX, halfExtents=[0.5, 0.4, 0.2], physicsClientId=self.client)
+        boat = p.createMultiBody(
+            80, -1, basePosition=[0, 0, 0], linkMasses=[0], linkCollisionShapeIndices=[box], linkVisualShapeIndices=[-1],
+            linkPositions=[[0, 0, 0.1]], linkOrientations=[[0, 0, 0, 1]], linkInertialFramePositions=[[0, 0, 0]],
+            linkInertialFrameOrientations=[[0, 0, 0, 1]], linkParentIndices=[0], linkJointTypes=[p.JOINT_FIXED],
+            linkJointAxis=[[0, 0, 1]], physicsClientId=self.client)
+        p.changeDynamics(boat, -1, localInertiaDiagonal=[8, 8, 8], physicsClientId=self.client)
+        self.steps(240 * 20)
+        self.assertAlmostEqual(self.height(boat), 0, delta=0.01)  # 0.1 m under water of 0.4 m
+        self.assertEqual([body["link"] for body in self.fluid.status()["bodies"]], [-1])
 
     def test_save_and_restore(self):
         self.gravity()

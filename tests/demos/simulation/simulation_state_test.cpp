@@ -62,6 +62,68 @@ TEST(SimulationState, GoesOnBitForBit) {
   EXPECT_EQ(other.sample()[0].twist.vector(), simulation.sample()[0].twist.vector());
 }
 
+/// Boxes that fall into a pile in water, with friction, as compounds of one part.
+json fallingBoxes() {
+  json scene = stillBall();
+  scene["gravity"] = {0, 0, -9.81};
+  scene["time_step"] = 1.0 / 240;
+  const json floor = {{"name", "floor"},
+                      {"shape", {{"type", "box"}, {"size", {2, 2, 0.2}}}},
+                      {"mass", 0},
+                      {"position", {0, 0, -0.1}}};
+  scene["bodies"] = json::array({floor});
+  for (int i = 0; i < 6; ++i) {
+    const double across = 0.06 * (i % 3) + 0.02 * (i / 3);
+    scene["bodies"].push_back({{"name", "box" + std::to_string(i)},
+                               {"shape", {{"type", "box"}, {"size", {0.1, 0.1, 0.1}}}},
+                               {"mass", 2.5},
+                               {"position", {across, 0.01 * i, 0.06 + 0.11 * i}}});
+  }
+  return scene;
+}
+
+TEST(SimulationState, GoesOnBitForBitWhereCompoundsTouch) {
+  const Scene scene = sceneFrom(fallingBoxes());
+  const auto bodies = prepare(scene);
+  Simulation simulation(scene, bodies), other(scene, bodies);
+  for (int round = 0; round < 12; ++round) {
+    for (int i = 0; i < 17; ++i) simulation.step();
+    other.restoreState(simulation.saveState());
+    for (int i = 0; i < 30; ++i) {
+      simulation.step();
+      other.step();
+    }
+    for (std::size_t body = 0; body < bodies.size(); ++body)
+      EXPECT_EQ(other.sample()[body].position, simulation.sample()[body].position) << round;
+  }
+}
+
+TEST(SimulationRegions, AreReplacedByThoseOfAnotherScene) {
+  json text = stillBall();
+  text["gravity"] = {0, 0, -9.81};
+  text["water"] = {{"level", 0}};
+  const Scene scene = sceneFrom(text);
+  Simulation simulation(scene, prepare(scene));
+  simulation.step();
+  EXPECT_EQ(simulation.wet(0).volume, 0);  // the ball is at a height of 1 m
+  text["water"]["level"] = 10;
+  simulation.setRegions(sceneFrom(text));
+  simulation.step();
+  EXPECT_EQ(simulation.wet(0).share, 1);
+  text.erase("water");
+  EXPECT_THROW(simulation.setRegions(sceneFrom(text)), std::runtime_error);
+}
+
+TEST(SimulationRobots, MayBeTheOnlyBodies) {
+  json text = stillBall();
+  text["bodies"] = json::array();
+  const Scene scene = sceneFrom(text);
+  EXPECT_THROW(Simulation(scene, {}), std::runtime_error);
+  Simulation simulation(scene, {}, true);
+  simulation.step();
+  EXPECT_TRUE(simulation.sample().empty());
+}
+
 TEST(SimulationState, OfAnotherSceneIsRefused) {
   const Scene one = sceneFrom(stillBall()), plate = readNamedScene("plate_9cm");
   Simulation simulation(one, prepare(one));

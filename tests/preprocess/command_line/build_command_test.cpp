@@ -80,29 +80,32 @@ TEST_F(CommandLine, BuildOptionsScaleShiftAndLimitThreads) {
 }
 
 TEST_F(CommandLine, MeshesInMillimetresAreWarnedOfAndSizesShown) {
-  const std::string mesh = write("box.obj", objText(makeBoxMesh({40, 25, 10}, 200)));
+  const std::string mesh = write("box.obj", objText(makeBoxMesh({400, 250, 100}, 200)));
   const Arguments build{"build", mesh, "-o", path("box.ambient"), "--panels", "0"};
-  const std::string warning = "warning: " + mesh +
-                              ": its size is 80 x 50 x 20 m; lengths are metres: if the file is in "
-                              "millimetres, --scale 0.001\n";
+  const std::string warning =
+      "warning: " + mesh +
+      ": its size is 800 x 500 x 200 m; lengths are metres: if the file is in "
+      "millimetres, --scale 0.001\n";
   const ProgramResult built = run(build);
   EXPECT_EQ(built.exit_code, 0);
   EXPECT_EQ(built.errors, warning);
   EXPECT_EQ(built.output.substr(0, built.output.find('\n')),
-            path("box.ambient") + ": 80 x 50 x 20 m");
+            path("box.ambient") + ": 800 x 500 x 200 m");
   const ProgramResult report = run({"report", mesh, "--panels", "0"});
   EXPECT_EQ(report.errors, warning);
-  EXPECT_NE(report.output.find(" faces, 80 x 50 x 20 m\n"), std::string::npos);
+  EXPECT_NE(report.output.find(" faces, 800 x 500 x 200 m\n"), std::string::npos);
   Arguments scaled = build;
   scaled.insert(scaled.end(), {"--scale", "0.001", "--json"});
   const json size = resultOf(scaled)["size"];
-  EXPECT_NEAR(size[0].get<double>(), 0.08, 1e-7);
-  EXPECT_NEAR(size[1].get<double>(), 0.05, 1e-7);
-  EXPECT_NEAR(size[2].get<double>(), 0.02, 1e-7);
-  scaled[scaled.size() - 2] = "1e-5";
+  EXPECT_NEAR(size[0].get<double>(), 0.8, 1e-6);
+  EXPECT_NEAR(size[1].get<double>(), 0.5, 1e-6);
+  EXPECT_NEAR(size[2].get<double>(), 0.2, 1e-6);
+  scaled[scaled.size() - 2] = "2";  // whoever scales knows the unit
+  EXPECT_EQ(run(scaled).errors, "");
+  scaled[scaled.size() - 2] = "1e-6";
   EXPECT_NE(run(scaled).errors.find("; lengths are metres: if the file is in others"),
             std::string::npos);
-  scaled[scaled.size() - 2] = "1e-7";
+  scaled[scaled.size() - 2] = "1e-8";
   EXPECT_EQ(run(scaled).errors, "warning: " + mesh +
                                     ": its size is 8e-06 x 5e-06 x 2e-06 m; lengths are metres: "
                                     "if the file is in others, --scale FACTOR\n");

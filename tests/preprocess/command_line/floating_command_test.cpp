@@ -39,6 +39,18 @@ TEST_F(FloatingCommand, InspectTellsHowABargeFloats) {
   EXPECT_NE(table.find("    draught         0.25 m\n"), std::string::npos) << table;
 }
 
+TEST_F(FloatingCommand, InspectTellsOfABodyUpsideDownAndOfOneLighterThanAir) {
+  const std::string file = barge();
+  const auto table = [&](const char* mass, const char* height) {
+    return run({"inspect", file, "--mass", mass, "--centre-of-mass", "0", "0", height}).output;
+  };
+  EXPECT_NE(table("500", "0.24").find("  up is 0, 0, -1, z downwards; reached"), std::string::npos)
+      << table("500", "0.24");
+  EXPECT_EQ(table("500", "-0.24").find("downwards; reached"), std::string::npos);
+  EXPECT_NE(table("0.5", "0").find("it is lighter than the 1.2"), std::string::npos)
+      << table("0.5", "0");
+}
+
 TEST_F(FloatingCommand, InspectTellsThatABodySinks) {
   const std::string file = barge();
   EXPECT_TRUE(resultOf({"inspect", file, "--mass", "1001", "--json"})["floating"].empty());

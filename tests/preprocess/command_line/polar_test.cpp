@@ -120,6 +120,23 @@ TEST_F(Polar, SideSlipAndOtherAxesAreTheSameBodyTurned) {
   EXPECT_GT(std::abs(row[kSide]), 1e-3);
 }
 
+// Of a body in an ideal fluid, v x (A v); a slender one turns across the flow.
+TEST_F(Polar, HasMunksMoment) {
+  BuildSettings settings;
+  settings.name = "hull";
+  settings.flow.max_panels = 0;
+  const TriangleMesh hull = makeEllipsoidMesh({2, 0.5, 0.5}, 1280);
+  const std::string bare = write(hull);
+  settings.added_mass = Matrix6(Vector6(0, 0, 0, 0.2, 1.6, 1.6).asDiagonal());
+  const std::string heavy = (folder_ / "heavy.ambient").string();
+  writeFluidBody(makeFluidBody(hull, settings), heavy);
+  const std::vector<std::string> more{"--attack",           "10", "--reference-area", "1",
+                                      "--reference-length", "4"};
+  const double a = 10 * kPi / 180;
+  EXPECT_NEAR(polar(heavy, more)[0][kPitch] - polar(bare, more)[0][kPitch],
+              2 * std::sin(a) * std::cos(a) * 1.4 / 4, 1e-6);
+}
+
 TEST_F(Polar, WindFromTheRightPushesToTheLeft) {
   const std::string ball = write(makeEllipsoidMesh({1, 1, 1}, 1280));
   const std::vector<Row> rows = polar(ball, {"--attack", "0", "--side-slip", "0:40:40"});

@@ -100,6 +100,23 @@ TEST(MeshChecks, DuplicateTrianglesAreNamed) {
             "0), 2 (0, 1, 0)");
 }
 
+// As quadrilaterals with two equal corners leave them, at the keel of a hull.
+TEST(MeshChecks, FoldsAreLeftOutWithAWarning) {
+  const TriangleMesh mesh = unitTetrahedron();
+  TriangleMesh folded = mesh;
+  folded.vertices.conservativeResize(3, 5);
+  folded.vertices.col(4) << 0.5, -0.5, 0;
+  folded.triangles.conservativeResize(3, 6);
+  folded.triangles.col(4) << 0, 1, 4;
+  folded.triangles.col(5) << 1, 0, 4;
+  const CheckedMesh checked = checkMesh(folded, "thing.obj");
+  EXPECT_EQ(checked.mesh.triangleCount(), 4);
+  EXPECT_EQ(checked.mesh.vertexCount(), 4);
+  ASSERT_FALSE(checked.warnings.empty());
+  EXPECT_EQ(checked.warnings[0],
+            "thing.obj: folds, opposite triangles on the same corners, were left out: 1");
+}
+
 TEST(MeshChecks, OpenMeshesAreRefusedWithTheNumberOfBoundaryEdgesAndAnExample) {
   EXPECT_EQ(refusal(withoutTriangle(unitTetrahedron(), 3)),
             "thing.obj: not watertight: 3 boundary edges, for example from vertex 1 (1, 0, 0) to "

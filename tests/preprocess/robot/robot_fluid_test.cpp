@@ -1,26 +1,14 @@
 #include "preprocess/robot/robot_fluid.h"
 
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/ambient.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
+#include "tests/preprocess/robot/fluid_robot_world.h"
 #include "tests/preprocess/robot/urdf_text_of.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 
 namespace ambient {
 namespace {
-
-struct FluidRobotWorld {
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btMultiBodyConstraintSolver solver;
-  btMultiBodyDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
-  Fluid fluid{world};
-};
 
 std::string ellipsoidLink(const std::string& name, const std::string& more = "") {
   return massiveLink(name, more + R"(<collision><origin xyz="0 0 0.5"/>

@@ -88,6 +88,22 @@ TEST(WetState, WithoutASurfaceIsAllOfTheBody) {
   EXPECT_EQ(wet.region, RegionId::kNone);
 }
 
+// The air beside the water is that above it.
+TEST(WetState, OnLandIsNothing) {
+  FluidWorld scene;
+  scene.world.setGravity({0, 0, bt(-9.81)});
+  FluidRegion lake = waterBelow(0);
+  lake.bounds = RegionBounds{{-5, -5, -5}, {5, 5, 5}};
+  scene.fluid.addRegion(lake);
+  AttachDef attach;
+  attach.fluid_body = std::make_shared<FluidBody>(floatingBox(kBoxSize));
+  attach.medium = air();
+  BodyDef on_land;
+  on_land.start.position = {20, 0, 0};
+  EXPECT_EQ(scene.fluid.add(scene.add(on_land), attach).wet().volume, 0);
+  EXPECT_EQ(scene.fluid.add(scene.add(BodyDef{}), attach).wet().draught, 0.2);
+}
+
 TEST(WetState, FollowsTheWavesAfterAStep) {
   FluidWorld scene;
   scene.world.setGravity({0, 0, bt(-9.81)});

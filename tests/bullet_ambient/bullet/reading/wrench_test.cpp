@@ -53,6 +53,36 @@ TEST(WrenchReading, TheWaterCarriesAFloatingBody) {
   EXPECT_EQ(read.constraints.vector().norm(), 0);
 }
 
+TEST(WrenchReading, IsThatOfPoseAndVelocityBeforeAStep) {
+  Swimmer swimmer(0.5);
+  swimmer.scene.fluid.addRegion(waterBelow(0));
+  const Immersed body = swimmer.add();
+  body.readWrench(true);
+  const double draughted = body.wet().volume * water().density * kG;
+  EXPECT_NEAR(body.wrench().buoyancy.force.z() / draughted, 1, 2e-3);  // and the air's
+  EXPECT_EQ(body.wrench().constraints.vector().norm(), 0);
+  body.readWrench(false);
+  swimmer.body->setLinearVelocity({2, 0, 0});
+  body.readWrench(true);
+  EXPECT_LT(body.wrench().pressure.force.x(), 0);
+  EXPECT_EQ(body.wrench().added_mass.vector().norm(), 0);
+}
+
+TEST(WrenchReading, TellsTheEnergyOfBodyAndWater) {
+  Swimmer swimmer(1, stillWater());
+  const Immersed body = swimmer.add();
+  const Matrix6 K = body.inertia();
+  const Vector6 x = stack(Vector3(1, -2, 0.5), Vector3(3, 0, 1));
+  swimmer.body->setAngularVelocity({1, -2, bt(0.5)});
+  swimmer.body->setLinearVelocity({3, 0, 1});
+  EXPECT_NEAR(body.kineticEnergy() / (x.dot(K * x) / 2), 1, byPrecision(1e-12, 1e-6));
+  Medium current = stillWater();
+  current.velocity = {3, 0, 1};
+  body.setMedium(current);
+  swimmer.body->setAngularVelocity({0, 0, 0});  // drifts with the water
+  EXPECT_NEAR(body.kineticEnergy() / (swimmer.def.mass * 10 / 2), 1, byPrecision(1e-12, 1e-5));
+}
+
 TEST(WrenchReading, DragAndBuoyancyCarryASinkingBody) {
   Swimmer swimmer(2, stillWater());
   const Immersed body = swimmer.add();
