@@ -2,8 +2,8 @@
 
 namespace ambient {
 
-/// Mass of a body, and mass of the medium that it displaces; afloat: of the fluid above the surface,
-/// since it may float however light it is, but not on air.
+/// Mass of a body, and mass of the medium that it displaces; afloat: of the fluid above the
+/// surface, since it may float however light it is, but not on air.
 struct DisplacedMass {
   double body = 0;    ///< [kg]
   double medium = 0;  ///< [kg]
