@@ -192,7 +192,7 @@ FlowAlongBody StationSamples::flowAlong(Medium RegionSample::*side) const noexce
 namespace {
 
 // Returns the mass of the fluid that a body displaces [kg].
-double displacedMass(const AmbientBody& ambient) {
+double displacedFluid(const AmbientBody& ambient) {
   const SurfaceModel* surface = ambient.surface();
   if (!surface) return ambient.model().displaced_mass;
   return surface->above.displaced_mass +
@@ -207,7 +207,7 @@ Wrench pushBySpinUp(AmbientBody& ambient) {
   Wrench push = Wrench::fromVector(inertia.leftCols<3>() * rate);
   const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
   push.torque -= moments.cwiseProduct(rate);
-  const double mass = 2 * kWeight * displacedMass(ambient);
+  const double mass = 2 * kWeight * displacedFluid(ambient);
   const Matrix3& ways = ambient.models->stations.ways_B;
   push.torque += mass * (ways.squaredNorm() * rate - ways * (ways.transpose() * rate));
   return push;
