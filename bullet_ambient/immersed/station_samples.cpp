@@ -191,6 +191,14 @@ FlowAlongBody StationSamples::flowAlong(Medium RegionSample::*side) const noexce
 
 namespace {
 
+// Returns the mass of the fluid that a body displaces [kg].
+double displacedFluid(const AmbientBody& ambient) {
+  const SurfaceModel* surface = ambient.surface();
+  if (!surface) return ambient.model().displaced_mass;
+  return surface->above.displaced_mass +
+         surface->excess_density * wetVolume(*surface, ambient.stand()).volume;
+}
+
 // Returns the wrench in B by which fluid that is spun up takes a body along, eq. (88).
 Wrench pushBySpinUp(AmbientBody& ambient) {
   const Matrix6 inertia =
@@ -199,6 +207,9 @@ Wrench pushBySpinUp(AmbientBody& ambient) {
   Wrench push = Wrench::fromVector(inertia.leftCols<3>() * rate);
   const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
   push.torque -= moments.cwiseProduct(rate);
+  const double mass = 2 * kWeight * displacedFluid(ambient);
+  const Matrix3& ways = ambient.models->stations.ways_B;
+  push.torque += mass * (ways.squaredNorm() * rate - ways * (ways.transpose() * rate));
   return push;
 }
 

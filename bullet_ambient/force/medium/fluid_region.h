@@ -35,8 +35,8 @@ struct FluidRegion {
   std::optional<Medium> above = std::nullopt;
   std::shared_ptr<const WaterSurface> surface = nullptr;  ///< null: filled with `below`
   /// Wind or current, added to velocity and acceleration of the media. Velocity and acceleration of
-  /// waves are added to `below`. Sampled along each body at the start of each step, docs/theory.md eq. (83).
-  /// Where it gives no acceleration, that is how its velocity changes, see BareVelocity.
+  /// waves are added to `below`. Sampled along each body at the start of each step, docs/theory.md
+  /// eq. (83). Where it gives no acceleration, that is how its velocity changes, see BareVelocity.
   FlowField flow = nullptr;
   int priority = 0;  ///< in overlaps the highest priority wins; if equal, the region added last
 };

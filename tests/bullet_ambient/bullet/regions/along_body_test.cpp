@@ -16,23 +16,23 @@ namespace ambient::test {
 namespace {
 
 /// What moves a body: a btRigidBody, or the base of a btMultiBody that carries a pendulum.
-enum class Kind { kRigid, kLink };
-constexpr Kind kKinds[] = {Kind::kRigid, Kind::kLink};
+enum class Mover { kRigid, kLink };
+constexpr Mover kMovers[] = {Mover::kRigid, Mover::kLink};
 constexpr double kRates[] = {60, 240};  // [1/s]
 
 struct LongCase {
-  Kind kind;
+  Mover mover;
   double rate;  // steps per second
 
   std::string text() const {
-    return (kind == Kind::kRigid ? "rigid body, " : "link, ") + std::to_string(rate) + " Hz";
+    return (mover == Mover::kRigid ? "rigid body, " : "link, ") + std::to_string(rate) + " Hz";
   }
 };
 
 std::vector<LongCase> longCases() {
   std::vector<LongCase> cases;
-  for (const Kind kind : kKinds)
-    for (const double rate : kRates) cases.push_back({kind, rate});
+  for (const Mover mover : kMovers)
+    for (const double rate : kRates) cases.push_back({mover, rate});
   return cases;
 }
 
@@ -52,14 +52,14 @@ std::shared_ptr<FluidBody> longBox(const Vector3& size, int divisions = 2) {
 struct LongScene : RobotWorld {
   enum class Freedom { kTurnsAboutZ, kMovesAlongY };
 
-  void add(const Vector3& size, double density, Kind kind, Freedom freedom) {
+  void add(const Vector3& size, double density, Mover mover, Freedom freedom) {
     const double mass = density * size.prod();
     const btVector3 moments = toBullet(boxMoments(size, mass));
     const bool turns = freedom == Freedom::kTurnsAboutZ;
     AttachDef def;
     def.fluid_body = longBox(size, 8);
     def.flow.law = PressureLaw::kForm;
-    if (kind == Kind::kRigid) {
+    if (mover == Mover::kRigid) {
       body = &contents.add(mass, moments, no_shape_, btTransform::getIdentity());
       body->setActivationState(DISABLE_DEACTIVATION);
       body->setAngularFactor({0, 0, bt(turns ? 1 : 0)});
@@ -117,7 +117,7 @@ FluidRegion turningWater(double rate) {
 std::vector<double> spins(const LongCase& with, double rate, double start) {
   LongScene scene;
   scene.fluid.addRegion(turningWater(rate));
-  scene.add({1, 0.04, 0.05}, 1000, with.kind, LongScene::Freedom::kTurnsAboutZ);
+  scene.add({1, 0.04, 0.05}, 1000, with.mover, LongScene::Freedom::kTurnsAboutZ);
   scene.setSpin(start);
   std::vector<double> result;
   for (int second = 0; second < 20; ++second) {
@@ -147,7 +147,7 @@ TEST(AlongBody, ABarAtTheEdgeOfACurrentTakesItsShare) {
     LongScene scene;
     scene.fluid.addRegion(filledWith(longWater()));
     scene.fluid.addRegion(halfSpace(0, 5, longWater({0, 1, 0})));
-    scene.add({20, 0.5, 0.6}, 1000, with.kind, LongScene::Freedom::kMovesAlongY);
+    scene.add({20, 0.5, 0.6}, 1000, with.mover, LongScene::Freedom::kMovesAlongY);
     scene.step(1 / with.rate, static_cast<int>(20 * with.rate));
     const double found = scene.speed(LongScene::Freedom::kMovesAlongY);
     EXPECT_NEAR(found, by_stations, 0.002) << with.text();
@@ -242,7 +242,7 @@ AttachDef floatDef(int parts) {
 }
 
 struct FloatScene : RobotWorld {
-  FloatScene(int parts, Kind kind) {
+  FloatScene(int parts, Mover mover) {
     world.setGravity({0, 0, bt(-9.81)});
     FluidRegion sea = filledWith(longWater());
     sea.above = Medium{};
@@ -254,7 +254,7 @@ struct FloatScene : RobotWorld {
     const double mass = kFloatMass / parts, apart = kFloat.x() / 2;
     const btVector3 moments = toBullet(boxMoments(size, mass));
     const AttachDef def = floatDef(parts);
-    if (kind == Kind::kRigid) {
+    if (mover == Mover::kRigid) {
       for (int i = 0; i < parts; ++i) {
         const btVector3 place(bt(parts == 2 ? (i - 0.5) * apart : 0), 0, 0);
         btRigidBody& body =
@@ -308,7 +308,7 @@ struct FloatScene : RobotWorld {
 // Amplitudes of heave over that of the wave, and of pitch over its slope, from the fifth period to
 // the tenth.
 Eigen::Vector2d amplitudes(int parts, const LongCase& with) {
-  FloatScene scene(parts, with.kind);
+  FloatScene scene(parts, with.mover);
   const double frequency = std::sqrt(9.81 * kWaveNumber);
   const int steps = static_cast<int>(10 * 2 * kPi / frequency * with.rate);
   Eigen::Matrix<double, 5, 5> squares = Eigen::Matrix<double, 5, 5>::Zero();
@@ -333,14 +333,12 @@ TEST(AlongBody, TwoHalvesOnARigidJointMoveInWavesAsTheWhole) {
     const Eigen::Vector2d one = amplitudes(1, with), two = amplitudes(2, with);
     EXPECT_NEAR(two[0] / one[0], 1, 0.03) << with.text() << ", heave";
     EXPECT_NEAR(two[1] / one[1], 1, 0.03) << with.text() << ", pitch";
-    printf("%s heave %.4f %.4f pitch %.4f %.4f\n", with.text().c_str(), one[0], two[0], one[1],
-           two[1]);
   }
 }
 
 // Of the velocity of a wave along a bar with the mean of a cosine, sin x / x, x = k L / 2 = 1.
 TEST(AlongBody, AFloatFeelsTheMeanOfAWave) {
-  FloatScene scene(1, Kind::kRigid);
+  FloatScene scene(1, Mover::kRigid);
   scene.step(1.0 / 60);
   const Medium water = scene.fluid.find(*scene.bodies[0])->medium();
   const double speed = kWaveHeight * std::sqrt(9.81 * kWaveNumber);
