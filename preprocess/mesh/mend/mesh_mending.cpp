@@ -1,6 +1,8 @@
 #include "preprocess/mesh/mend/mesh_mending.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -123,9 +125,17 @@ CheckedMesh withoutCopies(const TriangleMesh& mesh, const std::string& name) {
 
 CheckedMesh withoutFolds(const TriangleMesh& mesh, const std::string& name) {
   const std::vector<SortedTriangle> entries = sortedByCorners(mesh);
+  std::map<std::pair<int, int>, int> users;  // triangles at an edge, by its ends
+  for (const auto& [corners, triangle] : entries)
+    for (const auto& [low, high] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2)})
+      ++users[{corners[low], corners[high]}];
+  const auto has_own_edge = [&](const std::array<int, 3>& c) {
+    return users[{c[0], c[1]}] == 2 || users[{c[1], c[2]}] == 2 || users[{c[0], c[2]}] == 2;
+  };
   const auto is_fold = [&](std::size_t i) {  // entries i and i + 1
     return i + 1 < entries.size() && entries[i].corners == entries[i + 1].corners &&
-           isEven(mesh, entries[i]) != isEven(mesh, entries[i + 1]);
+           isEven(mesh, entries[i]) != isEven(mesh, entries[i + 1]) &&
+           has_own_edge(entries[i].corners);
   };
   std::vector<int> kept;
   int folds = 0;

@@ -16,9 +16,9 @@ double heightRatio(const TriangleMesh& mesh, Eigen::Index triangle);
 /// @pre indices are in range.
 CheckedMesh withoutCopies(const TriangleMesh& mesh, const std::string& name);
 
-/// Removes folds, pairs of triangles on the same corners that look in opposite directions, with a
-/// warning: a quadrilateral with two equal corners leaves one. Edges beside them keep their two
-/// triangles. A mesh of nothing else stays as it is. Cost O(T log T).
+/// Removes folds, pairs of triangles on the same corners that look in opposite directions and have
+/// an edge for themselves, with a warning: a quadrilateral with two equal corners leaves one. Edges
+/// beside them keep their two triangles. A mesh of nothing else stays as it is. Cost O(T log T).
 /// @pre indices are in range.
 CheckedMesh withoutFolds(const TriangleMesh& mesh, const std::string& name);
 
