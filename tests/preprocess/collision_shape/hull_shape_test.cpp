@@ -128,7 +128,7 @@ TEST(HullShape, RandomHullsAreBodiesOfModestSize) {
   }
 }
 
-// Measured 0.2 % in rotation and translation, on 1338 panels; without merged sides 1.5 % on 1158.
+// Hulls like it: 0.3 % off in rotation, 0.1 % in translation.
 TEST(HullShape, FewPanelsDoForAPolyhedron) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-1, 1);
