@@ -34,8 +34,8 @@ AxisFactors axisFactors(const btRigidBody& body) {
 }
 
 Wrench pushByFlow(const AmbientBody& ambient) noexcept {
-  const FlowAlongBody& flow = ambient.flow_along;
-  if (flow.isNone()) return {};
+  if (!ambient.flow_along || ambient.flow_along->isNone()) return {};
+  const FlowAlongBody& flow = *ambient.flow_along;
   const btRigidBody& body = *ambient.body;
   const Quaternion q = toQuaternion(body.getWorldTransform().getRotation());
   const double mass = 1 / static_cast<double>(body.getInvMass());
@@ -44,8 +44,8 @@ Wrench pushByFlow(const AmbientBody& ambient) noexcept {
 }
 
 void addFlowAlong(const AmbientBody& ambient, Surroundings& surroundings) noexcept {
-  const FlowAlongBody& flow = ambient.flow_along;
-  if (flow.isNone()) return;
+  if (!ambient.flow_along || ambient.flow_along->isNone()) return;
+  const FlowAlongBody& flow = *ambient.flow_along;
   surroundings.flow = &flow;
   surroundings.gravity += flow.lean_W;
   surroundings.applied += pushByFlow(ambient);

@@ -81,8 +81,9 @@ struct AmbientBody {
   std::unique_ptr<SurfaceMeeting> meeting;  ///< null: the body meets no surface
   std::unique_ptr<Wake> wake;  ///< wake behind a smooth body, docs/theory.md eq. (51b); null: no
                                ///< load on the body depends on it
-  FlowAlongBody flow_along;    ///< in this step
-  int slot = -1;               ///< in MemberSlots; -1: not yet there
+  /// In this step; null: no region makes the fluid differ along the body.
+  std::unique_ptr<FlowAlongBody> flow_along;
+  int slot = -1;  ///< in MemberSlots; -1: not yet there
   int gaping =
       0;  ///< number of steps in a row in which a joint of the body was open by much of its size
 
@@ -114,7 +115,7 @@ inline const std::shared_ptr<const SurfaceLoads>& loadsOn(const AmbientBody& amb
 inline void countLoads(AmbientBody& ambient, int evaluations) noexcept {
   if (evaluations == 0) return;
   const auto& loads = loadsOn(ambient);
-  evaluations *= std::max(1, ambient.flow_along.stations);
+  if (ambient.flow_along) evaluations *= std::max(1, ambient.flow_along->stations);
   ambient.counters.load_evaluations += evaluations;
   if (loads) ambient.counters.faces += static_cast<long long>(evaluations) * loads->faces();
 }

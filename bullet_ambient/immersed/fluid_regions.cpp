@@ -108,6 +108,9 @@ void FluidRegions::insert(Entry& entry) {
   for (const FluidKind& kind : mediaOf(entry.region)) ++media_[kind];
   for (const SurfaceKind& kind : surfacesOf(entry.region)) ++surfaces_[kind];
   index_.add(entry);
+  const FluidRegion& region = entry.region;
+  may_differ_ = may_differ_ || region.bounds || region.flow ||
+                (region.surface && region.surface->waveNumber() > 0);
   has_changed = true;
 }
 

@@ -38,6 +38,10 @@ class FluidRegions {
   /// Removes a region. Returns false if there is none of that number.
   bool remove(RegionId id);
 
+  /// True if a region has had bounds, a flow or waves, which may make the fluid differ along a
+  /// body.
+  bool mayDiffer() const noexcept { return may_differ_; }
+
   double time = 0;           ///< sum of all steps of the world so far [s]
   bool has_changed = false;  ///< true: regions have changed, and sleeping bodies were not woken yet
 
@@ -51,6 +55,7 @@ class FluidRegions {
   std::map<FluidKind, int> media_;
   std::map<SurfaceKind, int> surfaces_;
   int next_ = 0;
+  bool may_differ_ = false;
 };
 
 /// @throws std::invalid_argument as checkRegion(), beginning with the region's number.

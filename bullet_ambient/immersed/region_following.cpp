@@ -162,7 +162,7 @@ void enterOwnMedium(AmbientBody& ambient, const FluidRegions& regions, const Reg
   followFlow(ambient, {regions, nullptr, duration}, sample);
   if (stations) {
     stations->addMeans(&RegionSample::below, sample);
-    ambient.flow_along = stations->flowAlong(&RegionSample::below);
+    *ambient.flow_along = stations->flowAlong(&RegionSample::below);
   }
   enterMedium(ambient, {}, sample.below);
 }
@@ -183,9 +183,9 @@ SurfaceSide meetFluids(AmbientBody& ambient, const FluidRegion& region,
   if (!stations) return side;
   const bool is_above = side == SurfaceSide::kAbove;
   if (is_above) stations->addMeans(&RegionSample::above, sample);
-  ambient.flow_along = stations->flowAlong(is_above ? &RegionSample::above : &RegionSample::below);
+  *ambient.flow_along = stations->flowAlong(is_above ? &RegionSample::above : &RegionSample::below);
   if (side == SurfaceSide::kAt && !sample.tilt.isZero(0))
-    ambient.flow_along.lean_W = leanOf(sample, gravity);
+    ambient.flow_along->lean_W = leanOf(sample, gravity);
   return side;
 }
 
@@ -218,7 +218,7 @@ void followRegions(AmbientBody& ambient, const FluidRegions& regions, double dur
     around = regions.findAround(centreOf(ambient), ambient.models->stations.reach,
                                 ambient.counters.regions_asked);
   const FluidRegions::Entry* entry = around.entry;
-  if (!ambient.flow_along.isNone()) ambient.flow_along = {};
+  if (ambient.flow_along && !ambient.flow_along->isNone()) *ambient.flow_along = {};
   ambient.may_rest = !entry || isSteady(entry->region);
   if (!entry) return enterOwnMedium(ambient, regions, around, duration, complaints);
   RegionSample sample = sampleFor(ambient, *entry, regions, complaints);
@@ -247,6 +247,12 @@ void refreshModels(AmbientBody& ambient, const FluidRegions& regions, ModelTable
   forgetFlight(ambient);
   setModels(ambient, std::move(models));
   ambient.in_medium = {ambient.models, &ambient.models->media.front()};
+  takeStations(ambient, regions);
+}
+
+void takeStations(AmbientBody& ambient, const FluidRegions& regions) {
+  const bool has_stations = ambient.models->stations.reach > 0 && regions.mayDiffer();
+  if (has_stations && !ambient.flow_along) ambient.flow_along = std::make_unique<FlowAlongBody>();
 }
 
 AMBIENT_END

@@ -21,4 +21,7 @@ void followRegions(AmbientBody& ambient, const FluidRegions& regions, double dur
 /// @throws std::invalid_argument as makeFluidModels().
 void refreshModels(AmbientBody& ambient, const FluidRegions& regions, ModelTables& tables);
 
+/// Makes room for what differs of the fluid along a body, where a region may make it differ.
+void takeStations(AmbientBody& ambient, const FluidRegions& regions);
+
 AMBIENT_END

@@ -44,7 +44,7 @@ Vector3 upOf(const Vector3& gravity) { return -gravity.normalized(); }
 }  // namespace
 
 bool needsStations(const AmbientBody& ambient, const RegionsAround& around) noexcept {
-  if (around.is_alone && !around.entry) return false;
+  if (!ambient.flow_along || (around.is_alone && !around.entry)) return false;
   return isTaken(around, ambient.models->stations.lengths.maxCoeff());
 }
 
@@ -203,7 +203,7 @@ double displacedFluid(const AmbientBody& ambient) {
 Wrench pushBySpinUp(AmbientBody& ambient) {
   const Matrix6 inertia =
       ambient.surface() ? standNow(ambient).inertia.full() : ambient.model().inertia;
-  const Vector3& rate = ambient.flow_along.spin_up_B;
+  const Vector3& rate = ambient.flow_along->spin_up_B;
   Wrench push = Wrench::fromVector(inertia.leftCols<3>() * rate);
   const Vector3 moments = toVector3(ambient.body->getInvInertiaDiagLocal()).cwiseInverse();
   push.torque -= moments.cwiseProduct(rate);
@@ -216,7 +216,8 @@ Wrench pushBySpinUp(AmbientBody& ambient) {
 }  // namespace
 
 void findPushes(AmbientBody& ambient) noexcept {
-  FlowAlongBody& flow = ambient.flow_along;
+  if (!ambient.flow_along) return;
+  FlowAlongBody& flow = *ambient.flow_along;
   if (!flow.spin_up_B.isZero(0)) flow.push_B = pushBySpinUp(ambient);
   if (flow.stations == 0) return;
   if (!loadsOn(ambient)) {

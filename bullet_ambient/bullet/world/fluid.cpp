@@ -38,6 +38,11 @@ void forgetAll(AmbientBodies& bodies, const RegionFluids& forgotten) {
   if (!forgotten.empty()) knowFluids(bodies, {});
 }
 
+// Makes room for what differs of the fluid along each body.
+void takeAllStations(AmbientBodies& bodies) {
+  bodies.forEach([&](AmbientBody& ambient) { takeStations(ambient, bodies.regions); });
+}
+
 template <class Object>
 Object& requireObject(Object* object) {
   if (!object) throw std::invalid_argument("add: the body is null");
@@ -139,7 +144,10 @@ RegionId Fluid::addRegion(FluidRegion region) {
   FluidRegions& regions = members_->regions;
   checkRegion(regions.next(), region);
   learnAll(*members_, regions.missing(region));
-  return regions.add(std::move(region));
+  const bool knew = regions.mayDiffer();
+  const RegionId id = regions.add(std::move(region));
+  if (!knew) takeAllStations(*members_);
+  return id;
 }
 
 void Fluid::setRegion(RegionId id, FluidRegion region) {
@@ -148,7 +156,9 @@ void Fluid::setRegion(RegionId id, FluidRegion region) {
   checkRegion(id, region);
   const FluidRegion before = regions.require(id);
   learnAll(*members_, regions.missing(region));
+  const bool knew = regions.mayDiffer();
   regions.set(id, std::move(region));
+  if (!knew) takeAllStations(*members_);
   forgetAll(*members_, regions.missing(before));
 }
 
