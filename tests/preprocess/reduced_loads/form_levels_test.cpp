@@ -140,7 +140,7 @@ TEST(FormLevels, OfBodiesOfRevolutionHaveNoMomentAboutTheirAxis) {
       largest = std::max(largest, std::abs(load.torque.z()) / load.force.norm());
     }
   }
-  EXPECT_LT(largest, 1e-6);  // [m]; the body is 2 m wide
+  EXPECT_LT(largest, 1e-5);  // [m]; the body is 2 m wide, its centroid 2e-6 m beside the axis
 }
 
 TEST(FormLevels, AddNoMirrors) {
