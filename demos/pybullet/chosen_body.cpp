@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/fluid_body.h"
 #include "bullet_ambient/spatial/rotation.h"
 
@@ -25,7 +26,7 @@ void scaleTo(double volume, FluidBody& body, FrameOffset& frame) {
   if (!(body.volume > 0))
     throw std::invalid_argument("body: '" + body.name +
                                 "' has no volume, so that it cannot have a density");
-  const double factor = std::cbrt(volume / body.volume);
+  const double factor = portable::cbrt(volume / body.volume);
   frame.translation += (1 - factor) * (frame.rotation * body.centre_of_volume);
   body = scaled(body, factor);
 }

@@ -73,8 +73,7 @@ Provenance describeBody(const ShapeDescription& shape, const ShapeBuildSettings&
   Provenance provenance = describeShape(shape, settings);
   std::ostringstream text;
   text.precision(17);
-  for (const int faces : arguments.levels)
-    text << (text.tellp() == 0 ? "; levels " : ",") << faces;
+  for (const int faces : arguments.levels) text << (text.tellp() == 0 ? "; levels " : ",") << faces;
   if (!arguments.drag.empty()) text << "; drag " << dragOf(arguments).transpose();
   provenance.settings += text.str();
   return provenance;

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/support/thread_pool.h"
 #include "bullet_ambient/bullet/world/bullet_task_runner.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/thread_pool.h"
 
 namespace ambient::test {
 namespace {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "tests/support/thread_pool.h"
 #include "bullet_ambient/bullet/state/world_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
+#include "tests/support/thread_pool.h"
 
 // Worlds with many regions: threads and saved states.
 namespace ambient::test {

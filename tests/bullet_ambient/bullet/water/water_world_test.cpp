@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/thread_pool.h"
 #include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/force/medium/airy_waves.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/floating_runs.h"
+#include "tests/support/thread_pool.h"
 
 // Bodies at the surface of water in a Bullet world.
 namespace ambient::test {
