@@ -66,7 +66,8 @@ RigidPose poseAfloat(RobotModel model, const Attach& attach) {
 TEST(CarriedHull, FloatsTheLinkThatHasTheMass) {
   for (const std::string& text : {kLoadedRoot, kHullRoot, kSiblings}) {
     const RobotModel model = parseRobot(text);
-    // The flow around two parts is solved on panels whose places depend on the frame.
+    // The flow around two parts is solved on panels whose places depend on the frame: the poses are
+    // 2.2e-3 apart with 300 panels, 1.3e-3 with 3000.
     const double bound = text == kSiblings ? 5e-3 : 1e-3;
     const RigidPose merged = poseAfloat(withoutFixedJoints(model), attachLinks);
     EXPECT_GT(merged.translation().z(), -1);  // in a vacuum: -4.9
