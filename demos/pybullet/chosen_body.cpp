@@ -47,7 +47,7 @@ ChosenBody readChosenBody(Command& command, const FlowSettings& flow) {
       !(chosen.drag.minCoeff() > 0 && chosen.drag.maxCoeff() <= kLargestDrag))
     command.fail("drag has three numbers > 0, at most 1e6");
   chosen.medium = command.text("medium", "");
-  if (chosen.medium != "" && chosen.medium != "water" && chosen.medium != "air")
+  if (!chosen.medium.empty() && chosen.medium != "water" && chosen.medium != "air")
     command.fail("medium is one of: water, air");
   chosen.flow.law = command.choose("law", kPressureLawNames, flow.law);
   return chosen;
