@@ -146,11 +146,7 @@ FlightResult flyDormandPrince(const FlightTask& task, const RigidState& start,
   }
   flight.state = pair.state();
   if (left > 0) {
-    Flight rest({task.model,
-                 task.surroundings,
-                 {task.settings.tolerance, task.settings.max_substeps},
-                 left},
-                flight.state, {});
+    Flight rest({task.model, task.surroundings, task.settings, left}, flight.state, {});
     Flight* const rests[] = {&rest};
     flyLeapfrog(rests, 1);
     flight.state = rest.body.state;
