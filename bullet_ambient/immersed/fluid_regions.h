@@ -20,7 +20,7 @@ class FluidRegions {
   /// Finds the region that holds a point: the one of highest priority, of equal ones the last
   /// added; null: none. Adds the number of tests to `asked`, see RegionIndex::find().
   const Entry* find(const Vector3& point_W, long long& asked) const noexcept;
-  /// The same, and whether another region or none may be within `reach` [m].
+  /// Finds that region, and whether another one or none may be within `reach` [m] of the point.
   RegionsAround findAround(const Vector3& point_W, double reach, long long& asked) const noexcept;
   /// @throws std::invalid_argument if there is no such region.
   const FluidRegion& require(RegionId id) const;

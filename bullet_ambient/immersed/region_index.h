@@ -48,8 +48,8 @@ class RegionIndex {
   const RegionEntry* find(const Vector3& point_W, long long& asked) const noexcept {
     return findAround(point_W, 0, asked).entry;
   }
-  /// The same, and whether other regions or none may be within `reach` [m] of the point along each
-  /// axis of W.
+  /// Finds that region, and whether other ones or none may be within `reach` [m] of the point along
+  /// each axis of W.
   RegionsAround findAround(const Vector3& point_W, double reach, long long& asked) const noexcept;
 
  private:

@@ -17,7 +17,7 @@ bool isSmall(const FluidRegion& region, double length) {
   return !region.surface || !(region.surface->waveNumber() * length > kSmallAgainstWave);
 }
 
-// True if velocities along an axis may differ by anything.
+// True if the velocity along a body may change by jumps or in any other way, not by waves alone.
 bool mayDiffer(const RegionsAround& around) {
   return !around.is_alone || (around.entry && around.entry->region.flow);
 }

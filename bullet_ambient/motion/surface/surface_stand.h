@@ -88,7 +88,8 @@ struct SurfaceMove {
 /// if the body has left the water.
 BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept;
 
-/// What computeSurfaceLoad() takes besides the twist.
+/// Factor on the loads below a surface, and flow along the body: what loadBelow() needs besides the
+/// twist.
 struct LoadTerms {
   double share = 1;
   const FlowAlongBody* flow = nullptr;

@@ -15,7 +15,7 @@
 namespace ambient::test {
 namespace {
 
-/// What moves a body: a btRigidBody, or the base of a btMultiBody that carries a pendulum.
+/// Kinds of a body: a btRigidBody, or the base of a btMultiBody that carries a pendulum.
 enum class Mover { kRigid, kLink };
 constexpr Mover kMovers[] = {Mover::kRigid, Mover::kLink};
 constexpr double kRates[] = {60, 240};  // [1/s]
@@ -139,7 +139,7 @@ TEST(AlongBody, AStickTurnsWithItsWater) {
   }
 }
 
-// Of a bar of 20 m the last 5 m are in a current across it, of 1 m/s. Drag balances at
+// A bar of 20 m has its last 5 m in a current of 1 m/s across it. Drag balances at
 // 5 (1 - v)^2 = 15 v^2, by stations at 5/18 (1 - v)^2 = 13/18 v^2.
 TEST(AlongBody, ABarAtTheEdgeOfACurrentTakesItsShare) {
   const double by_stations = 1 / (1 + std::sqrt(13.0 / 5)), right = 1 / (1 + std::sqrt(3.0));
@@ -198,7 +198,7 @@ class CountedSea final : public WaterSurface {
 };
 
 TEST(AlongBody, ABodyIsSampledAtOnePlaceWhereItIsSmallAgainstTheWaves) {
-  // Of the axes of 1.5 m, 0.31 m and 0.29 m the last is shorter than a fifth of the first.
+  // The axis of 0.29 m is shorter than a fifth of that of 1.5 m, the axis of 0.31 m is not.
   const Vector3 size(1.5, 0.31, 0.29);
   const auto samples = [&size](double number) {
     FluidWorld scene;
