@@ -92,8 +92,10 @@ struct FluidBody {
   /// Radius of a sphere about the centre of volume [m]; 0: the body is no sphere. Loads on a sphere
   /// have a closed form, docs/theory.md section 10; faces and levels are not evaluated.
   double sphere_radius = 0;
-  /// Measured drag coefficients along the axes of F, on the frontal areas; the form law is scaled
-  /// to them, eq. (51). All three are positive, at most kLargestDrag, or all are 0: not measured.
+  /// Measured drag coefficients along the axes of F, on half the projected area of all faces, which
+  /// is the frontal area of a convex body; setMeasuredDrag() takes them on the frontal area of any.
+  /// The drag of the form law is scaled to them, eq. (51). All three are positive, at most
+  /// kLargestDrag, or all are 0: not measured.
   Vector3 drag{0, 0, 0};
   /// Parts of the added mass, one per patch of the surface, for bodies that the water's surface
   /// cuts. The sum of all parts is the added mass up to discretisation; empty: not known.

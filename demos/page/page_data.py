@@ -3,6 +3,7 @@
 import base64
 import csv
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -67,7 +68,8 @@ def pack_bodies(folder, summary, geometry, shapes):
         packed = {
             "name": body["name"],
             "mass": body["mass"],
-            "separation_angle": body["separation_angle"],
+            # The default law has the whole lee in the wake.
+            "separation_angle": body["separation_angle"] if body["law"] == "published" else math.pi / 2,
             "shape": shapes.add(body),
             "samples": encode(rows[:, : len(MOTION)], "<f4"),
         }

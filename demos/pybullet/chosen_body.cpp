@@ -9,6 +9,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/fluid_body.h"
 #include "bullet_ambient/spatial/rotation.h"
+#include "preprocess/polar/frontal_area.h"
 
 namespace ambient::pybullet {
 namespace {
@@ -64,7 +65,7 @@ AttachDef definitionOf(const ChosenBody& chosen, std::shared_ptr<const FluidBody
   if (chosen.density == 0 && chosen.drag.isZero(0)) return def;
   FluidBody own = *def.fluid_body;
   if (chosen.density > 0) scaleTo(mass / chosen.density, own, def.fluid_frame);
-  if (!chosen.drag.isZero(0)) own.drag = chosen.drag;
+  if (!chosen.drag.isZero(0)) setMeasuredDrag(chosen.drag, own);
   def.fluid_body = std::make_shared<const FluidBody>(std::move(own));
   return def;
 }

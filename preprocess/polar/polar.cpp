@@ -5,21 +5,11 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/spatial/invariants.h"
+#include "preprocess/polar/frontal_area.h"
 
 namespace ambient {
 namespace {
-
-/// Half the area projected along an axis, both sides counted.
-double silhouetteAlong(const Vector3& axis, const FluidBody& body) {
-  if (body.sphere_radius > 0) return kPi * body.sphere_radius * body.sphere_radius;
-  const FaceTable& faces = body.faces;
-  double sum = 0;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    sum += faces.area[i] * std::abs(faces.normal(i).dot(axis));
-  return sum / 2;
-}
 
 double extentAlong(const Vector3& axis, const FluidBody& body) {
   if (body.sphere_radius > 0) return 2 * body.sphere_radius;
@@ -48,7 +38,7 @@ Matrix3 flightAxes(const Vector3& forward, const Vector3& up) {
 }
 
 PolarReference usualReference(const FluidBody& body, const Matrix3& axes) {
-  return {silhouetteAlong(axes.col(2), body), extentAlong(axes.col(0), body)};
+  return {frontalArea(body, axes.col(2)), extentAlong(axes.col(0), body)};
 }
 
 PolarCoefficients polarCoefficients(const BodyLoads& loads, const PolarFlight& flight,

@@ -34,8 +34,7 @@ Vector3 axisNamed(const std::string& name);
 /// @pre the two are perpendicular unit vectors
 Matrix3 flightAxes(const Vector3& forward, const Vector3& up);
 
-/// Returns the silhouette along `up` (right for convex bodies and flat sheets) and the extent along
-/// `forward`.
+/// Returns the area of the silhouette along `up` and the extent along `forward`.
 PolarReference usualReference(const FluidBody& body, const Matrix3& axes);
 
 /// Computes the coefficients at angles of attack and side-slip [rad]. Cost: one evaluation of the

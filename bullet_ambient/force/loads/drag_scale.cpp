@@ -34,13 +34,17 @@ DragScale::DragScale(const FluidBody& body, const FaceTable& faces, const ShapeF
   }
 }
 
-double DragScale::factor(const Twist& x) const noexcept {
-  if (!is_measured_) return 1;
-  const Vector3 along = x.at(centre_).cwiseAbs2();
+Wrench DragScale::scaled(const Wrench& load, const Twist& x) const noexcept {
+  if (!is_measured_) return load;
+  const Vector3 v = x.at(centre_), along = v.cwiseAbs2();
   const double turning = length_sq_ * x.angular.squaredNorm();
   const double sum = along.sum() + turning;
-  if (!(sum > 0)) return 1;
-  return (scales_.dot(along) + scales_.mean() * turning) / sum;
+  if (!(sum > 0)) return load;
+  const double factor = (scales_.dot(along) + scales_.mean() * turning) / sum;
+  const double power = load.torque.dot(x.angular) + load.force.dot(x.linear);
+  const double more = (factor - 1) * power / sum;
+  const Vector3 force = more * v;
+  return load + Wrench{more * length_sq_ * x.angular + centre_.cross(force), force};
 }
 
 }  // namespace ambient

@@ -7,15 +7,16 @@ namespace ambient {
 
 struct ShapeFactors;
 
-/// Scales the form law to measured drag coefficients, docs/theory.md eq. (51): a positive factor on
-/// the load of all faces. Faces still take energy. Frame F.
+/// Scales the form law to measured drag coefficients, docs/theory.md eq. (51): the part of the
+/// loads on faces that brakes the motion gets a positive factor, so that it still takes energy.
+/// Lift stays. Frame F.
 class DragScale {
  public:
   /// Computes the law's own drag on `faces`, which need their sharpness. Cost O(F).
   DragScale(const FluidBody& body, const FaceTable& faces, const ShapeFactors& shape);
 
-  /// Factor for a twist relative to the flow; 1 at rest and without measured coefficients.
-  double factor(const Twist& relative_twist) const noexcept;
+  /// Returns `load`, the load on the faces in a twist relative to the flow, with its drag scaled.
+  Wrench scaled(const Wrench& load, const Twist& relative_twist) const noexcept;
 
  private:
   bool is_measured_;

@@ -72,7 +72,7 @@ struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
   }
 };
 
-/// Form law: loads on faces, scaled by DragScale, plus FormLift on the body as a whole.
+/// Form law: loads on faces, their drag scaled by DragScale, plus FormLift on the body as a whole.
 class FormLoads final : public SurfaceLoads {
  public:
   /// on_faces: loads on `faces`. Faces and shape are kept for other media and settings.
@@ -87,10 +87,10 @@ class FormLoads final : public SurfaceLoads {
         density_(settings.density) {}
 
   Wrench load(const Twist& x) const noexcept override {
-    return drag_.factor(x) * on_faces_->load(x) + lift_.load(x, density_);
+    return drag_.scaled(on_faces_->load(x), x) + lift_.load(x, density_);
   }
   Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
-    return drag_.factor(x) * on_faces_->wetLoad(x, wet) + wet.share * lift_.load(x, density_);
+    return drag_.scaled(on_faces_->wetLoad(x, wet), x) + wet.share * lift_.load(x, density_);
   }
   FaceLoads parts(const Twist& x) const noexcept override {
     return onBody(x, on_faces_->parts(x), 1);
@@ -104,8 +104,8 @@ class FormLoads final : public SurfaceLoads {
 
  private:
   FaceLoads onBody(const Twist& x, const FaceLoads& parts, double share) const noexcept {
-    const double factor = drag_.factor(x);
-    return {factor * parts.pressure + share * lift_.load(x, density_), factor * parts.friction};
+    return {drag_.scaled(parts.pressure, x) + share * lift_.load(x, density_),
+            drag_.scaled(parts.friction, x)};
   }
 
   std::shared_ptr<const SurfaceLoads> on_faces_;

@@ -16,6 +16,7 @@
 #include "preprocess/command_line/fluid_body_report.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
+#include "preprocess/polar/frontal_area.h"
 #include "preprocess/reduced_loads/form_levels.h"
 #include "preprocess/waterline/waterline_builder.h"
 
@@ -87,10 +88,10 @@ FluidBody buildAndWrite(const ShapeDescription& shape, ShapeBuildSettings settin
     settings.begin = [&display](const std::string& stage) { display.begin(stage); };
     built = buildShape(shape, settings);
     display.begin("reducing the loads");
-    built.body.drag = dragOf(arguments);
     if (built.body.sphere_radius > 0 && !arguments.drag.empty())
       raiseInputError(arguments.input,
                       "--drag needs faces: a sphere has the loads of a smooth one");
+    if (!arguments.drag.empty()) setMeasuredDrag(dragOf(arguments), built.body);
     built.body.form_levels = buildFormLevels(built.body, arguments.levels);
     built.body.provenance.settings = describeBody(shape, settings, arguments).settings;
   }
@@ -172,7 +173,8 @@ void addBodyOptions(CLI::App& command, BuildArguments& arguments) {
             "Sets of so many faces that stand for all in the form law (default none)")
       ->delimiter(',');
   addOption(command, "--drag", arguments.drag, "C[,C,C]",
-            "Measured drag coefficients along the axes, on the frontal areas, that the form law is "
+            "Measured drag coefficients along the axes, on the frontal areas, that the drag of the "
+            "form law is "
             "scaled to (default none)")
       ->delimiter(',');
 }

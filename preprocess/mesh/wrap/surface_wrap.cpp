@@ -9,6 +9,7 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mend/mesh_mending.h"
 #include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/wrap/dual_surface.h"
 #include "preprocess/mesh/wrap/hole_filling.h"
 #include "preprocess/mesh/wrap/mesh_coarsening.h"
@@ -127,6 +128,31 @@ void requireInside(const WrapInput& input, const TriangleMesh& surface, const st
   throw std::runtime_error(problem + advice.str());
 }
 
+/// The convex hull of a mesh; empty if all vertices lie in a plane.
+TriangleMesh hullOf(const TriangleMesh& mesh, const std::string& name) {
+  try {
+    return makeConvexHull(mesh.vertices, name);
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
+/// Refuses a surface that the thickness of thin parts has made larger than the convex hull, unless
+/// the hull itself is about as thin as the default size: a sheet, a rod.
+void requireWithinHull(const WrapInput& input, const TriangleMesh& surface,
+                       const std::string& name) {
+  constexpr double kMost = 1.1;
+  const TriangleMesh hull = hullOf(input.mesh, name);
+  if (hull.triangleCount() == 0) return;
+  const double volume = tetrahedraVolumeOf(hull), found = tetrahedraVolumeOf(surface);
+  const double thin = kDefaultWrapSize * input.mesh.extents().norm() * meshAreaOf(hull);
+  if (found <= kMost * volume || volume <= thin) return;
+  raiseInputError(
+      name, "wrapped with a size of ", input.size, " m encloses ", found,
+      " m^3, more than its convex hull of ", volume,
+      " m^3: parts thinner than the size become 1.5 times as thick; give a smaller size");
+}
+
 std::string comparison(const TriangleMesh& before, const TriangleMesh& after, double size) {
   const double volume = tetrahedraVolumeOf(after), area = meshAreaOf(after);
   const double own_volume = std::abs(tetrahedraVolumeOf(before)), own_area = meshAreaOf(before);
@@ -174,6 +200,7 @@ CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string
   if (fine.triangleCount() == 0)
     raiseInputError(name, "cannot be wrapped with a size of ", input.size, " m: nothing is left");
   requireInside(input, fine, name);
+  requireWithinHull(input, fine, name);
   const TriangleMesh coarse = coarsened(fine, {kLeastFaces, kMostFaces, kTolerance * input.size});
   CheckedMesh result;
   try {

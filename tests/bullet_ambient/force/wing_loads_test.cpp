@@ -13,6 +13,7 @@
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/bodies/wing_bodies.h"
+#include "tests/support/runs.h"
 
 namespace ambient {
 namespace {
@@ -102,7 +103,7 @@ TEST(WingLoads, NeverFeedEnergy) {
     for (const LoadPrecision precision : {LoadPrecision::kSingle, LoadPrecision::kDouble}) {
       const auto loads = loadsOf(body, precision);
       ASSERT_FALSE(loads->needsGuard());
-      for (int i = 0; i < 500; ++i) {
+      for (unsigned i = 0; i < test::runsOf(500); ++i) {
         const Twist x = arbitrary.twist(arbitrary.between(0, 5), arbitrary.between(0, 5));
         const Wrench f = loads->load(x);
         const double size = f.torque.norm() * x.angular.norm() + f.force.norm() * x.linear.norm();

@@ -70,7 +70,7 @@ class PageTest(unittest.TestCase):
         for model in ("vacuum", "gwtf"):
             run_scene(cls.out / f"golf_dimpled_spin-{model}", "golf_dimpled_spin", f"model={model}", *golf)
         run_scene(cls.out / "ball_on_bottom", "ball_on_bottom", "duration=0.5")
-        run_scene(cls.out / "flap_in_current", "flap_in_current", "duration=0.3")
+        run_scene(cls.out / "flap_in_current", "flap_in_current", "duration=0.3", "bodies.0.separation_angle=2.2")
         run_scene(cls.out / "duck_dive", "duck_dive", "duration=0.5", "water.waves=[{\"amplitude\": 0.05, \"period\": 2}]")
         run_scene(cls.out / "floating_cube", "floating_cube", "duration=1", log=["wrench"])
         run_scene(cls.out / "pool", "pool", "duration=1", "output_step=0.1")
@@ -166,6 +166,17 @@ class PageTest(unittest.TestCase):
         self.browser.execute_script("player.view.moveTo(0.3)")
         shown = self.browser.execute_script("return Math.max(...player.view.bodies.map((view) => view.largest))")
         self.assertAlmostEqual(shown, max(largest), delta=1e-4 * max(largest))
+
+    def test_separation_is_that_of_the_law(self):
+        angles = "return Object.fromEntries(player.view.bodies.map((view) => [view.body.name, view.body.separation_angle]))"
+        for title in ("golf dimpled spin", "flap in current"):
+            self.choose(title)
+            shown = self.browser.execute_script(angles)
+            geometry = json.loads((self.out / title.replace(" ", "_") / "geometry.json").read_text())
+            for body in geometry["bodies"]:
+                published = body["law"] == "published"
+                self.assertEqual(published, body["name"] == "ball")
+                self.assertEqual(shown[body["name"]], body["separation_angle"] if published else np.pi / 2)
 
     def test_water_has_its_waves(self):
         self.choose("duck dive")

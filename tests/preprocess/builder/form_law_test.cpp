@@ -14,7 +14,9 @@
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/builder/fluid_body_builder.h"
+#include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/polar/frontal_area.h"
 
 namespace ambient {
 namespace {
@@ -292,6 +294,39 @@ TEST(MeasuredDrag, IsWhatABodyThenHas) {
     for (const double way : {2.0, -2.0})
       EXPECT_NEAR(dragCoefficient(body, way * Vector3::Unit(axis), areas[axis]), body.drag[axis],
                   1e-12);
+}
+
+TEST(MeasuredDrag, LeavesLiftAndItsMoment) {
+  const FluidBody foil = bodyOf(makeBoxMesh({1, 3, 0.03}, 12), {0.01, 0.01, 1});
+  FluidBody measured = foil;
+  measured.drag = {0.02, 0.02, 1.2};
+  for (const double degrees : {2.0, 8.0, 40.0}) {
+    const double angle = degrees * kPi / 180;
+    const Vector3 v(std::cos(angle), 0, -std::sin(angle)), up(std::sin(angle), 0, std::cos(angle));
+    const Wrench before = loadInTranslation(foil, v), after = loadInTranslation(measured, v);
+    EXPECT_GT(before.force.dot(up), 0);
+    EXPECT_NEAR(after.force.dot(up), before.force.dot(up), 1e-12);
+    EXPECT_LT((after.torque - before.torque).norm(), 1e-12);
+    EXPECT_GT(std::abs(after.force.dot(v) / before.force.dot(v) - 1), 0.01) << degrees;
+  }
+}
+
+TEST(MeasuredDrag, IsOnTheSilhouette) {
+  // The second box is behind the first along x and overlaps it by a half along z.
+  TriangleMesh mesh = makeBoxMesh({0.1, 0.5, 0.5}, 12);
+  TriangleMesh other = mesh;
+  other.vertices.colwise() += Eigen::Vector3d(1, 0, 0.5);
+  FluidBody body = bodyOf(joinMeshes({mesh, other}));
+  const double tolerance = 1e-3;
+  EXPECT_NEAR(frontalArea(body, {1, 0, 0}), 1.5, tolerance);
+  EXPECT_NEAR(frontalArea(body, {0, 1, 0}), 0.4, tolerance);
+  EXPECT_NEAR(frontalArea(body, {0, 0, 1}), 0.4, tolerance);
+  EXPECT_NEAR(frontalArea(body, Vector3(1, 1, 0).normalized()),
+              // Each 0.6 sqrt(2) wide; shifted by sqrt(1/2) to the side and 0.5 along z.
+              2 * 1.2 * std::sqrt(0.5) - 0.5 * (1.2 - 1) * std::sqrt(0.5), tolerance);
+  setMeasuredDrag({1.1, 0.9, 1.3}, body);
+  EXPECT_NEAR(dragCoefficient(body, {1, 0, 0}, 1.5), 1.1, 1e-3);
+  EXPECT_NEAR(dragCoefficient(body, {0, 0, 1}, 0.4), 1.3, 1e-3);
 }
 
 TEST(MeasuredDrag, TakesEnergyInEveryMotion) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/primitives.h"
@@ -110,6 +111,23 @@ TEST(SurfaceWrap, FillsAMissingSide) {
       box = withoutTriangle(box, t);
   }
   EXPECT_NEAR(wrappedProperties(box, 0.05).volume, 8, 0.02);
+}
+
+TEST(SurfaceWrap, RefusesMoreThanTheConvexHull) {
+  // A plate of 2 m x 2 m x 0.2 m without its upper side, with a wall inside.
+  TriangleMesh open = makeBoxMesh({1, 1, 0.1}, 300);
+  for (Eigen::Index t = open.triangleCount() - 1; t >= 0; --t)
+    if (open.barycentre(t).z() > 0.1 - 1e-9) open = withoutTriangle(open, t);
+  TriangleMesh wall = makeRectangularSheetMesh(1.8, 0.1, 8);
+  const Eigen::Matrix3Xd flat = wall.vertices;
+  wall.vertices.row(1) = flat.row(2);
+  wall.vertices.row(2) = flat.row(1);
+  const TriangleMesh flap = joinMeshes({open, wall});
+  EXPECT_NEAR(wrappedProperties(flap, 0.03).volume, 0.8, 0.01);
+  const std::string refusal = wrapRefusal(flap, 0.5);
+  EXPECT_EQ(refusal.find("thing.obj: wrapped with a size of 0.5 m encloses "), 0u) << refusal;
+  EXPECT_NE(refusal.find(" m^3, more than its convex hull of 0.8 m^3"), std::string::npos)
+      << refusal;
 }
 
 // Reference: a rounded slab over a square of side 2, thickness 1.5 sizes.

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/runs.h"
+
 namespace ambient::test {
 namespace {
 
 TEST(WaterAtlas, FreeBodiesGainRoundingAtMost) {
-  for (unsigned seed = 0; seed < 40; ++seed) {
+  for (unsigned seed = 0; seed < runsOf(40); ++seed) {
     const WaterResult result = runWater({WaterSetting::kFree, Around::kWater, seed});
     EXPECT_TRUE(result.is_finite) << "seed " << seed;
     EXPECT_LT(result.over_earlier, byPrecision(1e-12, 1e-5)) << "seed " << seed;
@@ -26,7 +28,8 @@ TEST(WaterAtlas, ContactsAndJointsRaiseTheEnergyOfFew) {
         Case{WaterSetting::kTethered, 0}, Case{WaterSetting::kPile, 0},
         Case{WaterSetting::kTabled, 0}, Case{WaterSetting::kSteep, 0}}) {
     WaterTally tally;
-    for (unsigned seed = 0; seed < 20; ++seed) tally.add(runWater({setting, Around::kWater, seed}));
+    for (unsigned seed = 0; seed < runsOf(20); ++seed)
+      tally.add(runWater({setting, Around::kWater, seed}));
     EXPECT_EQ(tally.not_finite, 0) << nameOf(setting);
     EXPECT_LE(tally.rose_much, most) << nameOf(setting);
   }

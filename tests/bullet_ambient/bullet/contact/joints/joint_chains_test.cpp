@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
+#include "tests/support/runs.h"
 
 // Rows of bodies of 25 to 10 000 kg/m3 in an ideal fluid of 1000 kg/m3. Added mass multiplies the
 // linear inertia of light bodies, not the angular one. So joint rows are nearly dependent, and ten
@@ -116,12 +117,12 @@ INSTANTIATE_TEST_SUITE_P(Links, JointChain,
 TEST(JointChains, GainNoEnergy) {
   for (const JointKind kind : {JointKind::kFixed, JointKind::kHinge})
     for (const double rate : {60, 240, 1000})
-      for (unsigned seed = 0; seed < 24; ++seed)
+      for (unsigned seed = 0; seed < runsOf(24); ++seed)
         EXPECT_LT(largestRise(kind, seed, rate), 0.01) << rate << " Hz, seed " << seed;
 }
 
 TEST_P(JointChain, LeavesTheIterationsNothingToDo) {
-  for (unsigned seed = 0; seed < 24; ++seed) {
+  for (unsigned seed = 0; seed < runsOf(24); ++seed) {
     Eigen::VectorXd velocities[2];
     for (const int iterations : {1, 50}) {
       Chain chain(GetParam(), 6, seed);

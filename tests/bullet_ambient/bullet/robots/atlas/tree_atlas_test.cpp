@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/support/runs.h"
 
 namespace ambient::test {
 namespace {
 
-constexpr unsigned kSeeds = 30;
 constexpr double kRounding = kDouble ? 1e-12 : 1e-4;
 
 std::vector<TreeResult> resultsOf(TreeSetting setting, TreeFluid fluid) {
   std::vector<TreeResult> results;
-  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+  for (unsigned seed = 0; seed < runsOf(30); ++seed) {
     results.push_back(runTree({setting, fluid, seed}));
     EXPECT_TRUE(results.back().is_finite) << nameOf(setting) << ", seed " << seed;
   }
