@@ -12,12 +12,10 @@ namespace ambient {
 // - std::runtime_error in one line that names the file, the entity and the limit.
 void addBuild(CLI::App& app);
 void addCheck(CLI::App& app);
-void addCompare(CLI::App& app);
 void addExport(CLI::App& app);
 void addInspect(CLI::App& app);
 void addLoads(CLI::App& app);
 void addPolar(CLI::App& app);
-void addReport(CLI::App& app);
 
 /// Adds an option whose help shows `type` in place of its value.
 template <class Value>

@@ -9,6 +9,7 @@
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/command_line/json_numbers.h"
+#include "preprocess/command_line/mesh_estimate.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/command_line/output_place.h"
 #include "preprocess/mesh/check/mesh_diagnosis.h"
@@ -28,6 +29,8 @@ struct CheckArguments {
   std::string input;
   InputOptions options;
   std::string obj;
+  bool estimate = false;
+  int panels = kDefaultPanels, threads = 0;
   bool json = false;
 };
 
@@ -98,7 +101,8 @@ ordered_json outcomeJson(const Outcome& outcome) {
 }
 
 std::string asJson(const Outcome& asked, const std::vector<MeshDefect>& defects,
-                   const std::vector<Outcome>& remedies) {
+                   const std::vector<Outcome>& remedies,
+                   const std::optional<MeshEstimate>& estimate) {
   ordered_json text = outcomeJson(asked);
   text["defects"] = ordered_json::array();
   for (const MeshDefect& defect : defects) {
@@ -107,6 +111,7 @@ std::string asJson(const Outcome& asked, const std::vector<MeshDefect>& defects,
   }
   text["remedies"] = ordered_json::array();
   for (const Outcome& remedy : remedies) text["remedies"].push_back(outcomeJson(remedy));
+  if (estimate) text["estimate"] = estimateJson(*estimate);
   return jsonText(text);
 }
 
@@ -122,7 +127,8 @@ std::string lineOf(const std::string& label, const Outcome& outcome) {
 }
 
 std::string asTable(const Outcome& asked, const std::vector<MeshDefect>& defects,
-                    const std::vector<Outcome>& remedies) {
+                    const std::vector<Outcome>& remedies,
+                    const std::optional<MeshEstimate>& estimate) {
   std::string text;
   for (const MeshDefect& defect : defects)
     text += "defect           " + plainLine(defect.text) + "\n";
@@ -130,6 +136,7 @@ std::string asTable(const Outcome& asked, const std::vector<MeshDefect>& defects
     text += lineOf(asked.option.empty() ? "as it is" : asked.option, asked);
   for (const Outcome& remedy : remedies)
     if (remedy.usable) text += lineOf("with " + remedy.option, remedy);
+  if (estimate) text += estimateTable(*estimate);
   if (!asked.usable)
     text += "cannot be built" + std::string(asked.option.empty() ? " as it is" : " so") + "\n";
   return text;
@@ -156,9 +163,22 @@ void writeObj(const MeshDiagnosis& diagnosis, const std::string& file) {
   writeFile(file, defectsAsObj(diagnosis));
 }
 
+/// Estimates the error of what would be built, where that was asked for and something would.
+std::optional<MeshEstimate> estimateOf(const CheckArguments& arguments,
+                                       const ShapeDescription& shape, const Outcome& asked) {
+  if (!arguments.estimate || !asked.usable) return std::nullopt;
+  PotentialFlowSettings settings;
+  settings.sheet = isSheet(shape);
+  settings.max_panels = arguments.panels;
+  settings.threads = arguments.threads;
+  return estimateMesh(asked.usable->mesh, settings, arguments.input);
+}
+
 /// Returns the exit status: 1 if the input cannot be built.
 int runCheck(const CheckArguments& arguments) {
   requirePositive("--scale", arguments.options.scale);
+  requireDivisions("--panels", arguments.panels);
+  requireThreads(arguments.threads);
   if (!arguments.obj.empty()) {
     if (!hasExtension(arguments.obj, ".obj"))
       raiseUsageError("--obj", "\"", arguments.obj, "\" does not end in .obj");
@@ -174,8 +194,9 @@ int runCheck(const CheckArguments& arguments) {
     for (const std::string& warning : asked.usable->warnings)
       std::cerr << "warning: " << plainLine(warning) << "\n";
   }
-  std::cout << (arguments.json ? asJson(asked, diagnosis.defects, remedies)
-                               : asTable(asked, diagnosis.defects, remedies));
+  const std::optional<MeshEstimate> estimate = estimateOf(arguments, shape, asked);
+  std::cout << (arguments.json ? asJson(asked, diagnosis.defects, remedies, estimate)
+                               : asTable(asked, diagnosis.defects, remedies, estimate));
   return asked.usable ? 0 : 1;
 }
 
@@ -184,11 +205,17 @@ int runCheck(const CheckArguments& arguments) {
 void addCheck(CLI::App& app) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App& command = *app.add_subcommand(
-      "check", "Finds all defects of a mesh, and what would mend them, without solving");
+      "check", "Finds all defects of a mesh, and what would mend them; estimates its error");
   command.add_option("INPUT", arguments->input, "A mesh, or a JSON file with one")->required();
   addInputOptions(command, arguments->options);
   addOption(command, "--obj", arguments->obj, "OUT.obj",
             "Write the triangles of the defects into this file");
+  command.add_flag("--estimate", arguments->estimate,
+                   "Solve the flow and estimate the error of a build; show the thinnest part and "
+                   "the worst triangles");
+  addOption(command, "--panels", arguments->panels, "N", "For --estimate, as for build");
+  addOption(command, "--threads", arguments->threads, "N",
+            "For --estimate; 0: all cores (default)");
   addJson(command, arguments->json);
   command.callback([arguments] {
     if (const int status = runCheck(*arguments); status != 0) throw CLI::RuntimeError(status);

@@ -91,9 +91,9 @@ TEST_F(CommandLine, MeshesInMillimetresAreWarnedOfAndSizesShown) {
   EXPECT_EQ(built.errors, warning);
   EXPECT_EQ(built.output.substr(0, built.output.find('\n')),
             path("box.ambient") + ": 800 x 500 x 200 m");
-  const ProgramResult report = run({"report", mesh, "--panels", "0"});
-  EXPECT_EQ(report.errors, warning);
-  EXPECT_NE(report.output.find(" faces, 800 x 500 x 200 m\n"), std::string::npos);
+  const ProgramResult check = run({"check", mesh});
+  EXPECT_EQ(check.errors, warning);
+  EXPECT_NE(check.output.find(" faces, 800 x 500 x 200 m, volume"), std::string::npos);
   Arguments scaled = build;
   scaled.insert(scaled.end(), {"--scale", "0.001", "--json"});
   const json size = resultOf(scaled)["size"];

@@ -28,12 +28,9 @@ TEST_F(CommandLine, BadUsageEndsWithTwo) {
            {"build", ball, "-o", path("out.ambient"), "--levels", "16,x"},
            {"inspect"},
            {"inspect", ball, "--jsn"},
-           {"report"},
-           {"report", ball, "--panels", "many"},
+           {"check", ball, "--panels", "many"},
            {"polar"},
            {"polar", ball, "--speed", "fast"},
-           {"compare", ball},
-           {"compare", ball, ball, "--tolerance", "small"},
            {"loads", "x.ambient"},
            {"loads", "x.ambient", "--density", "1"},
            {"loads", "x.ambient", "--density", "1", "--twist", "1", "2", "3", "4", "5"},
@@ -53,21 +50,26 @@ TEST_F(CommandLine, EmptyArgumentsAreNotZero) {
   EXPECT_EQ(usageRefusal({"inspect", ""}), "argument 2 is empty");
 }
 
-TEST_F(CommandLine, ReportEstimatesTheErrorOfAMesh) {
+TEST_F(CommandLine, CheckEstimatesTheErrorOfAMesh) {
   const std::string mesh = write("box.obj", objText(makeBoxMesh({1, 2, 3}, 12)));
-  const json report = resultOf({"report", mesh, "--scale", "0.1", "--panels", "800", "--json"});
+  const json report =
+      resultOf({"check", mesh, "--scale", "0.1", "--estimate", "--panels", "800", "--json"});
   EXPECT_EQ(report["faces"], 12);
-  EXPECT_GT(report["built"]["panels"], report["other"]["panels"]);
-  EXPECT_GT(report["rotation_error"].get<double>(), 1e-3);
-  EXPECT_LT(report["rotation_error"].get<double>(), 0.2);
-  EXPECT_NEAR(report["thinnest"]["thickness"].get<double>(), 0.2, 1e-6);
-  EXPECT_EQ(report["worst_triangles"].size(), 3u);
-  const ProgramResult table = run({"report", mesh, "--panels", "800"});
+  const json& estimate = report["estimate"];
+  EXPECT_GT(estimate["panels"], estimate["other_panels"]);
+  EXPECT_GT(estimate["rotation_error"].get<double>(), 1e-3);
+  EXPECT_LT(estimate["rotation_error"].get<double>(), 0.2);
+  EXPECT_NEAR(estimate["thinnest"]["thickness"].get<double>(), 0.2, 1e-6);
+  EXPECT_EQ(estimate["worst_triangles"].size(), 3u);
+  EXPECT_FALSE(resultOf({"check", mesh, "--json"}).contains("estimate"));
+  const ProgramResult table = run({"check", mesh, "--estimate", "--panels", "800"});
   EXPECT_EQ(table.exit_code, 0);
   EXPECT_NE(table.output.find("\nestimated error  "), std::string::npos) << table.output;
   const std::string open = write("open.obj", objText(withoutTriangle(unitTetrahedron(), 0)));
-  EXPECT_EQ(refusal({"report", open}).find(open + ": not watertight"), 0u);
-  EXPECT_EQ(usageRefusal({"report", mesh, "--panels", "-1"}),
+  const ProgramResult refused = run({"check", open, "--estimate"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_EQ(refused.output.find("estimated error"), std::string::npos) << refused.output;
+  EXPECT_EQ(usageRefusal({"check", mesh, "--estimate", "--panels", "-1"}),
             "--panels: -1 is below 0 (0: no division)");
 }
 

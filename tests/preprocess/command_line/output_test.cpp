@@ -94,7 +94,7 @@ TEST_F(CommandLine, EscapesInNamesDoNotReachTheTerminal) {
   for (const Arguments& arguments :
        {Arguments{"build", mesh, "-o", ambient, "--panels", "100"},
         Arguments{"build", mesh, "-o", ambient, "--panels", "100"},  // keeps the file
-        Arguments{"inspect", ambient}, Arguments{"report", mesh, "--panels", "100"},
+        Arguments{"inspect", ambient}, Arguments{"check", mesh, "--estimate", "--panels", "100"},
         Arguments{"inspect", path(escape)}, Arguments{escape}, Arguments{"inspect", "--" + escape},
         Arguments{"build", path(escape + ".bullet"), "-o", path("folder")}}) {
     const std::string output = outputOf(arguments);
