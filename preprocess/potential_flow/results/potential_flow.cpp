@@ -96,7 +96,6 @@ PotentialFlow solveSheet(FlowSolver& solver) {
   const Jump jump = solver.solveJump(unknowns);
   AMBIENT_ASSERT(jump.values.rows() == surface.vertexCount());
   flow.potential = jump.values;
-  flow.reciprocal_condition = jump.reciprocal_condition;
   flow.iterations = jump.iterations;
   flow.added_mass = integrateEnergy(surface, unknowns, flow.potential);
   flow.asymmetry = largestAsymmetry(flow.added_mass);
@@ -111,11 +110,10 @@ PotentialFlow solveClosed(FlowSolver& solver) {
   const PanelMoments moments = solver.computeMoments(jump);
   const std::vector<PanelInertia> panels = integratePanels(surface, moments);
   AMBIENT_ASSERT(moments.size() == panels.size());
-  AMBIENT_ASSERT(jump.iterations >= 0 && jump.reciprocal_condition >= 0);
+  AMBIENT_ASSERT(jump.iterations >= 0);
   const Matrix6 direct = sumOf(panels);
 
   PotentialFlow flow;
-  flow.reciprocal_condition = jump.reciprocal_condition;
   flow.iterations = jump.iterations;
   flow.potential = projectOnVertices(surface, moments);
   flow.parts = joinPanels(panels);

@@ -48,9 +48,6 @@ struct PotentialFlow {
   /// or 0, over the largest; in the same units [1].
   double removed_eigenvalue = 0;
   Eigen::Index panels = 0;  ///< number of panels of the solution
-  /// Estimated reciprocal condition number of the linear system, in the 1-norm [1]; 0: the matrix
-  /// was not factorised.
-  double reciprocal_condition = 0;
   int iterations = 0;  ///< iterations of the hierarchical solver; 0: the matrix was factorised
 };
 

@@ -41,7 +41,7 @@ Jump DenseSolver::solveJump(const Unknowns& unknowns) {
                              "close for the size of "
                              "its triangles: use more triangles, a sheet, or build --wrap");
   const MatrixX6 solution = factors.solve(-assembleNormalVelocity(surface_, unknowns));
-  return {atVertices(unknowns, solution), factors.rcond(), 0};
+  return {atVertices(unknowns, solution), 0};
 }
 
 PanelMoments DenseSolver::computeMoments(const Jump& jump) {

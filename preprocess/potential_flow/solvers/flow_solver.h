@@ -8,8 +8,6 @@ namespace ambient {
 /// Jump of the potential across the surface, and data on its solution.
 struct Jump {
   Eigen::Matrix<double, Eigen::Dynamic, 6> values;  ///< V x 6, 0 where there is no unknown
-  double reciprocal_condition =
-      0;               ///< reciprocal condition number of the matrix, 1-norm; 0: not known
   int iterations = 0;  ///< iterations; 0: the matrix was factorised
 };
 

@@ -38,7 +38,7 @@ double HierarchicalSolver::bytesNeeded() const {
 Jump HierarchicalSolver::solveJump(const Unknowns& unknowns) {
   const PairIntegrals integrals(tree_, pairs_, kDegree, threads_);
   const IterativeJump solved = solveIteratively(tree_.surface, unknowns, integrals, threads_);
-  return {atVertices(unknowns, solved.values), 0, solved.iterations};
+  return {atVertices(unknowns, solved.values), solved.iterations};
 }
 
 PanelMoments HierarchicalSolver::computeMoments(const Jump& jump) {
