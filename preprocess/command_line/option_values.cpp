@@ -73,11 +73,4 @@ Matrix3 flightAxesOf(const std::string& forward, const std::string& up) {
   return flightAxes(ahead, above);
 }
 
-FlowSolverKind parseSolver(const std::string& name) {
-  if (name.empty()) return FlowSolverKind::Automatic;
-  if (name == "dense") return FlowSolverKind::Dense;
-  if (name == "hierarchical") return FlowSolverKind::Hierarchical;
-  raiseUsageError("--solver", "\"", name, "\" is neither dense nor hierarchical");
-}
-
 }  // namespace ambient

@@ -46,7 +46,4 @@ Matrix3 flightAxesOf(const std::string& forward, const std::string& up);
 /// The law named by --law.
 PressureLaw lawOf(const std::string& name);
 
-/// The solver named by --solver: dense, hierarchical, or none.
-FlowSolverKind parseSolver(const std::string& name);
-
 }  // namespace ambient

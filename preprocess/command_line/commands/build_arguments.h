@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,7 @@ struct BuildArguments {
   int least_faces = 0, panels = kDefaultPanels, threads = 0;
   std::vector<int> levels;
   std::vector<double> drag;
-  std::string solver;
-  std::optional<double> memory;  // [GB]
-  int waterline = 0;             // subdivisions
+  int waterline = 0;  // subdivisions
   bool no_tables = false, rebuild = false, json = false;
 };
 

@@ -48,10 +48,8 @@ ShapeBuildSettings settingsOf(const BuildArguments& arguments) {
   settings.least_faces = arguments.least_faces;
   settings.flow.max_panels = arguments.panels;
   settings.flow.threads = arguments.threads;
-  settings.flow.solver = parseSolver(arguments.solver);
   settings.tables = !arguments.no_tables;
   settings.waterline_subdivisions = arguments.waterline;
-  settings.flow.memory_limit = 1e9 * arguments.memory.value_or(0);
   return settings;
 }
 
@@ -109,7 +107,6 @@ void requireValues(const BuildArguments& arguments) {
   requireThreads(arguments.threads);
   if (arguments.waterline < 0 || arguments.waterline > kMostWaterlineSubdivisions)
     raiseUsageError("--waterline-table", "its N is not between 1 and ", kMostWaterlineSubdivisions);
-  if (arguments.memory) requirePositive("--memory", *arguments.memory, " GB");
   for (const int faces : arguments.levels) {
     if (faces < kFewestLevelFaces || faces > kMostLevelFaces)
       raiseUsageError("--levels", faces, " faces are not ", kFewestLevelFaces, " to ",
@@ -148,10 +145,6 @@ void addFlowOptions(CLI::App& command, BuildArguments& arguments) {
             "Panels for the flow, at most; the faces stay those of the mesh (default 4200; "
             "0: the triangles of the mesh)");
   addOption(command, "--threads", arguments.threads, "N", "0: all cores (default)");
-  addOption(command, "--solver", arguments.solver, "KIND",
-            "dense or hierarchical (default: hierarchical above 4200 panels)");
-  addOption(command, "--memory", arguments.memory, "GB",
-            "For the flow, at most (default: what the machine has available)");
   command
       .add_flag("--waterline-table{" + std::to_string(kDefaultWaterlineSubdivisions) + "}",
                 arguments.waterline,
@@ -174,8 +167,7 @@ void addBodyOptions(CLI::App& command, BuildArguments& arguments) {
       ->delimiter(',');
   addOption(command, "--drag", arguments.drag, "C[,C,C]",
             "Measured drag coefficients along the axes, on the frontal areas, that the drag of the "
-            "form law is "
-            "scaled to (default none)")
+            "form law is scaled to (default none)")
       ->delimiter(',');
 }
 

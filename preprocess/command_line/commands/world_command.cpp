@@ -33,8 +33,6 @@ void requireWorldOptions(const BuildArguments& arguments) {
   if (arguments.options.wrap) refuseForMany("--wrap");
   if (arguments.least_faces != 0) refuse("--least-faces");
   if (!arguments.levels.empty()) refuseForMany("--levels");
-  if (!arguments.solver.empty()) refuseForMany("--solver");
-  if (arguments.memory) refuseForMany("--memory");
   if (arguments.waterline != 0) refuseForMany("--waterline-table");
 }
 

@@ -23,7 +23,6 @@ TEST_F(CommandLine, BadUsageEndsWithTwo) {
            {"build", ball, "-o", path("out.ambient"), "--scale", "large"},
            {"build", ball, "-o", path("out.ambient"), "--threads", "1.5"},
            {"build", ball, ball, "-o", path("out.ambient")},
-           {"build", ball, "-o", path("out.ambient"), "--memory", "much"},
            {"build", ball, "-o", path("out.ambient"), "--threads", "99999999999999999999"},
            {"build", ball, "-o", path("out.ambient"), "--levels", "16,x"},
            {"inspect"},

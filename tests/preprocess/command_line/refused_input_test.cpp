@@ -90,8 +90,6 @@ TEST_F(CommandLine, BadValuesOfOptionsAreRefusedByName) {
   for (const char* option : {"--waterline-table=17", "--waterline-table=0"})
     EXPECT_EQ(buildUsageRefusal(ball, {option}),
               "--waterline-table: its N is not between 1 and 16");
-  EXPECT_EQ(refused("--solver", "sparse"), "\"sparse\" is neither dense nor hierarchical");
-  EXPECT_EQ(refused("--memory", "-2"), "-2 GB must be finite and positive");
   for (const char* origin : {"1,2", "1,2,3,4", "a,b,c", "1,2,inf", "centre", "1,2,3x", "nan,0,0"}) {
     EXPECT_EQ(refused("--origin", origin), "\"" + std::string(origin) +
                                                "\" is neither centre-of-volume nor three finite "
@@ -109,11 +107,8 @@ TEST_F(CommandLine, OriginsFarFromTheBodyAreRefused) {
             0u);
 }
 
-TEST_F(CommandLine, WhatDoesNotFitTheMachineIsRefused) {
+TEST_F(CommandLine, PlacesThatCannotBeWrittenAreRefused) {
   const std::string ball = write("ball.json", sphereText());
-  EXPECT_NE(buildRefusal(ball, {"--solver", "dense", "--memory", "0.001"})
-                .find("GB of memory, more than the 0.001 GB"),
-            std::string::npos);
   const std::string nowhere = path("no folder/out.ambient");
   EXPECT_EQ(refusal({"build", ball, "-o", nowhere}),
             nowhere + ": the directory \"" + path("no folder") + "\" does not exist");
