@@ -38,7 +38,7 @@ Interval cut(const Corners& corners, double y) {
     const Point &a = corners[k], &b = corners[(k + 1) % 3];
     if ((a.y() < y) == (b.y() < y)) continue;
     const double x = a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    inside = is_cut ? std::minmax(inside.first, x) : Interval(x, x);
+    inside = is_cut ? Interval(std::minmax(inside.first, x)) : Interval(x, x);
     is_cut = true;
   }
   return inside;

@@ -9,8 +9,8 @@ RobotModel readUrdf(const std::filesystem::path& file, const PackageFolders& pac
 
 RobotModel parseUrdf(const std::string&, const std::filesystem::path& file, const PackageFolders&) {
   raiseInputError(file.string(),
-                  "URDF files need liburdfdom (Debian: liburdfdom-dev), without "
-                  "which this was built");
+                  "URDF files need tinyxml2 (Debian: libtinyxml2-dev), without which this "
+                  "was built");
 }
 
 }  // namespace ambient

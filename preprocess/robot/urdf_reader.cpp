@@ -1,279 +1,323 @@
 #include "preprocess/robot/urdf_reader.h"
 
-#include <console_bridge/console.h>
-#include <urdf_parser/urdf_parser.h>
+#include <tinyxml2.h>
 
+#include <array>
 #include <cmath>
-#include <mutex>
+#include <locale>
 #include <set>
+#include <sstream>
+#include <utility>
 
+#include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/robot/urdf_text.h"
 #include "preprocess/shape/json_text.h"
 
 namespace ambient {
 namespace {
 
-/// Catches what urdfdom says while it lives. urdfdom has one handler for all threads.
-class UrdfdomMessages : public console_bridge::OutputHandler {
- public:
-  UrdfdomMessages() : lock_(mutex()) { console_bridge::useOutputHandler(this); }
-  ~UrdfdomMessages() override { console_bridge::restorePreviousOutputHandler(); }
-  UrdfdomMessages(const UrdfdomMessages&) = delete;
-  UrdfdomMessages& operator=(const UrdfdomMessages&) = delete;
+using tinyxml2::XMLElement;
 
-  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR)
-      text_ += (text_.empty() ? "" : "; ") + plainLine(text);
+constexpr std::array<std::pair<UrdfJointKind, const char*>, 6> kJointKindNames{
+    {{UrdfJointKind::kFixed, "fixed"},
+     {UrdfJointKind::kRevolute, "revolute"},
+     {UrdfJointKind::kRevolute, "continuous"},
+     {UrdfJointKind::kPrismatic, "prismatic"},
+     {UrdfJointKind::kPlanar, "planar"},
+     {UrdfJointKind::kFloating, "floating"}}};
+
+/// Rotation by roll, pitch and yaw about the fixed axes x, y and z in turn [rad].
+Quaternion rotationFromAngles(const Vector3& angles) {
+  const Vector3 half = angles / 2;
+  Vector3 c, s;
+  for (int i = 0; i < 3; ++i) {
+    c[i] = portable::cos(half[i]);
+    s[i] = portable::sin(half[i]);
   }
-  const std::string& text() const { return text_; }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
-  std::lock_guard<std::mutex> lock_;
-  std::string text_;
-};
-
-/// A model of urdfdom. Clears the links' lists of children when it is destroyed: links in a loop
-/// hold each other and would never be freed.
-struct UrdfModel {
-  urdf::ModelInterfaceSharedPtr model;
-
-  UrdfModel() = default;
-  UrdfModel(const UrdfModel&) = delete;
-  UrdfModel& operator=(const UrdfModel&) = delete;
-  ~UrdfModel() {
-    if (!model) return;
-    for (const auto& [name, link] : model->links_) link->child_links.clear();
-  }
-};
-
-/// Parses a URDF text with urdfdom into `parsed`. `source` begins messages.
-/// @throws std::runtime_error
-void parseChecked(const std::string& urdf, const std::string& source, UrdfModel& parsed) {
-  const UrdfdomMessages messages;
-  try {
-    // urdfdom reports parts that it cannot read as messages, and may leave them out.
-    parsed.model = urdf::parseURDF(urdf);
-    if (parsed.model && messages.text().empty()) return;
-  } catch (const std::exception& error) {
-    raiseInputError(source, error.what());
-  }
-  raiseInputError(source, messages.text().empty() ? "is not a robot" : messages.text());
+  return Quaternion(
+             c[0] * c[1] * c[2] + s[0] * s[1] * s[2], s[0] * c[1] * c[2] - c[0] * s[1] * s[2],
+             c[0] * s[1] * c[2] + s[0] * c[1] * s[2], c[0] * c[1] * s[2] - s[0] * s[1] * c[2])
+      .normalized();
 }
 
-Vector3 toVector(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+/// An element and the link or joint that it belongs to, for messages.
+struct Part {
+  const XMLElement* element;
+  std::string owner;
 
-RigidPose toPose(const urdf::Pose& from) {
-  const urdf::Rotation& q = from.rotation;
-  RigidPose pose = RigidPose::Identity();
-  pose.linear() = Quaternion(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
-  pose.translation() = toVector(from.position);
-  return pose;
-}
+  std::string name() const { return "<" + std::string(element->Name()) + ">"; }
+  bool is(const char* kind) const { return std::string(element->Name()) == kind; }
+};
 
-/// Reads the links and joints of one file, the parents first.
-class ModelReader {
+/// Reads the links and joints of one document, the parents first.
+class UrdfReader {
  public:
-  ModelReader(const UrdfText& text, std::filesystem::path file, const PackageFolders& packages)
-      : text_(text), file_(std::move(file)), packages_(packages) {
+  UrdfReader(std::filesystem::path file, const PackageFolders& packages)
+      : file_(std::move(file)), packages_(packages) {
     model_.source = file_.string();
   }
 
-  RobotModel read(const urdf::ModelInterface& from) {
-    model_.name = from.getName();
-    checkTree(from);
-    addLink(*from.getRoot(), -1);
-    if (model_.links.size() != from.links_.size()) refuse("the joints close a loop");
+  RobotModel read(const XMLElement& robot) {
+    model_.name = attribute({&robot, ""}, "name");
+    readNames(robot);
+    addLink(root(), -1);
+    if (model_.links.size() != links_.size()) refuse("the joints close a loop");
     return std::move(model_);
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& sentence) const {
-    raiseInputError(model_.source, sentence);
+  template <class... Words>
+  [[noreturn]] void refuse(const Words&... words) const {
+    raiseInputError(model_.source, words...);
   }
-
+  template <class... Words>
+  [[noreturn]] void refusePart(const Part& part, const Words&... words) const {
+    refuse("line ", part.element->GetLineNum(), part.owner.empty() ? "" : ", ", part.owner, ": ",
+           part.name(), " ", words...);
+  }
   void require(bool holds, const std::string& element, const std::string& key, double value,
                const char* limit) const {
-    if (!holds)
-      raiseInputError(model_.source, element, ": ", key, " is ", value, "; must be ", limit);
+    if (!holds) refuse(element, ": ", key, " is ", value, "; must be ", limit);
   }
 
-  /// Checks that urdfdom does not make.
-  void checkTree(const urdf::ModelInterface& from) const {
+  std::string attribute(const Part& part, const char* name) const {
+    if (const char* value = part.element->Attribute(name)) return value;
+    refusePart(part, "has no ", name);
+  }
+
+  /// Reads `count` numbers and nothing else from an attribute.
+  Vector3 numbers(const Part& part, const char* name, int count) const {
+    const std::string text = attribute(part, name);
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());
+    Vector3 values = Vector3::Zero();
+    for (int i = 0; i < count; ++i) stream >> values[i];
+    std::string rest;
+    if (!stream || stream >> rest || !values.allFinite())
+      refusePart(part, name, " is \"", text, "\"; must be ", count,
+                 count > 1 ? " numbers" : " number");
+    return values;
+  }
+  double number(const Part& part, const char* name) const { return numbers(part, name, 1).x(); }
+  double numberOr(const Part& part, const char* name, double absent) const {
+    return part.element->Attribute(name) ? number(part, name) : absent;
+  }
+  /// Reads lengths, sizes or radii: all must be above 0.
+  Vector3 sizes(const Part& part, const char* name, int count) const {
+    const Vector3 values = numbers(part, name, count);
+    const double least = values.head(count).minCoeff();
+    if (!(least > 0)) refusePart(part, name, " is ", least, "; must be > 0");
+    return values;
+  }
+
+  static Part childOf(const Part& part, const char* name) {
+    return {part.element->FirstChildElement(name), part.owner};
+  }
+  Part requiredChild(const Part& part, const char* name) const {
+    Part child = childOf(part, name);
+    if (!child.element) refusePart(part, "has no <", name, ">");
+    return child;
+  }
+
+  /// Pose of <origin xyz rpy/> in an element; the identity without one.
+  RigidPose originOf(const Part& part) const {
+    RigidPose pose = RigidPose::Identity();
+    const Part origin = childOf(part, "origin");
+    if (!origin.element) return pose;
+    if (origin.element->Attribute("xyz")) pose.translation() = numbers(origin, "xyz", 3);
+    if (origin.element->Attribute("rpy"))
+      pose.linear() = rotationFromAngles(numbers(origin, "rpy", 3)).toRotationMatrix();
+    return pose;
+  }
+
+  /// Lists links, and joints by their parents.
+  void readNames(const XMLElement& robot) {
     constexpr std::size_t kMostLinks = 2000;  // the tree is read by recursion
-    if (from.links_.size() > kMostLinks)
-      refuse("it has " + std::to_string(from.links_.size()) + " links; must be at most " +
-             std::to_string(kMostLinks));
-    std::set<std::string> children;
-    for (const auto& [name, joint] : from.joints_)
-      if (!children.insert(joint->child_link_name).second)
-        refuse("link \"" + joint->child_link_name + "\" is the child of two joints, one is \"" +
-               name + "\"; must be of one");
-    for (const auto& [link, attributes] : text_.ambient)
-      if (from.links_.count(link) == 0) refuse("<ambient> stands in a link without a name");
+    for (auto* link = robot.FirstChildElement("link"); link;
+         link = link->NextSiblingElement("link")) {
+      const std::string name = attribute({link, ""}, "name");
+      if (!links_.emplace(name, Part{link, "link \"" + name + "\""}).second)
+        refuse("link \"", name, "\" is there twice");
+    }
+    if (links_.empty()) refuse("it has no links");
+    if (links_.size() > kMostLinks)
+      refuse("it has ", links_.size(), " links; must be at most ", kMostLinks);
+    std::map<std::string, Part> joints;
+    for (auto* joint = robot.FirstChildElement("joint"); joint;
+         joint = joint->NextSiblingElement("joint")) {
+      const std::string name = attribute({joint, ""}, "name");
+      if (!joints.emplace(name, Part{joint, "joint \"" + name + "\""}).second)
+        refuse("joint \"", name, "\" is there twice");
+    }
+    for (const auto& [name, joint] : joints) readEnds(name, joint);
   }
 
-  void addLink(const urdf::Link& from, int parent) {
+  void readEnds(const std::string& name, const Part& joint) {
+    const auto end = [&](const char* kind) {
+      const std::string link = attribute(requiredChild(joint, kind), "link");
+      if (links_.count(link) == 0)
+        refuse(joint.owner, ": its ", kind, " \"", link, "\" is no link");
+      return link;
+    };
+    const std::string parent = end("parent"), child = end("child");
+    if (!children_.insert(child).second)
+      refuse("link \"", child, "\" is the child of two joints, one is \"", name,
+             "\"; must be of one");
+    joints_of_[parent].push_back({joint, child});
+  }
+
+  /// The link that is no joint's child.
+  std::string root() const {
+    std::string found;
+    for (const auto& [name, link] : links_) {
+      if (children_.count(name) > 0) continue;
+      if (!found.empty())
+        refuse("links \"", found, "\" and \"", name, "\" are the child of no joint; must be one");
+      found = name;
+    }
+    if (found.empty()) refuse("the joints close a loop");
+    return found;
+  }
+
+  void addLink(const std::string& name, int parent, JointModel joint = {}) {
     const int index = static_cast<int>(model_.links.size());
+    const Part& from = links_.at(name);
     LinkModel link;
-    link.name = from.name;
+    link.name = name;
     link.parent = parent;
-    if (from.parent_joint) link.joint = readJoint(*from.parent_joint);
-    if (from.inertial) readInertia(*from.inertial, link);
-    for (std::size_t i = 0; i < from.collision_array.size(); ++i)
-      link.collisions.push_back(readCollision(*from.collision_array[i], from.name, i));
-    link.fluid = readFluid(from.name);
+    link.joint = std::move(joint);
+    if (const Part inertial = childOf(from, "inertial"); inertial.element)
+      readInertia(inertial, link);
+    for (auto* part = from.element->FirstChildElement("collision"); part;
+         part = part->NextSiblingElement("collision"))
+      link.collisions.push_back(readCollision({part, from.owner}, link.collisions.size() + 1));
+    if (const Part fluid = childOf(from, "ambient"); fluid.element) link.fluid = readFluid(fluid);
     model_.links.push_back(std::move(link));
-    for (const urdf::LinkSharedPtr& child : from.child_links) addLink(*child, index);
+    for (const auto& [below, child] : joints_of_[name]) addLink(child, index, readJoint(below));
   }
 
-  void readInertia(const urdf::Inertial& from, LinkModel& link) {
-    const std::string element = "link \"" + link.name + "\": <inertial>";
-    require(from.mass >= 0 && std::isfinite(from.mass), element, "mass", from.mass, ">= 0");
-    const RigidPose pose = toPose(from.origin);
+  void readInertia(const Part& from, LinkModel& link) const {
+    const RigidPose pose = originOf(from);
+    link.mass = number(requiredChild(from, "mass"), "value");
+    require(link.mass >= 0, from.owner + ": <inertial>", "mass", link.mass, ">= 0");
+    const Part moments = requiredChild(from, "inertia");
     Matrix3 inertia;
-    inertia << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz,
-        from.izz;
-    require(inertia.allFinite(), element, "inertia", inertia.sum(), "finite");
-    link.mass = from.mass;
+    struct Entry {
+      const char* key;
+      int i, j;
+    };
+    for (const auto& [key, i, j] : {Entry{"ixx", 0, 0}, Entry{"ixy", 0, 1}, Entry{"ixz", 0, 2},
+                                    Entry{"iyy", 1, 1}, Entry{"iyz", 1, 2}, Entry{"izz", 2, 2}})
+      inertia(i, j) = inertia(j, i) = number(moments, key);
     link.centre_of_mass = pose.translation();
     link.inertia = pose.linear() * inertia * pose.linear().transpose();
   }
 
-  JointModel readJoint(const urdf::Joint& from) const {
+  JointModel readJoint(const Part& from) const {
     JointModel joint;
-    joint.name = from.name;
-    const std::string element = "joint \"" + joint.name + "\"";
-    joint.kind = kindOf(from);
-    joint.origin = toPose(from.parent_to_joint_origin_transform);
-    if (joint.hasAxis()) {
-      const double length = toVector(from.axis).norm();
-      require(length > 0 && std::isfinite(length), element, "the length of its axis", length,
-              "> 0");
-      joint.axis = toVector(from.axis) / length;
+    joint.name = attribute(from, "name");
+    const std::string type = attribute(from, "type");
+    const auto kind = valueOf(kJointKindNames, type);
+    if (!kind) refuse(from.owner, ": its type \"", type, "\" is not known");
+    joint.kind = *kind;
+    joint.origin = originOf(from);
+    if (const Part axis = childOf(from, "axis"); axis.element && joint.hasAxis()) {
+      const Vector3 along = numbers(axis, "xyz", 3);
+      require(along.norm() > 0, from.owner, "the length of its axis", along.norm(), "> 0");
+      joint.axis = along / along.norm();
     }
-    if (from.limits && joint.isAxial()) readLimits(from, joint);
-    if (from.dynamics) {
-      joint.damping = from.dynamics->damping;
-      joint.friction = from.dynamics->friction;
-      require(joint.damping >= 0, element, "damping", joint.damping, ">= 0");
-      require(joint.friction >= 0, element, "friction", joint.friction, ">= 0");
+    if (joint.isAxial()) readLimits(from, type == "continuous", joint);
+    if (const Part dynamics = childOf(from, "dynamics"); dynamics.element) {
+      joint.damping = numberOr(dynamics, "damping", 0);
+      joint.friction = numberOr(dynamics, "friction", 0);
+      require(joint.damping >= 0, from.owner, "damping", joint.damping, ">= 0");
+      require(joint.friction >= 0, from.owner, "friction", joint.friction, ">= 0");
     }
-    if (from.mimic)
-      joint.mimic = {from.mimic->joint_name, from.mimic->multiplier, from.mimic->offset};
+    if (const Part mimic = childOf(from, "mimic"); mimic.element)
+      joint.mimic = {attribute(mimic, "joint"), numberOr(mimic, "multiplier", 1),
+                     numberOr(mimic, "offset", 0)};
     return joint;
   }
 
-  UrdfJointKind kindOf(const urdf::Joint& from) const {
-    switch (from.type) {
-      case urdf::Joint::REVOLUTE:
-      case urdf::Joint::CONTINUOUS:
-        return UrdfJointKind::kRevolute;
-      case urdf::Joint::PRISMATIC:
-        return UrdfJointKind::kPrismatic;
-      case urdf::Joint::PLANAR:
-        return UrdfJointKind::kPlanar;
-      case urdf::Joint::FLOATING:
-        return UrdfJointKind::kFloating;
-      case urdf::Joint::FIXED:
-        return UrdfJointKind::kFixed;
-      default:
-        refuse("joint \"" + from.name + "\": its type is not known");
+  /// Continuous joints need no limits, and have none of their position.
+  void readLimits(const Part& from, bool is_continuous, JointModel& joint) const {
+    const Part limit = childOf(from, "limit");
+    if (!limit.element) {
+      if (is_continuous) return;
+      refusePart(from, "has no <limit>");
     }
+    const std::string element = from.owner + ": <limit>";
+    joint.effort = number(limit, "effort");
+    joint.velocity = number(limit, "velocity");
+    require(joint.effort >= 0, element, "effort", joint.effort, ">= 0");
+    require(joint.velocity >= 0, element, "velocity", joint.velocity, ">= 0");
+    if (is_continuous) return;
+    joint.lower = numberOr(limit, "lower", 0);
+    joint.upper = numberOr(limit, "upper", 0);
+    require(joint.lower <= joint.upper, element, "lower", joint.lower, "at most upper");
   }
 
-  void readLimits(const urdf::Joint& from, JointModel& joint) const {
-    const urdf::JointLimits& limits = *from.limits;
-    const std::string element = "joint \"" + joint.name + "\": <limit>";
-    require(limits.effort >= 0, element, "effort", limits.effort, ">= 0");
-    require(limits.velocity >= 0, element, "velocity", limits.velocity, ">= 0");
-    joint.effort = limits.effort;
-    joint.velocity = limits.velocity;
-    if (from.type == urdf::Joint::CONTINUOUS) return;
-    require(limits.lower <= limits.upper, element, "lower", limits.lower, "at most upper");
-    joint.lower = limits.lower;
-    joint.upper = limits.upper;
-  }
-
-  PlacedShape readCollision(const urdf::Collision& from, const std::string& link,
-                            std::size_t number) const {
-    const std::string element = "link \"" + link + "\": <collision> " + std::to_string(number + 1);
+  PlacedShape readCollision(const Part& from, std::size_t number) const {
     PlacedShape part;
-    part.pose = toPose(from.origin);
-    part.name = model_.source + ": " + element;
-    if (const std::optional<OwnGeometry>& own = text_.geometry.at(link).at(number)) {
-      if (own->kind == "capsule")
-        part.shape = Capsule{own->sizes.x(), own->sizes.y()};
-      else
-        part.shape = Ellipsoid{own->sizes};
-      return part;
-    }
-    if (!from.geometry) raiseInputError(part.name, "has no geometry");
-    readGeometry(*from.geometry, element, part);
+    part.pose = originOf(from);
+    part.name = model_.source + ": " + from.owner + ": <collision> " + std::to_string(number);
+    const Part geometry = requiredChild(from, "geometry");
+    const Part shape{geometry.element->FirstChildElement(), from.owner};
+    if (!shape.element) raiseInputError(part.name, "has no geometry");
+    part.shape = readShape(shape, part.name);
     return part;
   }
 
-  void readGeometry(const urdf::Geometry& from, const std::string& element,
-                    PlacedShape& part) const {
-    if (from.type == urdf::Geometry::SPHERE) {
-      part.shape = Sphere{length(static_cast<const urdf::Sphere&>(from).radius, element)};
-    } else if (from.type == urdf::Geometry::BOX) {
-      const urdf::Vector3& size = static_cast<const urdf::Box&>(from).dim;
-      part.shape = Box{Eigen::Vector3d(length(size.x, element), length(size.y, element),
-                                       length(size.z, element)) /
-                       2};
-    } else if (from.type == urdf::Geometry::CYLINDER) {
-      const auto& cylinder = static_cast<const urdf::Cylinder&>(from);
-      part.shape = Cylinder{length(cylinder.radius, element), length(cylinder.length, element)};
-    } else {
-      const auto& mesh = static_cast<const urdf::Mesh&>(from);
-      const Vector3 scale = toVector(mesh.scale);
-      require(scale.allFinite() && scale.cwiseAbs().minCoeff() > 0, element,
-              "the least scale of its mesh", scale.cwiseAbs().minCoeff(), "not 0");
-      part.shape = MeshFile{resolveReference(mesh.filename, file_, packages_, part.name), 1,
-                            MeshStandIn::kHull, 0, scale};
-    }
+  Shape readShape(const Part& from, const std::string& name) const {
+    const auto size = [&](const char* key) { return sizes(from, key, 1).x(); };
+    if (from.is("sphere")) return Sphere{size("radius")};
+    if (from.is("box")) return Box{sizes(from, "size", 3) / 2};
+    if (from.is("cylinder")) return Cylinder{size("radius"), size("length")};
+    if (from.is("capsule")) return Capsule{size("radius"), size("length")};
+    if (from.is("ellipsoid")) return Ellipsoid{sizes(from, "semi_axes", 3)};
+    if (!from.is("mesh")) refusePart(from, "is no shape that is known");
+    const Vector3 scale =
+        from.element->Attribute("scale") ? numbers(from, "scale", 3) : Vector3(1, 1, 1);
+    if (!(scale.cwiseAbs().minCoeff() > 0)) refusePart(from, "has a scale of 0");
+    return MeshFile{resolveReference(attribute(from, "filename"), file_, packages_, name), 1,
+                    MeshStandIn::kHull, 0, scale};
   }
 
-  double length(double value, const std::string& element) const {
-    require(value > 0 && std::isfinite(value), element, "a length", value, "> 0");
-    return value;
-  }
-
-  std::optional<LinkFluid> readFluid(const std::string& link) const {
-    const auto found = text_.ambient.find(link);
-    if (found == text_.ambient.end()) return std::nullopt;
-    const std::string element = "link \"" + link + "\": <ambient>";
+  LinkFluid readFluid(const Part& from) const {
+    if (from.element->NextSiblingElement("ambient")) refusePart(from, "is there twice");
+    const std::string element = from.owner + ": <ambient>";
     LinkFluid fluid;
-    for (const auto& [key, value] : found->second) {
+    for (auto* a = from.element->FirstAttribute(); a; a = a->Next()) {
+      const std::string key = a->Name(), value = a->Value();
       if (key == "medium") {
         if (value != "water" && value != "air" && value != "none")
-          refuse(element + " medium is \"" + value + "\"; must be water, air or none");
+          refuse(element, " medium is \"", value, "\"; must be water, air or none");
         fluid.medium = value;
       } else if (key == "law") {
-        fluid.law = lawOf(value, element);
-      } else {
+        fluid.law = valueOf(kPressureLawNames, value);
+        if (!fluid.law) refuse(element, " law is \"", value, "\"; must be published or form");
+      } else if (key == "fluid_body") {
         fluid.fluid_body =
             resolveReference(value, file_, packages_, model_.source + ": " + element);
+      } else {
+        refusePart(from, "has the attribute \"", key, "\"; known are: fluid_body, law, medium");
       }
     }
     return fluid;
   }
 
-  PressureLaw lawOf(const std::string& word, const std::string& element) const {
-    if (const auto law = valueOf(kPressureLawNames, word)) return *law;
-    refuse(element + " law is \"" + word + "\"; must be published or form");
-  }
+  struct Below {
+    Part joint;
+    std::string child;
+  };
 
-  const UrdfText& text_;
   std::filesystem::path file_;
   const PackageFolders& packages_;
   RobotModel model_;
+  std::map<std::string, Part> links_;
+  std::map<std::string, std::vector<Below>> joints_of_;  // by parent, in the order of their names
+  std::set<std::string> children_;
 };
 
 }  // namespace
@@ -285,10 +329,15 @@ RobotModel readUrdf(const std::filesystem::path& file, const PackageFolders& pac
 
 RobotModel parseUrdf(const std::string& text, const std::filesystem::path& file,
                      const PackageFolders& packages) {
-  const UrdfText divided = divideUrdf(text, file.string());
-  UrdfModel parsed;
-  parseChecked(divided.urdf, file.string(), parsed);
-  return ModelReader(divided, file, packages).read(*parsed.model);
+  const std::string source = file.string();
+  if (text.find('\0') != std::string::npos) raiseInputError(source, "is not XML: it holds a zero");
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
+    raiseInputError(source, "line ", document.ErrorLineNum(),
+                    ": is not XML: ", document.ErrorName());
+  const XMLElement* robot = document.FirstChildElement("robot");
+  if (!robot) raiseInputError(source, "has no element <robot>");
+  return UrdfReader(file, packages).read(*robot);
 }
 
 }  // namespace ambient

@@ -18,7 +18,7 @@ namespace ambient {
 ///
 /// Mesh files are not opened here. docs/robots.md has the rules.
 /// @throws std::runtime_error in one line that names the file, the element, value and limit: also
-/// if this library was built without liburdfdom.
+/// if this library was built without tinyxml2.
 RobotModel readUrdf(const std::filesystem::path& file, const PackageFolders& packages = {});
 
 /// Reads a robot from a text; `file` stands for it in messages, and relative paths begin at its

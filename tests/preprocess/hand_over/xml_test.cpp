@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <tinyxml.h>
+#include <tinyxml2.h>
 
 #include <sstream>
 
@@ -15,10 +15,10 @@ class Xml {
  public:
   explicit Xml(const std::string& text) {
     document_.Parse(text.c_str());
-    EXPECT_FALSE(document_.Error()) << document_.ErrorDesc() << "\n" << text;
+    EXPECT_FALSE(document_.Error()) << document_.ErrorStr() << "\n" << text;
   }
-  const TiXmlElement& at(const std::vector<std::string>& path) const {
-    const TiXmlElement* element = document_.RootElement();
+  const tinyxml2::XMLElement& at(const std::vector<std::string>& path) const {
+    const tinyxml2::XMLElement* element = document_.RootElement();
     for (const std::string& name : path) {
       element = element->FirstChildElement(name.c_str());
       if (!element) throw std::runtime_error("no element " + name);
@@ -27,7 +27,7 @@ class Xml {
   }
 
  private:
-  TiXmlDocument document_;
+  tinyxml2::XMLDocument document_;
 };
 
 std::vector<double> numbersIn(const std::string& text) {
@@ -40,13 +40,13 @@ Vector3 vectorIn(const std::string& text) {
   return {numbers.at(0), numbers.at(1), numbers.at(2)};
 }
 
-Matrix6 addedMassIn(const TiXmlElement& element) {
+Matrix6 addedMassIn(const tinyxml2::XMLElement& element) {
   const std::string letters = "xyzpqr";
   Matrix6 K;
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t j = i; j < 6; ++j) {
       const std::string name{letters[i], letters[j]};
-      const TiXmlElement* entry = element.FirstChildElement(name.c_str());
+      const tinyxml2::XMLElement* entry = element.FirstChildElement(name.c_str());
       EXPECT_TRUE(entry) << name;
       K(static_cast<int>(i), static_cast<int>(j)) = std::stod(entry->GetText());
     }
@@ -82,14 +82,14 @@ TEST(Sdf, MassStandsAtItsCentre) {
   const std::vector<double> pose =
       numbersIn(sdf.at({"model", "link", "inertial", "pose"}).GetText());
   EXPECT_EQ(pose, (std::vector<double>{0.1, 0.2, 0.3, 0, 0, 0}));
-  const TiXmlElement& inertia = sdf.at({"model", "link", "inertial", "inertia"});
+  const tinyxml2::XMLElement& inertia = sdf.at({"model", "link", "inertial", "inertia"});
   const Matrix3 expected = 7 * body->uniform_mass.inertia;
   for (const auto& [name, i, j] : {std::tuple("ixx", 0, 0), std::tuple("ixy", 0, 1),
                                    std::tuple("iyz", 1, 2), std::tuple("izz", 2, 2)})
     EXPECT_DOUBLE_EQ(std::stod(inertia.FirstChildElement(name)->GetText()), expected(i, j)) << name;
 }
 
-PlacedEllipsoid ellipsoidIn(const TiXmlElement& geom) {
+PlacedEllipsoid ellipsoidIn(const tinyxml2::XMLElement& geom) {
   const std::vector<double> q = numbersIn(geom.Attribute("quat"));
   return {vectorIn(geom.Attribute("size")), vectorIn(geom.Attribute("pos")),
           Eigen::Quaterniond(q.at(0), q.at(1), q.at(2), q.at(3)).toRotationMatrix()};
@@ -109,7 +109,7 @@ TEST(Mjcf, EllipsoidHasTheKineticEnergyOfTheFluid) {
   const PlacedEllipsoid placed;
   const ExportedBody made = exportFluidBody(bodyOf(placed), ExportFormat::kMjcf, inSea());
   const Xml mjcf(made.bytes);
-  const TiXmlElement& geom = mjcf.at({"worldbody", "body", "geom"});
+  const tinyxml2::XMLElement& geom = mjcf.at({"worldbody", "body", "geom"});
   EXPECT_EQ(std::string(geom.Attribute("fluidshape")), "ellipsoid");
   const PlacedEllipsoid found = ellipsoidIn(geom);
   EXPECT_LT(energyError(linearFirst(bodyOf(found)->added_mass), placed, {}), 1e-7);
@@ -124,7 +124,7 @@ TEST(Mjcf, MassAndFluidAreGiven) {
   settings.up = Vector3::UnitY();
   const auto body = bodyOf({});
   const Xml mjcf(exported(body, ExportFormat::kMjcf, settings));
-  const TiXmlElement& inertial = mjcf.at({"worldbody", "body", "inertial"});
+  const tinyxml2::XMLElement& inertial = mjcf.at({"worldbody", "body", "inertial"});
   EXPECT_EQ(vectorIn(inertial.Attribute("pos")), Vector3(0.1, 0.2, 0.3));
   const std::vector<double> full = numbersIn(inertial.Attribute("fullinertia"));
   const Matrix3 expected = 7 * body->uniform_mass.inertia;
