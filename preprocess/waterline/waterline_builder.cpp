@@ -189,7 +189,7 @@ class AttitudeCount {
        << "this mesh where the body is " << immersion
        << " of its height deep and the surface looks "
        << "along (" << normal.x() << ", " << normal.y() << ", " << normal.z()
-       << "); build it without a waterline table, or from a mesh without slivers";
+       << "); build it without a waterline table, or from a mesh without long thin triangles";
   throw std::runtime_error(text.str());
 }
 

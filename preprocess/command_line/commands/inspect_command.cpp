@@ -16,13 +16,14 @@ struct InspectArguments {
   std::string file;
   std::optional<double> mass;          // [kg]
   std::vector<double> centre_of_mass;  // in F [m]; empty: spread evenly over the volume
+  std::vector<double> inertia;         // xx yy zz xy xz yz [kg m^2]; empty: likewise
   double density = 998;                // [kg/m^3]
   double gravity = 9.81;               // [m/s^2]
   bool json = false;
 };
 
-// Returns the body with mass and water of the arguments. Its inertia is that of a mass spread
-// evenly over the volume, even if its centre of mass is given.
+/// Returns the body with mass and water of the arguments. Inertia that is not given is that of a
+/// mass spread evenly over the volume, even if its centre is given.
 FloatingBody onWater(const FluidBody& body, const InspectArguments& arguments) {
   FloatingBody floating;
   floating.shape = std::make_shared<FluidBody>(body);
@@ -31,6 +32,8 @@ FloatingBody onWater(const FluidBody& body, const InspectArguments& arguments) {
   if (!arguments.centre_of_mass.empty())
     floating.centre_of_mass = Eigen::Map<const Eigen::Vector3d>(arguments.centre_of_mass.data());
   floating.inertia = floating.mass * body.uniform_mass.inertia;
+  if (const std::vector<double>& v = arguments.inertia; !v.empty())
+    floating.inertia << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
   floating.density = arguments.density;
   floating.gravity = arguments.gravity;
   return floating;
@@ -65,6 +68,9 @@ void addInspect(CLI::App& app) {
   addOption(command, "--centre-of-mass", arguments->centre_of_mass, "X Y Z",
             "With --mass: in the body's frame [m]; default: that of a mass spread evenly")
       ->expected(3);
+  addOption(command, "--inertia", arguments->inertia, "XX YY ZZ XY XZ YZ",
+            "With --mass: about the centre of mass, in the body's axes [kg m^2]; default: likewise")
+      ->expected(6);
   command.add_option("--density", arguments->density, "With --mass: of the water [kg/m^3]")
       ->capture_default_str();
   command.add_option("--gravity", arguments->gravity, "With --mass: [m/s^2]")

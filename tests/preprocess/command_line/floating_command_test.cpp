@@ -110,6 +110,29 @@ TEST_F(FloatingCommand, InspectTellsOfABodyUpsideDownAndOfOneLighterThanAir) {
       << table("0.5", "0");
 }
 
+TEST_F(FloatingCommand, PeriodsAreThoseOfTheInertiaThatIsGiven) {
+  const std::string file = barge();
+  const auto longest = [&](const Arguments& more) {
+    Arguments arguments{"inspect", file, "--mass", "500",   "--centre-of-mass",
+                        "0",       "0",  "-0.24",  "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return resultOf(arguments)["floating"][0]["modes"][0]["period"].get<double>();
+  };
+  // 500 kg over a box of 2 m x 1 m x 0.5 m.
+  const Arguments even{"--inertia",
+                       std::to_string(500 / 12.0 * 1.25),
+                       std::to_string(500 / 12.0 * 4.25),
+                       std::to_string(500 / 12.0 * 5),
+                       "0",
+                       "0",
+                       "0"};
+  EXPECT_NEAR(longest(even), longest({}), 1e-6 * longest({}));
+  EXPECT_GT(longest({"--inertia", "400", "700", "800", "0", "0", "0"}), 1.2 * longest({}));
+  EXPECT_NE(refusal({"inspect", file, "--mass", "500", "--inertia", "-1", "1", "1", "0", "0", "0"})
+                .find("inertia"),
+            std::string::npos);
+}
+
 TEST_F(FloatingCommand, InspectTellsThatABodySinks) {
   const std::string file = barge();
   EXPECT_TRUE(resultOf({"inspect", file, "--mass", "1001", "--json"})["floating"].empty());
