@@ -7,7 +7,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
-#include "bullet_ambient/spatial/positive_inverse.h"
+#include "bullet_ambient/spatial/cholesky.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -181,10 +181,10 @@ void StepModel::stiffen(const SurfaceStand& stand, const FloatingModes& modes,
                         double duration) noexcept {
   if (!(duration * stand.swing > kLongestSwing)) return;
   const Matrix6 stiff = stiffInertia(stand, modes, duration);
-  if (const auto inverse = positiveInverse(stiff)) {
-    at_surface_->model.inertia = stiff;
-    at_surface_->model.inverse_inertia = *inverse;
-  }
+  const Cholesky<6> factors(stiff);
+  if (!factors.isPositive()) return;
+  at_surface_->model.inertia = stiff;
+  at_surface_->model.inverse_inertia = factors.inverse();
 }
 
 void warnOfCoarseSwing(const AmbientBody& ambient, double duration,

@@ -114,7 +114,6 @@ BodyModel makeBodyModel(const FluidBody& fluid_body, const FrameOffset& fluid_fr
            model.inertia.cwiseAbs().maxCoeff(), "finite, in a positive definite 6x6 matrix");
   }
   model.inverse_inertia = factor.inverse();
-  model.inverse_inertia = 0.5 * (model.inverse_inertia + model.inverse_inertia.transpose()).eval();
   AMBIENT_ASSERT(model.inverse_inertia.diagonal().minCoeff() > 0);
   AMBIENT_ASSERT(isSymmetric(model.inertia));
   AMBIENT_ASSERT(isSymmetric(model.inverse_inertia));

@@ -25,7 +25,7 @@ Vector6 EvenResponse::beyond(const Vector6& momentum, const Vector6& change) con
 EvenResponse makeEvenResponse(const Matrix6& inverse_inertia, const Matrix3& dry_inertia) {
   const Cholesky<3> root(dry_inertia);
   AMBIENT_ASSERT(root.isPositive());
-  const Matrix3& L = root.lower();
+  const Matrix3 L = root.lower();
   const Eigen::Matrix3d angular = L.transpose() * inverse_inertia.topLeftCorner<3, 3>() * L;
   const Eigen::Matrix3d linear = inverse_inertia.bottomRightCorner<3, 3>();
   return {largestEigenvalue(angular) * root.inverse(), largestEigenvalue(linear)};

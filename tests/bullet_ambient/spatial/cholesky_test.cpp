@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/bodies/random_bodies.h"
 
 namespace ambient {
@@ -25,7 +27,7 @@ void expectThatItFactorises() {
     const Matrix A = arbitraryInertia<N>(arbitrary);
     const Cholesky<N> factor(A);
     ASSERT_TRUE(factor.isPositive());
-    const Matrix& L = factor.lower();
+    const Matrix L = factor.lower();
     EXPECT_TRUE(L.isLowerTriangular(0));
     EXPECT_LT((L * L.transpose() - A).norm(), kRounding);
     EXPECT_LT((A * factor.inverse() - Matrix::Identity()).norm(), 10 * kRounding);
@@ -33,6 +35,20 @@ void expectThatItFactorises() {
     EXPECT_LT((L.transpose() * factor.inverseTransposed() - Matrix::Identity()).norm(), kRounding);
     const typename Cholesky<N>::Vector b = A.col(0) - A.col(N - 1);
     EXPECT_LT((A * factor.solve(b) - b).norm(), 10 * kRounding);
+  }
+}
+
+TEST(Cholesky, InvertsMatricesOfAnyScale) {
+  test::Arbitrary arbitrary(1);
+  for (int i = 0; i < 100; ++i) {
+    Vector6 scale;
+    for (int k = 0; k < 6; ++k) scale[k] = std::pow(10, arbitrary.between(-4, 4));
+    const Matrix6 unscaled = arbitraryInertia<6>(arbitrary);
+    const Matrix6 K = scale.asDiagonal() * unscaled * scale.asDiagonal();
+    const Matrix6 inverse = Cholesky<6>(K).inverse();
+    const Matrix6 back = scale.asDiagonal() * inverse * scale.asDiagonal();
+    EXPECT_LT((unscaled * back - Matrix6::Identity()).norm(), 1e-12);
+    EXPECT_EQ(inverse, inverse.transpose());
   }
 }
 
@@ -53,6 +69,8 @@ TEST(Cholesky, IsNotPositiveOfOtherMatrices) {
   for (int i = 0; i < 6; ++i) {
     Matrix6 A = arbitraryInertia<6>(arbitrary);
     A(i, i) = -0.1;
+    EXPECT_FALSE(Cholesky<6>(A).isPositive()) << i;
+    A(i, i) = std::nan("");
     EXPECT_FALSE(Cholesky<6>(A).isPositive()) << i;
   }
   EXPECT_FALSE(Cholesky<3>(Matrix3::Zero()).isPositive());
