@@ -120,11 +120,6 @@ void printScenes() {
   }
 }
 
-std::vector<PreparedBody> prepare(const Scene& scene, SceneBodyCache& cache, bool quiet) {
-  const ElapsedDisplay display(scene.name + ": preparing bodies", quiet);
-  return prepareBodies(scene, cache);
-}
-
 /// Files that a run writes, none of them under its name yet.
 struct RunFiles {
   explicit RunFiles(const fs::path& out)
@@ -172,8 +167,9 @@ void runAndWrite(const Arguments& arguments) {
   const Scene scene = readScene(findScene(arguments.scene, sceneFolders()), arguments.overrides);
   const fs::path out =
       arguments.out.empty() ? "out" / fs::path(scene.name) : fs::path(arguments.out);
-  SceneBodyCache cache(out / "fluid_bodies", scene.threads);
-  const std::vector<PreparedBody> bodies = prepare(scene, cache, arguments.quiet);
+  SceneBodyCache cache(out / "fluid_bodies", scene.threads,
+                       arguments.quiet ? nullptr : printReport);
+  const std::vector<PreparedBody> bodies = prepareBodies(scene, cache);
   for (const std::string& warning : cache.warnings())
     if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", plainLine(warning).c_str());
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/added_mass_part.h"
+#include "bullet_ambient/fluid_body/tables_place.h"
 #include "bullet_ambient/fluid_body/waterline_table.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
@@ -102,6 +103,7 @@ struct FluidBody {
   std::vector<AddedMassPart> added_mass_parts;
   /// Correction to the sum over added_mass_parts at the surface of the water; may be empty.
   WaterlineTable waterline;
+  TablesPlace tables;  ///< of the loads; a fluid body that loads were made of must not change
 };
 
 /// Slip matrix U (3F x 6) of docs/theory.md eq. (12), for the relative twist x in F: U x stacks the

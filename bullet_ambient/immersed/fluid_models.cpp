@@ -40,8 +40,7 @@ MediumModel inMedium(const AttachDef& def, const InverseMass& mass, const FluidK
   return {kind, model, makeVelocityBasis(model, momentsOf(mass))};
 }
 
-SurfaceMedia atSurface(const AttachDef& def, const InverseMass& mass, const SurfaceKind& kind,
-                       LoadTables& tables) {
+SurfaceMedia atSurface(const AttachDef& def, const InverseMass& mass, const SurfaceKind& kind) {
   SurfaceModelDef model;
   model.shape = def.fluid_body;
   model.fluid_frame = def.fluid_frame;
@@ -52,14 +51,13 @@ SurfaceMedia atSurface(const AttachDef& def, const InverseMass& mass, const Surf
   if (kind.may_blow) model.above.velocity = Vector3::Ones();
   model.flow = def.flow;
   model.wave_damping = def.wave_damping;
-  return {kind, makeSurfaceModel(model, tables)};
+  return {kind, makeSurfaceModel(model)};
 }
 
-FluidModels makeModels(const AttachDef& def, const InverseMass& mass, const RegionFluids& fluids,
-                       LoadTables& tables) {
+FluidModels makeModels(const AttachDef& def, const InverseMass& mass, const RegionFluids& fluids) {
   FluidModels models{mass, {}, {}, makeBodyStations(def)};
   const auto add = [&](const FluidKind& kind, const Medium& medium) {
-    const auto loads = makeSurfaceLoads(def.fluid_body, medium, def.flow, tables);
+    const auto loads = makeSurfaceLoads(def.fluid_body, medium, def.flow);
     models.media.push_back(inMedium(def, mass, kind, loads));
   };
   const FluidKind own(def.medium);
@@ -68,7 +66,7 @@ FluidModels makeModels(const AttachDef& def, const InverseMass& mass, const Regi
   for (const FluidKind& kind : fluids.media)
     if (!(kind == own)) add(kind, kind.medium());
   for (const SurfaceKind& kind : fluids.surfaces)
-    models.surfaces.push_back(atSurface(def, mass, kind, tables));
+    models.surfaces.push_back(atSurface(def, mass, kind));
   return models;
 }
 
@@ -145,7 +143,7 @@ std::shared_ptr<const FluidModels> makeFluidModels(const AttachDef& def, const I
                                                    ModelTables& tables) {
   checkMedium(*def.fluid_body, def.medium);
   const auto make = [&] {
-    return std::make_shared<const FluidModels>(makeModels(def, mass, fluids, tables));
+    return std::make_shared<const FluidModels>(makeModels(def, mass, fluids));
   };
   const Key key = keyOf(def, mass, fluids);
   const bool is_shared = !def.flow.own_law && isFinite(key);

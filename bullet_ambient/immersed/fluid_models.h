@@ -5,7 +5,7 @@
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/core/velocity_basis.h"
-#include "bullet_ambient/force/loads/load_tables.h"
+#include "bullet_ambient/force/loads/shared_tables.h"
 #include "bullet_ambient/immersed/attach_def.h"
 #include "bullet_ambient/immersed/body_stations.h"
 #include "bullet_ambient/immersed/region_fluids.h"
@@ -54,9 +54,8 @@ struct FluidModels {
   int findSurface(const SurfaceKind& kind) const noexcept;
 };
 
-/// Data that bodies of one Fluid share.
-struct ModelTables : LoadTables {
-  /// By the numbers that they depend on.
+/// Data that bodies of one Fluid share, by the numbers that they depend on.
+struct ModelTables {
   SharedTables<FluidBody, FluidModels, std::vector<double>> models;
   SharedTables<FluidBody, AttachDef, std::vector<double>> defs;
 };

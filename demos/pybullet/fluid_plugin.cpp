@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <typeinfo>
@@ -43,8 +44,17 @@ std::unique_ptr<WorldFluid> makeFluid(btDiscreteDynamicsWorld* world,
   return std::make_unique<WorldFluid>(*multi_bodies, printed);
 }
 
-constexpr std::array<std::pair<Quality, const char*>, 2> kQualityNames{
-    {{Quality::kInstant, "instant"}, {Quality::kStandard, "standard"}}};
+// Returns the cache of all clients of the process that keep fluid bodies in this folder, "": the
+// user's.
+std::shared_ptr<FluidBodyCache> sharedShapes(const std::string& folder) {
+  static std::mutex mutex;
+  static std::map<std::string, std::shared_ptr<FluidBodyCache>> caches;
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::shared_ptr<FluidBodyCache>& cache = caches[folder];
+  const auto place = [&] { return folder.empty() ? userBodyFolder() : BodyFolder(folder); };
+  if (!cache) cache = std::make_shared<FluidBodyCache>(CollisionShapeSettings(), place());
+  return cache;
+}
 
 }  // namespace
 
@@ -111,7 +121,7 @@ void FluidPlugin::beforeStep() {
 }
 
 FluidBodyCache& FluidPlugin::shapes() {
-  if (!shapes_) shapes_ = std::make_unique<FluidBodyCache>(shape_settings_, folder_);
+  if (!shapes_) shapes_ = sharedShapes(folder_);
   return *shapes_;
 }
 
@@ -156,12 +166,10 @@ std::string FluidPlugin::setSettings(Command& command) {
   FlowSettings flow = flow_;
   flow.law = command.choose("law", kPressureLawNames, flow.law);
   flow.separation_angle = command.number("separation", flow.separation_angle);
-  const Quality quality = command.choose("quality", kQualityNames, shape_settings_.quality);
   const std::string folder = command.text("folder", folder_);
   command.finish();
   flow_ = flow;
-  if (quality != shape_settings_.quality || folder != folder_) shapes_.reset();
-  shape_settings_.quality = quality;
+  if (folder != folder_) shapes_.reset();
   folder_ = folder;
   return "";
 }
@@ -236,6 +244,8 @@ std::string FluidPlugin::status(Command& command) {
   json status;
   for (const auto& [name, region] : regions_) status["regions"].push_back(name);
   if (!refusal_.empty()) status["refused"] = refusal_;
+  const FluidBodyCache::Counts counts = shapes().counts();
+  status["shapes"] = {{"made", counts.made}, {"read", counts.read}};
   if (fluid_) {
     const AmbientCounters counters = fluid_->fluid().counters();
     status["members"] = fluid_->fluid().size();

@@ -63,15 +63,14 @@ class FluidPlugin {
 
   Server& server_;
   Client& client_;
-  std::unique_ptr<FluidBodyCache> shapes_;  // must outlive fluid_
+  std::shared_ptr<FluidBodyCache> shapes_;  // must outlive fluid_
   std::set<std::string> printed_;           // sentences; must outlive fluid_
   std::unique_ptr<WorldFluid> fluid_;
   std::string refusal_;   // reason why the present world has no fluid
   bool has_news_ = true;  // true: bodies may have been added since they were last put in the fluid
   std::map<std::string, Region> regions_;
   FlowSettings flow_;
-  CollisionShapeSettings shape_settings_;
-  std::string folder_;  // folder of FluidBodyCache
+  std::string folder_;  // folder of FluidBodyCache; empty: the user's
   std::string pieces_;  // first pieces of a command that is longer than PyBullet's limit
 };
 

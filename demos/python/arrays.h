@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bullet_ambient/spatial/spatial_vectors.h"
+#include "preprocess/builder/body_folder.h"
 
 namespace ambient {
 
@@ -66,6 +67,11 @@ inline std::string shapeText(const pybind11::array& array) {
 /// Converts a str or os.PathLike; does not expand "~". @throws TypeError
 inline std::filesystem::path pathFrom(const pybind11::object& path) {
   return pybind11::module_::import("os").attr("fspath")(path).cast<std::string>();
+}
+
+/// Returns the folder of a cache; None: the user's.
+inline BodyFolder folderFrom(const pybind11::object& cache) {
+  return cache.is_none() ? userBodyFolder() : BodyFolder(pathFrom(cache));
 }
 
 /// Checks that a file can be opened. @throws the matching subclass of OSError if not

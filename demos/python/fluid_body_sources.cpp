@@ -4,8 +4,7 @@
 #include <sstream>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "preprocess/builder/reuse.h"
+#include "preprocess/builder/body_maker.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_mesh.h"
@@ -20,13 +19,15 @@ namespace fs = std::filesystem;
 template <class Build>
 BuiltBody buildOnce(const SourceSettings& settings, const Provenance& provenance,
                     const Build& build) {
-  if (settings.cache.empty()) return build();
-  const fs::path file = settings.cache / keptFileName(settings.name, provenance);
-  if (auto kept = readIfSame(file, settings.name, provenance)) return {std::move(*kept), {}};
-  BuiltBody built = build();
-  fs::create_directories(settings.cache);
-  writeFluidBody(built.body, file);
-  return built;
+  BodyMaker maker(settings.cache, printReport);
+  std::vector<std::string> warnings;
+  const BodyMaker::Made made = maker.get(settings.name, provenance, [&](const auto& begin) {
+    BuiltBody built = build(begin);
+    warnings = std::move(built.warnings);
+    return std::move(built.body);
+  });
+  maker.keep(made);
+  return {*made.body, std::move(warnings)};
 }
 
 template <class Matrix>
@@ -62,7 +63,8 @@ BuiltBody buildFromMesh(const TriangleMesh& mesh, bool sheet, const SourceSettin
   static_cast<CommonBuildSettings&>(build) = settings;
   build.flow.sheet = sheet;
   build.provenance = provenanceOf(mesh, sheet, settings);
-  return buildOnce(settings, build.provenance, [&]() -> BuiltBody {
+  return buildOnce(settings, build.provenance, [&](const auto& begin) -> BuiltBody {
+    build.begin = begin;
     CheckedMesh checked = checkMesh(mesh, settings.name, {sheet});
     build.cavities = checked.cavities;
     build.warn = [&](const std::string& text) { checked.warnings.push_back(text); };
@@ -77,7 +79,10 @@ BuiltBody buildFromShape(const std::string& json, const fs::path& folder,
   ShapeBuildSettings build;
   static_cast<CommonBuildSettings&>(build) = settings;
   if (std::holds_alternative<FluidBodyFile>(shape.geometry)) return buildShape(shape, build);
-  return buildOnce(settings, describeShape(shape, build), [&] { return buildShape(shape, build); });
+  return buildOnce(settings, describeShape(shape, build), [&](const auto& begin) {
+    build.begin = begin;
+    return buildShape(shape, build);
+  });
 }
 
 }  // namespace ambient

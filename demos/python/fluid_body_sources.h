@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/builder/body_folder.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/builder/shape_builder.h"
 
@@ -13,7 +14,7 @@ namespace ambient {
 
 /// Settings for building a fluid body in Python.
 struct SourceSettings : CommonBuildSettings {
-  std::filesystem::path cache;  ///< folder of .ambient files; empty: no cache
+  BodyFolder cache;  ///< default: none
 };
 
 /// Builds a fluid body of a mesh in memory; `sheet`: the mesh is a sheet of zero thickness.

@@ -3,7 +3,6 @@
 #include <pybind11/pybind11.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -18,7 +17,7 @@ namespace ambient {
 /// close().
 class PythonWorld {
  public:
-  PythonWorld(const Scene& scene, const std::filesystem::path& cache, bool takes_robots)
+  PythonWorld(const Scene& scene, const BodyFolder& cache, bool takes_robots)
       : scene_(scene), fluid_bodies_(cache, scene.threads) {
     const pybind11::gil_scoped_release others_run;
     simulation_ = std::make_unique<Simulation>(scene, prepare(scene), takes_robots);

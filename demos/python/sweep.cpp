@@ -77,7 +77,8 @@ py::tuple rollout(const std::vector<Scene>& scenes, int threads, bool with_motio
   PythonWatch watch(progress);
   SweepSettings settings;
   settings.threads = threads;
-  if (!cache.is_none()) settings.fluid_bodies = pathFrom(cache);
+  settings.fluid_bodies = folderFrom(cache);
+  settings.report = printReport;
   settings.take = [&](const SweepRun& run) {
     rows[static_cast<std::size_t>(run.index)] =
         resultRows(makeSummary(run.scene, run.bodies, run.record));

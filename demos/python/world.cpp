@@ -261,7 +261,7 @@ Other threads of Python run while it steps. One thread at a time may use a world
 Parameters
 ----------
 scene : Scene
-cache : folder in which fluid bodies are stored and found again
+cache : folder in which fluid bodies are stored and found again; default: the user's, docs/python.md
 robots : True: load_urdf() may be called; contacts of a scene without robots then differ in the last bits
 
 >>> with World(Scene("sphere_fall")) as world:
@@ -281,9 +281,8 @@ True
   type.def(py::init([](const py::object& scene, const py::object& cache, bool robots) {
              if (!py::isinstance<Scene>(scene))
                throw py::type_error("World takes a Scene, as in World(Scene(...))");
-             return std::make_shared<PythonWorld>(
-                 scene.cast<const Scene&>(),
-                 cache.is_none() ? std::filesystem::path() : pathFrom(cache), robots);
+             return std::make_shared<PythonWorld>(scene.cast<const Scene&>(), folderFrom(cache),
+                                                  robots);
            }),
            py::arg("scene"), py::kw_only(), py::arg("cache") = py::none(),
            py::arg("robots") = false)

@@ -1,14 +1,10 @@
 #include "demos/simulation/scene_body_cache.h"
 
-#include <optional>
 #include <utility>
 
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "preprocess/builder/reuse.h"
 #include "preprocess/builder/shape_builder.h"
 
 namespace ambient {
-namespace fs = std::filesystem;
 namespace {
 
 /// Whether Fluid::addAll() would find the shape as a collision shape that has a table.
@@ -19,8 +15,8 @@ bool isTabulatedSolid(const Shape& shape) {
 
 }  // namespace
 
-SceneBodyCache::SceneBodyCache(fs::path folder, int threads)
-    : folder_(std::move(folder)), threads_(threads) {}
+SceneBodyCache::SceneBodyCache(BodyFolder folder, int threads, BodyMaker::Report report)
+    : maker_(std::move(folder), std::move(report)), threads_(threads) {}
 
 std::shared_ptr<const FluidBody> SceneBodyCache::get(const ShapeDescription& shape,
                                                      const std::string& name,
@@ -34,14 +30,9 @@ std::shared_ptr<const FluidBody> SceneBodyCache::get(const ShapeDescription& sha
 
 std::shared_ptr<const FluidBody> SceneBodyCache::readOr(const std::string& name,
                                                         const Provenance& provenance,
-                                                        const std::function<FluidBody()>& build) {
-  if (folder_.empty()) return std::make_shared<const FluidBody>(build());
-  const fs::path file = folder_ / keptFileName(name, provenance);
-  if (std::optional<FluidBody> kept = readIfSame(file, name, provenance))
-    return std::make_shared<const FluidBody>(*std::move(kept));
-  auto body = std::make_shared<const FluidBody>(build());
-  unsaved_.emplace(file, body);
-  return body;
+                                                        const BodyMaker::Make& make) {
+  unsaved_.push_back(maker_.get(name, provenance, make));
+  return unsaved_.back().body;
 }
 
 std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescription& shape,
@@ -52,20 +43,19 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOrBuild(const ShapeDescript
   settings.waterline_subdivisions = waterline_subdivisions;
   settings.name = name;
   settings.flow.threads = threads_;
-  const auto build = [&] {
+  const auto build = [&](const auto& begin) {
+    settings.begin = begin;
     BuiltBody built = buildShape(shape, settings);
     warnings_.insert(warnings_.end(), built.warnings.begin(), built.warnings.end());
     return std::move(built.body);
   };
   if (std::holds_alternative<FluidBodyFile>(shape.geometry))
-    return std::make_shared<const FluidBody>(build());
+    return std::make_shared<const FluidBody>(buildShape(shape, settings).body);
   return readOr(name, describeShape(shape, settings), build);
 }
 
 void SceneBodyCache::save() {
-  if (unsaved_.empty()) return;
-  fs::create_directories(folder_);
-  for (const auto& [file, body] : unsaved_) writeFluidBody(*body, file);
+  for (const BodyMaker::Made& made : unsaved_) maker_.keep(made);
   unsaved_.clear();
 }
 

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "preprocess/builder/body_maker.h"
 #include "preprocess/collision_shape/collision_shape_settings.h"
 #include "preprocess/shape/shapes.h"
 
@@ -16,8 +15,8 @@ class btCollisionShape;
 namespace ambient {
 
 /// Cache of the fluid bodies of a program's runs; each is solved once. Keeps bodies in memory and,
-/// between programs, as .ambient files in a folder, like FluidBodyCache. A file is reused only if
-/// readIfSame() accepts it: an edited mesh or another revision of the solver needs a new one.
+/// between programs, in a folder, like FluidBodyCache. A file is reused only if readIfSame()
+/// accepts it: an edited mesh or another revision of the solver needs a new one.
 ///
 /// Boxes, cylinders, capsules and cones are made as Fluid::addAll() makes them from collision
 /// shapes: their added mass is looked up, and few faces carry the loads of the form law.
@@ -26,8 +25,9 @@ namespace ambient {
 /// files only in save().
 class SceneBodyCache {
  public:
-  /// folder: need not exist; empty: no files. threads: threads of the solver; 0: all cores.
-  explicit SceneBodyCache(std::filesystem::path folder = {}, int threads = 0);
+  /// threads: threads of the solver; 0: all cores. report: see BodyMaker; default: standard error.
+  explicit SceneBodyCache(BodyFolder folder = {}, int threads = 0,
+                          BodyMaker::Report report = printReport);
 
   /// Fluid body of a shape; waterline_subdivisions: see BuildSettings.
   /// @throws std::runtime_error in one line that names the file or the shape's source.
@@ -36,12 +36,12 @@ class SceneBodyCache {
   /// Fluid body of a link's collision shape, in the shape's frame. @throws as makeFluidBody()
   std::shared_ptr<const FluidBody> get(const btCollisionShape& shape, const std::string& name);
 
-  /// Writes all bodies solved by this object. @throws std::runtime_error as writeFluidBody().
+  /// Writes the bodies made by this object since the last call; what cannot be written is reported.
   void save();
 
   /// Warnings about the meshes, one line each.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  int solved() const { return static_cast<int>(unsaved_.size()); }
+  int solved() const { return maker_.counts().made; }
 
  private:
   CollisionShapeSettings solidSettings(const std::string& name);
@@ -52,14 +52,14 @@ class SceneBodyCache {
   std::shared_ptr<const FluidBody> readOrMakeSolid(const ShapeDescription& shape,
                                                    const std::string& name,
                                                    int waterline_subdivisions);
-  /// Reads a body from the folder, or else calls `build`, whose result save() will write.
+  /// Reads a body from the folder, or else calls `make`, whose result save() will write.
   std::shared_ptr<const FluidBody> readOr(const std::string& name, const Provenance& provenance,
-                                          const std::function<FluidBody()>& build);
+                                          const BodyMaker::Make& make);
 
-  std::filesystem::path folder_;
+  BodyMaker maker_;
   int threads_;
   std::map<std::string, std::shared_ptr<const FluidBody>> by_text_;
-  std::map<std::filesystem::path, std::shared_ptr<const FluidBody>> unsaved_;
+  std::vector<BodyMaker::Made> unsaved_;
   std::vector<std::string> warnings_;
 };
 

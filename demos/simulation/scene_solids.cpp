@@ -17,12 +17,16 @@ CollisionShapeSettings SceneBodyCache::solidSettings(const std::string& name) {
 
 std::shared_ptr<const FluidBody> SceneBodyCache::get(const btCollisionShape& shape,
                                                      const std::string& name) {
-  const CollisionShapeSettings settings = solidSettings(name);
+  CollisionShapeSettings settings = solidSettings(name);
   const Provenance from = describeCollisionShape(shape, settings);
   const std::string key =
       from.source + " " + std::to_string(from.source_hash) + " " + from.settings;
   std::shared_ptr<const FluidBody>& known = by_text_[key];
-  if (!known) known = readOr(name, from, [&] { return makeFluidBody(shape, settings); });
+  const auto make = [&](const auto& begin) {
+    settings.begin = begin;
+    return makeFluidBody(shape, settings);
+  };
+  if (!known) known = readOr(name, from, make);
   return known;
 }
 
@@ -34,7 +38,8 @@ std::shared_ptr<const FluidBody> SceneBodyCache::readOrMakeSolid(const ShapeDesc
   settings.faces = shape.faces;
   settings.waterline_subdivisions = waterline_subdivisions;
   const ShapeForm form{shape.text, {{shape.geometry, RigidPose::Identity(), name}}, 1};
-  return readOr(name, describeForm(form, settings), [&] { return makeFormBody(form, settings); });
+  const auto make = [&](const auto&) { return makeFormBody(form, settings); };
+  return readOr(name, describeForm(form, settings), make);
 }
 
 }  // namespace ambient

@@ -18,7 +18,7 @@ class RunningSweep {
   RunningSweep(const std::vector<Scene>& scenes, const SweepSettings& settings)
       : scenes_(scenes),
         settings_(settings),
-        fluid_bodies_(settings.fluid_bodies, settings.threads) {}
+        fluid_bodies_(settings.fluid_bodies, settings.threads, settings.report) {}
 
   /// Runs all scenes while this thread calls watch(). Without another thread runs them first.
   SweepFailures run() {
@@ -71,7 +71,7 @@ class RunningSweep {
   std::vector<PreparedBody> prepare(const Scene& scene) {
     const std::lock_guard<std::mutex> lock(preparing_);
     std::vector<PreparedBody> bodies = prepareBodies(scene, fluid_bodies_);
-    if (!settings_.fluid_bodies.empty()) fluid_bodies_.save();
+    fluid_bodies_.save();
     return bodies;
   }
 

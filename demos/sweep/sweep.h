@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -22,7 +21,8 @@ struct SweepRun {
 
 struct SweepSettings {
   int threads = 0;                     ///< threads that run scenes; 0: all cores
-  std::filesystem::path fluid_bodies;  ///< folder of .ambient files to reuse; empty: memory only
+  BodyFolder fluid_bodies;             ///< of bodies to reuse
+  BodyMaker::Report report = nullptr;  ///< see BodyMaker
   /// Called with each run when it ends, on the thread that ran it; concurrent calls occur. A run
   /// fails if the function throws.
   std::function<void(const SweepRun&)> take = [](const SweepRun&) {};

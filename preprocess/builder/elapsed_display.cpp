@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include "bullet_ambient/base/plain_text.h"
 
@@ -14,7 +15,16 @@ ElapsedDisplay::ElapsedDisplay(const std::string& label, bool quiet,
     : label_(plainLine(label)),
       is_terminal_(::isatty(STDERR_FILENO) != 0),
       interval_(is_terminal_ ? std::chrono::seconds(1) : interval) {
-  if (quiet) return;
+  if (!quiet) start();
+}
+
+ElapsedDisplay::ElapsedDisplay(const std::string& label, Print print,
+                               std::chrono::milliseconds interval)
+    : label_(plainLine(label)), print_(std::move(print)), is_terminal_(false), interval_(interval) {
+  start();
+}
+
+void ElapsedDisplay::start() {
   try {
     thread_ = std::thread([this] { show(); });
   } catch (const std::system_error&) {
@@ -54,6 +64,10 @@ void ElapsedDisplay::show() {
     if (ended_.wait_for(lock, interval_, is_over)) {
       if (is_terminal_ && is_shown) std::fputs("\r\033[K", stderr);
       return;
+    }
+    if (print_) {
+      print_(text());
+      continue;
     }
     std::fprintf(stderr, is_terminal_ ? "\r\033[K%s" : "%s\n", text().c_str());
     std::fflush(stderr);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -14,8 +15,12 @@ namespace ambient {
 /// line every `interval`. Silent if `quiet`, or if the system grants no thread.
 class ElapsedDisplay {
  public:
+  using Print = std::function<void(const std::string& line)>;
+
   explicit ElapsedDisplay(const std::string& label, bool quiet = false,
                           std::chrono::milliseconds interval = std::chrono::seconds(10));
+  /// Gives a line to `print` every `interval`, on a thread of its own.
+  ElapsedDisplay(const std::string& label, Print print, std::chrono::milliseconds interval);
   ~ElapsedDisplay();
   ElapsedDisplay(const ElapsedDisplay&) = delete;
   ElapsedDisplay& operator=(const ElapsedDisplay&) = delete;
@@ -28,10 +33,12 @@ class ElapsedDisplay {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void start();
   void show();
   std::string text() const;
 
   std::string label_;
+  Print print_;  // null: standard error
   bool is_terminal_;
   std::chrono::milliseconds interval_;
   Clock::time_point start_ = Clock::now();

@@ -3,23 +3,14 @@
 #include <functional>
 #include <string>
 
+#include "preprocess/builder/body_maker.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/collision_shape/solids/solid_union.h"
 
 namespace ambient {
 
-/// Time that making a fluid body may take.
-enum class Quality {
-  kInstant,   ///< milliseconds: few faces, added mass of the ellipsoid with the second moments
-  kStandard,  ///< seconds: the flow is solved
-};
-
-constexpr int kInstantFaces = 400;
-
 /// Settings for making a fluid body from a collision shape.
 struct CollisionShapeSettings {
-  CollisionShapeSettings();
-
   std::string name;  ///< name of the body, begins every message; empty: the shape's name
   int faces = 1300;  ///< triangles aimed at, where the shape has no mesh of its own
   PotentialFlowSettings flow{false, kDefaultPanels};  ///< as in BuildSettings
@@ -27,18 +18,17 @@ struct CollisionShapeSettings {
   /// FormLevel::p99_error; 0: there are none. Bodies take them as far as
   /// FlowSettings::maximum_load_error allows.
   double load_error = 0.01;
-  /// Subdivisions of the waterline table, BuildSettings, where the quality is kStandard; spheres,
-  /// whose table all share, have none of their own.
+  /// Subdivisions of the waterline table, BuildSettings; spheres, whose table all share, have none
+  /// of their own.
   int waterline_subdivisions = 0;
   bool tables = true;  ///< true: tables of the added mass are used as far as they reach; false: the
                        ///< flow is solved
   CompoundFallback fallback = CompoundFallback::kHull;
-  /// kInstant: at most kInstantFaces faces; closed forms stay. A FluidBodyCache then goes on to
-  /// kStandard in the background.
-  Quality quality = Quality::kStandard;
+  /// Called with the name of each stage of the work that may take long; null: no calls.
+  std::function<void(const std::string& stage)> begin = nullptr;
   /// Receives one line for everything a user should know about a body that was made: triangles that
   /// were turned round, children that could not be united. Default: standard error; null: nobody.
-  std::function<void(const std::string&)> report;
+  BodyMaker::Report report = printReport;
 };
 
 }  // namespace ambient

@@ -10,7 +10,6 @@
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
 #include "preprocess/collision_shape/solids/collision_solids.h"
-#include "preprocess/collision_shape/solids/quick_added_mass.h"
 #include "preprocess/collision_shape/solids/solid_union.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
@@ -50,16 +49,13 @@ std::string sourceOf(const std::vector<PlacedShape>& parts,
   if (tables && parts.size() == 1 && tabulatedAddedMass(parts.front().shape))
     return addedMassTablesName();
   return "panels " + std::to_string(settings.flow.max_panels) + ", " + nameOf(settings.fallback) +
-         (tables ? "" : ", no tables");
+         (tables ? "" : ", no tables") +
+         (settings.flow.solver == FlowSolverKind::Dense ? ", dense" : "") +
+         (settings.flow.solver == FlowSolverKind::Hierarchical ? ", hierarchical" : "");
 }
 
-CollisionShapeSettings usedSettings(CollisionShapeSettings settings) {
-  if (settings.quality == Quality::kStandard) return settings;
-  settings.faces = std::min(settings.faces, kInstantFaces);
-  settings.flow.max_panels = 0;
-  settings.load_error = 0;
-  settings.waterline_subdivisions = 0;
-  return settings;
+void tellStage(const CollisionShapeSettings& settings, const std::string& stage) {
+  if (settings.begin) settings.begin(stage);
 }
 
 constexpr int kLeastFaces = 350;  // of a solid that is not one of many
@@ -72,12 +68,9 @@ bool areMany(const std::vector<Solid>& solids, const CollisionShapeSettings& set
 
 std::vector<Solid> solidsOf(const std::vector<PlacedShape>& parts,
                             const CollisionShapeSettings& settings) {
-  constexpr int kLeastInstantFaces = 60;
-  const bool is_instant = settings.quality == Quality::kInstant;
   SolidResolution resolution;
   resolution.faces = settings.faces;
-  if (is_instant && parts.size() > 1) resolution.faces /= 2;  // where they meet, both are cut
-  resolution.least_faces = is_instant ? kLeastInstantFaces : kLeastFaces;
+  resolution.least_faces = kLeastFaces;
   resolution.flow_faces = std::max(resolution.faces, settings.flow.max_panels);
   resolution.tables = usesTables(settings);
   return makeSolids(parts, resolution);
@@ -108,6 +101,7 @@ TriangleMesh joined(const std::vector<Solid>& solids, TriangleMesh Solid::*surfa
 
 PotentialFlow solveFlow(const TriangleMesh& mesh, const CollisionShapeSettings& settings,
                         const std::string& name) {
+  tellStage(settings, "solving the flow");
   try {
     return solvePotentialFlow(mesh, settings.flow);
   } catch (const std::runtime_error& error) {
@@ -153,6 +147,7 @@ AddedMass coupledAddedMass(const std::vector<Solid>& solids, const CollisionShap
   PotentialFlowSettings undivided = settings.flow;
   undivided.max_panels = 0;
   const auto solve = [&](const TriangleMesh& mesh) {
+    tellStage(settings, "solving the flow");
     try {
       return solveRefinedFlow(mesh, undivided);
     } catch (const std::runtime_error& error) {
@@ -178,10 +173,6 @@ std::optional<AddedMass> addedMassOf(const SeparateSolids& separate,
                                      const std::string& name) {
   const std::vector<Solid>& solids = separate.solids;
   AddedMass sum;
-  if (settings.quality == Quality::kInstant) {
-    for (const Solid& solid : solids) sum.total += quickAddedMass(solid);
-    return sum;
-  }
   if (solids.size() == 1) {
     if (!hasOwnAddedMass(solids.front())) return std::nullopt;
     return addedMassOf(solids.front(), settings, name);
@@ -211,6 +202,7 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
   build.name = nameOf(form, settings);
   build.origin = Eigen::Vector3d::Zero();
   build.provenance = describeForm(form, settings);
+  build.begin = settings.begin;
   const std::vector<Solid>& solids = separate.solids;
   build.flow = flowSettingsFor(solids, settings.flow, separate.has_unions);
   if (std::optional<AddedMass> known = addedMassOf(separate, settings, build.name)) {
@@ -221,9 +213,11 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
   if (build.sphere_radius == 0) build.waterline_subdivisions = settings.waterline_subdivisions;
   build.cavities = joined(solids, &Solid::cavities);
   FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
-  if (settings.load_error > 0 && body.sphere_radius == 0)
+  if (settings.load_error > 0 && body.sphere_radius == 0) {
+    tellStage(settings, "choosing few faces");
     if (std::optional<FormLevel> level = smallestFormLevel(body, settings.load_error))
       body.form_levels.push_back(*std::move(level));
+  }
   if (settings.report) reportSolids(solids, body, settings);
   return body;
 }
@@ -242,11 +236,11 @@ void requireUsable(const CollisionShapeSettings& settings, const std::string& na
     raiseInputError(name, "load_error = ", settings.load_error, " is negative");
 }
 
-FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& wanted) {
-  const CollisionShapeSettings settings = usedSettings(wanted);
+FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& settings) {
   const std::string& name = nameOf(form, settings);
   const std::vector<Solid> parts = solidsOf(form.parts, settings);
   const UnionSettings unions{settings.faces, settings.fallback};
+  if (parts.size() > 1) tellStage(settings, "uniting " + std::to_string(parts.size()) + " shapes");
   const SeparateSolids separate = uniteSolids(parts, unions, name);
   try {
     return bodyOf(separate, form, settings);
@@ -261,8 +255,8 @@ Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& set
   provenance.source = "collision shape " + form.kind;
   provenance.source_hash = fnv1a64(contentOf(form.parts));
   std::ostringstream text;
-  text << "faces " << settings.faces << ", load error " << settings.load_error << ", "
-       << sourceOf(form.parts, settings);
+  text << "faces " << settings.faces << ", load error " << settings.load_error << " of form law "
+       << kFormLawRevision << ", " << sourceOf(form.parts, settings);
   if (settings.waterline_subdivisions != 0)
     text << ", waterline " << settings.waterline_subdivisions;
   provenance.settings = text.str();

@@ -4,7 +4,6 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
@@ -45,10 +44,8 @@ Eigen::Matrix3d stiffnessOf(const FloatingBody& body, const FloatingPose& pose,
 // Returns the inertia of body and added mass against `motions`. All others follow freely.
 Eigen::Matrix3d inertiaOf(const FloatingBody& body, const PackedHull& hull,
                           const FloatingPose& pose, const Motions& motions) {
-  LoadTables tables;
   const auto [low, high] = computeExtent(hull, pose.plane.normal);
-  const Matrix6 added =
-      makeWettedInertia(body.shape, tables)->inertia({pose.plane, low, high, pose.wet});
+  const Matrix6 added = makeWettedInertia(body.shape)->inertia({pose.plane, low, high, pose.wet});
   const FrameOffset about_mass{Matrix3::Identity(), -body.centre_of_mass};
   const Matrix6 total =
       rigidBodyInertia(body.mass, body.inertia) + body.density * about_mass.inertiaToB(added);

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/invariants.h"
@@ -68,9 +67,8 @@ Immersion immersionOf(const FluidBody& shape, const SurfacePlane& deep, double d
 
 // Sets the surface, what of the body is below it, and the added mass there.
 void putAtSurface(HandedBody& body) {
-  LoadTables tables;
   const Immersion at = immersionOf(*body.shape, body.plane, *body.settings.draught);
-  const Matrix6 wet = makeWettedInertia(body.shape, tables)->unraisedInertia(at);
+  const Matrix6 wet = makeWettedInertia(body.shape)->unraisedInertia(at);
   body.plane = at.plane;
   body.wet = at.wet;
   body.added_mass = body.settings.medium.density * wet;

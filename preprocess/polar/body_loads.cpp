@@ -1,15 +1,12 @@
 #include "preprocess/polar/body_loads.h"
 
-#include "bullet_ambient/force/loads/load_tables.h"
-
 namespace ambient {
 
 BodyLoads::BodyLoads(const std::shared_ptr<const FluidBody>& body, const Medium& medium,
                      const FlowSettings& flow) {
   FlowSettings in_double = flow;
   in_double.precision = LoadPrecision::kDouble;
-  LoadTables tables;
-  loads_ = makeSurfaceLoads(body, medium, in_double, tables);
+  loads_ = makeSurfaceLoads(body, medium, in_double);
   if (loads_) frame_ = loads_->frame({});
 }
 

@@ -6,7 +6,6 @@
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/sphere_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/builder/fluid_body_builder.h"
@@ -101,8 +100,7 @@ void boxLoads(benchmark::State& state, bool friction, PressureLaw law) {
   FlowSettings flow;
   flow.law = law;
   flow.skin_friction = friction;
-  LoadTables tables;
-  const auto loads = makeSurfaceLoads(box, water(), flow, tables);
+  const auto loads = makeSurfaceLoads(box, water(), flow);
   Twist twist = someTwist();
   for (auto _ : state) {
     benchmark::DoNotOptimize(twist);

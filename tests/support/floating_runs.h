@@ -40,7 +40,7 @@ class FloatingRun {
     model.below = {kWaterDensity, 1e-3, {0, 0, 0}, {0, 0, 0}};
     if (!def.has_loads) model.flow.own_law = [](const auto&, const auto&) { return nullptr; };
     model.wave_damping = def.wave_damping;
-    model_ = makeSurfaceModel(model, loadTables());
+    model_ = makeSurfaceModel(model);
     surroundings_.gravity = gravity_;
     surroundings_.applied.force = mass_ * gravity_;
   }

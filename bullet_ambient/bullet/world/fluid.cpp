@@ -105,7 +105,7 @@ AttachReport Fluid::addAll(FluidBodySource& shapes, const Medium& medium, Attach
   auto attachment =
       std::make_unique<WorldAttachment>(*members_, shapes, medium, std::move(settings));
   AttachReport report = attachment->attachNew(world);
-  if (later_bodies || report.attached > 0) action_->follow(std::move(attachment));
+  if (later_bodies) action_->follow(std::move(attachment));
   return report;
 }
 

@@ -23,10 +23,6 @@ class FluidBodySource {
   /// Returns the fluid body of a shape, in the frame of the shape, which is also that of a
   /// btRigidBody with this shape. @throws std::exception with one line that says why there is none.
   virtual std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) = 0;
-
-  /// Number that changes when fluidBody() would now return a better fluid body for a shape that it
-  /// was asked for. Called in every substep, on the thread that steps the world: must be cheap.
-  virtual unsigned revision() const noexcept { return 0; }
 };
 
 AMBIENT_END

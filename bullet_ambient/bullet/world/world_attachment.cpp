@@ -20,7 +20,6 @@
 #include "bullet_ambient/bullet/members/attach_link.h"
 #include "bullet_ambient/bullet/members/link_carrier.h"
 #include "bullet_ambient/bullet/members/multibody_identity.h"
-#include "bullet_ambient/bullet/world/immersed.h"
 
 AMBIENT_BEGIN
 namespace {
@@ -38,14 +37,6 @@ bool isDynamic(const btRigidBody& body) {
 bool canMove(const btMultiBody& multi_body, int link) {
   if (link < 0) return !multi_body.isBaseStaticOrKinematic() && multi_body.getBaseMass() > 0;
   return multi_body.getLinkMass(link) > 0;
-}
-
-// A body, or the stand-in of a link.
-const AmbientBody* ambientOf(const btCollisionObject& object, const AmbientBodies& bodies) {
-  const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
-  if (!collider) return bodies.find(&object);
-  const AmbientLink* link = bodies.trees.find(collider->m_multiBody, collider->m_link);
-  return link ? &link->ambient : nullptr;
 }
 
 std::string nameOf(int index, const btCollisionObject& object, const AmbientBodies& bodies) {
@@ -118,11 +109,7 @@ std::string AttachReport::text() const {
 
 WorldAttachment::WorldAttachment(AmbientBodies& bodies, FluidBodySource& source,
                                  const Medium& medium, AttachSettings settings)
-    : bodies_(bodies),
-      source_(source),
-      medium_(medium),
-      settings_(std::move(settings)),
-      revision_(source.revision()) {}
+    : bodies_(bodies), source_(source), medium_(medium), settings_(std::move(settings)) {}
 
 bool WorldAttachment::isWanted(const btMultiBody& multi_body, int link) const {
   return !settings_.filter_link ||
@@ -148,7 +135,7 @@ std::shared_ptr<const btCollisionShape> WorldAttachment::shapeOf(
   return all;
 }
 
-AttachDef WorldAttachment::makeDef(const btCollisionObject& object, Met& met) const {
+AttachDef WorldAttachment::makeDef(const btCollisionObject& object) const {
   AttachDef def;
   def.medium = medium_;
   def.flow = settings_.flow;
@@ -157,24 +144,23 @@ AttachDef WorldAttachment::makeDef(const btCollisionObject& object, Met& met) co
   if (!shape || isEmpty(*shape))
     throw std::invalid_argument("it has no collision shape, so that no fluid acts on it");
   def.fluid_body = source_.fluidBody(*shape);
-  met.given = def.fluid_body.get();
   return def;
 }
 
-const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, Met& met, AttachReport& report) {
+const AmbientBody* WorldAttachment::attachBody(btRigidBody& body, AttachReport& report) {
   if (!isDynamic(body)) return nullptr;
   if (settings_.filter && !callOf("filter", [&] { return settings_.filter(body); })) return nullptr;
   if (bodies_.find(&body)) {
     ++report.attached_before;
     return nullptr;
   }
-  AttachDef def = makeDef(body, met);
+  AttachDef def = makeDef(body);
   if (settings_.adjust) callOf("adjust", [&] { settings_.adjust(body, def); });
   if (!def.fluid_body) return nullptr;
   return &ambient::attachBody(bodies_, body, std::move(def));
 }
 
-const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link, Met& met,
+const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link,
                                                AttachReport& report) {
   const btMultiBodyLinkCollider& collider = *colliderOf(multi_body, link);
   if (!canMove(multi_body, link)) {
@@ -189,19 +175,18 @@ const AmbientBody* WorldAttachment::attachLink(btMultiBody& multi_body, int link
     ++report.attached_before;
     return nullptr;
   }
-  AttachDef def = makeDef(collider, met);
+  AttachDef def = makeDef(collider);
   if (settings_.adjust_link)
     callOf("adjust_link", [&] { settings_.adjust_link(multi_body, link, def); });
   if (!def.fluid_body) return nullptr;
   return &ambient::attachLink(bodies_, *multibody_world_, {multi_body, link}, std::move(def));
 }
 
-const AmbientBody* WorldAttachment::attach(btCollisionObject& object, Met& met,
-                                           AttachReport& report) {
-  if (btRigidBody* body = btRigidBody::upcast(&object)) return attachBody(*body, met, report);
+const AmbientBody* WorldAttachment::attach(btCollisionObject& object, AttachReport& report) {
+  if (btRigidBody* body = btRigidBody::upcast(&object)) return attachBody(*body, report);
   const btMultiBodyLinkCollider* collider = btMultiBodyLinkCollider::upcast(&object);
   if (!collider || !collider->m_multiBody || !multibody_world_) return nullptr;
-  return attachLink(*collider->m_multiBody, collider->m_link, met, report);
+  return attachLink(*collider->m_multiBody, collider->m_link, report);
 }
 
 std::vector<btCollisionObject*> WorldAttachment::meetAll(const btCollisionWorld& world) {
@@ -232,7 +217,7 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
     if (!object) continue;
     const int index = static_cast<int>(i);
     try {
-      if (const AmbientBody* ambient = attach(*object, met_[i], report)) {
+      if (const AmbientBody* ambient = attach(*object, report)) {
         const auto* collider = btMultiBodyLinkCollider::upcast(object);
         const AmbientTree* tree = collider ? bodies_.trees.find(collider->m_multiBody) : nullptr;
         tally.add(index, *ambient, tree, report);
@@ -263,44 +248,11 @@ bool WorldAttachment::hasMetAll(const btCollisionWorld& world) const noexcept {
   return true;
 }
 
-// Keeps what the program has given to a body meanwhile, and what cannot be replaced.
-void WorldAttachment::replaceFluidBodies(btCollisionWorld& world) {
-  std::unordered_map<const btCollisionObject*, Met*> met_bodies;
-  for (Met& met : met_) {
-    if (met.given) met_bodies.emplace(met.object, &met);
-  }
-  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  for (int i = 0; i < objects.size(); ++i) {
-    const auto met = met_bodies.find(objects[i]);
-    if (met == met_bodies.end()) continue;
-    const AmbientBody* ambient = ambientOf(*objects[i], bodies_);
-    if (!ambient || ambient->def->fluid_body.get() != met->second->given) continue;
-    try {
-      std::shared_ptr<const FluidBody> better = source_.fluidBody(*shapeOf(*objects[i]));
-      if (better.get() == met->second->given) continue;
-      Immersed(bodies_, *ambient).setFluidBody(better);
-      met->second->given = better.get();
-    } catch (const std::exception& error) {
-      tell(nameOf(i, *objects[i], bodies_) + error.what());
-    } catch (...) {  // thrown by the program's source
-      tell(nameOf(i, *objects[i], bodies_) + "something unknown was thrown");
-    }
-  }
-}
-
-void WorldAttachment::tell(const std::string& sentence) const {
-  bodies_.complaints.tell("bullet_ambient: " + sentence);
-}
-
 void WorldAttachment::update(btCollisionWorld& world) noexcept {
   try {
-    if (settings_.later_bodies && !hasMetAll(world)) {
-      for (const AttachReport::Refusal& refusal : attachNew(world).refused) tell(refusal.reason);
-    }
-    const unsigned revision = source_.revision();
-    if (revision == revision_) return;
-    replaceFluidBodies(world);
-    revision_ = revision;
+    if (hasMetAll(world)) return;
+    for (const AttachReport::Refusal& refusal : attachNew(world).refused)
+      bodies_.complaints.tell("bullet_ambient: " + refusal.reason);
   } catch (...) {
     // Out of memory, which must not unwind through Bullet's step: the next one tries again.
   }

@@ -73,32 +73,29 @@ class WorldAttachment {
   /// the source has to make.
   AttachReport attachNew(btCollisionWorld& world);
 
-  /// Adds bodies that have come since, and replaces fluid bodies for which the source has better
-  /// ones. Call between two steps. Without news it allocates nothing, takes no lock and costs one
-  /// comparison per object of the world. Refusals go to the fluid's report function.
+  /// Adds bodies that have come since. Call between two steps. Without news it allocates nothing,
+  /// takes no lock and costs one comparison per object of the world. Refusals go to the fluid's
+  /// report function.
   void update(btCollisionWorld& world) noexcept;
 
  private:
-  // An object of the world, and the fluid body that it was given.
+  // An object of the world.
   struct Met {
     const btCollisionObject* object = nullptr;
     int instance = -1;
-    const FluidBody* given = nullptr;
   };
 
   bool hasMetAll(const btCollisionWorld& world) const noexcept;
   // Returns the objects that were not met before; null in place of all others.
   std::vector<btCollisionObject*> meetAll(const btCollisionWorld& world);
-  const AmbientBody* attach(btCollisionObject& object, Met& met, AttachReport& report);
-  const AmbientBody* attachBody(btRigidBody& body, Met& met, AttachReport& report);
-  const AmbientBody* attachLink(btMultiBody& multi_body, int link, Met& met, AttachReport& report);
-  AttachDef makeDef(const btCollisionObject& object, Met& met) const;
+  const AmbientBody* attach(btCollisionObject& object, AttachReport& report);
+  const AmbientBody* attachBody(btRigidBody& body, AttachReport& report);
+  const AmbientBody* attachLink(btMultiBody& multi_body, int link, AttachReport& report);
+  AttachDef makeDef(const btCollisionObject& object) const;
   // Returns the collision shape of an object; that of a link includes those of the links without
   // mass that it carries.
   std::shared_ptr<const btCollisionShape> shapeOf(const btCollisionObject& object) const;
   bool isWanted(const btMultiBody& multi_body, int link) const;
-  void replaceFluidBodies(btCollisionWorld& world);
-  void tell(const std::string& sentence) const;
 
   AmbientBodies& bodies_;
   FluidBodySource& source_;
@@ -106,7 +103,6 @@ class WorldAttachment {
   AttachSettings settings_;
   btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  // of attachNew(), while it runs
   std::vector<Met> met_;                                 // in the order of the world
-  unsigned revision_;
 };
 
 AMBIENT_END

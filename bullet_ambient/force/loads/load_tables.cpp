@@ -1,12 +1,21 @@
 #include "bullet_ambient/force/loads/load_tables.h"
 
+#include <map>
+#include <mutex>
+#include <tuple>
+#include <utility>
+
 #include "bullet_ambient/fluid_body/sharpness.h"
+#include "bullet_ambient/force/loads/shared_tables.h"
 #include "bullet_ambient/force/medium/medium.h"
 
 namespace ambient {
+namespace {
 
-LoadTables::LoadKey LoadTables::keyOf(const Medium& medium, const FlowSettings& flow,
-                                      LoadPlace place) {
+using LoadKey =
+    std::tuple<LoadPlace, double, double, double, bool, LoadPrecision, double, PressureLaw, double>;
+
+LoadKey keyOf(const Medium& medium, const FlowSettings& flow, LoadPlace place) {
   return {place,
           medium.density,
           medium.viscosity,
@@ -18,40 +27,68 @@ LoadTables::LoadKey LoadTables::keyOf(const Medium& medium, const FlowSettings& 
           flow.stall_lag};
 }
 
-LoadTables::Faces LoadTables::formFaces(const Body& body) {
-  return form_faces_.get(body, {}, [&] {
-    return std::make_shared<const FaceTable>(formLawFaces(*body, shape(body)->shape));
-  });
+using Lock = std::lock_guard<std::recursive_mutex>;
+
+}  // namespace
+
+/// Tables in a fluid body. Loads and added mass at the surface hold the fluid body in turn: they
+/// end with their last user.
+struct BodyTables {
+  std::recursive_mutex mutex;  // loads are made of other tables
+  std::unique_ptr<const FaceTable> form_faces;
+  std::unique_ptr<const ShapeFactors> shape;
+  std::map<std::pair<const FaceTable*, bool>, std::unique_ptr<const PackedFaces>> packed;
+  std::unique_ptr<const PackedHull> hull;
+  std::unique_ptr<const PackedParts> parts;
+  SharedTables<FluidBody, SurfaceLoads, LoadKey> loads;
+  SharedTables<FluidBody, WettedInertia> wetted;
+
+  /// Returns one of the tables; calls make() if it is not there yet.
+  template <class Table, class Make>
+  std::shared_ptr<const Table> get(const LoadTables::Body& body,
+                                   std::unique_ptr<const Table>& table, const Make& make) {
+    const Lock lock(mutex);
+    if (!table) table = std::make_unique<const Table>(make());
+    return {body, table.get()};
+  }
+};
+
+LoadTables::LoadTables(const Body& body) : body_(body), tables_(body->tables.get<BodyTables>()) {}
+
+LoadTables::Loads LoadTables::loads(const Medium& medium, const FlowSettings& flow, LoadPlace place,
+                                    const std::function<Loads()>& make) const {
+  const Lock lock(tables_.mutex);
+  return tables_.loads.get(body_, keyOf(medium, flow, place), make);
 }
 
-LoadTables::Shape LoadTables::shape(const Body& body) {
-  return shapes_.get(body, {},
-                     [&] { return std::make_shared<const ShapeFactors>(formShapeOf(*body)); });
+LoadTables::Wetted LoadTables::wettedInertia(const std::function<Wetted()>& make) const {
+  const Lock lock(tables_.mutex);
+  return tables_.wetted.get(body_, {}, make);
+}
+
+LoadTables::Faces LoadTables::formFaces() const {
+  return tables_.get(body_, tables_.form_faces,
+                     [this] { return formLawFaces(*body_, shape()->shape); });
+}
+
+LoadTables::Shape LoadTables::shape() const {
+  return tables_.get(body_, tables_.shape, [this] { return ShapeFactors(formShapeOf(*body_)); });
 }
 
 std::shared_ptr<const PackedFaces> LoadTables::packedFaces(const Faces& faces,
-                                                           const ShapeFactors* shape) {
-  return packed_.get(faces, shape != nullptr, [&] {
-    return shape ? std::make_shared<const PackedFaces>(*faces, shape->shape)
-                 : std::make_shared<const PackedFaces>(*faces);
+                                                           const ShapeFactors* shape) const {
+  const Lock lock(tables_.mutex);
+  return tables_.get(body_, tables_.packed[{faces.get(), shape != nullptr}], [&] {
+    return shape ? PackedFaces(*faces, shape->shape) : PackedFaces(*faces);
   });
 }
 
-std::shared_ptr<const PackedHull> LoadTables::hull(const Body& body) {
-  return hulls_.get(body, {}, [&] { return std::make_shared<const PackedHull>(*body); });
+std::shared_ptr<const PackedHull> LoadTables::hull() const {
+  return tables_.get(body_, tables_.hull, [this] { return PackedHull(*body_); });
 }
 
-std::shared_ptr<const PackedParts> LoadTables::addedMassParts(const Body& body) {
-  return parts_.get(body, {},
-                    [&] { return std::make_shared<const PackedParts>(body->added_mass_parts); });
-}
-
-std::shared_ptr<const SphereTable> LoadTables::sphereTable(double separation_cosine) {
-  if (const auto found = spheres_.find(separation_cosine); found != spheres_.end())
-    return found->second;
-  for (auto entry = spheres_.begin(); entry != spheres_.end();)
-    entry = entry->second.use_count() == 1 ? spheres_.erase(entry) : std::next(entry);
-  return spheres_[separation_cosine] = std::make_shared<const SphereTable>(separation_cosine);
+std::shared_ptr<const PackedParts> LoadTables::addedMassParts() const {
+  return tables_.get(body_, tables_.parts, [this] { return PackedParts(body_->added_mass_parts); });
 }
 
 }  // namespace ambient

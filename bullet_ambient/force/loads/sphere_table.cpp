@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <mutex>
 
 #include "bullet_ambient/base/ambient_assert.h"
 
@@ -71,6 +74,17 @@ SphereIntegrals SphereTable::at(double spin_share, double cosine) const noexcept
     }
   }
   return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}, {sums[6], sums[7], sums[8]}};
+}
+
+std::shared_ptr<const SphereTable> sharedSphereTable(double separation_cosine) {
+  static std::mutex mutex;
+  static std::map<double, std::shared_ptr<const SphereTable>> tables;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (const auto found = tables.find(separation_cosine); found != tables.end())
+    return found->second;
+  for (auto entry = tables.begin(); entry != tables.end();)
+    entry = entry->second.use_count() == 1 ? tables.erase(entry) : std::next(entry);
+  return tables[separation_cosine] = std::make_shared<const SphereTable>(separation_cosine);
 }
 
 }  // namespace ambient

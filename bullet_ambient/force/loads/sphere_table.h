@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "bullet_ambient/force/loads/sphere_quadrature.h"
 
@@ -28,5 +29,10 @@ class SphereTable {
   double closing_share_;
   std::array<double, std::size_t{kShares} * kCosines * kValues> values_;
 };
+
+/// Returns the table for a separation angle, which all balls of the process share; may be called by
+/// several threads. An unused one is kept until another one is made: a single ball may be removed
+/// and added again. Cost if it is new: SphereTable().
+std::shared_ptr<const SphereTable> sharedSphereTable(double separation_cosine);
 
 }  // namespace ambient

@@ -9,6 +9,7 @@
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/sphere_loads.h"
+#include "bullet_ambient/force/loads/sphere_table.h"
 
 namespace ambient {
 namespace {
@@ -75,14 +76,13 @@ struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
 /// Form law: loads on faces, their drag scaled by DragScale, plus FormLift on the body as a whole.
 class FormLoads final : public SurfaceLoads {
  public:
-  /// on_faces: loads on `faces`. Faces and shape are kept for other media and settings.
-  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, LoadTables::Faces faces,
+  /// on_faces: loads on `faces`.
+  FormLoads(std::shared_ptr<const SurfaceLoads> on_faces, const FaceTable& faces,
             LoadTables::Shape shape, const FluidBody& body, const LoadSettings& settings,
             double stall_lag)
       : on_faces_(std::move(on_faces)),
-        faces_(std::move(faces)),
         shape_(std::move(shape)),
-        drag_(body, *faces_, *shape_),
+        drag_(body, faces, *shape_),
         lift_(body, *shape_, stall_lag, shape_->slipShare(settings.separation_cosine)),
         density_(settings.density) {}
 
@@ -109,7 +109,6 @@ class FormLoads final : public SurfaceLoads {
   }
 
   std::shared_ptr<const SurfaceLoads> on_faces_;
-  LoadTables::Faces faces_;
   LoadTables::Shape shape_;
   DragScale drag_;
   FormLift lift_;
@@ -118,12 +117,12 @@ class FormLoads final : public SurfaceLoads {
 
 class SphereLoads final : public SurfaceLoads {
  public:
-  SphereLoads(const FluidBody& body, const LoadSettings& settings, LoadTables& tables)
+  SphereLoads(const FluidBody& body, const LoadSettings& settings)
       : centre_(body.centre_of_volume),
         radius_(body.sphere_radius),
         length_(referenceLength(body)),
         settings_(settings) {
-    if (needsSphereTable(settings)) table_ = tables.sphereTable(settings.separation_cosine);
+    if (needsSphereTable(settings)) table_ = sharedSphereTable(settings.separation_cosine);
   }
 
   Wrench load(const Twist& x) const noexcept override { return parts(x).total(); }
@@ -243,7 +242,7 @@ using Body = std::shared_ptr<const FluidBody>;
 // Returns the faces that the form law is summed over: those of the smallest level within the
 // allowed error, or all.
 LoadTables::Faces chooseFormFaces(const Body& body, const ShapeFactors& shape,
-                                  const FlowSettings& flow, LoadTables& tables) {
+                                  const FlowSettings& flow) {
   const FormLevel* best = nullptr;
   for (const FormLevel& level : body->form_levels) {
     const bool fits = level.law_revision == kFormLawRevision || !shape.actOnFaces();
@@ -252,30 +251,29 @@ LoadTables::Faces chooseFormFaces(const Body& body, const ShapeFactors& shape,
       best = &level;
   }
   if (best) return {body, &best->faces};
-  return tables.formFaces(body);
+  return LoadTables(body).formFaces();
 }
 
-std::shared_ptr<const SurfaceLoads> loadsOn(const LoadTables::Faces& faces, double length,
-                                            const LoadSettings& settings, LoadPrecision precision,
-                                            LoadTables& tables) {
+std::shared_ptr<const SurfaceLoads> loadsOn(const Body& body, const LoadTables::Faces& faces,
+                                            const LoadSettings& settings, LoadPrecision precision) {
   const std::size_t count = faces->size();
+  const double length = referenceLength(*body);
   if (precision == LoadPrecision::kDouble)
     return std::make_shared<DoubleLoads>(faces, count, length, settings);
-  return std::make_shared<SingleLoads>(tables.packedFaces(faces, settings.shape), count, length,
-                                       settings);
+  return std::make_shared<SingleLoads>(LoadTables(body).packedFaces(faces, settings.shape), count,
+                                       length, settings);
 }
 
 std::shared_ptr<const SurfaceLoads> loadsOnFaces(const Body& body, LoadSettings settings,
-                                                 const FlowSettings& flow, LoadTables& tables) {
+                                                 const FlowSettings& flow) {
   if (body->faces.size() == 0) return nullptr;
-  const double length = referenceLength(*body);
   if (settings.law != PressureLaw::kForm)
-    return loadsOn({body, &body->faces}, length, settings, flow.precision, tables);
-  const LoadTables::Shape shape = tables.shape(body);
-  const LoadTables::Faces faces = chooseFormFaces(body, *shape, flow, tables);
+    return loadsOn(body, {body, &body->faces}, settings, flow.precision);
+  const LoadTables::Shape shape = LoadTables(body).shape();
+  const LoadTables::Faces faces = chooseFormFaces(body, *shape, flow);
   settings.shape = shape.get();
-  auto on_faces = loadsOn(faces, length, settings, flow.precision, tables);
-  return std::make_shared<FormLoads>(std::move(on_faces), faces, shape, *body, settings,
+  auto on_faces = loadsOn(body, faces, settings, flow.precision);
+  return std::make_shared<FormLoads>(std::move(on_faces), *faces, shape, *body, settings,
                                      flow.stall_lag);
 }
 
@@ -288,40 +286,38 @@ LoadSettings ofBall(LoadSettings settings) {
 
 /// Loads on faces; spheres use the published law, like SphereLoads.
 std::shared_ptr<const SurfaceLoads> waterlineLoadsOnFaces(const Body& body, LoadSettings settings,
-                                                          const FlowSettings& flow,
-                                                          LoadTables& tables) {
+                                                          const FlowSettings& flow) {
   const bool is_sphere = body->sphere_radius > 0;
   if (is_sphere) settings = ofBall(settings);
-  auto on_faces = loadsOnFaces(body, settings, flow, tables);
+  auto on_faces = loadsOnFaces(body, settings, flow);
   if (settings.separation_cosine != -1) return on_faces;
   if (settings.law == PressureLaw::kForm) {
     settings.separation_cosine = 0;
-    auto separated = loadsOnFaces(body, settings, flow, tables);
+    auto separated = loadsOnFaces(body, settings, flow);
     return std::make_shared<AttachedFormLoads>(std::move(separated), std::move(on_faces));
   }
   settings.skin_friction = false;
-  auto slip = loadsOnFaces(body, settings, flow, tables);
-  auto whole = is_sphere ? std::make_shared<SphereLoads>(*body, settings, tables) : slip;
+  auto slip = loadsOnFaces(body, settings, flow);
+  auto whole = is_sphere ? std::make_shared<SphereLoads>(*body, settings) : slip;
   return std::make_shared<AttachedLoads>(std::move(on_faces), std::move(slip), std::move(whole));
 }
 
 std::shared_ptr<const SurfaceLoads> lawOf(const Body& body, const LoadSettings& settings,
-                                          const FlowSettings& flow, LoadTables& tables) {
+                                          const FlowSettings& flow) {
   checkFaces(*body);
   if (!(settings.density > 0)) return nullptr;
   if (flow.own_law) return flow.own_law(body, settings);
-  if (body->sphere_radius > 0)
-    return std::make_shared<SphereLoads>(*body, ofBall(settings), tables);
-  return loadsOnFaces(body, settings, flow, tables);
+  if (body->sphere_radius > 0) return std::make_shared<SphereLoads>(*body, ofBall(settings));
+  return loadsOnFaces(body, settings, flow);
 }
 
 std::shared_ptr<const SurfaceLoads> waterlineLawOf(const Body& body, const LoadSettings& settings,
-                                                   const FlowSettings& flow, LoadTables& tables) {
+                                                   const FlowSettings& flow) {
   checkFaces(*body);
   if (!(settings.density > 0)) return nullptr;
   FlowSettings on_all = flow;
   on_all.maximum_load_error = 0;
-  return waterlineLoadsOnFaces(body, settings, on_all, tables);
+  return waterlineLoadsOnFaces(body, settings, on_all);
 }
 
 // False for a medium without loads, and for one that later checks reject.
@@ -335,25 +331,25 @@ LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow) {
 }
 
 std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
-                                                     const Medium& medium, const FlowSettings& flow,
-                                                     LoadTables& tables) {
+                                                     const Medium& medium,
+                                                     const FlowSettings& flow) {
   const LoadSettings settings = loadSettings(medium, flow);
-  const auto make = [&] { return lawOf(body, settings, flow, tables); };
+  const auto make = [&] { return lawOf(body, settings, flow); };
   checkFlow(*body, flow);
   const bool is_shared = isFluid(medium) && !flow.own_law;
-  return is_shared ? tables.loads(body, medium, flow, LoadPlace::kUnbounded, make) : make();
+  return is_shared ? LoadTables(body).loads(medium, flow, LoadPlace::kUnbounded, make) : make();
 }
 
 std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
                                                        const Medium& medium,
-                                                       const FlowSettings& flow,
-                                                       LoadTables& tables) {
+                                                       const FlowSettings& flow) {
   const bool has_places = body->faces.size() > 0 && !flow.own_law;
-  if (!has_places) return makeSurfaceLoads(body, medium, flow, tables);
+  if (!has_places) return makeSurfaceLoads(body, medium, flow);
   const LoadSettings settings = loadSettings(medium, flow);
-  const auto make = [&] { return waterlineLawOf(body, settings, flow, tables); };
+  const auto make = [&] { return waterlineLawOf(body, settings, flow); };
   checkFlow(*body, flow);
-  return isFluid(medium) ? tables.loads(body, medium, flow, LoadPlace::kWaterline, make) : make();
+  return isFluid(medium) ? LoadTables(body).loads(medium, flow, LoadPlace::kWaterline, make)
+                         : make();
 }
 
 }  // namespace ambient

@@ -10,8 +10,6 @@
 
 namespace ambient {
 
-class LoadTables;
-
 /// Part of a body that is in the fluid.
 struct WetPart {
   SurfacePlane plane;  ///< surface of the fluid, in the frame of the loads
@@ -63,15 +61,14 @@ LoadSettings loadSettings(const Medium& medium, const FlowSettings& flow);
 /// if a table is made.
 /// @throws std::invalid_argument, naming value and limit, if faces or settings are not physical.
 std::shared_ptr<const SurfaceLoads> makeSurfaceLoads(const std::shared_ptr<const FluidBody>& body,
-                                                     const Medium& medium, const FlowSettings& flow,
-                                                     LoadTables& tables);
+                                                     const Medium& medium,
+                                                     const FlowSettings& flow);
 
 /// Makes the loads of a body that the surface of its fluid may cut. Sums over faces even if
 /// makeSurfaceLoads() has a closed form. Without faces, or with flow.own_law, returns
 /// the loads of makeSurfaceLoads().
 std::shared_ptr<const SurfaceLoads> makeWaterlineLoads(const std::shared_ptr<const FluidBody>& body,
                                                        const Medium& medium,
-                                                       const FlowSettings& flow,
-                                                       LoadTables& tables);
+                                                       const FlowSettings& flow);
 
 }  // namespace ambient

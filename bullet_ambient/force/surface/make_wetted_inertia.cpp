@@ -31,14 +31,15 @@ class WettedShare final : public WettedInertia {
 
 }  // namespace
 
-std::shared_ptr<const WettedInertia> makeWettedInertia(const std::shared_ptr<const FluidBody>& body,
-                                                       LoadTables& tables) {
-  return tables.wettedInertia(body, [&]() -> std::shared_ptr<const WettedInertia> {
+std::shared_ptr<const WettedInertia> makeWettedInertia(
+    const std::shared_ptr<const FluidBody>& body) {
+  const LoadTables tables(body);
+  return tables.wettedInertia([&]() -> std::shared_ptr<const WettedInertia> {
     if (body->sphere_radius > 0) return std::make_shared<WettedSphere>(*body);
     if (body->added_mass_parts.empty()) return std::make_shared<WettedShare>(*body);
     if (!body->waterline.empty())
-      return std::make_shared<WettedTable>(body, tables.addedMassParts(body), tables.hull(body));
-    return std::make_shared<WettedParts>(*body, tables.addedMassParts(body));
+      return std::make_shared<WettedTable>(body, tables.addedMassParts(), tables.hull());
+    return std::make_shared<WettedParts>(*body, tables.addedMassParts());
   });
 }
 

@@ -39,8 +39,8 @@ void checkSurfaceBody(const SurfaceModelDef& def) {
     reject(body, "number of triangles of its surface", 0, "positive for a body that may float");
 }
 
-PartLoads partLoads(const SurfaceModelDef& def, const Medium& medium, LoadTables& tables) {
-  PartLoads part{makeWaterlineLoads(def.shape, medium, def.flow, tables), {}};
+PartLoads partLoads(const SurfaceModelDef& def, const Medium& medium) {
+  PartLoads part{makeWaterlineLoads(def.shape, medium, def.flow), {}};
   if (part.loads) part.frame = part.loads->frame(def.fluid_frame);
   return part;
 }
@@ -57,11 +57,11 @@ WetVolume wetVolumeInF(const SurfaceModel& model, const SurfacePlane& plane_F) {
 
 }  // namespace
 
-SurfaceModel makeSurfaceModel(const SurfaceModelDef& def, LoadTables& tables) {
+SurfaceModel makeSurfaceModel(const SurfaceModelDef& def) {
   checkSurfaceBody(def);
   const auto modelIn = [&](const Medium& medium) {
     return makeBodyModel(*def.shape, def.fluid_frame, def.mass, medium,
-                         makeSurfaceLoads(def.shape, medium, def.flow, tables));
+                         makeSurfaceLoads(def.shape, medium, def.flow));
   };
   SurfaceModel model;
   model.above = modelIn(def.above);
@@ -69,10 +69,10 @@ SurfaceModel makeSurfaceModel(const SurfaceModelDef& def, LoadTables& tables) {
   model.fluid_frame = def.fluid_frame;
   model.excess_density = def.below.density - def.above.density;
   model.shape = def.shape;
-  if (!(def.shape->sphere_radius > 0)) model.hull = tables.hull(def.shape);
-  model.wetted = makeWettedInertia(def.shape, tables);
-  model.loads_below = partLoads(def, def.below, tables);
-  if (isFeltAbove(def)) model.loads_above = partLoads(def, def.above, tables);
+  if (!(def.shape->sphere_radius > 0)) model.hull = LoadTables(def.shape).hull();
+  model.wetted = makeWettedInertia(def.shape);
+  model.loads_below = partLoads(def, def.below);
+  if (isFeltAbove(def)) model.loads_above = partLoads(def, def.above);
   model.radius = radiusOf(*def.shape, def.fluid_frame, model.hull.get());
   constexpr double kHeaveOfParts = 1.13;
   if (model.hull && def.shape->waterline.empty()) model.heave_factor = kHeaveOfParts;

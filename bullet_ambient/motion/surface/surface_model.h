@@ -8,8 +8,6 @@
 
 namespace ambient {
 
-class LoadTables;
-
 /// Definition of a body and of the two fluids at a water surface.
 struct SurfaceModelDef {
   std::shared_ptr<const FluidBody> shape;
@@ -47,7 +45,7 @@ struct SurfaceModel {
 /// @throws std::invalid_argument, naming value and limit, as makeBodyModel() and
 /// makeSurfaceLoads(); if the fluid above is the denser one; if the body has a volume and no
 /// triangles.
-SurfaceModel makeSurfaceModel(const SurfaceModelDef& def, LoadTables& tables);
+SurfaceModel makeSurfaceModel(const SurfaceModelDef& def);
 
 /// Position of a body relative to the surface.
 enum class SurfaceSide { kAbove, kAt, kBelow };

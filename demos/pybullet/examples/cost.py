@@ -15,7 +15,6 @@ def scene(with_fluid):
     client = p.connect(p.DIRECT)
     fluid = Fluid(client)
     if with_fluid:
-        fluid.settings(quality="instant")
         fluid.water(level=100)
     p.setGravity(0, 0, -9.81, physicsClientId=client)
     shape = p.createCollisionShape(p.GEOM_BOX, halfExtents=[0.1, 0.1, 0.1], physicsClientId=client)

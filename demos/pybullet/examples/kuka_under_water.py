@@ -23,7 +23,6 @@ p.connect(p.DIRECT)
 p.setAdditionalSearchPath(pybullet_data.getDataPath())
 p.setGravity(0, 0, -9.81)
 fluid = Fluid()
-fluid.settings(quality="instant")
 fluid.water(level=100, bounds=[-5, -5, -5, 0, 5, 5])  # the half x < 0 of the world
 arms = [p.loadURDF("kuka_iiwa/model.urdf", [x, 0, 0], useFixedBase=True) for x in (-0.7, 0.7)]
 for arm in arms:

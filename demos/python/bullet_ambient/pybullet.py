@@ -184,14 +184,14 @@ class Fluid:
         """Removes a body, or one link of it (-1: the base), from the fluid for good; it then moves as in stock PyBullet."""
         self._command("exclude", [body] if link is None else [body, link])
 
-    def settings(self, *, law: Optional[str] = None, quality: Optional[str] = None, separation: Optional[float] = None,
+    def settings(self, *, law: Optional[str] = None, separation: Optional[float] = None,
                  folder: Optional[str] = None) -> None:
         """Changes settings of all bodies; call before the first step.
 
-        `law` of the pressure, "form" or "published". `quality` "standard" takes seconds for each new mesh, "instant" does
-        not. `separation`: separation angle [rad]. `folder`: computed shapes are stored there for other runs.
+        `law` of the pressure, "form" or "published". `separation`: separation angle [rad]. `folder`: all computed shapes
+        are stored there for other runs; default: those that took long, in the user's folder.
         """
-        self._give("settings", law=law, quality=quality, separation=separation, folder=folder)
+        self._give("settings", law=law, separation=separation, folder=folder)
 
     def inertia(self, body: int, link: int = -1) -> npt.NDArray[np.float64]:
         """Returns the total inertia (6, 6) of a body or link, rotation first, in its frame at its centre of mass."""
@@ -239,7 +239,7 @@ class Fluid:
     def status(self) -> dict[str, Any]:
         """Returns the names of regions, counters of the steps, the first 100 reports of the fluid ("said"), and "bodies".
 
-        Each of "bodies" has the numbers of body and link, "mass" [kg], "volume" [m^3], their "density", and how its fluid
+        "shapes" says how many forms of shapes the process has "made", and "read" from files. Each of "bodies" has the numbers of body and link, "mass" [kg], "volume" [m^3], their "density", and how its fluid
         body was "made".
         """
         answer: dict[str, Any] = json.loads(self._command("status"))

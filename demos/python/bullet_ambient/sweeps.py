@@ -96,7 +96,7 @@ def rollout(
     duration : duration of all runs [s]; default: the scene's
     threads : number of threads; 0 (default): all cores
     motion : False: the summary alone
-    cache : folder in which fluid bodies are stored and found again
+    cache : folder in which fluid bodies are stored and found again; default: the user's, docs/python.md
     progress : called with the numbers of ended and of all runs, by the calling thread, a few times a second at most
 
     A run that fails does not stop the others. Raises ValueError if a scene is not right.

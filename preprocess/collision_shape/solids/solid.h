@@ -22,8 +22,6 @@ struct Solid {
   /// Added mass from a closed form or a table, about the shape's origin, per unit density; none:
   /// neither exists.
   std::optional<Matrix6> added_mass;
-  /// For a united solid: estimated sum of the added masses of its parts, per unit density.
-  std::optional<Matrix6> parts_added_mass;
   bool is_polyhedron = false;         ///< its flat sides are the body's, and no approximation
   double sphere_radius = 0;           ///< radius of a sphere [m]; 0: any other shape
   std::string name;                   ///< name of the part: "crane: child 1: child 0 (Box)"

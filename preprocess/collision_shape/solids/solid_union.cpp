@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "preprocess/collision_shape/solids/collision_solids.h"
-#include "preprocess/collision_shape/solids/quick_added_mass.h"
 #include "preprocess/mesh/defects/closed_mesh.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/input_error.h"
@@ -60,22 +59,17 @@ int facesOf(const std::vector<Solid>& group, std::size_t all, int faces) {
 
 Solid uniteGroup(const std::vector<Solid>& group, int faces, const std::string& name) {
   Meshes parts, cavities;
-  Matrix6 parts_added_mass = Matrix6::Zero();
   Solid solid;
   solid.is_polyhedron = arePolyhedra(group);
   for (const Solid& own : group) {
     parts.push_back(mergeFlatTriangles(own.mesh, false, kDefaultPanels));
     cavities.push_back(own.cavities);
-    parts_added_mass += quickAddedMass(own);
     solid.warnings.insert(solid.warnings.end(), own.warnings.begin(), own.warnings.end());
   }
   const CheckedMesh united = uniteMeshes(parts, name);
   cavities.push_back(united.cavities);
   solid.mesh = evenlyDivided(united.mesh, faces);
   solid.cavities = joinMeshes(cavities);
-  // Scales the sum to the volume of the union, where space inside two parts counts once.
-  solid.parts_added_mass =
-      parts_added_mass * (computeMassProperties(united.mesh).volume / sumOfVolumes(parts));
   return solid;
 }
 

@@ -61,6 +61,25 @@ TEST(Attachment, OfAnEqualBodyTakesOneOrTwoKilobytes) {
   }
 }
 
+// As after PyBullet's resetSimulation: the world is new, the fluid body is not.
+TEST(Attachment, InAnotherWorldMakesNoTables) {
+  const auto shape = std::make_shared<const FluidBody>(formShape());
+  const auto bytesOfAttaching = [&] {
+    FluidWorld scene;
+    FluidRegion sea;
+    sea.below = water();
+    sea.above = air();
+    sea.surface = std::make_shared<StillWater>(0, Vector3::UnitZ());
+    scene.fluid.addRegion(sea);
+    btRigidBody& body = scene.add(BodyDef{});
+    const std::size_t before = allocatedBytes();
+    scene.fluid.add(body, AttachDef{shape, water()});
+    return allocatedBytes() - before;
+  };
+  const std::size_t first = bytesOfAttaching();
+  EXPECT_LT(bytesOfAttaching(), first / 20);
+}
+
 // Memory per region must depend neither on the number of regions nor on attached bodies.
 TEST(Attachment, OfARegionToManyTakesSomeHundredBytes) {
   FluidWorld scene;

@@ -2,79 +2,86 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "bullet_ambient/force/loads/sphere_table.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/force/surface/make_wetted_inertia.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/hull_bodies.h"
 
 namespace ambient {
 namespace {
 
-std::shared_ptr<const FluidBody> sphere() {
-  FluidBody body;
-  body.faces = test::faceTableOf(test::geodesicSphere(1));
-  return std::make_shared<const FluidBody>(body);
-}
-
 std::shared_ptr<const FluidBody> closedSphere() {
   return std::make_shared<const FluidBody>(test::hullBody(test::geodesicSphere(1)));
 }
 
-std::shared_ptr<const PackedFaces> packed(LoadTables& tables,
-                                          const std::shared_ptr<const FluidBody>& body) {
-  return tables.packedFaces({body, &body->faces}, nullptr);
+// Worlds of all threads ask for tables of one fluid body.
+TEST(LoadTables, AreMadeOnceForEachFluidBody) {
+  const auto body = closedSphere(), other = closedSphere();
+  const PackedHull* hull = LoadTables(body).hull().get();
+  const FaceTable* faces = LoadTables(body).formFaces().get();
+  std::vector<std::thread> threads;
+  std::atomic<int> same{0};
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      const LoadTables tables(body);
+      same += tables.hull().get() == hull && tables.formFaces().get() == faces;
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(same, 4);
+  EXPECT_NE(LoadTables(other).hull().get(), hull);
 }
 
-TEST(LoadTables, HaveOneTablePerFluidBody) {
-  LoadTables tables;
-  const auto body = sphere(), same = sphere();
-  const auto faces = packed(tables, body);
-  EXPECT_EQ(packed(tables, body), faces);
-  EXPECT_NE(packed(tables, same), faces);
+// A world that is made anew finds them.
+TEST(LoadTables, AreKeptUntilTheFluidBodyEnds) {
+  const auto body = std::make_shared<const FluidBody>(test::hullBody(test::geodesicSphere(3)));
+  const auto bytesOfLoads = [&] {
+    const std::size_t before = test::allocatedBytes();
+    LoadTables(body).hull();
+    makeWaterlineLoads(body, water(), {});
+    return test::allocatedBytes() - before;
+  };
+  const std::size_t first = bytesOfLoads();
+  EXPECT_LT(bytesOfLoads(), first / 100);
 }
 
-TEST(LoadTables, TakeNoOtherFluidBodyAtTheSameAddressForTheOldOne) {
-  LoadTables tables;
-  FluidBody place;
-  const auto keepPlace = [](const FluidBody*) {};
-  place.faces = sphere()->faces;
-  std::shared_ptr<const FluidBody> body(&place, keepPlace);
-  const auto before = packed(tables, body);
-  body.reset();
-  place.faces = test::faceTableOf(test::geodesicSphere(0));
-  body.reset(&place, keepPlace);
-  EXPECT_EQ(packed(tables, body)->size(), 20u);
-  EXPECT_EQ(before->size(), 80u);
-}
-
-TEST(LoadTables, KeepNoFacesThatNobodyUses) {
-  LoadTables tables;
-  const auto body = sphere();
-  const std::weak_ptr<const PackedFaces> faces = packed(tables, body);
-  EXPECT_TRUE(faces.expired());
-}
-
-// Later media and settings of the shape reuse the faces.
-TEST(LoadTables, KeepTheFacesOfTheFormLawAsLongAsLoadsAreUsed) {
-  LoadTables tables;
-  const auto body = closedSphere();
-  FlowSettings flow;
-  flow.law = PressureLaw::kForm;
-  auto loads = makeSurfaceLoads(body, water(), flow, tables);
-  const std::weak_ptr<const FaceTable> faces = tables.formFaces(body);
-  EXPECT_FALSE(faces.expired());
+TEST(LoadTables, EndWithTheFluidBodyAndItsLoads) {
+  auto body = closedSphere();
+  auto loads = makeWaterlineLoads(body, water(), {});
+  auto wetted = makeWettedInertia(body);
+  const std::weak_ptr<const FluidBody> watched = body;
+  body = nullptr;
+  EXPECT_FALSE(watched.expired()) << "loads hold it";
   loads = nullptr;
-  EXPECT_TRUE(faces.expired());
+  wetted = nullptr;
+  EXPECT_TRUE(watched.expired());
+}
+
+TEST(LoadTables, OfACopyAreItsOwn) {
+  const auto body = closedSphere();
+  const auto halfOf = [](const std::shared_ptr<const FluidBody>& of) {
+    return LoadTables(of).hull()->corners().blocks[0].half[0];
+  };
+  const double half = halfOf(body);
+  const auto copy = std::make_shared<FluidBody>(scaled(*body, 2));
+  EXPECT_NEAR(halfOf(copy), 2 * half, 1e-12);
+  *copy = scaled(*body, 3);
+  EXPECT_NEAR(halfOf(copy), 3 * half, 1e-12);
 }
 
 TEST(LoadTables, HaveOneSetOfLoadsPerShapeFluidAndSettings) {
-  LoadTables tables;
   const auto body = closedSphere(), same = closedSphere();
   const FlowSettings flow;
-  const auto loads = makeSurfaceLoads(body, water(), flow, tables);
-  EXPECT_EQ(makeSurfaceLoads(body, water(), flow, tables), loads);
-  EXPECT_NE(makeSurfaceLoads(same, water(), flow, tables), loads);
-  EXPECT_NE(makeSurfaceLoads(body, air(), flow, tables), loads);
-  EXPECT_NE(makeWaterlineLoads(body, water(), flow, tables), loads);
+  const auto loads = makeSurfaceLoads(body, water(), flow);
+  EXPECT_EQ(makeSurfaceLoads(body, water(), flow), loads);
+  EXPECT_NE(makeSurfaceLoads(same, water(), flow), loads);
+  EXPECT_NE(makeSurfaceLoads(body, air(), flow), loads);
+  EXPECT_NE(makeWaterlineLoads(body, water(), flow), loads);
   FlowSettings others[7];
   others[0].separation_angle = 2;
   others[1].skin_friction = false;
@@ -83,33 +90,26 @@ TEST(LoadTables, HaveOneSetOfLoadsPerShapeFluidAndSettings) {
   others[4].law = PressureLaw::kPublished;
   others[5].stall_lag = 1;
   others[6].own_law = [](const auto& shape, const LoadSettings&) {
-    LoadTables own;
-    return makeSurfaceLoads(shape, water(), {}, own);
+    return makeSurfaceLoads(std::make_shared<const FluidBody>(*shape), water(), {});
   };
-  for (const FlowSettings& other : others)
-    EXPECT_NE(makeSurfaceLoads(body, water(), other, tables), loads);
-  EXPECT_NE(makeSurfaceLoads(body, water(), others[6], tables),
-            makeSurfaceLoads(body, water(), others[6], tables));
+  for (const FlowSettings& other : others) EXPECT_NE(makeSurfaceLoads(body, water(), other), loads);
+  EXPECT_NE(makeSurfaceLoads(body, water(), others[6]), makeSurfaceLoads(body, water(), others[6]));
 }
 
 TEST(LoadTables, PackTheSharpnessForTheFormLawOnly) {
-  LoadTables tables;
-  FluidBody body = *sphere();
-  body.faces.sharpness.assign(body.faces.size(), 0.5);
-  const auto sharp = std::make_shared<const FaceTable>(body.faces);
-  const ShapeFactors block{FormShape{}};
-  EXPECT_EQ(tables.packedFaces(sharp, nullptr)->blocks().form, nullptr);
-  EXPECT_NE(tables.packedFaces(sharp, &block)->blocks().form, nullptr);
+  const auto body = closedSphere();
+  const LoadTables tables(body);
+  EXPECT_EQ(tables.packedFaces({body, &body->faces}, nullptr)->blocks().form, nullptr);
+  EXPECT_NE(tables.packedFaces(tables.formFaces(), tables.shape().get())->blocks().form, nullptr);
 }
 
-TEST(LoadTables, KeepAnUnusedSphereTableUntilTheNext) {
-  LoadTables tables;
-  const std::weak_ptr<const SphereTable> first = tables.sphereTable(0);
-  EXPECT_EQ(tables.sphereTable(0), first.lock());
-  const auto used = tables.sphereTable(-0.5);
+TEST(SharedSphereTable, IsKeptUnusedUntilTheNextIsMade) {
+  const std::weak_ptr<const SphereTable> first = sharedSphereTable(0);
+  EXPECT_EQ(sharedSphereTable(0), first.lock());
+  const auto used = sharedSphereTable(-0.5);
   EXPECT_TRUE(first.expired());
-  EXPECT_NE(tables.sphereTable(-0.6), used);
-  EXPECT_EQ(tables.sphereTable(-0.5), used);
+  EXPECT_NE(sharedSphereTable(-0.6), used);
+  EXPECT_EQ(sharedSphereTable(-0.5), used);
 }
 
 }  // namespace

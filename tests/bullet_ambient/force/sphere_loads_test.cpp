@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "tests/reference/loads/sphere_loads.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -25,8 +24,7 @@ class Sphere {
  public:
   explicit Sphere(double right_angles, bool friction = true)
       : settings_{kDensity, kViscosity, separationCosine(right_angles * kPi / 2), friction} {
-    static LoadTables tables;
-    if (needsSphereTable(settings_)) table_ = tables.sphereTable(settings_.separation_cosine);
+    if (needsSphereTable(settings_)) table_ = sharedSphereTable(settings_.separation_cosine);
   }
   FaceLoads loads(const Twist& twist) const {
     return computeSphereLoads(table_.get(), kRadius, kLength, twist, settings_);

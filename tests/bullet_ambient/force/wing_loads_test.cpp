@@ -9,7 +9,6 @@
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/force/law/shape_factors.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/bodies/wing_bodies.h"
@@ -29,10 +28,9 @@ FlowSettings formLaw(LoadPrecision precision) {
 std::shared_ptr<const SurfaceLoads> loadsOf(const FluidBody& body,
                                             LoadPrecision precision = LoadPrecision::kDouble,
                                             double separation_angle = kPi / 2) {
-  static LoadTables tables;
   FlowSettings flow = formLaw(precision);
   flow.separation_angle = separation_angle;
-  return makeSurfaceLoads(std::make_shared<FluidBody>(body), {1.3, 0, {}, {}}, flow, tables);
+  return makeSurfaceLoads(std::make_shared<FluidBody>(body), {1.3, 0, {}, {}}, flow);
 }
 
 /// C_N of a sheet at incidence `degrees` in flow along its chord.
@@ -118,13 +116,12 @@ TEST(WingLoads, NeverFeedEnergy) {
 TEST(WingLoads, OfSmoothHullsWithAWideSeparationAngleTakeWhatTheGuardLeaves) {
   // tau of eq. (43e): at alpha = 135 degrees and beyond a smooth body has the published pressure.
   const FluidBody hull = test::smoothHull({4, 1, 1});
-  LoadTables tables;
   FlowSettings flow = formLaw(LoadPrecision::kDouble);
   flow.separation_angle = 3 * kPi / 4;
   const auto body = std::make_shared<FluidBody>(hull);
-  const auto form = makeSurfaceLoads(body, {1.3, 0, {}, {}}, flow, tables);
+  const auto form = makeSurfaceLoads(body, {1.3, 0, {}, {}}, flow);
   flow.law = PressureLaw::kPublished;
-  const auto published = makeSurfaceLoads(body, {1.3, 0, {}, {}}, flow, tables);
+  const auto published = makeSurfaceLoads(body, {1.3, 0, {}, {}}, flow);
   for (const Vector3& v : {Vector3(1, 0, 0), Vector3(1, 0.3, 0), Vector3(0, 1, 0.2)}) {
     const Twist x{Vector3::Zero(), v};
     EXPECT_LT((form->load(x).force - published->load(x).force).norm(),
@@ -220,14 +217,13 @@ TEST(WingLoads, AreFiniteAtRestAndWhereAFaceMovesStraightAwayFromTheFluid) {
 
 TEST(WingLoads, RefuseALagWhoseProductsWithTheMotionMayNotBeFinite) {
   const auto hull = std::make_shared<FluidBody>(test::smoothHull({4, 1, 0.3}, 2));
-  LoadTables tables;
   FlowSettings flow = formLaw(LoadPrecision::kDouble);
   flow.stall_lag = 1e6;
-  const auto loads = makeSurfaceLoads(hull, {1.3, 0, {}, {}}, flow, tables);
+  const auto loads = makeSurfaceLoads(hull, {1.3, 0, {}, {}}, flow);
   EXPECT_TRUE(loads->load({Vector3(0, 1e9, 0), Vector3(1e-9, 0, 1e-9)}).vector().allFinite());
   for (const double lag : {-1.0, 1.1e6, 1e308, std::nan("")}) {
     flow.stall_lag = lag;
-    EXPECT_THROW(makeSurfaceLoads(hull, {1.3, 0, {}, {}}, flow, tables), std::invalid_argument);
+    EXPECT_THROW(makeSurfaceLoads(hull, {1.3, 0, {}, {}}, flow), std::invalid_argument);
   }
 }
 

@@ -21,7 +21,7 @@ FluidBody ball(double sphere_radius = kRadius) {
 
 std::shared_ptr<const SurfaceLoads> loadsOn(const FluidBody& body, const Medium& medium,
                                             const FlowSettings& flow = {}) {
-  return makeSurfaceLoads(std::make_shared<const FluidBody>(body), medium, flow, loadTables());
+  return makeSurfaceLoads(std::make_shared<const FluidBody>(body), medium, flow);
 }
 
 const Twist kTwist{{3, -2, 5}, {4, 1, -2}};
@@ -73,11 +73,9 @@ TEST(LoadPlan, LoadsOutliveWhatTheyWereMadeOf) {
     auto body = std::make_shared<const FluidBody>(ball(0));
     FlowSettings flow;
     flow.precision = precision;
-    LoadTables tables;
-    const auto loads = makeSurfaceLoads(body, air(), flow, tables);
+    const auto loads = makeSurfaceLoads(body, air(), flow);
     const Vector6 before = loads->load(kTwist).vector();
     body.reset();
-    tables = {};
     EXPECT_EQ(loads->load(kTwist).vector(), before);
   }
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/demos/pybullet/fake_server.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ambient::pybullet::test {
 namespace {
@@ -13,10 +14,7 @@ const char* const kPlugin = AMBIENT_PYBULLET_PLUGIN;
 
 class PyBulletPlugin : public testing::Test {
  protected:
-  void SetUp() override {
-    ASSERT_TRUE(server.load(kPlugin));
-    EXPECT_EQ(server.command("settings quality=instant"), "0 ");
-  }
+  void SetUp() override { ASSERT_TRUE(server.load(kPlugin)); }
   void expectRefusal(const std::string& command, const char* part) {
     const std::string answer = server.command(command);
     EXPECT_EQ(answer.rfind("-1 ", 0), 0u) << command << ": " << answer;
@@ -81,6 +79,27 @@ TEST_F(PyBulletPlugin, SurvivesResets) {
   EXPECT_TRUE(server.floats());
 }
 
+TEST_F(PyBulletPlugin, MakesAShapeOnceForAllClientsOfTheProcess) {
+  const TemporaryFolder folder;
+  const auto expectOneShape = [&](FakeServer& client) {
+    EXPECT_EQ(client.command("settings folder=" + folder.path().string()), "0 ");
+    EXPECT_EQ(client.command("water level=0"), "0 ");
+    EXPECT_TRUE(client.floats());
+    const std::string status = client.command("status");
+    EXPECT_NE(status.find(R"("shapes":{"made":1,"read":0})"), std::string::npos) << status;
+    client.reset();
+  };
+  expectOneShape(server);
+  expectOneShape(server);
+  FakeServer other;
+  ASSERT_TRUE(other.load(kPlugin));
+  expectOneShape(other);
+  other.unload();
+  server.unload();
+  ASSERT_TRUE(server.load(kPlugin));
+  expectOneShape(server);
+}
+
 // With several clients a step of one may come before the notification of another one's reset.
 TEST_F(PyBulletPlugin, KnowsAResetBeforeItsNotification) {
   server.command("water level=0");
@@ -142,7 +161,7 @@ TEST_F(PyBulletPlugin, TakesOtherSettingsAfterAReset) {
   server.command("water level=0");
   EXPECT_TRUE(server.floats());
   server.reset();
-  EXPECT_EQ(server.command("settings quality=standard law=published"), "0 ");
+  EXPECT_EQ(server.command("settings law=published"), "0 ");
   EXPECT_TRUE(server.floats());
   expectRefusal("settings law=form", "too late");
 }
@@ -221,11 +240,13 @@ TEST_F(PyBulletPlugin, RefusesInOneLineWhatItDoesNotUnderstand) {
   expectRefusal("water waves=-1,2", "amplitude");
   expectRefusal("water spectrum=1,5,1,0,0,3.3,1.5", "whole numbers");
   expectRefusal("settings law=any", "law is one of:");
+  expectRefusal("settings quality=instant",
+                "there is no 'quality'; there are: folder law separation");
   expectRefusal("inertia", "takes the number of a body");
   expectRefusal("remove name=pool", "there is no such region");
   server.command("water level=0");
   EXPECT_TRUE(server.floats());
-  expectRefusal("settings quality=standard", "too late");
+  expectRefusal("settings law=published", "too late");
 }
 
 // PyBullets before 3.1.7 have a smaller btMultiBody: here members hold what none of ours does.

@@ -24,6 +24,26 @@ RHO = 998.0
 CUBE = 0.638  # added mass of a cube over the displaced mass
 
 
+HULLS = """
+import sys, pybullet as p
+from bullet_ambient.pybullet import Fluid
+for _ in range(2):
+    client = p.connect(p.DIRECT)
+    fluid = Fluid(client)
+    fluid.settings(folder=sys.argv[1])
+    fluid.water(level=0)
+    for _ in range(2):
+        corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        shape = p.createCollisionShape(p.GEOM_MESH, vertices=corners, physicsClientId=client)
+        p.createMultiBody(100, shape, physicsClientId=client)
+        p.stepSimulation(physicsClientId=client)
+        shapes = fluid.status()["shapes"]
+        p.resetSimulation(physicsClientId=client)
+    p.disconnect(client)
+print(shapes)
+"""
+
+
 class Case(unittest.TestCase):
     def setUp(self):
         self.places = 0
@@ -331,8 +351,14 @@ class LifeTest(Case):
             '<collision><geometry><mesh filename="cat.obj"/></geometry></collision></link></robot>')
         return {"type": "mesh", "file": str(folder / "cat.obj")}
 
+    def test_a_hull_is_made_once(self):
+        """For all clients of a process, which reset their worlds, and by the folder for the next process."""
+        with tempfile.TemporaryDirectory() as folder:
+            for expected in ({"made": 1, "read": 0}, {"made": 0, "read": 1}):
+                run = subprocess.run([sys.executable, "-c", HULLS, folder], capture_output=True, text=True, check=True)
+                self.assertEqual(run.stdout.strip().splitlines()[-1], str(expected), run.stderr)
+
     def test_a_link_gets_the_fluid_body_of_choice(self):
-        self.fluid.settings(quality="instant")
         self.fluid.water(level=0, density=1000)
         self.gravity()
         with tempfile.TemporaryDirectory() as name:
@@ -356,7 +382,6 @@ class LifeTest(Case):
             self.fluid.body(body, -1, "nothing.ambient")
 
     def test_a_hull_without_mass_floats_the_link_that_has_it(self):
-        self.fluid.settings(quality="instant")
         self.fluid.water(level=0, density=1000)
         self.gravity()
         box = p.createCollisionShape(p.GEOM_BOX, halfExtents=[0.5, 0.4, 0.2], physicsClientId=self.client)

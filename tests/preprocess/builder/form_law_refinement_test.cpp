@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/form_shape.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/convex_hull.h"
@@ -81,10 +80,9 @@ FluidBody bodyOf(const Blade& blade, int least_faces) {
 }
 
 std::shared_ptr<const SurfaceLoads> loadsOf(const FluidBody& body) {
-  static LoadTables tables;
   FlowSettings flow;
   flow.precision = LoadPrecision::kDouble;
-  return makeSurfaceLoads(std::make_shared<FluidBody>(body), {1, 1e-6, {}, {}}, flow, tables);
+  return makeSurfaceLoads(std::make_shared<FluidBody>(body), {1, 1e-6, {}, {}}, flow);
 }
 
 TEST(FormLawRefinement, KeepsTheNumbersOfTheShape) {

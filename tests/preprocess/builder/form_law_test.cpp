@@ -11,7 +11,6 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/join_meshes.h"
@@ -51,8 +50,7 @@ FlowSettings formLaw(LoadPrecision precision = LoadPrecision::kDouble) {
 }
 
 Wrench loadOn(const FluidBody& body, const Twist& x, const FlowSettings& flow = formLaw()) {
-  LoadTables tables;
-  return makeSurfaceLoads(std::make_shared<FluidBody>(body), kUnitFluid, flow, tables)->load(x);
+  return makeSurfaceLoads(std::make_shared<FluidBody>(body), kUnitFluid, flow)->load(x);
 }
 
 Wrench loadInTranslation(const FluidBody& body, const Vector3& velocity) {
@@ -234,9 +232,8 @@ TEST_P(FormLawPower, IsNeverPositive) {
                               bodyOf(makeConeMesh(1, 2, 400), {1, 1, 0.5}),
                               bodyOf(makeEllipsoidMesh({2, 1, 0.4}, 320), {0.3, 1, 4}), disc(200)};
   for (const FluidBody& body : bodies) {
-    LoadTables tables;
-    const auto loads = makeSurfaceLoads(std::make_shared<FluidBody>(body), kUnitFluid,
-                                        formLaw(GetParam()), tables);
+    const auto loads =
+        makeSurfaceLoads(std::make_shared<FluidBody>(body), kUnitFluid, formLaw(GetParam()));
     EXPECT_FALSE(loads->needsGuard());
     for (int i = 0; i < 20000; ++i) {
       const Twist x{std::exp(2 * normal(generator)) * vector(),
@@ -337,9 +334,7 @@ TEST(MeasuredDrag, TakesEnergyInEveryMotion) {
   const auto vector = [&] {
     return Vector3(normal(generator), normal(generator), normal(generator));
   };
-  LoadTables tables;
-  const auto loads =
-      makeSurfaceLoads(std::make_shared<FluidBody>(body), kUnitFluid, formLaw(), tables);
+  const auto loads = makeSurfaceLoads(std::make_shared<FluidBody>(body), kUnitFluid, formLaw());
   for (int i = 0; i < 10000; ++i) {
     const Twist x{vector(), vector()};
     EXPECT_LT(power(loads->load(x), x), 0);

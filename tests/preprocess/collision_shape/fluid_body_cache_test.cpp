@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -187,6 +187,22 @@ TEST(FluidBodyCache, AnotherRunReadsWhatThisOneMade) {
   FluidBodyCache third(finer, folder / "kept");
   third.fluidBody(box);
   EXPECT_EQ(third.counts().made, 1) << "other settings";
+}
+
+TEST(FluidBodyCache, KeepsOnlyWhatTookLong) {
+  const TemporaryFolder folder;
+  FluidBodyCache cache(coarse(), {folder / "kept", std::chrono::hours(1)});
+  cache.fluidBody(btBoxShape(sizes(0.5, 1, 2)));
+  EXPECT_EQ(cache.counts().made, 1);
+  EXPECT_TRUE(folder.empty());
+}
+
+TEST(FluidBodyCache, TellsSolversApart) {
+  CollisionShapeSettings dense = coarse(), hierarchical = coarse();
+  dense.flow.solver = FlowSolverKind::Dense;
+  hierarchical.flow.solver = FlowSolverKind::Hierarchical;
+  EXPECT_NE(describeCollisionShape(*wedge(), dense).settings,
+            describeCollisionShape(*wedge(), hierarchical).settings);
 }
 
 TEST(FluidBodyCache, MakesAnewWhatIsDamagedOrForeign) {

@@ -12,7 +12,6 @@
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/shape_factors.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -235,10 +234,9 @@ TEST(FormLevels, AreUsedWhereTheirErrorIsAllowed) {
   const auto shared = std::make_shared<FluidBody>(body);
   FlowSettings flow;
   flow.law = PressureLaw::kForm;
-  LoadTables tables;
   const auto facesAt = [&](double error) {
     flow.maximum_load_error = error;
-    return makeSurfaceLoads(shared, air(), flow, tables)->faces();
+    return makeSurfaceLoads(shared, air(), flow)->faces();
   };
   EXPECT_EQ(facesAt(0), static_cast<int>(body.faces.size()));
   EXPECT_EQ(facesAt(body.form_levels[2].p99_error),

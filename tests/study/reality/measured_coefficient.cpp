@@ -8,7 +8,6 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 
 namespace ambient {
@@ -38,7 +37,7 @@ class Tunnel {
   Tunnel(const FluidBody& body, PressureLaw law) : body_(body) {
     FlowSettings settings;
     settings.law = law;
-    loads_ = makeSurfaceLoads(std::make_shared<FluidBody>(body), kFluid, settings, tables_);
+    loads_ = makeSurfaceLoads(std::make_shared<FluidBody>(body), kFluid, settings);
   }
 
   /// Force over half the density and the speed squared.
@@ -70,7 +69,6 @@ class Tunnel {
 
  private:
   const FluidBody& body_;
-  LoadTables tables_;
   std::shared_ptr<const SurfaceLoads> loads_;
 };
 

@@ -2,17 +2,10 @@
 
 #include <memory>
 
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/body/body_model.h"
 
 namespace ambient::test {
-
-/// Shared tables of loads; not safe for several threads.
-inline LoadTables& loadTables() {
-  static LoadTables tables;
-  return tables;
-}
 
 /// Flow by the published law, whose loads on ellipsoids have closed forms and are smooth.
 inline FlowSettings publishedFlow() {
@@ -33,7 +26,7 @@ struct BodyModelDef {
 inline BodyModel modelOf(const BodyModelDef& def) {
   const auto shape = std::make_shared<const FluidBody>(def.shape);
   return makeBodyModel(*shape, def.frame, def.mass, def.medium,
-                       makeSurfaceLoads(shape, def.medium, def.flow, loadTables()));
+                       makeSurfaceLoads(shape, def.medium, def.flow));
 }
 
 }  // namespace ambient::test

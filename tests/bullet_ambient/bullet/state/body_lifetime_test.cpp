@@ -200,8 +200,7 @@ TEST_F(Lifetime, AStaticBodyHasTheModelOfItsNewFluidBody) {
   const WorldState state = scene.fluid.save();
   scene.fluid.restore(state);
   const AmbientBody& ambient = *membersOf(scene.fluid).find(&body);
-  const auto loads = makeSurfaceLoads(ambient.def->fluid_body, water(), ambient.def->flow,
-                                      membersOf(scene.fluid).load_tables);
+  const auto loads = makeSurfaceLoads(ambient.def->fluid_body, water(), ambient.def->flow);
   const Twist twist{{1, 2, 3}, {3, 1, 2}};
   EXPECT_EQ(ambient.model().loads->load(twist).vector(), loads->load(twist).vector());
   EXPECT_TRUE(scene.of(body).inertia().allFinite());

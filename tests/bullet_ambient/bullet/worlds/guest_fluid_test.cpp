@@ -111,7 +111,6 @@ TEST_F(GuestFluid, KnowsWhenItsWorldHasEnded) {
 
 struct BallSource : FluidBodySource {
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape&) override { return shape; }
-  unsigned revision() const noexcept override { return 0; }
   std::shared_ptr<const FluidBody> shape = ballOfOneMetre();
 };
 

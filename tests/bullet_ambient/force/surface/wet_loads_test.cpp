@@ -6,7 +6,6 @@
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "tests/support/bits_of.h"
 #include "tests/support/bodies/hull_bodies.h"
@@ -43,10 +42,9 @@ std::vector<FlowSettings> allLaws() {
 }
 
 TEST(WetLoads, AreAllOrNothingFarFromTheSurface) {
-  LoadTables tables;
   const Twist x{{0.3, -0.2, 0.5}, {1, 2, -0.7}};
   for (const FlowSettings& flow : allLaws()) {
-    const auto loads = makeWaterlineLoads(roundBody(2), kLiquid, flow, tables);
+    const auto loads = makeWaterlineLoads(roundBody(2), kLiquid, flow);
     const Wrench all = loads->load(x);
     const Wrench deep = loads->wetLoad(x, wetBelow({1, 2, 3}, 1.2, 1));
     // Form law: a body without a surface nearby takes its lee from sums made beforehand.
@@ -60,10 +58,9 @@ TEST(WetLoads, AreAllOrNothingFarFromTheSurface) {
 }
 
 TEST(WetLoads, OfBothSidesOfThePlaneMakeUpTheLoad) {
-  LoadTables tables;
   Arbitrary arbitrary(1);
   for (const FlowSettings& flow : allLaws()) {
-    const auto loads = makeWaterlineLoads(roundBody(2), kLiquid, flow, tables);
+    const auto loads = makeWaterlineLoads(roundBody(2), kLiquid, flow);
     for (int i = 0; i < 20; ++i) {
       const Twist x = arbitrary.twist();
       const Wrench all = loads->load(x);
@@ -79,11 +76,10 @@ TEST(WetLoads, OfBothSidesOfThePlaneMakeUpTheLoad) {
 }
 
 TEST(WetLoads, OfAHalfSubmergedBallAreThoseOfItsHalf) {
-  LoadTables tables;
   FlowSettings flow;
   flow.law = PressureLaw::kPublished;  // has no suction in the lee
   flow.skin_friction = false;
-  const auto loads = makeWaterlineLoads(roundBody(3), kLiquid, flow, tables);
+  const auto loads = makeWaterlineLoads(roundBody(3), kLiquid, flow);
   const WetPart half = wetBelow({0, 0, 1}, 0);
   const Twist down{Vector3::Zero(), {0, 0, -2}}, up{Vector3::Zero(), {0, 0, 2}},
       along{Vector3::Zero(), {2, 0, 0}};
@@ -96,7 +92,6 @@ TEST(WetLoads, OfAHalfSubmergedBallAreThoseOfItsHalf) {
 }
 
 TEST(WetLoads, TakeEnergyAtARightAngle) {
-  LoadTables tables;
   Arbitrary arbitrary(2);
   FlowSettings flow;
   flow.precision = LoadPrecision::kDouble;
@@ -104,8 +99,7 @@ TEST(WetLoads, TakeEnergyAtARightAngle) {
     FluidBody body;
     body.faces = arbitrary.body();
     body.area = test::totalArea(body.faces);
-    const auto loads =
-        makeWaterlineLoads(std::make_shared<const FluidBody>(body), kLiquid, flow, tables);
+    const auto loads = makeWaterlineLoads(std::make_shared<const FluidBody>(body), kLiquid, flow);
     const Twist x = arbitrary.twist();
     EXPECT_LE(power(loads->wetLoad(x, wetBelow(arbitrary.vector(), arbitrary.between(-1, 1))), x),
               0);
@@ -113,10 +107,8 @@ TEST(WetLoads, TakeEnergyAtARightAngle) {
 }
 
 TEST(WetLoads, ChangeLittleWhereTheSurfaceMovesLittle) {
-  LoadTables tables;
   FluidBody box = test::boxBody({1, 1, 1}, 4);
-  const auto loads =
-      makeWaterlineLoads(std::make_shared<const FluidBody>(box), kLiquid, {}, tables);
+  const auto loads = makeWaterlineLoads(std::make_shared<const FluidBody>(box), kLiquid, {});
   const Twist x{{0.1, 0, 0.2}, {0.5, 0.3, -1}};
   const double largest = sizeOf(loads->load(x));
   Wrench before{};
@@ -129,22 +121,20 @@ TEST(WetLoads, ChangeLittleWhereTheSurfaceMovesLittle) {
 }
 
 TEST(WetLoads, AreSummedOverFacesWhereOthersHaveClosedForms) {
-  LoadTables tables;
   FluidBody ball = *roundBody(2);
   ball.sphere_radius = 1;
   const auto shared = std::make_shared<const FluidBody>(ball);
-  EXPECT_LT(makeSurfaceLoads(shared, kLiquid, {}, tables)->faces(), 17);
-  EXPECT_EQ(makeWaterlineLoads(shared, kLiquid, {}, tables)->faces(), 320);
+  EXPECT_LT(makeSurfaceLoads(shared, kLiquid, {})->faces(), 17);
+  EXPECT_EQ(makeWaterlineLoads(shared, kLiquid, {})->faces(), 320);
 }
 
 TEST(WetLoads, OfAnotherLawAreTheShareOfTheVolume) {
   struct Constant final : SurfaceLoads {
     Wrench load(const Twist&) const noexcept override { return {{1, 2, 3}, {4, 5, 6}}; }
   };
-  LoadTables tables;
   FlowSettings flow;
   flow.own_law = [](const auto&, const LoadSettings&) { return std::make_shared<Constant>(); };
-  const auto loads = makeWaterlineLoads(roundBody(0), kLiquid, flow, tables);
+  const auto loads = makeWaterlineLoads(roundBody(0), kLiquid, flow);
   EXPECT_EQ(loads->wetLoad({}, wetBelow({0, 0, 1}, 0, 0.25)).force, Vector3(1, 1.25, 1.5));
 }
 
@@ -178,10 +168,9 @@ TEST(WetLoads, OfASphereInAttachedFlowAreFrictionAlone) {
   FluidBody sphere = test::hullBody(test::geodesicSphere(3));
   sphere.sphere_radius = 1;
   const auto body = std::make_shared<const FluidBody>(sphere);
-  LoadTables tables;
   FlowSettings flow;
   flow.separation_angle = std::acos(-1.0);
-  const auto loads = makeWaterlineLoads(body, kLiquid, flow, tables);
+  const auto loads = makeWaterlineLoads(body, kLiquid, flow);
   for (const Vector3& v : {Vector3(0, 0, 2), Vector3(1, 0, -1)}) {
     const Wrench there = loads->wetLoad({{0, 0, 0}, v}, wetBelow({0, 0, 1}, 0));
     const Wrench back = loads->wetLoad({{0, 0, 0}, -v}, wetBelow({0, 0, 1}, 0));
@@ -191,7 +180,7 @@ TEST(WetLoads, OfASphereInAttachedFlowAreFrictionAlone) {
     EXPECT_LT(sizeOf(there + back), 1e-5 * pressure);
   }
   flow.skin_friction = false;
-  const auto pressure = makeWaterlineLoads(body, kLiquid, flow, tables);
+  const auto pressure = makeWaterlineLoads(body, kLiquid, flow);
   EXPECT_EQ(sizeOf(pressure->wetLoad({{0, 0, 0}, {1, 2, 3}}, wetBelow({0, 0, 1}, 0))), 0);
 }
 
@@ -199,19 +188,18 @@ TEST(WetLoads, InAttachedFlowHaveTheShareOfThePressureOnTheWhole) {
   const Twist x{{0.3, -0.2, 0.5}, {1, 2, -0.7}};
   FluidBody sphere = test::hullBody(test::geodesicSphere(3));
   sphere.sphere_radius = 1;
-  LoadTables tables;
   for (FlowSettings flow : allLaws()) {
     flow.separation_angle = std::acos(-1.0);
     for (const auto& body : {roundBody(2), std::make_shared<const FluidBody>(sphere)}) {
       // Deep below the surface the loads are complete.
-      const auto loads = makeWaterlineLoads(body, kLiquid, flow, tables);
+      const auto loads = makeWaterlineLoads(body, kLiquid, flow);
       const Wrench deep = loads->wetLoad(x, wetBelow({1, 2, 3}, 1.2, 1));
-      const Wrench all = makeSurfaceLoads(body, kLiquid, flow, tables)->load(x);
+      const Wrench all = makeSurfaceLoads(body, kLiquid, flow)->load(x);
       EXPECT_LT(sizeOf(deep + -1.0 * all), (body->sphere_radius > 0 ? 0.01 : 1e-5) * sizeOf(all));
       if (flow.law == PressureLaw::kForm && !(body->sphere_radius > 0)) continue;
       flow.skin_friction = false;
-      const auto pressure = makeWaterlineLoads(body, kLiquid, flow, tables);
-      const Wrench whole = makeSurfaceLoads(body, kLiquid, flow, tables)->load(x);
+      const auto pressure = makeWaterlineLoads(body, kLiquid, flow);
+      const Wrench whole = makeSurfaceLoads(body, kLiquid, flow)->load(x);
       const Wrench half = pressure->wetLoad(x, wetBelow({1, 2, 3}, 0.1));
       EXPECT_GT(sizeOf(whole), 1000);
       EXPECT_LT(sizeOf(half + -0.5 * whole), 1e-5 * sizeOf(whole));
@@ -222,15 +210,14 @@ TEST(WetLoads, InAttachedFlowHaveTheShareOfThePressureOnTheWhole) {
 // Attached flow by the form law: windward pressure of its own, slip pressure on the lee. For
 // horizontal motion the windward pressure has no vertical part on the whole body.
 TEST(WetLoads, OfTheFormLawInAttachedFlowLoseNoWindwardPressure) {
-  LoadTables tables;
   FlowSettings attached, separated;
   attached.law = separated.law = PressureLaw::kForm;
   attached.separation_angle = std::acos(-1.0);
   const WetPart half = wetBelow({0, 0, 1}, 0);
   const auto box = std::make_shared<const FluidBody>(test::boxBody({1, 0.6, 0.4}, 6));
   for (const auto& body : {roundBody(3), box}) {
-    const auto loads = makeWaterlineLoads(body, kLiquid, attached, tables);
-    const auto by_wake = makeWaterlineLoads(body, kLiquid, separated, tables);
+    const auto loads = makeWaterlineLoads(body, kLiquid, attached);
+    const auto by_wake = makeWaterlineLoads(body, kLiquid, separated);
     const Twist along{Vector3::Zero(), {2, 0, 0}}, turning{{0, 0, 3}, {2, 0, 0}};
     for (const Twist& x : {along, turning}) {
       const Vector3 deep = loads->load(x).force, floating = loads->wetLoad(x, half).force;

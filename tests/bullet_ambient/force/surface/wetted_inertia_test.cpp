@@ -8,7 +8,6 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/force/surface/wetted_sphere.h"
 #include "bullet_ambient/spatial/inertia.h"
@@ -28,7 +27,7 @@ class Wetted {
   explicit Wetted(const FluidBody& body)
       : body_(std::make_shared<const FluidBody>(body)),
         hull_(body),
-        inertia_(makeWettedInertia(body_, tables_)) {}
+        inertia_(makeWettedInertia(body_)) {}
 
   Immersion at(const Vector3& normal, double height) const {
     Immersion immersion{{normal.normalized(), height, 1000, 9.81}, 0, 0, {}};
@@ -54,7 +53,6 @@ class Wetted {
     return {middle - body_->sphere_radius, middle + body_->sphere_radius};
   }
 
-  LoadTables tables_;
   std::shared_ptr<const FluidBody> body_;
   PackedHull hull_;
   std::shared_ptr<const WettedInertia> inertia_;

@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -35,8 +34,8 @@ class Tabulated {
     for (int i = 0; i < OctahedralLattice(2).size() * 4; ++i)
       body.waterline.corrections.push_back(arbitrarySymmetric(arbitrary, size));
     tabulated_ = std::make_shared<const FluidBody>(body);
-    by_parts = makeWettedInertia(plain_, tables_);
-    by_table = makeWettedInertia(tabulated_, tables_);
+    by_parts = makeWettedInertia(plain_);
+    by_table = makeWettedInertia(tabulated_);
   }
 
   Immersion immersed(const Vector3& normal, double share) const {
@@ -55,7 +54,6 @@ class Tabulated {
   const WaterlineTable& table() const { return tabulated_->waterline; }
 
  private:
-  LoadTables tables_;
   std::shared_ptr<const FluidBody> plain_, tabulated_;
 
  public:

@@ -335,13 +335,12 @@ TEST(SurfaceModel, KnowsOnWhichSideOfTheSurfaceABodyIs) {
 }
 
 TEST(SurfaceModel, RefusesWhatCannotFloat) {
-  LoadTables tables;
   SurfaceModelDef def;
   FluidBody body = test::floatingBox({1, 1, 1});
   const auto refusal = [&] {
     def.shape = std::make_shared<const FluidBody>(body);
     try {
-      makeSurfaceModel(def, tables);
+      makeSurfaceModel(def);
     } catch (const std::invalid_argument& error) {
       return std::string(error.what());
     }

@@ -36,17 +36,6 @@ btConvexHullShape& RandomShapes::hull() {
   return keep(std::move(hull));
 }
 
-const btCompoundShape& RandomShapes::compound() {
-  auto compound = std::make_unique<btCompoundShape>();
-  const int count = 2 + static_cast<int>(random_() % 4);
-  for (int i = 0; i < count; ++i) {
-    const btQuaternion turn(btVector3(0, 0, 1), static_cast<btScalar>(uniform(0, 3)));
-    const Vector3 place(uniform(-0.8, 0.8), uniform(-0.8, 0.8), uniform(-0.8, 0.8));
-    compound->addChildShape(btTransform(turn, toBullet(place)), primitive(false));
-  }
-  return keep(std::move(compound));
-}
-
 const btCompoundShape& RandomShapes::mixedCompound(bool on_grid) {
   auto compound = std::make_unique<btCompoundShape>();
   const int count = 2 + static_cast<int>(random_() % 4);
@@ -75,34 +64,6 @@ btCollisionShape* RandomShapes::primitive(bool on_grid) {
     default:
       return &keep(std::make_unique<btBoxShape>(half));
   }
-}
-
-const btCollisionShape& RandomShapes::prism() {
-  auto mesh = std::make_unique<btTriangleMesh>();
-  const int count = 6 + static_cast<int>(random_() % 10);
-  const double height = uniform(0.1, 1.5);
-  std::vector<Vector3> rim;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * kPi * i / count, radius = uniform(0.4, 1);
-    rim.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height / 2);
-  }
-  const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
-    mesh->addTriangle(toBullet(a), toBullet(b), toBullet(c));
-  };
-  const Vector3 up(0, 0, height), middle = up / 2;
-  for (int i = 0; i < count; ++i) {
-    const Vector3 a = rim[static_cast<std::size_t>(i)];
-    const Vector3 b = rim[static_cast<std::size_t>((i + 1) % count)];
-    add(a, b, middle);
-    add(b - up, a - up, middle - up);
-    add(a - up, b - up, b);
-    add(a - up, b, a);
-  }
-  auto shape = std::make_unique<btGImpactMeshShape>(mesh.get());
-  shape->setMargin(0);
-  shape->updateBound();
-  meshes_.push_back(std::move(mesh));
-  return keep(std::move(shape));
 }
 
 }  // namespace ambient

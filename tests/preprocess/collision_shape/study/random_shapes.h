@@ -1,6 +1,5 @@
 #pragma once
 
-#include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <btBulletCollisionCommon.h>
 
 #include <memory>
@@ -18,13 +17,10 @@ class RandomShapes {
 
   /// Convex hull of 6 to 30 points in a box, without margin.
   btConvexHullShape& hull();
-  /// Two to five balls, cylinders, capsules and boxes, turned about z, in a cube of 1.6.
-  const btCompoundShape& compound();
-  /// Compound like compound(), including hulls. `on_grid`: places and half sizes are multiples of
-  /// 1/4, and turns of 90 degrees, so that sides meet.
+  /// Two to five balls, cylinders, capsules, boxes and hulls, turned about z, in a cube of 2.
+  /// `on_grid`: places and half sizes are multiples of 1/4, and turns of 90 degrees, so that sides
+  /// meet.
   const btCompoundShape& mixedCompound(bool on_grid);
-  /// Prism over a star as a mesh: not convex.
-  const btCollisionShape& prism();
 
  private:
   double uniform(double low, double high);
@@ -34,7 +30,6 @@ class RandomShapes {
   Shape& keep(std::unique_ptr<Shape> shape);
 
   std::mt19937 random_;
-  std::vector<std::unique_ptr<btTriangleMesh>> meshes_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
 };
 

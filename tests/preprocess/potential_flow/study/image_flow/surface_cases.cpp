@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/loads/load_tables.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/shapes/primitives.h"
@@ -46,8 +45,7 @@ SurfaceModel modelOf(const std::shared_ptr<const FluidBody>& body) {
   model.mass = {mass, mass * body->uniform_mass.inertia};
   model.below = {1, 0, {0, 0, 0}, {0, 0, 0}};
   model.flow.own_law = [](const auto&, const auto&) { return nullptr; };
-  LoadTables tables;
-  return makeSurfaceModel(model, tables);
+  return makeSurfaceModel(model);
 }
 
 }  // namespace

@@ -1,0 +1,98 @@
+#include "preprocess/builder/body_maker.h"
+
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "bullet_ambient/base/plain_text.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/builder/elapsed_display.h"
+#include "preprocess/builder/reuse.h"
+
+namespace ambient {
+namespace {
+
+constexpr std::chrono::seconds kBetweenLines(1);
+
+}  // namespace
+
+void printReport(const std::string& line) {
+  std::fprintf(stderr, "bullet_ambient: %s\n", plainLine(line).c_str());
+}
+
+BodyMaker::BodyMaker(BodyFolder folder, Report report)
+    : folder_(std::move(folder)), report_(std::move(report)) {}
+
+BodyMaker::Made BodyMaker::get(const std::string& name, const Provenance& provenance,
+                               const Make& make) {
+  std::filesystem::path file;
+  if (!folder_.path.empty()) {
+    file = folder_.path / keptFileName(name, provenance);
+    if (std::optional<FluidBody> kept = readIfSame(file, name, provenance)) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++counts_.read;
+      return {std::make_shared<const FluidBody>(*std::move(kept)), {}};
+    }
+  }
+  const Clock::time_point begin = Clock::now();
+  auto body = std::make_shared<const FluidBody>(makeShown(name, make));
+  if (Clock::now() - begin < folder_.least) file.clear();
+  return {std::move(body), std::move(file)};
+}
+
+// Bodies that are made right after each other are one work.
+FluidBody BodyMaker::makeShown(const std::string& name, const Make& make) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++counts_.made;
+    const Clock::time_point now = Clock::now();
+    if (now - end_ > kBetweenLines) next_line_ = now + kBetweenLines;
+  }
+  const auto print = [this](const std::string& line) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      end_ = Clock::now();
+      if (end_ < next_line_) return;
+      next_line_ = end_ + kBetweenLines;
+    }
+    say(line);
+  };
+  FluidBody body;
+  {
+    std::optional<ElapsedDisplay> display;
+    body = make([&](const std::string& stage) {
+      const std::string label = "making the fluid body of '" + name + "'";
+      if (report_ && !display) display.emplace(label, print, std::chrono::milliseconds(100));
+      if (display) display->begin(stage);
+    });
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  end_ = Clock::now();
+  return body;
+}
+
+void BodyMaker::keep(const Made& made) {
+  if (made.file.empty()) return;
+  try {
+    std::filesystem::create_directories(folder_.path);
+    writeFluidBody(*made.body, made.file);
+  } catch (const std::exception& error) {
+    say(std::string("the fluid body is not kept: ") + error.what());
+  }
+}
+
+void BodyMaker::say(const std::string& line) noexcept {
+  if (!report_) return;
+  const std::lock_guard<std::mutex> lock(saying_);
+  try {
+    report_(line);
+  } catch (...) {  // nobody could catch it on the thread that shows the work
+  }
+}
+
+BodyMaker::Counts BodyMaker::counts() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return counts_;
+}
+
+}  // namespace ambient

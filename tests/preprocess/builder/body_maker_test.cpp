@@ -1,0 +1,108 @@
+#include "preprocess/builder/body_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/temporary_folder.h"
+
+namespace ambient {
+namespace {
+
+/// Sets variables of the environment until the end of the test.
+class UserFolder : public testing::Test {
+ protected:
+  ~UserFolder() override {
+    for (const auto& [name, value] : before_) set(name, value);
+  }
+  void use(const char* name, const char* value) {
+    const char* before = std::getenv(name);
+    before_.emplace_back(name, before ? before : "");
+    set(name, value);
+  }
+  static void set(const std::string& name, const std::string& value) {
+    if (value.empty())
+      unsetenv(name.c_str());
+    else
+      setenv(name.c_str(), value.c_str(), 1);
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> before_;
+};
+
+TEST_F(UserFolder, IsThatOfTheEnvironment) {
+  use("BULLET_AMBIENT_CACHE", "");
+  use("XDG_CACHE_HOME", "");
+  use("HOME", "/home/anna");
+  EXPECT_EQ(userBodyFolder().path, "/home/anna/.cache/bullet_ambient");
+  EXPECT_EQ(userBodyFolder().least, std::chrono::milliseconds(50));
+  use("XDG_CACHE_HOME", "not/absolute");
+  EXPECT_EQ(userBodyFolder().path, "/home/anna/.cache/bullet_ambient");
+  use("XDG_CACHE_HOME", "/scratch");
+  EXPECT_EQ(userBodyFolder().path, "/scratch/bullet_ambient");
+  use("BULLET_AMBIENT_CACHE", "bodies");
+  EXPECT_EQ(userBodyFolder().path, "bodies");
+  use("BULLET_AMBIENT_CACHE", "off");
+  EXPECT_EQ(userBodyFolder().path, "");
+}
+
+TEST_F(UserFolder, IsNoneWithoutAHome) {
+  for (const char* name : {"BULLET_AMBIENT_CACHE", "XDG_CACHE_HOME", "HOME"}) use(name, "");
+  EXPECT_EQ(userBodyFolder().path, "");
+}
+
+struct Said {
+  std::vector<std::string> lines;
+  BodyMaker maker{{}, [this](const std::string& line) { lines.push_back(line); }};
+
+  void make(const std::string& name, int milliseconds) {
+    maker.get(name, {}, [&](const auto& begin) {
+      begin("solving the flow");
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      return FluidBody();
+    });
+  }
+};
+
+TEST(BodyMaker, SaysAfterASecondWhatItMakes) {
+  Said said;
+  const auto begin = std::chrono::steady_clock::now();
+  said.make("hull", 1500);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  ASSERT_FALSE(said.lines.empty());
+  EXPECT_LE(static_cast<double>(said.lines.size()), time.count());
+  EXPECT_EQ(said.lines[0], "making the fluid body of 'hull': solving the flow, 1 s");
+}
+
+// A robot has many links.
+TEST(BodyMaker, TakesBodiesOneAfterTheOtherForOneWork) {
+  Said said;
+  for (const char* name : {"upper arm", "lower arm"}) said.make(name, 700);
+  ASSERT_FALSE(said.lines.empty());
+  EXPECT_EQ(said.lines[0].rfind("making the fluid body of 'lower arm': ", 0), 0u) << said.lines[0];
+}
+
+TEST(BodyMaker, SaysNothingOfQuickWork) {
+  Said said;
+  for (int i = 0; i < 3; ++i) said.make("box", 1);
+  EXPECT_TRUE(said.lines.empty());
+  EXPECT_EQ(said.maker.counts().made, 3);
+}
+
+TEST(BodyMaker, OutlivesAReportThatThrows) {
+  const TemporaryFolder folder;
+  BodyMaker maker(folder / "a",
+                  [](const std::string&) { throw std::runtime_error("no terminal"); });
+  BodyMaker::Made made = maker.get("body", {}, [](const auto&) { return FluidBody(); });
+  made.file = folder / "none" / "body.ambient";
+  maker.keep(made);
+  EXPECT_FALSE(std::filesystem::exists(made.file));
+}
+
+}  // namespace
+}  // namespace ambient
