@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/immersed/pool_rim.h"
 #include "bullet_ambient/immersed/region_call.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
@@ -218,6 +219,7 @@ Wrench pushBySpinUp(AmbientBody& ambient) {
 void findPushes(AmbientBody& ambient) noexcept {
   if (!ambient.flow_along) return;
   FlowAlongBody& flow = *ambient.flow_along;
+  if (flow.sides_F.count > 0) findSidePush(ambient);
   if (!flow.spin_up_B.isZero(0)) flow.push_B = pushBySpinUp(ambient);
   if (flow.stations == 0) return;
   if (!loadsOn(ambient)) {
