@@ -145,10 +145,35 @@ PoolSides findSides(const AmbientBody& ambient, const FluidRegions& regions,
   return sides;
 }
 
-void findSidePush(AmbientBody& ambient) noexcept {
+namespace {
+
+// Returns the wrench in B by which a body keeps its momentum as the part of it that is in the pool
+// grows; none where it becomes smaller. The step before had the sides where they were a step ago.
+Wrench resistanceOfGrowth(const AmbientBody& ambient, double duration) {
+  const SurfaceModel& model = *ambient.surface();
+  const RigidState state = readState(*ambient.body);
+  const Vector3 velocity_F = model.fluid_frame.rotation.transpose() * state.twist.linear;
+  PoolSides before = ambient.flow_along->sides_F;
+  for (int i = 0; i < before.count; ++i) {
+    PoolSides::Side& side = before.of[i];
+    side.point += duration * velocity_F.dot(side.normal) * side.normal;
+  }
+  SurfacePlane plane_B = ambient.stand().plane;
+  plane_B.sides_F = &before;
+  const Matrix6 growth = ambient.stand().inertia.full() - placeAt(model, plane_B).inertia.full();
+  Twist relative = state.twist;
+  relative.linear -= state.orientation.conjugate() * ambient.medium.velocity;
+  const Vector6 x = relative.vector(), momentum = growth * x;
+  return x.dot(momentum) > 0 ? Wrench::fromVector(-momentum / duration) : Wrench{};
+}
+
+}  // namespace
+
+void findSidePush(AmbientBody& ambient, double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
   const SurfacePlane& plane_F = standNow(ambient).immersion_F.plane;
-  const Wrench push_B = model.fluid_frame.toB(computeSidePush(*model.hull, plane_F));
+  Wrench push_B = model.fluid_frame.toB(computeSidePush(*model.hull, plane_F));
+  if (duration > 0) push_B += resistanceOfGrowth(ambient, duration);
   const Quaternion q = toQuaternion(ambient.body->getWorldTransform().getRotation());
   ambient.flow_along->side_push_W = {q * push_B.torque, q * push_B.force};
 }

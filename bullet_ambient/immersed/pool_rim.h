@@ -23,8 +23,9 @@ Vector3 pointIn(const FluidRegion& region, const Vector3& centre_W) noexcept;
 PoolSides findSides(const AmbientBody& ambient, const FluidRegions& regions,
                     const RegionEntry& pool, double ahead) noexcept;
 
-/// Computes by how much the water presses a body across the sides of its pool:
-/// FlowAlongBody::side_push_W. @pre it is at a surface
-void findSidePush(AmbientBody& ambient) noexcept;
+/// Computes by how much the water presses a body across the sides of its pool, and resists where
+/// more of it comes into the water in a step of `duration` [s]: FlowAlongBody::side_push_W.
+/// @pre it is at a surface
+void findSidePush(AmbientBody& ambient, double duration) noexcept;
 
 AMBIENT_END

@@ -15,11 +15,11 @@ namespace {
 const Vector3 kStick(1, 0.04, 0.05);  // [m]
 
 /// What touches or holds a stick: nothing that could turn it about the vertical.
-enum class Rows { kNone, kHinge, kGround };
+enum class StickRows { kNone, kHinge, kGround };
 
 /// A stick of 1.5 times the density of its water, which turns, above a plate without friction.
 struct StickScene : RobotWorld {
-  StickScene(Mover mover, Rows rows) {
+  StickScene(Mover mover, StickRows rows) {
     fluid.addRegion(turningWater(kTurning));
     const double mass = 1500 * kStick.prod();
     const btVector3 moments = toBullet(boxMoments(kStick, mass));
@@ -40,8 +40,8 @@ struct StickScene : RobotWorld {
       contents.addCollider(*tree, -1, box_).setFriction(0);
       fluid.add(*tree, -1, def);
     }
-    if (rows == Rows::kHinge) addHinge();
-    if (rows != Rows::kGround) return;
+    if (rows == StickRows::kHinge) addHinge();
+    if (rows != StickRows::kGround) return;
     world.setGravity({0, 0, bt(-9.81)});
     const double height = (kStick.z() + 2) / 2;
     contents.add(0, {0, 0, 0}, ground_,
@@ -74,14 +74,14 @@ struct StickScene : RobotWorld {
 TEST(LongRows, AStickTurnsWithItsWaterAsWithoutThem) {
   for (const Mover mover : kMovers) {
     std::vector<double> free;
-    for (const Rows rows : {Rows::kNone, Rows::kHinge, Rows::kGround}) {
+    for (const StickRows rows : {StickRows::kNone, StickRows::kHinge, StickRows::kGround}) {
       StickScene scene(mover, rows);
       std::vector<double> spins;
       for (int second = 0; second < 10; ++second) {
         scene.step(1.0 / 240, 240);
         spins.push_back(scene.spin());
       }
-      if (rows == Rows::kNone) free = spins;
+      if (rows == StickRows::kNone) free = spins;
       EXPECT_GT(spins.back(), 0.8 * kTurning);
       for (std::size_t i = 0; i < free.size(); ++i)
         EXPECT_NEAR(spins[i] / free[i], 1, 0.005)

@@ -150,11 +150,11 @@ TEST(PoolRim, NothingJumpsWhereAPlankIsPushedAcrossIt) {
 }
 
 // Velocities and counts of a box that falls into the water and drifts.
-struct Drift {
+struct RimDrift {
   Twist twist;
   AmbientCounters counters;
 };
-Drift driftIn(const std::vector<FluidRegion>& regions, const Vector3& from) {
+RimDrift driftIn(const std::vector<FluidRegion>& regions, const Vector3& from) {
   Rim rim;
   for (const FluidRegion& region : regions) rim.fluid.addRegion(region);
   RigidState at;
@@ -166,7 +166,7 @@ Drift driftIn(const std::vector<FluidRegion>& regions, const Vector3& from) {
   return {ambient::velocityOf(body), rim.fluid.counters()};
 }
 
-void expectSame(const Drift& a, const Drift& b) {
+void expectSameDrift(const RimDrift& a, const RimDrift& b) {
   EXPECT_EQ(a.twist.vector(), b.twist.vector());
   EXPECT_EQ(a.counters.substeps, b.counters.substeps);
   EXPECT_EQ(a.counters.load_evaluations, b.counters.load_evaluations);
@@ -178,10 +178,10 @@ TEST(PoolRim, CostsNothingWhereItDoesNotCutTheBody) {
   sea.bounds.reset();
   const FluidRegion pool = poolBesideLand();
   const Vector3 amid(-3, 0, 0.1), beside(-0.6, 0, 0.1);  // it stays within 0.5 m of its centre
-  expectSame(driftIn({sea}, amid), driftIn({pool}, amid));
+  expectSameDrift(driftIn({sea}, amid), driftIn({pool}, amid));
   EXPECT_EQ(driftIn({sea}, amid).counters.regions_asked,
             driftIn({pool}, amid).counters.regions_asked);
-  expectSame(driftIn({sea}, beside), driftIn({pool}, beside));
+  expectSameDrift(driftIn({sea}, beside), driftIn({pool}, beside));
   const Vector3 across(0.1, 0, 0.1);
   EXPECT_NE(driftIn({sea}, across).twist.vector(), driftIn({pool}, across).twist.vector());
 }
@@ -217,7 +217,7 @@ TEST(PoolRim, ThePartInThePoolIsSlowedDown) {
 }
 
 /// Energy of the dry plank.
-double energyOf(const btRigidBody& body) {
+double dryEnergy(const btRigidBody& body) {
   const Vector3 w = toVector3(body.getAngularVelocity()), v = toVector3(body.getLinearVelocity());
   const Matrix3 R = toQuaternion(body.getWorldTransform().getRotation()).toRotationMatrix();
   const Vector3 moments = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
@@ -251,11 +251,11 @@ TEST(PoolRim, APlankOverTheRimGainsNoEnergy) {
     at.position.z() = 0.25;
     btRigidBody& body = rim.drop(at, with.density, &plank);
     body.setFriction(bt(with.friction));
-    double most = energyOf(body);
+    double most = dryEnergy(body);
     const double start = most, scale = with.density * kPlank.prod() * kGravity;
     for (int i = 0; i < 120 * with.hertz; ++i) {
       rim.step(1 / with.hertz);
-      const double now = energyOf(body);
+      const double now = dryEnergy(body);
       ASSERT_LE(now, start + 1e-3 * scale) << with.hertz << " Hz, " << with.x << ", " << i;
       most = std::max(most, now);
     }

@@ -20,12 +20,12 @@ namespace {
 
 using test::Arbitrary;
 
-SurfacePlane planeAt(const Vector3& normal, double height) {
+SurfacePlane surfaceAt(const Vector3& normal, double height) {
   return {normal.normalized(), height, 1, 1};
 }
 
 /// Hull of a closed bumpy body.
-PackedHull arbitraryHull(Arbitrary& arbitrary) {
+PackedHull bumpyHull(Arbitrary& arbitrary) {
   test::Triangulation mesh = test::geodesicSphere(2);
   for (Vector3& v : mesh.vertices) v = arbitrary.between(0.7, 1.3) * v + Vector3(0.1, 0.2, -0.3);
   return PackedHull(test::hullBody(mesh));
@@ -38,11 +38,11 @@ PoolSides sidesAt(const Vector3& normal, const std::vector<Vector3>& points) {
   return sides;
 }
 
-Vector3 across(const Vector3& v, const Vector3& normal) {
+Vector3 alongSurface(const Vector3& v, const Vector3& normal) {
   return (v - v.dot(normal) * normal).normalized();
 }
 
-PoolSides opposite(PoolSides sides) {
+PoolSides outsideOf(PoolSides sides) {
   for (int i = 0; i < sides.count; ++i) sides.of[i].normal *= -1;
   return sides;
 }
@@ -63,13 +63,13 @@ void expectSum(const WetVolume& a, const WetVolume& b, const WetVolume& whole) {
 
 TEST(PoolSides, BothPartsOfABodyMakeUpTheWhole) {
   Arbitrary arbitrary(1);
-  const PackedHull hull = arbitraryHull(arbitrary);
+  const PackedHull hull = bumpyHull(arbitrary);
   for (int i = 0; i < 200; ++i) {
-    SurfacePlane plane = planeAt(arbitrary.vector(), arbitrary.between(-1, 1));
+    SurfacePlane plane = surfaceAt(arbitrary.vector(), arbitrary.between(-1, 1));
     const WetVolume whole = computeWetVolume(hull, plane);
-    const PoolSides in = sidesAt(across(arbitrary.vector(), plane.normal),
+    const PoolSides in = sidesAt(alongSurface(arbitrary.vector(), plane.normal),
                                  {arbitrary.between(0, 1) * arbitrary.vector()});
-    const PoolSides out = opposite(in);
+    const PoolSides out = outsideOf(in);
     plane.sides_F = &in;
     const WetVolume inside = computeWetVolume(hull, plane);
     plane.sides_F = &out;
@@ -84,7 +84,7 @@ TEST(PoolSides, ABoxInACornerIsABox) {
   sides.count = 2;
   sides.of[0] = {Vector3::UnitX(), {0.3, 7, 7}};
   sides.of[1] = {-Vector3::UnitY(), {7, -0.2, 7}};
-  SurfacePlane plane = planeAt({0, 0, 1}, 0.05);
+  SurfacePlane plane = surfaceAt({0, 0, 1}, 0.05);
   plane.sides_F = &sides;
   const WetVolume wet = computeWetVolume(box, plane);
   const double x = 1.3, y = 0.7, depth = 0.3;
@@ -106,11 +106,11 @@ TEST(PoolSides, ABoxInACornerIsABox) {
 
 TEST(PoolSides, ThatDoNotCutChangeNothing) {
   Arbitrary arbitrary(2);
-  const PackedHull hull = arbitraryHull(arbitrary);
+  const PackedHull hull = bumpyHull(arbitrary);
   for (int i = 0; i < 50; ++i) {
-    SurfacePlane plane = planeAt(arbitrary.vector(), arbitrary.between(-1, 1));
+    SurfacePlane plane = surfaceAt(arbitrary.vector(), arbitrary.between(-1, 1));
     const WetVolume open = computeWetVolume(hull, plane);
-    const Vector3 m = across(arbitrary.vector(), plane.normal);
+    const Vector3 m = alongSurface(arbitrary.vector(), plane.normal);
     const PoolSides sides = sidesAt(m, {3 * m});
     plane.sides_F = &sides;
     expectSum(computeWetVolume(hull, plane), {}, open);
@@ -121,10 +121,10 @@ TEST(PoolSides, ThatDoNotCutChangeNothing) {
 // Force and torque are the gradient of the energy: of moving the side, and of turning the body.
 TEST(PoolSides, PressByTheGradientOfTheEnergy) {
   Arbitrary arbitrary(3);
-  const PackedHull hull = arbitraryHull(arbitrary);
+  const PackedHull hull = bumpyHull(arbitrary);
   for (int i = 0; i < 20; ++i) {
-    const SurfacePlane plane = planeAt(arbitrary.vector(), arbitrary.between(-0.3, 0.5));
-    const Vector3 m = across(arbitrary.vector(), plane.normal);
+    const SurfacePlane plane = surfaceAt(arbitrary.vector(), arbitrary.between(-0.3, 0.5));
+    const Vector3 m = alongSurface(arbitrary.vector(), plane.normal);
     const Vector3 point = 0.4 * arbitrary.vector();
     const auto energyAt = [&](const Vector3& way, const Vector3& turn) {
       const double angle = turn.norm();
@@ -177,7 +177,7 @@ TEST(PoolSides, BothPartsOfTheAddedMassMakeUpTheWhole) {
     const Matrix6 whole = ship.inertia->inertia(ship.at(height, nullptr));
     const InertiaGradient slope = ship.inertia->gradient(ship.at(height, nullptr), x);
     for (const double place : {-0.7, 0.0, 0.2}) {
-      const PoolSides in = sidesAt(Vector3::UnitX(), {{place, 0, 0}}), out = opposite(in);
+      const PoolSides in = sidesAt(Vector3::UnitX(), {{place, 0, 0}}), out = outsideOf(in);
       const Immersion inside = ship.at(height, &in), outside = ship.at(height, &out);
       const Matrix6 K = ship.inertia->inertia(inside);
       EXPECT_LT((K + ship.inertia->inertia(outside) - whole).norm(), 1e-12 * whole.norm());
@@ -209,7 +209,7 @@ TEST(PoolSides, BothPartsOfTheLoadMakeUpTheWhole) {
       for (int i = 0; i < 20; ++i) {
         const Twist x = arbitrary.twist();
         const PoolSides in = sidesAt(arbitrary.vector().normalized(), {0.5 * arbitrary.vector()});
-        const PoolSides out = opposite(in);
+        const PoolSides out = outsideOf(in);
         WetPart part{{Vector3::UnitZ(), 1.2, 1000, 9.81}, 0.5};
         part.plane.sides_F = &in;
         const Vector6 inside = loads->wetLoad(x, part).vector();
