@@ -172,10 +172,11 @@ Wrench resistanceOfGrowth(const AmbientBody& ambient, double duration) {
 void findSidePush(AmbientBody& ambient, double duration) noexcept {
   const SurfaceModel& model = *ambient.surface();
   const SurfacePlane& plane_F = standNow(ambient).immersion_F.plane;
-  Wrench push_B = model.fluid_frame.toB(computeSidePush(*model.hull, plane_F));
-  if (duration > 0) push_B += resistanceOfGrowth(ambient, duration);
   const Quaternion q = toQuaternion(ambient.body->getWorldTransform().getRotation());
-  ambient.flow_along->side_push_W = {q * push_B.torque, q * push_B.force};
+  const auto inWorld = [&q](const Wrench& f) { return Wrench{q * f.torque, q * f.force}; };
+  FlowAlongBody& flow = *ambient.flow_along;
+  flow.side_push_W = inWorld(model.fluid_frame.toB(computeSidePush(*model.hull, plane_F)));
+  if (duration > 0) flow.growth_W = inWorld(resistanceOfGrowth(ambient, duration));
 }
 
 AMBIENT_END

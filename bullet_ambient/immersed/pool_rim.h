@@ -24,7 +24,8 @@ PoolSides findSides(const AmbientBody& ambient, const FluidRegions& regions,
                     const RegionEntry& pool, double ahead) noexcept;
 
 /// Computes by how much the water presses a body across the sides of its pool, and resists where
-/// more of it comes into the water in a step of `duration` [s]: FlowAlongBody::side_push_W.
+/// more of it comes into the water in a step of `duration` [s]: FlowAlongBody::side_push_W,
+/// growth_W.
 /// @pre it is at a surface
 void findSidePush(AmbientBody& ambient, double duration) noexcept;
 

@@ -75,8 +75,8 @@ class StationSamples {
 };
 
 /// Finds what the flow along a body adds to its applied wrench in a step of `duration` [s]:
-/// FlowAlongBody::push_B, at_rest_B, side_push_W. Allocates nothing. Cost: nothing where the fluid
-/// moves as one.
+/// FlowAlongBody::push_B, at_rest_B, side_push_W, growth_W. Allocates nothing. Cost: nothing where
+/// the fluid moves as one.
 void findPushes(AmbientBody& ambient, double duration) noexcept;
 
 AMBIENT_END

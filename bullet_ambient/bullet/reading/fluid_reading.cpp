@@ -176,7 +176,8 @@ void finishReading(const AmbientBody& ambient, const ReadStep& step,
   } else {
     wrench.added_mass = rate * addedMassImpulse(ambient, step, reading);
     if (const FlowAlongBody* flow = reading.surroundings.flow)
-      wrench.added_mass += turned(reading.start.orientation.toRotationMatrix(), flow->push_B);
+      wrench.added_mass +=
+          turned(reading.start.orientation.toRotationMatrix(), flow->push_B) + flow->growth_W;
     wrench.constraints = without(unapplied, wrench.total());
   }
 }

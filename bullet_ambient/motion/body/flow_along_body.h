@@ -21,8 +21,10 @@ struct FlowAlongBody {
   Wrench push_B;               ///< by the added mass that is spun up, eq. (88)
   Vector3 lean_W{0, 0, 0};  ///< what gravity is inclined by at a tilted surface, eq. (84) [m/s^2]
   PoolSides sides_F;        ///< sides of its pool that cut the body
-  Wrench side_push_W;       ///< of the water across them, eq. (90), (91); world axes
+  Wrench side_push_W;       ///< pressure of the water across them, eq. (90); world axes
+  Wrench growth_W;          ///< of added mass that comes into the pool, eq. (91); world axes
 
+  Wrench atSides_W() const { return side_push_W + growth_W; }
   bool isNone() const {
     return stations == 0 && lean_W.isZero(0) && spin_up_B.isZero(0) && sides_F.count == 0;
   }
