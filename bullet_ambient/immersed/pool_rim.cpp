@@ -91,9 +91,9 @@ bool reachesInto(const AmbientBody& ambient, const RegionEntry& pool, const Flui
   if (findSides(ambient, regions, pool, 0).count == 0) return false;
   RegionCall call(regions);
   const RegionSample sample = sampleRegion(pool.region, point, regions.time, ambient.def->medium);
-  return sample.is_finite &&
-         nearSurface(ambient, SurfaceKind(pool.region), {sample, point}, duration).side !=
-             SurfaceSide::kAbove;
+  const NearSurface near =
+      nearSurface(ambient, SurfaceKind(pool.region), {sample, point}, duration);
+  return sample.is_finite && near.media >= 0 && near.side != SurfaceSide::kAbove;
 }
 
 }  // namespace
@@ -132,10 +132,10 @@ PoolSides findSides(const AmbientBody& ambient, const FluidRegions& regions,
   const FrameOffset& frame = model->fluid_frame;
   forEachWall(*pool.region.bounds, body.getGravity(), [&](const Wall& wall) {
     const double way = wall.out * (wall.place - centre[wall.axis]);
-    if (!(std::abs(way) < model->radius) || sides.count == PoolSides::kMost) return;
+    if (!(way < model->radius) || sides.count == PoolSides::kMost) return;
     const Vector3 out_B = to_body * wall.normal_W();
-    const auto [low, high] = reachAlong(*model, out_B);
-    if (!(low < way && way < high)) return;
+    const double high = reachAlong(*model, out_B).second;
+    if (!(way < high)) return;
     Vector3 beyond = pointIn(pool.region, centre);
     beyond[wall.axis] = wall.place + wall.out * (high - way) / 2;
     if (isWaterAt(beyond, ambient, regions, pool.region)) return;

@@ -18,8 +18,8 @@ RegionsAround findRegions(const AmbientBody& ambient, const FluidRegions& region
 /// the region that is nearest to it.
 Vector3 pointIn(const FluidRegion& region, const Vector3& centre_W) noexcept;
 
-/// Returns the sides of a region of water that cut a body, where its velocity brings it in a time
-/// `ahead` [s]; none where there is water beyond the side. Balls have none: their centre decides.
+/// Returns the sides of a region of water beyond which a body reaches where its velocity brings it
+/// in a time `ahead` [s], but those with water beyond. Balls have none: their centre decides.
 PoolSides findSides(const AmbientBody& ambient, const FluidRegions& regions,
                     const RegionEntry& pool, double ahead) noexcept;
 
