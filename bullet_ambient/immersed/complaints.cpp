@@ -1,5 +1,6 @@
 #include "bullet_ambient/immersed/complaints.h"
 
+#include <cstdio>
 #include <string>
 
 #include "bullet_ambient/base/pi.h"
@@ -46,6 +47,7 @@ const char* sentenceOf(Complaint complaint) {
     case Complaint::kLight:
     case Complaint::kSwing:
     case Complaint::kTooLong:
+    case Complaint::kFastJoint:
     case Complaint::kChange:
     case Complaint::kGaping:
     case Complaint::kCount:
@@ -71,6 +73,15 @@ std::string coarseSwing(const AttachDef& def, double period, double step) {
   return "bullet_ambient: a " + nameOf(def) + " floats with a period of " + std::to_string(period) +
          " s and is moved by joints or " + "contacts in steps of " + std::to_string(step) +
          " s: in less than four steps a period it swings too slowly; take shorter steps";
+}
+
+std::string fastJoint(const AttachDef& def, double turns, double step) {
+  char numbers[80];
+  std::snprintf(numbers, sizeof numbers, "%.3g turns in a step of %.3g s", turns, step);
+  return "bullet_ambient: the world's step is too long for the motion of a " + nameOf(def) +
+         ": its joint turns it by " + numbers +
+         "; from half a turn on it meets the flow from few sides; take shorter steps; further "
+         "bodies of which this is true are only counted";
 }
 
 std::string gapingJoint(const AttachDef& def, const AttachDef* other) {
@@ -121,6 +132,10 @@ void Complaints::sayCoarseSwing(const AttachDef& def, double frequency, double s
 
 void Complaints::sayGaping(const AttachDef& def, const AttachDef* other) noexcept {
   sayMade(Complaint::kGaping, [&] { return gapingJoint(def, other); });
+}
+
+void Complaints::sayFastJoint(const AttachDef& def, double turns, double step) noexcept {
+  sayMade(Complaint::kFastJoint, [&] { return fastJoint(def, turns, step); });
 }
 
 void Complaints::sayTooLong(const AttachDef& def) noexcept {

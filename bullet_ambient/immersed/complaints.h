@@ -35,6 +35,7 @@ enum class Complaint {
   kLight,
   kSwing,
   kTooLong,
+  kFastJoint,
   kChange,
   kDuration,
   kGaping,
@@ -50,6 +51,9 @@ class Complaints {
   void say(Complaint complaint, const char* sentence) noexcept;
   /// Names the first body whose steps are too long; AmbientCounters::too_long counts them.
   void sayTooLong(const AttachDef& def) noexcept;
+  /// Names the first link that its joint turns by half a turn or more in a step, by a number of
+  /// `turns` in one of `step` [s].
+  void sayFastJoint(const AttachDef& def, double turns, double step) noexcept;
   /// Names a floating body moved by constraint rows whose step [s] is too long for its natural
   /// frequency [rad/s].
   void sayCoarseSwing(const AttachDef& def, double frequency, double step) noexcept;

@@ -55,7 +55,7 @@ SurfaceMedia atSurface(const AttachDef& def, const InverseMass& mass, const Surf
 }
 
 FluidModels makeModels(const AttachDef& def, const InverseMass& mass, const RegionFluids& fluids) {
-  FluidModels models{mass, {}, {}, makeBodyStations(def)};
+  FluidModels models{mass, {}, {}, makeBodyStations(def), 0};
   const auto add = [&](const FluidKind& kind, const Medium& medium) {
     const auto loads = makeSurfaceLoads(def.fluid_body, medium, def.flow);
     models.media.push_back(inMedium(def, mass, kind, loads));
@@ -67,6 +67,9 @@ FluidModels makeModels(const AttachDef& def, const InverseMass& mass, const Regi
     if (!(kind == own)) add(kind, kind.medium());
   for (const SurfaceKind& kind : fluids.surfaces)
     models.surfaces.push_back(atSurface(def, mass, kind));
+  models.reach = models.stations.reach;
+  if (!models.surfaces.empty())
+    models.reach = std::max(models.reach, models.surfaces.front().model.radius);
   return models;
 }
 

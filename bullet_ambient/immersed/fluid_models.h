@@ -47,6 +47,7 @@ struct FluidModels {
   std::vector<MediumModel> media;  ///< the first is that of the body's own medium
   std::vector<SurfaceMedia> surfaces;
   BodyStations stations = {};
+  double reach = 0;  ///< how far from the centre of mass bounds of regions matter to the body [m]
 
   /// Null: the body does not meet this medium.
   const MediumModel* find(const FluidKind& kind) const noexcept;

@@ -22,6 +22,11 @@ class FluidRegions {
   const Entry* find(const Vector3& point_W, long long& asked) const noexcept;
   /// Finds that region, and whether another one or none may be within `reach` [m] of the point.
   RegionsAround findAround(const Vector3& point_W, double reach, long long& asked) const noexcept;
+  /// Finds the region with bounds and a surface, of highest rank, that may be within `reach` [m] of
+  /// the point; null: none.
+  const Entry* findPool(const Vector3& point_W, double reach, long long& asked) const noexcept {
+    return index_.findPool(point_W, reach, asked);
+  }
   /// @throws std::invalid_argument if there is no such region.
   const FluidRegion& require(RegionId id) const;
 

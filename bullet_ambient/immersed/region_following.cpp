@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/immersed/pool_rim.h"
 #include "bullet_ambient/immersed/region_call.h"
 #include "bullet_ambient/immersed/station_samples.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
@@ -45,8 +46,8 @@ Vector3 centreOf(const AmbientBody& ambient) {
 RegionSample sampleFor(AmbientBody& ambient, const FluidRegions::Entry& entry,
                        const FluidRegions& regions, Complaints& complaints) noexcept {
   RegionCall call(regions);
-  const RegionSample sample =
-      sampleRegion(entry.region, centreOf(ambient), regions.time, ambient.def->medium);
+  const RegionSample sample = sampleRegion(entry.region, pointIn(entry.region, centreOf(ambient)),
+                                           regions.time, ambient.def->medium);
   if (sample.is_finite) return sample;
   ++ambient.counters.rejected;
   if (!call.was_refused) sayNotFinite(entry.id, complaints);  // or it was said what it did
@@ -114,7 +115,8 @@ void followFlow(AmbientBody& ambient, const FlowStep& step, RegionSample& sample
   medium.velocity -= change;
   medium.acceleration += in_step / step.duration;
   // Stand-ins of links are placed in regions only.
-  const Vector3 position = step.entry ? centreOf(ambient) : Vector3(Vector3::Zero());
+  const Vector3 position =
+      step.entry ? pointIn(step.entry->region, centreOf(ambient)) : Vector3(Vector3::Zero());
   ambient.flow = {step.regions.time + step.duration,
                   position,
                   bare.velocity - (change - in_step),
@@ -167,23 +169,37 @@ void enterOwnMedium(AmbientBody& ambient, const FluidRegions& regions, const Reg
   enterMedium(ambient, {}, sample.below);
 }
 
+// Returns the side of a region's surface on which a body is. `is_alone`: no bounds cross the body.
+// Sides of a pool are held on the body over the step: they are those of its middle.
+SurfaceSide meetWater(AmbientBody& ambient, const FlowStep& step, bool is_alone,
+                      const RegionSample& sample) noexcept {
+  const FluidRegion& region = step.entry->region;
+  const SampleAt at{sample, pointIn(region, centreOf(ambient))};
+  const NearSurface near = nearSurface(ambient, SurfaceKind(region), at, step.duration);
+  const bool has_sides = !is_alone && near.side != SurfaceSide::kAbove;
+  return meetSurface(
+      ambient, near, sample,
+      has_sides ? findSides(ambient, step.regions, *step.entry, step.duration / 2) : PoolSides{});
+}
+
 // Finds on which side of the surface of its region a body is, and what of the flow differs along
-// it.
-SurfaceSide meetFluids(AmbientBody& ambient, const FluidRegion& region,
-                       const std::optional<StationSamples>& stations, double duration,
+// it. `is_alone`: no bounds cross the body.
+SurfaceSide meetFluids(AmbientBody& ambient, const FlowStep& step, bool is_alone,
+                       const std::optional<StationSamples>& stations,
                        RegionSample& sample) noexcept {
   const Vector3 gravity = toVector3(ambient.body->getGravity());
   if (stations) {
     stations->addMeans(&RegionSample::below, sample);
     stations->fitSurface(gravity, sample);
   }
-  const SurfaceSide side = region.surface
-                               ? meetSurface(ambient, SurfaceKind(region), sample, duration)
-                               : SurfaceSide::kBelow;
+  const SurfaceSide side =
+      step.entry->region.surface ? meetWater(ambient, step, is_alone, sample) : SurfaceSide::kBelow;
   if (!stations) return side;
   const bool is_above = side == SurfaceSide::kAbove;
   if (is_above) stations->addMeans(&RegionSample::above, sample);
+  const PoolSides sides_F = ambient.flow_along->sides_F;
   *ambient.flow_along = stations->flowAlong(is_above ? &RegionSample::above : &RegionSample::below);
+  ambient.flow_along->sides_F = sides_F;
   if (side == SurfaceSide::kAt && !sample.tilt.isZero(0))
     ambient.flow_along->lean_W = leanOf(sample, gravity);
   return side;
@@ -215,19 +231,19 @@ void followRegions(AmbientBody& ambient, const FluidRegions& regions, double dur
                    Complaints& complaints) noexcept {
   RegionsAround around;
   if (ambient.def->follow_regions && !regions.empty())
-    around = regions.findAround(centreOf(ambient), ambient.models->stations.reach,
-                                ambient.counters.regions_asked);
+    around = findRegions(ambient, regions, duration, ambient.counters.regions_asked);
   const FluidRegions::Entry* entry = around.entry;
   if (ambient.flow_along && !ambient.flow_along->isNone()) *ambient.flow_along = {};
   ambient.may_rest = !entry || isSteady(entry->region);
   if (!entry) return enterOwnMedium(ambient, regions, around, duration, complaints);
   RegionSample sample = sampleFor(ambient, *entry, regions, complaints);
   const auto stations = sampleStations(ambient, regions, around, sample, complaints);
-  followFlow(ambient, {regions, entry, duration}, sample);
+  const FlowStep step{regions, entry, duration};
+  followFlow(ambient, step, sample);
   if (entry->region.surface)
     checkUp(entry->id, entry->region.surface->up(), toVector3(ambient.body->getGravity()),
             complaints);
-  const SurfaceSide side = meetFluids(ambient, entry->region, stations, duration, sample);
+  const SurfaceSide side = meetFluids(ambient, step, around.is_alone, stations, sample);
   const bool is_above = side == SurfaceSide::kAbove;
   changeSide(ambient.flow, is_above, is_above ? sample.bare_above : sample.bare_below);
   [[maybe_unused]] const bool is_known =

@@ -126,31 +126,57 @@ RegionsAround RegionIndex::findAround(const Vector3& point_W, double reach,
 }
 
 // The box of the higher rank first: what is found there makes most others needless.
-void RegionIndex::search(const Tree& tree, const Cube& cube, Found& found,
-                         long long& asked) const noexcept {
+template <class IsWanted, class Visit>
+void RegionIndex::forEachNear(const Tree& tree, const Cube& cube, long long& asked,
+                              const IsWanted& isWanted, const Visit& visit) const noexcept {
   constexpr int kDeepest = std::numeric_limits<std::size_t>::digits + 1;
   std::size_t waiting[kDeepest] = {1};
   int count = 1;
   while (count > 0) {
     const std::size_t i = waiting[--count];
     const Node& box = node(tree, i);
-    if (!(found.rank < box.best)) continue;
+    if (!isWanted(box.best)) continue;
     ++asked;
     if (!mayMeet(box.box, cube.centre_W, cube.reach)) continue;
     if (i >= tree.count) {
-      const RegionEntry* entry = leaves_[tree.first + i - tree.count];
-      const bool is_alone = holdsAll(entry->region, cube.centre_W, cube.reach);
-      found.around.is_alone = found.around.is_alone && is_alone;
-      if (holds(entry->region, cube.centre_W)) {
-        found.around.entry = entry;
-        found.rank = box.best;
-      }
+      visit(*leaves_[tree.first + i - tree.count], box.best);
       continue;
     }
     const bool is_second_higher = node(tree, 2 * i).best < node(tree, 2 * i + 1).best;
     waiting[count++] = 2 * i + (is_second_higher ? 0 : 1);
     waiting[count++] = 2 * i + (is_second_higher ? 1 : 0);
   }
+}
+
+void RegionIndex::search(const Tree& tree, const Cube& cube, Found& found,
+                         long long& asked) const noexcept {
+  forEachNear(
+      tree, cube, asked, [&found](const RegionRank& best) { return found.rank < best; },
+      [&](const RegionEntry& entry, const RegionRank& rank) {
+        const bool is_alone = holdsAll(entry.region, cube.centre_W, cube.reach);
+        found.around.is_alone = found.around.is_alone && is_alone;
+        if (!holds(entry.region, cube.centre_W)) return;
+        found.around.entry = &entry;
+        found.rank = rank;
+      });
+}
+
+const RegionEntry* RegionIndex::findPool(const Vector3& point_W, double reach,
+                                         long long& asked) const noexcept {
+  const RegionEntry* pool = nullptr;
+  RegionRank highest = kNoRank;
+  for (Tree tree{leaves_.size(), 0}; tree.first > 0;) {
+    tree = lastTree(tree.first);
+    forEachNear(
+        tree, {point_W, reach}, asked,
+        [&highest](const RegionRank& best) { return highest < best; },
+        [&](const RegionEntry& entry, const RegionRank& rank) {
+          if (!entry.region.bounds || !entry.region.surface) return;
+          pool = &entry;
+          highest = rank;
+        });
+  }
+  return pool;
 }
 
 AMBIENT_END

@@ -51,6 +51,10 @@ class RegionIndex {
   /// Finds that region, and whether other ones or none may be within `reach` [m] of the point along
   /// each axis of W.
   RegionsAround findAround(const Vector3& point_W, double reach, long long& asked) const noexcept;
+  /// Finds the region with bounds and a surface, of highest rank, that may be within `reach` [m] of
+  /// the point along each axis of W; null: none. Cost: O(log n) where few regions are near.
+  const RegionEntry* findPool(const Vector3& point_W, double reach,
+                              long long& asked) const noexcept;
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -84,6 +88,11 @@ class RegionIndex {
   void sortLeaves(std::size_t first, std::size_t count);
   void dropEmptyLeaves();
   void search(const Tree& tree, const Cube& cube, Found& found, long long& asked) const noexcept;
+  // Calls visit(entry, rank) for regions that may meet the cube, while isWanted(rank) of the best
+  // rank in a box, those of higher rank first.
+  template <class IsWanted, class Visit>
+  void forEachNear(const Tree& tree, const Cube& cube, long long& asked, const IsWanted& isWanted,
+                   const Visit& visit) const noexcept;
 
   std::vector<RegionEntry*> leaves_;  // null: removed
   std::vector<Node> nodes_;           // two for each leaf

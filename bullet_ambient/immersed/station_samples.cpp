@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/immersed/pool_rim.h"
 #include "bullet_ambient/immersed/region_call.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
@@ -215,9 +216,10 @@ Wrench pushBySpinUp(AmbientBody& ambient) {
 
 }  // namespace
 
-void findPushes(AmbientBody& ambient) noexcept {
+void findPushes(AmbientBody& ambient, double duration) noexcept {
   if (!ambient.flow_along) return;
   FlowAlongBody& flow = *ambient.flow_along;
+  if (flow.sides_F.count > 0) findSidePush(ambient, duration);
   if (!flow.spin_up_B.isZero(0)) flow.push_B = pushBySpinUp(ambient);
   if (flow.stations == 0) return;
   if (!loadsOn(ambient)) {

@@ -74,8 +74,9 @@ class StationSamples {
   std::array<Station, 2 * kPairs> stations_;  // of each axis those on both sides
 };
 
-/// Finds what the flow along a body adds to its applied wrench: FlowAlongBody::push_B, at_rest_B.
-/// Allocates nothing. Cost: nothing where the fluid moves as one.
-void findPushes(AmbientBody& ambient) noexcept;
+/// Finds what the flow along a body adds to its applied wrench in a step of `duration` [s]:
+/// FlowAlongBody::push_B, at_rest_B, side_push_W, growth_W. Allocates nothing. Cost: nothing where
+/// the fluid moves as one.
+void findPushes(AmbientBody& ambient, double duration) noexcept;
 
 AMBIENT_END

@@ -30,14 +30,14 @@ SurfacePlane planeAfter(const AmbientBody& ambient, double time) {
 // Whether two planes are one but for the rounding of Bullet's poses, relative to their place in W.
 bool isNear(const SurfacePlane& a, const SurfacePlane& b, double size) {
   constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
-  return a.density == b.density && a.gravity == b.gravity &&
+  return a.density == b.density && a.gravity == b.gravity && a.sides_F == b.sides_F &&
          (a.normal - b.normal).cwiseAbs().maxCoeff() <= kRounding &&
          std::abs(a.height - b.height) <= kRounding * size;
 }
 
 bool isSame(const SurfacePlane& a, const SurfacePlane& b) {
   return a.normal == b.normal && a.height == b.height && a.density == b.density &&
-         a.gravity == b.gravity;
+         a.gravity == b.gravity && a.sides_F == b.sides_F;
 }
 
 const SurfaceStand& standAfter(AmbientBody& ambient, double time) {
@@ -103,29 +103,39 @@ SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
   return {normal, normal.dot(above), sample.below.density - sample.above.density, felt.norm()};
 }
 
-SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const RegionSample& sample,
+NearSurface nearSurface(const AmbientBody& ambient, const SurfaceKind& kind, const SampleAt& at,
                         double duration) noexcept {
-  const SurfaceSide by_centre = sample.isAbove() ? SurfaceSide::kAbove : SurfaceSide::kBelow;
+  const RegionSample& sample = at.sample;
   const btRigidBody& body = *ambient.body;
   const Vector3 gravity = toVector3(body.getGravity());
   const int media = ambient.models->findSurface(kind);
-  if (media < 0 || !hasSurface(sample, gravity)) return by_centre;
+  if (media < 0 || !hasSurface(sample, gravity))
+    return {sample.isAbove() ? SurfaceSide::kAbove : SurfaceSide::kBelow};
   const SurfaceModel& model = ambient.models->surfaces[static_cast<std::size_t>(media)].model;
   const RigidState state = readState(body);
-  const SurfacePlane plane_W = planeNear(state.position, sample, gravity);
+  const SurfacePlane plane_W = planeNear(at.point_W, sample, gravity);
   const double speed = (toVector3(body.getLinearVelocity()) - sample.below.velocity).norm();
   const double travel =
       duration * (speed + model.radius * state.twist.angular.norm() + duration * gravity.norm());
   const SurfacePlane plane_B =
       seenFrom(plane_W, state.orientation.toRotationMatrix(), state.position);
-  const SurfaceSide side = sideOf(model, plane_B, travel);
-  if (side != SurfaceSide::kAt) return side;
-  if (ambient.surface_media != media) ambient.meeting->is_valid = false;
-  ambient.surface_media = media;
+  return {sideOf(model, plane_B, travel), media, plane_W};
+}
+
+SurfaceSide meetSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
+                        const PoolSides& sides_F) noexcept {
+  const bool is_cut = sides_F.count > 0 && near.side != SurfaceSide::kAbove;
+  if (near.media < 0 || (near.side != SurfaceSide::kAt && !is_cut)) return near.side;
+  if (ambient.surface_media != near.media) ambient.meeting->is_valid = false;
+  ambient.surface_media = near.media;
   SurfaceEncounter& encounter = ambient.encounter();
-  encounter.plane_W = plane_W;
+  encounter.plane_W = near.plane_W;
   encounter.velocity_above = sample.above.velocity;
-  return side;
+  if (!is_cut) return SurfaceSide::kAt;
+  ambient.flow_along->sides_F = sides_F;
+  encounter.plane_W.sides_F = &ambient.flow_along->sides_F;
+  ambient.meeting->has_met = ambient.meeting->is_valid = false;  // its stand had other sides
+  return SurfaceSide::kAt;
 }
 
 void standAt(AmbientBody* const* bodies, const SurfacePlane* planes_B, int count) noexcept {

@@ -24,11 +24,28 @@ Vector3 leanOf(const RegionSample& sample, const Vector3& gravity) noexcept;
 SurfacePlane planeNear(const Vector3& position, const RegionSample& sample,
                        const Vector3& gravity) noexcept;
 
-/// Decides whether the surface matters to the body in a step of `duration` [s], and if so fills
-/// AmbientBody::encounter(). `sample`: region at the centre of mass. Without gravity there is no
-/// surface, and the centre of mass decides. Allocates nothing.
-SurfaceSide meetSurface(AmbientBody& ambient, const SurfaceKind& kind, const RegionSample& sample,
+/// A region sampled at a point.
+struct SampleAt {
+  const RegionSample& sample;
+  Vector3 point_W;
+};
+
+/// A body near the surface of a region.
+struct NearSurface {
+  SurfaceSide side = SurfaceSide::kAt;
+  int media = -1;        ///< index into FluidModels::surfaces; -1: it meets no surface
+  SurfacePlane plane_W;  ///< where it meets one
+};
+/// Decides whether the surface matters to the body in a step of `duration` [s]. `at`: region where
+/// the body is. Without gravity there is no surface, and the place of the sample decides. Allocates
+/// nothing.
+NearSurface nearSurface(const AmbientBody& ambient, const SurfaceKind& kind, const SampleAt& at,
                         double duration) noexcept;
+
+/// Fills AmbientBody::encounter() if the surface matters to the body; where sides of its pool cut
+/// it and it is not dry, it does at any depth. Allocates nothing.
+SurfaceSide meetSurface(AmbientBody& ambient, const NearSurface& near, const RegionSample& sample,
+                        const PoolSides& sides_F) noexcept;
 
 /// Computes the SurfaceStands of up to kFlightsTogether bodies for planes in B, side by side. Keeps
 /// the last one if the plane equals metPlane() up to the rounding of poses in Bullet.

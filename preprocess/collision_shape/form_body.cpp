@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "bullet_ambient/spatial/positive_part.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
 #include "preprocess/collision_shape/solids/collision_solids.h"
 #include "preprocess/collision_shape/solids/solid_union.h"
@@ -109,15 +109,6 @@ PotentialFlow solveFlow(const TriangleMesh& mesh, const CollisionShapeSettings& 
   }
 }
 
-/// The nearest symmetric positive semi-definite matrix: extrapolation may leave a tiny negative
-/// eigenvalue where the true inertia vanishes.
-Matrix6 withoutNegativePart(const Matrix6& K) {
-  const SymmetricEigen<6> eigen = symmetricEigen<6>(K);
-  const Matrix6 positive =
-      eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
-  return (positive + positive.transpose()) / 2;
-}
-
 struct AddedMass {
   Matrix6 total = Matrix6::Zero();
   std::vector<AddedMassPart> parts;  // empty where no flow was solved
@@ -134,7 +125,7 @@ AddedMass addedMassOf(const Solid& solid, const CollisionShapeSettings& settings
   Matrix6 total = fine.added_mass;
   if (solid.flow_ratio != 0) {
     const Matrix6 coarse = solveFlow(solid.coarse_flow, settings, name).added_mass;
-    total = withoutNegativePart(total + (total - coarse) / (solid.flow_ratio - 1));
+    total = positivePart(total + (total - coarse) / (solid.flow_ratio - 1));
   }
   return {symmetrisedAddedMass(total, solid.mesh), fine.parts};
 }
@@ -158,7 +149,7 @@ AddedMass coupledAddedMass(const std::vector<Solid>& solids, const CollisionShap
   Matrix6 total = all.added_mass;
   for (const Solid& solid : solids)
     if (solid.added_mass) total += *solid.added_mass - solve(solid.mesh).added_mass;
-  return {withoutNegativePart(total), all.parts};
+  return {positivePart(total), all.parts};
 }
 
 /// Returns whether the added mass of a solid is not simply that of its mesh.

@@ -20,7 +20,7 @@ bool hasWind(const AmbientBody& ambient) {
 // True if a torque, a joint force or an accelerating flow acts on a link.
 bool isDriven(const Link& link) {
   const auto& forces = link.joint_force;
-  return !link.surroundings.applied.torque.isZero(0) ||
+  return link.surroundings.hasTorque() ||
          std::any_of(forces.begin(), forces.end(), [](double force) { return force != 0; }) ||
          (link.model && !link.surroundings.ambient_acceleration.isZero(0));
 }

@@ -260,9 +260,10 @@ void reportFastJoints(const AmbientTree& tree, const TreeTask& task) noexcept {
     const btMultiBody& body = *tree.multi_body;
     if (body.getLink(link->link).m_jointType != btMultibodyLink::eRevolute) continue;
     const auto rate = static_cast<double>(body.getJointVel(link->link));
-    if (std::abs(rate) * task.duration < kPi) continue;
+    const double turns = std::abs(rate) * task.duration / (2 * kPi);
+    if (turns < 0.5) continue;
     ambient.counters.too_long = 1;
-    task.bodies.complaints.sayTooLong(*ambient.def);
+    task.bodies.complaints.sayFastJoint(*ambient.def, turns, task.duration);
   }
 }
 

@@ -35,7 +35,7 @@ bool prepareFluid(AmbientBody& ambient, AmbientBodies& bodies, double time_step)
     return false;
   }
   followWake(ambient, time_step);
-  findPushes(ambient);
+  findPushes(ambient, time_step);
   return true;
 }
 

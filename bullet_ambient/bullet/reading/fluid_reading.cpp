@@ -84,7 +84,9 @@ class MiddleWrenches {
     const Surroundings& s = reading_.surroundings;
     found_.buoyancy = buoyancy(model.displaced_mass, model.centre_of_volume,
                                to_world_.transpose() * (s.gravity - s.ambient_acceleration));
-    if (s.flow) found_.buoyancy.force += model.mass * (to_world_.transpose() * s.flow->lean_W);
+    if (!s.flow) return;
+    found_.buoyancy.force += model.mass * (to_world_.transpose() * s.flow->lean_W);
+    found_.buoyancy += turned(to_world_.transpose(), s.flow->side_push_W);
   }
 
   // `all`: less the load at rest in the mean flow.
@@ -174,7 +176,8 @@ void finishReading(const AmbientBody& ambient, const ReadStep& step,
   } else {
     wrench.added_mass = rate * addedMassImpulse(ambient, step, reading);
     if (const FlowAlongBody* flow = reading.surroundings.flow)
-      wrench.added_mass += turned(reading.start.orientation.toRotationMatrix(), flow->push_B);
+      wrench.added_mass +=
+          turned(reading.start.orientation.toRotationMatrix(), flow->push_B) + flow->growth_W;
     wrench.constraints = without(unapplied, wrench.total());
   }
 }

@@ -5,7 +5,9 @@
 #include <functional>
 #include <limits>
 
+#include "bullet_ambient/force/surface/wet_polygon.h"
 #include "bullet_ambient/immersed/fluid_regions.h"
+#include "bullet_ambient/immersed/pool_rim.h"
 #include "bullet_ambient/immersed/region_call.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
@@ -22,25 +24,50 @@ double wetShareOf(std::array<double, 3> depths) {
   return 1 - high * high / ((deep - high) * (middle - high));
 }
 
-/// Share of a body's surface below a plane in F.
-double wetAreaShare(const FluidBody& shape, const SurfacePlane& plane) {
+/// Part of a body's surface that is in the water.
+struct WetSurface {
+  double share = 0;    ///< of the area [1]
+  double draught = 0;  ///< depth of its lowest point [m]
+};
+
+/// Adds a triangle with its part below a plane in F and between the sides of its pool. `share` is
+/// an area here [m^2].
+void addTriangle(const Vector3 (&corners)[3], const SurfacePlane& plane, WetSurface& wet) {
+  if (plane.sides_F) {
+    const WetPolygon part(PoolFrame(plane), corners);
+    part.forEachTriangle([&wet](const Vector3& a, const Vector3& b, const Vector3& c) {
+      wet.share += (b - a).cross(c - a).norm() / 2;
+    });
+    for (int i = 0; i < part.count(); ++i) wet.draught = std::max(wet.draught, part.corner(i).z());
+    return;
+  }
+  wet.share +=
+      (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2 *
+      wetShareOf({plane.depth(corners[0]), plane.depth(corners[1]), plane.depth(corners[2])});
+}
+
+WetSurface wetSurfaceOf(const FluidBody& shape, const Immersion& immersion) {
+  const SurfacePlane& plane = immersion.plane;
   const double radius = shape.sphere_radius;
   if (radius > 0)
-    return std::clamp(0.5 + plane.depth(shape.centre_of_volume) / (2 * radius), 0.0, 1.0);
+    return {std::clamp(0.5 + plane.depth(shape.centre_of_volume) / (2 * radius), 0.0, 1.0),
+            immersion.draught()};
   const std::vector<std::int32_t>& triangles = shape.surface.triangles;
   const auto corner = [&](std::int32_t vertex) {
     const double* v = shape.surface.vertices.data() + 3 * static_cast<std::size_t>(vertex);
     return Vector3(v[0], v[1], v[2]);
   };
-  double wet = 0, all = 0;
+  WetSurface wet;
+  double all = 0;
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    const Vector3 a = corner(triangles[i]), b = corner(triangles[i + 1]),
-                  c = corner(triangles[i + 2]);
-    const double area = (b - a).cross(c - a).norm();
-    all += area;
-    wet += area * wetShareOf({plane.depth(a), plane.depth(b), plane.depth(c)});
+    const Vector3 corners[3] = {corner(triangles[i]), corner(triangles[i + 1]),
+                                corner(triangles[i + 2])};
+    all += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
+    addTriangle(corners, plane, wet);
   }
-  return all > 0 ? wet / all : 0;
+  wet.share = all > 0 ? wet.share / all : 0;
+  if (!plane.sides_F) wet.draught = immersion.draught();
+  return wet;
 }
 
 WetState wholly(const AmbientBody& ambient, bool is_wet) {
@@ -62,12 +89,14 @@ WetState cutBy(const SurfacePlane& plane_W, const SurfaceModel& model, const Amb
   const SurfacePlane plane_B =
       seenFrom(plane_W, pose.orientation.toRotationMatrix(), pose.position);
   const Immersion immersion = immersionOf(model, plane_B);
-  if (immersion.isDry()) return wholly(ambient, false);
+  if (immersion.isDry() || (plane_B.sides_F && !(immersion.wet.volume > 0)))
+    return wholly(ambient, false);
   WetState state;
   state.volume = immersion.wet.volume;
   state.share = wetShare(immersion, shape.volume);
-  state.draught = immersion.draught();
-  state.area = shape.area * wetAreaShare(shape, immersion.plane);
+  const WetSurface surface = wetSurfaceOf(shape, immersion);
+  state.draught = surface.draught;
+  state.area = shape.area * surface.share;
   state.centre_of_buoyancy = wholly(ambient, false).centre_of_buoyancy;
   if (state.volume > 0)
     state.centre_of_buoyancy =
@@ -90,7 +119,9 @@ WetState inRegion(const AmbientBody& ambient, const RegionsAround& around,
                   const FluidRegions& regions) {
   const FluidRegions::Entry& entry = *around.entry;
   if (!entry.region.surface) return wholly(ambient, isWetIn(entry.region.below, ambient));
-  const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
+  const Vector3 position =
+      pointIn(entry.region, toVector3(ambient.body->getWorldTransform().getOrigin()));
+  const PoolSides sides = around.is_alone ? PoolSides{} : findSides(ambient, regions, entry, 0);
   RegionCall call(regions);
   RegionSample sample = sampleRegion(entry.region, position, regions.time, ambient.def->medium);
   const int media = ambient.models->findSurface(SurfaceKind(entry.region));
@@ -101,18 +132,17 @@ WetState inRegion(const AmbientBody& ambient, const RegionsAround& around,
     stations.fitSurface(gravity, sample);
   }
   if (media < 0 || !hasSurface(sample, gravity)) return wholly(ambient, !sample.isAbove());
-  return cutBy(planeNear(position, sample, gravity),
-               ambient.models->surfaces[static_cast<std::size_t>(media)].model, ambient);
+  SurfacePlane plane_W = planeNear(position, sample, gravity);
+  if (sides.count > 0) plane_W.sides_F = &sides;
+  return cutBy(plane_W, ambient.models->surfaces[static_cast<std::size_t>(media)].model, ambient);
 }
 
 }  // namespace
 
 WetState wetStateOf(const AmbientBody& ambient, const FluidRegions& regions) {
   long long asked = 0;
-  const Vector3 position = toVector3(ambient.body->getWorldTransform().getOrigin());
   RegionsAround around;
-  if (ambient.def->follow_regions)
-    around = regions.findAround(position, ambient.models->stations.reach, asked);
+  if (ambient.def->follow_regions) around = findRegions(ambient, regions, 0, asked);
   if (!around.entry) return wholly(ambient, isWetIn(ambient.def->medium, ambient));
   WetState state = inRegion(ambient, around, regions);
   state.region = around.entry->id;

@@ -8,6 +8,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/share_in_pool.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 #include "bullet_ambient/force/law/wet_share.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
@@ -15,10 +16,14 @@
 namespace ambient {
 namespace {
 
-/// Returns the share of a face below the plane, docs/theory.md eq. (59).
+/// Returns the share of a face below the plane and between the sides of its water, docs/theory.md
+/// eq. (59).
 double wetShare(const FaceTable& faces, std::size_t face, const SurfacePlane& plane) noexcept {
-  return wetShareOf(plane.depth(faces.centroid(face)), plane.normal.dot(faces.normal(face)),
-                    faces.area[face] / kPi, [](double x) { return std::sqrt(x); });
+  const Vector3 centroid = faces.centroid(face), normal = faces.normal(face);
+  const double radius_sq = faces.area[face] / kPi;
+  const double share = wetShareOf(plane.depth(centroid), plane.normal.dot(normal), radius_sq,
+                                  [](double x) { return std::sqrt(x); });
+  return plane.sides_F ? share * shareInPool(*plane.sides_F, centroid, normal, radius_sq) : share;
 }
 
 /// q of the pressure on a face, and q_L mu of wings, eq. (43d).

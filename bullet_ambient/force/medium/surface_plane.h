@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bullet_ambient/force/medium/pool_sides.h"
 #include "bullet_ambient/spatial/frame_offset.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
@@ -12,10 +13,13 @@ struct SurfacePlane {
   double height = 0;        ///< h, height of the plane above the frame's origin along s [m]
   double density = 0;       ///< density of the water minus that of the fluid above [kg/m^3]
   double gravity = 0;       ///< g = |g - a_fluid| of the hydrostatic pressure, against s [m/s^2]
+  /// Where the water ends beside the body, in F whatever the frame of the plane; null: nowhere. Not
+  /// owned.
+  const PoolSides* sides_F = nullptr;
 
   /// Depth zeta of a point [m], positive in the water.
   double depth(const Vector3& point) const { return height - normal.dot(point); }
-  /// Same plane with the normal out of the upper fluid.
+  /// Same plane with the normal out of the upper fluid, which ends nowhere.
   SurfacePlane flipped() const { return {-normal, -height, density, gravity}; }
 };
 
@@ -23,7 +27,8 @@ struct SurfacePlane {
 /// pose of B in W converts from W to B; the pose of F in B converts from B to F.
 inline SurfacePlane seenFrom(const SurfacePlane& plane, const Matrix3& rotation,
                              const Vector3& position) {
-  return {rotation.transpose() * plane.normal, plane.depth(position), plane.density, plane.gravity};
+  return {rotation.transpose() * plane.normal, plane.depth(position), plane.density, plane.gravity,
+          plane.sides_F};
 }
 inline SurfacePlane seenFrom(const SurfacePlane& plane, const FrameOffset& frame) {
   return seenFrom(plane, frame.rotation, frame.translation);

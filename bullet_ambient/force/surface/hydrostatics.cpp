@@ -6,6 +6,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/kernels/hull_sums.h"
+#include "bullet_ambient/force/surface/wet_polygon.h"
 #include "bullet_ambient/spatial/invariants.h"
 
 namespace ambient {
@@ -60,7 +61,9 @@ double hydrostaticEnergyChange(const WetVolume& wet, const SurfacePlane& plane,
 WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) noexcept {
   AMBIENT_ASSERT(isUnit(plane.normal));
   const PlaneAxes axes(plane.normal);
-  const HullSums sums = fastestHullKernel().sums(hull.blocks(), planeOf(plane, axes));
+  const HullSums sums = plane.sides_F
+                            ? sumBetweenSides(hull.blocks(), plane)
+                            : fastestHullKernel().sums(hull.blocks(), planeOf(plane, axes));
   const Vector3 moment = sums.moment[0] * axes.first + sums.moment[1] * axes.second +
                          (plane.height * sums.volume - sums.depth) * plane.normal;
   const double factor = hull.volumeFactor();
@@ -71,6 +74,11 @@ WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) no
   wet.waterplane.area *= factor;
   wet.waterplane.spread *= factor;
   return wet;
+}
+
+Wrench computeSidePush(const PackedHull& hull, const SurfacePlane& plane) noexcept {
+  AMBIENT_ASSERT(isUnit(plane.normal) && plane.sides_F);
+  return hull.volumeFactor() * plane.density * plane.gravity * sumOverSides(hull.blocks(), plane);
 }
 
 std::pair<double, double> computeExtent(const PackedHull& hull, const Vector3& s) noexcept {

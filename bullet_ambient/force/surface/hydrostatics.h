@@ -27,8 +27,13 @@ struct WetVolume {
 };
 
 /// Computes the wet volume exactly, by the divergence theorem over the wet parts of the triangles.
-/// Cost: O(triangles near the plane); allocates nothing. The same bits on every machine.
+/// Cost: O(triangles near the plane), with SurfacePlane::sides_F O(triangles); allocates nothing.
+/// The same bits on every machine. @pre where the plane has sides, it is in F
 WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) noexcept;
+
+/// Wrench by which the water presses a body that lies across the sides of its pool out of it,
+/// about F's origin [N m, N]; docs/theory.md eq. (90). @pre the plane has sides, and is in F
+Wrench computeSidePush(const PackedHull& hull, const SurfacePlane& plane) noexcept;
 
 /// Smallest and largest s.z over the body [m], for a unit vector s; 0 without corners.
 std::pair<double, double> computeExtent(const PackedHull& hull, const Vector3& s) noexcept;

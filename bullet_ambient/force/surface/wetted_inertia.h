@@ -15,8 +15,9 @@ struct Immersion {
   double draught() const { return plane.height - low; }  ///< D, depth of the lowest point [m]
   double cover() const { return plane.height - high; }   ///< depth of the highest point [m]
   bool isDry() const { return draught() <= 0; }
-  /// True if the body is so deep that its added mass is that in unbounded fluid.
-  bool isDeep() const { return cover() >= 2 * size(); }
+  /// True if the body is so deep, away from the sides of its pool, that its added mass is that in
+  /// unbounded fluid.
+  bool isDeep() const { return !plane.sides_F && cover() >= 2 * size(); }
 };
 
 /// Derivatives of an energy T by the place of the plane.

@@ -1,6 +1,7 @@
 #include "bullet_ambient/force/surface/wetted_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bullet_ambient/force/kernels/part_sums.h"
@@ -22,6 +23,41 @@ PartPlane planeOf(const Immersion& at) {
   return {{s.x(), s.y(), s.z()}, at.plane.height, kReach * fade * at.size()};
 }
 
+/// Returns the share of a part of the added mass that is between the sides of a pool: of a bar with
+/// the part's mean square across each side.
+double shareInPool(const PartBlock& block, int lane, const PoolSides& sides) {
+  const auto at = [lane](const auto& rows, int row) { return rows[row][lane]; };
+  const Vector3 centre(at(block.centre, 0), at(block.centre, 1), at(block.centre, 2));
+  const auto spread = [&](int row) { return at(block.spread, row); };
+  double share = 1;
+  for (int i = 0; i < sides.count; ++i) {
+    const PoolSides::Side& side = sides.of[i];
+    const Vector3& m = side.normal;
+    const double square =
+        m.x() * m.x() * spread(0) + m.y() * m.y() * spread(1) + m.z() * m.z() * spread(2) +
+        2 * (m.x() * m.y() * spread(3) + m.x() * m.z() * spread(4) + m.y() * m.z() * spread(5));
+    const double half = std::sqrt(3 * std::max(0.0, square));
+    const double inside = m.dot(side.point - centre);
+    share *= half > 0 ? std::clamp(0.5 + inside / (2 * half), 0.0, 1.0) : inside > 0;
+  }
+  return share;
+}
+
+/// Calls visit(blocks) for all blocks at once, or, where the water ends at the sides of a pool, for
+/// one after the other with the shares that are in the pool.
+template <class Visit>
+void forBlocksInPool(const PartBlocks& parts, const PoolSides* sides_F, const Visit& visit) {
+  if (!sides_F) return visit(parts);
+  for (std::size_t i = 0; i < parts.count; ++i) {
+    PartBlock block = parts.blocks[i];
+    for (int lane = 0; lane < PartBlock::kParts; ++lane) {
+      const double share = shareInPool(block, lane, *sides_F);
+      for (auto& entry : block.inertia) entry[lane] *= share;
+    }
+    visit(PartBlocks{&block, 1});
+  }
+}
+
 }  // namespace
 
 WettedParts::WettedParts(const FluidBody& body, std::shared_ptr<const PackedParts> parts)
@@ -31,7 +67,11 @@ WettedParts::WettedParts(const FluidBody& body, std::shared_ptr<const PackedPart
       volume_(body.volume) {}
 
 Matrix6 WettedParts::inertiaAt(const Immersion& at) const noexcept {
-  const PartInertia sum = fastestKernel().inertia(parts_->blocks(), planeOf(at));
+  PartInertia sum{};
+  forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
+    const PartInertia more = fastestKernel().inertia(blocks, planeOf(at));
+    for (int i = 0; i < PartBlock::kEntries; ++i) sum.entries[i] += more.entries[i];
+  });
   Matrix6 K = wetShare(at, volume_) * defect_;
   int entry = 0;
   for (int row = 0; row < 6; ++row) {
@@ -51,8 +91,13 @@ InertiaGradient WettedParts::gradientAt(const Immersion& at, const Twist& twist)
   for (int row = 0; row < 6; ++row)
     for (int column = row; column < 6; ++column)
       products[entry++] = (row == column ? 1 : 2) * x[row] * x[column];
-  const PartGradient g = fastestKernel().gradient(parts_->blocks(), planeOf(at), products);
-  return {0.5 * g.by_height, {0.5 * g.by_normal[0], 0.5 * g.by_normal[1], 0.5 * g.by_normal[2]}};
+  InertiaGradient sum;
+  forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
+    const PartGradient g = fastestKernel().gradient(blocks, planeOf(at), products);
+    sum.by_height += 0.5 * g.by_height;
+    sum.by_normal += 0.5 * Vector3(g.by_normal[0], g.by_normal[1], g.by_normal[2]);
+  });
+  return sum;
 }
 
 }  // namespace ambient

@@ -92,11 +92,20 @@ Matrix6 WettedTable::interpolate(const Vector3& normal, int first,
   return sum;
 }
 
+double WettedTable::shareInPool(const Immersion& at) const noexcept {
+  if (!at.plane.sides_F) return 1;
+  SurfacePlane open = at.plane;
+  open.sides_F = nullptr;
+  const double whole = computeWetVolume(*hull_, open).volume;
+  return whole > 0 ? std::clamp(at.wet.volume / whole, 0.0, 1.0) : 0;
+}
+
 Matrix6 WettedTable::inertiaOf(const Touch& touch) const noexcept {
   const Immersion& at = touch.at;
   const Weights weights = weightsAt(immersionOf(at));
-  return touch.share * (WettedParts::inertiaAt(at) +
-                        interpolate(at.plane.normal, weights.first, weights.of_value));
+  return touch.share *
+         (WettedParts::inertiaAt(at) +
+          shareInPool(at) * interpolate(at.plane.normal, weights.first, weights.of_value));
 }
 
 Matrix6 WettedTable::inertiaAt(const Immersion& at) const noexcept {
@@ -114,7 +123,7 @@ InertiaGradient WettedTable::gradientAt(const Immersion& at, const Twist& twist)
   InertiaGradient gradient = WettedParts::gradientAt(at, twist);
   const Weights weights = weightsAt(immersionOf(at));
   const Matrix6 slope = interpolate(at.plane.normal, weights.first, weights.of_slope);
-  const double by_height = 0.5 * x.dot(slope * x) / at.size();
+  const double by_height = 0.5 * shareInPool(at) * x.dot(slope * x) / at.size();
   gradient.by_height += by_height;
   gradient.by_normal -= by_height * placeOfChange(at.wet);
   return gradient;

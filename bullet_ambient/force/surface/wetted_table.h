@@ -35,6 +35,8 @@ class WettedTable final : public WettedParts {
     double slope = 0;  ///< d share / d height of the plane [1/m]; 0: deeper than the first node
   };
   Touch touchAt(const Immersion& at) const noexcept;
+  /// Share of the wet volume that is between the sides of the pool; 1 where it has none.
+  double shareInPool(const Immersion& at) const noexcept;
   Matrix6 inertiaOf(const Touch& touch) const noexcept;
   Weights weightsAt(double immersion) const noexcept;
   Matrix6 interpolate(const Vector3& normal, int first, const double (&weights)[4]) const noexcept;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/force/law/passivity_guard.h"
+#include "bullet_ambient/force/medium/pool_sides.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
@@ -19,8 +20,14 @@ struct FlowAlongBody {
   Vector3 spin_up_B{0, 0, 0};  ///< angular acceleration of the fluid along the body [rad/s^2]
   Wrench push_B;               ///< by the added mass that is spun up, eq. (88)
   Vector3 lean_W{0, 0, 0};  ///< what gravity is inclined by at a tilted surface, eq. (84) [m/s^2]
+  PoolSides sides_F;        ///< sides of its pool that cut the body
+  Wrench side_push_W;       ///< pressure of the water across them, eq. (90); world axes
+  Wrench growth_W;          ///< of added mass that comes into the pool, eq. (91); world axes
 
-  bool isNone() const { return stations == 0 && lean_W.isZero(0) && spin_up_B.isZero(0); }
+  Wrench atSides_W() const { return side_push_W + growth_W; }
+  bool isNone() const {
+    return stations == 0 && lean_W.isZero(0) && spin_up_B.isZero(0) && sides_F.count == 0;
+  }
 };
 
 /// Returns the mean of a law over the stations of a body, less FlowAlongBody::at_rest_B.

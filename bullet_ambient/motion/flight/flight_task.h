@@ -17,6 +17,11 @@ struct Surroundings {
   double load_share = 1;  ///< factor on the surface loads, docs/theory.md eq. (51d)
   /// How the fluid moves along the body besides; null: as one.
   const FlowAlongBody* flow = nullptr;
+
+  /// True if a torque is applied whose work no energy of place has.
+  bool hasTorque() const noexcept {
+    return applied.torque != (flow ? flow->atSides_W().torque : Vector3(Vector3::Zero()));
+  }
 };
 
 /// Computes the surface load of a body in its surroundings.

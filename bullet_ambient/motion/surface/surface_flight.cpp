@@ -49,7 +49,7 @@ int substepsOf(double duration, double longest, int most) {
 /// Whether the step may give energy to the body.
 bool mayGain(const Progress& progress) {
   const bool has_wind = progress.model().loads_above.loads && !progress.wind_W.isZero(0);
-  return has_wind || !progress.flight->task.surroundings.applied.torque.isZero(0);
+  return has_wind || progress.flight->task.surroundings.hasTorque();
 }
 
 /// Flights of several bodies, one per lane.
@@ -217,7 +217,7 @@ class SurfaceFlights {
     Progress& p = progress_[i];
     const SurfacePlane& plane = p.place->plane;
     const SurfacePlane plane_B{vectorOf(lanes_.stand.normal, i), lanes_.stand.height[i],
-                               plane.density, plane.gravity};
+                               plane.density, plane.gravity, plane.sides_F};
     const Immersion before = p.place->immersion_F;
     p.later = placeAt(p.model(), plane_B);
     p.place = &p.later;

@@ -1,0 +1,288 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/state/world_state.h"
+#include "tests/bullet_ambient/bullet/regions/long_scene.h"
+
+// Bodies across the rim of a pool, docs/theory.md section 17.
+namespace ambient::test {
+namespace {
+
+const Vector3 kPlank(2, 0.3, 0.1);  // [m]
+constexpr double kDraught = 0.06;   // [m]
+
+AttachDef boxDef(const Vector3& size) {
+  auto shape = longBox(size, 8);
+  shape->name = "box";
+  AttachDef def;
+  def.fluid_body = shape;
+  return def;
+}
+
+/// Water at rest below z = 0 under a vacuum.
+FluidRegion poolOf(const RegionBounds& bounds) {
+  FluidRegion pool = waterBelow(0);
+  pool.below = idealFluid(1000);
+  pool.above = Medium{};
+  pool.bounds = bounds;
+  return pool;
+}
+
+/// A pool that ends at x = 0.
+FluidRegion poolBesideLand() { return poolOf({{-20, -10, -5}, {0, 10, 5}}); }
+
+/// A plank at a distance from the rim, turned about the vertical. Held: its position is its own.
+struct Rim : RobotWorld {
+  Rim() { world.setGravity({0, 0, bt(-kGravity)}); }
+
+  Immersed hold(Mover mover, const RigidState& at, const Vector3& size = kPlank) {
+    const double mass = 200 * size.prod();
+    const btVector3 moments = toBullet(boxMoments(size, mass));
+    const btTransform pose(toBullet(at.orientation), toBullet(at.position));
+    if (mover == Mover::kRigid) {
+      btRigidBody& body = contents.add(mass, moments, no_shape_, pose);
+      body.setActivationState(DISABLE_DEACTIVATION);
+      body.setLinearFactor({0, 0, 0});
+      body.setAngularFactor({0, 0, 0});
+      return fluid.add(body, boxDef(size));
+    }
+    auto robot = std::make_unique<btMultiBody>(1, 0, btVector3(0, 0, 0), true, false);
+    robot->setupFixed(0, bt(mass), moments, -1, btQuaternion::getIdentity(), {0, 0, 0}, {0, 0, 0});
+    robot->finalizeMultiDof();
+    robot->setBaseWorldTransform(pose);
+    btMultiBody& tree = take(std::move(robot), 0);
+    tree.setCanSleep(false);
+    return fluid.add(tree, 0, boxDef(size));
+  }
+  btRigidBody& drop(const RigidState& at, double density, btCollisionShape* shape = nullptr,
+                    const Vector3& size = kPlank) {
+    const double mass = density * size.prod();
+    btRigidBody& body =
+        contents.add(mass, toBullet(boxMoments(size, mass)), shape ? *shape : no_shape_,
+                     btTransform(toBullet(at.orientation), toBullet(at.position)));
+    body.setLinearVelocity(toBullet(at.twist.linear));
+    body.setAngularVelocity(toBullet(at.twist.angular));
+    body.setActivationState(DISABLE_DEACTIVATION);
+    fluid.add(body, boxDef(size));
+    return body;
+  }
+
+ private:
+  btEmptyShape no_shape_;
+};
+
+RigidState afloatAt(double x, double yaw = 0) {
+  RigidState at;
+  at.position = {x, 0.2, kPlank.z() / 2 - kDraught};
+  at.orientation = Eigen::AngleAxisd(yaw, Vector3::UnitZ());
+  return at;
+}
+
+/// Wrench of the water on a plank whose long sides are cut by the rim, about its centre of mass.
+Wrench waterOn(double x, double yaw) {
+  const double L = kPlank.x(), b = kPlank.y(), pull = 1000 * kGravity;
+  const double cut = -x / std::cos(yaw), slope = std::tan(yaw);
+  const double area = b * (L / 2 + cut);
+  const double along = b / 2 * (cut * cut + slope * slope * b * b / 12 - L * L / 4) / area;
+  const double across = slope * b * b * b / 12 / area;
+  const Matrix3 R = Eigen::AngleAxisd(yaw, Vector3::UnitZ()).toRotationMatrix();
+  Wrench water =
+      Wrench::ofForceAt(pull * area * kDraught * Vector3::UnitZ(), R * Vector3(along, across, 0));
+  const double bottom = -kPlank.z() / 2;
+  water += Wrench::ofForceAt(pull * kDraught * kDraught / 2 * b / std::cos(yaw) * Vector3::UnitX(),
+                             R * Vector3(cut, 0, 0) + (bottom + kDraught / 3) * Vector3::UnitZ());
+  return water;
+}
+
+TEST(PoolRim, APlankIsCarriedByThePartThatIsOverThePool) {
+  for (const Mover mover : {Mover::kRigid, Mover::kLink})
+    for (const double x : {-0.5, -0.2, 0.0, 0.3, 0.5})
+      for (const double yaw : {0.0, 0.4, -0.8, kPi + 0.2}) {
+        Rim rim;
+        rim.fluid.addRegion(poolBesideLand());
+        const Immersed plank = rim.hold(mover, afloatAt(x, yaw));
+        plank.readWrench(true);
+        rim.step(1.0 / 60);
+        const Wrench right = waterOn(x, yaw > kPi / 2 ? yaw - kPi : yaw);
+        const Wrench found = plank.wrench().buoyancy;
+        const double size = 1000 * kGravity * kPlank.x() * kPlank.y() * kDraught;
+        const double rounding = byPrecision(1e-9, 1e-5) * size;
+        EXPECT_LT((found.vector() - right.vector()).norm(), rounding) << x << " " << yaw;
+        const WetState wet = plank.wet();
+        EXPECT_NEAR(wet.volume, right.force.z() / (1000 * kGravity), byPrecision(1e-9, 1e-6));
+        EXPECT_NEAR(wet.draught, kDraught, byPrecision(1e-9, 1e-6));
+        EXPECT_NEAR((wet.centre_of_buoyancy.x() - x) * right.force.z(),
+                    -right.torque.y() + right.force.x() * (-kPlank.z() / 2 + kDraught / 3),
+                    2 * rounding);
+      }
+}
+
+TEST(PoolRim, NothingJumpsWhereAPlankIsPushedAcrossIt) {
+  const double way = 0.01, most = 1000 * kGravity * kPlank.y() * kDraught * way;
+  for (const Mover mover : {Mover::kRigid, Mover::kLink})
+    for (const double depth : {0.0, 3.0}) {  // afloat, and where it is deep
+      double last = 0, first = 0;
+      for (int i = -125; i <= 125; ++i) {
+        Rim rim;
+        rim.fluid.addRegion(poolBesideLand());
+        RigidState at = afloatAt(way * i);
+        at.position.z() -= depth;
+        const Immersed plank = rim.hold(mover, at);
+        plank.readWrench(true);
+        rim.step(1.0 / 60);
+        const double lift = plank.wrench().buoyancy.force.z();
+        const double step = depth > 0 ? most * kPlank.z() / kDraught : most;
+        if (i == -125) first = last = lift;
+        EXPECT_LE(last - lift, step * (1 + 1e-6)) << way * i << " " << depth;
+        EXPECT_GE(last - lift, -1e-6 * step) << way * i;
+        last = lift;
+      }
+      EXPECT_EQ(last, 0);
+      EXPECT_NEAR(first / (1000 * kGravity * kPlank.x() * kPlank.y()),
+                  depth > 0 ? kPlank.z() : kDraught, 1e-6);
+    }
+}
+
+// Velocities and counts of a box that falls into the water and drifts.
+struct RimDrift {
+  Twist twist;
+  AmbientCounters counters;
+};
+RimDrift driftIn(const std::vector<FluidRegion>& regions, const Vector3& from) {
+  Rim rim;
+  for (const FluidRegion& region : regions) rim.fluid.addRegion(region);
+  RigidState at;
+  at.position = from;
+  at.orientation = Quaternion(1, 0.2, 0.1, -0.3).normalized();
+  at.twist = {Vector3(0.3, 0.7, -0.4), Vector3(0.05, -0.1, 0.3)};
+  const btRigidBody& body = rim.drop(at, 500, nullptr, {0.8, 0.4, 0.3});
+  rim.step(1.0 / 60, 60);
+  return {ambient::velocityOf(body), rim.fluid.counters()};
+}
+
+void expectSameDrift(const RimDrift& a, const RimDrift& b) {
+  EXPECT_EQ(a.twist.vector(), b.twist.vector());
+  EXPECT_EQ(a.counters.substeps, b.counters.substeps);
+  EXPECT_EQ(a.counters.load_evaluations, b.counters.load_evaluations);
+  EXPECT_EQ(a.counters.faces, b.counters.faces);
+}
+
+TEST(PoolRim, CostsNothingWhereItDoesNotCutTheBody) {
+  FluidRegion sea = poolBesideLand();
+  sea.bounds.reset();
+  const FluidRegion pool = poolBesideLand();
+  const Vector3 amid(-3, 0, 0.1), beside(-0.6, 0, 0.1);  // it stays within 0.5 m of its centre
+  expectSameDrift(driftIn({sea}, amid), driftIn({pool}, amid));
+  EXPECT_EQ(driftIn({sea}, amid).counters.regions_asked,
+            driftIn({pool}, amid).counters.regions_asked);
+  expectSameDrift(driftIn({sea}, beside), driftIn({pool}, beside));
+  const Vector3 across(0.1, 0, 0.1);
+  EXPECT_NE(driftIn({sea}, across).twist.vector(), driftIn({pool}, across).twist.vector());
+}
+
+TEST(PoolRim, WaterThatGoesOnBeyondABoundCarriesTheWholeBody) {
+  FluidRegion sea = poolBesideLand(), other = poolOf({{0, -10, -5}, {20, 10, 5}});
+  sea.bounds.reset();
+  for (const double x : {-0.1, 0.15})
+    EXPECT_EQ(driftIn({poolBesideLand(), other}, {x, 0, 0.1}).twist.vector(),
+              driftIn({sea}, {x, 0, 0.1}).twist.vector());
+}
+
+// A plank of which a third is in the pool drops onto the land and the water. Drag is that of the
+// part in the pool: as half of a plank in its middle.
+TEST(PoolRim, ThePartInThePoolIsSlowedDown) {
+  const auto loadAt = [](double x) {
+    Rim rim;
+    FluidRegion pool = poolBesideLand();
+    pool.surface = std::make_shared<StillWater>(3, Vector3(0, 0, 1));
+    rim.fluid.addRegion(pool);
+    RigidState at = afloatAt(x);
+    at.twist.linear = {0, 0, -1};
+    btRigidBody& body = rim.drop(at, 500);
+    const Immersed plank = rim.fluid.find(body).value();
+    plank.readWrench(true);
+    return plank.wrench().pressure;
+  };
+  const Wrench whole = loadAt(-3), half = loadAt(0), none = loadAt(3);
+  EXPECT_GT(whole.force.z(), 0);
+  EXPECT_EQ(none.force.z(), 0);
+  EXPECT_NEAR(half.force.z() / whole.force.z(), 0.5, 0.02);
+  EXPECT_NEAR(half.torque.y() / (whole.force.z() * kPlank.x() / 8), 1, 0.02);
+}
+
+/// Energy of the dry plank.
+double dryEnergy(const btRigidBody& body) {
+  const Vector3 w = toVector3(body.getAngularVelocity()), v = toVector3(body.getLinearVelocity());
+  const Matrix3 R = toQuaternion(body.getWorldTransform().getRotation()).toRotationMatrix();
+  const Vector3 moments = toVector3(body.getInvInertiaDiagLocal()).cwiseInverse();
+  const double mass = 1 / static_cast<double>(body.getInvMass());
+  const Vector3 w_B = R.transpose() * w;
+  return w_B.dot(moments.cwiseProduct(w_B)) / 2 + mass * v.squaredNorm() / 2 +
+         mass * kGravity * static_cast<double>(body.getWorldTransform().getOrigin().z());
+}
+
+struct RestingCase {
+  double hertz, x, friction, density;
+};
+
+// Planks fall from above the water, which gives nothing: they may rest on the rim, or slide and
+// fall in.
+TEST(PoolRim, APlankOverTheRimGainsNoEnergy) {
+  std::vector<RestingCase> cases;
+  for (const double hertz : {30.0, 60.0, 240.0})
+    for (const double x : {-0.4, 0.2})
+      for (const double friction : {0.0, 0.5}) cases.push_back({hertz, x, friction, 400});
+  for (const RestingCase& with : cases) {
+    Rim rim;
+    rim.fluid.addRegion(poolBesideLand());
+    btBoxShape land(btVector3(10, 10, 1)), plank(toBullet(kPlank / 2));
+    land.setMargin(bt(0.01));
+    plank.setMargin(bt(0.01));
+    btRigidBody& ground = rim.contents.add(
+        0, btVector3(0, 0, 0), land, btTransform(btQuaternion::getIdentity(), {10, 0, bt(-0.97)}));
+    ground.setFriction(bt(with.friction));
+    RigidState at = afloatAt(with.x, 0.3);
+    at.position.z() = 0.25;
+    btRigidBody& body = rim.drop(at, with.density, &plank);
+    body.setFriction(bt(with.friction));
+    double most = dryEnergy(body);
+    const double start = most, scale = with.density * kPlank.prod() * kGravity;
+    for (int i = 0; i < 120 * with.hertz; ++i) {
+      rim.step(1 / with.hertz);
+      const double now = dryEnergy(body);
+      ASSERT_LE(now, start + 1e-3 * scale) << with.hertz << " Hz, " << with.x << ", " << i;
+      most = std::max(most, now);
+    }
+    const double speed = static_cast<double>(body.getLinearVelocity().length());
+    EXPECT_LT(speed, 0.02) << with.hertz << " Hz, " << with.x << ", " << with.friction;
+  }
+}
+
+TEST(PoolRim, AStateGoesOnBitForBit) {
+  const auto run = [](Rim& rim) {
+    rim.fluid.addRegion(poolBesideLand());
+    RigidState at = afloatAt(0.2, 0.3);
+    at.twist = {Vector3(0.1, 0.3, 0.2), Vector3(-0.5, 0.1, 0.2)};
+    return &rim.drop(at, 500);
+  };
+  Rim one, other;
+  btRigidBody *a = run(one), *b = run(other);
+  one.step(1.0 / 60, 20);
+  const auto shape = one.fluid.find(*a)->fluidBody();
+  const std::string bytes = encodeState(one.fluid.save());
+  other.fluid.restore(decodeState(bytes, "bytes", [&](const std::string&) { return shape; }));
+  for (int i = 0; i < 30; ++i) {
+    one.step(1.0 / 60);
+    other.step(1.0 / 60);
+    ASSERT_EQ(ambient::velocityOf(*a).vector(), ambient::velocityOf(*b).vector()) << i;
+  }
+}
+
+}  // namespace
+}  // namespace ambient::test
