@@ -12,10 +12,6 @@ namespace {
 // Largest cosine between the normal of a side of a pool and the vertical.
 constexpr double kUpright = 0.7;
 
-Vector3 centreOf(const AmbientBody& ambient) {
-  return toVector3(ambient.body->getWorldTransform().getOrigin());
-}
-
 // Returns the model of a body that sides may cut; null: it has none.
 const SurfaceModel* modelIn(const AmbientBody& ambient, const FluidRegion& pool) {
   if (!ambient.flow_along || !pool.bounds || !pool.surface) return nullptr;

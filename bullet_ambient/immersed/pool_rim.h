@@ -8,6 +8,11 @@ AMBIENT_BEGIN
 
 // A body across the rim of a pool: the bounds of a region of water cut it, and no water is beyond.
 
+/// Returns the centre of mass of a body, in W [m].
+inline Vector3 centreOf(const AmbientBody& ambient) {
+  return toVector3(ambient.body->getWorldTransform().getOrigin());
+}
+
 /// Finds the region of a body in a step of `duration` [s]: that at its centre of mass, or, where
 /// that has no surface, a pool into whose water it reaches from outside. Adds the number of tests
 /// to `asked`. Cost: RegionIndex::findAround(), and that of findSides() where bounds are near.

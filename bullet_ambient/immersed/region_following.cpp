@@ -39,10 +39,6 @@ void checkUp(RegionId id, const Vector3& up, const Vector3& gravity,
   complaints.say(Complaint::kUp, sentence);
 }
 
-Vector3 centreOf(const AmbientBody& ambient) {
-  return toVector3(ambient.body->getWorldTransform().getOrigin());
-}
-
 RegionSample sampleFor(AmbientBody& ambient, const FluidRegions::Entry& entry,
                        const FluidRegions& regions, Complaints& complaints) noexcept {
   RegionCall call(regions);

@@ -33,8 +33,8 @@ struct SampleAt {
 /// A body near the surface of a region.
 struct NearSurface {
   SurfaceSide side = SurfaceSide::kAt;
-  int media = -1;        ///< index into FluidModels::surfaces; -1: it meets no surface
-  SurfacePlane plane_W;  ///< where it meets one
+  int media = -1;             ///< index into FluidModels::surfaces; -1: it meets no surface
+  SurfacePlane plane_W = {};  ///< where it meets one
 };
 /// Decides whether the surface matters to the body in a step of `duration` [s]. `at`: region where
 /// the body is. Without gravity there is no surface, and the place of the sample decides. Allocates
