@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/reading/fluid_wrench.h"
 #include "bullet_ambient/bullet/state/world_state.h"
 #include "tests/bullet_ambient/bullet/regions/long_scene.h"
 

@@ -9,6 +9,7 @@
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
+#include "bullet_ambient/spatial/rotation.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -57,7 +58,9 @@ void expectSum(const WetVolume& a, const WetVolume& b, const WetVolume& whole) {
     const Vector3 r = part.centroid - all.centroid;
     return part.spread + part.area * r * r.transpose();
   };
-  if (all.area > 0) EXPECT_LT((about(p) + about(q) - all.spread).norm(), 1e-12);
+  if (all.area > 0) {
+    EXPECT_LT((about(p) + about(q) - all.spread).norm(), 1e-12);
+  }
 }
 
 TEST(PoolSides, BothPartsOfABodyMakeUpTheWhole) {
@@ -126,9 +129,7 @@ TEST(PoolSides, PressByTheGradientOfTheEnergy) {
     const Vector3 m = alongSurface(arbitrary.vector(), plane.normal);
     const Vector3 point = 0.4 * arbitrary.vector();
     const auto energyAt = [&](const Vector3& way, const Vector3& turn) {
-      const double angle = turn.norm();
-      const Matrix3 R = angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
-                                  : Matrix3(Matrix3::Identity());
+      const Matrix3 R = rotationFromVector(turn).toRotationMatrix();
       // The body moves by `way`, and turns about F's origin: the pool goes the other way.
       const PoolSides moved = sidesAt(R.transpose() * m, {R.transpose() * (point - way)});
       SurfacePlane seen = seenFrom(plane, R, way);
