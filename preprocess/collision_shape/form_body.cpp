@@ -187,6 +187,31 @@ PotentialFlowSettings flowSettingsFor(const std::vector<Solid>& solids, Potentia
   return flow;
 }
 
+bool isBox(const ShapeForm& form) {
+  return form.parts.size() == 1 && std::holds_alternative<Box>(form.parts.front().shape);
+}
+
+/// Settings with a number of faces. The default law takes sides of a box as they are, so that few
+/// triangles do.
+CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeForm& form) {
+  constexpr int kFaces = 1300, kBoxFaces = 192;
+  if (settings.faces > 0) return settings;
+  const bool needs_few =
+      isBox(form) && usesTables(settings) && tabulatedAddedMass(form.parts.front().shape);
+  settings.faces = needs_few ? kBoxFaces : kFaces;
+  return settings;
+}
+
+/// The few faces of a body; none: all are needed.
+std::optional<FormLevel> levelOf(const FluidBody& body, const ShapeForm& form,
+                                 const CollisionShapeSettings& settings) {
+  if (settings.load_error == 0 || body.sphere_radius > 0) return std::nullopt;
+  if (isBox(form) && settings.load_error >= kBoxLevelError)
+    if (std::optional<FormLevel> level = boxLevel(body)) return level;
+  tellStage(settings, "choosing few faces");
+  return smallestFormLevel(body, settings.load_error);
+}
+
 FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
                  const CollisionShapeSettings& settings) {
   BuildSettings build;
@@ -204,11 +229,8 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
   if (build.sphere_radius == 0) build.waterline_subdivisions = settings.waterline_subdivisions;
   build.cavities = joined(solids, &Solid::cavities);
   FluidBody body = makeFluidBody(joined(solids, &Solid::mesh), build);
-  if (settings.load_error > 0 && body.sphere_radius == 0) {
-    tellStage(settings, "choosing few faces");
-    if (std::optional<FormLevel> level = smallestFormLevel(body, settings.load_error))
-      body.form_levels.push_back(*std::move(level));
-  }
+  if (std::optional<FormLevel> level = levelOf(body, form, settings))
+    body.form_levels.push_back(*std::move(level));
   if (settings.report) reportSolids(solids, body, settings);
   return body;
 }
@@ -220,14 +242,15 @@ void requireUsable(const CollisionShapeSettings& settings, const std::string& na
     if (value >= least && value <= kMostDivisions) return;
     raiseInputError(name, what, " = ", value, " is not between ", least, " and ", kMostDivisions);
   };
-  require("faces", settings.faces, 1);
+  require("faces", settings.faces, 0);
   require("max_panels", settings.flow.max_panels, 0);
   require("threads", settings.flow.threads, 0);
   if (!(settings.load_error >= 0))
     raiseInputError(name, "load_error = ", settings.load_error, " is negative");
 }
 
-FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& settings) {
+FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& wanted) {
+  const CollisionShapeSettings settings = withFaces(wanted, form);
   const std::string& name = nameOf(form, settings);
   const std::vector<Solid> parts = solidsOf(form.parts, settings);
   const UnionSettings unions{settings.faces, settings.fallback};

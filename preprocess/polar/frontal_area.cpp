@@ -55,7 +55,7 @@ double lengthOfUnion(std::vector<Interval>& intervals) {
 }
 
 double silhouette(const std::vector<Corners>& triangles) {
-  constexpr int kLines = 2048;
+  constexpr int kLines = 8192;
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const Corners& corners : triangles)
     for (const Point& corner : corners) {

@@ -267,7 +267,73 @@ class LevelMaker {
   FaceTable folded_;
 };
 
+constexpr int kMostNodes = 4;
+
+/// Gauss-Legendre rule of n points: abscissas in [0, 1] and weights.
+struct GaussRule {
+  int count;
+  double place[kMostNodes], weight[kMostNodes];
+};
+constexpr GaussRule kGaussRules[] = {
+    {1, {0.5}, {1}},
+    {2, {0.21132486540518712, 0.7886751345948129}, {0.5, 0.5}},
+    {3,
+     {0.1127016653792583, 0.5, 0.8872983346207417},
+     {0.2777777777777778, 0.4444444444444444, 0.2777777777777778}},
+    {4,
+     {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263},
+     {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}}};
+
+/// A rectangular side of a box, as formLawFaces() divides it into 4 x 4 points.
+struct BoxSide {
+  Vector3 normal, corner, u, v;
+  double sharpness;
+
+  BoxSide(const FaceTable& faces, std::size_t first)
+      : normal(faces.normal(first)), sharpness(faces.sharpness[first]) {
+    const GaussRule& rule = kGaussRules[kMostNodes - 1];
+    const double span = rule.place[kMostNodes - 1] - rule.place[0];
+    const Vector3 begin = faces.centroid(first);
+    u = (faces.centroid(first + kMostNodes * (kMostNodes - 1)) - begin) / span;
+    v = (faces.centroid(first + kMostNodes - 1) - begin) / span;
+    corner = begin - rule.place[0] * (u + v);
+  }
+
+  void addPoints(const GaussRule& along_u, const GaussRule& along_v, FaceTable& to) const {
+    const double area = u.norm() * v.norm();
+    for (int i = 0; i < along_u.count; ++i)
+      for (int j = 0; j < along_v.count; ++j) {
+        to.add(normal, corner + along_u.place[i] * u + along_v.place[j] * v,
+               area * along_u.weight[i] * along_v.weight[j]);
+        to.sharpness.push_back(sharpness);
+      }
+  }
+};
+
 }  // namespace
+
+std::optional<FormLevel> boxLevel(const FluidBody& body) {
+  constexpr std::size_t kSides = 6, kPoints = kMostNodes * kMostNodes;
+  const FaceTable all = formLawFaces(body, formShapeOf(body));
+  if (all.size() != kSides * kPoints) return std::nullopt;
+  std::vector<BoxSide> sides;
+  double longest = 0, shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < kSides; ++i) {
+    const BoxSide& side = sides.emplace_back(all, i * kPoints);
+    longest = std::max({longest, side.u.norm(), side.v.norm()});
+    shortest = std::min({shortest, side.u.norm(), side.v.norm()});
+  }
+  // Error measured over boxes of 1 : 1 to 1 : 50: 0.98 % at most, 0.2 % in the mean.
+  const bool is_compact = shortest >= 0.5 * longest;
+  const auto ruleFor = [&](const Vector3& edge) -> const GaussRule& {
+    const double ratio = edge.norm() / longest;
+    return kGaussRules[ratio <= 0.06 ? 0 : ratio <= 0.1 ? 1 : ratio <= 0.2 || is_compact ? 2 : 3];
+  };
+  FormLevel level;
+  level.p99_error = kBoxLevelError;
+  for (const BoxSide& side : sides) side.addPoints(ruleFor(side.u), ruleFor(side.v), level.faces);
+  return level;
+}
 
 std::vector<FormLevel> buildFormLevels(const FluidBody& body, const std::vector<int>& faces) {
   std::vector<FormLevel> levels;

@@ -26,4 +26,12 @@ std::vector<FormLevel> buildFormLevels(const FluidBody& body, const std::vector<
 /// buildFormLevels().
 std::optional<FormLevel> smallestFormLevel(const FluidBody& body, double p99_error);
 
+/// Error of boxLevel() at most, over motions and boxes of any sides.
+constexpr double kBoxLevelError = 0.01;
+
+/// Makes few faces for a box by rule: on each side 1 to 4 x 1 to 4 Gauss points, fewer along short
+/// edges, 54 for a cube. None if formLawFaces() has not 16 points on each of six sides: another
+/// body, or a mesh that is fine beside a plate's edge. Cost: formLawFaces().
+std::optional<FormLevel> boxLevel(const FluidBody& body);
+
 }  // namespace ambient

@@ -141,7 +141,7 @@ TriangleMesh hullOf(const TriangleMesh& mesh, const std::string& name) {
 /// the hull itself is about as thin as the default size: a sheet, a rod.
 void requireWithinHull(const WrapInput& input, const TriangleMesh& surface,
                        const std::string& name) {
-  constexpr double kMost = 1.1;
+  constexpr double kMost = 1.25;
   const TriangleMesh hull = hullOf(input.mesh, name);
   if (hull.triangleCount() == 0) return;
   const double volume = tetrahedraVolumeOf(hull), found = tetrahedraVolumeOf(surface);

@@ -20,7 +20,7 @@ constexpr double kDefaultWrapSize = 0.01;
 /// @throws std::runtime_error in one line that begins with `name`: no triangles with an area, a
 /// coordinate that is not finite, a size that is not positive, too large for the mesh, or so small
 /// that the grid would have more than 2e7 nodes; a surface that encloses less than half of what the
-/// triangles surround, with both volumes and a size that closes the gaps; or more than 1.1 times
+/// triangles surround, with both volumes and a size that closes the gaps; or more than 1.25 times
 /// their convex hull, unless that is thinner than the default size.
 CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string& name);
 

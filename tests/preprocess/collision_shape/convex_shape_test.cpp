@@ -78,13 +78,13 @@ TEST(ConvexShape, SimpleShapesNeedNoSolver) {
   for (const btCollisionShape* shape :
        std::initializer_list<const btCollisionShape*>{&box, &cylinder, &capsule, &cone}) {
     const Provenance made = makeFluidBody(*shape, settings).provenance;
-    EXPECT_EQ(made.settings, "faces 350, load error 0.01, added mass tables 1") << shape->getName();
+    EXPECT_EQ(made.settings, "faces 350, load error 0.01 of form law 3, added mass tables 1") << shape->getName();
     EXPECT_EQ(made.settings, describeCollisionShape(*shape, settings).settings);
   }
   settings.tables = false;
   EXPECT_THROW(makeFluidBody(box, settings), std::runtime_error);
   EXPECT_EQ(describeCollisionShape(box, settings).settings,
-            "faces 350, load error 0.01, panels 100000, hull, no tables");
+            "faces 350, load error 0.01 of form law 3, panels 100000, hull, no tables");
 }
 
 // Entries forbidden by mirrors are exactly 0: steps have a shorter path for diagonal inertia.

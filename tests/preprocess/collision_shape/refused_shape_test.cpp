@@ -37,7 +37,7 @@ TEST(RefusedShape, SettingsThatCannotBeAreNamed) {
     settings.flow.threads = threads;
     return messageOf([&] { makeFluidBody(btBoxShape(btVector3(1, 1, 1)), settings); });
   };
-  EXPECT_EQ(refusal(1000000000, 0, 0), "thing: faces = 1000000000 is not between 1 and 1000000");
+  EXPECT_EQ(refusal(1000000000, 0, 0), "thing: faces = 1000000000 is not between 0 and 1000000");
   EXPECT_EQ(refusal(350, -1, 0), "thing: max_panels = -1 is not between 0 and 1000000");
   EXPECT_EQ(refusal(350, 0, -1), "thing: threads = -1 is not between 0 and 1000000");
 }

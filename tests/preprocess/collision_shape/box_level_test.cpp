@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bullet_ambient/fluid_body/form_shape.h"
+#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/loads/face_loads.h"
+#include "preprocess/reduced_loads/form_levels.h"
+#include "tests/preprocess/collision_shape/shape_fixtures.h"
+#include "tests/support/bodies/random_bodies.h"
+
+namespace ambient {
+namespace {
+
+FluidBody boxOf(const Vector3& half_sizes) {
+  const auto scalar = [&](int i) { return static_cast<btScalar>(half_sizes[i]); };
+  return makeFluidBody(btBoxShape(btVector3(scalar(0), scalar(1), scalar(2))),
+                       CollisionShapeSettings());
+}
+
+/// Error of the level's loads that one motion in a hundred exceeds, relative to the scale of
+/// FormLevel.
+double errorOf(const FluidBody& body, const FormLevel& level) {
+  const ShapeFactors shape(formShapeOf(body));
+  const FaceTable all = formLawFaces(body, shape.shape);
+  double moment = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    moment += all.area[i] * all.centroid(i).squaredNorm();
+  const double length = std::sqrt(moment / body.area);
+  test::Arbitrary arbitrary(3);
+  std::vector<double> errors;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = arbitrary.between(0, std::acos(0.0));
+    const Twist x{std::sin(angle) / length * arbitrary.vector().normalized(),
+                  std::cos(angle) * arbitrary.vector().normalized()};
+    const LoadSettings settings{1, 1e-3, 0, true, PressureLaw::kForm, &shape};
+    Vector6 error = computeFaceLoads(level.faces, 1, x, settings).total().vector() -
+                    computeFaceLoads(all, 1, x, settings).total().vector();
+    error.head<3>() /= length;
+    double scale = 0;
+    for (std::size_t face = 0; face < all.size(); ++face)
+      scale += 0.5 * all.area[face] * x.at(all.centroid(face)).squaredNorm();
+    errors.push_back(error.norm() / scale);
+  }
+  std::sort(errors.begin(), errors.end());
+  return errors[396];
+}
+
+TEST(BoxLevel, IsWithinItsErrorForAnySides) {
+  test::Arbitrary arbitrary(5);
+  double mean = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto side = [&] { return std::pow(10, arbitrary.between(-1.7, 0)); };
+    const FluidBody body = boxOf(i == 0 ? Vector3(1, 1, 1) : Vector3(1, side(), side()));
+    ASSERT_EQ(body.form_levels.size(), 1u);
+    EXPECT_LE(body.form_levels[0].faces.size(), 96u);
+    EXPECT_EQ(body.form_levels[0].p99_error, kBoxLevelError);
+    const double error = errorOf(body, body.form_levels[0]);
+    EXPECT_LT(error, kBoxLevelError) << extentsOf(body).transpose();
+    mean += error / 40;
+  }
+  EXPECT_LT(mean, 0.3 * kBoxLevelError);
+}
+
+TEST(BoxLevel, OfACubeHasFewerFacesThanAFit) {
+  EXPECT_EQ(boxOf({1, 1, 1}).form_levels[0].faces.size(), 54u);
+}
+
+TEST(BoxLevel, IsForBoxesOnly) {
+  const btCylinderShape cylinder(btVector3(1, 1, 1));
+  EXPECT_FALSE(boxLevel(makeFluidBody(cylinder, test::coarse())));
+}
+
+/// Bytes that a box keeps: what a world of boxes that all differ costs.
+TEST(BoxLevel, ABoxHasFewTriangles) {
+  const FluidBody body = boxOf({0.5, 0.4, 0.3});
+  EXPECT_LE(body.faces.size(), 200u);
+  CollisionShapeSettings more;
+  more.faces = 1300;
+  EXPECT_GE(makeFluidBody(btBoxShape(btVector3(1, 1, 1)), more).faces.size(), 1000u);
+}
+
+}  // namespace
+}  // namespace ambient
