@@ -55,9 +55,10 @@ std::optional<FlowEstimate> estimateFlow(const TriangleMesh& mesh,
   const TriangleMesh basis = mergeFlatTriangles(centred, settings.sheet, settings.max_panels);
   if (settings.max_panels > basis.triangleCount()) {
     const RefinedFlow fine = solveRefinedFlow(basis, settings);
-    if (fine.panels != basis.triangleCount()) return compareWithFewer(basis, fine, settings);
+    if (fine.panels != basis.triangleCount())
+      if (const auto estimate = compareWithFewer(basis, fine, settings)) return estimate;
   }
-  return compareWithMore(basis, settings);
+  return compareWithMore(refineSurface(basis, settings.sheet, settings.max_panels), settings);
 }
 
 }  // namespace ambient

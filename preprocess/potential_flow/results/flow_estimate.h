@@ -16,8 +16,9 @@ struct FlowEstimate {
 
 /// Estimates the error of a build. Where it divides the mesh, the other solution has a half or a
 /// third of its panels; the difference is mostly more than the error. Where it solves on the mesh's
-/// own triangles, as for a smooth or fine mesh, the other one has four times as many, and the error
-/// is taken as inverse to their number; none if these are more than 8000.
+/// own triangles, as for a smooth or fine mesh, or so few are not possible, plain solutions on
+/// these panels and on four times as many are compared, with an error that is inverse to their
+/// number; none if these are more than 8000.
 /// @pre the mesh passed checkMesh() as a body or as a sheet.
 /// @throws std::runtime_error as solvePotentialFlow().
 std::optional<FlowEstimate> estimateFlow(const TriangleMesh& mesh,
