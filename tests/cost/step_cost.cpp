@@ -1,8 +1,9 @@
 // Cost of a step with a fluid over that of stock Bullet.
 //
 // step_cost FOLDER [PART]: times scenes whose name has the part, both worlds in turns.
-// step_cost FOLDER SCENE stock|fluid BODIES STEPS: makes the steps, for a program that counts.
-// step_cost FOLDER shapes: writes the shapes of the scenes in flight.
+// step_cost FOLDER SCENE stock|fluid BODIES BEFORE STEPS: makes the steps, for callgrind, which
+// counts those after the first BEFORE. step_cost FOLDER shapes: writes the shapes of the scenes in
+// flight.
 
 #include <algorithm>
 #include <cstdio>
@@ -14,6 +15,12 @@
 #include <vector>
 
 #include "tests/cost/cost_world.h"
+
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#else
+#define CALLGRIND_TOGGLE_COLLECT
+#endif
 
 namespace ambient::test {
 namespace {
@@ -56,11 +63,11 @@ void timeScenes(const std::string& folder, const std::string& part) {
 }
 
 int makeSteps(const std::string& folder, const std::string& name, const std::string& kind,
-              int bodies, int steps) {
+              int bodies, int before, int steps) {
   const std::vector<CostScene> scenes = allScenes(folder);
   const auto scene = std::find_if(scenes.begin(), scenes.end(),
                                   [&](const CostScene& known) { return name == known.name; });
-  if (scene == scenes.end() || (kind != "stock" && kind != "fluid") || bodies < 1 || steps < 0) {
+  if (scene == scenes.end() || (kind != "stock" && kind != "fluid") || bodies < 1) {
     std::fprintf(stderr, "step_cost: no scene '%s', or no world '%s'\n", name.c_str(),
                  kind.c_str());
     return EXIT_FAILURE;
@@ -68,7 +75,10 @@ int makeSteps(const std::string& folder, const std::string& name, const std::str
   CostWorld world(scene->has_robots);
   scene->fill(world, bodies);
   if (kind == "fluid") world.immerse();
+  for (int i = 0; i < before; ++i) world.step();
+  CALLGRIND_TOGGLE_COLLECT;
   for (int i = 0; i < steps; ++i) world.step();
+  CALLGRIND_TOGGLE_COLLECT;
   return EXIT_SUCCESS;
 }
 
@@ -77,14 +87,16 @@ int makeSteps(const std::string& folder, const std::string& name, const std::str
 
 int main(int argc, char** argv) try {
   using namespace ambient::test;
-  if (argc == 6)
-    return makeSteps(argv[1], argv[2], argv[3], std::atoi(argv[4]), std::atoi(argv[5]));
+  if (argc == 7)
+    return makeSteps(argv[1], argv[2], argv[3], std::atoi(argv[4]), std::atoi(argv[5]),
+                     std::atoi(argv[6]));
   if (argc == 3 && std::string(argv[2]) == "shapes") {
     makeFlockShapes(argv[1]);
     return EXIT_SUCCESS;
   }
   if ((argc != 2 && argc != 3) || argv[1][0] == '-') {
-    std::fprintf(stderr, "usage: %s FOLDER [shapes | PART | SCENE stock|fluid BODIES STEPS]\n",
+    std::fprintf(stderr,
+                 "usage: %s FOLDER [shapes | PART | SCENE stock|fluid BODIES BEFORE STEPS]\n",
                  argv[0]);
     return EXIT_FAILURE;
   }

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Counts the instructions of a step by valgrind, per body, and compares them with recorded ones.
 
-A count is the difference between two runs of unequal length, so that start and end do not count. It is that of the kernels
-for AVX2, whatever the processor: valgrind knows no AVX-512. Those of stock Bullet are counted when they are recorded."""
+The first steps do not count. The count is that of the kernels for AVX2, whatever the processor: valgrind knows no AVX-512. Those of stock Bullet are counted when they are recorded."""
 import argparse
 import json
 import os
@@ -14,7 +13,7 @@ from pathlib import Path
 
 # Functions of the C library that do not depend on the processor: its fills by "rep stosb" count each byte.
 FIXED = {"BULLET_AMBIENT_KERNELS": "avx2", "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-ERMS,-FSRM,-AVX2,-FMA,-AVX512F,-AVX512VL"}
-# Bodies, and steps of the shorter and the longer run.
+# Bodies, steps that do not count, and all steps.
 SCENES = {
     "boxes_under_water": (64, 20, 60), "plates_under_water": (64, 20, 60), "capsules_under_water": (64, 20, 60),
     "balls_under_water": (64, 20, 60),
@@ -31,11 +30,12 @@ class Counter:
     """Runs the program under valgrind."""
 
     def __init__(self, program: str, shapes: str) -> None:
-        self.command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, shapes]
+        self.command = ["valgrind", "--tool=callgrind", "--collect-atstart=no", "--callgrind-out-file=/dev/null", program,
+                        shapes]
         subprocess.run([program, shapes, "shapes"], check=True)
 
     def instructions(self, *arguments: object) -> int:
-        """Makes the steps; returns the number of instructions of the whole run."""
+        """Makes the steps; returns the number of instructions of those that count."""
         command = self.command + [str(argument) for argument in arguments]
         run = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **FIXED})
         counted = re.search(r"Collected : (\d+)", run.stderr)
@@ -44,9 +44,8 @@ class Counter:
         return int(counted.group(1))
 
     def per_body_and_step(self, scene: str, world: str) -> int:
-        bodies, few, many = SCENES[scene]
-        counts = [self.instructions(scene, world, bodies, steps) for steps in (few, many)]
-        return round((counts[1] - counts[0]) / (bodies * (many - few)))
+        bodies, before, steps = SCENES[scene]
+        return round(self.instructions(scene, world, bodies, before, steps - before) / (bodies * (steps - before)))
 
 
 def count(program: str, part: str, recorded: dict) -> dict[str, dict[str, int]]:
