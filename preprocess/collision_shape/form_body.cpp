@@ -206,8 +206,11 @@ CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeFor
 std::optional<FormLevel> levelOf(const FluidBody& body, const ShapeForm& form,
                                  const CollisionShapeSettings& settings) {
   if (settings.load_error == 0 || body.sphere_radius > 0) return std::nullopt;
-  if (isBox(form) && settings.load_error >= kBoxLevelError)
-    if (std::optional<FormLevel> level = boxLevel(body)) return level;
+  if (isBox(form) && settings.load_error >= kBoxLevelError) {
+    const PlacedShape& box = form.parts.front();
+    return boxLevel(body, std::get<Box>(box.shape).half_sizes,
+                    {box.pose.linear(), box.pose.translation()});
+  }
   tellStage(settings, "choosing few faces");
   return smallestFormLevel(body, settings.load_error);
 }

@@ -284,54 +284,43 @@ constexpr GaussRule kGaussRules[] = {
      {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263},
      {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693}}};
 
-/// A rectangular side of a box, as formLawFaces() divides it into 4 x 4 points.
-struct BoxSide {
-  Vector3 normal, corner, u, v;
-  double sharpness;
-
-  BoxSide(const FaceTable& faces, std::size_t first)
-      : normal(faces.normal(first)), sharpness(faces.sharpness[first]) {
-    const GaussRule& rule = kGaussRules[kMostNodes - 1];
-    const double span = rule.place[kMostNodes - 1] - rule.place[0];
-    const Vector3 begin = faces.centroid(first);
-    u = (faces.centroid(first + kMostNodes * (kMostNodes - 1)) - begin) / span;
-    v = (faces.centroid(first + kMostNodes - 1) - begin) / span;
-    corner = begin - rule.place[0] * (u + v);
-  }
-
-  void addPoints(const GaussRule& along_u, const GaussRule& along_v, FaceTable& to) const {
-    const double area = u.norm() * v.norm();
-    for (int i = 0; i < along_u.count; ++i)
-      for (int j = 0; j < along_v.count; ++j) {
-        to.add(normal, corner + along_u.place[i] * u + along_v.place[j] * v,
-               area * along_u.weight[i] * along_v.weight[j]);
-        to.sharpness.push_back(sharpness);
-      }
-  }
-};
+/// Returns the sharpness of the flat side with a normal.
+double sharpnessOf(const FaceTable& faces, const Vector3& normal) {
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < faces.size(); ++i)
+    if (faces.normal(i).dot(normal) > faces.normal(nearest).dot(normal)) nearest = i;
+  return faces.sharpness[nearest];
+}
 
 }  // namespace
 
-std::optional<FormLevel> boxLevel(const FluidBody& body) {
-  constexpr std::size_t kSides = 6, kPoints = kMostNodes * kMostNodes;
+FormLevel boxLevel(const FluidBody& body, const Vector3& half_sizes, const FrameOffset& pose) {
   const FaceTable all = formLawFaces(body, formShapeOf(body));
-  if (all.size() != kSides * kPoints) return std::nullopt;
-  std::vector<BoxSide> sides;
-  double longest = 0, shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < kSides; ++i) {
-    const BoxSide& side = sides.emplace_back(all, i * kPoints);
-    longest = std::max({longest, side.u.norm(), side.v.norm()});
-    shortest = std::min({shortest, side.u.norm(), side.v.norm()});
-  }
+  const double longest = half_sizes.maxCoeff();
   // Error measured over boxes of 1 : 1 to 1 : 50: 0.98 % at most, 0.2 % in the mean.
-  const bool is_compact = shortest >= 0.5 * longest;
-  const auto ruleFor = [&](const Vector3& edge) -> const GaussRule& {
-    const double ratio = edge.norm() / longest;
-    return kGaussRules[ratio <= 0.06 ? 0 : ratio <= 0.1 ? 1 : ratio <= 0.2 || is_compact ? 2 : 3];
+  const bool is_compact = half_sizes.minCoeff() >= 0.5 * longest;
+  const auto ruleFor = [&](double half_size) -> const GaussRule& {
+    const double ratio = half_size / longest;
+    return kGaussRules[ratio <= 0.02 ? 0 : ratio <= 0.08 ? 1 : ratio <= 0.2 || is_compact ? 2 : 3];
   };
   FormLevel level;
   level.p99_error = kBoxLevelError;
-  for (const BoxSide& side : sides) side.addPoints(ruleFor(side.u), ruleFor(side.v), level.faces);
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2, along = (axis + 1) % 3, across = (axis + 2) % 3;
+    const Vector3 outward = (side % 2 == 0 ? 1 : -1) * Vector3::Unit(axis);
+    const Vector3 normal = pose.rotation * outward;
+    const double sharpness = sharpnessOf(all, normal);
+    const GaussRule &u = ruleFor(half_sizes[along]), &v = ruleFor(half_sizes[across]);
+    for (int i = 0; i < u.count; ++i)
+      for (int j = 0; j < v.count; ++j) {
+        Vector3 point = half_sizes[axis] * outward;
+        point[along] = (2 * u.place[i] - 1) * half_sizes[along];
+        point[across] = (2 * v.place[j] - 1) * half_sizes[across];
+        level.faces.add(normal, pose.rotation * point + pose.translation,
+                        4 * half_sizes[along] * half_sizes[across] * u.weight[i] * v.weight[j]);
+        level.faces.sharpness.push_back(sharpness);
+      }
+  }
   return level;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/spatial/frame_offset.h"
 
 namespace ambient {
 
@@ -30,8 +31,7 @@ std::optional<FormLevel> smallestFormLevel(const FluidBody& body, double p99_err
 constexpr double kBoxLevelError = 0.01;
 
 /// Makes few faces for a box by rule: on each side 1 to 4 x 1 to 4 Gauss points, fewer along short
-/// edges, 54 for a cube. None if formLawFaces() has not 16 points on each of six sides: another
-/// body, or a mesh that is fine beside a plate's edge. Cost: formLawFaces().
-std::optional<FormLevel> boxLevel(const FluidBody& body);
+/// edges, 54 for a cube. half_sizes [m] and pose in F are those of the box. Cost: formLawFaces().
+FormLevel boxLevel(const FluidBody& body, const Vector3& half_sizes, const FrameOffset& pose);
 
 }  // namespace ambient

@@ -27,18 +27,21 @@ double errorOf(const FluidBody& body, const FormLevel& level) {
   const ShapeFactors shape(formShapeOf(body));
   const FaceTable all = formLawFaces(body, shape.shape);
   double moment = 0;
+  const Vector3& middle = body.centre_of_volume;
   for (std::size_t i = 0; i < all.size(); ++i)
-    moment += all.area[i] * all.centroid(i).squaredNorm();
+    moment += all.area[i] * (all.centroid(i) - middle).squaredNorm();
   const double length = std::sqrt(moment / body.area);
   test::Arbitrary arbitrary(3);
   std::vector<double> errors;
   for (int i = 0; i < 400; ++i) {
     const double angle = arbitrary.between(0, std::acos(0.0));
-    const Twist x{std::sin(angle) / length * arbitrary.vector().normalized(),
-                  std::cos(angle) * arbitrary.vector().normalized()};
+    const Vector3 w = std::sin(angle) / length * arbitrary.vector().normalized(),
+                  v = std::cos(angle) * arbitrary.vector().normalized();
+    const Twist x{w, v - w.cross(middle)};  // v is that of the middle
     const LoadSettings settings{1, 1e-3, 0, true, PressureLaw::kForm, &shape};
     Vector6 error = computeFaceLoads(level.faces, 1, x, settings).total().vector() -
                     computeFaceLoads(all, 1, x, settings).total().vector();
+    error.head<3>() -= middle.cross(Vector3(error.tail<3>()));
     error.head<3>() /= length;
     double scale = 0;
     for (std::size_t face = 0; face < all.size(); ++face)
@@ -69,15 +72,20 @@ TEST(BoxLevel, OfACubeHasFewerFacesThanAFit) {
   EXPECT_EQ(boxOf({1, 1, 1}).form_levels[0].faces.size(), 54u);
 }
 
-TEST(BoxLevel, IsForBoxesOnly) {
-  const btCylinderShape cylinder(btVector3(1, 1, 1));
-  EXPECT_FALSE(boxLevel(makeFluidBody(cylinder, test::coarse())));
+TEST(BoxLevel, FollowsATurnedBox) {
+  btBoxShape box(btVector3(1, btScalar(0.4), btScalar(0.1)));
+  btCompoundShape turned;
+  const btTransform pose(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(0.7)),
+                         btVector3(1, 0, -2));
+  turned.addChildShape(pose, &box);
+  const FluidBody body = makeFluidBody(turned, CollisionShapeSettings());
+  EXPECT_LT(errorOf(body, body.form_levels[0]), kBoxLevelError);
 }
 
 /// Bytes that a box keeps: what a world of boxes that all differ costs.
 TEST(BoxLevel, ABoxHasFewTriangles) {
   const FluidBody body = boxOf({0.5, 0.4, 0.3});
-  EXPECT_LE(body.faces.size(), 200u);
+  EXPECT_LE(body.faces.size(), 400u);
   CollisionShapeSettings more;
   more.faces = 1300;
   EXPECT_GE(makeFluidBody(btBoxShape(btVector3(1, 1, 1)), more).faces.size(), 1000u);
