@@ -1,7 +1,6 @@
 #include "bullet_ambient/immersed/pool_rim.h"
 
 #include <cmath>
-#include <utility>
 
 #include "bullet_ambient/immersed/region_call.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
@@ -22,30 +21,19 @@ const SurfaceModel* modelIn(const AmbientBody& ambient, const FluidRegion& pool)
 }
 
 // Returns how far a body reaches along a direction in B from its centre of mass [m].
-std::pair<double, double> reachAlong(const SurfaceModel& model, const Vector3& along_B) {
+double reachAlong(const SurfaceModel& model, const Vector3& along_B) {
   const FrameOffset& frame = model.fluid_frame;
-  const auto [low, high] = computeExtent(*model.hull, frame.rotation.transpose() * along_B);
-  const double middle = along_B.dot(frame.translation);
-  return {low + middle, high + middle};
+  return computeExtent(*model.hull, frame.rotation.transpose() * along_B).second +
+         along_B.dot(frame.translation);
 }
 
-// A vertical side of a pool: its axis in W, 1 or -1 for its way out, and its place [m].
-struct Wall {
-  int axis;
-  double out, place;
+// True if sides of a pool across an axis of W are upright.
+bool areUpright(const btRigidBody& body, int axis) {
+  return std::abs(toVector3(body.getGravity()).normalized()[axis]) <= kUpright;
+}
 
-  Vector3 normal_W() const { return out * Vector3::Unit(axis); }
-};
-
-// Calls visit(wall) for the vertical sides of bounds.
-template <class Visit>
-void forEachWall(const RegionBounds& bounds, const btVector3& gravity, const Visit& visit) {
-  const Vector3 down = toVector3(gravity).normalized();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(down[axis]) <= kUpright)) continue;
-    visit(Wall{axis, -1, bounds.lowest[axis]});
-    visit(Wall{axis, 1, bounds.highest[axis]});
-  }
+Matrix3 worldToBody(const btRigidBody& body) {
+  return toQuaternion(body.getWorldTransform().getRotation()).toRotationMatrix().transpose();
 }
 
 // True if what is at a point beyond a side is a liquid, too, or has a surface.
@@ -59,28 +47,24 @@ bool isWaterAt(const Vector3& point_W, const AmbientBody& ambient, const FluidRe
   return density > kLiquid * pool.below.density;
 }
 
-// True if a body outside of a pool reaches beyond its rim, and not over the height of its bounds.
-bool reachesOver(const AmbientBody& ambient, const RegionEntry& pool, const SurfaceModel& model) {
-  const Vector3 centre = centreOf(ambient);
-  const Matrix3 to_body =
-      toQuaternion(ambient.body->getWorldTransform().getRotation()).toRotationMatrix().transpose();
-  RegionBounds above = *pool.region.bounds;
-  bool reaches = true;
-  forEachWall(*pool.region.bounds, ambient.body->getGravity(), [&](const Wall& wall) {
-    const double inside = wall.out * (wall.place - centre[wall.axis]);
-    if (inside < 0)
-      reaches = reaches && inside > reachAlong(model, to_body * wall.normal_W()).first;
-    above.lowest[wall.axis] = above.highest[wall.axis] = centre[wall.axis];
-  });
-  return reaches && (centre.array() >= above.lowest.array()).all() &&
-         (centre.array() <= above.highest.array()).all();
+// True if a body outside of a pool, at the height of its bounds, reaches over its rim.
+bool reachesOver(const AmbientBody& ambient, const FluidRegion& pool, const SurfaceModel& model) {
+  const Vector3 way = pointIn(pool, centreOf(ambient)) - centreOf(ambient);
+  const Matrix3 to_body = worldToBody(*ambient.body);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (way[axis] == 0) continue;
+    if (!areUpright(*ambient.body, axis)) return false;
+    const Vector3 in_B = to_body * (std::copysign(1, way[axis]) * Vector3::Unit(axis));
+    if (!(reachAlong(model, in_B) > std::abs(way[axis]))) return false;
+  }
+  return true;
 }
 
 // True if a body outside of a pool reaches into its water in a step.
 bool reachesInto(const AmbientBody& ambient, const RegionEntry& pool, const FluidRegions& regions,
                  double duration) {
   const SurfaceModel* model = modelIn(ambient, pool.region);
-  if (!model || !reachesOver(ambient, pool, *model)) return false;
+  if (!model || !reachesOver(ambient, pool.region, *model)) return false;
   const Vector3 point = pointIn(pool.region, centreOf(ambient));
   long long asked = 0;
   if (regions.find(point, asked) != &pool) return false;
@@ -122,22 +106,25 @@ PoolSides findSides(const AmbientBody& ambient, const FluidRegions& regions,
   const SurfaceModel* model = modelIn(ambient, pool.region);
   if (!model) return sides;
   const btRigidBody& body = *ambient.body;
-  const Matrix3 to_body =
-      toQuaternion(body.getWorldTransform().getRotation()).toRotationMatrix().transpose();
+  const Matrix3 to_body = worldToBody(body);
   const Vector3 centre = centreOf(ambient) + ahead * toVector3(body.getLinearVelocity());
   const FrameOffset& frame = model->fluid_frame;
-  forEachWall(*pool.region.bounds, body.getGravity(), [&](const Wall& wall) {
-    const double way = wall.out * (wall.place - centre[wall.axis]);
-    if (!(way < model->radius) || sides.count == PoolSides::kMost) return;
-    const Vector3 out_B = to_body * wall.normal_W();
-    const double high = reachAlong(*model, out_B).second;
-    if (!(way < high)) return;
+  for (int wall = 0; wall < 6 && sides.count < PoolSides::kMost; ++wall) {
+    const int axis = wall / 2, out = wall % 2 ? 1 : -1;
+    if (!areUpright(body, axis)) continue;
+    const RegionBounds& bounds = *pool.region.bounds;
+    const double place = (out < 0 ? bounds.lowest : bounds.highest)[axis];
+    const double way = out * (place - centre[axis]);
+    if (!(way < model->radius)) continue;
+    const Vector3 out_B = to_body * (out * Vector3::Unit(axis));
+    const double high = reachAlong(*model, out_B);
+    if (!(way < high)) continue;
     Vector3 beyond = pointIn(pool.region, centre);
-    beyond[wall.axis] = wall.place + wall.out * (high - way) / 2;
-    if (isWaterAt(beyond, ambient, regions, pool.region)) return;
+    beyond[axis] = place + out * (high - way) / 2;
+    if (isWaterAt(beyond, ambient, regions, pool.region)) continue;
     sides.of[sides.count++] = {frame.rotation.transpose() * out_B,
                                frame.rotation.transpose() * (way * out_B - frame.translation)};
-  });
+  }
   return sides;
 }
 

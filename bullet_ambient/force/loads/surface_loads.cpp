@@ -64,7 +64,26 @@ Wrench sumInDouble(const FaceTable& faces, double length, const Twist& x,
   return computeFaceLoads(faces, length, x, settings, plane).total();
 }
 
-using SingleLoads = SummedLoads<PackedFaces, computeFaceLoad>;
+/// Where sides of a pool cut the faces, they are summed in double.
+class SingleLoads final : public SummedLoads<PackedFaces, computeFaceLoad> {
+ public:
+  /// `packed` holds `faces`.
+  SingleLoads(std::shared_ptr<const PackedFaces> packed, LoadTables::Faces faces, double length,
+              const LoadSettings& settings)
+      : SummedLoads(std::move(packed), faces->size(), length, settings),
+        in_double_(std::move(faces)) {}
+
+  Wrench wetLoad(const Twist& x, const WetPart& wet) const noexcept override {
+    return wet.plane.sides_F ? wetParts(x, wet).total() : SummedLoads::wetLoad(x, wet);
+  }
+  FaceLoads wetParts(const Twist& x, const WetPart& wet) const noexcept override {
+    if (!wet.plane.sides_F) return SummedLoads::wetParts(x, wet);
+    return computeFaceLoads(*in_double_, length_, x, settings_, &wet.plane);
+  }
+
+ private:
+  LoadTables::Faces in_double_;
+};
 
 struct DoubleLoads final : SummedLoads<FaceTable, sumInDouble> {
   using SummedLoads::SummedLoads;
@@ -256,11 +275,10 @@ LoadTables::Faces chooseFormFaces(const Body& body, const ShapeFactors& shape,
 
 std::shared_ptr<const SurfaceLoads> loadsOn(const Body& body, const LoadTables::Faces& faces,
                                             const LoadSettings& settings, LoadPrecision precision) {
-  const std::size_t count = faces->size();
   const double length = referenceLength(*body);
   if (precision == LoadPrecision::kDouble)
-    return std::make_shared<DoubleLoads>(faces, count, length, settings);
-  return std::make_shared<SingleLoads>(LoadTables(body).packedFaces(faces, settings.shape), count,
+    return std::make_shared<DoubleLoads>(faces, faces->size(), length, settings);
+  return std::make_shared<SingleLoads>(LoadTables(body).packedFaces(faces, settings.shape), faces,
                                        length, settings);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bullet_ambient/force/kernels/part_sums.h"
+#include "bullet_ambient/force/law/share_in_pool.h"
 
 namespace ambient {
 namespace {
@@ -23,24 +24,13 @@ PartPlane planeOf(const Immersion& at) {
   return {{s.x(), s.y(), s.z()}, at.plane.height, kReach * fade * at.size()};
 }
 
-/// Returns the share of a part of the added mass that is between the sides of a pool: of a bar with
-/// the part's mean square across each side.
-double shareInPool(const PartBlock& block, int lane, const PoolSides& sides) {
+/// Returns the share of a part of the added mass that is between the sides of a pool: of a ball
+/// with the second moment of a disc, whatever its tilt.
+double partInPool(const PartBlock& block, int lane, const PoolSides& sides) {
   const auto at = [lane](const auto& rows, int row) { return rows[row][lane]; };
   const Vector3 centre(at(block.centre, 0), at(block.centre, 1), at(block.centre, 2));
-  const auto spread = [&](int row) { return at(block.spread, row); };
-  double share = 1;
-  for (int i = 0; i < sides.count; ++i) {
-    const PoolSides::Side& side = sides.of[i];
-    const Vector3& m = side.normal;
-    const double square =
-        m.x() * m.x() * spread(0) + m.y() * m.y() * spread(1) + m.z() * m.z() * spread(2) +
-        2 * (m.x() * m.y() * spread(3) + m.x() * m.z() * spread(4) + m.y() * m.z() * spread(5));
-    const double half = std::sqrt(3 * std::max(0.0, square));
-    const double inside = m.dot(side.point - centre);
-    share *= half > 0 ? std::clamp(0.5 + inside / (2 * half), 0.0, 1.0) : inside > 0;
-  }
-  return share;
+  const double square = at(block.spread, 0) + at(block.spread, 1) + at(block.spread, 2);
+  return shareInPool(sides, centre, Vector3::Zero(), 2 * square);
 }
 
 /// Calls visit(blocks) for all blocks at once, or, where the water ends at the sides of a pool, for
@@ -51,7 +41,7 @@ void forBlocksInPool(const PartBlocks& parts, const PoolSides* sides_F, const Vi
   for (std::size_t i = 0; i < parts.count; ++i) {
     PartBlock block = parts.blocks[i];
     for (int lane = 0; lane < PartBlock::kParts; ++lane) {
-      const double share = shareInPool(block, lane, *sides_F);
+      const double share = partInPool(block, lane, *sides_F);
       for (auto& entry : block.inertia) entry[lane] *= share;
     }
     visit(PartBlocks{&block, 1});

@@ -185,7 +185,7 @@ LinkFlightResult LinkFlight::computeRowVelocity(const TreePose& start, const Coo
   mean_ = duration * (rate_ - mean_);
   end_ = u + duration * rate_ - mean_;
   if (kick_.hasLoads()) {
-    countUp(kick_.sample(dynamics_, u), result.count);
+    countUp(kick_.sampleForRows(dynamics_, u, duration), result.count);
     kick_.kick(dynamics_, duration, end_);
     dynamics_.factor();
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/motion/rows/row_velocity.h"
 
 namespace ambient {
 namespace {
@@ -68,6 +69,20 @@ FlightCount LinkKick::sample(LinkDynamics& dynamics, const CoordinatesIn& u) noe
   return count;
 }
 
+FlightCount LinkKick::sampleForRows(LinkDynamics& dynamics, const CoordinatesIn& u,
+                                    double h) noexcept {
+  const FlightCount count = sample(dynamics, u);
+  for (int l = 0; l < tree_.size(); ++l) {
+    const Link& link = tree_.links[l];
+    if (!isLoaded(link) || !turnsWithFluid(link.surroundings)) continue;
+    const Wrench load = samples_[l].load;
+    samples_[l] = {};
+    samples_[l].load = meanLoadInTurningFluid({*link.model, link.surroundings, {}, h}, *link.model,
+                                              dynamics.relativeTwist(l), load);
+  }
+  return count;
+}
+
 FlightCount LinkKick::recall(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept {
   FlightCount count;
   sampleAll(dynamics, u, [&](int l, const Twist& y) -> Wrench {
@@ -113,7 +128,8 @@ void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept
   for (int l = 0; l < tree_.size(); ++l) {
     const Sample& sample = samples_[l];
     drags_[l] = 0;
-    drag_impulses_[l] = lift_impulses_[l] = {};
+    drag_impulses_[l] = h * sample.load;
+    lift_impulses_[l] = {};
     if (!(sample.speed > 0)) continue;
     const Wrench momentum = dynamics.relativeMomentum(l);
     const double ratio = std::sqrt(dynamics.relativeEnergy(l)) / sample.speed;

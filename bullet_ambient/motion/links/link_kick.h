@@ -18,6 +18,9 @@ class LinkKick {
   /// Evaluates and stores the loads at the velocity `u` and the pose of `dynamics`, with the
   /// passivity guard.
   FlightCount sample(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
+  /// Does so for rows, which see one kick of a time h [s]: loads of fluid that turns with a link
+  /// are the mean of that kick, docs/theory.md eq. (87).
+  FlightCount sampleForRows(LinkDynamics& dynamics, const CoordinatesIn& u, double h) noexcept;
   /// Stores the loads that links remember as those at the velocity `u` and the pose of `dynamics`,
   /// and evaluates the others.
   FlightCount recall(LinkDynamics& dynamics, const CoordinatesIn& u) noexcept;
@@ -42,9 +45,9 @@ class LinkKick {
   /// Load of a link at its twist y relative to the flow, in its frame: -drag K y + lift.
   struct Sample {
     double drag = 0;   ///< [1/s], >= 0
-    double speed = 0;  ///< |y| in the norm of K [sqrt(J)]; 0: no load
+    double speed = 0;  ///< |y| in the norm of K [sqrt(J)]
     Wrench lift;       ///< part of the load without power at y
-    Wrench load;
+    Wrench load;       ///< speed 0: whatever the twist
 
     /// Returns the load at another twist y' with momentum K y' and speed |y'|.
     Wrench at(const Wrench& momentum, double its_speed) const;

@@ -80,7 +80,7 @@ TEST(LongRows, AStickTurnsWithItsWaterAsWithoutThem) {
       StickScene scene(mover, rows);
       std::vector<double> spins;
       for (int second = 0; second < 10; ++second) {
-        scene.step(1.0 / 240, 240);
+        scene.step(1.0 / 60, 60);
         spins.push_back(scene.spin());
       }
       if (rows == StickRows::kNone) free = spins;
