@@ -267,7 +267,8 @@ FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& want
   }
 }
 
-Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& settings) {
+Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& wanted) {
+  const CollisionShapeSettings settings = withFaces(wanted, form);
   Provenance provenance;
   provenance.source = "collision shape " + form.kind;
   provenance.source_hash = fnv1a64(contentOf(form.parts));

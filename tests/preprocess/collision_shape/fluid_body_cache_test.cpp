@@ -187,6 +187,10 @@ TEST(FluidBodyCache, AnotherRunReadsWhatThisOneMade) {
   FluidBodyCache third(finer, folder / "kept");
   third.fluidBody(box);
   EXPECT_EQ(third.counts().made, 1) << "other settings";
+  FluidBodyCache usual({}, folder / "usual"), again({}, folder / "usual");
+  usual.fluidBody(box);
+  again.fluidBody(box);
+  EXPECT_EQ(again.counts().made, 0) << "default settings";
 }
 
 TEST(FluidBodyCache, KeepsOnlyWhatTookLong) {
