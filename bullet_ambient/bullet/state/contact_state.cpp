@@ -193,67 +193,104 @@ std::pair<int, int> inOrder(const PairState& pair) {
   return {std::min(pair.object_a, pair.object_b), std::max(pair.object_a, pair.object_b)};
 }
 
-int countManifolds(const btBroadphasePair& pair) {
-  btManifoldArray manifolds;
-  if (pair.m_algorithm) pair.m_algorithm->getAllContactManifolds(manifolds);
-  return manifolds.size();
-}
-
-// Makes places for the contacts of a pair. Bullet keeps a contact of two parts of compounds across
-// gaps at which it would not find it anew: then the second object is moved into contact.
-void makePlaces(btBroadphasePair& pair, const std::vector<const ContactState*>& contacts,
-                const Objects& objects, btCollisionWorld& world) {
-  makePlaces(pair, btVector3(0, 0, 0), world);
-  for (const ContactState* contact : contacts) {
-    if (countManifolds(pair) >= static_cast<int>(contacts.size())) return;
-    if (contact->points.empty()) continue;
-    const btManifoldPoint& point = contact->points.front();
-    const btCollisionObject& first = *objects[contact->pair.object_a];
-    const btVector3 gap =
-        first.getWorldTransform() * point.m_localPointA -
-        objects[contact->pair.object_b]->getWorldTransform() * point.m_localPointB;
-    const bool is_in_order = pair.m_pProxy0->m_clientObject == &first;
-    makePlaces(pair, is_in_order ? 2 * gap : -2 * gap, world);
-  }
-}
-
-void makePlaces(const std::vector<ContactState>& contacts, btCollisionWorld& world) {
-  std::map<std::pair<int, int>, std::vector<const ContactState*>> touching;
-  for (const ContactState& contact : contacts) touching[inOrder(contact.pair)].push_back(&contact);
-  const Objects objects(world);
-  const ObjectNumbers numbers(world);
-  btOverlappingPairCache& cache = *world.getPairCache();
-  for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
-    btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
-    const PairState found =
-        numbers.pair(pair.m_pProxy0->m_clientObject, pair.m_pProxy1->m_clientObject);
-    const auto saved = touching.find(inOrder(found));
-    if (saved != touching.end()) makePlaces(pair, saved->second, objects, world);
-  }
-}
-
 // Name of a place that is the same before and after: the pair, and the parts of compounds that
 // touch, which Bullet writes in the points; without points, or parts, the number of the place.
 using PlaceName = std::tuple<int, int, int, int, int>;
 using PlacesByName = std::map<PlaceName, btPersistentManifold*>;
+using PartNames = std::map<const btPersistentManifold*, PlaceName>;
 
-PlaceName nameOf(const PairState& pair, int part, const btManifoldPoint* point) {
-  const bool has_parts = point && point->m_partId0 == -1 && point->m_partId1 == -1 &&
-                         (point->m_index0 >= 0 || point->m_index1 >= 0);
-  if (!has_parts) return {pair.object_a, pair.object_b, -1, -1, part};
-  return {pair.object_a, pair.object_b, point->m_index0, point->m_index1, 0};
+bool hasParts(const btManifoldPoint& point) {
+  return point.m_partId0 == -1 && point.m_partId1 == -1 &&
+         (point.m_index0 >= 0 || point.m_index1 >= 0);
 }
 
-PlaceName nameOf(const Place& place) {
-  const btPersistentManifold& manifold = *place.manifold;
-  return nameOf(place.pair, place.part,
-                manifold.getNumContacts() > 0 ? &manifold.getContactPoint(0) : nullptr);
+PlaceName nameOf(const PairState& pair, int part, const btManifoldPoint* point) {
+  if (!point || !hasParts(*point)) return {pair.object_a, pair.object_b, -1, -1, part};
+  return {pair.object_a, pair.object_b, point->m_index0, point->m_index1, 0};
 }
 
 PlaceName nameOf(const ContactState& contact) {
   return nameOf(contact.pair, contact.part,
                 contact.points.empty() ? nullptr : &contact.points.front());
 }
+
+// Finds or makes the places of saved contacts.
+class PlaceMaker {
+ public:
+  explicit PlaceMaker(btCollisionWorld& world) : world_(world), objects_(world), numbers_(world) {}
+
+  PlacesByName placesFor(const std::vector<ContactState>& contacts) {
+    std::map<std::pair<int, int>, std::vector<const ContactState*>> touching;
+    for (const ContactState& contact : contacts)
+      touching[inOrder(contact.pair)].push_back(&contact);
+    btOverlappingPairCache& cache = *world_.getPairCache();
+    for (int i = 0; i < cache.getNumOverlappingPairs(); ++i) {
+      btBroadphasePair& pair = cache.getOverlappingPairArrayPtr()[i];
+      const PairState found =
+          numbers_.pair(pair.m_pProxy0->m_clientObject, pair.m_pProxy1->m_clientObject);
+      const auto saved = touching.find(inOrder(found));
+      if (saved != touching.end()) makeFor(pair, saved->second);
+    }
+    PlacesByName places;
+    for (const Place& place : placesOf(world_)) {
+      const auto named = names_.find(place.manifold);
+      places.emplace(
+          named != names_.end() ? named->second : nameOf(place.pair, place.part, nullptr),
+          place.manifold);
+    }
+    return places;
+  }
+
+ private:
+  // Bullet keeps a contact of two parts of compounds across gaps at which it would not find it
+  // anew: then the second object is moved into contact, which tells the parts, too.
+  void makeFor(btBroadphasePair& pair, const std::vector<const ContactState*>& contacts) {
+    makePlaces(pair, btVector3(0, 0, 0), world_);
+    noteParts(pair);
+    for (const ContactState* contact : contacts) {
+      if (contact->points.empty() || isThere(pair, *contact)) continue;
+      const btManifoldPoint& point = contact->points.front();
+      const btCollisionObject& first = *objects_[contact->pair.object_a];
+      const btVector3 gap =
+          first.getWorldTransform() * point.m_localPointA -
+          objects_[contact->pair.object_b]->getWorldTransform() * point.m_localPointB;
+      const bool is_in_order = pair.m_pProxy0->m_clientObject == &first;
+      makePlaces(pair, is_in_order ? 2 * gap : -2 * gap, world_);
+      noteParts(pair);
+    }
+  }
+
+  static btManifoldArray manifoldsOf(const btBroadphasePair& pair) {
+    btManifoldArray manifolds;
+    if (pair.m_algorithm) pair.m_algorithm->getAllContactManifolds(manifolds);
+    return manifolds;
+  }
+
+  void noteParts(const btBroadphasePair& pair) {
+    const btManifoldArray manifolds = manifoldsOf(pair);
+    for (int i = 0; i < manifolds.size(); ++i) {
+      btPersistentManifold& manifold = *manifolds[i];
+      if (manifold.getNumContacts() == 0 || !hasParts(manifold.getContactPoint(0))) continue;
+      names_[&manifold] = nameOf(numbers_.pair(manifold.getBody0(), manifold.getBody1()), 0,
+                                 &manifold.getContactPoint(0));
+    }
+  }
+
+  bool isThere(const btBroadphasePair& pair, const ContactState& contact) const {
+    const btManifoldArray manifolds = manifoldsOf(pair);
+    if (!hasParts(contact.points.front())) return manifolds.size() > contact.part;
+    for (int i = 0; i < manifolds.size(); ++i) {
+      const auto named = names_.find(manifolds[i]);
+      if (named != names_.end() && named->second == nameOf(contact)) return true;
+    }
+    return false;
+  }
+
+  btCollisionWorld& world_;
+  const Objects objects_;
+  const ObjectNumbers numbers_;
+  PartNames names_;
+};
 
 }  // namespace
 
@@ -294,10 +331,7 @@ void restoreContacts(const std::vector<PairState>& pairs, const std::vector<Cont
   world.computeOverlappingPairs();
   restorePairs(pairs, Objects(world), world);
   wakeAll(world);
-  makePlaces(contacts, world);
-
-  PlacesByName places;
-  for (const Place& place : placesOf(world)) places.emplace(nameOf(place), place.manifold);
+  PlacesByName places = PlaceMaker(world).placesFor(contacts);
   for (const auto& [name, manifold] : places) manifold->clearManifold();
   btPersistentManifold** array = world.getDispatcher()->getInternalManifoldPointer();
   int restored = 0;
