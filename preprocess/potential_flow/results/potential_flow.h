@@ -48,7 +48,7 @@ struct PotentialFlow {
   /// or 0, over the largest; in the same units [1].
   double removed_eigenvalue = 0;
   Eigen::Index panels = 0;  ///< number of panels of the solution
-  int iterations = 0;  ///< iterations of the hierarchical solver; 0: the matrix was factorised
+  int iterations = 0;       ///< iterations of the hierarchical solver; 0: the matrix was factorised
 };
 
 /// Solves the six exterior Neumann problems dphi/dn = n.(v + w x z) by a Galerkin boundary element

@@ -8,7 +8,7 @@ namespace ambient {
 /// Jump of the potential across the surface, and data on its solution.
 struct Jump {
   Eigen::Matrix<double, Eigen::Dynamic, 6> values;  ///< V x 6, 0 where there is no unknown
-  int iterations = 0;  ///< iterations; 0: the matrix was factorised
+  int iterations = 0;                               ///< iterations; 0: the matrix was factorised
 };
 
 /// Values at all vertices from those of the unknowns, U x 6; 0 where there is no unknown.

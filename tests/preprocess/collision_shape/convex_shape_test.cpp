@@ -78,7 +78,8 @@ TEST(ConvexShape, SimpleShapesNeedNoSolver) {
   for (const btCollisionShape* shape :
        std::initializer_list<const btCollisionShape*>{&box, &cylinder, &capsule, &cone}) {
     const Provenance made = makeFluidBody(*shape, settings).provenance;
-    EXPECT_EQ(made.settings, "faces 350, load error 0.01 of form law 3, added mass tables 1") << shape->getName();
+    EXPECT_EQ(made.settings, "faces 350, load error 0.01 of form law 3, added mass tables 1")
+        << shape->getName();
     EXPECT_EQ(made.settings, describeCollisionShape(*shape, settings).settings);
   }
   settings.tables = false;

@@ -64,8 +64,7 @@ TEST(FlowEstimate, PlaceOfTheMeshDoesNotMatter) {
 }
 
 TEST(FlowEstimate, OfASheet) {
-  const auto estimate =
-      estimateFlow(makeRectangularSheetMesh(2, 1, 16), panelSettings(800, true));
+  const auto estimate = estimateFlow(makeRectangularSheetMesh(2, 1, 16), panelSettings(800, true));
   ASSERT_TRUE(estimate);
   EXPECT_GT(estimate->translation_error, 0);
 }
