@@ -40,7 +40,7 @@ Wrench pushByFlow(const AmbientBody& ambient) noexcept {
   const Quaternion q = toQuaternion(body.getWorldTransform().getRotation());
   const double mass = 1 / static_cast<double>(body.getInvMass());
   const Wrench push_B = flow.at_rest_B + flow.push_B;
-  return Wrench{q * push_B.torque, q * push_B.force + mass * flow.lean_W} + flow.atSides_W();
+  return Wrench{q * push_B.torque, q * push_B.force + mass * flow.lean_W} + flow.wrenchAtSides();
 }
 
 void addFlowAlong(const AmbientBody& ambient, Surroundings& surroundings) noexcept {

@@ -24,7 +24,7 @@ struct FlowAlongBody {
   Wrench side_push_W;       ///< pressure of the water across them, eq. (90); world axes
   Wrench growth_W;          ///< of added mass that comes into the pool, eq. (91); world axes
 
-  Wrench atSides_W() const { return side_push_W + growth_W; }
+  Wrench wrenchAtSides() const { return side_push_W + growth_W; }
   bool isNone() const {
     return stations == 0 && lean_W.isZero(0) && spin_up_B.isZero(0) && sides_F.count == 0;
   }

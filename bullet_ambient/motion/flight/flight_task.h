@@ -20,7 +20,7 @@ struct Surroundings {
 
   /// True if a torque is applied whose work no energy of place has.
   bool hasTorque() const noexcept {
-    return applied.torque != (flow ? flow->atSides_W().torque : Vector3(Vector3::Zero()));
+    return applied.torque != (flow ? flow->wrenchAtSides().torque : Vector3(Vector3::Zero()));
   }
 };
 
