@@ -28,7 +28,7 @@ struct WetVolume {
 
 /// Computes the wet volume exactly, by the divergence theorem over the wet parts of the triangles.
 /// Cost: O(triangles near the plane), with SurfacePlane::sides_F O(triangles); allocates nothing.
-/// The same bits on every machine. @pre where the plane has sides, it is in F
+/// Bits do not depend on the machine. @pre where the plane has sides, it is in F
 WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) noexcept;
 
 /// Wrench by which the water presses a body that lies across the sides of its pool out of it,

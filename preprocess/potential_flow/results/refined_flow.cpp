@@ -24,8 +24,8 @@ namespace {
 // Order of the error in the length of the panels at edges they are thinned across; measured 2.1 to
 // 3.2, docs/accuracy.md.
 constexpr double kOrder = 2.25;
-// The same order of polyhedra on about a thousand panels, fitted to hulls of points and unions of
-// boxes: by kOrder nearly all come out too light.
+// Order of that error for polyhedra on about a thousand panels, fitted to hulls of points and
+// unions of boxes: by kOrder nearly all come out too light.
 constexpr double kPolyhedronOrder = 2.1;
 
 // On compact panels, as smooth bodies have them, expansions pay earlier than kMostDensePanels.

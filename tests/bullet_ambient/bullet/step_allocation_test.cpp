@@ -61,7 +61,7 @@ TEST(Attachment, OfAnEqualBodyTakesOneOrTwoKilobytes) {
   }
 }
 
-// As after PyBullet's resetSimulation: the world is new, the fluid body is not.
+// PyBullet's resetSimulation makes a new world for fluid bodies that are kept.
 TEST(Attachment, InAnotherWorldMakesNoTables) {
   const auto shape = std::make_shared<const FluidBody>(formShape());
   const auto bytesOfAttaching = [&] {

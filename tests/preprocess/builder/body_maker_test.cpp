@@ -38,13 +38,13 @@ class UserFolder : public testing::Test {
 TEST_F(UserFolder, IsThatOfTheEnvironment) {
   use("BULLET_AMBIENT_CACHE", "");
   use("XDG_CACHE_HOME", "");
-  use("HOME", "/home/anna");
-  EXPECT_EQ(userBodyFolder().path, "/home/anna/.cache/bullet_ambient");
+  use("HOME", "/somewhere");
+  EXPECT_EQ(userBodyFolder().path, "/somewhere/.cache/bullet_ambient");
   EXPECT_EQ(userBodyFolder().least, std::chrono::milliseconds(50));
   use("XDG_CACHE_HOME", "not/absolute");
-  EXPECT_EQ(userBodyFolder().path, "/home/anna/.cache/bullet_ambient");
-  use("XDG_CACHE_HOME", "/scratch");
-  EXPECT_EQ(userBodyFolder().path, "/scratch/bullet_ambient");
+  EXPECT_EQ(userBodyFolder().path, "/somewhere/.cache/bullet_ambient");
+  use("XDG_CACHE_HOME", "/elsewhere");
+  EXPECT_EQ(userBodyFolder().path, "/elsewhere/bullet_ambient");
   use("BULLET_AMBIENT_CACHE", "bodies");
   EXPECT_EQ(userBodyFolder().path, "bodies");
   use("BULLET_AMBIENT_CACHE", "off");

@@ -16,7 +16,7 @@ namespace {
 
 const Vector3 kStick(1, 0.04, 0.05);  // [m]
 
-/// What touches or holds a stick: nothing that could turn it about the vertical.
+/// Contact or joint of a stick; none could turn it about the vertical.
 enum class StickRows { kNone, kHinge, kGround };
 
 /// A stick of 1.5 times the density of its water, which turns, above a plate without friction.
@@ -197,7 +197,8 @@ TEST(LongRows, TheBalanceOfTheMomentumHolds) {
   }
 }
 
-// What the added mass takes is what the fluid that moves along gains, but for errors of a step.
+// Momentum that the added mass takes is what the fluid that moves along gains, but for errors of a
+// step.
 TEST(LongRows, TheAddedMassTakesItsMomentum) {
   BarScene scene(currentAcross());
   scene.step(1.0 / 60, 30);
