@@ -51,14 +51,6 @@ inline Spatials impulseOf(const Passages& p, const PassageWorks& works) {
           (p.duration * (is_near ? ratio : one)) * p.gradient.linear};
 }
 
-/// Returns K_1 - K_0.
-inline FullMatrices changeOf(const Passages& p) {
-  FullMatrices change;
-  for (int i = 0; i < 6; ++i)
-    for (int j = i; j < 6; ++j) change.entry(i, j) = p.after.entry(i, j) - p.before.entry(i, j);
-  return change;
-}
-
 inline Lanes largestEntry(const FullMatrices& K) {
   Lanes largest = Lanes{};
   for (int i = 0; i < 6; ++i)
@@ -99,7 +91,7 @@ inline Lanes passageError(const Passages& p, const PassageWorks& works, const La
 /// Bodies whose K has not changed keep their twists.
 inline PassedTwists passSurface(const Passages& p, const Spatials& x) {
   constexpr double kRounding = 1e-12;
-  const FullMatrices change = changeOf(p);
+  const FullMatrices change = p.after - p.before;
   const Mask changes = largestEntry(change) >= kRounding * largestEntry(p.before);
   const PassageWorks works{p.duration * dot(p.gradient, x), 0.5 * dot(x, change * x)};
   Spatials impulse = impulseOf(p, works);

@@ -115,6 +115,11 @@ class FullMatrices {
     return m_[i < j ? symmetricEntry(i, j) : symmetricEntry(j, i)];
   }
 
+  FullMatrices operator-(const FullMatrices& other) const {
+    FullMatrices difference;
+    for (int i = 0; i < kSymmetricEntries; ++i) difference.m_[i] = m_[i] - other.m_[i];
+    return difference;
+  }
   Spatials operator*(const Spatials& a) const {
     return {{row(0, a), row(1, a), row(2, a)}, {row(3, a), row(4, a), row(5, a)}};
   }

@@ -51,7 +51,8 @@ void computeStand(StandLanes& stand, int at) {
   const FullMatrices inertia(stand.inertia, at);
   const PositiveFactor factor(inertia);
   factor.inverse().storeTo(stand.inverse, at);
-  store(stand.is_indefinite + at, factor.isPositive() ? Lanes{} : all(1));
+  const Mask is_fine = PositiveFactor(inertia - FullMatrices(stand.least, at)).isPositive();
+  store(stand.is_indefinite + at, is_fine ? Lanes{} : all(1));
   Waterplanes section{load(stand.area + at), load(stand.centroid, at), {}};
   for (int i = 0; i < 6; ++i) section.spread[i] = load(stand.spread[i] + at);
   const Lanes pull = load(stand.pull + at);

@@ -22,10 +22,11 @@ struct alignas(64) StandLanes {
   FlightLane spread[6];                   ///< Waterplane: xx, yy, zz, xy, xz, yz
   FlightLane heave_inertia, damping;      ///< WaveSource
   FlightLane inertia[kSymmetricEntries];  ///< K
+  FlightLane least[kSymmetricEntries];    ///< smallest K that is allowed, half of K_above
 
   // Results.
   FlightLane inverse[kSymmetricEntries];     ///< K^-1
-  FlightLane is_indefinite;                  ///< 1: K is not positive definite; K^-1 is undefined
+  FlightLane is_indefinite;                  ///< 1: K less `least` is not positive definite
   FlightLane heave[6], tilt[2][3];           ///< N of heave; angular part of N of the two tilts
   FlightLane stiffness[3];                   ///< k of heave and tilts [N/m, N m]
   FlightLane second_moment[2];               ///< I_i of the tilts [m^4]

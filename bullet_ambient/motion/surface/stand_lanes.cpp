@@ -54,6 +54,7 @@ void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
   lanes.heave_inertia[body] = heaveInertia(model, place);
   lanes.damping[body] = model.wave_damping;
   setLane(lanes.inertia, body, place.inertia);
+  setLane(lanes.least, body, SymmetricMatrix(kLeastShare * model.above.inertia));
 }
 
 void setStand(StandLanes& lanes, int body, const SurfaceModel& model,
@@ -97,6 +98,7 @@ void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexc
     SymmetricMatrix& inertia = bodies[i].place->inertia;
     inertia = SymmetricMatrix(positiveInertia(*bodies[i].model, inertia.full()));
     setPlace(lanes, i, *bodies[i].model, *bodies[i].place);
+    setLane(lanes.least, i, SymmetricMatrix(Matrix6::Zero()));
   }
   if (!is_any) return;
   fastestSurfaceKernel().stand(lanes);

@@ -8,6 +8,7 @@
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
+#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/invariants.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
@@ -131,9 +132,15 @@ Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcep
 }
 
 Matrix6 positiveInertia(const SurfaceModel& model, const Matrix6& inertia) noexcept {
-  const auto eigen = symmetricEigen<6>(inertia - model.above.inertia);
-  return model.above.inertia +
-         eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
+  constexpr double kLeast = kLeastShare;
+  const Cholesky<6> own(model.above.inertia);
+  const Matrix6 per_root = own.inverseTransposed();
+  const Matrix6 relative = per_root.transpose() * inertia * per_root;
+  auto eigen = symmetricEigen<6>(relative);
+  for (double& share : eigen.values)
+    if (share < kLeast) share = kLeast / 2 + kLeast * kLeast / (4 * (1.5 * kLeast - share));
+  const Matrix6 axes = own.lower() * eigen.vectors;
+  return axes * eigen.values.asDiagonal() * axes.transpose();
 }
 
 }  // namespace ambient

@@ -61,11 +61,15 @@ Immersion immersionOf(const SurfaceModel& model, const SurfacePlane& plane_B) no
 WetVolume wetVolumeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noexcept;
 
 /// Computes the total inertia K of body and fluids in B at an immersion; docs/theory.md eq. (63).
-/// Errors of the wetted part may make it indefinite, see positiveInertia().
+/// Errors of the wetted part may make it smaller than that in the fluid above, see
+/// positiveInertia().
 Matrix6 inertiaAt(const SurfaceModel& model, const Immersion& immersion) noexcept;
 
-/// Returns a total inertia with the negative part of the wetted added mass removed, so that it is
-/// positive definite.
+/// Smallest total inertia that is taken as it is, in inertias in the fluid above [1].
+constexpr double kLeastShare = 0.5;
+
+/// Returns a total inertia whose parts below kLeastShare are raised, docs/theory.md eq. (63a), so
+/// that it is positive definite.
 Matrix6 positiveInertia(const SurfaceModel& model, const Matrix6& inertia) noexcept;
 
 }  // namespace ambient
