@@ -9,7 +9,7 @@ namespace ambient {
 
 // Added mass per unit density of simple shapes [m^3 to m^5], rotation first, about the origin of
 // the shape as JSON has it (centre of a box, half the height of a round one, whose axis is z), from
-// tables that were made by tests/preprocess/table_generator; none outside of their range,
+// tables that were made by tests/preprocess/added_mass_tables; none outside of their range,
 // kLargestRatio and kLargestRounding. Error against the limit of fine meshes, relative to the
 // largest entry of the block: docs/accuracy.md. What symmetry forbids is exactly zero. Cost: some
 // microseconds.

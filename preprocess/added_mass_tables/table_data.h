@@ -4,7 +4,7 @@
 
 namespace ambient {
 
-// Generated: tests/preprocess/table_generator writes table_data.cpp.
+// Generated: tests/preprocess/added_mass_tables writes table_data.cpp.
 
 /// Revision of the tables, part of a fluid body's provenance. Raise it with every change.
 constexpr int kTableRevision = 1;
