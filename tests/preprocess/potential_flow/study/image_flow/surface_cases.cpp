@@ -1,42 +1,19 @@
 #include "tests/preprocess/potential_flow/study/image_flow/surface_cases.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <utility>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/builder/fluid_body_builder.h"
-#include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/mesh/weld_vertices.h"
+#include "preprocess/waterline/image_flow.h"
 #include "preprocess/waterline/waterline_builder.h"
-#include "tests/preprocess/potential_flow/study/study_meshes.h"
+#include "tests/support/bodies/graded_meshes.h"
 
 namespace ambient::study {
 namespace {
-
-using Eigen::Vector3d;
-
-/// Hull of length 4, breadth 1.2 [m]: parabolic waterlines and sections from the keel at z = -0.6
-/// to z = 0, walls up to the deck at z = 0.4.
-TriangleMesh makeHullMesh() {
-  constexpr int kStations = 16, kRows = 5;
-  constexpr double kHalfLength = 2, kHalfBreadth = 0.6, kDepth = 0.6, kFreeboard = 0.4;
-  constexpr int kAround = 2 * kRows + 3;  // deck, keel, deck
-  std::vector<Vector3d> vertices;
-  for (int i = 0; i <= kStations; ++i)
-    for (int j = 0; j < kAround; ++j) {
-      const double x = 2.0 * i / kStations - 1;
-      const int down = std::abs(j - (kRows + 1));  // 0: keel; kRows: z = 0
-      const double z = down > kRows ? kFreeboard / kDepth : 1.0 * down / kRows - 1;
-      const double section = 1 - std::pow(std::min(z, 0.0), 2), side = j > kRows + 1 ? 1 : -1;
-      vertices.emplace_back(kHalfLength * x, side * kHalfBreadth * (1 - x * x) * section,
-                            kDepth * z);
-    }
-  std::vector<Eigen::Vector3i> triangles;
-  const auto vertex = [&](int station, int around) { return station * kAround + around % kAround; };
-  appendGridTriangles(kStations, kAround, vertex, triangles);
-  return weldVertices(makeTriangleMesh(vertices, triangles), 1e-9 * kHalfLength);
-}
 
 SurfaceModel modelOf(const std::shared_ptr<const FluidBody>& body) {
   SurfaceModelDef model;
@@ -58,7 +35,7 @@ SurfaceCase makeSurfaceCase(const SurfaceCaseDef& def) {
   settings.flow.threads = 1;
   const auto body = std::make_shared<const FluidBody>(makeFluidBody(def.mesh, settings));
   TriangleMesh mesh = def.mesh;
-  mesh.vertices.colwise() -= Vector3d(body->origin);
+  mesh.vertices.colwise() -= body->origin;
   return {def.shape, std::move(mesh), modelOf(body)};
 }
 
@@ -70,18 +47,36 @@ SurfaceCase withWaterline(const SurfaceCase& body, int subdivisions) {
   return {body.shape, body.mesh, modelOf(std::make_shared<const FluidBody>(std::move(tabulated)))};
 }
 
-std::vector<SurfaceCase> surfaceCases() {
-  const auto ellipsoid = [](const Vector3d& semi_axes) {
-    return scaledToVolume(makeEllipsoidMesh(semi_axes, 500), 4 * kPi / 3 * semi_axes.prod());
-  };
-  std::vector<SurfaceCase> cases;
-  cases.push_back(makeSurfaceCase({"sphere", ellipsoid({1, 1, 1}), 1}));
-  cases.push_back(makeSurfaceCase({"cube", makeBoxMesh({1, 1, 1}, 12)}));
-  cases.push_back(makeSurfaceCase({"box 4 : 2 : 1", makeBoxMesh({2, 1, 0.5}, 12)}));
-  cases.push_back(makeSurfaceCase({"cylinder, height 2 diameters", makeCylinderMesh(0.5, 2, 300)}));
-  cases.push_back(makeSurfaceCase({"ellipsoid 5 : 4 : 3", ellipsoid({1.25, 1, 0.75})}));
-  cases.push_back(makeSurfaceCase({"hull with a deck", makeHullMesh()}));
-  return cases;
+TriangleMesh scaledToVolume(TriangleMesh mesh, double volume) {
+  mesh.vertices *= std::cbrt(volume / test::volumeOf(mesh));
+  return mesh;
+}
+
+TriangleMesh ellipsoidMesh(const Vector3& semi_axes, int faces) {
+  return scaledToVolume(makeEllipsoidMesh(semi_axes, faces), 4 * kPi / 3 * semi_axes.prod());
+}
+
+Matrix6 imageInertia(const SurfaceCase& body, const SurfacePlane& plane, int panels) {
+  return body.model.above.inertia +
+         body.model.excess_density * solveImageFlow(body.mesh, plane, panels);
+}
+
+double largestError(const Matrix6& inertia, const Matrix6& reference) {
+  const Eigen::LLT<Matrix6> root(reference);
+  const Matrix6 half = root.matrixL().solve(inertia);
+  const Matrix6 ratio = root.matrixL().solve(half.transpose());
+  const Vector6 values = symmetricEigen<6>(0.5 * (ratio + ratio.transpose())).values;
+  return (values.array() - 1).abs().maxCoeff();
+}
+
+double floatingHeight(const SurfaceModel& model, const Vector3& normal) {
+  double low = -model.radius, high = model.radius;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double wet = immersionOf(model, {normal, middle, 1, 1}).wet.volume;
+    (wet < 0.5 * model.shape->volume ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace ambient::study

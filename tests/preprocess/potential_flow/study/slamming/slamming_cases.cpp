@@ -3,11 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_ambient/base/pi.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/graded_grid.h"
-#include "preprocess/mesh/shapes/primitives.h"
-#include "tests/preprocess/potential_flow/study/study_meshes.h"
 
 namespace ambient::study {
 namespace {
@@ -27,10 +24,7 @@ TriangleMesh makeWedgeMesh(double deadrise, double length) {
 
 }  // namespace
 
-SurfaceCase makeBallCase() {
-  return makeSurfaceCase(
-      {"ball", scaledToVolume(makeEllipsoidMesh({1, 1, 1}, 500), 4 * kPi / 3), 1});
-}
+SurfaceCase makeBallCase() { return makeSurfaceCase({"ball", ellipsoidMesh({1, 1, 1}, 500), 1}); }
 
 SurfaceCase makeWedgeCase(double deadrise, double length) {
   return makeSurfaceCase({"wedge", makeWedgeMesh(deadrise, length), 0, kDefaultPanels});

@@ -6,7 +6,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/surface/wetted_sphere.h"
-#include "tests/preprocess/potential_flow/study/image_flow/surface_table.h"
+#include "tests/preprocess/potential_flow/study/image_flow/surface_cases.h"
 #include "tests/preprocess/potential_flow/study/slamming/slamming_cases.h"
 #include "tests/preprocess/potential_flow/study/slamming/slamming_fall.h"
 #include "tests/reference/water_entry.h"
