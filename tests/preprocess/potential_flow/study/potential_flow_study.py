@@ -143,6 +143,18 @@ def torus(n):
     return to_volume((np.column_stack([r * np.cos(u), r * np.sin(u), np.sin(v)]), faces), 4 * np.pi**2)
 
 
+def cylinder(faces):
+    """Radius 1, height 2; caps and wall are graded towards the rims."""
+    n = round((faces / 28) ** 0.5)
+    disc = lambda z: lambda f, a: np.column_stack([np.cos(a), np.sin(a), 0 * a]) * np.sin(np.pi / 2 * f)[:, None] + [0, 0, z]
+    rows, around = np.cos(np.pi * np.arange(n + 1) / (n)), np.pi / 3 / n * np.arange(6 * n)
+    wall = np.array([(np.cos(a), np.sin(a), z) for z in rows for a in around])
+    i, k = (x.ravel() for x in np.meshgrid(range(len(rows) - 1), range(6 * n), indexing="ij"))
+    a, b = 6 * n * i + k, 6 * n * i + (k + 1) % (6 * n)
+    faces = np.vstack([np.column_stack([a, a + 6 * n, b]), np.column_stack([b, a + 6 * n, b + 6 * n])])
+    return to_volume(weld([cap(n, disc(1)), cap(n, disc(-1), True), (wall, faces)]), 2 * np.pi)
+
+
 def volume_of(mesh):
     a, b, c = np.moveaxis(mesh[0][mesh[1]], 1, 0)
     return np.einsum("ti,ti->", a, np.cross(b, c)) / 6
@@ -405,6 +417,7 @@ def curve(options, takes=2):
         "spheroid 1 : 1/10": (lambda faces: ellipsoid([1, 1, 0.1], faces), ellipsoid_added_mass([1, 1, 0.1])),
         "twisted ellipsoid": (lambda faces: ellipsoid([1.2, 0.6, 1], faces, twist=1), twisted_added_mass()),
         "torus 2 : 1": (lambda faces: torus(int((faces / 2) ** 0.5)), TORUS),
+        "cylinder, L/D 1": (cylinder, CYLINDER),
         "cube, equal triangles": (lambda n: divided((simplicial_box(), BOX_FACES), int(np.ceil((n / 12) ** 0.5))), CUBE),
     }
     yield "case,method,faces,processor_seconds,error"
