@@ -1,5 +1,127 @@
 #pragma once
 
 // Fluid::addAll(): a whole world in a fluid.
-#include "bullet_ambient/bullet/world/fluid_body_source.h"
-#include "bullet_ambient/bullet/world/world_attachment.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/bullet/core/precision_check.h"
+#include "bullet_ambient/immersed/attach_def.h"
+
+class btCollisionObject;
+class btCollisionShape;
+class btCollisionWorld;
+class btMultiBody;
+class btMultiBodyDynamicsWorld;
+class btRigidBody;
+
+namespace ambient {
+
+struct FluidBody;
+
+}  // namespace ambient
+
+AMBIENT_BEGIN
+
+struct AmbientBody;
+class AmbientBodies;
+
+/// Settings of addAll(): how the bodies of a world meet the fluid.
+struct AttachSettings {
+  FlowSettings flow = {};
+  FlightSettings flight = {};
+  /// Chooses among the dynamic rigid bodies; empty: all.
+  std::function<bool(const btRigidBody&)> filter = nullptr;
+  /// Changes the definition of a body: another medium, law or fluid body. A body whose fluid body
+  /// is set to null is left out.
+  std::function<void(const btRigidBody&, AttachDef&)> adjust = nullptr;
+  /// Chooses among links with a collider, by Bullet's number; -1: the base. Empty: all.
+  std::function<bool(const btMultiBody&, int)> filter_link = nullptr;
+  std::function<void(const btMultiBody&, int, AttachDef&)> adjust_link = nullptr;
+  /// True: bodies that come to the world later are added, too, at the end of their first substep;
+  /// in that substep they move as in stock Bullet.
+  bool later_bodies = false;
+};
+
+/// Result of addAll() for the bodies of a world. Bodies are numbered as in its array of objects.
+struct AttachReport {
+  struct Refusal {
+    int body = 0;
+    std::string reason;  ///< one line
+  };
+  struct LightBody {
+    int body = 0;
+    double mass = 0;            ///< [kg]
+    double displaced_mass = 0;  ///< of the medium [kg]
+  };
+
+  int attached = 0;
+  int fluid_bodies = 0;     ///< number of distinct fluid bodies of these
+  int attached_before = 0;  ///< bodies that were in the fluid before; unchanged
+  std::vector<Refusal> refused;
+  std::vector<LightBody> light;  ///< lighter than the medium that they displace
+
+  /// Returns one line of numbers, and one line for each refused body: "body 3 (Box): ...".
+  std::string text() const;
+};
+
+/// Implements Fluid::addAll(): adds the dynamic rigid bodies of a world, and the links of its
+/// multibodies that have a collider and a mass, each with the fluid body that a source has for its
+/// collision shape.
+class WorldAttachment {
+ public:
+  /// `bodies` and `source` must outlive this object.
+  WorldAttachment(AmbientBodies& bodies, FluidBodySource& source, const Medium& medium,
+                  AttachSettings settings);
+
+  /// Adds the objects that this attachment has not met before. Cost: that of the fluid bodies that
+  /// the source has to make.
+  AttachReport attachNew(btCollisionWorld& world);
+
+  /// Adds bodies that have come since. Call between two steps. Without news it allocates nothing,
+  /// takes no lock and costs one comparison per object of the world. Refusals go to the fluid's
+  /// report function.
+  void update(btCollisionWorld& world) noexcept;
+
+ private:
+  // An object of the world.
+  struct Met {
+    const btCollisionObject* object = nullptr;
+    int instance = -1;
+  };
+
+  bool hasMetAll(const btCollisionWorld& world) const noexcept;
+  // Returns the objects that were not met before; null in place of all others.
+  std::vector<btCollisionObject*> meetAll(const btCollisionWorld& world);
+  const AmbientBody* attach(btCollisionObject& object, AttachReport& report);
+  const AmbientBody* attachBody(btRigidBody& body, AttachReport& report);
+  const AmbientBody* attachLink(btMultiBody& multi_body, int link, AttachReport& report);
+  AttachDef makeDef(const btCollisionObject& object) const;
+  // Returns the collision shape of an object; that of a link includes those of the links without
+  // mass that it carries.
+  std::shared_ptr<const btCollisionShape> shapeOf(const btCollisionObject& object) const;
+  bool isWanted(const btMultiBody& multi_body, int link) const;
+
+  AmbientBodies& bodies_;
+  FluidBodySource& source_;
+  Medium medium_;
+  AttachSettings settings_;
+  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  // of attachNew(), while it runs
+  std::vector<Met> met_;                                 // in the order of the world
+};
+
+/// Interface for finding the fluid body of a collision shape. FluidBodyCache makes fluid bodies by
+/// the preprocessor, which the runtime does not link; a program may derive from this class and use
+/// its own table.
+class FluidBodySource {
+ public:
+  virtual ~FluidBodySource() = default;
+
+  /// Returns the fluid body of a shape, in the frame of the shape, which is also that of a
+  /// btRigidBody with this shape. @throws std::exception with one line that says why there is none.
+  virtual std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) = 0;
+};
+
+AMBIENT_END

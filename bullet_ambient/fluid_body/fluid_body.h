@@ -2,15 +2,64 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/added_mass_part.h"
-#include "bullet_ambient/fluid_body/tables_place.h"
-#include "bullet_ambient/fluid_body/waterline_table.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
+
+/// Contribution of one patch of the body's surface to the added mass, docs/theory.md eq. (60). Used
+/// for bodies that the surface of the water cuts. Per unit density, in frame F.
+struct AddedMassPart {
+  static constexpr int kNumbers = 30;  ///< numbers per part in files
+  Vector3 centre{0, 0, 0};             ///< centroid of the patch [m]
+  Vector6 spread = Vector6::Zero();    ///< xx, yy, zz, xy, xz, yz: mean of r r^T about centre [m^2]
+  Matrix6 inertia = Matrix6::Zero();   ///< -sym int g phi^T dA about F's origin
+};
+
+/// Correction of the added mass at the surface of still water, docs/theory.md eq. (61a): boundary
+/// elements minus the sum over parts (60). Per unit density, about F's origin.
+struct WaterlineTable {
+  /// Immersion from which on the surface is ignored; see `immersions`.
+  static constexpr double kDeep = 3;
+
+  /// Subdivisions of the lattice of the surface's normals in F; 0: there is no table.
+  int subdivisions = 0;
+  /// Immersions eta: depth of the lowest point over the height of the body. Ascending, in
+  /// (0, kDeep); at kDeep the correction is 0.
+  std::vector<double> immersions;
+  /// Symmetric matrices; index: normal times number of immersions, plus immersion.
+  std::vector<Matrix6> corrections;
+
+  bool empty() const { return subdivisions == 0; }
+};
+
+/// Place in a fluid body for the tables that loads make of it: made on first use, shared by all
+/// worlds of the process, freed with the fluid body. A copy of the fluid body begins without.
+class TablesPlace {
+ public:
+  TablesPlace() = default;
+  TablesPlace(const TablesPlace&) {}
+  TablesPlace& operator=(const TablesPlace&) {
+    tables_ = nullptr;
+    return *this;
+  }
+
+  /// Returns the tables; makes empty ones at the first call, by whichever thread comes first.
+  template <class Tables>
+  Tables& get() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!tables_) tables_ = std::make_shared<Tables>();
+    return *static_cast<Tables*>(tables_.get());
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<void> tables_;
+};
 
 /// Faces that carry the fluid loads, as a structure of arrays with one entry per face.
 /// Frame: fluid body frame F. Normals and centroids determine the slip matrix of the paper's
@@ -122,5 +171,11 @@ FluidBody scaled(const FluidBody& body, double factor);
 /// Throws std::invalid_argument: one line that names the fluid body, the value and the limit.
 [[noreturn]] void reject(const FluidBody& body, const std::string& what, double value,
                          const char* limit);
+
+/// FNV-1a hash of all data that influence motion: added mass, volume, area, centre of volume,
+/// faces, levels, drag, sphere radius, surface triangles, parts of the added mass and waterline
+/// table. Name and provenance do not count. Saved states hold the hash to recognise their fluid
+/// body. Detects accidental change, not forgery.
+std::uint64_t contentHash(const FluidBody& body);
 
 }  // namespace ambient

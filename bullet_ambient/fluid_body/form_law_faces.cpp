@@ -3,9 +3,9 @@
 #include <array>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/fluid_body/flat_sides.h"
 #include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
+#include "bullet_ambient/fluid_body/surface_triangles.h"
 
 namespace ambient {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 
@@ -43,6 +44,136 @@ void SurfaceTriangles::weld(const Surface& surface) {
   corners_.reserve(surface.triangles.size() / 3);
   for (std::size_t t = 0; t < surface.triangles.size() / 3; ++t)
     corners_.push_back({corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)});
+}
+
+namespace {
+
+constexpr double kFlat = 1e-6;  // tolerance for unit vectors: a mesh in single precision
+
+using Edge = std::pair<int, int>;
+
+class SideFinder {
+ public:
+  explicit SideFinder(const SurfaceTriangles& mesh)
+      : mesh_(mesh), is_taken_(static_cast<std::size_t>(mesh.size())) {
+    first_.resize(static_cast<std::size_t>(mesh.vertexCount()) + 1);
+    ends_.resize(3 * is_taken_.size());
+    for (int t = 0; t < mesh.size(); ++t)
+      for (int corner = 0; corner < 3; ++corner) ++first_[at(mesh.vertex(t, corner))];
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    for (int t = mesh.size() - 1; t >= 0; --t)
+      for (int corner = 0; corner < 3; ++corner) {
+        const auto [begin, end] = edge(t, corner);
+        ends_[--first_[at(begin)]] = {end, t};
+      }
+  }
+
+  std::vector<FlatSide> sides() {
+    std::vector<FlatSide> found;
+    for (int t = 0; t < mesh_.size(); ++t) {
+      if (isTaken(t)) continue;
+      FlatSide side{planeFrom(t), {}, mesh_.normal(t)};
+      side.corners = cornersOf(side);
+      side.has_sharp_rim = hasSharpRim(side);
+      if (side.corners.size() >= 3) found.push_back(std::move(side));
+    }
+    return found;
+  }
+
+ private:
+  Edge edge(int t, int corner) const {
+    return {mesh_.vertex(t, corner), mesh_.vertex(t, (corner + 1) % 3)};
+  }
+  std::vector<bool>::reference isTaken(int t) { return is_taken_[static_cast<std::size_t>(t)]; }
+
+  /// Index of the triangle on the other side of an edge, of several the last one; -1: none.
+  int beyond(const Edge& edge) const {
+    int triangle = -1;
+    for (std::size_t i = first_[at(edge.second)]; i < first_[at(edge.second) + 1]; ++i)
+      if (ends_[i].vertex == edge.first) triangle = ends_[i].triangle;
+    return triangle;
+  }
+  bool isOnPlaneOf(int t, const FlatSide& side) const {
+    return t >= 0 && (mesh_.normal(t) - side.normal).cwiseAbs().maxCoeff() <= kFlat;
+  }
+
+  std::vector<int> planeFrom(int first) {  // all connected triangles with the normal of `first`
+    const FlatSide plane{{}, {}, mesh_.normal(first)};
+    std::vector<int> triangles{first};
+    isTaken(first) = true;
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      for (int corner = 0; corner < 3; ++corner) {
+        const int next = beyond(edge(triangles[i], corner));
+        if (!isOnPlaneOf(next, plane) || isTaken(next)) continue;
+        isTaken(next) = true;
+        triangles.push_back(next);
+      }
+    return triangles;
+  }
+
+  bool hasSharpRim(const FlatSide& side) const {
+    for (const int t : side.triangles)
+      for (int corner = 0; corner < 3; ++corner) {
+        const int next = beyond(edge(t, corner));
+        if (next < 0 || isOnPlaneOf(next, side)) continue;
+        if (mesh_.normal(next).dot(side.normal) >= kEdgeCosine) return false;
+      }
+    return true;
+  }
+
+  /// Vertices around the side in order; empty if they do not form a single ring.
+  std::vector<int> outlineOf(const FlatSide& side) const {
+    std::map<int, int> next;
+    std::size_t edges = 0;
+    for (const int t : side.triangles)
+      for (int corner = 0; corner < 3; ++corner) {
+        const Edge e = edge(t, corner);
+        if (isOnPlaneOf(beyond(e), side)) continue;
+        next[e.first] = e.second;
+        ++edges;
+      }
+    std::vector<int> ring;
+    for (int at = next.begin()->first; ring.size() < edges;) {
+      ring.push_back(at);
+      const auto found = next.find(at);
+      if (found == next.end()) return {};
+      at = found->second;
+      if (at == ring.front()) break;
+    }
+    return ring.size() == edges ? ring : std::vector<int>{};
+  }
+
+  /// Returns the corners of the outline; empty if the outline is not convex.
+  std::vector<Vector3> cornersOf(const FlatSide& side) const {
+    const std::vector<int> ring = outlineOf(side);
+    std::vector<Vector3> corners;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vector3& here = mesh_.place(ring[i]);
+      const Vector3 in = here - mesh_.place(ring[(i + ring.size() - 1) % ring.size()]);
+      const Vector3 out = mesh_.place(ring[(i + 1) % ring.size()]) - here;
+      const double sine = side.normal.dot(in.normalized().cross(out.normalized()));
+      if (sine < -kFlat) return {};
+      if (sine > kFlat) corners.push_back(here);
+    }
+    return corners;
+  }
+
+  /// End of an edge, and the triangle whose edge it is.
+  struct End {
+    int vertex, triangle;
+  };
+  static std::size_t at(int vertex) { return static_cast<std::size_t>(vertex); }
+
+  const SurfaceTriangles& mesh_;
+  std::vector<std::size_t> first_;  ///< place in ends_ of the first edge that begins at a vertex
+  std::vector<End> ends_;           ///< of edges by their first vertex, then by triangle
+  std::vector<bool> is_taken_;
+};
+
+}  // namespace
+
+std::vector<FlatSide> findFlatSides(const SurfaceTriangles& mesh) {
+  return SideFinder(mesh).sides();
 }
 
 }  // namespace ambient

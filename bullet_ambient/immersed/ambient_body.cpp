@@ -7,6 +7,7 @@
 #include "bullet_ambient/spatial/rotation.h"
 
 AMBIENT_BEGIN
+
 namespace {
 
 // True if loads of some fluid depend on the wake of the body.

@@ -6,7 +6,7 @@
 #include "bullet_ambient/force/law/flow_settings.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/motion/flight/flight_settings.h"
-#include "bullet_ambient/spatial/frame_offset.h"
+#include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
 

@@ -1,7 +1,6 @@
 #include "bullet_ambient/spatial/inertia.h"
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/spatial/invariants.h"
 
 namespace ambient {
 

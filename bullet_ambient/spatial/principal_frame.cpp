@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {

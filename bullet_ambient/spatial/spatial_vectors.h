@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include "bullet_ambient/spatial/frame_offset.h"
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {

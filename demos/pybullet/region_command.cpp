@@ -5,8 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "bullet_ambient/force/medium/airy_waves.h"
-#include "bullet_ambient/force/medium/wave_spectrum.h"
+#include "bullet_ambient/force/medium/waves.h"
 
 namespace ambient::pybullet {
 namespace {

@@ -5,7 +5,6 @@
 
 #include <memory>
 
-#include "bullet_ambient/fluid_body/content_hash.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"

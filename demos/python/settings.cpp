@@ -3,7 +3,7 @@
 
 #include "bullet_ambient/base/plain_text.h"
 #include "bullet_ambient/force/law/flow_settings.h"
-#include "bullet_ambient/force/medium/medium_check.h"
+#include "bullet_ambient/force/medium/medium.h"
 #include "demos/python/bindings.h"
 #include "demos/python/record.h"
 

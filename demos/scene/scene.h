@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/force/medium/airy_waves.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/medium/medium.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/immersed/attach_def.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/spatial/vector_types.h"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_ambient/force/medium/wave_spectrum.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "demos/scene/json_values.h"
 
 namespace ambient {

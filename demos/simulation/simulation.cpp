@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "bullet_ambient/bullet/core/conversions.h"
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "demos/rivals/rival_laws.h"
 #include "demos/scene/scene_water.h"
 #include "demos/simulation/joint.h"

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/bullet/reading/fluid_wrench.h"
 #include "bullet_ambient/bullet/reading/wet_state.h"
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
+#include "bullet_ambient/reading.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/scene/scene.h"
 #include "demos/simulation/body_preparation.h"

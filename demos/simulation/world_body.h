@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "bullet_ambient/bullet/world/immersed.h"
+#include "bullet_ambient/fluid.h"
 #include "demos/analysis/motion_sample.h"
 #include "demos/simulation/collision_shape.h"
 

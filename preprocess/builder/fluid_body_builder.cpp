@@ -7,7 +7,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/invariants.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/mass_properties.h"

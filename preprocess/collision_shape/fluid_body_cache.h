@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "bullet_ambient/attach_world.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/world/fluid_body_source.h"
 #include "preprocess/collision_shape/collision_shape_body.h"
 
 AMBIENT_BEGIN

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "bullet_ambient/base/output_file.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file_header.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/mesh/input_error.h"
 

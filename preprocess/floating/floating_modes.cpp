@@ -7,7 +7,6 @@
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/invariants.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/floating/floating_energy.h"

@@ -7,7 +7,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/invariants.h"
 #include "preprocess/polar/polar.h"
 
 namespace ambient {

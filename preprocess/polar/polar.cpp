@@ -5,7 +5,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/polar/frontal_area.h"
 
 namespace ambient {

@@ -9,7 +9,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/spatial/large_products.h"
 #include "preprocess/reduced_loads/centred_faces.h"

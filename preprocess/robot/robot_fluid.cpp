@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "bullet_ambient/fluid_body/file/load_fluid_body.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "preprocess/mesh/input_error.h"
 
 AMBIENT_BEGIN

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/world/fluid.h"
-#include "bullet_ambient/bullet/world/fluid_body_source.h"
+#include "bullet_ambient/attach_world.h"
+#include "bullet_ambient/fluid.h"
 #include "preprocess/robot/robot.h"
 
 AMBIENT_BEGIN

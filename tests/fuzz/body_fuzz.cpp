@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/bullet/core/conversions.h"
-#include "bullet_ambient/bullet/world/ambient_impulse.h"
+#include "bullet_ambient/impulse.h"
 #include "tests/fuzz/fuzz_scene.h"
 
 namespace ambient::test {

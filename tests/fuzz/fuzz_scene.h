@@ -6,8 +6,8 @@
 
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/solver/fluid_solver.h"
-#include "bullet_ambient/bullet/state/world_state.h"
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/world.h"
 

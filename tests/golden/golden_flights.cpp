@@ -1,7 +1,7 @@
 // Bodies without contacts: loads, integrators, forces from outside.
 
-#include "bullet_ambient/bullet/world/ambient_impulse.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "bullet_ambient/impulse.h"
 #include "demos/integrators/integrators.h"
 #include "tests/golden/golden_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bullet_ambient/fluid_body/content_hash.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 #include "demos/scene/scene_lookup.h"
 #include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/golden/golden_record.h"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/core/conversions.h"
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/motion/body/rigid_state.h"
+#include "bullet_ambient/motion/body/body_model.h"
 #include "tests/golden/golden_record.h"
 #include "tests/support/world.h"
 

@@ -5,7 +5,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/spatial/cholesky.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -4,7 +4,6 @@
 #include <BulletDynamics/Featherstone/btMultiBodySolverConstraint.h>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/rows/row_pools.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 
 AMBIENT_BEGIN

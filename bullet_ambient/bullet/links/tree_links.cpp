@@ -12,6 +12,7 @@
 #include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN
+
 namespace {
 
 void prepareLink(AmbientLink& link, AmbientTree& tree, const TreeTask& task) {

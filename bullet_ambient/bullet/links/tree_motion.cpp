@@ -8,13 +8,11 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/links/tree_energy.h"
-#include "bullet_ambient/bullet/links/tree_feedback.h"
 #include "bullet_ambient/bullet/links/tree_flight.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
+#include "bullet_ambient/bullet/links/tree_reading.h"
 #include "bullet_ambient/bullet/links/tree_surface.h"
-#include "bullet_ambient/bullet/members/multibody_identity.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/bullet/reading/tree_reading.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 
 AMBIENT_BEGIN

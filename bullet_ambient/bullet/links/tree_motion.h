@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/links/tree_task.h"
+#include "bullet_ambient/bullet/links/tree_links.h"
 
 AMBIENT_BEGIN
 

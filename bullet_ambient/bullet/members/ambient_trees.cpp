@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/bullet/members/multibody_identity.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
 
 AMBIENT_BEGIN
 

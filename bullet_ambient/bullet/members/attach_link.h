@@ -1,8 +1,10 @@
 #pragma once
 
+#include <LinearMath/btTransform.h>
 #include <LinearMath/btVector3.h>
 
 #include <optional>
+#include <vector>
 
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
@@ -12,6 +14,21 @@ class btMultiBody;
 class btMultiBodyDynamicsWorld;
 
 AMBIENT_BEGIN
+
+/// A link that fixed joints hold to another one, and its pose in the frame of that one's centre of
+/// mass.
+struct FixedLink {
+  int link;  ///< Bullet's number; -1: the base
+  btTransform pose;
+};
+
+/// Finds the link with a mass that feels what acts on a link: itself, or if it has no mass the
+/// nearest one that fixed joints hold to it, parents before children. A fixed base counts as such a
+/// link. `pose`: that of the given link in the frame of the one found. None: there is no such link.
+std::optional<FixedLink> carrierOf(const btMultiBody& multi_body, int link);
+
+/// Returns the links without mass whose carrier is a link with a mass, in ascending order.
+std::vector<FixedLink> carriedBy(const btMultiBody& multi_body, int carrier);
 
 struct AmbientBody;
 struct AmbientLink;
@@ -31,7 +48,7 @@ void standIn(AmbientLink& link, const btMultiBody& multi_body, const btVector3& 
 bool isReloaded(const AmbientLink& link, const btMultiBody& multi_body) noexcept;
 
 /// Implements Fluid::add() for a link, except the warning about light links. A link without mass is
-/// carried by one at a fixed joint, link_carrier.h: then that one is added. @throws
+/// carried by one at a fixed joint, carrierOf(): then that one is added. @throws
 /// std::invalid_argument as Fluid::add()
 AmbientBody& attachLink(AmbientBodies& bodies, btMultiBodyDynamicsWorld& world, const LinkOf& link,
                         AttachDef def);

@@ -7,6 +7,27 @@
 
 AMBIENT_BEGIN
 
+// States of several bodies of Bullet, read side by side. `count`: at most kFlightsTogether.
+
+/// Attitudes of bodies, and twists in their axes.
+struct Attitudes {
+  Quaternion orientations[kFlightsTogether];  ///< B to W, unit
+  Twist twists_B[kFlightsTogether];
+};
+
+/// Reads the orientations of bodies and turns one twist of each into its axes.
+void readAttitudes(AmbientBody* const* bodies, const Twist* twists_W, int count,
+                   Attitudes& attitudes) noexcept;
+
+/// Bodies at the start of a step.
+struct Departures {
+  Twist twists_W[kFlightsTogether];  ///< velocities in Bullet
+  RigidState states[kFlightsTogether];
+  Surroundings surroundings[kFlightsTogether];
+};
+
+void readDepartures(AmbientBody* const* bodies, int count, Departures& departures) noexcept;
+
 /// Begins the substep of a body that the solver meets: resets its outcome, reports a missing
 /// action, calls prepareFluid(). Returns true if the fluid acts on the body.
 bool prepareStep(AmbientBody& ambient, AmbientBodies& bodies, double time_step) noexcept;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bullet_ambient/bullet/rows/joint_row.h"
-#include "bullet_ambient/bullet/rows/row_impulse.h"
+#include "bullet_ambient/bullet/rows/joint_gaps.h"
+#include "bullet_ambient/bullet/rows/row_rewriting.h"
 
 AMBIENT_BEGIN
 

@@ -5,9 +5,9 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/rows/joint_row.h"
 
 AMBIENT_BEGIN
+
 namespace {
 
 // Returns the velocity along the row before the impulses of the step, including the velocity change

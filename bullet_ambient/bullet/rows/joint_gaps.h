@@ -2,6 +2,7 @@
 
 #include <BulletDynamics/ConstraintSolver/btSolverBody.h>
 #include <BulletDynamics/ConstraintSolver/btSolverConstraint.h>
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
 #include <vector>
 
@@ -9,6 +10,18 @@
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
 
 AMBIENT_BEGIN
+
+/// Returns the joint of a row in the pool of joint rows.
+inline const btTypedConstraint* jointOf(const btSolverConstraint& row) {
+  return static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
+}
+
+/// True if the impulse of a joint row has other bounds than the joint's breaking impulse: the row
+/// is a limit, a motor or a spring.
+inline bool hasBounds(const btSolverConstraint& row) {
+  const btScalar most = jointOf(row)->getBreakingImpulseThreshold();
+  return row.m_lowerLimit > -most || row.m_upperLimit < most;
+}
 
 /// Gap of a joint per step, relative to the size of its body, that is reported after kLongGape
 /// steps in a row.

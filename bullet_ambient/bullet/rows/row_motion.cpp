@@ -7,9 +7,8 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/attitude.h"
-#include "bullet_ambient/bullet/members/departures.h"
+#include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
-#include "bullet_ambient/motion/rows/kept_motion.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/rotation.h"

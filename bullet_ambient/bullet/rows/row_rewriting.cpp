@@ -3,11 +3,11 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/instruction_set.h"
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/four_numbers.h"
-#include "bullet_ambient/bullet/rows/row_impulse.h"
 
 AMBIENT_BEGIN
+
 namespace {
 
 // One side of a row. `ambient`: null if the body is not ambient.
@@ -174,38 +174,6 @@ AMBIENT_INLINE void rewriteRow(btSolverConstraint& row, RowKind kind, const Part
   }
 }
 
-AMBIENT_INLINE void rewriteAll(btConstraintArray& rows, RowKind kind, btScalar relaxation,
-                               RowBodies& bodies,
-                               const btAlignedObjectArray<btSolverBody>& solver_bodies) {
-  for (int i = 0; i < rows.size(); ++i) {
-    btSolverConstraint& row = rows[i];
-    // The multithreaded solver leaves rows of torsional friction that it does not need unset.
-    if (kind == RowKind::kTorsionalFriction && row.m_frictionIndex < 0) continue;
-    RowBody* a = bodies.find(row.m_solverBodyIdA);
-    RowBody* b = bodies.find(row.m_solverBodyIdB);
-    if (!a && !b) continue;
-    const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
-    const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
-    rewriteRow(row, kind, {a, solver_bodies[row.m_solverBodyIdA], side_a},
-               {b, solver_bodies[row.m_solverBodyIdB], side_b}, relaxation);
-    ++(a ? a : b)->rows;
-  }
-}
-
-void rewriteBaseline(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
-                     const btAlignedObjectArray<btSolverBody>& solver_bodies) {
-  rewriteAll(rows, kind, relaxation, bodies, solver_bodies);
-}
-
-AMBIENT_AVX void rewriteAvx(btConstraintArray& rows, RowKind kind, btScalar relaxation,
-                            RowBodies& bodies,
-                            const btAlignedObjectArray<btSolverBody>& solver_bodies) {
-  rewriteAll(rows, kind, relaxation, bodies, solver_bodies);
-}
-
-using Rewriting = decltype(&rewriteBaseline);
-constexpr Kernels<Rewriting> kRewriting{&rewriteBaseline, &rewriteAvx, &rewriteAvx};
-
 }  // namespace
 
 void RowBodies::reset(int solver_body_count) {
@@ -231,8 +199,19 @@ btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noe
 
 void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
                  const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
-  static const Rewriting rewrite = kRewriting.fastest();
-  rewrite(rows, kind, relaxation, bodies, solver_bodies);
+  for (int i = 0; i < rows.size(); ++i) {
+    btSolverConstraint& row = rows[i];
+    // The multithreaded solver leaves rows of torsional friction that it does not need unset.
+    if (kind == RowKind::kTorsionalFriction && row.m_frictionIndex < 0) continue;
+    RowBody* a = bodies.find(row.m_solverBodyIdA);
+    RowBody* b = bodies.find(row.m_solverBodyIdB);
+    if (!a && !b) continue;
+    const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
+    const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
+    rewriteRow(row, kind, {a, solver_bodies[row.m_solverBodyIdA], side_a},
+               {b, solver_bodies[row.m_solverBodyIdB], side_b}, relaxation);
+    ++(a ? a : b)->rows;
+  }
 }
 
 void reapplyImpulses(const btConstraintArray& rows, RowBodies& bodies,
@@ -248,6 +227,38 @@ void reapplyImpulses(const btConstraintArray& rows, RowBodies& bodies,
       applyImpulse(solver_bodies[row.m_solverBodyIdB], row.m_contactNormal2,
                    row.m_angularComponentB, impulse);
   }
+}
+
+namespace {
+
+// Largest motion across a push relative to the motion, that needs no second row: it lets a body
+// creep down a slope by a millimetre in ten seconds.
+constexpr double kEvenPush = 1e-3;
+
+}  // namespace
+
+bool isHeldAslant(const btVector3& push_W, const btVector3& normal_W, btScalar friction) noexcept {
+  constexpr btScalar kFlat = btScalar(0.01);
+  const btScalar pressed = -push_W.dot(normal_W);
+  const btScalar along = (push_W + pressed * normal_W).length();
+  return along > kFlat * pressed && along <= friction * pressed;
+}
+
+bool mayTurnAside(const AmbientBody& ambient) noexcept {
+  if (ambient.surface()) return true;
+  const BodyModel& model = ambient.model();
+  const Vector3 response = model.inverse_inertia.diagonal().tail<3>();
+  return !model.has_diagonal_inertia ||
+         response.maxCoeff() - response.minCoeff() > kEvenPush * response.minCoeff();
+}
+
+bool turnsAside(const AmbientBody& ambient, const btVector3& normal_W) noexcept {
+  const BodyModel& model = ambient.model();
+  if (ambient.surface() || !model.has_diagonal_inertia) return true;
+  const btMatrix3x3& rotation = ambient.body->getWorldTransform().getBasis();
+  const Vector3 normal = toVector3(normal_W * rotation);  // in B
+  const Vector3 push = model.inverse_inertia.diagonal().tail<3>().cwiseProduct(normal);
+  return push.cross(normal).squaredNorm() > kEvenPush * kEvenPush * push.squaredNorm();
 }
 
 AMBIENT_END

@@ -5,11 +5,49 @@
 
 #include <vector>
 
+#include "bullet_ambient/bullet/core/four_numbers.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/core/velocity_basis.h"
-#include "bullet_ambient/motion/body/rigid_state.h"
+#include "bullet_ambient/immersed/ambient_body.h"
+#include "bullet_ambient/motion/body/body_model.h"
+
+struct btMultiBodyJacobianData;
+struct btMultiBodySolverConstraint;
 
 AMBIENT_BEGIN
+
+/// Applies an impulse to a body like btSolverBody::internalApplyImpulse, with the same bits.
+/// `linear`: linear part of the row's Jacobian; `spin`: spin change by a unit impulse.
+AMBIENT_INLINE void applyImpulse(btSolverBody& body, const btVector3& linear, const btVector3& spin,
+                                 btScalar impulse) noexcept {
+  if (!body.m_originalBody) return;
+  const Four change = impulse * (load(linear) * load(body.m_invMass));
+  store(body.m_deltaLinearVelocity,
+        load(body.m_deltaLinearVelocity) + change * load(body.m_linearFactor));
+  store(body.m_deltaAngularVelocity,
+        load(body.m_deltaAngularVelocity) + load(spin) * (impulse * load(body.m_angularFactor)));
+}
+
+class AmbientTrees;
+
+/// Rows that Bullet has set up for one group of bodies.
+struct RowPools {
+  btConstraintArray& contacts;
+  btConstraintArray& frictions;
+  btConstraintArray& torsional_frictions;
+  btConstraintArray& joints;
+};
+
+/// Rows of multibodies: their contacts, and joints among them or to rigid bodies.
+struct MultiBodyRows {
+  btAlignedObjectArray<btMultiBodySolverConstraint>& contacts;
+  btAlignedObjectArray<btMultiBodySolverConstraint>& frictions;
+  btAlignedObjectArray<btMultiBodySolverConstraint>& rolling_frictions;
+  btAlignedObjectArray<btMultiBodySolverConstraint>& spinning_frictions;
+  btAlignedObjectArray<btMultiBodySolverConstraint>& joints;
+  btMultiBodyJacobianData& data;  ///< Jacobians of the multibodies and their responses
+  const AmbientTrees* trees;      ///< multibodies in fluid; null: none
+};
 
 // Rewrites Bullet's rows, so that they feel the total inertia K; docs/theory.md eq. (26) and (27).
 //
@@ -109,5 +147,19 @@ void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, Row
 /// Applies the warm-starting impulses of rewritten contact rows to their ambient bodies.
 void reapplyImpulses(const btConstraintArray& rows, RowBodies& bodies,
                      btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept;
+
+// Finds contacts that need two friction rows; docs/theory.md, section 7, "Friction".
+
+/// True if a push on the first body of a contact presses the bodies together, and its part along
+/// the face, relative to the part along the normal, is between 0.01 and the coefficient of
+/// friction. `normal_W`: from the second body to the first.
+bool isHeldAslant(const btVector3& push_W, const btVector3& normal_W, btScalar friction) noexcept;
+
+/// False: turnsAside() is false for every normal.
+bool mayTurnAside(const AmbientBody& ambient) noexcept;
+
+/// True if a push along the normal also moves the body across the normal, by more than 10^-3 of its
+/// motion, because of added mass.
+bool turnsAside(const AmbientBody& ambient, const btVector3& normal_W) noexcept;
 
 AMBIENT_END

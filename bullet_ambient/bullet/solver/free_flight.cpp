@@ -6,7 +6,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/core/attitude.h"
-#include "bullet_ambient/bullet/members/departures.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 #include "bullet_ambient/motion/flight/flight_group.h"

@@ -3,16 +3,15 @@
 #include <algorithm>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/task_runner.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
-#include "bullet_ambient/bullet/reading/body_reading.h"
+#include "bullet_ambient/bullet/reading/fluid_reading.h"
 #include "bullet_ambient/bullet/rows/joint_gaps.h"
 #include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
-#include "bullet_ambient/bullet/solver/external_impulse.h"
 #include "bullet_ambient/bullet/solver/solver_group.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
+#include "bullet_ambient/threads.h"
 
 AMBIENT_BEGIN
 namespace {

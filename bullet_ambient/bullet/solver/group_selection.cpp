@@ -6,7 +6,7 @@
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
-#include "bullet_ambient/bullet/reading/body_reading.h"
+#include "bullet_ambient/bullet/reading/fluid_reading.h"
 #include "bullet_ambient/bullet/rows/joint_chains.h"
 #include "bullet_ambient/bullet/rows/joint_gaps.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"

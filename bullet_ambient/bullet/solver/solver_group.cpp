@@ -11,7 +11,6 @@
 #include "bullet_ambient/bullet/rows/joint_chains.h"
 #include "bullet_ambient/bullet/rows/joint_gaps.h"
 #include "bullet_ambient/bullet/rows/row_rewriting.h"
-#include "bullet_ambient/bullet/rows/slope_friction.h"
 
 AMBIENT_BEGIN
 

@@ -6,8 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/precision_check.h"
-#include "bullet_ambient/bullet/rows/row_pools.h"
+#include "bullet_ambient/bullet/rows/row_rewriting.h"
 
 class btCollisionObject;
 class btPersistentManifold;
@@ -15,6 +16,13 @@ class btTypedConstraint;
 struct btContactSolverInfo;
 
 AMBIENT_BEGIN
+
+/// Replaces the velocity change by gravity and applied forces that Bullet has computed for the dry
+/// body. Bullet adds it when it writes velocities back. World axes, [rad/s] and [m/s].
+inline void setExternalImpulse(btSolverBody& solver_body, const Twist& change_W) {
+  solver_body.m_externalTorqueImpulse = toBullet(change_W.angular);
+  solver_body.m_externalForceImpulse = toBullet(change_W.linear);
+}
 
 struct AmbientBody;
 class AmbientBodies;

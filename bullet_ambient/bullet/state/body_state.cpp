@@ -1,11 +1,20 @@
 #include "bullet_ambient/bullet/state/body_state.h"
 
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/state/bullet_visitors.h"
 
 AMBIENT_BEGIN
+
 namespace {
 
 // The mass whose rounded inverse is this one. setMassProps() takes no inverse.
@@ -60,6 +69,153 @@ void restoreBody(const BodyState& s, btRigidBody& body) {
   body.setCenterOfMassTransform(s.pose);  // its inertia follows
   toBullet(s, body);
   restoreForces(s, body);
+}
+
+namespace {
+
+// Before its first step a constraint has no place for impulses, which Bullet does not tell.
+class RowsOf : public btMultiBodyConstraint {
+ public:
+  static bool areMade(const btMultiBodyConstraint& joint) {
+    return (joint.*(&RowsOf::m_data)).size() >= joint.getNumRows();
+  }
+};
+
+std::size_t velocityCount(const btMultiBody& body) {
+  return 6 + static_cast<std::size_t>(body.getNumDofs());
+}
+
+template <class Body>  // const or not
+auto* colliderOf(Body& body, int link) {
+  return link < 0 ? body.getBaseCollider() : body.getLinkCollider(link);
+}
+
+template <class Visit>
+void forEachCollider(const MultiBodyState& state, btMultiBody& body, const Visit& visit) {
+  for (std::size_t i = 0; i < state.links.size(); ++i)
+    if (state.links[i].collider)
+      visit(*state.links[i].collider, *colliderOf(body, static_cast<int>(i) - 1));
+}
+
+[[noreturn]] void refuse(const std::string& what, std::size_t number, const std::string& why) {
+  throw std::invalid_argument("restoreState: the state of " + what + ' ' + std::to_string(number) +
+                              ' ' + why);
+}
+
+// A quaternion of another length would scale what it turns.
+bool isTurn(const std::array<btScalar, 7>& q) {
+  const btScalar size = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  return std::abs(size - 1) < btScalar(0.01);
+}
+
+}  // namespace
+
+std::vector<btMultiBody*> multiBodiesOf(btCollisionWorld& world) {
+  std::vector<btMultiBody*> bodies;
+  if (auto* of = dynamic_cast<btMultiBodyDynamicsWorld*>(&world))
+    for (int i = 0; i < of->getNumMultibodies(); ++i) bodies.push_back(of->getMultiBody(i));
+  return bodies;
+}
+
+std::vector<btMultiBodyConstraint*> multiBodyJointsOf(btCollisionWorld& world) {
+  std::vector<btMultiBodyConstraint*> joints;
+  if (auto* of = dynamic_cast<btMultiBodyDynamicsWorld*>(&world))
+    for (int i = 0; i < of->getNumMultiBodyConstraints(); ++i)
+      joints.push_back(of->getMultiBodyConstraint(i));
+  return joints;
+}
+
+MultiBodyState saveMultiBody(btMultiBody& body) {
+  auto s = fromBullet<MultiBodyState>(body);
+  for (int i = -1; i < body.getNumLinks(); ++i) {
+    LinkPlace place(body, i);
+    s.links.push_back(fromBullet<MultiBodyLinkState>(place));
+    if (const btMultiBodyLinkCollider* collider = colliderOf(body, i))
+      s.links.back().collider = fromBullet<ObjectState>(*collider);
+  }
+  return s;
+}
+
+MultiBodyJointState saveJoint(btMultiBodyConstraint& joint) {
+  MultiBodyJointState s;
+  if (!RowsOf::areMade(joint)) return s;
+  for (int row = 0; row < joint.getNumRows(); ++row)
+    s.applied_impulses.push_back(joint.getAppliedImpulse(row));
+  return s;
+}
+
+void requireFits(const MultiBodyState& state, const btMultiBody& body, std::size_t number) {
+  const std::string what = "multibody";
+  if (state.links.size() != static_cast<std::size_t>(body.getNumLinks()) + 1)
+    refuse(what, number,
+           "has " + std::to_string(state.links.size() - 1) + " links, but the world's has " +
+               std::to_string(body.getNumLinks()));
+  if (state.velocity.size() != velocityCount(body))
+    refuse(what, number,
+           "has " + std::to_string(state.velocity.size()) + " velocities, but the world's has " +
+               std::to_string(velocityCount(body)));
+  for (std::size_t i = 0; i < state.links.size(); ++i) {
+    const int link = static_cast<int>(i) - 1;
+    const std::string name = "link " + std::to_string(link);
+    if (state.links[i].collider.has_value() != (colliderOf(body, link) != nullptr))
+      refuse(what, number, "and the world's have not both a collider of " + name);
+    constexpr int kQuaternion = 4;  // numbers of it, more than any other position has
+    if (link >= 0 && body.getLink(link).m_posVarCount == kQuaternion &&
+        !isTurn(state.links[i].joint_position))
+      refuse(what, number, "has a joint of " + name + " whose quaternion is not of unit length");
+  }
+}
+
+void requireFits(const MultiBodyJointState& state, const btMultiBodyConstraint& joint,
+                 std::size_t number) {
+  const std::size_t rows = state.applied_impulses.size();
+  if (rows > 0 && rows != static_cast<std::size_t>(joint.getNumRows()))
+    refuse("multibody joint", number,
+           "has " + std::to_string(rows) + " rows, but the world's has " +
+               std::to_string(joint.getNumRows()));
+}
+
+void restoreMultiBody(const MultiBodyState& state, btMultiBody& body) {
+  AMBIENT_ASSERT(state.links.size() == static_cast<std::size_t>(body.getNumLinks()) + 1);
+  body.clearForcesAndTorques();  // there is no setter
+  toBullet(state, body);
+  for (int i = -1; i < body.getNumLinks(); ++i) {
+    LinkPlace place(body, i);
+    toBullet(state.links[static_cast<std::size_t>(i) + 1], place);
+  }
+  forEachCollider(state, body, toBullet<ObjectState, btMultiBodyLinkCollider>);
+}
+
+void restoreJoint(const MultiBodyJointState& state, btMultiBodyConstraint& joint) {
+  if (state.applied_impulses.empty() && !RowsOf::areMade(joint)) return;
+  if (!RowsOf::areMade(joint)) joint.finalizeMultiDof();
+  for (int row = 0; row < joint.getNumRows(); ++row)
+    joint.internalSetAppliedImpulse(
+        row, state.applied_impulses.empty() ? 0 : state.applied_impulses[std::size_t(row)]);
+}
+
+void restoreSleep(const MultiBodyState& state, btMultiBody& body) {
+  body.setCanWakeup(true);
+  body.setCanSleep(state.can_sleep);
+  if (state.is_awake) {
+    body.wakeUp();
+  } else {
+    body.goToSleep();
+  }
+  body.setCanWakeup(state.can_wake_up);
+  const MultiBodySleep sleep = sleepOf(body);
+  sleep.timer = state.sleep_timer;
+  sleep.threshold = state.sleep_threshold;
+  sleep.timeout = state.sleep_timeout;
+  forEachCollider(state, body, [](const ObjectState& s, btCollisionObject& collider) {
+    restoreSleep(s, collider);
+  });
+}
+
+void wakeColliders(btMultiBody& body) {
+  for (int i = -1; i < body.getNumLinks(); ++i)
+    if (auto* collider = colliderOf(body, i))
+      if (!collider->isStaticObject()) collider->forceActivationState(ACTIVE_TAG);
 }
 
 AMBIENT_END

@@ -1,7 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/state/world_state_structs.h"
+
+class btCollisionWorld;
+class btMultiBody;
+class btMultiBodyConstraint;
 
 AMBIENT_BEGIN
 
@@ -14,5 +20,29 @@ void restoreMass(const BodyState& state, btRigidBody& body);
 
 /// Restores everything except mass, sleep and fluid. @pre restoreMass() was called
 void restoreBody(const BodyState& state, btRigidBody& body);
+
+/// Multibodies of a btMultiBodyDynamicsWorld in its order; other worlds have none.
+std::vector<btMultiBody*> multiBodiesOf(btCollisionWorld& world);
+std::vector<btMultiBodyConstraint*> multiBodyJointsOf(btCollisionWorld& world);
+
+/// Saves a multibody without its fluids.
+MultiBodyState saveMultiBody(btMultiBody& body);
+MultiBodyJointState saveJoint(btMultiBodyConstraint& joint);
+
+/// @throws std::invalid_argument with one sentence if links, colliders or joints differ from those
+/// of the state, or a joint position is invalid. `number`: index in the world, for the message.
+void requireFits(const MultiBodyState& state, const btMultiBody& body, std::size_t number);
+void requireFits(const MultiBodyJointState& state, const btMultiBodyConstraint& joint,
+                 std::size_t number);
+
+/// Restores everything except sleep and fluids. @pre requireFits() has passed
+void restoreMultiBody(const MultiBodyState& state, btMultiBody& body);
+void restoreJoint(const MultiBodyJointState& state, btMultiBodyConstraint& joint);
+
+/// Restores sleep of a multibody and its colliders. Call it last: other setters wake them.
+void restoreSleep(const MultiBodyState& state, btMultiBody& body);
+
+/// Makes Bullet's collision detection treat the colliders as awake.
+void wakeColliders(btMultiBody& body);
 
 AMBIENT_END

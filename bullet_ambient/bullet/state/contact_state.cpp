@@ -12,10 +12,10 @@
 #include <tuple>
 #include <utility>
 
-#include "bullet_ambient/bullet/core/world_objects.h"
-#include "bullet_ambient/bullet/state/multibody_state.h"
+#include "bullet_ambient/bullet/state/body_state.h"
 
 AMBIENT_BEGIN
+
 namespace {
 
 class ObjectNumbers {

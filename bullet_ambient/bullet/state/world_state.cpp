@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/state/world_state.h"
-
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btDynamicsWorld.h>
@@ -11,14 +9,13 @@
 #include <string>
 #include <utility>
 
-#include "bullet_ambient/bullet/core/world_objects.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/state/ambient_state.h"
 #include "bullet_ambient/bullet/state/body_state.h"
 #include "bullet_ambient/bullet/state/bullet_visitors.h"
 #include "bullet_ambient/bullet/state/contact_state.h"
-#include "bullet_ambient/bullet/state/multibody_state.h"
 #include "bullet_ambient/bullet/state/world_state_faults.h"
+#include "bullet_ambient/saved_state.h"
 
 AMBIENT_BEGIN
 namespace {

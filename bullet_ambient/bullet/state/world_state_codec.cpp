@@ -3,10 +3,10 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/bullet/core/byte_stream.h"
-#include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/bullet/state/world_state_faults.h"
 #include "bullet_ambient/bullet/state/world_state_fields.h"
-#include "bullet_ambient/fluid_body/content_hash.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/saved_state.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -8,7 +8,7 @@
 #include "bullet_ambient/bullet/core/precision_check.h"
 #include "bullet_ambient/bullet/state/bullet_access.h"
 #include "bullet_ambient/bullet/state/world_state_structs.h"
-#include "bullet_ambient/force/medium/medium_check.h"
+#include "bullet_ambient/force/medium/medium.h"
 
 AMBIENT_BEGIN
 

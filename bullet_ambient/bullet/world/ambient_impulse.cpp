@@ -1,8 +1,7 @@
-#include "bullet_ambient/bullet/world/ambient_impulse.h"
-
-#include "bullet_ambient/bullet/links/impulse_response.h"
+#include "bullet_ambient/bullet/links/tree_now.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
+#include "bullet_ambient/impulse.h"
 
 AMBIENT_BEGIN
 namespace {

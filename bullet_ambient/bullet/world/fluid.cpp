@@ -1,4 +1,4 @@
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
@@ -10,9 +10,9 @@
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
 #include "bullet_ambient/bullet/members/attach_link.h"
-#include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/bullet/world/fluid_action.h"
 #include "bullet_ambient/immersed/region_following.h"
+#include "bullet_ambient/saved_state.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -1,11 +1,10 @@
-#include "bullet_ambient/bullet/world/fluid_drawing.h"
-
 #include <LinearMath/btIDebugDraw.h>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/reading/fluid_reading.h"
+#include "bullet_ambient/drawing.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/medium/fluid_region.h"
 #include "bullet_ambient/force/surface/buoyancy.h"

@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/world/immersed.h"
-
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 
 #include <algorithm>
@@ -8,13 +6,14 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/bullet/links/impulse_response.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
+#include "bullet_ambient/bullet/links/tree_now.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
 #include "bullet_ambient/bullet/members/attach_link.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/bullet/reading/fluid_reading.h"
+#include "bullet_ambient/fluid.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN

@@ -1,11 +1,10 @@
-#include "bullet_ambient/bullet/world/multibody_dynamics.h"
-
 #include <stdexcept>
 #include <string>
 
 #include "bullet_ambient/bullet/links/tree_now.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
+#include "bullet_ambient/robot_dynamics.h"
 
 AMBIENT_BEGIN
 Eigen::MatrixXd ambientMassMatrix(const Fluid& fluid, const btMultiBody& multi_body) {

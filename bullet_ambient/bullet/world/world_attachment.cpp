@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/world/world_attachment.h"
-
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -15,11 +13,11 @@
 #include <unordered_map>
 #include <utility>
 
+#include "bullet_ambient/attach_world.h"
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
 #include "bullet_ambient/bullet/members/attach_link.h"
-#include "bullet_ambient/bullet/members/link_carrier.h"
-#include "bullet_ambient/bullet/members/multibody_identity.h"
+#include "bullet_ambient/bullet/members/tree_state.h"
 
 AMBIENT_BEGIN
 namespace {

@@ -4,7 +4,6 @@
 
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file_header.h"
 #include "fluid_body_generated.h"
 
 namespace ambient {

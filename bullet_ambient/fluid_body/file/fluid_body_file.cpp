@@ -8,10 +8,74 @@
 
 #include "bullet_ambient/base/output_file.h"
 #include "bullet_ambient/base/plain_text.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file_header.h"
-#include "bullet_ambient/fluid_body/file/load_fluid_body.h"
 
 namespace ambient {
+
+namespace {
+
+// Like PNG: a non-ASCII byte, the name, and line ends that a transfer in text mode damages.
+constexpr std::string_view kMagic(
+    "\x89"
+    "AMB\r\n\x1a\n",
+    8);
+
+void appendLittleEndian(std::string& bytes, std::uint64_t value, int size) {
+  for (int i = 0; i < size; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xff);
+}
+
+std::uint64_t littleEndian(std::string_view bytes) {
+  std::uint64_t value = 0;
+  for (std::size_t i = bytes.size(); i-- > 0;)
+    value = (value << 8) | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+}  // namespace
+
+std::string encodeFileHeader(const FileHeader& header) {
+  std::string bytes(kMagic);
+  appendLittleEndian(bytes, header.version, 4);
+  appendLittleEndian(bytes, 0, 4);
+  appendLittleEndian(bytes, header.payload_size, 8);
+  appendLittleEndian(bytes, header.payload_checksum, 8);
+  return bytes;
+}
+
+FileHeader decodeFileHeader(std::string_view bytes, const std::string& source) {
+  const auto fail = [&](const std::string& what) {
+    throw std::runtime_error(source + ": " + what);
+  };
+  if (bytes.empty()) fail("the file is empty");
+  if (bytes.substr(0, kMagic.size()) != kMagic.substr(0, bytes.size()))
+    fail("not a .ambient file: it does not begin with the mark of one");
+  if (bytes.size() < kFileHeaderSize)
+    fail("truncated: " + std::to_string(bytes.size()) + " bytes, but the header alone has " +
+         std::to_string(kFileHeaderSize));
+
+  FileHeader header;
+  header.version = static_cast<std::uint32_t>(littleEndian(bytes.substr(8, 4)));
+  header.payload_size = littleEndian(bytes.substr(16, 8));
+  header.payload_checksum = littleEndian(bytes.substr(24, 8));
+  if (header.version > kFormatVersion)
+    fail("format version " + std::to_string(header.version) +
+         " is newer than this program reads, limit " + std::to_string(kFormatVersion));
+  if (header.version == 0 || littleEndian(bytes.substr(12, 4)) != 0)
+    fail("damaged: its header is not valid");
+  return header;
+}
+
+void checkPayloadSize(const FileHeader& header, std::uint64_t present, const std::string& source) {
+  if (header.payload_size > kPayloadLimit)
+    throw std::runtime_error(source + ": damaged: a payload of " +
+                             std::to_string(header.payload_size) + " bytes is announced, limit " +
+                             std::to_string(kPayloadLimit));
+  if (present != header.payload_size)
+    throw std::runtime_error(
+        source + (present < header.payload_size ? ": truncated: " : ": damaged: ") +
+        std::to_string(present) + " bytes follow the header, which announces " +
+        std::to_string(header.payload_size));
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/fluid_body/flat_sides.h"
 #include "bullet_ambient/fluid_body/packed/block_order.h"
+#include "bullet_ambient/fluid_body/surface_triangles.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {

@@ -6,7 +6,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/fluid_body/packed/block_order.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 

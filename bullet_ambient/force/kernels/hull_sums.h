@@ -2,9 +2,15 @@
 
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/fluid_body/packed/hull_block.h"
-#include "bullet_ambient/force/kernels/hull_plane.h"
 
 namespace ambient {
+
+/// Water surface, and right-handed axes in the surface: e_1 x e_2 = s.
+struct HullPlane {
+  double normal[3];   ///< s
+  double axes[2][3];  ///< e_1, e_2
+  double height;      ///< h [m]
+};
 
 // Sums over a hull for computeWetVolume(). Plain data only, see single_sums.h.
 

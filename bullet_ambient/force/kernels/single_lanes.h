@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+
+#include "bullet_ambient/force/kernels/lane_vectors.h"
+
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
@@ -13,6 +16,7 @@
 // set. The vector types of GCC and Clang have the +, -, *, > and ?: of IEEE 754 per lane.
 
 namespace ambient {
+
 namespace {
 
 #if defined(__AVX512F__)
@@ -223,5 +227,50 @@ struct WrenchTotal {
   }
 };
 
+/// Adds the lee side of the form law to the wrench of `sums`: docs/theory.md eq. (43) for u_n <= 0,
+/// summed over all faces, as the quadratic map of the twist x in eq. (36). `even`: 6 x 21
+/// coefficients, column by column, for the products x_0 x_0, x_0 x_1 to x_5 x_5. No operation is
+/// fused.
+inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums) {
+  constexpr int kProducts = 21;
+  double products[kProducts];
+  for (int i = 0, next = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) products[next++] = x[i] * x[j];
+  double part[8];
+  for (int row = 0; row < 6; row += kHalf) {
+    // With kHalf > 2, the load at the last rows also reads the start of the next column. The last
+    // column has no next one, and is added below.
+    Doubles a = {}, b = {};
+    for (int k = 0; k < kProducts - 1; k += 2) {
+      a = a + products[k] * load(even + 6 * k + row);
+      b = b + products[k + 1] * load(even + 6 * k + 6 + row);
+    }
+    store(part + row, a + b);
+  }
+  const double* last = even + 6 * (kProducts - 1);
+  for (int row = 0; row < 6; ++row)
+    sums.wrench[row] += part[row] + products[kProducts - 1] * last[row];
+}
+
+/// Constants of the form law for lifting and slender shapes, the same in all lanes; zero if
+/// motion.wing is null. `Motion`: SingleMotion.
+template <class Lanes>
+struct WingLanes {
+  VectorsOf<Lanes> facing = {}, span = {}, slender = {};
+  Lanes pitching_rate = {}, slip_share = {};
+
+  // Inlined: else the vectors pass through memory.
+  template <class Motion>
+  [[gnu::always_inline]] explicit WingLanes(const Motion& motion) {
+    slip_share = slip_share + motion.slip_share;
+    if (!motion.wing) return;
+    facing = inAllLanes<Lanes>(motion.wing->facing);
+    span = inAllLanes<Lanes>(motion.wing->span);
+    slender = inAllLanes<Lanes>(motion.wing->slender);
+    pitching_rate = pitching_rate + motion.pitching_rate;
+  }
+};
+
 }  // namespace
+
 }  // namespace ambient

@@ -3,9 +3,7 @@
 #include <type_traits>
 
 #include "bullet_ambient/base/instruction_set.h"
-#include "bullet_ambient/force/kernels/even_part.h"
 #include "bullet_ambient/force/kernels/single_lanes.h"
-#include "bullet_ambient/force/kernels/wing_lanes.h"
 #include "bullet_ambient/force/law/face_pressure.h"
 #include "bullet_ambient/force/law/wet_share.h"
 

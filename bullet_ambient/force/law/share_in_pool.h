@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bullet_ambient/force/law/wet_share.h"
-#include "bullet_ambient/force/medium/pool_sides.h"
+#include "bullet_ambient/force/medium/surface_plane.h"
 
 namespace ambient {
 namespace {

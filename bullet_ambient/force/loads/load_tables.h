@@ -7,7 +7,7 @@
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
 #include "bullet_ambient/fluid_body/packed/packed_parts.h"
 #include "bullet_ambient/force/law/flow_settings.h"
-#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/form_law.h"
 
 namespace ambient {
 

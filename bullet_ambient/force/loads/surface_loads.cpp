@@ -4,12 +4,10 @@
 #include <utility>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/law/form_lift.h"
-#include "bullet_ambient/force/loads/drag_scale.h"
+#include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/loads/sphere_loads.h"
-#include "bullet_ambient/force/loads/sphere_table.h"
 
 namespace ambient {
 namespace {

@@ -6,7 +6,7 @@
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/medium/medium.h"
 #include "bullet_ambient/force/medium/surface_plane.h"
-#include "bullet_ambient/spatial/frame_offset.h"
+#include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
 

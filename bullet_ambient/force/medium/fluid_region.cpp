@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/force/medium/medium_check.h"
+#include "bullet_ambient/force/medium/medium.h"
 
 namespace ambient {
 namespace {

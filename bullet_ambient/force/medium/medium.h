@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
@@ -16,5 +18,17 @@ struct Medium {
 inline Medium air() { return {1.204, 1.82e-5, {0, 0, 0}, {0, 0, 0}}; }
 /// Fresh water at 20 C.
 inline Medium water() { return {998.0, 1.002e-3, {0, 0, 0}, {0, 0, 0}}; }
+
+/// A number of a medium that no fluid has.
+struct MediumFault {
+  const char* quantity;
+  const char* unit;
+  double value;
+  const char* limit;  ///< what it must be
+};
+
+/// Finds the first fault of a medium; none: density and viscosity are finite and not negative,
+/// velocity and acceleration finite.
+std::optional<MediumFault> faultOf(const Medium& medium) noexcept;
 
 }  // namespace ambient

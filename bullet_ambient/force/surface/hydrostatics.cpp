@@ -7,7 +7,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/force/kernels/hull_sums.h"
 #include "bullet_ambient/force/surface/wet_polygon.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 namespace {

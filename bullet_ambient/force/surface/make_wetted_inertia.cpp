@@ -3,7 +3,6 @@
 #include "bullet_ambient/force/loads/load_tables.h"
 #include "bullet_ambient/force/surface/wetted_parts.h"
 #include "bullet_ambient/force/surface/wetted_sphere.h"
-#include "bullet_ambient/force/surface/wetted_table.h"
 
 namespace ambient {
 namespace {

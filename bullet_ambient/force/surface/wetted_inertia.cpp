@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 namespace {

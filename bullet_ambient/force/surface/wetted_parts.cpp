@@ -4,10 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
 #include "bullet_ambient/force/law/share_in_pool.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
+
 namespace {
 
 const PartKernel& fastestKernel() noexcept {
@@ -88,6 +91,128 @@ InertiaGradient WettedParts::gradientAt(const Immersion& at, const Twist& twist)
     sum.by_normal += 0.5 * Vector3(g.by_normal[0], g.by_normal[1], g.by_normal[2]);
   });
   return sum;
+}
+
+namespace {
+
+double immersionOf(const Immersion& at) { return at.draught() / at.size(); }
+
+/// Point whose depth the added mass depends on: centroid of the waterplane, else of the wet volume.
+Vector3 placeOfChange(const WetVolume& wet) {
+  return wet.waterplane.area > 0 ? wet.waterplane.centroid : Vector3(wet.moment / wet.volume);
+}
+
+}  // namespace
+
+WettedTable::WettedTable(std::shared_ptr<const FluidBody> body,
+                         std::shared_ptr<const PackedParts> parts,
+                         std::shared_ptr<const PackedHull> hull)
+    : WettedParts(*body, std::move(parts)),
+      body_(std::move(body)),
+      hull_(std::move(hull)),
+      lattice_(body_->waterline.subdivisions),
+      nodes_(body_->waterline.immersions) {
+  AMBIENT_ASSERT(hull_ && !nodes_.empty() && nodes_.front() > 0 &&
+                 nodes_.back() < WaterlineTable::kDeep);
+  nodes_.push_back(WaterlineTable::kDeep);
+}
+
+WettedTable::Touch WettedTable::touchAt(const Immersion& immersion) const noexcept {
+  Touch touch{immersion};
+  const double draught = nodes_.front() * immersion.size(), way = immersion.draught() / draught;
+  if (!(way < 1)) return touch;
+  touch.at.plane.height = immersion.low + draught;
+  touch.at.wet = computeWetVolume(*hull_, touch.at.plane);
+  touch.share = way * way;
+  touch.slope = 2 * way / draught;
+  return touch;
+}
+
+// Cubic between two nodes. Slope at a node: that of the parabola through the node and its two
+// neighbours; first node: slope of the chord; last node: 0. @pre immersion >= first node
+WettedTable::Weights WettedTable::weightsAt(double immersion) const noexcept {
+  AMBIENT_ASSERT(!(immersion < nodes_.front() * (1 - 1e-9)));
+  const auto next = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, immersion);
+  const auto k = static_cast<int>(next - nodes_.begin()) - 1;
+  const double width = nodes_[k + 1] - nodes_[k];
+  const double t = std::clamp((immersion - nodes_[k]) / width, 0.0, 1.0), u = 1 - t;
+  Weights weights{k - 1, {0, u * u * (1 + 2 * t), t * t * (1 + 2 * u), 0}, {}};
+  weights.of_slope[1] = -6 * t * u / width;
+  weights.of_slope[2] = -weights.of_slope[1];
+  const auto addSlope = [&](int i, double to_value, double to_slope) {
+    double shares[3] = {0, -1, 1};
+    const int node = k + i;
+    const double after = nodes_[node + 1] - nodes_[node];
+    if (node > 0) {
+      const double before = nodes_[node] - nodes_[node - 1], both = before + after;
+      shares[0] = -after / (before * both);
+      shares[1] = (after - before) / (before * after);
+      shares[2] = before / (after * both);
+    } else {
+      shares[1] = -1 / after;
+      shares[2] = 1 / after;
+    }
+    for (int j = 0; j < 3; ++j) {
+      weights.of_value[i + j] += to_value * shares[j];
+      weights.of_slope[i + j] += to_slope * shares[j];
+    }
+  };
+  addSlope(0, width * t * u * u, u * (u - 2 * t));
+  if (k + 2 < static_cast<int>(nodes_.size())) addSlope(1, -width * t * t * u, t * (t - 2 * u));
+  return weights;
+}
+
+Matrix6 WettedTable::interpolate(const Vector3& normal, int first,
+                                 const double (&weights)[4]) const noexcept {
+  const std::vector<Matrix6>& corrections = body_->waterline.corrections;
+  const std::size_t count = nodes_.size() - 1;  // the last one has no correction
+  AMBIENT_ASSERT(isUnit(normal));
+  const OctahedralLattice::Place place = lattice_.placeOf(normal);
+  Matrix6 sum = Matrix6::Zero();
+  for (int corner = 0; corner < 3; ++corner)
+    for (int i = 0; i < 4; ++i) {
+      const int node = first + i;
+      if (node < 0 || node >= static_cast<int>(count)) continue;
+      sum += place.share[corner] * weights[i] * corrections[place.node[corner] * count + node];
+    }
+  return sum;
+}
+
+double WettedTable::shareInPool(const Immersion& at) const noexcept {
+  if (!at.plane.sides_F) return 1;
+  SurfacePlane open = at.plane;
+  open.sides_F = nullptr;
+  const double whole = computeWetVolume(*hull_, open).volume;
+  return whole > 0 ? std::clamp(at.wet.volume / whole, 0.0, 1.0) : 0;
+}
+
+Matrix6 WettedTable::inertiaOf(const Touch& touch) const noexcept {
+  const Immersion& at = touch.at;
+  const Weights weights = weightsAt(immersionOf(at));
+  return touch.share *
+         (WettedParts::inertiaAt(at) +
+          shareInPool(at) * interpolate(at.plane.normal, weights.first, weights.of_value));
+}
+
+Matrix6 WettedTable::inertiaAt(const Immersion& at) const noexcept {
+  return inertiaOf(touchAt(at));
+}
+
+InertiaGradient WettedTable::gradientAt(const Immersion& at, const Twist& twist) const noexcept {
+  if (!(at.wet.volume > 0)) return {};
+  const Vector6 x = twist.vector();
+  const Touch touch = touchAt(at);
+  if (touch.slope > 0) {
+    const double by_height = 0.5 * touch.slope / touch.share * x.dot(inertiaOf(touch) * x);
+    return {by_height, -by_height * placeOfChange(at.wet)};
+  }
+  InertiaGradient gradient = WettedParts::gradientAt(at, twist);
+  const Weights weights = weightsAt(immersionOf(at));
+  const Matrix6 slope = interpolate(at.plane.normal, weights.first, weights.of_slope);
+  const double by_height = 0.5 * shareInPool(at) * x.dot(slope * x) / at.size();
+  gradient.by_height += by_height;
+  gradient.by_normal -= by_height * placeOfChange(at.wet);
+  return gradient;
 }
 
 }  // namespace ambient

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bullet_ambient/motion/body/body_model.h"
-#include "bullet_ambient/motion/body/rigid_state.h"
 
 namespace ambient {
 

@@ -1,10 +1,191 @@
 #include "bullet_ambient/motion/flight/flight.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/motion/flight/flight_group.h"
 
 namespace ambient {
+
+namespace {
+
+static_assert(kFlightsTogether == kFlightLanes);
+
+constexpr int kMaxRetries = 2;
+constexpr double kStepSafety = 0.9;
+constexpr double kFlowPrecision = 1e-6;  // precision of the flow over the tolerance, with loads
+constexpr double kAcceptance = 2;        // error over tolerance above which a step is repeated
+
+int maxSubsteps(const FlightTask& task) {
+  if (task.settings.max_substeps > 0) return task.settings.max_substeps;
+  return task.model.mass < task.model.largest_mass / 2 ? 64 : 16;
+}
+
+int substepsFor(double duration, double substep, int most) {
+  if (!(substep > 0)) return 1;
+  const double wanted = std::ceil(duration / substep * (1 - 1e-9));
+  return wanted < most ? std::max(1, static_cast<int>(wanted)) : most;
+}
+
+// Progress of one body through a step.
+struct StepProgress {
+  Flight* flight;
+  int most;       // largest number of substeps
+  int substeps;   // number of substeps of this attempt
+  bool is_done;   // true if an attempt was accepted
+  bool has_load;  // true if load_W holds a load, from which the next one is predicted
+  double error;   // largest error of the substeps of this attempt, eq. (25)
+};
+
+// Moves several bodies over one step, one per lane.
+class Leapfrog {
+ public:
+  Leapfrog(Flight* const* flights, int count) : kernel_(fastestFlightKernel()), count_(count) {
+    AMBIENT_ASSERT(count > 0 && count <= kFlightLanes);
+    if (count < kFlightLanes) lanes_ = {};
+    setKinds(lanes_, count, [&](int i) -> const BodyModel& { return flights[i]->task.model; });
+    for (int i = 0; i < count; ++i) begin(i, *flights[i]);
+  }
+
+  void fly() {
+    for (int attempt = 0; attempt <= kMaxRetries; ++attempt) {
+      int substeps = 0;
+      for (int i = 0; i < count_; ++i) {
+        if (progress_[i].is_done) continue;
+        restart(i);
+        substeps = std::max(substeps, progress_[i].substeps);
+      }
+      if (substeps == 0) return;
+      advance(substeps);
+      for (int i = 0; i < count_; ++i)
+        if (!progress_[i].is_done) acceptOrRepeat(i, attempt);
+    }
+  }
+
+ private:
+  void begin(int i, Flight& flight) {
+    const FlightTask& task = flight.task;
+    const BodyModel& model = task.model;
+    setModel(lanes_, i, model);
+    setSurroundings(lanes_, i, task);
+    lanes_.precision[i] = model.loads ? kFlowPrecision * task.settings.tolerance : task.precision;
+    const int most = maxSubsteps(task);
+    AMBIENT_ASSERT(most > 0 && !(flight.body.memory.substep < 0));
+    progress_[i] = {&flight, most,  substepsFor(task.duration, flight.body.memory.substep, most),
+                    false,   false, 0};
+    flight.body.count = {};
+  }
+
+  void restart(int i) {
+    StepProgress& progress = progress_[i];
+    const FlightMemory& memory = progress.flight->body.memory;
+    AMBIENT_ASSERT(progress.substeps > 0 && progress.substeps <= progress.most);
+    setState(lanes_, i, progress.flight->task.model, progress.flight->body.state);
+    progress.has_load = memory.has_load && progress.flight->task.model.loads;
+    setLane(lanes_.load_W, i, progress.has_load ? memory.load_W : Wrench{});
+    setLane(lanes_.load_B, i, Wrench{});
+    lanes_.error[i] = 0;
+    progress.error = 0;
+    lanes_.kick_time[i] = progress.flight->task.duration / progress.substeps;
+    lanes_.is_coarse[i] = 0;
+    lanes_.energy_removed[i] = 0;
+  }
+
+  // Makes all substeps. The two half flows between kicks are made as one flow.
+  void advance(int substeps) {
+    for (int i = 0; i < count_; ++i) {
+      lanes_.active[i] = progress_[i].is_done ? 0 : 1;
+      lanes_.flow_time[i] = lanes_.kick_time[i] / 2;
+    }
+    if (lanes_.has_loads) kernel_.measure(lanes_);
+    kernel_.flow(lanes_);
+    for (int substep = 1; substep <= substeps; ++substep) {
+      kick();
+      for (int i = 0; i < count_; ++i)
+        lanes_.flow_time[i] = lanes_.kick_time[i] / (substep < progress_[i].substeps ? 1 : 2);
+      kernel_.flow(lanes_);
+      for (int i = 0; i < count_; ++i)
+        if (substep == progress_[i].substeps) lanes_.active[i] = 0;
+    }
+    boundEnergy();
+  }
+
+  // Scales the twist down if the energy has grown, eq. (25a): loads only take energy, but gravity
+  // and flow in turns err to second order, with either sign.
+  void boundEnergy() {
+    if (!lanes_.has_loads) return;
+    for (int i = 0; i < count_; ++i) {
+      const bool has_loads = progress_[i].flight->task.model.loads != nullptr;
+      lanes_.active[i] = !progress_[i].is_done && has_loads ? 1 : 0;
+    }
+    kernel_.bound(lanes_);
+  }
+
+  // Applies gravity and surface loads of a whole substep. The last load predicts the twist in the
+  // middle of the substep, at which the new load is evaluated.
+  void kick() {
+    kernel_.applyGravity(lanes_);
+    if (lanes_.has_loads) {
+      evaluate(lanes_.twist_B, lanes_.guess_B, [](const StepProgress& p) { return !p.has_load; });
+      kernel_.sample(lanes_);
+      evaluate(lanes_.sample_twist, lanes_.load_B, [](const StepProgress&) { return true; });
+    }
+    kernel_.kick(lanes_);
+    for (int i = 0; i < count_; ++i) {
+      if (!(lanes_.active[i] > 0)) continue;
+      StepProgress& progress = progress_[i];
+      ++progress.flight->body.count.substeps;
+      progress.error = std::max(progress.error, lanes_.error[i]);
+      progress.has_load = progress.flight->task.model.loads != nullptr;
+    }
+  }
+
+  template <class Condition>
+  void evaluate(const FlightLane* twists, FlightLane* loads, const Condition& wants) {
+    for (int i = 0; i < count_; ++i) {
+      const FlightTask& task = progress_[i].flight->task;
+      const BodyModel& model = task.model;
+      if (!(lanes_.active[i] > 0) || !model.loads || !wants(progress_[i])) continue;
+      const SurfaceLoad load = computeSurfaceLoad(model, twistOf(twists, i), task.surroundings);
+      setLane(loads, i, load.wrench);
+      FlightCount& count = progress_[i].flight->body.count;
+      ++count.load_evaluations;
+      count.guarded += load.guarded;
+    }
+  }
+
+  // Accepts the attempt, or sets a larger number of substeps for the next one.
+  void acceptOrRepeat(int i, int attempt) {
+    StepProgress& progress = progress_[i];
+    const FlightTask& task = progress.flight->task;
+    const double h = lanes_.kick_time[i];
+    const double ratio = progress.error / task.settings.tolerance;
+    const double next = ratio > 0 ? kStepSafety * h / std::sqrt(ratio) : 4 * h;
+    if (!(ratio > kAcceptance) || attempt == kMaxRetries || progress.substeps == progress.most) {
+      FlightResult& result = progress.flight->body;
+      result.state = stateOf(lanes_, i, result.state.position);
+      result.memory = {wrenchOf(lanes_.load_W, i), progress.has_load, std::min(next, 4 * h)};
+      const bool is_flow_coarse = lanes_.is_coarse[i] > 0;
+      result.count.coarse = is_flow_coarse || ratio > kAcceptance;
+      result.count.energy_removed = lanes_.energy_removed[i];
+      if (result.count.coarse) result.count.error = is_flow_coarse ? 1 : progress.error;
+      progress.is_done = true;
+      return;
+    }
+    progress.substeps =
+        std::max(progress.substeps + 1, substepsFor(task.duration, next, progress.most));
+  }
+
+  const FlightKernel& kernel_;
+  int count_;
+  FlightLanes lanes_;  // kernels and begin() write what is read of the lanes of all bodies
+  StepProgress progress_[kFlightLanes];
+};
+
+}  // namespace
+
+void flyLeapfrog(Flight* const* flights, int count) noexcept { Leapfrog(flights, count).fly(); }
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/surface/buoyancy.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 

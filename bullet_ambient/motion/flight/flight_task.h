@@ -1,11 +1,18 @@
 #pragma once
 
 #include "bullet_ambient/motion/body/body_model.h"
-#include "bullet_ambient/motion/body/rigid_state.h"
-#include "bullet_ambient/motion/flight/flight_memory.h"
 #include "bullet_ambient/motion/flight/flight_settings.h"
+#include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
+
+/// Memory of the leapfrog from one step to the next. Reset if other code has changed the
+/// velocity.
+struct FlightMemory {
+  Wrench load_W;  ///< last surface load, world axes
+  bool has_load = false;
+  double substep = 0;  ///< substep to try first in the next step [s]; 0: unknown
+};
 
 /// Forces and flow that act on a body in one step besides surface loads, and the share of these.
 /// World axes; constant over the step.

@@ -1,16 +1,188 @@
+#include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/motion/lanes/flow_kernel.h"
 #include "bullet_ambient/motion/lanes/motion_lanes.h"
 #include "bullet_ambient/motion/lanes/passive_kick_kernel.h"
-#include "bullet_ambient/motion/lanes/pose_kernel.h"
-#include "bullet_ambient/motion/lanes/push_kernel.h"
-#include "bullet_ambient/motion/lanes/row_motion_kernel.h"
+#include "bullet_ambient/motion/lanes/row_lanes.h"
+#include "bullet_ambient/motion/lanes/spatial_lanes.h"
+#include "bullet_ambient/motion/lanes/turning_kernel.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel. Each
 // struct is one kernel of FlightKernel; act() computes the lanes from `at` on.
 
 namespace ambient {
+
 namespace {
+
+/// Returns the unit quaternions of rotation matrices that are orthogonal up to rounding. Sums of
+/// entries give four multiples of the quaternion; the one with the largest scale is normalised
+/// (Shepperd 1978).
+inline Orientations orientationsOf(const Vectors (&rows)[3]) {
+  const Lanes &xx = rows[0].x, &yy = rows[1].y, &zz = rows[2].z;
+  const Vectors turn{rows[2].y - rows[1].z, rows[0].z - rows[2].x, rows[1].x - rows[0].y};
+  const Vectors mixed{rows[1].z + rows[2].y, rows[2].x + rows[0].z, rows[0].y + rows[1].x};
+  const Lanes w = 1 + xx + yy + zz, x = 1 + xx - yy - zz, y = 1 - xx + yy - zz,
+              z = 1 - xx - yy + zz;
+  Orientations q{turn, w};
+  Lanes largest = w;
+  const auto prefer = [&](const Lanes& size, const Orientations& other) {
+    q = select(size > largest, other, q);
+    largest = larger(size, largest);
+  };
+  prefer(x, {{x, mixed.z, mixed.y}, turn.x});
+  prefer(y, {{mixed.z, y, mixed.x}, turn.y});
+  prefer(z, {{mixed.y, mixed.x, z}, turn.z});
+  return normalized(q);
+}
+
+/// Returns the rotation vectors of unit quaternions [rad], of length <= pi. Relative errors are
+/// rounding errors for tiny angles, too.
+inline Vectors rotationVectors(const Orientations& q) {
+  // Series of asin(s) / s in s^2; the first term left out is below rounding.
+  constexpr double kSmall = 0.03;
+  static constexpr double kSeries[] = {
+      1.0,         1.0 / 6,       3.0 / 40,      5.0 / 112,       35.0 / 1152,
+      63.0 / 2816, 231.0 / 13312, 143.0 / 10240, 6435.0 / 557056, 12155.0 / 1245184};
+  const Lanes sine_sq = dot(q.u, q.u);
+  Lanes ratio = polynomial(kSeries, sine_sq);  // half the angle over the sine of half the angle
+  if (anyOf(!(sine_sq <= all(kSmall)))) {
+    for (int i = 0; i < kWidth; ++i) {
+      if (sine_sq[i] <= kSmall) continue;
+      const double sine = ::sqrt(sine_sq[i]);
+      ratio[i] = portable::atan2(sine, ::fabs(q.w[i])) / sine;
+    }
+  }
+  return (q.w < Lanes{} ? -2 * ratio : 2 * ratio) * q.u;
+}
+
+/// Implements FlightKernel::depart.
+inline void depart(DepartureLanes& bodies) noexcept {
+  for (int at = 0; at < kFlightLanes; at += kWidth) {
+    const Vectors rows[3] = {load(bodies.rotation, at), load(bodies.rotation + 3, at),
+                             load(bodies.rotation + 6, at)};
+    const Orientations q = orientationsOf(rows);
+    const Spatials twist_W = load6(bodies.twist_W, at);
+    store(bodies.orientation, at, q.u);
+    store(bodies.orientation[3] + at, q.w);
+    store6(bodies.twist_B, at, toBody(q, twist_W));
+  }
+}
+
+/// Sets numbers smaller in size than `least` to 0; NaN and infinity stay.
+inline Lanes withoutTraces(const Lanes& a, const Lanes& least) {
+  return larger(a, -a) < least ? Lanes{} : a;
+}
+inline Vectors withoutTraces(const Vectors& a, const Lanes& least) {
+  return {withoutTraces(a.x, least), withoutTraces(a.y, least), withoutTraces(a.z, least)};
+}
+inline Spatials withoutTraces(const Spatials& a, const Lanes& least) {
+  return {withoutTraces(a.angular, least), withoutTraces(a.linear, least)};
+}
+
+/// Implements FlightKernel::arrive.
+inline void arrive(ArrivalLanes& bodies) noexcept {
+  const Lanes per_duration = all(1 / bodies.duration), least = all(bodies.least);
+  for (int at = 0; at < kFlightLanes; at += kWidth) {
+    const Orientations q{load(bodies.orientation, at), load(bodies.orientation[3] + at)};
+    const Spatials twist_B = load6(bodies.twist_B, at);
+    const Spatials twist_W = toWorld(q, twist_B);
+    store6(bodies.twist_W, at, withoutTraces(twist_W, least));
+    const Orientations start_inverse{zeroVectors() - load(bodies.start_orientation, at),
+                                     load(bodies.start_orientation[3] + at)};
+    const Vectors turn = rotationVectors(normalized(q * start_inverse));
+    const Vectors way = load(bodies.position, at) - load(bodies.start_position, at);
+    const Spatials mean_W{per_duration * turn, per_duration * way};
+    store6(bodies.mean_W, at, withoutTraces(mean_W, least));
+  }
+}
+
+/// Sets vectors to zero that are only the rounding of others, as EvenResponse::beyond() does.
+inline Vectors withoutRounding(const Vectors& a, const Vectors& of) {
+  constexpr double kRounding = 1e-12;
+  const Mask is_rounding = dot(a, a) <= kRounding * kRounding * dot(of, of);
+  return select(is_rounding, zeroVectors(), a);
+}
+
+/// Returns k' - k of docs/theory.md eq. (28b): the response with isotropic added mass to a momentum
+/// K k, minus k.
+inline Spatials beyondEven(const PushLanes& push, int at, const Pairs& kick) {
+  const Vectors& m = kick.momentum.angular;
+  Lanes spin[3];
+  for (int i = 0; i < 3; ++i) {
+    const FlightLane* row = push.even_inverse_inertia[i];
+    spin[i] = load(row[0] + at) * m.x + load(row[1] + at) * m.y + load(row[2] + at) * m.z;
+  }
+  const Spatials even{{spin[0], spin[1], spin[2]},
+                      load(push.even_inverse_mass + at) * kick.momentum.linear};
+  const Spatials excess = even - kick.twist;
+  return {withoutRounding(excess.angular, even.angular),
+          withoutRounding(excess.linear, even.linear)};
+}
+
+/// Implements FlightKernel::push for the lanes from `at` on.
+struct PushStep {
+  template <class Matrices>
+  static void act(PushLanes& lanes, int at) {
+    const FlightLanes& bodies = lanes.bodies;
+    const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
+    const Orientations q = orientationOf(bodies, at);
+    const Lanes duration = load(bodies.kick_time + at);
+    const Spatials x = load6(bodies.twist_B, at);
+    const Pairs motion{x, inertia * x};
+
+    Spatials kick = duration * (inverse * externalWrench(bodies, at, q));
+    if (bodies.has_loads) {
+      // Equal to dt K^-1 F to first order, but never reverses the motion, for any dt.
+      const Spatials load_B = load6(bodies.load_B, at);
+      kick = kick + (passiveKick(motion, motion, {inverse * load_B, load_B}, duration).twist - x);
+    }
+    const Turnings turning = computeTurnings(inertia, inverse, motion, duration);
+    const Lanes zero = Lanes{}, rest = 1 - turning.extent;
+    const Lanes share = rest < zero ? zero : (rest > all(0.5) ? all(0.5) : rest);
+    const Spatials turning_W = toWorld(q, share * turning.change);
+    Spatials change_W = turning_W + toWorld(q, kick);
+    change_W.linear = change_W.linear + duration * load(lanes.acceleration_W, at);
+    store6(lanes.change_W, at, change_W);
+    store6(lanes.turning_W, at, turning_W);
+    store6(lanes.isotropic_excess_W, at, toWorld(q, beyondEven(lanes, at, {kick, inertia * kick})));
+    store(lanes.extent + at, turning.extent);
+  }
+};
+
+/// Implements FlightKernel::keep for the lanes from `at` on.
+struct KeepStep {
+  template <class Matrices>
+  static void act(RowMotionLanes& lanes, int at) {
+    const FlightLanes& bodies = lanes.bodies;
+    const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
+    const Orientations q = orientationOf(bodies, at);
+    const Spatials x = toBody(q, load6(lanes.velocity_W, at));
+    const Spatials share = toBody(q, load6(lanes.turning_W, at));
+    const Spatials by_rows = toBody(q, load6(lanes.by_rows_W, at));
+    const Spatials kept = x - share;
+    const Pairs kept_pair{kept, inertia * kept};
+    store6(lanes.momentum_W, at, toWorld(q, kept_pair.momentum));
+    const Lanes duration = load(bodies.kick_time + at);
+    store(lanes.extent + at, computeTurnings(inertia, inverse, {x, inertia * x}, duration).extent);
+    const Lanes on_share = 2 * dot(share, inertia * by_rows);
+    const Lanes taken = on_share < Lanes{} ? on_share : Lanes{};
+    store(lanes.twice_energy + at, inner(kept_pair, kept_pair) + taken);
+  }
+};
+
+/// Implements FlightKernel::carry for the lanes from `at` on.
+struct CarryStep {
+  template <class Matrices>
+  static void act(RowMotionLanes& lanes, int at) {
+    FlightLanes& bodies = lanes.bodies;
+    const Orientations q = orientationOf(bodies, at);
+    Spatials m = load6(lanes.momentum_W, at);
+    m.angular = m.angular - cross(load(bodies.way_W, at), m.linear);
+    const Spatials m_B = toBody(q, m);
+    store6(bodies.momentum_B, at, m_B);
+    store6(bodies.twist_B, at, Matrices(bodies.inverse_inertia, at) * m_B);
+  }
+};
 
 struct FlowStep {
   template <class Matrices>

@@ -3,7 +3,7 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// Only for sources compiled once per instruction set, see lanes.h.
+// Only for sources compiled once per instruction set, see spatial_lanes.h.
 
 namespace ambient {
 namespace {

@@ -3,7 +3,7 @@
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
 // Readings of FlightLanes that several kernels make. For sources that are compiled once per
-// instruction set, see lanes.h.
+// instruction set, see spatial_lanes.h.
 
 namespace ambient {
 namespace {

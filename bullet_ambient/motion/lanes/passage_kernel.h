@@ -3,7 +3,7 @@
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
 // Passage through the surface of the water, docs/theory.md eq. (66) to (68), one body per lane. For
-// sources that are compiled once per instruction set, see lanes.h.
+// sources that are compiled once per instruction set, see spatial_lanes.h.
 
 namespace ambient {
 namespace {

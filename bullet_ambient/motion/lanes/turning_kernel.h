@@ -2,7 +2,7 @@
 
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// For sources compiled once per instruction set, see lanes.h, and with one_body.h for ordinary
+// For sources compiled once per instruction set, see spatial_lanes.h, and with one_body.h for ordinary
 // ones.
 
 namespace ambient {

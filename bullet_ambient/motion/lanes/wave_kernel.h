@@ -4,7 +4,7 @@
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
 // Waves that floating bodies make, docs/theory.md eq. (69) to (72), one body per lane. For sources
-// that are compiled once per instruction set, see lanes.h.
+// that are compiled once per instruction set, see spatial_lanes.h.
 
 namespace ambient {
 namespace {

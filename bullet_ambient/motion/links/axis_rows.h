@@ -1,5 +1,7 @@
 #pragma once
 
+#include "bullet_ambient/motion/links/link_state.h"
+
 #if defined(__FAST_MATH__)
 #error "-ffast-math reorders operations; results must have the same bits everywhere"
 #endif
@@ -11,6 +13,7 @@
 // instruction sets give the same bits. A Row holds three components; its fourth lane is 0.
 
 namespace ambient {
+
 namespace {
 
 #if defined(__AVX2__)
@@ -154,5 +157,120 @@ inline Spatial times(const Inertia& K, const Matrix& coupling_transposed, const 
           coupling_transposed * x.angular + K.translation * x.linear};
 }
 
+/// Returns K x.
+inline Spatial times(const LinkState& link, const Spatial& x) {
+  return times(load(link.inertia), load(link.coupling_transposed), x);
+}
+
+// Brings a twist from the frame of a link's parent to the link's frame, X x of docs/theory.md eq.
+// (76); and a wrench back, X^T f.
+inline Spatial toLink(const LinkState& link, const Spatial& x) {
+  const Matrix to_link = load(link.offset_transposed);
+  return {to_link * x.angular, to_link * (x.linear + cross(x.angular, load(link.translation)))};
+}
+inline Spatial toParent(const LinkState& link, const Spatial& f) {
+  const Matrix to_parent = load(link.offset);
+  const Row force = to_parent * f.linear;
+  return {to_parent * f.angular + cross(load(link.translation), force), force};
+}
+
+// Rotates the first six coordinates into the base's frame; and back into W.
+inline Spatial ofBase(const LinkState& base, const double* u) {
+  const Matrix to_base = load(base.rotation_W_transposed);
+  return {to_base * rowOf(u), to_base * rowOf(u + 3)};
+}
+inline void putInWorld(const LinkState& base, const Spatial& a, double* u) {
+  const Matrix to_world = load(base.rotation_W);
+  AxisPair a_W;
+  store(a_W, {to_world * a.angular, to_world * a.linear});
+  for (int i = 0; i < 3; ++i) {
+    u[i] = a_W.angular.at[i];
+    u[3 + i] = a_W.linear.at[i];
+  }
+}
+
+// Returns S q' of the link's joint.
+inline Spatial alongAxes(const LinkState& link, const double* velocity) {
+  Spatial x{zeroRow(), zeroRow()};
+  for (int i = 0; i < link.axis_count; ++i) x = x + velocity[i] * load(link.axis[i]);
+  return x;
+}
+
+// Brings an inertia from a link's frame to its parent's, docs/theory.md eq. (4) and (5).
+inline Inertia toParent(const LinkState& link, const Inertia& I) {
+  const Matrix R = load(link.offset), R_transposed = load(link.offset_transposed);
+  const Row t = load(link.translation);
+  const Matrix M = R * I.translation * R_transposed;
+  const Matrix C = R * I.coupling * R_transposed;
+  const Matrix C_parent = C + crossColumns(t, M);
+  // A - C [t] + [t] C_parent^T
+  const Matrix A = R * I.rotation * R_transposed + transposed(crossColumns(t, transposed(C))) +
+                   crossColumns(t, transposed(C_parent));
+  return {A, C_parent, M};
+}
+
+// Inverts a symmetric matrix of `n` rows. Returns false if it is not positive definite.
+inline bool invert(const double (&D)[3][3], int n, double (&inverse)[3][3]) {
+  double lower[3][3] = {}, per_pivot[3] = {};
+  bool is_positive = true;
+  for (int i = 0; i < n; ++i) {
+    double scaled[3] = {}, pivot = D[i][i];
+    for (int j = 0; j < i; ++j) {
+      scaled[j] = D[i][j];
+      for (int k = 0; k < j; ++k) scaled[j] -= scaled[k] * lower[j][k];
+      lower[i][j] = scaled[j] * per_pivot[j];
+      pivot -= scaled[j] * lower[i][j];
+    }
+    per_pivot[i] = 1 / pivot;
+    is_positive = is_positive && pivot > 0 && per_pivot[i] <= __DBL_MAX__;
+  }
+  for (int j = 0; j < n; ++j) {
+    double x[3] = {0, 0, 0};
+    x[j] = 1;
+    for (int i = j + 1; i < n; ++i)
+      for (int k = j; k < i; ++k) x[i] -= lower[i][k] * x[k];
+    for (int i = n - 1; i >= 0; --i) {
+      x[i] *= per_pivot[i];
+      for (int k = i + 1; k < n; ++k) x[i] -= lower[k][i] * x[k];
+      inverse[i][j] = x[i];
+    }
+  }
+  return is_positive;
+}
+
+// Factors a 6x6 inertia.
+inline void factorBase(const InertiaBlocks& I, BaseFactor& factor) {
+  double K[6][6];  // its lower half
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      K[i][j] = I.rotation.column[j].at[i];
+      K[3 + i][j] = I.coupling.column[i].at[j];
+      K[3 + i][3 + j] = I.translation.column[j].at[i];
+    }
+  factor.is_positive = true;
+  for (int i = 0; i < 6; ++i) {
+    double scaled[6], pivot = K[i][i];
+    for (int j = 0; j < i; ++j) {
+      scaled[j] = K[i][j];
+      for (int k = 0; k < j; ++k) scaled[j] -= scaled[k] * factor.lower[j][k];
+      factor.lower[i][j] = scaled[j] * factor.per_pivot[j];
+      pivot -= scaled[j] * factor.lower[i][j];
+    }
+    factor.is_positive = factor.is_positive && pivot > 0;
+    factor.per_pivot[i] = 1 / pivot;
+  }
+}
+
+// Replaces b by the solution x of L D L^T x = b.
+inline void answer(const BaseFactor& factor, double* b) noexcept {
+  for (int i = 1; i < 6; ++i)
+    for (int j = 0; j < i; ++j) b[i] -= factor.lower[i][j] * b[j];
+  for (int i = 5; i >= 0; --i) {
+    b[i] *= factor.per_pivot[i];
+    for (int j = i + 1; j < 6; ++j) b[i] -= factor.lower[j][i] * b[j];
+  }
+}
+
 }  // namespace
+
 }  // namespace ambient

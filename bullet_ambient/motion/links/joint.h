@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "bullet_ambient/spatial/frame_offset.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
+#include "bullet_ambient/spatial/vector_types.h"
 
 namespace ambient {
 

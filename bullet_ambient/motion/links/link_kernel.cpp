@@ -1,7 +1,6 @@
 #include "bullet_ambient/motion/links/link_kernel.h"
 
-#include "bullet_ambient/motion/links/link_factors.h"
-#include "bullet_ambient/motion/links/link_frames.h"
+#include "bullet_ambient/motion/links/axis_rows.h"
 
 namespace ambient {
 namespace {

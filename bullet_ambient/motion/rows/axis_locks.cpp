@@ -6,7 +6,7 @@
 #include "bullet_ambient/motion/body/kirchhoff.h"
 #include "bullet_ambient/motion/body/passive_kick.h"
 #include "bullet_ambient/spatial/cholesky.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 namespace {

@@ -3,7 +3,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/one_body.h"
 #include "bullet_ambient/motion/lanes/passage_kernel.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 

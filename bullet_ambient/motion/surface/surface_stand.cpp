@@ -6,7 +6,7 @@
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/motion/body/passive_kick.h"
 #include "bullet_ambient/motion/surface/surface_passage.h"
-#include "bullet_ambient/spatial/invariants.h"
+#include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bullet_ambient/fluid_body/file/load_fluid_body.h"
+#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/simulation/robots/scene_robot.h"
 #include "preprocess/robot/link_shape.h"
 

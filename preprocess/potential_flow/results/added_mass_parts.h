@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bullet_ambient/fluid_body/added_mass_part.h"
+#include "bullet_ambient/fluid_body/fluid_body.h"
 
 namespace ambient {
 

@@ -11,7 +11,6 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/parallel_for.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/invariants.h"
 #include "bullet_ambient/spatial/positive_part.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/mesh/check/mesh_checks.h"

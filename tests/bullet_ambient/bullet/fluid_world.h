@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/world.h"

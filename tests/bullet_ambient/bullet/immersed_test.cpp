@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/part_bodies.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_ambient/bullet/world/bullet_task_runner.h"
+#include "bullet_ambient/threads.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/thread_pool.h"
 

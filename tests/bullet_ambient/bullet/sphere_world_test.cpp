@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/sphere_fall.h"
 #include "tests/support/bodies/part_bodies.h"

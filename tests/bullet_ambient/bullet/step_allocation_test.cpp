@@ -2,7 +2,7 @@
 #include <malloc.h>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/part_bodies.h"

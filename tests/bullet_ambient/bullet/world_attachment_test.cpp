@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/world/world_attachment.h"
-
 #include <gtest/gtest.h>
 
 #include <map>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
+#include "bullet_ambient/attach_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/world.h"

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/fluid_body/content_hash.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "bullet_ambient/force/loads/sphere_table.h"
+#include "bullet_ambient/force/loads/sphere_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "tests/support/allocation_counter.h"

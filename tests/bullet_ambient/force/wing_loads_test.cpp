@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
-#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "tests/support/bodies/random_bodies.h"

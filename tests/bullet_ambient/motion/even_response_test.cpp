@@ -1,7 +1,6 @@
-#include "bullet_ambient/motion/body/even_response.h"
-
 #include <gtest/gtest.h>
 
+#include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "tests/support/bodies/ellipsoid_body.h"

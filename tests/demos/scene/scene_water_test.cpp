@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "bullet_ambient/force/medium/wave_spectrum.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "tests/demos/scene/scene_text.h"
 
 namespace ambient {

@@ -1,6 +1,5 @@
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file_header.h"
 #include "tests/fuzz/targets/fuzz_file.h"
 
 namespace ambient::test {

@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/fuzz/targets/fuzz_file.h"
 #include "tests/fuzz/targets/seed_bodies.h"
 

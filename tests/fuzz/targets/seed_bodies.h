@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/saved_state.h"
 
 namespace ambient::test {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 

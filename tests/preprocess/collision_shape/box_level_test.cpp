@@ -6,7 +6,7 @@
 
 #include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "preprocess/reduced_loads/form_levels.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "bullet_ambient/spatial/frame_offset.h"
+#include "bullet_ambient/spatial/vector_types.h"
 #include "preprocess/hand_over/export_fluid_body.h"
 #include "tests/reference/ellipsoid_added_mass.h"
 #include "tests/support/bodies/ellipsoid_body.h"

@@ -11,7 +11,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/random_bodies.h"

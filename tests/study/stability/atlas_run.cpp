@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/principal_frame.h"

@@ -85,8 +85,8 @@ void expectSame(btSingleConstraintRowSolver quick, btSingleConstraintRowSolver s
 
 TEST(QuickRows, HaveTheBitsOfBullets) {
   btSequentialImpulseConstraintSolver solver;
-  expectSame(quickRows().generic, solver.getScalarConstraintRowSolverGeneric());
-  expectSame(quickRows().lower_limit, solver.getScalarConstraintRowSolverLowerLimit());
+  expectSame(solveQuickRow, solver.getScalarConstraintRowSolverGeneric());
+  expectSame(solveQuickContact, solver.getScalarConstraintRowSolverLowerLimit());
 }
 
 }  // namespace

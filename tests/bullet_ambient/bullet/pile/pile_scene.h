@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 #include "tests/support/world.h"
 
 namespace ambient::test {

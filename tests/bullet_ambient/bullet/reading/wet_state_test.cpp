@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/support/bodies/part_bodies.h"

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/reading.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bits_of.h"
 #include "tests/support/bodies/part_bodies.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/regions/long_scene.h"
 
 // Bodies that are not small against what moves around them, docs/theory.md section 16.

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/support/bodies/part_bodies.h"
 

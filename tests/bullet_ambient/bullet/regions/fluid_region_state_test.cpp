@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/support/thread_pool.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 
 // Regions of fluid, and the search for a body's region.

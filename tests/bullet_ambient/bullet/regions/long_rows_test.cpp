@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_ambient/bullet/reading/fluid_wrench.h"
+#include "bullet_ambient/reading.h"
 #include "tests/bullet_ambient/bullet/regions/long_scene.h"
 
 // Long bodies with joints and contacts, and what is read of them; docs/theory.md section 16.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/bullet/reading/fluid_wrench.h"
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/reading.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/long_scene.h"
 #include "tests/support/runs.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/force/medium/water_surface.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
 #include "tests/support/bodies/part_bodies.h"
 

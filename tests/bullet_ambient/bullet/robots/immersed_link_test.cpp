@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "bullet_ambient/bullet/state/world_state.h"
-#include "bullet_ambient/bullet/world/multibody_dynamics.h"
+#include "bullet_ambient/robot_dynamics.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/matrices.h"
 

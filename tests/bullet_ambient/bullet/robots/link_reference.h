@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/dense_rows.h"
 

@@ -1,4 +1,4 @@
-#include "bullet_ambient/bullet/world/multibody_dynamics.h"
+#include "bullet_ambient/robot_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/support/bodies/part_bodies.h"
 

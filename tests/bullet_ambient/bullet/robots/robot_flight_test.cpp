@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/members/tree_state.h"
-#include "bullet_ambient/bullet/world/multibody_dynamics.h"
+#include "bullet_ambient/robot_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"

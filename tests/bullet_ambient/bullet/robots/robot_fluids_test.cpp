@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/bullet/world/multibody_dynamics.h"
+#include "bullet_ambient/robot_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/part_bodies.h"

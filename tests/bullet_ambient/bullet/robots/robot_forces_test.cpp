@@ -1,7 +1,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
-#include "bullet_ambient/bullet/world/multibody_dynamics.h"
+#include "bullet_ambient/robot_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/matrices.h"

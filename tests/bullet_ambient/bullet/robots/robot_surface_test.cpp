@@ -1,6 +1,6 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/support/bodies/part_bodies.h"
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/random_bodies.h"
 

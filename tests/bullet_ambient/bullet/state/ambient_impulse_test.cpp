@@ -1,9 +1,8 @@
-#include "bullet_ambient/bullet/world/ambient_impulse.h"
-
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/bullet/members/attach_body.h"
+#include "bullet_ambient/impulse.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"

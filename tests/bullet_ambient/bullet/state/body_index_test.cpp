@@ -1,5 +1,3 @@
-#include "bullet_ambient/bullet/members/body_index.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -7,6 +5,7 @@
 #include <list>
 #include <map>
 
+#include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/immersed/ambient_body.h"
 #include "tests/support/bodies/random_bodies.h"
 

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {

@@ -1,10 +1,9 @@
-#include "bullet_ambient/bullet/members/departures.h"
-
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
 #include <deque>
 
+#include "bullet_ambient/bullet/members/flight_coupling.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/random_bodies.h"
 

@@ -1,15 +1,14 @@
-#include "bullet_ambient/bullet/world/fluid_drawing.h"
-
 #include <LinearMath/btIDebugDraw.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
-#include "bullet_ambient/bullet/reading/fluid_wrench.h"
+#include "bullet_ambient/drawing.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/medium/water_surface.h"
+#include "bullet_ambient/reading.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 

@@ -3,8 +3,8 @@
 #include <initializer_list>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/bullet/state/world_state.h"
 #include "bullet_ambient/fluid_body/fluid_body.h"
+#include "bullet_ambient/saved_state.h"
 
 namespace ambient::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {

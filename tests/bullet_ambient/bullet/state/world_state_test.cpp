@@ -1,7 +1,6 @@
-#include "bullet_ambient/bullet/state/world_state.h"
-
 #include <gtest/gtest.h>
 
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/state/state_scene.h"
 
 namespace ambient::test {

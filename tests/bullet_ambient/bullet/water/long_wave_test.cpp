@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/matrices.h"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::test {

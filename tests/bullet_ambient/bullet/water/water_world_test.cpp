@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/state/world_state.h"
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/floating_runs.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 #include "tests/support/world.h"
 
 namespace ambient::test {

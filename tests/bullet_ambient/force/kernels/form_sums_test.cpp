@@ -7,7 +7,7 @@
 
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
-#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
 #include "tests/support/bits_of.h"
 #include "tests/support/bodies/random_bodies.h"

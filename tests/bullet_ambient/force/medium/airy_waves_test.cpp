@@ -1,11 +1,10 @@
-#include "bullet_ambient/force/medium/airy_waves.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/waves.h"
 
 // Laws of waves on deep water, checked by differences between samples.
 namespace ambient::test {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
 
 namespace ambient::test {
 namespace {

@@ -1,5 +1,3 @@
-#include "bullet_ambient/force/medium/wave_spectrum.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/force/medium/waves.h"
 
 namespace ambient::test {
 namespace {

@@ -1,5 +1,3 @@
-#include "bullet_ambient/force/surface/wetted_table.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
+#include "bullet_ambient/force/surface/wetted_parts.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "bullet_ambient/bullet/solver/fluid_solver.h"
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
 
 // Pendulums with coupled K in a stock world. The joint allows one twist s = (z, z x r), constant in
 // body axes. So the body is a plane pendulum of inertia s.K s for every K.

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <memory>
 
-#include "bullet_ambient/bullet/world/multibody_dynamics.h"
 #include "bullet_ambient/force/medium/water_surface.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
+#include "bullet_ambient/robot_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/part_bodies.h"

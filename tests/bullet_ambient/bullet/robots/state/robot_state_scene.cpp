@@ -5,7 +5,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/part_bodies.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 
 namespace ambient::test {

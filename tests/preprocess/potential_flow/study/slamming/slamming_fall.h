@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/motion/body/rigid_state.h"
+#include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
 
 namespace ambient::study {

@@ -1,7 +1,10 @@
-#include "bullet_ambient/force/medium/airy_waves.h"
+#include "bullet_ambient/force/medium/waves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -10,6 +13,7 @@
 #include "bullet_ambient/base/pi.h"
 
 namespace ambient {
+
 namespace {
 
 [[noreturn]] void rejectSea(const std::string& what, double value, const char* limit) {
@@ -76,6 +80,84 @@ WaterSample AiryWaves::sample(const Vector3& point_W, double time) const noexcep
     water.acceleration += wave.frequency * rate * (a_sin * wave.direction - a_cos * up);
   }
   return water;
+}
+
+namespace {
+
+constexpr int kMostComponents = 100000;
+
+[[noreturn]] void rejectSpectrum(const char* what, double value, const char* limit) {
+  std::ostringstream sentence;
+  sentence << "spectrum of waves: " << what << " is " << value << "; must be " << limit;
+  throw std::invalid_argument(sentence.str());
+}
+
+void checkSpectrum(const WaveSpectrum& s) {
+  if (!(s.significant_height >= 0) || !std::isfinite(s.significant_height))
+    rejectSpectrum("significant height [m]", s.significant_height, "zero or positive and finite");
+  if (!(s.peak_period > 0) || !std::isfinite(s.peak_period))
+    rejectSpectrum("peak period [s]", s.peak_period, "positive and finite");
+  if (!(s.peak_enhancement >= 1) || !std::isfinite(s.peak_enhancement))
+    rejectSpectrum("peak enhancement", s.peak_enhancement, "at least 1 and finite");
+  if (s.components < 1 || s.components > kMostComponents)
+    rejectSpectrum("number of components", s.components, "between 1 and 100000");
+}
+
+/// omega / omega_p below which a fully developed sea has the share u of its energy; eq. (82).
+double frequencyRatio(double u) { return portable::pow(-0.8 * portable::log(u), -0.25); }
+
+/// Ratio of the JONSWAP energy density to that of a fully developed sea.
+double enhancement(double gamma, double frequency_ratio) {
+  const double x = frequency_ratio - 1, width = x > 0 ? 0.09 : 0.07;
+  return portable::pow(gamma, portable::exp(-x * x / (2 * width * width)));
+}
+
+/// Energy of the spectrum in equal cells of u, on which it is smooth and bounded.
+class EnergyCells {
+ public:
+  explicit EnergyCells(double gamma) {
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const double middle = (static_cast<double>(i) + 0.5) / kCount;
+      total_ += cells_[i] = enhancement(gamma, frequencyRatio(middle));
+    }
+  }
+
+  /// Returns u below which the given share of the energy lies. @pre share >= that of the last call
+  double at(double share) {
+    const double energy = share * total_;
+    while (cell_ + 1 < kCount && below_ + cells_[cell_] < energy) below_ += cells_[cell_++];
+    return (static_cast<double>(cell_) + (energy - below_) / cells_[cell_]) / kCount;
+  }
+
+ private:
+  static constexpr std::size_t kCount = 4096;
+  std::array<double, kCount> cells_{};
+  double total_ = 0;
+  double below_ = 0;  // energy of the cells before cell_
+  std::size_t cell_ = 0;
+};
+
+/// Phase in [0, 2 pi). Not by std::uniform_real_distribution, which differs between libraries.
+double randomPhase(std::mt19937_64& bits) {
+  return 2 * kPi * std::ldexp(static_cast<double>(bits() >> 11), -53);
+}
+
+}  // namespace
+
+std::vector<WaveComponent> wavesOf(const WaveSpectrum& spectrum) {
+  checkSpectrum(spectrum);
+  const double count = spectrum.components;
+  // sum of a^2 / 2 = H_s^2 / 16
+  const double amplitude = spectrum.significant_height / 4 * std::sqrt(2 / count);
+  EnergyCells energy(spectrum.peak_enhancement);
+  std::mt19937_64 bits(spectrum.seed);
+  std::vector<WaveComponent> waves;
+  for (int i = 0; i < spectrum.components; ++i) {
+    const double ratio = frequencyRatio(energy.at((i + 0.5) / count));
+    waves.push_back(
+        {amplitude, spectrum.peak_period / ratio, spectrum.direction, randomPhase(bits)});
+  }
+  return waves;
 }
 
 }  // namespace ambient

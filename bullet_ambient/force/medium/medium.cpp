@@ -1,4 +1,4 @@
-#include "bullet_ambient/force/medium/medium_check.h"
+#include "bullet_ambient/force/medium/medium.h"
 
 #include <cmath>
 
