@@ -7,7 +7,7 @@
 #include "bullet_ambient/bullet/core/velocity_basis.h"
 #include "bullet_ambient/force/loads/shared_tables.h"
 #include "bullet_ambient/immersed/attach_def.h"
-#include "bullet_ambient/immersed/region_fluids.h"
+#include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
 
 class btRigidBody;

@@ -6,6 +6,7 @@
 #include <utility>
 
 AMBIENT_BEGIN
+
 namespace {
 
 // An unset fluid above is the own medium of a body, which the body knows, or air.
@@ -119,6 +120,25 @@ void FluidRegions::withdraw(const Entry& entry) {
   for (const FluidKind& kind : mediaOf(entry.region)) discount(media_, kind);
   for (const SurfaceKind& kind : surfacesOf(entry.region)) discount(surfaces_, kind);
   has_changed = true;
+}
+
+namespace {
+
+thread_local RegionCall* innermost_call = nullptr;
+
+}  // namespace
+
+RegionCall::RegionCall(const FluidRegions& regions) noexcept
+    : regions_(regions), outer_(innermost_call) {
+  innermost_call = this;
+}
+
+RegionCall::~RegionCall() { innermost_call = outer_; }
+
+RegionCall* RegionCall::current(const FluidRegions& regions) noexcept {
+  RegionCall* call = innermost_call;
+  while (call && &call->regions_ != &regions) call = call->outer_;
+  return call;
 }
 
 AMBIENT_END

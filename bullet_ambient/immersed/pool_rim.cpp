@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bullet_ambient/immersed/region_call.h"
+#include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN

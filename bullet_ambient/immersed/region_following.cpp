@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/pool_rim.h"
-#include "bullet_ambient/immersed/region_call.h"
 #include "bullet_ambient/immersed/station_samples.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 

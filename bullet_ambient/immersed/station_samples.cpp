@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/immersed/fluid_regions.h"
 #include "bullet_ambient/immersed/pool_rim.h"
-#include "bullet_ambient/immersed/region_call.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
 AMBIENT_BEGIN

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
 
@@ -46,25 +45,6 @@ Vector3 rotationVector(const Quaternion& q) {
   const double sine = q.vec().norm();
   const double ratio = sine > kTiny ? portable::atan2(sine, std::abs(q.w())) / sine : 1;
   return (q.w() < 0 ? -2 * ratio : 2 * ratio) * q.vec();
-}
-
-Quaternion rotationBetween(const Vector3& from, const Vector3& to) {
-  AMBIENT_ASSERT(!from.isZero(0) && !to.isZero(0));
-  const Vector3 a = from.stableNormalized(), b = to.stableNormalized();
-  const Vector3 between = a + b;  // length: 2 cos(half the angle)
-  if (between.norm() > 1e-7) {
-    const Vector3 half = between.normalized();
-    const Vector3 axis = a.cross(half);
-    return Quaternion(a.dot(half), axis.x(), axis.y(), axis.z()).normalized();
-  }
-  int least = 0;
-  a.cwiseAbs().minCoeff(&least);
-  const Vector3 axis = a.cross(Vector3(Vector3::Unit(least))).normalized();
-  return Quaternion(0, axis.x(), axis.y(), axis.z());
-}
-
-double angleBetween(const Quaternion& a, const Quaternion& b) {
-  return rotationVector(a.conjugate() * b).norm();
 }
 
 bool isTurnedFurther(const Quaternion& a, const Quaternion& b, double limit) {

@@ -16,16 +16,8 @@ Twist turned(const Quaternion& q, const Twist& x);
 /// Rotation vector of a unit quaternion [rad], length <= pi; accurate for tiny rotations, too.
 Vector3 rotationVector(const Quaternion& q);
 
-/// Unit quaternion of the smallest rotation from the direction of `from` to that of `to`. Opposite
-/// directions give half a turn about an axis perpendicular to `from`. Lengths do not matter.
-/// @pre neither is zero
-Quaternion rotationBetween(const Vector3& from, const Vector3& to);
-
-/// Angle of the rotation from attitude a to attitude b [rad], in [0, pi].
-double angleBetween(const Quaternion& a, const Quaternion& b);
-
-/// True if angleBetween() exceeds a limit [rad]. Computes the angle only where a bound by the sine
-/// of its half does not decide.
+/// True if the angle of the rotation from attitude a to attitude b exceeds a limit [rad]. Computes
+/// the angle only where a bound by the sine of its half does not decide.
 bool isTurnedFurther(const Quaternion& a, const Quaternion& b, double limit);
 
 }  // namespace ambient

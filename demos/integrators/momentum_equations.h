@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/motion/body/kirchhoff.h"
+#include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/flight/flight_task.h"
 
 namespace ambient {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "bullet_ambient/motion/body/kirchhoff.h"
+#include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "demos/integrators/integrators.h"
 

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <thread>
 
-#include "bullet_ambient/base/parallel_for.h"
+#include "preprocess/base/parallel_for.h"
 
 namespace ambient {
 namespace {

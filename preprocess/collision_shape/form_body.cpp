@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bullet_ambient/base/fnv1a.h"
-#include "bullet_ambient/spatial/positive_part.h"
 #include "preprocess/added_mass_tables/known_added_mass.h"
+#include "preprocess/base/positive_part.h"
 #include "preprocess/collision_shape/solids/collision_solids.h"
 #include "preprocess/collision_shape/solids/solid_union.h"
 #include "preprocess/mesh/input_error.h"

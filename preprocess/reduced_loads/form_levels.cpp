@@ -11,7 +11,7 @@
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "bullet_ambient/spatial/large_products.h"
+#include "preprocess/base/large_products.h"
 #include "preprocess/reduced_loads/centred_faces.h"
 #include "preprocess/reduced_loads/face_clusters.h"
 #include "preprocess/reduced_loads/face_mirrors.h"

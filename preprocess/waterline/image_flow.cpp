@@ -5,7 +5,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/large_products.h"
+#include "preprocess/base/large_products.h"
 #include "preprocess/potential_flow/operators/double_layer.h"
 #include "preprocess/potential_flow/operators/hypersingular.h"
 #include "preprocess/potential_flow/operators/near_panels.h"

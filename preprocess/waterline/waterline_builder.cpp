@@ -10,12 +10,12 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/base/parallel_for.h"
 #include "bullet_ambient/fluid_body/octahedral_lattice.h"
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
 #include "bullet_ambient/fluid_body/packed/packed_parts.h"
 #include "bullet_ambient/force/surface/wetted_parts.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/base/parallel_for.h"
 #include "preprocess/mesh/wrap/mesh_coarsening.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"

@@ -12,6 +12,7 @@ class btMultiBodyDynamicsWorld;
 AMBIENT_BEGIN
 
 class AmbientBodies;
+
 class FittedSolvers;
 enum class SolverOwner;
 struct WorldLife;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/immersed/region_call.h"
+#include "bullet_ambient/immersed/fluid_regions.h"
 
 AMBIENT_BEGIN
 

@@ -16,7 +16,7 @@
 #include "bullet_ambient/bullet/reading/fluid_reading.h"
 #include "bullet_ambient/bullet/rows/row_motion.h"
 #include "bullet_ambient/drawing.h"
-#include "bullet_ambient/immersed/region_call.h"
+#include "bullet_ambient/immersed/fluid_regions.h"
 
 AMBIENT_BEGIN
 

@@ -2,7 +2,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/one_body.h"
-#include "bullet_ambient/motion/lanes/passive_kick_kernel.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
 
 namespace ambient {
 

@@ -1,11 +1,10 @@
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/instruction_set.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
 #include "bullet_ambient/motion/lanes/flow_kernel.h"
 #include "bullet_ambient/motion/lanes/motion_lanes.h"
-#include "bullet_ambient/motion/lanes/passive_kick_kernel.h"
-#include "bullet_ambient/motion/lanes/row_lanes.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
-#include "bullet_ambient/motion/lanes/turning_kernel.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel. Each
 // struct is one kernel of FlightKernel; act() computes the lanes from `at` on.

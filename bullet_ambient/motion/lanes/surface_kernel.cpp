@@ -1,7 +1,7 @@
 #include "bullet_ambient/base/instruction_set.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/motion/lanes/motion_lanes.h"
 #include "bullet_ambient/motion/lanes/passage_kernel.h"
-#include "bullet_ambient/motion/lanes/passive_kick_kernel.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"

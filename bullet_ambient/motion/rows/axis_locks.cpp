@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/motion/body/kirchhoff.h"
+#include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/body/passive_kick.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"

@@ -4,8 +4,8 @@
 #include "bullet_ambient/motion/body/one_body.h"
 #include "bullet_ambient/motion/body/passive_kick.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
-#include "bullet_ambient/motion/lanes/row_lanes.h"
-#include "bullet_ambient/motion/lanes/turning_kernel.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
 
 namespace ambient {
 

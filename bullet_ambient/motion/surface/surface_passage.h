@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/force/surface/wetted_inertia.h"
-#include "bullet_ambient/motion/body/bounded_twist.h"
+#include "bullet_ambient/motion/body/dual_pair.h"
 
 namespace ambient {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_ambient/motion/body/bounded_twist.h"
+#include "bullet_ambient/motion/body/dual_pair.h"
 #include "bullet_ambient/motion/surface/body_waves.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
 #include "bullet_ambient/motion/surface/symmetric_matrix.h"

@@ -1,6 +1,6 @@
 #include "preprocess/potential_flow/operators/cluster_expansions.h"
 
-#include "bullet_ambient/base/parallel_for.h"
+#include "preprocess/base/parallel_for.h"
 
 namespace ambient {
 

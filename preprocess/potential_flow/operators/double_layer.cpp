@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/parallel_for.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/base/parallel_for.h"
 #include "preprocess/potential_flow/operators/far_moments.h"
 
 namespace ambient {

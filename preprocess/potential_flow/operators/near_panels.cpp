@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bullet_ambient/base/parallel_for.h"
+#include "preprocess/base/parallel_for.h"
 
 namespace ambient {
 

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/parallel_for.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "bullet_ambient/spatial/positive_part.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/base/parallel_for.h"
+#include "preprocess/base/positive_part.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/potential_flow/results/added_mass_parts.h"
 #include "preprocess/potential_flow/results/vertex_projection.h"

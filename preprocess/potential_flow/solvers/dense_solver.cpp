@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "bullet_ambient/spatial/large_products.h"
+#include "preprocess/base/large_products.h"
 #include "preprocess/potential_flow/solvers/memory_limit.h"
 
 namespace ambient {

@@ -1,6 +1,6 @@
 #include "preprocess/potential_flow/solvers/hierarchical_solver.h"
 
-#include "bullet_ambient/spatial/large_products.h"
+#include "preprocess/base/large_products.h"
 #include "preprocess/potential_flow/operators/tree_double_layer.h"
 #include "preprocess/potential_flow/solvers/iterative_jump.h"
 #include "preprocess/potential_flow/solvers/memory_limit.h"

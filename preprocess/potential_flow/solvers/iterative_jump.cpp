@@ -6,8 +6,8 @@
 #include <string>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/parallel_for.h"
 #include "bullet_ambient/base/pi.h"
+#include "preprocess/base/parallel_for.h"
 
 namespace ambient {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/parallel_for.h"
+#include "preprocess/base/parallel_for.h"
 #include "preprocess/potential_flow/solvers/block_product.h"
 #include "preprocess/potential_flow/surface/panel_pair.h"
 #include "preprocess/potential_flow/surface/quadrature_rules.h"

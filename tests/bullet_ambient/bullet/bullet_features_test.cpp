@@ -4,6 +4,7 @@
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/support/bodies/free_body.h"
+#include "tests/support/rotations.h"
 
 // Bullet's features for rigid bodies, used on ambient bodies.
 namespace ambient::test {

@@ -10,6 +10,7 @@
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/matrices.h"
+#include "tests/support/rotations.h"
 
 // Exact solutions without loads by stepSimulation(): accurate at any step and any spin.
 namespace ambient::test {

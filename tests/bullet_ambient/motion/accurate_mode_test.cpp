@@ -3,6 +3,7 @@
 #include "demos/integrators/integrators.h"
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/rotations.h"
 
 namespace ambient {
 namespace {

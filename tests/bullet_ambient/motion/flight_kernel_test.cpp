@@ -10,6 +10,7 @@
 #include "tests/bullet_ambient/motion/loaded_bodies.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/rotations.h"
 
 namespace ambient {
 namespace {

@@ -7,6 +7,7 @@
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/matrices.h"
+#include "tests/support/rotations.h"
 
 namespace ambient {
 namespace {

@@ -5,6 +5,7 @@
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/rotations.h"
 
 namespace ambient {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/motion/flight/flight_group.h"
-#include "bullet_ambient/motion/lanes/row_lanes.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
 #include "bullet_ambient/motion/rows/row_velocity.h"
 #include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/motion/loaded_bodies.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/bodies/random_bodies.h"
+#include "tests/support/rotations.h"
 
 namespace ambient {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/spatial/rotation.h"
+#include "tests/support/rotations.h"
 
 namespace ambient {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/base/parallel_for.h"
+#include "preprocess/base/parallel_for.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/potential_flow/flow_fixtures.h"
 

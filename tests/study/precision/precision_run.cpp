@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/spatial/rotation.h"
+#include "tests/support/rotations.h"
 
 namespace ambient {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/motion/body/kirchhoff.h"
+#include "bullet_ambient/motion/body/body_model.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/spatial/rotation.h"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "bullet_ambient/immersed/ambient_body.h"
-#include "bullet_ambient/spatial/rotation.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/bullet_ambient/bullet/worlds/world_setups.h"
 #include "tests/support/bodies/free_body.h"
+#include "tests/support/rotations.h"
 
 // Ambient bodies in flight, on a tether and on the floor, in every world and with every
 // solver.

@@ -1,4 +1,4 @@
-#include "bullet_ambient/spatial/large_products.h"
+#include "preprocess/base/large_products.h"
 
 #include <Eigen/Core>
 

@@ -1,4 +1,4 @@
-#include "bullet_ambient/spatial/positive_part.h"
+#include "preprocess/base/positive_part.h"
 
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 
