@@ -28,6 +28,18 @@ AMBIENT_BEGIN
 struct AmbientBody;
 class AmbientBodies;
 
+/// Interface for finding the fluid body of a collision shape. FluidBodyCache makes fluid bodies by
+/// the preprocessor, which the runtime does not link; a program may derive from this class and use
+/// its own table.
+class FluidBodySource {
+ public:
+  virtual ~FluidBodySource() = default;
+
+  /// Returns the fluid body of a shape, in the frame of the shape, which is also that of a
+  /// btRigidBody with this shape. @throws std::exception with one line that says why there is none.
+  virtual std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) = 0;
+};
+
 /// Settings of addAll(): how the bodies of a world meet the fluid.
 struct AttachSettings {
   FlowSettings flow = {};
@@ -110,18 +122,6 @@ class WorldAttachment {
   AttachSettings settings_;
   btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  // of attachNew(), while it runs
   std::vector<Met> met_;                                 // in the order of the world
-};
-
-/// Interface for finding the fluid body of a collision shape. FluidBodyCache makes fluid bodies by
-/// the preprocessor, which the runtime does not link; a program may derive from this class and use
-/// its own table.
-class FluidBodySource {
- public:
-  virtual ~FluidBodySource() = default;
-
-  /// Returns the fluid body of a shape, in the frame of the shape, which is also that of a
-  /// btRigidBody with this shape. @throws std::exception with one line that says why there is none.
-  virtual std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) = 0;
 };
 
 AMBIENT_END
