@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/base/output_file.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "demos/cases_command.h"
 #include "demos/scene/scene_lookup.h"
@@ -21,6 +20,7 @@
 #include "demos/simulation/run_signals.h"
 #include "demos/simulation/scene_run.h"
 #include "demos/simulation/summary.h"
+#include "preprocess/base/output_file.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/parse_exit.h"

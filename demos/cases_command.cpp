@@ -3,11 +3,11 @@
 #include <chrono>
 #include <cstdio>
 
-#include "bullet_ambient/base/output_file.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "demos/simulation/run_signals.h"
 #include "demos/sweep/case_runs.h"
 #include "demos/sweep/case_table.h"
+#include "preprocess/base/output_file.h"
 #include "preprocess/builder/elapsed_display.h"
 
 namespace ambient {

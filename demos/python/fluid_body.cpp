@@ -9,6 +9,7 @@
 #include "demos/python/arrays.h"
 #include "demos/python/bindings.h"
 #include "demos/python/fluid_body_bindings.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/polar/polar.h"
 
 namespace ambient {

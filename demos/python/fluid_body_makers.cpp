@@ -11,6 +11,7 @@
 #include "demos/python/arrays.h"
 #include "demos/python/fluid_body_bindings.h"
 #include "demos/python/fluid_body_sources.h"
+#include "preprocess/base/fluid_body_writer.h"
 
 namespace ambient {
 namespace {

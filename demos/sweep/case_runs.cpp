@@ -6,13 +6,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include "bullet_ambient/base/output_file.h"
 #include "demos/simulation/output/geometry_text.h"
 #include "demos/simulation/output/output_folder.h"
 #include "demos/simulation/output/trajectory_text.h"
 #include "demos/simulation/summary.h"
 #include "demos/sweep/case_file.h"
 #include "demos/sweep/sweep.h"
+#include "preprocess/base/output_file.h"
 #include "preprocess/shape/json_text.h"
 
 namespace ambient {

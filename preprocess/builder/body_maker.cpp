@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "bullet_ambient/base/plain_text.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/reuse.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <system_error>
 
-#include "bullet_ambient/base/output_file.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/output_file.h"
 #include "preprocess/command_line/input_shape.h"
 #include "preprocess/mesh/input_error.h"
 

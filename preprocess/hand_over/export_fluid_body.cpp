@@ -3,8 +3,8 @@
 #include <stdexcept>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/base/output_file.h"
 #include "bullet_ambient/base/plain_text.h"
+#include "preprocess/base/output_file.h"
 #include "preprocess/hand_over/formats.h"
 
 namespace ambient {

@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/reduced_loads/form_levels.h"
 #include "tests/cost/cost_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"

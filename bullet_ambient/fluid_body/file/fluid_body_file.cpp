@@ -6,22 +6,11 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "bullet_ambient/base/output_file.h"
 #include "bullet_ambient/base/plain_text.h"
 
 namespace ambient {
 
 namespace {
-
-// Like PNG: a non-ASCII byte, the name, and line ends that a transfer in text mode damages.
-constexpr std::string_view kMagic(
-    "\x89"
-    "AMB\r\n\x1a\n",
-    8);
-
-void appendLittleEndian(std::string& bytes, std::uint64_t value, int size) {
-  for (int i = 0; i < size; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xff);
-}
 
 std::uint64_t littleEndian(std::string_view bytes) {
   std::uint64_t value = 0;
@@ -32,21 +21,12 @@ std::uint64_t littleEndian(std::string_view bytes) {
 
 }  // namespace
 
-std::string encodeFileHeader(const FileHeader& header) {
-  std::string bytes(kMagic);
-  appendLittleEndian(bytes, header.version, 4);
-  appendLittleEndian(bytes, 0, 4);
-  appendLittleEndian(bytes, header.payload_size, 8);
-  appendLittleEndian(bytes, header.payload_checksum, 8);
-  return bytes;
-}
-
 FileHeader decodeFileHeader(std::string_view bytes, const std::string& source) {
   const auto fail = [&](const std::string& what) {
     throw std::runtime_error(source + ": " + what);
   };
   if (bytes.empty()) fail("the file is empty");
-  if (bytes.substr(0, kMagic.size()) != kMagic.substr(0, bytes.size()))
+  if (bytes.substr(0, kFileMagic.size()) != kFileMagic.substr(0, bytes.size()))
     fail("not a .ambient file: it does not begin with the mark of one");
   if (bytes.size() < kFileHeaderSize)
     fail("truncated: " + std::to_string(bytes.size()) + " bytes, but the header alone has " +
@@ -124,10 +104,6 @@ FluidBody readFluidBody(const fs::path& file) {
 
 std::shared_ptr<const FluidBody> loadFluidBody(const std::string& file) {
   return std::make_shared<FluidBody>(readFluidBody(file));
-}
-
-void writeFluidBody(const FluidBody& body, const fs::path& file) {
-  writeFile(file, encodeFluidBody(body, file.string()));
 }
 
 }  // namespace ambient

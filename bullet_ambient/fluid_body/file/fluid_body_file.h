@@ -18,6 +18,11 @@ namespace ambient {
 //   16 payload size     uint64 [bytes]
 //   24 payload checksum uint64, FNV-1a
 
+/// Like PNG: a non-ASCII byte, the name, and line ends that a transfer in text mode damages.
+inline constexpr std::string_view kFileMagic(
+    "\x89"
+    "AMB\r\n\x1a\n",
+    8);
 constexpr std::size_t kFileHeaderSize = 32;
 constexpr std::uint32_t kFormatVersion = 3;  ///< newest version that can be read
 /// Largest payload [bytes]: FlatBuffers addresses less than 2 GiB.
@@ -29,8 +34,6 @@ struct FileHeader {
   std::uint64_t payload_checksum = 0;
 };
 
-std::string encodeFileHeader(const FileHeader& header);
-
 /// Decodes the header at the start of `bytes`; `source` names the file in messages.
 /// @throws std::runtime_error if it is empty, foreign, cut short, damaged or of a newer version.
 FileHeader decodeFileHeader(std::string_view bytes, const std::string& source);
@@ -38,7 +41,7 @@ FileHeader decodeFileHeader(std::string_view bytes, const std::string& source);
 /// Throws std::runtime_error if the payload has not the size [bytes] that the header states.
 void checkPayloadSize(const FileHeader& header, std::uint64_t present, const std::string& source);
 
-// Reading and writing of .ambient files, docs/file_format.md: always in double precision, so that
+// Reading of .ambient files, docs/file_format.md: always in double precision, so that
 // one file serves both precisions of Bullet. Contents of files are std::string or string_view.
 
 /// Reads a .ambient file. Checks every array before use: for any bytes, the function returns a
@@ -46,17 +49,8 @@ void checkPayloadSize(const FileHeader& header, std::uint64_t present, const std
 /// @throws std::runtime_error with one sentence that names the file, what is wrong and the limit.
 FluidBody readFluidBody(const std::filesystem::path& file);
 
-/// Writes a .ambient file completely or not at all, see OutputFile: writes a temporary file in the
-/// same folder and renames it. A symbolic link is followed. The same fluid body gives the same
-/// bytes.
-/// @throws std::runtime_error as readFluidBody(), also if `body` fails checkFluidBody().
-void writeFluidBody(const FluidBody& body, const std::filesystem::path& file);
-
 /// Like readFluidBody(), but from memory; messages use `source` in place of the file name.
 FluidBody decodeFluidBody(std::string_view bytes, const std::string& source);
-
-/// Returns the bytes that writeFluidBody() writes; messages use `source` for the file name.
-std::string encodeFluidBody(const FluidBody& body, const std::string& source);
 
 /// Checks a fluid body: all numbers finite; centres and faces at most 1e12 body sizes from the
 /// origin; unit normals; areas and volume >= 0; columns of equal length; added mass symmetric and

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "bullet_ambient/base/plain_text.h"
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/builder/elapsed_display.h"
 #include "preprocess/builder/reuse.h"

@@ -3,8 +3,8 @@
 #include <optional>
 #include <sstream>
 
-#include "bullet_ambient/base/output_file.h"
 #include "bullet_ambient/base/plain_text.h"
+#include "preprocess/base/output_file.h"
 #include "preprocess/builder/blocked_signals.h"
 #include "preprocess/command_line/commands.h"
 #include "preprocess/command_line/input_shape.h"

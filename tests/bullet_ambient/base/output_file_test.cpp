@@ -1,4 +1,4 @@
-#include "bullet_ambient/base/output_file.h"
+#include "preprocess/base/output_file.h"
 
 #include <gtest/gtest.h>
 

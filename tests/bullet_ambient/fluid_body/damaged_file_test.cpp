@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/temporary_folder.h"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "preprocess/base/fluid_body_writer.h"
 #include "tests/bullet_ambient/fluid_body/example_body.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_files.h"

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/shape/shape_reader.h"
 #include "tests/demos/scene/scene_text.h"
 

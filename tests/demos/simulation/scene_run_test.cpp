@@ -5,9 +5,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/simulation/output/trajectory_text.h"
 #include "demos/simulation/summary.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/shape_builder.h"
 #include "tests/demos/scene/scene_text.h"
 #include "tests/demos/simulation/scenes/run_scene.h"

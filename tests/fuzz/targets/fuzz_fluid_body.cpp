@@ -1,5 +1,6 @@
 #include "bullet_ambient/base/fnv1a.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "tests/fuzz/targets/fuzz_file.h"
 
 namespace ambient::test {

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <string>
 
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/saved_state.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "tests/fuzz/targets/seed_bodies.h"
 
 // write_fuzz_seeds DIR: writes the fuzzers' first inputs, a folder DIR/<fuzzer> for each. Texts are

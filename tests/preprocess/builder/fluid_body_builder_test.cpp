@@ -9,6 +9,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"

@@ -12,6 +12,7 @@
 #include "bullet_ambient/fluid_body/form_shape.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/join_meshes.h"
 #include "preprocess/mesh/shapes/primitives.h"

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/shape_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "preprocess/potential_flow/results/solver_revision.h"

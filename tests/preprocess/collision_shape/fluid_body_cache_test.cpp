@@ -10,6 +10,7 @@
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "tests/preprocess/collision_shape/shape_fixtures.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 #include "tests/support/temporary_folder.h"

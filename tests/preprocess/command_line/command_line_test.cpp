@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 

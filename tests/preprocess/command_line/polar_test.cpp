@@ -11,6 +11,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/mesh/shapes/primitives.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/base/output_file.h"
 #include "demos/integrators/integrators.h"
 #include "demos/scene/scene_lookup.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
+#include "preprocess/base/output_file.h"
 #include "tests/study/precision/precision_run.h"
 #include "tests/support/parse_or_exit.h"
 

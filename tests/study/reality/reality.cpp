@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "bullet_ambient/base/output_file.h"
 #include "demos/simulation/output/output_folder.h"
+#include "preprocess/base/output_file.h"
 #include "preprocess/shape/json_text.h"
 #include "tests/study/reality/falling_run.h"
 #include "tests/study/reality/measured_coefficient.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/base/output_file.h"
+#include "preprocess/base/output_file.h"
 #include "tests/study/stability/atlas_rows.h"
 #include "tests/support/parse_or_exit.h"
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/scene/scene_reader.h"
 #include "demos/simulation/body_preparation.h"
 #include "demos/simulation/scene_run.h"
+#include "preprocess/base/fluid_body_writer.h"
 #include "preprocess/builder/shape_builder.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,0 +1,186 @@
+#include "preprocess/base/fluid_body_writer.h"
+
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include "bullet_ambient/base/fnv1a.h"
+#include "fluid_body_generated.h"
+#include "preprocess/base/output_file.h"
+
+namespace ambient {
+namespace {
+
+using flatbuffers::FlatBufferBuilder;
+using flatbuffers::Offset;
+
+template <class Struct, class Matrix>
+Struct packMatrix(const Matrix& matrix) {
+  constexpr int kRows = Matrix::RowsAtCompileTime;
+  constexpr int kCols = Matrix::ColsAtCompileTime;
+  std::array<double, kRows * kCols> rows;
+  for (int row = 0; row < kRows; ++row)
+    for (int col = 0; col < kCols; ++col) rows[row * kCols + col] = matrix(row, col);
+  return Struct(flatbuffers::span<const double, kRows * kCols>(rows));
+}
+
+Offset<file::MassDistribution> pack(FlatBufferBuilder& builder, const MassDistribution& mass) {
+  const auto centre = packMatrix<file::Vector3>(mass.centre);
+  const auto inertia = packMatrix<file::Matrix3>(mass.inertia);
+  return file::CreateMassDistribution(builder, &centre, &inertia);
+}
+
+Offset<file::Provenance> pack(FlatBufferBuilder& builder, const Provenance& provenance) {
+  const auto source = builder.CreateString(provenance.source);
+  const auto settings = builder.CreateString(provenance.settings);
+  const auto generator = builder.CreateString(provenance.generator);
+  return file::CreateProvenance(builder, source, provenance.source_hash, settings, generator);
+}
+
+Offset<file::FaceTable> pack(FlatBufferBuilder& builder, const FaceTable& faces) {
+  std::array<Offset<flatbuffers::Vector<double>>, 7> c;
+  for (std::size_t k = 0; k < c.size(); ++k) c[k] = builder.CreateVector(*faces.columns()[k]);
+  Offset<flatbuffers::Vector<float>> sharpness;
+  if (!faces.sharpness.empty())
+    sharpness = builder.CreateVector<float>(
+        std::vector<float>(faces.sharpness.begin(), faces.sharpness.end()));
+  return file::CreateFaceTable(builder, c[0], c[1], c[2], c[3], c[4], c[5], c[6], sharpness);
+}
+
+Offset<file::Surface> pack(FlatBufferBuilder& builder, const Surface& surface) {
+  const auto vertices = builder.CreateVector(surface.vertices);
+  const auto triangles = builder.CreateVector(surface.triangles);
+  return file::CreateSurface(builder, vertices, triangles);
+}
+
+Offset<flatbuffers::Vector<Offset<file::FormLevel>>> pack(FlatBufferBuilder& builder,
+                                                          const std::vector<FormLevel>& levels) {
+  if (levels.empty()) return 0;
+  std::vector<Offset<file::FormLevel>> packed;
+  for (const FormLevel& level : levels) {
+    const auto faces = pack(builder, level.faces);
+    packed.push_back(file::CreateFormLevel(builder, faces, level.p99_error, level.law_revision));
+  }
+  return builder.CreateVector(packed);
+}
+
+constexpr std::size_t kSymmetricNumbers = 21;
+
+/// Passes the upper triangle to add(), row by row.
+template <typename Add>
+void addSymmetric(const Matrix6& matrix, const Add& add) {
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column) add(matrix(row, column));
+}
+
+Offset<flatbuffers::Vector<float>> pack(FlatBufferBuilder& builder,
+                                        const std::vector<AddedMassPart>& parts) {
+  if (parts.empty()) return 0;
+  std::vector<float> numbers;
+  numbers.reserve(parts.size() * AddedMassPart::kNumbers);
+  const auto add = [&](double value) { numbers.push_back(static_cast<float>(value)); };
+  for (const AddedMassPart& part : parts) {
+    for (const double value : part.centre) add(value);
+    for (const double value : part.spread) add(value);
+    addSymmetric(part.inertia, add);
+  }
+  return builder.CreateVector(numbers);
+}
+
+Offset<file::WaterlineTable> pack(FlatBufferBuilder& builder, const WaterlineTable& table) {
+  if (table.empty()) return 0;
+  std::vector<float> numbers;
+  for (const Matrix6& correction : table.corrections)
+    addSymmetric(correction, [&](double value) { numbers.push_back(static_cast<float>(value)); });
+  const auto immersions = builder.CreateVector(table.immersions);
+  const auto corrections = builder.CreateVector(numbers);
+  return file::CreateWaterlineTable(builder, table.subdivisions, immersions, corrections);
+}
+
+void packInto(FlatBufferBuilder& builder, const FluidBody& body) {
+  builder.ForceDefaults(true);  // else -0.0 would come back as +0.0
+  const auto name = builder.CreateString(body.name);
+  const auto provenance = pack(builder, body.provenance);
+  const auto uniform_mass = pack(builder, body.uniform_mass);
+  const auto surface_mass = pack(builder, body.surface_mass);
+  const auto faces = pack(builder, body.faces);
+  const auto surface = pack(builder, body.surface);
+  const auto form_levels = pack(builder, body.form_levels);
+  const auto parts = pack(builder, body.added_mass_parts);
+  const auto waterline = pack(builder, body.waterline);
+  const auto added_mass = packMatrix<file::Matrix6>(body.added_mass);
+  const auto centre_of_volume = packMatrix<file::Vector3>(body.centre_of_volume);
+  const auto origin = packMatrix<file::Vector3>(body.origin);
+  flatbuffers::Optional<double> sphere_radius = flatbuffers::nullopt;
+  if (body.sphere_radius > 0) sphere_radius = body.sphere_radius;
+  const auto drag = packMatrix<file::Vector3>(body.drag);
+  file::FinishFluidBodyBuffer(
+      builder,
+      file::CreateFluidBody(builder, name, provenance, &added_mass, body.asymmetry, body.volume,
+                            body.area, &centre_of_volume, &origin, uniform_mass, surface_mass,
+                            faces, surface, sphere_radius, form_levels,
+                            body.drag.isZero(0) ? nullptr : &drag, parts, waterline));
+}
+
+std::size_t numbersIn(const FaceTable& faces) {
+  std::size_t numbers = faces.sharpness.size();
+  for (const std::vector<double>* column : faces.columns()) numbers += column->size();
+  return numbers;
+}
+
+/// Upper bound of the payload's size [bytes].
+std::size_t payloadBound(const FluidBody& body) {
+  constexpr std::size_t kFixedPart = 4096;
+  std::size_t doubles = body.surface.vertices.size() + numbersIn(body.faces);
+  std::size_t level_bytes = 0;
+  for (const FormLevel& level : body.form_levels)
+    level_bytes += kFixedPart + numbersIn(level.faces) * sizeof(double);
+  level_bytes += body.added_mass_parts.size() * AddedMassPart::kNumbers * sizeof(float);
+  level_bytes += body.waterline.corrections.size() * kSymmetricNumbers * sizeof(float) +
+                 body.waterline.immersions.size() * sizeof(double);
+  return kFixedPart + level_bytes + sizeof(double) * doubles +
+         sizeof(std::int32_t) * body.surface.triangles.size() + body.name.size() +
+         body.provenance.source.size() + body.provenance.settings.size() +
+         body.provenance.generator.size();
+}
+
+/// Oldest format version that can hold the body: older programs can then read the file.
+std::uint32_t versionFor(const FluidBody& body) {
+  return body.sphere_radius > 0 ? kFormatVersion : 1;
+}
+
+void appendLittleEndian(std::string& bytes, std::uint64_t value, int size) {
+  for (int i = 0; i < size; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xff);
+}
+
+}  // namespace
+
+std::string encodeFileHeader(const FileHeader& header) {
+  std::string bytes(kFileMagic);
+  appendLittleEndian(bytes, header.version, 4);
+  appendLittleEndian(bytes, 0, 4);
+  appendLittleEndian(bytes, header.payload_size, 8);
+  appendLittleEndian(bytes, header.payload_checksum, 8);
+  return bytes;
+}
+
+std::string encodeFluidBody(const FluidBody& body, const std::string& source) {
+  checkFluidBody(body, source);
+  const std::size_t bound = payloadBound(body);
+  if (bound > kPayloadLimit)
+    throw std::runtime_error(source + ": the fluid body needs about " + std::to_string(bound) +
+                             " bytes, limit " + std::to_string(kPayloadLimit));
+  FlatBufferBuilder builder(bound);
+  packInto(builder, body);
+  const std::string_view payload(reinterpret_cast<const char*>(builder.GetBufferPointer()),
+                                 builder.GetSize());
+  std::string bytes = encodeFileHeader({versionFor(body), payload.size(), fnv1a64(payload)});
+  bytes += payload;
+  return bytes;
+}
+
+void writeFluidBody(const FluidBody& body, const std::filesystem::path& file) {
+  writeFile(file, encodeFluidBody(body, file.string()));
+}
+
+}  // namespace ambient
