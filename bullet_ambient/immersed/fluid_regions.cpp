@@ -54,16 +54,6 @@ void checkRegion(RegionId id, const FluidRegion& region) {
   }
 }
 
-const FluidRegions::Entry* FluidRegions::find(const Vector3& point_W,
-                                              long long& asked) const noexcept {
-  return index_.find(point_W, asked);
-}
-
-RegionsAround FluidRegions::findAround(const Vector3& point_W, double reach,
-                                       long long& asked) const noexcept {
-  return index_.findAround(point_W, reach, asked);
-}
-
 const FluidRegion& FluidRegions::require(RegionId id) const {
   const auto found = entries_.find(id);
   if (found == entries_.end())

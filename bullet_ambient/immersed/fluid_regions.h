@@ -70,15 +70,8 @@ class FluidRegions {
   bool empty() const noexcept { return entries_.empty(); }
   const std::map<RegionId, Entry>& all() const noexcept { return entries_; }
   /// Finds the region that holds a point: the one of highest priority, of equal ones the last
-  /// added; null: none. Adds the number of tests to `asked`, see RegionIndex::find().
-  const Entry* find(const Vector3& point_W, long long& asked) const noexcept;
-  /// Finds that region, and whether another one or none may be within `reach` [m] of the point.
-  RegionsAround findAround(const Vector3& point_W, double reach, long long& asked) const noexcept;
-  /// Finds the region with bounds and a surface, of highest rank, that may be within `reach` [m] of
-  /// the point; null: none.
-  const Entry* findPool(const Vector3& point_W, double reach, long long& asked) const noexcept {
-    return index_.findPool(point_W, reach, asked);
-  }
+  /// added.
+  const RegionIndex& index() const noexcept { return index_; }
   /// @throws std::invalid_argument if there is no such region.
   const FluidRegion& require(RegionId id) const;
 

@@ -41,7 +41,7 @@ bool isWaterAt(const Vector3& point_W, const AmbientBody& ambient, const FluidRe
                const FluidRegion& pool) {
   constexpr double kLiquid = 0.5;  // of the density of the pool
   long long asked = 0;
-  const RegionEntry* entry = regions.find(point_W, asked);
+  const RegionEntry* entry = regions.index().find(point_W, asked);
   if (entry && entry->region.surface) return true;
   const double density = entry ? entry->region.below.density : ambient.def->medium.density;
   return density > kLiquid * pool.below.density;
@@ -67,7 +67,7 @@ bool reachesInto(const AmbientBody& ambient, const RegionEntry& pool, const Flui
   if (!model || !reachesOver(ambient, pool.region, *model)) return false;
   const Vector3 point = pointIn(pool.region, centreOf(ambient));
   long long asked = 0;
-  if (regions.find(point, asked) != &pool) return false;
+  if (regions.index().find(point, asked) != &pool) return false;
   if (findSides(ambient, regions, pool, 0).count == 0) return false;
   RegionCall call(regions);
   const RegionSample sample = sampleRegion(pool.region, point, regions.time, ambient.def->medium);
@@ -93,9 +93,9 @@ RegionsAround findRegions(const AmbientBody& ambient, const FluidRegions& region
                           long long& asked) noexcept {
   const Vector3 centre = centreOf(ambient);
   const double reach = ambient.models->reach;
-  RegionsAround around = regions.findAround(centre, reach, asked);
+  RegionsAround around = regions.index().findAround(centre, reach, asked);
   if (around.is_alone || (around.entry && around.entry->region.surface)) return around;
-  const RegionEntry* pool = regions.findPool(centre, reach, asked);
+  const RegionEntry* pool = regions.index().findPool(centre, reach, asked);
   if (pool && reachesInto(ambient, *pool, regions, duration)) around.entry = pool;
   return around;
 }

@@ -115,67 +115,53 @@ void RegionIndex::sortLeaves(std::size_t first, std::size_t count) {
   sortLeaves(first + count / 2, count / 2);
 }
 
-RegionsAround RegionIndex::findAround(const Vector3& point_W, double reach,
-                                      long long& asked) const noexcept {
-  Found found;
+// The box of the higher rank first: what is found there makes most others needless.
+template <class Visit>
+void RegionIndex::forEachNear(const Vector3& point_W, double reach, long long& asked,
+                              const Visit& visit) const noexcept {
+  RegionRank highest = kNoRank;
   for (Tree tree{leaves_.size(), 0}; tree.first > 0;) {
     tree = lastTree(tree.first);
-    search(tree, {point_W, reach}, found, asked);
-  }
-  return found.around;
-}
-
-// The box of the higher rank first: what is found there makes most others needless.
-template <class IsWanted, class Visit>
-void RegionIndex::forEachNear(const Tree& tree, const Cube& cube, long long& asked,
-                              const IsWanted& isWanted, const Visit& visit) const noexcept {
-  constexpr int kDeepest = std::numeric_limits<std::size_t>::digits + 1;
-  std::size_t waiting[kDeepest] = {1};
-  int count = 1;
-  while (count > 0) {
-    const std::size_t i = waiting[--count];
-    const Node& box = node(tree, i);
-    if (!isWanted(box.best)) continue;
-    ++asked;
-    if (!mayMeet(box.box, cube.centre_W, cube.reach)) continue;
-    if (i >= tree.count) {
-      visit(*leaves_[tree.first + i - tree.count], box.best);
-      continue;
+    constexpr int kDeepest = std::numeric_limits<std::size_t>::digits + 1;
+    std::size_t waiting[kDeepest] = {1};
+    int count = 1;
+    while (count > 0) {
+      const std::size_t i = waiting[--count];
+      const Node& box = node(tree, i);
+      if (!(highest < box.best)) continue;
+      ++asked;
+      if (!mayMeet(box.box, point_W, reach)) continue;
+      if (i >= tree.count) {
+        if (visit(*leaves_[tree.first + i - tree.count])) highest = box.best;
+        continue;
+      }
+      const bool is_second_higher = node(tree, 2 * i).best < node(tree, 2 * i + 1).best;
+      waiting[count++] = 2 * i + (is_second_higher ? 0 : 1);
+      waiting[count++] = 2 * i + (is_second_higher ? 1 : 0);
     }
-    const bool is_second_higher = node(tree, 2 * i).best < node(tree, 2 * i + 1).best;
-    waiting[count++] = 2 * i + (is_second_higher ? 0 : 1);
-    waiting[count++] = 2 * i + (is_second_higher ? 1 : 0);
   }
 }
 
-void RegionIndex::search(const Tree& tree, const Cube& cube, Found& found,
-                         long long& asked) const noexcept {
-  forEachNear(
-      tree, cube, asked, [&found](const RegionRank& best) { return found.rank < best; },
-      [&](const RegionEntry& entry, const RegionRank& rank) {
-        const bool is_alone = holdsAll(entry.region, cube.centre_W, cube.reach);
-        found.around.is_alone = found.around.is_alone && is_alone;
-        if (!holds(entry.region, cube.centre_W)) return;
-        found.around.entry = &entry;
-        found.rank = rank;
-      });
+RegionsAround RegionIndex::findAround(const Vector3& point_W, double reach,
+                                      long long& asked) const noexcept {
+  RegionsAround around;
+  forEachNear(point_W, reach, asked, [&](const RegionEntry& entry) {
+    around.is_alone = around.is_alone && holdsAll(entry.region, point_W, reach);
+    if (!holds(entry.region, point_W)) return false;
+    around.entry = &entry;
+    return true;
+  });
+  return around;
 }
 
 const RegionEntry* RegionIndex::findPool(const Vector3& point_W, double reach,
                                          long long& asked) const noexcept {
   const RegionEntry* pool = nullptr;
-  RegionRank highest = kNoRank;
-  for (Tree tree{leaves_.size(), 0}; tree.first > 0;) {
-    tree = lastTree(tree.first);
-    forEachNear(
-        tree, {point_W, reach}, asked,
-        [&highest](const RegionRank& best) { return highest < best; },
-        [&](const RegionEntry& entry, const RegionRank& rank) {
-          if (!entry.region.bounds || !entry.region.surface) return;
-          pool = &entry;
-          highest = rank;
-        });
-  }
+  forEachNear(point_W, reach, asked, [&pool](const RegionEntry& entry) {
+    if (!entry.region.bounds || !entry.region.surface) return false;
+    pool = &entry;
+    return true;
+  });
   return pool;
 }
 

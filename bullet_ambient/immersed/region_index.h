@@ -69,14 +69,6 @@ class RegionIndex {
   struct Tree {
     std::size_t first, count;
   };
-  struct Found {
-    RegionsAround around;
-    RegionRank rank = kNoRank;
-  };
-  struct Cube {
-    const Vector3& centre_W;
-    double reach;  ///< half of its edge [m]
-  };
 
   // The last tree of those over leaves 0 to `end`.
   static Tree lastTree(std::size_t end) noexcept;
@@ -87,11 +79,11 @@ class RegionIndex {
   void build(const Tree& tree);
   void sortLeaves(std::size_t first, std::size_t count);
   void dropEmptyLeaves();
-  void search(const Tree& tree, const Cube& cube, Found& found, long long& asked) const noexcept;
-  // Calls visit(entry, rank) for regions that may meet the cube, while isWanted(rank) of the best
-  // rank in a box, those of higher rank first.
-  template <class IsWanted, class Visit>
-  void forEachNear(const Tree& tree, const Cube& cube, long long& asked, const IsWanted& isWanted,
+  // Calls visit(entry) for regions that may meet the cube with its half edge `reach` [m] around a
+  // point: in each tree those of higher rank first, and none that ranks below one for which
+  // visit() has returned true.
+  template <class Visit>
+  void forEachNear(const Vector3& point_W, double reach, long long& asked,
                    const Visit& visit) const noexcept;
 
   std::vector<RegionEntry*> leaves_;  // null: removed

@@ -70,7 +70,7 @@ void StationSamples::take(const AmbientBody& ambient, const FluidRegions& region
                           const RegionsAround& around, Station& station) noexcept {
   const Vector3 point_W = centre_W_ + station.way_W;
   long long asked = 0;
-  const RegionEntry* entry = around.is_alone ? around.entry : regions.find(point_W, asked);
+  const RegionEntry* entry = around.is_alone ? around.entry : regions.index().find(point_W, asked);
   if (!entry) {
     station.sample.below = ambient.def->medium;
     return;
