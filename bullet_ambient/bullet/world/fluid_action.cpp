@@ -26,56 +26,11 @@ bool isOf(const btCollisionWorld& world, const AmbientTrees& trees) {
   return !trees.empty() && trees.world() == &world;
 }
 
-}  // namespace
-
-bool hasAwakeTree(const btCollisionWorld& world, const AmbientBodies& bodies) noexcept {
-  if (!isOf(world, bodies.trees)) return false;
-  bool is_awake = false;
-  forEachTree(*bodies.trees.world(), bodies.trees,
-              [&is_awake](const AmbientTree& tree) { is_awake |= !isAsleep(*tree.multi_body); });
-  return is_awake;
+// Calls visit(AmbientTree&) for the trees of a world.
+template <class Visit>
+void forEachTreeIn(const btCollisionWorld& world, const AmbientBodies& bodies, const Visit& visit) {
+  if (isOf(world, bodies.trees)) forEachTree(*bodies.trees.world(), bodies.trees, visit);
 }
-
-void wakeFollowingTrees(const btCollisionWorld& world, const AmbientBodies& bodies) noexcept {
-  if (!isOf(world, bodies.trees)) return;
-  forEachTree(*bodies.trees.world(), bodies.trees, [](const AmbientTree& tree) {
-    for (const auto& link : tree.links)
-      if (link->ambient.def->follow_regions) return wake(*tree.multi_body);
-  });
-}
-
-void wakeReloadedTrees(const btCollisionWorld& world, const AmbientBodies& bodies) noexcept {
-  if (!isOf(world, bodies.trees)) return;
-  forEachTree(*bodies.trees.world(), bodies.trees, [](const AmbientTree& tree) {
-    if (!isAsleep(*tree.multi_body)) return;
-    for (const auto& link : tree.links)
-      if (isReloaded(*link, *tree.multi_body)) return wake(*tree.multi_body);
-  });
-}
-
-void drawTrees(const btCollisionWorld& world, const AmbientBodies& bodies, const FluidDrawing& what,
-               btIDebugDraw& drawer) {
-  if (!isOf(world, bodies.trees)) return;
-  forEachTree(*bodies.trees.world(), bodies.trees, [&](AmbientTree& tree) {
-    moveStandIns(tree);
-    for (const auto& link : tree.links) {
-      const bool is_in_fluid =
-          link->ambient.isInFluid() && !link->stand_in.isStaticOrKinematicObject();
-      if (is_in_fluid) drawFluid(link->ambient, what, drawer);
-    }
-  });
-}
-
-void completeTrees(const btCollisionWorld& world, AmbientBodies& bodies,
-                   double time_step) noexcept {
-  if (!isOf(world, bodies.trees)) return;
-  const TreeTask task = taskOf(bodies, static_cast<btScalar>(time_step));
-  forEachTree(*bodies.trees.world(), bodies.trees,
-              [&task](AmbientTree& tree) { completeTree(tree, task); });
-  for (const auto& tree : bodies.trees.all()) tree->step.outcome = TreeOutcome::kNotMet;
-}
-
-namespace {
 
 // Asks the world, not the fluid: a body there may have been destroyed.
 bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) {
@@ -87,7 +42,10 @@ bool hasAwakeMember(const btCollisionWorld& world, const AmbientBodies& bodies) 
       return true;
     }
   }
-  return hasAwakeTree(world, bodies);
+  bool is_awake = false;
+  forEachTreeIn(world, bodies,
+                [&](const AmbientTree& tree) { is_awake |= !isAsleep(*tree.multi_body); });
+  return is_awake;
 }
 
 // Whether the body that the solver met is still there: it may have been removed and destroyed
@@ -146,6 +104,14 @@ class Completion {
   int count_ = 0;
 };
 
+// Completes the trees that the solver has met, after Bullet has moved them.
+void completeTrees(const btCollisionWorld& world, AmbientBodies& bodies, btScalar time_step) {
+  if (!isOf(world, bodies.trees)) return;
+  const TreeTask task = taskOf(bodies, time_step);
+  forEachTreeIn(world, bodies, [&task](AmbientTree& tree) { completeTree(tree, task); });
+  for (const auto& tree : bodies.trees.all()) tree->step.outcome = TreeOutcome::kNotMet;
+}
+
 // Clears contact impulses after a substep whose duration is not finite: the next one would start
 // its contacts with them.
 void forgetBrokenImpulses(btCollisionWorld& world) {
@@ -171,7 +137,11 @@ void wakeReloaded(const btCollisionWorld& world, const AmbientBodies& bodies) {
     if (!ambient || !ambient->isInFluid() || objects[i]->isStaticOrKinematicObject()) continue;
     if (ambient->models->inverse_mass.mass > 0 && isModelStale(*ambient)) objects[i]->activate();
   }
-  wakeReloadedTrees(world, bodies);
+  forEachTreeIn(world, bodies, [](const AmbientTree& tree) {
+    if (!isAsleep(*tree.multi_body)) return;
+    for (const auto& link : tree.links)
+      if (isReloaded(*link, *tree.multi_body)) return wake(*tree.multi_body);
+  });
 }
 
 // Wakes the followers that the world still has: others may have been destroyed.
@@ -181,7 +151,10 @@ void wakeFollowers(const btCollisionWorld& world, const AmbientBodies& bodies) {
     const AmbientBody* ambient = bodies.find(objects[i]);
     if (ambient && ambient->def->follow_regions) objects[i]->activate();
   }
-  wakeFollowingTrees(world, bodies);
+  forEachTreeIn(world, bodies, [](const AmbientTree& tree) {
+    for (const auto& link : tree.links)
+      if (link->ambient.def->follow_regions) return wake(*tree.multi_body);
+  });
 }
 
 }  // namespace
@@ -204,7 +177,7 @@ void FluidAction::updateAction(btCollisionWorld* world, btScalar time_step) {
     completion.add(kind, *ambient);
   }
   completion.completeRows();
-  completeTrees(*world, bodies_, static_cast<double>(time_step));
+  completeTrees(*world, bodies_, time_step);
   if (std::isfinite(time_step)) {
     bodies_.regions.time += static_cast<double>(time_step);
   } else if (bodies_.size() > 0 || !bodies_.trees.empty() || !bodies_.regions.empty()) {
@@ -245,7 +218,12 @@ void FluidAction::debugDraw(btIDebugDraw* drawer) {
       drawFluid(*ambient, drawing_, *drawer);
     }
   }
-  drawTrees(*world_, bodies_, drawing_, *drawer);
+  forEachTreeIn(*world_, bodies_, [&](AmbientTree& tree) {
+    moveStandIns(tree);
+    for (const auto& link : tree.links)
+      if (link->ambient.isInFluid() && !link->stand_in.isStaticOrKinematicObject())
+        drawFluid(link->ambient, drawing_, *drawer);
+  });
 }
 
 AMBIENT_END
