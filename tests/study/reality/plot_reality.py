@@ -100,13 +100,13 @@ def add_tables(page, reality, numbers):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("measurements", type=Path, metavar="MEASUREMENTS.json")
-    parser.add_argument("out", type=Path, metavar="OUT")
+    parser.add_argument("out", type=Path, nargs="?", metavar="OUT", help="what `reality` wrote; motions at sea are run")
     parser.add_argument("-o", "--docs", type=Path, required=True, metavar="DOCS")
     arguments = parser.parse_args()
+    if is_sea(arguments.measurements):
+        sea_page.write(Sea(arguments.measurements), arguments.docs)
+        return
     with reading(arguments.out, "a folder of results of reality"):
-        if is_sea(arguments.measurements):
-            sea_page.write(Sea(arguments.measurements, arguments.out), arguments.docs)
-            return
         reality = Reality(arguments.measurements, arguments.out)
         numbers = numbers_of(reality)
     page = Page(arguments.docs, "reality", "reality")

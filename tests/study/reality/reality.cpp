@@ -13,7 +13,6 @@
 #include "tests/study/reality/falling_run.h"
 #include "tests/study/reality/measured_coefficient.h"
 #include "tests/study/reality/measured_shapes.h"
-#include "tests/study/reality/sea_runs.h"
 #include "tests/support/parse_or_exit.h"
 
 namespace ambient {
@@ -92,28 +91,8 @@ void writeFalls(const fs::path& folder) {
   writeFile(folder / "paths.csv", paths);
 }
 
-void writeSea(const fs::path& measurements, const fs::path& folder) {
-  SeaRuns runs(measurements);
-  std::string table = "id,value\n";
-  for (const nlohmann::json& row : runs.rows()) {
-    char number[32];
-    std::snprintf(number, sizeof number, ",%.5g\n", runs.compute(row));
-    const std::string line = row.at("id").get<std::string>() + number;
-    std::fputs(line.c_str(), stdout);
-    std::fflush(stdout);
-    table += line;
-  }
-  writeFile(folder / "motions.csv", table);
-  writeFile(folder / "curves.csv", runs.curves());
-}
-
 int run(const fs::path& measurements, const fs::path& folder) {
   OutputFolder out(folder);
-  if (parseJson(readBytes(measurements), measurements.string()).contains("scenes")) {
-    out.keep();
-    writeSea(measurements, folder);
-    return 0;
-  }
   writeFile(folder / "coefficients.csv", coefficients(measurements));
   writeFile(folder / "plate.csv", plateCurve());
   out.keep();
@@ -126,17 +105,12 @@ int run(const fs::path& measurements, const fs::path& folder) {
 
 int main(int argc, char** argv) {
   std::string measurements, out;
-  CLI::App app(
-      "Measured coefficients and falls of bodies by both pressure laws, or motions at sea, as CSV.",
-      "reality");
-  app.add_option("MEASUREMENTS", measurements,
-                 "data/reality/measurements.json or measurements_at_sea.json")
+  CLI::App app("Measured coefficients and falls of bodies by both pressure laws, as CSV.",
+               "reality");
+  app.add_option("MEASUREMENTS", measurements, "data/reality/measurements.json")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option(
-         "--out", out,
-         "Folder of coefficients.csv, plate.csv, falls.csv and paths.csv, or of motions.csv "
-         "and curves.csv")
+  app.add_option("--out", out, "Folder of coefficients.csv, plate.csv, falls.csv and paths.csv")
       ->required();
   if (const auto exit_code = ambient::parseOrExit(app, argc, argv)) return *exit_code;
   try {

@@ -66,17 +66,15 @@ class SeaCase:
 
 
 class Sea:
-    """All that `reality` wrote of motions at sea, with the measurements."""
+    """Measured motions at sea with what the library makes of them: runs all of them."""
 
-    def __init__(self, measurements, out):
-        data = json.loads(measurements.read_text(encoding="utf-8"))
-        self.sources, self.series = data["sources"], data["series"]
-        self.rows = {row["id"]: row for row in data["rows"]}
-        models = {row["id"]: row["value"] for row in read_rows(out / "motions.csv")}
-        self.cases = [SeaCase(row, models[name]) for name, row in self.rows.items()]
-        self.curves = [[] for _ in self.series]
-        for row in read_rows(out / "curves.csv"):
-            self.curves[int(row["curve"])].append((float(row["time"]), float(row["value"])))
+    def __init__(self, measurements):
+        from sea_runs import SeaRuns
+
+        runs = SeaRuns(measurements)
+        self.sources, self.series, self.rows = runs.data["sources"], runs.data["series"], runs.rows
+        self.cases = [SeaCase(row, runs.compute(row)) for row in runs.rows.values()]
+        self.curves = list(runs.curves())
 
     def of_kind(self, kind):
         return [case for case in self.cases if case.kind == kind]
