@@ -73,7 +73,6 @@ class PageTest(unittest.TestCase):
         run_scene(cls.out / "flap_in_current", "flap_in_current", "duration=0.3", "bodies.0.separation_angle=2.2")
         run_scene(cls.out / "duck_dive", "duck_dive", "duration=0.5", "water.waves=[{\"amplitude\": 0.05, \"period\": 2}]")
         run_scene(cls.out / "floating_cube", "floating_cube", "duration=1", log=["wrench"])
-        run_scene(cls.out / "pool", "pool", "duration=1", "output_step=0.1")
         cls.page = cls.out / "page.html"
         make_page(cls.page, *sorted(cls.out.iterdir()), "--tables", ROOT / "docs/experiments.md")
         cls.browser = start_browser(cls.out / "profile")
@@ -238,41 +237,8 @@ class PageTest(unittest.TestCase):
         switch.click()
         self.assertLess((np.abs(self.pixels() - without).max(axis=2) > 0.1).sum(), 5)
 
-    def test_waves_of_ten_centimetres_are_seen(self):
-        self.choose("duck dive")
-        self.scrub(0)
-        self.set_visible("[view.water.net]", False)
-        water = self.changed_by("[view.water.mesh]")
-        lightness = self.pixels()[water].mean(axis=1)
-        self.set_visible("[view.water.net]", True)
-        self.assertGreater(np.percentile(lightness, 90) - np.percentile(lightness, 10), 0.1)
-        self.assertGreater(self.changed_by("[view.water.net]").sum(), 1000)
-
-    def test_bodies_are_seen_through_the_walls_of_a_pool(self):
-        self.choose("pool")
-        self.scrub(1)
-        boxes, walls = (f"view.bodies.filter((one) => {sign}one.isStatic).map((one) => one.mesh)" for sign in "! ".split(" "))
-        seen = self.changed_by(boxes).sum()
-        self.set_visible(walls, False)
-        without_walls = self.changed_by(boxes).sum()
-        self.set_visible(walls, True)
-        self.assertGreater(without_walls, 1000)
-        self.assertGreater(seen, 0.9 * without_walls)
-
-    def test_the_status_line_names_the_chosen_body(self):
-        numbers = lambda: self.browser.find_element(By.ID, "numbers").text
-        self.pixels()
-        self.assertRegex(numbers(), "^ball: speed")
-        self.choose("floating cube")
-        for index, name in ((0, "cube 0.1"), (3, "cube 0.75")):
-            self.browser.execute_script(
-                "const view = document.getElementById('view'); view.value = arguments[0];"
-                "view.dispatchEvent(new Event('change'));", index)
-            self.pixels()
-            self.assertTrue(numbers().startswith(f"{name}: speed"), numbers())
-
     def test_fits_a_window_without_scrolling(self):
-        make_page(self.out / "all.html", self.out / "golf_dimpled_spin", self.out / "pool")
+        make_page(self.out / "all.html", self.out / "golf_dimpled_spin", self.out / "ball_on_bottom")
         size = self.browser.get_window_size()
         self.addCleanup(self.browser.get, self.page.as_uri())
         self.addCleanup(self.browser.set_window_size, size["width"], size["height"])
@@ -295,38 +261,6 @@ class PageTest(unittest.TestCase):
         self.assertLess(orange(self.pixels()), 3)
         box.click()
         self.assertGreater(orange(self.pixels()), 30)
-
-    def test_rivals_do_not_cover_the_body(self):
-        """All of them are at the same place in the beginning."""
-        self.browser.execute_script("player.view.lookAt(player.view.bodies[0], 0)")
-        self.scrub(0)
-
-        def middle():
-            picture = self.pixels()
-            row, column = picture.shape[0] // 2, picture.shape[1] // 2
-            return picture[row - 20 : row + 20, column - 20 : column + 20]
-
-        with_rivals = middle()
-        for model in ("vacuum", "gwtf"):
-            self.browser.find_element(By.ID, f"rival-{model}").click()
-        np.testing.assert_array_equal(with_rivals, middle())
-
-    def test_visible_rivals_are_in_the_frame(self):
-        largest = """const { view } = player;
-            return Math.max(...view.allViews().map(({ motion }) => {
-              const places = Array.from({ length: motion.count },
-                (_, i) => view.viewed(motion.positionOf(i)).project(view.camera));
-              return Math.max(...places.map(({ x, y }) => Math.max(Math.abs(x), Math.abs(y))));
-            }))"""
-        farthest = "return [player.view.box.max.x, player.view.ownBox.max.x]"
-        self.pixels()
-        self.assertLess(self.browser.execute_script(largest), 1)
-        framed, own = self.browser.execute_script(farthest)
-        self.assertGreater(framed, own)
-        for model in ("vacuum", "gwtf"):
-            self.browser.find_element(By.ID, f"rival-{model}").click()
-        framed, own = self.browser.execute_script(farthest)
-        self.assertEqual(framed, own)
 
     def test_a_flow_has_an_arrow_and_its_speed(self):
         def blue(picture):
