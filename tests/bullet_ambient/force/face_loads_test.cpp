@@ -6,6 +6,7 @@
 #include <new>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "tests/reference/loads/face_by_face_loads.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/geodesic.h"
@@ -78,16 +79,22 @@ TEST(FaceLoads, TotalIsPressureAndFriction) {
   EXPECT_GT(loads.friction.vector().norm(), 0);
 }
 
+// Magnitudes of the loads in double and in single precision.
+Vector6 loadsOf(const FaceTable& faces, const Twist& x, const LoadSettings& settings) {
+  return computeFaceLoads(faces, 1, x, settings).total().vector().cwiseAbs() +
+         computeFaceLoad(PackedFaces(faces), 1, x, settings).vector().cwiseAbs();
+}
+
 TEST(FaceLoads, VanishWithoutMotionFacesOrDensity) {
   test::Arbitrary arbitrary(44);
   const FaceTable body = arbitrary.body();
   const Twist x = arbitrary.twist();
   for (const double cosine : {0.0, -0.5, -1.0}) {
     const LoadSettings settings{1.3, 1e-3, cosine, true};
-    EXPECT_EQ(computeFaceLoads(body, 1, Twist{}, settings).total().vector(), Vector6::Zero());
-    EXPECT_EQ(computeFaceLoads(FaceTable{}, 1, x, settings).total().vector(), Vector6::Zero());
     const LoadSettings vacuum{0, 1e-3, cosine, true};
-    EXPECT_EQ(computeFaceLoads(body, 1, x, vacuum).total().vector(), Vector6::Zero());
+    for (const Vector6& load : {loadsOf(body, Twist{}, settings), loadsOf(FaceTable{}, x, settings),
+                                loadsOf(body, x, vacuum)})
+      EXPECT_EQ(load, Vector6::Zero());
   }
 }
 
@@ -107,6 +114,7 @@ TEST(FaceLoads, StayFiniteForTheSmallestAndForLargeMotions) {
 TEST(FaceLoads, OfAMotionThatIsNotFiniteAreNotFiniteOrZero) {
   test::Arbitrary arbitrary(46);
   const FaceTable body = arbitrary.body();
+  const PackedFaces packed(body);
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
         -std::numeric_limits<double>::infinity()})
@@ -116,7 +124,9 @@ TEST(FaceLoads, OfAMotionThatIsNotFiniteAreNotFiniteOrZero) {
         x[component] = bad;
         const FaceLoads loads =
             computeFaceLoads(body, 1, Twist::fromVector(x), {1.3, 1e-3, cosine, true});
-        for (const Wrench& wrench : {loads.pressure, loads.friction})
+        const Wrench single =
+            computeFaceLoad(packed, 1, Twist::fromVector(x), {1.3, 1e-3, cosine, true});
+        for (const Wrench& wrench : {loads.pressure, loads.friction, single})
           EXPECT_TRUE(!wrench.vector().allFinite() || wrench.vector() == Vector6::Zero());
       }
 }
@@ -125,11 +135,14 @@ TEST(FaceLoads, AllocateNothing) {
   test::Arbitrary arbitrary(47);
   const FaceTable body = arbitrary.body(2);
   const Twist x = arbitrary.twist();
+  const PackedFaces packed(body);
   const LoadSettings settings{1.3, 1e-3, -0.5, true};
   const std::size_t before = test::allocationCount();
   const FaceLoads loads = computeFaceLoads(body, 1, x, settings);
+  const Wrench single = computeFaceLoad(packed, 1, x, settings);
   EXPECT_EQ(test::allocationCount(), before);
   EXPECT_NE(loads.total().vector(), Vector6::Zero());
+  EXPECT_NE(single.vector(), Vector6::Zero());
 }
 
 }  // namespace

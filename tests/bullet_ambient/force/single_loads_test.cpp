@@ -1,14 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "tests/support/allocation_counter.h"
 #include "tests/support/bits_of.h"
 #include "tests/support/bodies/geodesic.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -29,24 +27,6 @@ SingleMotion motionFor(float cosine, float friction) {
           -cosine * std::abs(cosine),
           1 - cosine * cosine,
           friction};
-}
-
-TEST(SingleSums, HaveTheSameBitsWithEveryInstructionSet) {
-  test::Arbitrary arbitrary(51);
-  const FaceTable body = arbitrary.body(3);
-  std::vector<SumBlocks> kernels;
-  for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512})
-    if (const SumBlocks kernel = kSumBlocks.of(set)) kernels.push_back(kernel);
-  if (kernels.empty()) GTEST_SKIP() << "this processor has the baseline only";
-  for (const std::size_t count : {0, 1, 7, 15, 16, 17, 255, 256, 257, 1000}) {
-    const PackedFaces faces(firstFaces(body, count));
-    for (const float cosine : {0.0f, -0.3f, -1.0f})
-      for (const float friction : {0.0f, 0.03f})
-        for (const SumBlocks kernel : kernels)
-          EXPECT_EQ(test::bitsOf(kernel(faces.blocks(), motionFor(cosine, friction))),
-                    test::bitsOf(sumBlocksBaseline(faces.blocks(), motionFor(cosine, friction))))
-              << count << " faces, cosine " << cosine;
-  }
 }
 
 TEST(SingleSums, LeaveOutNoFaceThatTheFlowIsAttachedTo) {
@@ -199,43 +179,6 @@ TEST(SingleLoads, ScaleWithTheMotionAndTheBodyOverTheWholeRange) {
     EXPECT_EQ(by_size.force, factor * factor * load.tail<3>());
     EXPECT_EQ(by_size.torque, factor * factor * factor * load.head<3>());
   }
-}
-
-TEST(SingleLoads, VanishWithoutMotionFacesOrDensity) {
-  test::Arbitrary arbitrary(54);
-  const PackedFaces body(arbitrary.body());
-  const Twist x = arbitrary.twist();
-  for (const double cosine : {0.0, -0.5, -1.0}) {
-    const LoadSettings settings{1.3, 1e-3, cosine, true};
-    const LoadSettings vacuum{0, 1e-3, cosine, true};
-    EXPECT_EQ(computeFaceLoad(body, 1, Twist{}, settings).vector(), Vector6::Zero());
-    EXPECT_EQ(computeFaceLoad(PackedFaces(FaceTable{}), 1, x, settings).vector(), Vector6::Zero());
-    EXPECT_EQ(computeFaceLoad(body, 1, x, vacuum).vector(), Vector6::Zero());
-  }
-}
-
-TEST(SingleLoads, OfAMotionThatIsNotFiniteAreNotFiniteOrZero) {
-  test::Arbitrary arbitrary(55);
-  const PackedFaces body(arbitrary.body());
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-    for (int component = 0; component < 6; ++component) {
-      Vector6 x = arbitrary.twist().vector();
-      x[component] = bad;
-      const Vector6 load =
-          computeFaceLoad(body, 1, Twist::fromVector(x), {1.3, 1e-3, -0.5, true}).vector();
-      EXPECT_TRUE(!load.allFinite() || load == Vector6::Zero());
-    }
-}
-
-TEST(SingleLoads, AllocateNothing) {
-  test::Arbitrary arbitrary(56);
-  const PackedFaces body(arbitrary.body(2));
-  const Twist x = arbitrary.twist();
-  const std::size_t before = test::allocationCount();
-  const Wrench load = computeFaceLoad(body, 1, x, {1.3, 1e-3, -0.5, true});
-  EXPECT_EQ(test::allocationCount(), before);
-  EXPECT_NE(load.vector(), Vector6::Zero());
 }
 
 }  // namespace

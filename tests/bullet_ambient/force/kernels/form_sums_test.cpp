@@ -9,7 +9,6 @@
 #include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/law/form_law.h"
 #include "bullet_ambient/force/loads/face_loads.h"
-#include "tests/support/bits_of.h"
 #include "tests/support/bodies/random_bodies.h"
 
 namespace ambient::form_sums {
@@ -21,82 +20,6 @@ FaceTable facesOf(test::Arbitrary& arbitrary, int level) {
   for (std::size_t i = 0; i < faces.size(); ++i)
     faces.sharpness.push_back(i % 3 == 0 ? 1.25 : i % 3 == 1 ? 0 : arbitrary.between(0, 1));
   return faces;
-}
-
-/// Copies the first `count` faces.
-FaceTable firstOf(const FaceTable& faces, std::size_t count) {
-  FaceTable first;
-  for (std::size_t i = 0; i < count; ++i) {
-    first.add(faces.normal(i), faces.centroid(i), faces.area[i]);
-    first.sharpness.push_back(faces.sharpness[i]);
-  }
-  return first;
-}
-
-SingleMotion singleMotionFor(float cosine, float friction) {
-  return {{0.75f, -0.5f, 0.3f},
-          {0.25f, 0.4f, -1.0f},
-          -cosine * std::abs(cosine),
-          1 - cosine * cosine,
-          friction,
-          nullptr,
-          PressureLaw::kForm};
-}
-
-TEST(FormSums, HaveTheSameBitsWithEveryInstructionSet) {
-  test::Arbitrary arbitrary(11);
-  const FaceTable all = facesOf(arbitrary, 3);
-  int compared = 0;
-  for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-    const SumBlocks in_single = kSumBlocks.of(set);
-    if (!in_single) continue;
-    for (const std::size_t count : {1, 7, 16, 17, 257, 1280})
-      for (const double cosine : {0.0, -0.3, -1.0})
-        for (const bool friction : {false, true}) {
-          const FaceTable faces = firstOf(all, count);
-          const PackedFaces packed(faces, FormShape{});
-          const SingleMotion motion =
-              singleMotionFor(static_cast<float>(cosine), friction ? 0.01f : 0);
-          EXPECT_EQ(test::bitsOf(in_single(packed.blocks(), motion)),
-                    test::bitsOf(sumBlocksBaseline(packed.blocks(), motion)));
-          ++compared;
-        }
-  }
-  if (compared == 0) GTEST_SKIP() << "this processor has the baseline only";
-}
-
-TEST(FormSums, OfWingsAndHullsHaveTheSameBitsWithEveryInstructionSet) {
-  test::Arbitrary arbitrary(16);
-  const FaceTable all = facesOf(arbitrary, 3);
-  FormShape shape;
-  shape.aspect = 2.5;
-  shape.facing = arbitrary.vector().normalized();
-  shape.span = shape.facing.cross(arbitrary.vector()).normalized();
-  shape.slender = 0.7 * arbitrary.vector().normalized();
-  shape.pitching = 0.5 * shape.span;
-  shape.centre = arbitrary.vector(0.2);
-  int compared = 0;
-  for (const double wing : {0.0, 0.6}) {
-    shape.wing = wing;
-    const ShapeFactors factors(shape);
-    for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-      const SumBlocks in_single = kSumBlocks.of(set);
-      if (!in_single) continue;
-      for (const std::size_t count : {1, 17, 257, 1280})
-        for (const double cosine : {0.0, -0.3}) {
-          const FaceTable faces = firstOf(all, count);
-          SingleMotion single = singleMotionFor(static_cast<float>(cosine), 0.01f);
-          single.wing = &factors.in_single;
-          single.pitching_rate = 0.4f;
-          single.slip_share = 0.25f;
-          const PackedFaces packed(faces, shape);
-          EXPECT_EQ(test::bitsOf(in_single(packed.blocks(), single)),
-                    test::bitsOf(sumBlocksBaseline(packed.blocks(), single)));
-          ++compared;
-        }
-    }
-  }
-  if (compared == 0) GTEST_SKIP() << "this processor has the baseline only";
 }
 
 /// Sums the law of pressure over all faces one by one.

@@ -3,11 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "bullet_ambient/fluid_body/packed/packed_faces.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
-#include "bullet_ambient/force/kernels/single_sums.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "tests/support/bits_of.h"
 #include "tests/support/bodies/hull_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -136,30 +133,6 @@ TEST(WetLoads, OfAnotherLawAreTheShareOfTheVolume) {
   flow.own_law = [](const auto&, const LoadSettings&) { return std::make_shared<Constant>(); };
   const auto loads = makeWaterlineLoads(roundBody(0), kLiquid, flow);
   EXPECT_EQ(loads->wetLoad({}, wetBelow({0, 0, 1}, 0, 0.25)).force, Vector3(1, 1.25, 1.5));
-}
-
-TEST(WetLoads, HaveTheSameBitsWithEveryInstructionSet) {
-  if (!kSumBlocks.of(InstructionSet::kAvx2)) GTEST_SKIP() << "this processor has the baseline only";
-  FluidBody body = *roundBody(2);
-  body.faces.sharpness[3] = 0.5;
-  const FaceTable& faces = body.faces;
-  for (const float height : {-0.5f, 0.1f, 0.9f})
-    for (const float friction : {0.0f, 0.01f})
-      for (const float cosine_sq : {0.0f, 0.25f}) {
-        const SingleCut cut{{0.48f, 0.6f, 0.64f}, height, 0.3f};
-        SingleMotion single{
-            {0.75f, -0.5f, 0.3f}, {0.2f, 0.4f, -0.9f}, cosine_sq, 1 - cosine_sq, friction, &cut};
-        for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-          if (!kSumBlocks.of(set)) continue;
-          for (const bool is_form : {false, true}) {
-            const PackedFaces packed =
-                is_form ? PackedFaces(faces, FormShape{}) : PackedFaces(faces);
-            single.law = is_form ? PressureLaw::kForm : PressureLaw::kPublished;
-            EXPECT_EQ(test::bitsOf(kSumBlocks.of(set)(packed.blocks(), single)),
-                      test::bitsOf(sumBlocksBaseline(packed.blocks(), single)));
-          }
-        }
-      }
 }
 
 TEST(WetLoads, OfASphereInAttachedFlowAreFrictionAlone) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/fluid_body/packed/packed_parts.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
 #include "bullet_ambient/force/surface/make_wetted_inertia.h"
 #include "bullet_ambient/force/surface/wetted_sphere.h"
@@ -208,24 +209,6 @@ TEST(WettedSphere, HasTheDerivativesOfItsTable) {
     EXPECT_GE(here.across_slope, 0);
   }
   EXPECT_EQ(sphereInertiaAt(6).along, 2 * kPi / 3);
-}
-
-TEST(PartSums, HaveTheSameBitsWithEveryInstructionSet) {
-  if (!kPartKernels.of(InstructionSet::kAvx2))
-    GTEST_SKIP() << "this processor has the baseline only";
-  const PackedParts parts(test::floatingEllipsoid({1, 0.8, 0.6}, 3).added_mass_parts);
-  double products[PartBlock::kEntries];
-  for (int i = 0; i < PartBlock::kEntries; ++i) products[i] = 0.1 * (i - 7);
-  for (const double height : {-0.4, 0.1, 1.7}) {
-    const PartPlane plane{{0.48, 0.6, 0.64}, height, 0.07};
-    for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
-      if (!kPartKernels.of(set)) continue;
-      EXPECT_EQ(test::bitsOf(kPartKernels.of(set)->inertia(parts.blocks(), plane)),
-                test::bitsOf(kPartKernelBaseline.inertia(parts.blocks(), plane)));
-      EXPECT_EQ(test::bitsOf(kPartKernels.of(set)->gradient(parts.blocks(), plane, products)),
-                test::bitsOf(kPartKernelBaseline.gradient(parts.blocks(), plane, products)));
-    }
-  }
 }
 
 TEST(PartSums, LeaveOutNoPartInTheWater) {
