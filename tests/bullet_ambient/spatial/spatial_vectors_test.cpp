@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "bullet_ambient/spatial/inertia.h"
+#include "tests/support/bodies/random_bodies.h"
+
 namespace ambient {
 namespace {
 
@@ -43,6 +46,59 @@ TEST(Momentum, PutsRotationFirst) {
   const Momentum m{{1, 2, 3}, {4, 5, 6}};
   EXPECT_EQ(m.vector().head<3>(), m.angular);
   EXPECT_EQ(Momentum::fromVector(m.vector()).linear, m.linear);
+}
+
+// Rounding of a few dozen operations on numbers of order 1 to 10.
+constexpr double kShiftRounding = 1e-13;
+
+class FrameOffsetTest : public testing::Test {
+ protected:
+  test::Arbitrary arbitrary_{7};
+  FrameOffset offset_{arbitrary_.rotation(), arbitrary_.vector()};
+};
+
+TEST_F(FrameOffsetTest, MovesTheSameBodyPointInBothFrames) {
+  const Twist x_B = arbitrary_.twist();
+  const Vector3 p_F = arbitrary_.vector();
+  const Vector3 p_B = offset_.rotation * p_F + offset_.translation;
+  const Vector3 velocity_F = offset_.toF(x_B).at(p_F);
+  EXPECT_LT((offset_.rotation * velocity_F - x_B.at(p_B)).norm(), kShiftRounding);
+}
+
+TEST_F(FrameOffsetTest, TakesAForceAtAPointToThatForceAtThatPoint) {
+  const Vector3 force_F = arbitrary_.vector();
+  const Vector3 p_F = arbitrary_.vector();
+  const Vector3 p_B = offset_.rotation * p_F + offset_.translation;
+  const Wrench expected = Wrench::ofForceAt(offset_.rotation * force_F, p_B);
+  const Wrench f_B = offset_.toB(Wrench::ofForceAt(force_F, p_F));
+  EXPECT_LT((f_B.vector() - expected.vector()).norm(), kShiftRounding);
+}
+
+TEST_F(FrameOffsetTest, KeepsThePower) {
+  for (int i = 0; i < 100; ++i) {
+    const Twist x_B = arbitrary_.twist();
+    const Wrench f_F{arbitrary_.vector(), arbitrary_.vector()};
+    EXPECT_NEAR(power(offset_.toB(f_F), x_B), power(f_F, offset_.toF(x_B)),
+                kShiftRounding * x_B.vector().norm() * f_F.vector().norm());
+  }
+}
+
+TEST_F(FrameOffsetTest, KeepsTheKineticEnergy) {
+  const Matrix6 K_F = arbitrary_.positiveDefinite();
+  const Twist x_B = arbitrary_.twist();
+  const Vector6 x_F = offset_.toF(x_B).vector();
+  const double energy = x_F.dot(K_F * x_F) / 2;
+  EXPECT_NEAR(x_B.vector().dot(offset_.inertiaToB(K_F) * x_B.vector()) / 2, energy,
+              kShiftRounding * energy);
+}
+
+TEST_F(FrameOffsetTest, OfNothingChangesNothing) {
+  const Twist x = arbitrary_.twist();
+  const Wrench f{arbitrary_.vector(), arbitrary_.vector()};
+  const Matrix6 K = arbitrary_.positiveDefinite();
+  EXPECT_EQ(FrameOffset{}.toF(x).vector(), x.vector());
+  EXPECT_EQ(FrameOffset{}.toB(f).vector(), f.vector());
+  EXPECT_EQ(FrameOffset{}.inertiaToB(K), K);
 }
 
 }  // namespace

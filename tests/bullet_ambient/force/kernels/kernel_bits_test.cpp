@@ -9,7 +9,7 @@
 #include "bullet_ambient/force/kernels/hull_sums.h"
 #include "bullet_ambient/force/kernels/part_sums.h"
 #include "bullet_ambient/force/kernels/single_sums.h"
-#include "bullet_ambient/force/law/shape_factors.h"
+#include "bullet_ambient/force/law/form_law.h"
 #include "tests/support/bits_of.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -63,7 +63,8 @@ std::vector<SingleMotion> motions(const SingleMotion& law) {
   std::vector<SingleMotion> all;
   for (const float cosine : {0.0f, -0.3f, -1.0f})
     for (const float friction : {0.0f, 0.01f})
-      for (const SingleCut* cut : {static_cast<const SingleCut*>(nullptr), cuts, cuts + 1, cuts + 2}) {
+      for (const SingleCut* cut :
+           {static_cast<const SingleCut*>(nullptr), cuts, cuts + 1, cuts + 2}) {
         all.push_back({{0.75f, -0.5f, 0.3f},
                        {0.25f, 0.4f, -1.0f},
                        cosine * cosine,
