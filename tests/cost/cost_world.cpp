@@ -25,22 +25,14 @@ double volumeOf(const btCollisionShape& shape) {
 
 CostWorld::CostWorld(bool has_robots) {
   if (has_robots) {
-    world_ = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher_, &broadphase_, &robot_solver_,
-                                                        &configuration_);
+    world_ = std::make_unique<btMultiBodyDynamicsWorld>(&dispatcher, &broadphase, &robot_solver_,
+                                                        &configuration);
   } else {
-    world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadphase_, &solver_,
-                                                       &configuration_);
+    world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &solver_,
+                                                       &configuration);
   }
   world_->setGravity(btVector3(0, 0, btScalar(-9.81)));
-}
-
-CostWorld::~CostWorld() {
-  fluid_.reset();
-  for (const auto& joint : joints_) world_->removeConstraint(joint.get());
-  for (const auto& body : bodies_) world_->removeRigidBody(body.get());
-  for (const auto& collider : colliders_) world_->removeCollisionObject(collider.get());
-  auto* robots = dynamic_cast<btMultiBodyDynamicsWorld*>(world_.get());
-  for (const auto& robot : robots_) robots->removeMultiBody(robot.get());
+  contents_.emplace(*world_);
 }
 
 btRigidBody& CostWorld::add(std::shared_ptr<btCollisionShape> shape, double density,
@@ -54,19 +46,10 @@ btRigidBody& CostWorld::add(std::shared_ptr<btCollisionShape> shape, double dens
 
 btRigidBody& CostWorld::addBody(std::shared_ptr<btCollisionShape> shape, double mass,
                                 const btVector3& moments, const btTransform& start) {
-  bodies_.push_back(
-      std::make_unique<btRigidBody>(static_cast<btScalar>(mass), nullptr, shape.get(), moments));
+  btRigidBody& body = contents_->add(mass, moments, *shape, start);
   collision_shapes_.push_back(std::move(shape));
-  btRigidBody& body = *bodies_.back();
-  body.setWorldTransform(start);
   body.setActivationState(DISABLE_DEACTIVATION);
-  world_->addRigidBody(&body);
   return body;
-}
-
-void CostWorld::addJoint(std::unique_ptr<btTypedConstraint> joint) {
-  world_->addConstraint(joint.get(), true);
-  joints_.push_back(std::move(joint));
 }
 
 void CostWorld::addRobot(const std::shared_ptr<btCollisionShape>& shape, double density, int links,
@@ -75,8 +58,8 @@ void CostWorld::addRobot(const std::shared_ptr<btCollisionShape>& shape, double 
   const auto mass = static_cast<btScalar>(density * volumeOf(*shape));
   btVector3 moments;
   shape->calculateLocalInertia(mass, moments);
-  robots_.push_back(std::make_unique<btMultiBody>(links, mass, moments, false, false));
-  btMultiBody& robot = *robots_.back();
+  auto owned = std::make_unique<btMultiBody>(links, mass, moments, false, false);
+  btMultiBody& robot = *owned;
   robot.setHasSelfCollision(false);
   const btVector3 half(0, static_cast<btScalar>(kPitch / 2), 0);
   for (int i = 0; i < links; ++i)
@@ -87,8 +70,9 @@ void CostWorld::addRobot(const std::shared_ptr<btCollisionShape>& shape, double 
   robot.setWorldToBaseRot(start.getRotation().inverse());
   for (int i = 0; i < links; ++i)
     robot.setJointVel(i, static_cast<btScalar>(i % 3 == 0 ? kSpin : -kSpin));
-  static_cast<btMultiBodyDynamicsWorld&>(*world_).addMultiBody(&robot);
-  for (int link = -1; link < links; ++link) addCollider(robot, link, *shape);
+  contents_->take(std::move(owned));
+  for (int link = -1; link < links; ++link)
+    contents_->addCollider(robot, link, *shape).setActivationState(DISABLE_DEACTIVATION);
   btAlignedObjectArray<btQuaternion> rotations;
   btAlignedObjectArray<btVector3> origins;
   robot.forwardKinematics(rotations, origins);
@@ -96,31 +80,13 @@ void CostWorld::addRobot(const std::shared_ptr<btCollisionShape>& shape, double 
   collision_shapes_.push_back(shape);
 }
 
-void CostWorld::addCollider(btMultiBody& robot, int link, btCollisionShape& shape) {
-  colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(&robot, link));
-  btMultiBodyLinkCollider& collider = *colliders_.back();
-  collider.setCollisionShape(&shape);
-  collider.setActivationState(DISABLE_DEACTIVATION);
-  if (link < 0) {
-    robot.setBaseCollider(&collider);
-  } else {
-    robot.getLink(link).m_collider = &collider;
-  }
-  world_->addCollisionObject(&collider);
-}
-
 void CostWorld::immerse() {
-  fluid_ = std::make_unique<Fluid>(*world_);
+  fluid_.emplace(*world_);
   if (has_surface) fluid_->addRegion(waterBelow(0));
-  if (attach) return attach(*fluid_, bodies_);
+  if (attach) return attach(*fluid_, contents_->bodies());
   AttachSettings settings;
   if (!has_loads) settings.flow.own_law = [](const auto&, const auto&) { return nullptr; };
   if (!fluid_->addAll(shapes_, water(), settings).refused.empty()) std::exit(EXIT_FAILURE);
-}
-
-void CostWorld::step() {
-  const auto dt = static_cast<btScalar>(duration);
-  world_->stepSimulation(dt, 0, dt);
 }
 
 }  // namespace ambient::test

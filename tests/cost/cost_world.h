@@ -1,28 +1,22 @@
 #pragma once
 
-#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
-#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
-#include <btBulletDynamicsCommon.h>
-
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bullet_ambient/ambient.h"
 #include "preprocess/collision_shape/fluid_body_cache.h"
+#include "tests/support/world.h"
 
 namespace ambient::test {
 
-/// A world of stock Bullet that a fluid can fill. Owns all that is in it.
-class CostWorld {
+/// A world of stock Bullet that a fluid can fill.
+class CostWorld : WorldParts<> {
  public:
   /// `has_robots`: the world takes multibodies.
   explicit CostWorld(bool has_robots = false);
-  ~CostWorld();
-  CostWorld(const CostWorld&) = delete;
-  CostWorld& operator=(const CostWorld&) = delete;
 
   /// Adds a box, a capsule or a ball; density [kg/m^3], 0: anything that cannot move.
   btRigidBody& add(std::shared_ptr<btCollisionShape> shape, double density,
@@ -30,7 +24,7 @@ class CostWorld {
   /// Adds a body of given mass [kg] and moments of inertia [kg m^2].
   btRigidBody& addBody(std::shared_ptr<btCollisionShape> shape, double mass,
                        const btVector3& moments, const btTransform& start);
-  void addJoint(std::unique_ptr<btTypedConstraint> joint);
+  void addJoint(std::unique_ptr<btTypedConstraint> joint) { contents_->join(std::move(joint)); }
   /// Adds a multibody of a base and so many links in a chain, all of one shape and density, on
   /// hinges that turn. @pre has_robots
   void addRobot(const std::shared_ptr<btCollisionShape>& shape, double density, int links,
@@ -38,7 +32,7 @@ class CostWorld {
 
   /// Fills the world with fluid.
   void immerse();
-  void step();
+  void step() { contents_->step(duration); }
 
   double duration = 1.0 / 60;  ///< of a step [s]
   bool has_surface = false;    ///< the water ends at height 0
@@ -47,21 +41,13 @@ class CostWorld {
   std::function<void(Fluid&, const std::vector<std::unique_ptr<btRigidBody>>&)> attach;
 
  private:
-  void addCollider(btMultiBody& robot, int link, btCollisionShape& shape);
-
   FluidBodyCache shapes_;
-  btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
-  btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   btMultiBodyConstraintSolver robot_solver_;
-  std::unique_ptr<btDiscreteDynamicsWorld> world_;
   std::vector<std::shared_ptr<btCollisionShape>> collision_shapes_;
-  std::vector<std::unique_ptr<btRigidBody>> bodies_;
-  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
-  std::vector<std::unique_ptr<btMultiBody>> robots_;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
-  std::unique_ptr<Fluid> fluid_;
+  std::unique_ptr<btDiscreteDynamicsWorld> world_;
+  std::optional<WorldContents> contents_;
+  std::optional<Fluid> fluid_;
 };
 
 /// A scene whose cost is of interest.
