@@ -128,4 +128,11 @@ AttachDef bumpyInWater() {
   return attach;
 }
 
+std::vector<GoldenRun> goldenRuns() {
+  std::vector<GoldenRun> all;
+  for (const auto& runs : {goldenFlights(), goldenContacts(), goldenJoints()})
+    all.insert(all.end(), runs.begin(), runs.end());
+  return all;
+}
+
 }  // namespace ambient::test
