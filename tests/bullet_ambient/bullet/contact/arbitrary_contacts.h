@@ -1,10 +1,78 @@
+#include "tests/bullet_ambient/bullet/contact/coupled_body.h"
+#include "tests/support/solver_kinds.h"
 #pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include <string>
 
-#include "tests/bullet_ambient/bullet/contact/contact_pair.h"
-
 namespace ambient::test {
+
+/// Two bodies with a contact point; calls a solver without a world.
+class ContactPair {
+ public:
+  /// Moves b so that its surface point meets a's; both points lie within twice the size of their
+  /// body. The normal points from b to a.
+  ContactPair(Arbitrary& arbitrary, CoupledBody a, CoupledBody b);
+
+  /// Adds a contact at another place with another normal.
+  void addPoint(Arbitrary& arbitrary);
+  int points() const { return manifold_.getNumContacts(); }
+
+  /// Reverses both velocities if the points move apart.
+  void makeApproaching();
+  void setVelocities(const DenseVector6& u_a, const DenseVector6& u_b);
+  /// Returns velocity of a's point minus velocity of b's point along a direction.
+  Real approach(const Vector3r& direction, const DenseVector6& u_a, const DenseVector6& u_b,
+                int at = 0) const;
+
+  btManifoldPoint& point(int at = 0) { return manifold_.getContactPoint(at); }
+  const CoupledBody& a() const { return a_; }
+  const CoupledBody& b() const { return b_; }
+  Vector3r normal(int at = 0) const;
+  Vector3r tangent(int i, int at = 0) const;
+  Vector3r fromA(int at = 0) const;  ///< from a's centre of mass to the contact
+  Vector3r fromB(int at = 0) const;
+  reference::DenseRow row(const Vector3r& direction, int at = 0) const;
+  /// Rows of the first point at the start of a step of dt: the normal row, which ends with
+  /// `normal_velocity`, and two friction rows with the point's coefficient.
+  std::vector<reference::DenseRow> frictionRows(Real normal_velocity, FrictionBound bound, Real dt);
+  /// Bodies for the dense solver, at the start of a step of dt.
+  std::vector<reference::DenseBody> dense(Real dt) const { return {a_.dense(dt), b_.dense(dt)}; }
+
+  /// Attaches the ambient bodies and solves once with a new solver. Returns false
+  /// if a complementarity solver fell back to sequential impulses, or if an
+  /// iterative solver missed the residual of the settings. A joint replaces the
+  /// contacts.
+  template <class Kind>
+  bool solve(const btContactSolverInfo& info, btTypedConstraint* joint = nullptr) {
+    const auto members = std::make_shared<AmbientBodies>();
+    a_.attachTo(*members);
+    b_.attachTo(*members);
+    typename Kind::Ambient ambient(members);
+    SolverTask task;
+    task.bodies.push_back(&a_.body());
+    if (!b_.isFixed()) task.bodies.push_back(&b_.body());
+    if (joint) {
+      task.joints.push_back(joint);
+    } else {
+      task.manifolds.push_back(&manifold_);
+    }
+    task.info = info;
+    solveOnce(ambient.solver, task);
+    return hasFinished(ambient.solver, info);
+  }
+
+ private:
+  void addPointAt(const btVector3& at, const btVector3& normal);
+
+  CoupledBody a_, b_;
+  btPersistentManifold manifold_;
+};
+
+/// Settings without position correction, thresholds and other defaults of Bullet. Tests enable the
+/// terms they need.
+btContactSolverInfo plainSettings(double dt);
 
 // Contacts of an ambient body of coupled inertia, K_fluid from 1e-3 to 1e4 times K_body, with a
 // fixed, an ordinary or an ambient body.

@@ -8,9 +8,22 @@
 
 namespace ambient::test {
 
-ChainTask::ChainTask(Arbitrary& arbitrary, CoupledBody body, LinkChain chain, int link_body)
-    : body_(std::move(body)), chain_(std::move(chain)), link_body_(link_body) {
-  point_ = chain_.centre(link_body) + arbitrary.vector(0.15).cast<Real>();
+ChainTask::ChainTask(Arbitrary& arbitrary, bool has_fixed_base, int link)
+    : body_(CoupledBody::random(arbitrary, arbitraryRatio(arbitrary))), link_(link) {
+  RobotDef def;
+  def.joints = Joints::kSmooth;
+  def.has_fixed_base = has_fixed_base;
+  robot_ = arbitraryRobot(arbitrary, def);
+  for (int i = -1; i < robot_->getNumLinks(); ++i)
+    colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(robot_.get(), i));
+  // Repeats the world's preparation before its solver call; advances no time.
+  RobotWorld::moveColliders(*robot_);
+  btAlignedObjectArray<btVector3> vectors;
+  btAlignedObjectArray<btScalar> scalars;
+  btAlignedObjectArray<btMatrix3x3> matrices;
+  robot_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scalars, vectors, matrices, false,
+                                                               false, false);
+  point_ = exact(robot_->localPosToWorld(link, {0, 0, 0})) + arbitrary.vector(0.15).cast<Real>();
   const Vector3 centre = point_.cast<double>() + arbitrary.vector(body_.size() / 2);
   btTransform pose = body_.body().getWorldTransform();
   pose.setOrigin(toBt(centre));
@@ -20,7 +33,7 @@ ChainTask::ChainTask(Arbitrary& arbitrary, CoupledBody body, LinkChain chain, in
 void ChainTask::touchAlong(const btVector3& normal_or_opposite, bool body_is_a) {
   body_is_a_ = body_is_a;
   btCollisionObject* a = &body_.body();
-  btCollisionObject* b = &chain_.collider(link_body_);
+  btCollisionObject* b = colliders_[static_cast<std::size_t>(link_ + 1)].get();
   if (!body_is_a) std::swap(a, b);
   manifold_ = std::make_unique<btPersistentManifold>(a, b, 0, btScalar(1), btScalar(1));
   const btVector3 at = toBt(point_.cast<double>());
@@ -35,7 +48,8 @@ void ChainTask::touchAlong(const btVector3& normal_or_opposite, bool body_is_a) 
 }
 
 reference::DenseRow ChainTask::oriented(reference::DenseRow row) const {
-  row.body_b = 1 + link_body_;
+  row.body_a = denseBody();
+  row.body_b = link_ + 1;
   if (!body_is_a_) {
     row.jacobian_a *= -1;
     row.jacobian_b *= -1;
@@ -46,7 +60,7 @@ reference::DenseRow ChainTask::oriented(reference::DenseRow row) const {
 reference::DenseRow ChainTask::row(const Vector3r& direction) const {
   return oriented(reference::pointRow(direction,
                                       point_ - exact(body_.body().getWorldTransform().getOrigin()),
-                                      point_ - chain_.centre(link_body_)));
+                                      point_ - exact(robot_->localPosToWorld(link_, {0, 0, 0}))));
 }
 
 reference::DenseRow ChainTask::spinRow(const Vector3r& direction) const {
@@ -55,13 +69,15 @@ reference::DenseRow ChainTask::spinRow(const Vector3r& direction) const {
 
 Real ChainTask::approach() const {
   const reference::DenseRow r = row(exact(manifold_->getContactPoint(0).m_normalWorldOnB));
-  return r.jacobian_a.dot(body_.velocity()) + r.jacobian_b.dot(chain_.velocity(link_body_));
+  return r.jacobian_a.dot(body_.velocity()) +
+         r.jacobian_b.dot(twistsOf(*robot_)[static_cast<std::size_t>(link_ + 1)]);
 }
 
-std::vector<reference::DenseBody> ChainTask::dense(Real dt) const {
-  std::vector<reference::DenseBody> bodies = chain_.dense();
-  bodies.insert(bodies.begin(), body_.dense(dt));
-  return bodies;
+DenseRobot ChainTask::dense(Real dt) const {
+  static const RobotWorld nobody;  // the robot is in no fluid
+  DenseRobot dense = denseRobot(*robot_, nobody.fluid);
+  dense.bodies.push_back(body_.dense(dt));
+  return dense;
 }
 
 bool ChainTask::solve(const btContactSolverInfo& info, btMultiBodyConstraint* joint) {
@@ -69,31 +85,24 @@ bool ChainTask::solve(const btContactSolverInfo& info, btMultiBodyConstraint* jo
   body_.attachTo(*members);
   MultiBody::Ambient ambient(members);
   std::vector<btCollisionObject*> bodies = {&body_.body()};
-  for (int i = 0; i < LinkChain::kBodies; ++i) bodies.push_back(&chain_.collider(i));
+  for (const auto& collider : colliders_) bodies.push_back(collider.get());
   btPersistentManifold* manifolds[] = {manifold_.get()};
   ambient.solver.solveMultiBodyGroup(bodies.data(), static_cast<int>(bodies.size()), manifolds,
                                      manifold_ ? 1 : 0, nullptr, 0, joint ? &joint : nullptr,
                                      joint ? 1 : 0, info, nullptr, nullptr);
-  chain_.multibody().processDeltaVeeMultiDof2();  // the world's next call
+  robot_->processDeltaVeeMultiDof2();  // the world's next call
   return hasFinished(ambient.solver, info);
 }
 
 double BeforeChain::error(const ChainTask& task, const reference::DenseSolution& expected) const {
-  return std::max(task.body().error(expected.velocities[0], body),
-                  task.chain().error(expected.velocities, 1, chain));
-}
-
-ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base, int link_body) {
-  CoupledBody body = CoupledBody::random(arbitrary, arbitraryRatio(arbitrary));
-  LinkChain chain = LinkChain::random(arbitrary, has_fixed_base);
-  return {arbitrary, std::move(body), std::move(chain), link_body};
+  return std::max(
+      task.body().error(expected.velocities[static_cast<std::size_t>(task.denseBody())], body),
+      twistError(task.robot(), expected.velocities, robot));
 }
 
 ChainTask arbitraryChainTask(Arbitrary& arbitrary, bool has_fixed_base) {
-  const int lowest = has_fixed_base ? 1 : 0;
-  const int link_body = std::min(LinkChain::kBodies - 1,
-                                 static_cast<int>(arbitrary.between(lowest, LinkChain::kBodies)));
-  return arbitraryChainTask(arbitrary, has_fixed_base, link_body);
+  const int link = static_cast<int>(arbitrary.between(has_fixed_base ? 1 : 0, 4)) - 1;
+  return {arbitrary, has_fixed_base, std::min(link, 2)};
 }
 
 double pushedTime(Arbitrary& arbitrary, const ChainTask& task) {

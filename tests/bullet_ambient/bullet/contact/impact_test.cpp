@@ -11,7 +11,7 @@ namespace {
 // tolerances are rounding.
 
 constexpr double kRestitutions[] = {0, 0.5, 1};
-constexpr int kImpactsEach = 250;  // 3 others, 3 restitutions: 2250 in all
+constexpr int kImpactsEach = 100;  // 3 others, 3 restitutions: 900 in all
 
 // Momentum of both bodies about the world's origin, and their energy.
 struct Totals {
@@ -58,7 +58,7 @@ TYPED_TEST(Impact, EqualsTheDenseSolution) {
     ++impacts;
     worst = std::max(worst, worstError(pair, expected, before));
   }
-  EXPECT_GE(impacts, 2000);
+  EXPECT_GE(impacts, 800);
   EXPECT_LT(worst, kTolerance);
   report("impacts", worst);
 }
@@ -68,7 +68,7 @@ TYPED_TEST(Impact, EqualsTheDenseSolution) {
 TYPED_TEST(FrictionlessImpact, ConservesMomentumAndAtRestitutionOneEnergy) {
   Arbitrary arbitrary(32);
   double worst_momentum = 0, worst_energy = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 400; ++i) {
     ContactPair pair = arbitraryPair(arbitrary, i % 2 == 0 ? Other::kAmbient : Other::kOrdinary);
     const btContactSolverInfo info = plainSettings(gyroscopicTime(pair, 1e-18));
     const double restitution = i % 4 < 2 ? 1 : 0.5;
@@ -97,7 +97,7 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
   Arbitrary arbitrary(33);
   double worst = 0, worst_point_force = 0;
   int sticking = 0, sliding = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 300; ++i) {
     ContactPair pair = arbitraryPair(arbitrary, kOthers[i % 3]);
     const btContactSolverInfo info = convergingSettings(gyroscopicTime(pair, 0.05));
     pushAtRandom(arbitrary, pair, info.m_timeStep);
@@ -124,8 +124,8 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
         pair.a().velocity() + reference::solved(bodies[0].inertia, of_force - wrench);
     worst_point_force = std::max(worst_point_force, pair.a().error(moved, before.a));
   }
-  EXPECT_GT(sticking, 200);
-  EXPECT_GT(sliding, 200);
+  EXPECT_GT(sticking, 100);
+  EXPECT_GT(sliding, 100);
   // Direct solvers reach 2e-6 in float. Iterative ones do, too, except for one
   // pair of slow convergence: 2.5e-5, probably rounding of thousands of
   // iterations.

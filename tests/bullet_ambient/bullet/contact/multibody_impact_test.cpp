@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bullet_ambient/bullet/members/tree_state.h"
 #include "tests/bullet_ambient/bullet/contact/chain_contact.h"
 
 namespace ambient::test {
 namespace {
 
-// Contacts of an ambient body with a link of a btMultiBody. The reference has links as separate
+// Contacts of an ambient body with a link of a dry btMultiBody. The reference has links as separate
 // bodies with joint rows.
-
-Rows chainRows(const ChainTask& task) { return task.chain().jointRows(1); }
 
 // Velocity along the row by Bullet's forces of the dry body, without fluid. Bullet's restitution of
 // this contact uses it.
@@ -27,7 +26,7 @@ TEST(MultiBodyImpact, EqualsTheDenseSolution) {
   Arbitrary arbitrary(51);
   double worst = 0;
   int impacts = 0;
-  for (int i = 0; i < 2400; ++i) {
+  for (int i = 0; i < 800; ++i) {
     ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
     task.touch(arbitrary, i / 2 % 2 == 0);
     btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
@@ -35,8 +34,7 @@ TEST(MultiBodyImpact, EqualsTheDenseSolution) {
     const double restitution = i / 4 % 3 * 0.5;
     task.contact().m_combinedRestitution = btScalar(restitution);
     const BeforeChain before(task);
-    const auto bodies = task.dense(info.m_timeStep);
-    Rows rows = chainRows(task);
+    auto [bodies, rows] = task.dense(info.m_timeStep);
     const auto normal = rows.size();
     rows.push_back(task.row(exact(task.contact().m_normalWorldOnB)));
     rows[normal].lower = 0;
@@ -48,7 +46,7 @@ TEST(MultiBodyImpact, EqualsTheDenseSolution) {
     ++impacts;
     worst = std::max(worst, before.error(task, expected));
   }
-  EXPECT_GE(impacts, 2000);
+  EXPECT_GE(impacts, 600);
   EXPECT_LT(worst, kTolerance);
   report("link_impacts", worst);
 }
@@ -58,7 +56,7 @@ TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
   Arbitrary arbitrary(52);
   double worst = 0;
   int sticking = 0, sliding = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 200; ++i) {
     ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
     task.touch(arbitrary, i / 2 % 2 == 0);
     btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
@@ -70,8 +68,7 @@ TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
     contact.m_combinedFriction = btScalar(arbitrary.between(0.05, 0.6));
     contact.m_distance1 = btScalar(-0.1 * info.m_timeStep);
     const BeforeChain before(task);
-    const auto bodies = task.dense(info.m_timeStep);
-    Rows rows = chainRows(task);
+    auto [bodies, rows] = task.dense(info.m_timeStep);
     const auto normal = rows.size();
     rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
     rows[normal].lower = 0;
@@ -94,18 +91,19 @@ TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
     }
     worst = std::max(worst, before.error(task, *expected));
   }
-  EXPECT_GT(sticking, 100);
-  EXPECT_GT(sliding, 100);
+  EXPECT_GT(sticking, 50);
+  EXPECT_GT(sliding, 50);
   EXPECT_LT(worst, kTolerance);
   report("link_friction", worst);
 }
 
-// Rows that fix the locked axes of body 0 against the last body, an immovable one.
-Rows planeRows(int fixed_body) {
+// Rows that fix the locked axes of the body against the ground.
+Rows planeRows(const ChainTask& task) {
   Rows rows;
   for (int axis : {0, 1, 5}) {
     reference::DenseRow row;
-    row.body_b = fixed_body;
+    row.body_a = task.denseBody();
+    row.body_b = task.denseGround();
     row.jacobian_a[axis] = 1;
     rows.push_back(row);
   }
@@ -118,9 +116,9 @@ TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
   Arbitrary arbitrary(57);
   double worst = 0;
   int solved = 0, on_ground = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const bool is_ground = i % 2 == 0;
-    ChainTask task = arbitraryChainTask(arbitrary, is_ground, is_ground ? 0 : 2);
+    ChainTask task(arbitrary, is_ground, is_ground ? -1 : 1);
     btRigidBody& body = task.body().body();
     body.setLinearFactor({1, 1, 0});
     body.setAngularFactor({0, 0, 1});
@@ -135,12 +133,8 @@ TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
     btManifoldPoint& contact = task.contact();
     contact.m_combinedFriction = btScalar(0.3);
     const BeforeChain before(task);
-    auto bodies = task.dense(info.m_timeStep);
-    Rows rows = chainRows(task);
-    for (const reference::DenseRow& row : planeRows(static_cast<int>(bodies.size())))
-      rows.push_back(row);
-    bodies.emplace_back();
-    bodies.back().fixed = true;
+    auto [bodies, rows] = task.dense(info.m_timeStep);
+    for (const reference::DenseRow& row : planeRows(task)) rows.push_back(row);
     const auto normal = rows.size();
     rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
     rows[normal].lower = 0;
@@ -160,8 +154,8 @@ TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
     on_ground += is_ground;
     worst = std::max(worst, before.error(task, *expected));
   }
-  EXPECT_GT(solved, 150);
-  EXPECT_GT(on_ground, 100);
+  EXPECT_GT(solved, 100);
+  EXPECT_GT(on_ground, 60);
   EXPECT_LT(worst, kTolerance);
   report("link_locked_axes", worst);
 }
@@ -172,7 +166,7 @@ TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
   Arbitrary arbitrary(53);
   double worst = 0;
   int solved = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 300; ++i) {
     ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
     task.touch(arbitrary, i / 2 % 2 == 0);
     const btContactSolverInfo info = chainSettings(pushedTime(arbitrary, task));
@@ -181,8 +175,7 @@ TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
     contact.m_combinedSpinningFriction = btScalar(1e6);
     contact.m_combinedRollingFriction = btScalar(1e6);
     const BeforeChain before(task);
-    const auto bodies = task.dense(info.m_timeStep);
-    Rows rows = chainRows(task);
+    auto [bodies, rows] = task.dense(info.m_timeStep);
     const auto normal = rows.size();
     rows.push_back(task.row(exact(contact.m_normalWorldOnB)));
     btVector3 tangent[2];
@@ -199,7 +192,7 @@ TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
     ++solved;
     worst = std::max(worst, before.error(task, expected));
   }
-  EXPECT_GT(solved, 100);
+  EXPECT_GT(solved, 50);
   EXPECT_LT(worst, kTolerance);
   report("link_sticking", worst);
 }
@@ -209,19 +202,18 @@ TEST(MultiBodyImpact, WarmStartsChangeNothingButTheWay) {
   Arbitrary arbitrary(55);
   double worst = 0;
   int warm = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 300; ++i) {
     ChainTask task = arbitraryChainTask(arbitrary, i % 2 == 0);
     task.touch(arbitrary, i / 2 % 2 == 0);
     btContactSolverInfo info = chainSettings(task.body().gyroscopicTime(0.02));
     info.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
     const DenseVector6 first = task.body().velocity();
-    const LinkChain::Rates first_rates = task.chain().rates();
+    const Eigen::VectorXd first_rates = velocityOf(task.robot());
     if (!task.solve(info)) continue;
     task.body().setVelocity(arbitrary.between(0.8, 1.2) * first);
-    task.chain().setRates(first_rates);
+    writeVelocity(task.robot(), first_rates);
     const BeforeChain before(task);
-    const auto bodies = task.dense(info.m_timeStep);
-    Rows rows = chainRows(task);
+    auto [bodies, rows] = task.dense(info.m_timeStep);
     rows.push_back(task.row(exact(task.contact().m_normalWorldOnB)));
     rows.back().lower = 0;
     const auto expected = reference::solveDense(bodies, rows);
@@ -230,7 +222,7 @@ TEST(MultiBodyImpact, WarmStartsChangeNothingButTheWay) {
     ++warm;
     worst = std::max(worst, before.error(task, expected));
   }
-  EXPECT_GT(warm, 300);
+  EXPECT_GT(warm, 150);
   EXPECT_LT(worst, kTolerance);
   report("link_warm_start", worst);
 }

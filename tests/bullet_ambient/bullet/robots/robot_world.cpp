@@ -74,7 +74,7 @@ RobotWorld::~RobotWorld() {
   for (const auto& object : objects_) world.removeCollisionObject(object.get());
 }
 
-btMultiBody& RobotWorld::add(Arbitrary& arbitrary, const RobotDef& def) {
+std::unique_ptr<btMultiBody> arbitraryRobot(Arbitrary& arbitrary, const RobotDef& def) {
   const btScalar mass = bt(arbitrary.between(0.7, 1.3));
   auto robot = std::make_unique<btMultiBody>(
       def.links, mass, btVector3(bt(0.02), bt(0.03), bt(0.025)), def.has_fixed_base, true);
@@ -93,7 +93,11 @@ btMultiBody& RobotWorld::add(Arbitrary& arbitrary, const RobotDef& def) {
     body.setBaseOmega(bt(2 * def.speed) * direction(arbitrary));
     body.setBaseVel(bt(def.speed) * direction(arbitrary));
   }
-  return take(std::move(robot), def.collider_radius);
+  return robot;
+}
+
+btMultiBody& RobotWorld::add(Arbitrary& arbitrary, const RobotDef& def) {
+  return take(arbitraryRobot(arbitrary, def), def.collider_radius);
 }
 
 btMultiBody& RobotWorld::take(std::unique_ptr<btMultiBody> robot, double collider_radius) {

@@ -24,12 +24,16 @@ struct RobotDef {
   double collider_radius = 0;  ///< sphere at each centre of mass; 0: no colliders
 };
 
+/// Makes a robot outside of any world: links of 0.3 kg to 1.3 kg, 0.3 m apart, random pose and
+/// motion.
+std::unique_ptr<btMultiBody> arbitraryRobot(Arbitrary& arbitrary, const RobotDef& def);
+
 /// A multibody world with a fluid, gravity 0, without position correction, softness and damping.
 struct RobotWorld : TreeWorld {
   RobotWorld();
   ~RobotWorld();
 
-  /// Adds a robot to the world: links of 0.3 kg to 1.3 kg, 0.3 m apart, random pose and motion.
+  /// Adds an arbitraryRobot() to the world.
   btMultiBody& add(Arbitrary& arbitrary, const RobotDef& def);
   /// Adds a finished robot, with spheres of a radius [m] as colliders of its links; 0: without.
   btMultiBody& take(std::unique_ptr<btMultiBody> robot, double collider_radius);
