@@ -41,6 +41,13 @@ struct BodyDef {
   btCollisionShape* shape = nullptr;
 };
 
+/// Tells if two bodies have the same bits of pose and velocity.
+inline bool moveAlike(const btRigidBody& a, const btRigidBody& b) {
+  return a.getWorldTransform() == b.getWorldTransform() &&
+         a.getLinearVelocity() == b.getLinearVelocity() &&
+         a.getAngularVelocity() == b.getAngularVelocity();
+}
+
 /// Remembers the action that it was given first: that of its fluid.
 struct ActionWorld : btDiscreteDynamicsWorld {
   using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;

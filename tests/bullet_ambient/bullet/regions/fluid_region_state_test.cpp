@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/region_world.h"
+#include "tests/bullet_ambient/bullet/state/saved_run.h"
 #include "tests/support/thread_pool.h"
 
 // Worlds with many regions: threads and saved states.
@@ -41,11 +42,9 @@ struct Layers {
       scene.fluid.add(body, attach);
     }
   }
-  std::string bits() const {
-    WorldState state = scene.fluid.save();
-    state.pairs.clear();
-    state.contacts.clear();
-    return encodeState(state);
+  std::string bits() const { return motionBytes(scene.fluid); }
+  SavedRun saved() {
+    return {scene.fluid, [this] { scene.step(kWorldStep); }};
   }
 
   btSphereShape ball{bt(0.2)};
@@ -70,17 +69,7 @@ TEST(FluidRegions, GoOnBitForBitFromASavedState) {
   for (const int before : {20, 61, 90}) {
     Layers run, other;
     run.scene.step(kWorldStep, before);
-    const std::string bytes = encodeState(run.scene.fluid.save());
-    const WorldState state =
-        decodeState(bytes, "bytes", [&](const std::string&) { return other.shape; });
-    other.scene.fluid.restore(state);
-    EXPECT_EQ(other.scene.fluid.time(), run.scene.fluid.time());
-    EXPECT_TRUE(run.bits() == other.bits());
-    for (int i = 0; i < 60; ++i) {
-      run.scene.step(kWorldStep);
-      other.scene.step(kWorldStep);
-      ASSERT_TRUE(run.bits() == other.bits()) << before << " and " << i;
-    }
+    expectGoesOn(run.saved(), other.saved(), lookupOf(other.shape), 60);
   }
 }
 

@@ -12,18 +12,6 @@
 namespace ambient::test {
 namespace {
 
-Medium blowing(const Vector3& velocity) {
-  Medium wind = air();
-  wind.velocity = velocity;
-  return wind;
-}
-
-bool isSame(const btRigidBody& a, const btRigidBody& b) {
-  return a.getWorldTransform() == b.getWorldTransform() &&
-         a.getLinearVelocity() == b.getLinearVelocity() &&
-         a.getAngularVelocity() == b.getAngularVelocity();
-}
-
 TEST(FluidRegions, ABodyInOneMovesAsIfTheFluidWereItsOwn) {
   const Medium medium{300, 1e-3, {0.3, 0, 0.1}, {0, 0.2, 0}};
   btSphereShape ball(bt(0.2));
@@ -48,7 +36,7 @@ TEST(FluidRegions, ABodyInOneMovesAsIfTheFluidWereItsOwn) {
   for (int i = 1; i < 3; ++i) {
     const auto* a = btRigidBody::upcast(own.world.getCollisionObjectArray()[i]);
     const auto* b = btRigidBody::upcast(regions.world.getCollisionObjectArray()[i]);
-    EXPECT_TRUE(isSame(*a, *b)) << i;
+    EXPECT_TRUE(moveAlike(*a, *b)) << i;
     EXPECT_EQ(regions.of(*b).medium().density, medium.density);
     EXPECT_EQ(regions.of(*b).inertia(), own.of(*a).inertia());
   }
@@ -117,7 +105,7 @@ TEST(FluidRegions, ABodyThatCrossesKeepsItsVelocity) {
     crossing.step(kWorldStep);
     stock.step(kWorldStep);
     ++steps;
-    ASSERT_TRUE(isSame(body, dry)) << steps;
+    ASSERT_TRUE(moveAlike(body, dry)) << steps;
   }
   EXPECT_GT(steps, 50);
   EXPECT_EQ(crossing.fluid.counters().medium_changes, 0);
@@ -128,38 +116,10 @@ TEST(FluidRegions, ABodyThatCrossesKeepsItsVelocity) {
   for (int i = 0; i < 20; ++i) {
     crossing.step(kWorldStep);
     inside.step(kWorldStep);
-    ASSERT_TRUE(isSame(body, put)) << i;
+    ASSERT_TRUE(moveAlike(body, put)) << i;
   }
   EXPECT_EQ(crossing.fluid.counters().medium_changes, 1);
   EXPECT_EQ(crossing.of(body).inertia(), inside.of(put).inertia());
-}
-
-TEST(FluidRegions, AVacuumLeavesABodyToStockBullet) {
-  FluidWorld scene, stock;
-  scene.fluid.addRegion(filledWith(Medium{}));
-  btRigidBody& body =
-      scene.add(tumblingBody(Vector3::Zero()), meshedEllipsoid(kUnequalAxes, 1), water());
-  btRigidBody& dry = stock.add(tumblingBody(Vector3::Zero()));
-  scene.step(kWorldStep, 30);
-  stock.step(kWorldStep, 30);
-  EXPECT_TRUE(isSame(body, dry));
-  EXPECT_EQ(scene.of(body).inertia()(5, 5), 2);  // its mass alone
-}
-
-TEST(FluidRegions, AWindZoneBlowsInsideOnly) {
-  FluidWorld scene;
-  FluidRegion zone = filledWith(blowing({0, 5, 0}));
-  zone.bounds = RegionBounds{{0, -kFar, -kFar}, {10, kFar, kFar}};
-  scene.fluid.addRegion(zone);
-  BodyDef def = tumblingBody({5, 0, 0});
-  def.start.twist = {};
-  const FluidBody shape = meshedEllipsoid(kUnequalAxes, 1);
-  btRigidBody& inside = scene.add(def, shape, air());
-  def.start.position.x() = 11;
-  btRigidBody& outside = scene.add(def, shape, air());
-  scene.step(kWorldStep, 120);
-  EXPECT_GT(inside.getLinearVelocity().y(), bt(0.1));
-  EXPECT_EQ(outside.getLinearVelocity().y(), bt(0));
 }
 
 // Drift from the circle in a rigidly rotating fluid, for a body of equal density without faces.
@@ -289,20 +249,6 @@ btRigidBody& addRestingBall(FluidWorld& scene, const Medium& medium) {
   btRigidBody& body = scene.add(def, shape, medium);
   body.forceActivationState(ACTIVE_TAG);
   return body;
-}
-
-TEST(FluidRegions, BodiesSleepInAndWakeUpWhenTheyChange) {
-  FluidWorld scene;
-  const RegionId id = scene.fluid.addRegion(filledWith(idealFluid(998)));
-  const btRigidBody& body = addRestingBall(scene, Medium{});
-  scene.step(1.0 / 60, 300);
-  ASSERT_FALSE(body.isActive());
-  FluidRegion current = filledWith(idealFluid(998));
-  current.below.acceleration = {1, 0, 0};
-  scene.fluid.setRegion(id, current);
-  scene.step(1.0 / 60, 2);
-  EXPECT_TRUE(body.isActive());
-  EXPECT_GT(body.getLinearVelocity().x(), bt(0));
 }
 
 TEST(FluidRegions, NobodySleepsInAFlowThatMayChange) {

@@ -92,31 +92,6 @@ TEST(LongRows, AStickTurnsWithItsWaterAsWithoutThem) {
   }
 }
 
-// A plate is long in two axes: each tells half of the turning.
-TEST(LongRows, APlateTurnsWithItsWater) {
-  for (const LongCase& with : longCases()) {
-    std::vector<double> sums;
-    for (const bool is_taken : {true, false}) {
-      LongScene scene;
-      scene.fluid.addRegion(turningWater(is_taken ? kTurning : 0));
-      scene.add({1, 0.8, 0.1}, 1000, with.mover, LongScene::Freedom::kTurnsAboutZ);
-      if (!is_taken) scene.setSpin(kTurning);
-      for (std::size_t second = 0; second < 20; ++second) {
-        scene.step(1 / with.rate, static_cast<int>(with.rate));
-        const double spin = scene.speed(LongScene::Freedom::kTurnsAboutZ);
-        if (is_taken) {
-          sums.push_back(spin);
-          EXPECT_GT(spin, 0);
-        } else {
-          EXPECT_NEAR(sums[second] + spin, kTurning,
-                      12 / (with.rate * with.rate) + byPrecision(0, 1e-4))
-              << with.text() << ", second " << second;
-        }
-      }
-    }
-  }
-}
-
 const Vector3 kBar(20, 0.5, 0.6);  // [m]
 
 /// A bar at rest at the origin of which less than a half is in a current across it.

@@ -10,6 +10,7 @@
 #include "bullet_ambient/reading.h"
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/regions/long_scene.h"
+#include "tests/bullet_ambient/bullet/state/saved_run.h"
 #include "tests/support/runs.h"
 
 // Bodies across the rim of a pool, docs/theory.md section 17.
@@ -126,7 +127,7 @@ TEST(PoolRim, APlankIsCarriedByThePartThatIsOverThePool) {
 }
 
 TEST(PoolRim, NothingJumpsWhereAPlankIsPushedAcrossIt) {
-  const int half = static_cast<int>(runsOf(125));
+  const int half = static_cast<int>(runsOf(40));
   const double way = 1.25 / half, most = 1000 * kGravity * kPlank.y() * kDraught * way;
   const double rounding = byPrecision(1e-6, 1e-4);
   for (const Mover mover : {Mover::kRigid, Mover::kLink})
@@ -271,10 +272,12 @@ struct RestingScene : Rim {
 // a smooth one they slide, and then no water that they are in speeds them up.
 TEST(PoolRim, APlankOverTheRimGainsNoEnergy) {
   std::vector<RestingCase> cases;
-  for (const double hertz : {30.0, 60.0, 240.0})
+  for (const double hertz : {30.0, 60.0})
     for (const double x : {-0.4, -0.2, 0.0, 0.2})
       for (const double friction : {0.0, 0.5})
-        for (const double density : {400.0, 800.0}) cases.push_back({hertz, x, friction, density});
+        cases.push_back({hertz, x, friction, cases.size() / 2 % 2 == 0 ? 400.0 : 800.0});
+  cases.push_back({240, -0.2, 0, 800});
+  cases.push_back({240, 0, 0.5, 400});
   if (!AMBIENT_LONG_TESTS) cases = {{30, 0.2, 0.5, 800}, {60, -0.4, 0.5, 400}};
   for (const RestingCase& with : cases) {
     RestingScene scene(with);
@@ -296,23 +299,18 @@ TEST(PoolRim, APlankOverTheRimGainsNoEnergy) {
 }
 
 TEST(PoolRim, AStateGoesOnBitForBit) {
-  const auto run = [](Rim& rim) {
+  Rim one, other;
+  const auto start = [](Rim& rim) {
     rim.fluid.addRegion(poolBesideLand());
     RigidState at = afloatAt(0.2, 0.3);
     at.twist = {Vector3(0.1, 0.3, 0.2), Vector3(-0.5, 0.1, 0.2)};
-    return &rim.drop(at, 500);
+    rim.drop(at, 500);
+    return SavedRun{rim.fluid, [&rim] { rim.step(1.0 / 60); }};
   };
-  Rim one, other;
-  btRigidBody *a = run(one), *b = run(other);
+  const SavedRun run = start(one), restored = start(other);
   one.step(1.0 / 60, 20);
-  const auto shape = one.fluid.find(*a)->fluidBody();
-  const std::string bytes = encodeState(one.fluid.save());
-  other.fluid.restore(decodeState(bytes, "bytes", [&](const std::string&) { return shape; }));
-  for (int i = 0; i < 30; ++i) {
-    one.step(1.0 / 60);
-    other.step(1.0 / 60);
-    ASSERT_EQ(ambient::velocityOf(*a).vector(), ambient::velocityOf(*b).vector()) << i;
-  }
+  const WorldState state = one.fluid.save();
+  expectGoesOn(run, restored, lookupOf(state.bodies[0].ambient->def.fluid_body), 30);
 }
 
 }  // namespace

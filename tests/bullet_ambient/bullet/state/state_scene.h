@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/bullet_ambient/bullet/state/saved_run.h"
 
 namespace ambient::test {
 
@@ -44,12 +45,9 @@ class StateScene {
   btRigidBody& body(int i) {
     return *btRigidBody::upcast(scene.world.getCollisionObjectArray()[i]);
   }
-  /// Bytes of all bodies; without Bullet's contacts.
-  std::string motion() const {
-    WorldState state = scene.fluid.save();
-    state.pairs.clear();
-    state.contacts.clear();
-    return encodeState(state);
+  std::string motion() const { return motionBytes(scene.fluid); }
+  SavedRun saved() {
+    return {scene.fluid, [this] { step(1); }};
   }
   std::shared_ptr<const FluidBody> find(const std::string& name) const {
     for (const auto& shape : {box_fluid, ball_fluid, plate_fluid}) {

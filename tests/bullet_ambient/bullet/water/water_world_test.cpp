@@ -8,6 +8,7 @@
 #include "bullet_ambient/force/medium/waves.h"
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/bullet_ambient/bullet/state/saved_run.h"
 #include "tests/support/bodies/part_bodies.h"
 #include "tests/support/floating_runs.h"
 #include "tests/support/thread_pool.h"
@@ -51,11 +52,9 @@ struct WaterWorld {
     scene.fluid.add(body, attach);
     return body;
   }
-  std::string bits() const {
-    WorldState state = scene.fluid.save();
-    state.pairs.clear();
-    state.contacts.clear();
-    return encodeState(state);
+  std::string bits() const { return motionBytes(scene.fluid); }
+  SavedRun saved() {
+    return {scene.fluid, [this] { scene.step(1.0 / 60); }};
   }
 
   btBoxShape box{btVector3(bt(0.4), bt(0.3), bt(0.2))};
@@ -82,19 +81,6 @@ double heightOf(const btRigidBody& body) {
   return static_cast<double>(body.getWorldTransform().getOrigin().z());
 }
 
-TEST(WaterWorld, ABoxFloatsAtTheDraughtOfItsWeight) {
-  for (const double s : {0.2, 0.5, 0.8}) {
-    WaterWorld water(seaAt(1.5));
-    RigidState start = at(1.5);
-    start.orientation = Quaternion(0.999, 0.03, 0.01, 0).normalized();
-    const btRigidBody& body = water.addBox(s, start);
-    water.scene.step(1.0 / 60, 1800);
-    EXPECT_NEAR(heightOf(body), 1.5 + 0.4 * (0.5 - s), 2e-3) << s;
-    EXPECT_NEAR(static_cast<double>(body.getWorldTransform().getBasis()[2].z()), 1, 1e-3) << s;
-    EXPECT_EQ(water.scene.fluid.counters().rejected, 0);
-  }
-}
-
 // Compares a free body step by step with the motion box's flight.
 TEST(WaterWorld, AFreeBodyMovesAsTheFlightSays) {
   FloatingDef def;
@@ -117,12 +103,6 @@ TEST(WaterWorld, AFreeBodyMovesAsTheFlightSays) {
   EXPECT_LT((position - alone.state.position).norm(), byPrecision(2e-3, 5e-3));
 }
 
-bool areSame(const btRigidBody& a, const btRigidBody& b) {
-  return a.getWorldTransform() == b.getWorldTransform() &&
-         a.getLinearVelocity() == b.getLinearVelocity() &&
-         a.getAngularVelocity() == b.getAngularVelocity();
-}
-
 TEST(WaterWorld, DryAndDeepBodiesMoveBitForBitAsInOneFluid) {
   for (const double level : {-50.0, 50.0}) {
     FluidRegion sea = seaAt(level);
@@ -135,7 +115,7 @@ TEST(WaterWorld, DryAndDeepBodiesMoveBitForBitAsInOneFluid) {
     for (int i = 0; i < 60; ++i) {
       near.scene.step(1.0 / 60);
       alone.scene.step(1.0 / 60);
-      ASSERT_TRUE(areSame(a, b)) << level << ", " << i;
+      ASSERT_TRUE(moveAlike(a, b)) << level << ", " << i;
     }
     EXPECT_EQ(near.scene.of(a).inertia(), alone.scene.of(b).inertia());
     EXPECT_EQ(near.scene.fluid.counters().load_evaluations,
@@ -205,14 +185,7 @@ TEST(WaterWorld, GoesOnBitForBitFromASavedState) {
       for (int i = 0; i < world->scene.world.getNumCollisionObjects(); ++i)
         world->scene.world.getCollisionObjectArray()[i]->forceActivationState(DISABLE_DEACTIVATION);
     run.scene.step(1.0 / 60, before);
-    const WorldState state = decodeState(encodeState(run.scene.fluid.save()), "bytes",
-                                         [&](const std::string&) { return other.shape; });
-    other.scene.fluid.restore(state);
-    for (int i = 0; i < 60; ++i) {
-      run.scene.step(1.0 / 60);
-      other.scene.step(1.0 / 60);
-      ASSERT_TRUE(run.bits() == other.bits()) << before << " and " << i;
-    }
+    expectGoesOn(run.saved(), other.saved(), lookupOf(other.shape), 60);
   }
 }
 
@@ -230,33 +203,6 @@ TEST(WaterWorld, ASavedStateHasTheSurfaceThatABodyHasMet) {
   for (WaterWorld* world : {&run, &other, &without}) world->scene.step(1.0 / 60, 20);
   EXPECT_TRUE(run.bits() == other.bits());
   EXPECT_FALSE(run.bits() == without.bits());
-}
-
-TEST(WaterWorld, ABodyGoesWithTheCurrentAndAWaveThatIsLong) {
-  FluidRegion stream = seaAt(0);
-  stream.below.velocity = {0.7, 0, 0};
-  WaterWorld water(stream);
-  const btRigidBody& body = water.addBox(0.5, at(0));
-  water.scene.step(1.0 / 60, 1200);
-  // By quadratic drag, as 1 / t.
-  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()), 0.7, 0.1);
-
-  FluidRegion sea = seaAt(0);
-  CalmSea calm;
-  sea.surface =
-      std::make_shared<AiryWaves>(calm, std::vector<WaveComponent>{{0.5, 12, {1, 0, 0}, 0}});
-  WaterWorld waves(sea);
-  RigidState start = at(0.5);
-  start.twist.linear = {0.5 * 2 * std::acos(-1.0) / 12, 0, 0};
-  const btRigidBody& buoy = waves.addBox(0.5, start);
-  double highest = -9, lowest = 9;
-  for (int i = 0; i < 2880; ++i) {
-    waves.scene.step(1.0 / 60);
-    if (i < 1440) continue;
-    highest = std::max(highest, heightOf(buoy));
-    lowest = std::min(lowest, heightOf(buoy));
-  }
-  EXPECT_NEAR(highest - lowest, 1, 0.03);
 }
 
 // Compares a free body after 2 s of wind with one on a rail along the wind.

@@ -91,12 +91,6 @@ std::vector<WorldSetup> worldsWithRestingContacts() {
   return worlds;
 }
 
-bool moveAlike(const btRigidBody& a, const btRigidBody& b) {
-  return a.getWorldTransform() == b.getWorldTransform() &&
-         a.getLinearVelocity() == b.getLinearVelocity() &&
-         a.getAngularVelocity() == b.getAngularVelocity();
-}
-
 class FourWorlds : public testing::TestWithParam<WorldSetup> {};
 INSTANTIATE_TEST_SUITE_P(Of, FourWorlds, testing::ValuesIn(allWorlds()), nameOf);
 

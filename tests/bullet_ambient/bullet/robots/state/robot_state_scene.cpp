@@ -42,22 +42,6 @@ FluidBodyLookup RobotStateScene::lookup() const {
   };
 }
 
-std::string RobotStateScene::motion() const {
-  WorldState state = save();
-  state.pairs.clear();
-  state.contacts.clear();
-  return encodeState(state);
-}
-
-std::vector<std::string> RobotStateScene::record(int steps) {
-  std::vector<std::string> motions;
-  for (int i = 0; i < steps; ++i) {
-    step();
-    motions.push_back(motion());
-  }
-  return motions;
-}
-
 btMultiBody& RobotStateScene::add(const RobotDef& def) { return robots_.add(arbitrary_, def); }
 
 void RobotStateScene::attach(btMultiBody& body, int link, AttachDef def) {

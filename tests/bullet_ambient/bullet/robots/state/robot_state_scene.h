@@ -7,6 +7,7 @@
 
 #include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
+#include "tests/bullet_ambient/bullet/state/saved_run.h"
 
 namespace ambient::test {
 
@@ -32,9 +33,11 @@ class RobotStateScene {
   WorldState save() const { return fluid().save(); }
   void restore(const WorldState& state) { fluid().restore(state); }
   FluidBodyLookup lookup() const;
-  /// Bytes of all robots and their fluids; without Bullet's contacts.
-  std::string motion() const;
-  std::vector<std::string> record(int steps);
+  std::string motion() const { return motionBytes(fluid()); }
+  SavedRun saved() {
+    return {fluid(), [this] { step(); }};
+  }
+  std::vector<std::string> record(int steps) { return test::record(saved(), steps); }
 
   Fluid& fluid() const { return robots_.fluid; }
   btMultiBodyDynamicsWorld& world() { return robots_.world; }
