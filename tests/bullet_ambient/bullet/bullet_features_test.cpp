@@ -13,23 +13,6 @@ namespace {
 double speedAlongX(const btRigidBody& body) {
   return static_cast<double>(body.getLinearVelocity().x());
 }
-double placeAlongX(const btRigidBody& body) {
-  return static_cast<double>(body.getWorldTransform().getOrigin().x());
-}
-
-TEST(Features, DampingIsWhatTheUserHasSet) {
-  // Bullet: v (1 - d)^t.
-  FluidWorld scene;
-  BodyDef def;
-  def.start.twist = {Vector3(0, 0, 2), Vector3(3, 0, 0)};
-  btRigidBody& body = scene.add(def, shapeWithoutFaces(Matrix6::Identity(), 0), idealFluid(1));
-  body.setDamping(bt(0.3), bt(0.6));
-  scene.step(1.0 / 64, 64);
-  EXPECT_NEAR(speedAlongX(body), 3 * 0.7, byPrecision(1e-12, 1e-5));
-  EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().z()), 2 * 0.4,
-              byPrecision(1e-12, 1e-5));
-}
-
 TEST(Features, GravityOfASingleBodyMakesItsWeightAndBuoyancy) {
   const FluidBody shape = facelessEllipsoid(kUnequalAxes);
   const double mass = 2 * shape.volume * 1000;
@@ -58,40 +41,6 @@ TEST(Features, ABodyThatIgnoresTheWorldsGravityIsNotLifted) {
   scene.world.addRigidBody(&body);
   scene.step(1.0 / 64, 10);
   EXPECT_TRUE(body.getLinearVelocity() == btVector3(0, 0, 0));
-}
-
-// A body that flies towards a thin wall by 2 m per step.
-struct Shot {
-  FluidWorld scene;
-  btBoxShape wall{btVector3(bt(0.01), 5, 5)};
-  btSphereShape ball{bt(0.1)};
-  btRigidBody* body = nullptr;
-
-  explicit Shot(double spin) {
-    BodyDef def;
-    def.mass = 0;
-    def.moments.setZero();
-    def.start.position = {5, 0, 0};
-    def.shape = &wall;
-    scene.add(def);
-    def = {};
-    def.start.twist = {Vector3(spin, 0, 0), Vector3(120, 0, 0)};
-    def.shape = &ball;
-    body = &scene.add(def, shapeWithoutFaces(Matrix6::Identity(), 0), idealFluid(1));
-  }
-};
-
-TEST(Features, ContinuousCollisionStopsABodyAtAWall) {
-  for (const double spin : {1.0, 200.0}) {
-    Shot with(spin), without(spin);
-    with.body->setCcdMotionThreshold(bt(0.05));
-    with.body->setCcdSweptSphereRadius(bt(0.09));
-    with.scene.step(1.0 / 60, 30);
-    without.scene.step(1.0 / 60, 30);
-    EXPECT_LT(placeAlongX(*with.body), 5);
-    EXPECT_GT(placeAlongX(*without.body), 6);  // passes through
-    EXPECT_TRUE(readState(*with.body).isFinite());
-  }
 }
 
 struct Place : btMotionState {
@@ -130,26 +79,6 @@ TEST(Features, MotionStatesAreInterpolatedBetweenSubsteps) {
       angleBetween(toQuaternion(before.getRotation()), toQuaternion(after.getRotation()));
   EXPECT_NEAR(turn, whole / 2, byPrecision(1e-12, 1e-6));
   EXPECT_GT(whole, 0.03);
-}
-
-TEST(Features, APushGivesItsImpulseAtOnce) {
-  // applyImpulse divides by the dry mass, as documented.
-  FluidWorld scene;
-  btRigidBody& body = scene.add({}, shapeWithoutFaces(Matrix6::Identity(), 0), idealFluid(1));
-  body.applyCentralImpulse({3, 0, 0});
-  EXPECT_NEAR(speedAlongX(body), 3, 1e-6);
-  scene.step(1.0 / 60, 10);
-  EXPECT_NEAR(speedAlongX(body), 3, 1e-5);
-}
-
-TEST(Features, AForceAtAPointTurnsTheBody) {
-  FluidWorld scene;
-  Matrix6 added = Matrix6::Identity();
-  btRigidBody& body = scene.add({}, shapeWithoutFaces(added, 0), idealFluid(1));
-  body.applyForce({0, 1, 0}, {bt(0.5), 0, 0});
-  scene.step(1.0 / 64);
-  EXPECT_NEAR(static_cast<double>(body.getAngularVelocity().z()) * 64 * 2, 0.5,
-              byPrecision(1e-6, 1e-5));
 }
 
 TEST(Features, ADetachedBodyFliesOnAsInAVacuum) {
@@ -250,18 +179,104 @@ TEST(Features, TheMediumMayChangeInEveryStep) {
   EXPECT_EQ(anew.of(b).counters().load_evaluations, once.of(a).counters().load_evaluations);
 }
 
-TEST(Features, TwoRunsGiveTheSameBits) {
-  btTransform end[2];
-  for (btTransform& pose : end) {
+BodyDef spinning(double rate) {
+  BodyDef def{1, Vector3(0.02, 0.03, 0.04), {}, nullptr};
+  def.start.twist = {Vector3(0.1, 0.2, 1).normalized() * rate, Vector3(1, 2, 3)};
+  return def;
+}
+
+TEST(Features, AnotherActionsImpulseSurvives) {
+  struct Kick : btActionInterface {
+    btRigidBody* body = nullptr;
+    void updateAction(btCollisionWorld*, btScalar) override {
+      if (body) body->setLinearVelocity(body->getLinearVelocity() + btVector3(0, 0, 1));
+      body = nullptr;
+    }
+    void debugDraw(btIDebugDraw*) override {}
+  };
+  for (const bool after : {false, true}) {
     FluidWorld scene;
-    scene.world.setGravity({0, 0, bt(-9.81)});
-    BodyDef def;
-    def.start.twist = {Vector3(1, 2, 3), Vector3(3, 2, 1)};
-    const btRigidBody& body = scene.add(def, meshedEllipsoid(kUnequalAxes, 2), water());
-    scene.step(1.0 / 60, 120);
-    pose = body.getWorldTransform();
+    Kick kick;
+    if (!after) scene.removeAction();
+    scene.world.addAction(&kick);
+    if (!after) scene.addAction();
+    btRigidBody& body = scene.add({}, facelessEllipsoid(kUnequalAxes), air());
+    kick.body = &body;
+    scene.step(1.0 / 60, 2);
+    EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().z()), 1, 1e-6);
+    scene.world.removeAction(&kick);
   }
-  EXPECT_TRUE(end[0] == end[1]);
+}
+
+TEST(Features, BulletsGyroscopicFlagsChangeNothing) {
+  btVector3 velocity[2];
+  for (int flag = 0; flag < 2; ++flag) {
+    FluidWorld scene;
+    btRigidBody& body = scene.add(spinning(20), meshedEllipsoid(kUnequalAxes, 1), air());
+    body.setFlags(flag ? BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY : 0);
+    scene.step(1.0 / 60, 30);
+    velocity[flag] = body.getAngularVelocity();
+  }
+  EXPECT_TRUE(velocity[0] == velocity[1]);
+}
+
+TEST(Features, NewMassPropertiesAreSeen) {
+  FluidWorld scene;
+  btRigidBody& body = scene.add({}, facelessEllipsoid(kUnequalAxes), air());
+  scene.step(1.0 / 60);
+  const btVector3 moments(4, 5, 6);
+  body.setMassProps(3, moments);
+  body.updateInertiaTensor();
+  body.applyCentralForce({1, 0, 0});
+  scene.step(1.0 / 60);
+  const double K = 3 + air().density * facelessEllipsoid(kUnequalAxes).added_mass(3, 3);
+  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()) * 60 * K, 1,
+              byPrecision(1e-12, 1e-5));
+}
+
+TEST(Features, ASolverOfAnotherWorldsFluidIsReportedOnce) {
+  FluidWorld scene, other;
+  std::vector<std::string> said;
+  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
+  const auto solver = makeSolver<btSequentialImpulseConstraintSolver>(scene.fluid);
+  other.world.setConstraintSolver(solver.get());
+  AttachDef def;
+  def.fluid_body = std::make_shared<FluidBody>(meshedEllipsoid(kUnequalAxes, 1));
+  def.medium = air();
+  scene.fluid.add(other.add(spinning(3)), def);
+  other.step(1.0 / 60, 5);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("in another world"), std::string::npos);
+}
+
+TEST(Features, AMissingSolverIsReportedOnce) {
+  FluidWorld scene;
+  btSequentialImpulseConstraintSolver stock;
+  scene.world.setConstraintSolver(&stock);
+  std::vector<std::string> said;
+  scene.fluid.setReport([&](const std::string& text) { said.push_back(text); });
+  scene.add(spinning(3), meshedEllipsoid(kUnequalAxes, 1), air());
+  scene.step(1.0 / 60, 5);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("setConstraintSolver"), std::string::npos);
+}
+
+TEST(Features, AUsersForceActsOnceAndOnBodyAndAddedMass) {
+  for (const int substeps : {1, 2, 4}) {
+    FluidWorld scene;
+    const FluidBody shape = facelessEllipsoid(Vector3::Constant(0.12));
+    btRigidBody& body = scene.add({}, shape, water());
+    const int calls = 240 / substeps;
+    const auto dt = static_cast<btScalar>(1.0 / 240);
+    for (int i = 0; i < calls; ++i) {
+      body.applyCentralForce({1, 0, 0});
+      scene.world.stepSimulation(dt * static_cast<btScalar>(substeps), substeps + 1, dt);
+    }
+    const double inertia = 1 + water().density * shape.volume / 2;
+    EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()) * inertia, 1,
+                byPrecision(1e-12, 1e-4))
+        << substeps << " substeps per call";
+  }
 }
 
 }  // namespace

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/bullet/state/world_state.h"
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/sphere_fall.h"
+#include "tests/support/bodies/part_bodies.h"
 
 // Stiff and extreme cases, each against an exact solution or a bound.
 namespace ambient::test {
@@ -105,41 +107,6 @@ TEST(ExtremeCase, AFastModeThatWasAskedForIsNotComplainedAbout) {
   EXPECT_TRUE(said.empty()) << said[0];
 }
 
-TEST(ExtremeCase, ASoapBubbleSettlesToItsTerminalSpeedAndDriftsWithTheWind) {
-  // A film of a micrometre around air: 5 per cent heavier than the displaced air.
-  constexpr double kRadius = 0.05;
-  const double film = 4 * kPi * kRadius * kRadius * 1e-6 * 1000;
-  reference::SphereFall exact{0, kRadius, air().density, kEarthGravity};
-  exact.mass = film + exact.displacedMass();
-  Medium wind = inviscid(air());
-  wind.velocity = {3, 0, 0};
-  FluidWorld scene;
-  setGravity(scene, kEarthGravity);
-  BodyDef def = sphere(exact.mass, kRadius);
-  def.start.twist.linear = {0, 20, 0};
-  const btRigidBody& bubble = scene.add(def, gaussSphere(kRadius), wind);
-  scene.step(1.0 / 60, 60 * 60);
-  const btVector3 v = bubble.getLinearVelocity();
-  EXPECT_NEAR(static_cast<double>(v.x()), 3, 0.02);
-  EXPECT_NEAR(static_cast<double>(v.y()), 0, 0.02);
-  EXPECT_NEAR(static_cast<double>(-v.z()) / exact.terminalSpeed(), 1, 0.01);
-}
-
-TEST(ExtremeCase, ABalloonReleasedUnderWaterRisesByItsClosedForm) {
-  const reference::SphereFall exact{0.005, 0.15, water().density, kEarthGravity};
-  EXPECT_LT(exact.firstAcceleration(), -1.99 * kEarthGravity);  // upwards
-  FluidWorld scene;
-  setGravity(scene, kEarthGravity);
-  const btRigidBody& balloon =
-      scene.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(water()));
-  for (int i = 1; i <= 60; ++i) {
-    scene.step(1.0 / 60);
-    EXPECT_NEAR(static_cast<double>(-balloon.getLinearVelocity().z()) / exact.velocity(i / 60.0), 1,
-                5e-3)
-        << i;
-  }
-}
-
 struct SpunCoin {
   double spin;                  // [rad/s]
   double spin_axis, coin_axis;  // cosines to initial directions
@@ -219,18 +186,6 @@ TEST(ExtremeCase, AStepOfAQuarterOfASecondAfterAStallChangesLittle) {
               5e-3);
 }
 
-TEST(ExtremeCase, TerminalSpeedFollowsAGravityOf1000AndNothingMovesWithoutAny) {
-  for (const double gravity : {0.0, 1000.0}) {
-    const reference::SphereFall exact{0.62, 0.12, air().density, gravity};
-    FluidWorld scene;
-    setGravity(scene, gravity);
-    const btRigidBody& ball =
-        scene.add(sphere(exact.mass, exact.radius), gaussSphere(exact.radius), inviscid(air()));
-    scene.step(1.0 / 60, 300);
-    EXPECT_NEAR(speedOf(ball), exact.terminalSpeed(), 5e-3 * exact.terminalSpeed());
-  }
-}
-
 TEST(ExtremeCase, AMediumThatJumpsBetweenAirAndWaterNeverSpeedsABodyUp) {
   const Vector3 semi_axes(0.2, 0.15, 0.05);
   BodyDef def{1, ellipsoidMoments(semi_axes, 1), {}, nullptr};
@@ -273,6 +228,80 @@ TEST(ExtremeCase, ABodyAMillionTimesHeavierKicksItsNeighbourAway) {
               byPrecision(1e-9, 1e-4));
   EXPECT_NEAR(static_cast<double>(heavy.getLinearVelocity().x()) / 5, (k1 - k2) / (k1 + k2),
               byPrecision(1e-9, 1e-5));
+}
+
+constexpr double kFallRadius = 0.12;
+
+double fallSpeed(const btRigidBody& body) {
+  return -static_cast<double>(body.getLinearVelocity().z());
+}
+
+double fallDistance(const btRigidBody& body) {
+  return -static_cast<double>(body.getWorldTransform().getOrigin().z());
+}
+
+// Spheres from a balloon in water to a basketball in air.
+TEST(ExtremeCase, ASphereFollowsItsClosedForm) {
+  for (const double mass : {0.01, 0.62, 4.3}) {
+    const Medium medium = mass < 0.1 ? water() : air();
+    const reference::SphereFall exact{mass, kFallRadius, medium.density, kEarthGravity};
+    const double duration = 2 * exact.settlingTime();
+    double errors[2];
+    for (int k = 0; k < 2; ++k) {
+      FluidWorld scene;
+      setGravity(scene, kEarthGravity);
+      const btRigidBody& body = scene.add(sphere(mass, kFallRadius), gaussSphere(kFallRadius),
+                                          inviscid(medium), PressureLaw::kPublished);
+      const int steps = 100 << (2 * k);
+      scene.step(duration / steps, steps);
+      errors[k] = std::abs(fallDistance(body) / exact.distance(duration) - 1);
+      EXPECT_NEAR(fallSpeed(body) / exact.velocity(duration), 1, byPrecision(1e-4, 1e-4));
+    }
+    // Order 2 in the step, down to the rounding of the position.
+    EXPECT_LT(errors[0], 2e-4);
+    EXPECT_LT(errors[1], errors[0] / 10 + byPrecision(1e-12, 2e-5));
+  }
+}
+
+FluidBody smoothBall() {
+  FluidBody ball = floatingEllipsoid(Vector3::Constant(kFallRadius), 2);
+  ball.sphere_radius = kFallRadius;
+  return ball;
+}
+
+// By the form law the wake has to develop first, eq. (51b) to (51d).
+TEST(ExtremeCase, FallsFasterUntilItsWakeHasDeveloped) {
+  const auto speedAfter = [&](double time, PressureLaw law) {
+    FluidWorld scene;
+    setGravity(scene, kEarthGravity);
+    const btRigidBody& body =
+        scene.add(sphere(12, kFallRadius), smoothBall(), inviscid(water()), law);
+    scene.step(1.0 / 240, static_cast<int>(240 * time));
+    return fallSpeed(body);
+  };
+  const double early = speedAfter(0.4, PressureLaw::kForm);
+  EXPECT_GT(early, 1.02 * speedAfter(0.4, PressureLaw::kPublished));
+  EXPECT_LT(early, 0.4 * kEarthGravity);
+  const double late = speedAfter(6, PressureLaw::kPublished);
+  EXPECT_NEAR(speedAfter(6, PressureLaw::kForm), late, 1e-3 * late);
+}
+
+TEST(ExtremeCase, WakesAreSavedAndRestored) {
+  FluidWorld scene;
+  setGravity(scene, kEarthGravity);
+  const btRigidBody& body = scene.add(sphere(2, kFallRadius), smoothBall(), water());
+  scene.step(1.0 / 120, 10);
+  WorldState state = scene.fluid.save();
+  const auto heightAfter = [&] {
+    scene.step(1.0 / 120, 10);
+    return body.getWorldTransform().getOrigin().z();
+  };
+  const btScalar first = heightAfter();
+  scene.fluid.restore(state);
+  EXPECT_EQ(heightAfter(), first);
+  state.bodies[0].ambient->wake = {};
+  scene.fluid.restore(state);
+  EXPECT_NE(heightAfter(), first);
 }
 
 }  // namespace

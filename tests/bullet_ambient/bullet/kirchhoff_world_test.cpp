@@ -6,7 +6,6 @@
 #include "bullet_ambient/base/pi.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/kirchhoff_integration.h"
-#include "tests/reference/kirchhoff_motion.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/matrices.h"
@@ -151,113 +150,6 @@ TEST(FreeFlight, TurnsByAnyAngleInOneStep) {
     EXPECT_NEAR(double(body.getWorldTransform().getOrigin().x()), kStep * kSteps,
                 byPrecision(1e-10, 1e-6));
     EXPECT_NEAR(double(body.getAngularVelocity().z()), spin, spin * byPrecision(1e-12, 1e-5));
-  }
-}
-
-constexpr double kWater = 1000;  // [kg/m^3]
-
-// The neutrally buoyant ellipsoid of the reference numbers.
-struct Ellipsoid {
-  Vector3 semi_axes{0.3, 0.2, 0.1};
-  double mass = kWater * ellipsoidVolume(semi_axes);
-  Vector3 moments = ellipsoidMoments(semi_axes, mass);
-  Vector6 added = kWater * reference::ellipsoidAddedMass(semi_axes);
-  Vector3 total_moments = moments + added.head<3>();
-  Vector3 total_masses = Vector3::Constant(mass) + added.tail<3>();
-
-  btRigidBody& addTo(FluidWorld& world, const RigidState& start) const {
-    return test::addTo(world, {mass, moments, start, nullptr}, facelessEllipsoid(semi_axes),
-                       kWater);
-  }
-  reference::PlanarMotion planarMotion() const {
-    return reference::PlanarMotion::of(total_masses, total_moments.z(), 2 * mass);
-  }
-  // State without spin; y axis at `angle` from the momentum 2 m along the world's y axis.
-  RigidState released(double angle) const {
-    RigidState state;
-    state.orientation = Quaternion(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
-    const Vector3 p = state.orientation.conjugate() * Vector3(0, 2 * mass, 0);
-    state.twist.linear = p.cwiseQuotient(total_masses);
-    return state;
-  }
-};
-
-double planarAngle(const btRigidBody& body) {
-  const Vector3 y = readState(body).orientation * Vector3(0, 1, 0);
-  return std::atan2(-y.x(), y.y());
-}
-
-TEST(FreeFlight, RocksLikeTheEllipticFunction) {
-  // Amplitude and period [s] of an independent evaluation.
-  constexpr double kPeriods[][2] = {
-      {0.1, 1.57029600502}, {0.5, 1.670275123599}, {1.0, 2.0815575012}, {1.4, 3.165329064944}};
-  const Ellipsoid ellipsoid;
-  const reference::PlanarMotion motion = ellipsoid.planarMotion();
-  EXPECT_NEAR(motion.frequency, 4.011300635271759, 1e-10);
-  for (const auto& [amplitude, period] : kPeriods) {
-    EXPECT_NEAR(motion.rockingPeriod(amplitude), period, 1e-9);
-    for (const double step : {1.0 / 60, 1.0 / 120, 1.0 / 240}) {
-      FluidWorld world;
-      const btRigidBody& body = ellipsoid.addTo(world, ellipsoid.released(amplitude));
-      const int steps = static_cast<int>(std::lround(1.5 * period / step));
-      double largest = 0;
-      for (int i = 1; i <= steps; ++i) {
-        world.step(step);
-        largest = std::max(largest,
-                           std::abs(planarAngle(body) - motion.rockingAngle(amplitude, i * step)));
-      }
-      // In float the rounding of each pose grows a thousandfold at 1.4 rad, near the turning point.
-      EXPECT_LT(largest, byPrecision(1e-11, 6e-4)) << amplitude << " at " << step;
-    }
-  }
-}
-
-TEST(FreeFlight, TumblesHalfATurnInTheTimeOfTheEllipticIntegral) {
-  const Ellipsoid ellipsoid;
-  const reference::PlanarMotion motion = ellipsoid.planarMotion();
-  const double rate = 1.5 * motion.frequency;
-  for (const int steps : {30, 120}) {
-    FluidWorld world;
-    RigidState start = ellipsoid.released(0);
-    start.twist.angular = {0, 0, rate};
-    const btRigidBody& body = ellipsoid.addTo(world, start);
-    world.step(motion.tumblingHalfTurn(rate) / steps, steps);
-    EXPECT_NEAR(std::remainder(planarAngle(body) - kPi, 2 * kPi), 0, byPrecision(1e-11, 1e-4));
-    EXPECT_NEAR(double(body.getAngularVelocity().z()), rate, rate * byPrecision(1e-11, 1e-4));
-  }
-}
-
-struct Growth {
-  int moving_axis, turning_axis;
-  double rate_sq;  // lambda^2 [1/s^2]
-};
-
-TEST(FreeFlight, GrowsAndSwingsWithMunksRates) {
-  // Reference numbers "Kirchhoff translation growth", V = 1 m/s.
-  constexpr Growth kGrowths[] = {{0, 2, 5.651126831285162},  {0, 1, 17.280202446074586},
-                                 {1, 2, -7.490055530443397}, {1, 0, 41.646305698984925},
-                                 {2, 1, -68.59780347111813}, {2, 0, -124.73487126824453}};
-  const Ellipsoid ellipsoid;
-  const reference::TranslationAlongAxis translation{ellipsoid.total_masses, ellipsoid.total_moments,
-                                                    1};
-  for (const Growth& growth : kGrowths) {
-    EXPECT_NEAR(translation.growth(growth.moving_axis, growth.turning_axis), growth.rate_sq, 1e-9);
-    FluidWorld world;
-    // Turn small against 1 and large against rounding.
-    const double kTurn = byPrecision(1e-5, 1e-2);
-    RigidState state;
-    state.orientation =
-        Quaternion(Eigen::AngleAxisd(kTurn, Eigen::Vector3d::Unit(growth.turning_axis)));
-    const Vector3 P = ellipsoid.total_masses[growth.moving_axis] *
-                      Vector3(Eigen::Vector3d::Unit(growth.moving_axis));
-    state.twist.linear = (state.orientation.conjugate() * P).cwiseQuotient(ellipsoid.total_masses);
-    const btRigidBody& body = ellipsoid.addTo(world, state);
-    constexpr int kSteps = 20;
-    world.step(1.5 / std::sqrt(std::abs(growth.rate_sq)) / kSteps, kSteps);
-    const double angle = 2 * readState(body).orientation.vec()[growth.turning_axis];
-    const double expected = growth.rate_sq > 0 ? std::cosh(1.5) : std::cos(1.5);
-    // sin(theta) = theta to theta^2 / 6, grown by e^3.
-    EXPECT_NEAR(angle / kTurn, expected, byPrecision(1e-8, 1e-3)) << growth.rate_sq;
   }
 }
 

@@ -4,8 +4,8 @@
 
 #include "tests/bullet_ambient/bullet/worlds/coupled_scene.h"
 
-// Bullet's features of contacts with a body of coupled K: kinematic bodies, locked axes, compound
-// shapes.
+// Bullet's features for a body of coupled K: kinematic bodies, locked axes, compound shapes,
+// filters, continuous collision, forces at points and damping.
 namespace ambient::test {
 namespace {
 
@@ -217,6 +217,107 @@ TEST(ContactFeatures, ACompoundShapeActsAboutItsCentreOfMass) {
   // Bullet finds the compound's axes by an iteration of limited precision.
   EXPECT_LT(static_cast<double>((u - expected.velocities[0]).norm()), byPrecision(1e-10, 1e-4));
   scene.world.removeRigidBody(&wall);
+}
+
+// Position and velocity after half a second of flight towards a wall.
+Vector6 flightTowardsAWall(bool is_wall_there, int mask) {
+  CoupledScene scene(3);
+  scene.body().setLinearVelocity({4, 0, 0});
+  btTransform pose = scene.body().getWorldTransform();
+  pose.setOrigin({0, 0, 0});
+  scene.body().setWorldTransform(pose);
+  scene.scene.world.removeRigidBody(&scene.body());
+  scene.scene.world.addRigidBody(&scene.body(), 2, mask);
+  btBoxShape box(btVector3(bt(0.1), 5, 5));
+  btRigidBody wall(0, nullptr, &box);
+  wall.setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(1, 0, 0)));
+  if (is_wall_there) scene.scene.world.addRigidBody(&wall, 4, -1);
+  scene.scene.step(1.0 / 120, 60);
+  const Vector6 state = stack(toVector3(scene.body().getWorldTransform().getOrigin()),
+                              toVector3(scene.body().getLinearVelocity()));
+  if (is_wall_there) scene.scene.world.removeRigidBody(&wall);
+  return state;
+}
+
+TEST(ContactFeatures, FiltersLetABodyThroughOrNot) {
+  const Vector6 free = flightTowardsAWall(false, -1);
+  EXPECT_GT(free[0], 1.2);
+  EXPECT_EQ(flightTowardsAWall(true, -1 & ~4), free);
+  EXPECT_LT(flightTowardsAWall(true, -1)[0], 1 - 0.1 - CoupledScene::kRadius + 0.01);
+}
+
+constexpr double kSweptRadius = 0.2, kCcdThreshold = 0.1;
+constexpr double kWallSurface = 3.45;
+
+// Farthest place of a body that flies towards a thin wall by more than its size per step.
+double flyFast(unsigned seed, double speed, bool is_continuous) {
+  CoupledScene scene(seed);
+  btContactSolverInfo& info = scene.scene.world.getSolverInfo();
+  info.m_erp = info.m_erp2 = bt(0.2);
+  scene.body().setAngularVelocity(btVector3(1, 2, 3) * bt(seed % 2 == 0 ? 1 : 50));
+  scene.body().setLinearVelocity({bt(speed), 0, 0});
+  btTransform pose = scene.body().getWorldTransform();
+  pose.setOrigin({0, 0, 0});
+  scene.body().setWorldTransform(pose);
+  btBoxShape box(btVector3(bt(0.05), 50, 50));
+  btRigidBody wall(0, nullptr, &box);
+  wall.setWorldTransform(
+      btTransform(btQuaternion::getIdentity(), btVector3(bt(kWallSurface + 0.05), 0, 0)));
+  scene.scene.world.addRigidBody(&wall);
+  if (is_continuous) {
+    scene.body().setCcdMotionThreshold(bt(kCcdThreshold));
+    scene.body().setCcdSweptSphereRadius(bt(kSweptRadius));
+  }
+  double farthest = 0;
+  for (int i = 0; i < 30; ++i) {
+    scene.scene.step(1.0 / 60);
+    farthest =
+        std::max(farthest, static_cast<double>(scene.body().getWorldTransform().getOrigin().x()));
+  }
+  scene.scene.world.removeRigidBody(&wall);
+  return farthest;
+}
+
+TEST(ContactFeatures, ContinuousCollisionStopsAtTheWall) {
+  for (const double speed : {60.0, 120.0}) {
+    int tunnelled = 0;
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const double farthest = flyFast(seed, speed, true);
+      EXPECT_GT(farthest, kWallSurface - CoupledScene::kRadius - 1e-3) << seed;
+      // Motion below the threshold is not swept.
+      EXPECT_LT(farthest, kWallSurface - kSweptRadius + kCcdThreshold) << seed;
+      tunnelled += flyFast(seed, speed, false) > kWallSurface + 1;
+    }
+    EXPECT_GT(tunnelled, 3) << speed;
+  }
+}
+
+TEST(ContactFeatures, AForceAtAPointIsFeltThroughTheFullInertia) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    CoupledScene scene(seed);
+    scene.stop();
+    scene.body().applyForce(toBt(scene.arbitrary.vector(1 / CoupledScene::kInstant)),
+                            toBt(scene.arbitrary.vector(0.3)));
+    const DenseVector6 expected = scene.coupled.dense(bt(CoupledScene::kInstant)).free_velocity;
+    scene.scene.step(CoupledScene::kInstant);
+    EXPECT_LT(scene.coupled.error(expected, expected), byPrecision(1e-12, 1e-4)) << seed;
+  }
+}
+
+TEST(ContactFeatures, DampingScalesTheVelocityBeforeEachStep) {
+  const double dt = 1.0 / 128;
+  CoupledScene damped(4), scaled(4);
+  damped.body().setDamping(bt(0.3), bt(0.5));
+  for (int i = 0; i < 128; ++i) {
+    btRigidBody& body = scaled.body();
+    body.setLinearVelocity(body.getLinearVelocity() * btPow(bt(0.7), bt(dt)));
+    body.setAngularVelocity(body.getAngularVelocity() * btPow(bt(0.5), bt(dt)));
+    damped.scene.step(dt);
+    scaled.scene.step(dt);
+  }
+  const DenseVector6 expected = scaled.coupled.velocity();
+  EXPECT_LT(damped.coupled.error(expected, expected), byPrecision(1e-12, 1e-4));
+  EXPECT_LT(expected.norm(), 0.8 * CoupledScene(4).coupled.velocity().norm());
 }
 
 }  // namespace

@@ -62,18 +62,6 @@ TEST(JointFeatures, AMotorTurnsTheInertiaAboutItsHinge) {
   }
 }
 
-TEST(JointFeatures, AStrongMotorHasItsVelocityAtOnce) {
-  for (unsigned seed = 0; seed < 10; ++seed) {
-    OnJoint scene(seed);
-    scene.addHinge().enableAngularMotor(true, bt(1.5), 1e6);
-    scene.solve(1.0 / 256);
-    EXPECT_NEAR(std::abs(scene.hingeSpin()), 1.5, byPrecision(1e-9, 1e-4)) << seed;
-    EXPECT_NEAR(static_cast<double>(scene.body().getAngularVelocity().length()), 1.5,
-                byPrecision(1e-9, 1e-4))
-        << seed;
-  }
-}
-
 TEST(JointFeatures, AHingeStopsAtItsLimit) {
   constexpr double kLimit = 0.4, kSpin = 2, kStep = 1.0 / 1024;
   for (unsigned seed = 0; seed < 10; ++seed) {
@@ -94,105 +82,6 @@ TEST(JointFeatures, AHingeStopsAtItsLimit) {
     EXPECT_LT(turned(), kLimit + kSpin * kStep) << seed;
     // The residual is half of the turning part when the hinge meets its limit.
     EXPECT_NEAR(scene.hingeSpin(), 0, kSpin * kSpin * kStep) << seed;
-  }
-}
-
-// Locks all but the x axis of the world.
-btGeneric6DofSpring2Constraint& addRail(OnJoint& scene, double low, double high) {
-  const btTransform world_in_body(scene.pose().getBasis().inverse());
-  auto& rail = scene.add(new btGeneric6DofSpring2Constraint(scene.body(), world_in_body));
-  rail.setLinearLowerLimit(btVector3(bt(low), 0, 0));
-  rail.setLinearUpperLimit(btVector3(bt(high), 0, 0));
-  rail.setAngularLowerLimit(btVector3(0, 0, 0));
-  rail.setAngularUpperLimit(btVector3(0, 0, 0));
-  return rail;
-}
-
-TEST(JointFeatures, ARailStopsABodyAtItsEnd) {
-  for (unsigned seed = 0; seed < 10; ++seed) {
-    OnJoint scene(seed);
-    scene.scene.world.getSolverInfo().m_erp = bt(0.2);
-    addRail(scene, -0.3, 0.3);
-    const double start = static_cast<double>(scene.pose().getOrigin().x());
-    scene.body().setLinearVelocity({2, 0, 0});
-    scene.scene.step(1.0 / 256, 128);
-    EXPECT_NEAR(std::abs(static_cast<double>(scene.pose().getOrigin().x()) - start), 0.3, 0.01)
-        << seed;
-    EXPECT_LT(static_cast<double>(scene.body().getLinearVelocity().length()), 0.01) << seed;
-  }
-}
-
-TEST(JointFeatures, ASpringSwingsTheInertiaAlongItsRail) {
-  for (unsigned seed = 0; seed < 10; ++seed) {
-    OnJoint scene(seed);
-    btGeneric6DofSpring2Constraint& rail = addRail(scene, 1, -1);  // free
-    const double inertia = static_cast<double>(scene.coupled.inertia()(3, 3));
-    const double omega = 5;
-    rail.enableSpring(0, true);
-    rail.setStiffness(0, bt(omega * omega * inertia));
-    rail.setEquilibriumPoint(0, bt(0.1));
-    // Time between two reversals, which have velocity 0.
-    const double dt = 1.0 / 512;
-    double first = -1, period = -1, before = 0;
-    for (int i = 1; i < 2000 && period < 0; ++i) {
-      scene.scene.step(dt);
-      const double now = static_cast<double>(scene.body().getLinearVelocity().x());
-      if (before * now < 0) {
-        const double time = dt * (i - now / (now - before));
-        if (first < 0) {
-          first = time;
-        } else {
-          period = 2 * (time - first);
-        }
-      }
-      before = now;
-    }
-    // Bullet's steps shorten the period by (omega dt)^2 / 24.
-    EXPECT_NEAR(period * omega / (2 * kPi), 1, byPrecision(1e-5, 2e-3)) << seed;
-  }
-}
-
-// 5 rad per step; rows use the pose at the start. Measured: 1.9 in 10 s, and infinite if gyroscopic
-// terms may add energy.
-TEST(JointFeatures, AFastTopOnAJointDoesNotBlowUp) {
-  for (unsigned seed = 0; seed < 40; ++seed) {
-    OnJoint scene(seed);
-    scene.body().setAngularVelocity(toBt(scene.arbitrary.vector().normalized() * 300));
-    scene.add(new btPoint2PointConstraint(scene.body(), scene.pivot));
-    const auto energy = [&] { return scene.coupled.kineticEnergy(scene.coupled.velocity()); };
-    scene.scene.step(1.0 / 60);
-    const Real start = energy();
-    for (int i = 0; i < 120; ++i) {
-      scene.scene.step(1.0 / 60);
-      ASSERT_LT(energy(), 2 * start) << seed;
-    }
-    EXPECT_EQ(scene.scene.of(scene.body()).counters().rejected, 0) << seed;
-  }
-}
-
-TEST(JointFeatures, FeedbackIsWhatChangesTheMomentum) {
-  for (unsigned seed = 0; seed < 20; ++seed) {
-    OnJoint scene(seed);
-    scene.body().setAngularVelocity({1, -2, 1});
-    scene.body().setLinearVelocity({-1, 1, 2});
-    scene.body().applyCentralForce({3, 2, 1});
-    scene.body().applyTorque({bt(0.1), bt(0.2), bt(-0.1)});
-    scene.add(new btPoint2PointConstraint(scene.body(), scene.pivot));
-    btJointFeedback feedback;
-    scene.joint->setJointFeedback(&feedback);
-    const double dt = scene.coupled.gyroscopicTime(0.05);
-    const Vector3r centre = exact(scene.pose().getOrigin());
-    DenseVector6 reported, applied;
-    applied << exact(scene.body().getTotalTorque()), exact(scene.body().getTotalForce());
-    const DenseVector6 before = scene.coupled.momentum(scene.coupled.velocity());
-    scene.scene.step(dt);
-    reported << exact(feedback.m_appliedTorqueBodyA), exact(feedback.m_appliedForceBodyA);
-    DenseVector6 expected = (scene.coupled.momentum(scene.coupled.velocity()) - before) / dt;
-    expected.head<3>() -= centre.cross(Vector3r(expected.tail<3>()));
-    expected -= applied;
-    EXPECT_LT(static_cast<double>((reported - expected).norm() / expected.norm()),
-              byPrecision(1e-11, 1e-4))
-        << seed;
   }
 }
 
@@ -219,17 +108,20 @@ TEST(JointFeatures, AJointBreaksAtTheImpulseOfTheFullInertia) {
 }
 
 TEST(JointFeatures, SubstepsOfACallAreStepsOfTheirOwn) {
-  OnJoint in_calls(6), one_by_one(6);
-  for (OnJoint* scene : {&in_calls, &one_by_one}) {
-    scene->body().setGravity({0, 0, bt(-9.81)});
-    scene->add(new btPoint2PointConstraint(scene->body(), scene->pivot));
+  for (const bool has_joint : {false, true}) {
+    OnJoint in_calls(6), one_by_one(6);
+    for (OnJoint* scene : {&in_calls, &one_by_one}) {
+      scene->body().setGravity({0, 0, bt(-9.81)});
+      scene->body().setAngularVelocity({1, 2, 3});
+      if (has_joint) scene->add(new btPoint2PointConstraint(scene->body(), scene->pivot));
+    }
+    const btScalar h = bt(1.0 / 256);
+    for (int i = 0; i < 64; ++i) in_calls.scene.world.stepSimulation(4 * h, 4, h);
+    one_by_one.scene.step(1.0 / 256, 256);
+    EXPECT_GT(static_cast<double>(one_by_one.body().getAngularVelocity().length()), 0.1);
+    EXPECT_TRUE(in_calls.pose() == one_by_one.pose());
+    EXPECT_EQ(in_calls.coupled.velocity(), one_by_one.coupled.velocity());
   }
-  const btScalar h = bt(1.0 / 256);
-  for (int i = 0; i < 64; ++i) in_calls.scene.world.stepSimulation(4 * h, 4, h);
-  one_by_one.scene.step(1.0 / 256, 256);
-  EXPECT_GT(static_cast<double>(one_by_one.body().getAngularVelocity().length()), 0.1);
-  EXPECT_TRUE(in_calls.pose() == one_by_one.pose());
-  EXPECT_EQ(in_calls.coupled.velocity(), one_by_one.coupled.velocity());
 }
 
 }  // namespace
