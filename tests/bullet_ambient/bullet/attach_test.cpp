@@ -29,66 +29,63 @@ void expectSays(const std::string& sentence, const char* words) {
   EXPECT_NE(sentence.find(words), std::string::npos) << "said: " << sentence;
 }
 
-TEST(Attach, TakesADynamicBody) { EXPECT_EQ(refusal({}, unitBallIn(air())), ""); }
-
-TEST(Attach, RefusesANullFluidBody) { expectSays(refusal({}, AttachDef{}), "fluid body is null"); }
-
-TEST(Attach, RefusesAStaticBody) {
-  BodyDef def;
-  def.mass = 0;
-  expectSays(refusal(def, unitBallIn(air())), "mass 0");
+/// Changes the fluid body of an attachment.
+template <class Change>
+void changeShape(AttachDef& def, const Change& change) {
+  auto shape = std::make_shared<FluidBody>(*def.fluid_body);
+  change(*shape);
+  def.fluid_body = shape;
 }
 
-TEST(Attach, RefusesFlightSettingsThatCannotBe) {
-  AttachDef def = unitBallIn(air());
-  def.flight.tolerance = 0;
-  expectSays(refusal({}, def), "tolerance");
-  def.flight.tolerance = kNaN;
-  expectSays(refusal({}, def), "tolerance");
-  def = unitBallIn(air());
-  def.flight.max_substeps = -1;
-  expectSays(refusal({}, def), "max_substeps of -1");
-}
-
-TEST(Attach, RefusesChoicesThatDoNotExist) {
-  AttachDef def = unitBallIn(air());
-  def.flow.law = static_cast<PressureLaw>(-1);
-  expectSays(refusal({}, def), "has the pressure law number -1; there are 0 to 1");
-  def = unitBallIn(air());
-  def.flow.precision = static_cast<LoadPrecision>(2);
-  expectSays(refusal({}, def), "has the load precision number 2; there are 0 to 1");
-}
-
-// Bodies of 1 kg. The limit is a ratio of masses: a limit of size or density would depend on units.
-TEST(Attach, RefusesFluidsBesideWhichTheBodyIsNothing) {
-  const char* const words = "at most 2^52 times its own";
-  AttachDef def = unitBallIn(idealFluid(1e20));
-  expectSays(refusal({}, def), words);
-  def = unitBallIn(air());
-  def.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(Vector3::Constant(1e30)));
-  expectSays(refusal({}, def), words);
+// Bodies of 1 kg, and balls of 1 m in air. The limit of masses is a ratio: a limit of size or
+// density would depend on units.
+TEST(Attach, SaysWhatIsWrong) {
+  struct Wrong {
+    void (*make)(BodyDef&, AttachDef&);
+    const char* words;
+  };
+  const Wrong wrongs[] = {
+      {[](BodyDef&, AttachDef& a) { a.fluid_body = nullptr; }, "fluid body is null"},
+      {[](BodyDef& b, AttachDef&) { b.mass = 0; }, "mass 0"},
+      {[](BodyDef& b, AttachDef&) { b.moments.setZero(); }, "angular factor"},
+      {[](BodyDef&, AttachDef& a) { a.flight.tolerance = 0; }, "tolerance"},
+      {[](BodyDef&, AttachDef& a) { a.flight.tolerance = kNaN; }, "tolerance"},
+      {[](BodyDef&, AttachDef& a) { a.flight.max_substeps = -1; }, "max_substeps of -1"},
+      {[](BodyDef&, AttachDef& a) { a.flow.law = static_cast<PressureLaw>(-1); },
+       "has the pressure law number -1; there are 0 to 1"},
+      {[](BodyDef&, AttachDef& a) { a.flow.precision = static_cast<LoadPrecision>(2); },
+       "has the load precision number 2; there are 0 to 1"},
+      {[](BodyDef&, AttachDef& a) { a.flow.separation_angle = 1; }, "between pi/2 and pi"},
+      {[](BodyDef&, AttachDef& a) { a.medium.density = 1e20; }, "at most 2^52 times its own"},
+      {[](BodyDef&, AttachDef& a) {
+         a.fluid_body = std::make_shared<FluidBody>(facelessEllipsoid(Vector3::Constant(1e30)));
+       },
+       "at most 2^52 times its own"},
+      {[](BodyDef&, AttachDef& a) {
+         changeShape(a, [](FluidBody& shape) { shape.faces.normal_y.pop_back(); });
+       },
+       "the same in all columns"},
+      {[](BodyDef&, AttachDef& a) {
+         changeShape(a, [](FluidBody& shape) { shape.faces.area[3] = kNaN; });
+       },
+       "an entry of its faces is nan"},
+      {[](BodyDef&, AttachDef& a) { a.medium.density = -1; },
+       "density of the medium [kg/m^3] is -1"},
+      {[](BodyDef&, AttachDef& a) { a.medium.density = kNaN; }, "density"},
+      {[](BodyDef&, AttachDef& a) { a.medium.viscosity = -2; }, "viscosity"},
+      {[](BodyDef&, AttachDef& a) { a.medium.velocity.setConstant(kNaN); }, "must be finite"},
+      {[](BodyDef&, AttachDef& a) { a.medium.acceleration.z() = kNaN; }, "must be finite"}};
+  for (const Wrong& wrong : wrongs) {
+    BodyDef body;
+    AttachDef attach = unitBallIn(air());
+    wrong.make(body, attach);
+    expectSays(refusal(body, attach), wrong.words);
+  }
+  EXPECT_EQ(refusal({}, unitBallIn(air())), "");
   BodyDef heavy;
   heavy.mass = 1e20;
   heavy.moments.setConstant(1e20);
   EXPECT_EQ(refusal(heavy, unitBallIn(idealFluid(1e20))), "");
-}
-
-TEST(Attach, RefusesFacesThatDoNotFitTogether) {
-  AttachDef def = unitBallIn(air());
-  auto shape = std::make_shared<FluidBody>(*def.fluid_body);
-  shape->faces.normal_y.pop_back();
-  def.fluid_body = shape;
-  expectSays(refusal({}, def), "the same in all columns");
-  shape = std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
-  shape->faces.area[3] = kNaN;
-  def.fluid_body = shape;
-  expectSays(refusal({}, def), "an entry of its faces is nan");
-}
-
-TEST(Attach, RefusesABodyThatCannotTurn) {
-  BodyDef def;
-  def.moments.setZero();
-  expectSays(refusal(def, unitBallIn(air())), "angular factor");
 }
 
 // Attaches two equal bodies; returns the reports.
@@ -138,21 +135,6 @@ TEST(Attach, RefusesTheSameBodyTwice) {
     expectSays(error.what(), "added already");
   }
   EXPECT_EQ(scene.fluid.size(), 1u);
-}
-
-TEST(Attach, RefusesAMediumThatIsNotPhysical) {
-  expectSays(refusal({}, unitBallIn({-1, 0, Vector3::Zero(), Vector3::Zero()})),
-             "density of the medium [kg/m^3] is -1");
-  expectSays(refusal({}, unitBallIn({kNaN, 0, Vector3::Zero(), Vector3::Zero()})), "density");
-  expectSays(refusal({}, unitBallIn({1, -2, Vector3::Zero(), Vector3::Zero()})), "viscosity");
-  expectSays(refusal({}, unitBallIn({1, 0, Vector3::Constant(kNaN), Vector3::Zero()})),
-             "must be finite");
-}
-
-TEST(Attach, RefusesASeparationAngleOutsideOfItsRange) {
-  AttachDef def = unitBallIn(air());
-  def.flow.separation_angle = 1;
-  expectSays(refusal({}, def), "between pi/2 and pi");
 }
 
 TEST(SetMedium, KeepsTheOldMediumWhenTheNewOneIsRefused) {

@@ -108,20 +108,5 @@ TEST(BrokenNumbers, OfRowsAreDroppedAndReported) {
   }
 }
 
-TEST(BrokenNumbers, InAMediumAreRefused) {
-  Pair pair(50);
-  for (int k = 0; k < 4; ++k) {
-    Medium medium = air();
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    if (k == 0) medium.density = nan;
-    if (k == 1) medium.viscosity = nan;
-    if (k == 2) medium.velocity.y() = nan;
-    if (k == 3) medium.acceleration.z() = nan;
-    EXPECT_THROW(pair.scene.of(*pair.sick).setMedium(medium), std::invalid_argument) << k;
-  }
-  pair.scene.step(1.0 / 60, 10);
-  EXPECT_TRUE(readState(*pair.sick).isFinite());
-}
-
 }  // namespace
 }  // namespace ambient::test

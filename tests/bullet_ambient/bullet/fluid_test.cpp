@@ -5,6 +5,9 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
+#include <BulletSoftBody/btDeformableBodySolver.h>
+#include <BulletSoftBody/btDeformableMultiBodyConstraintSolver.h>
+#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btSoftMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <gtest/gtest.h>
@@ -160,7 +163,15 @@ TEST_F(FluidDoor, GoesOnWithTheRandomNumbersOfTheSolver) {
 TEST_F(FluidDoor, RefusesWorldsThatCannotCarryAFluid) {
   btSequentialImpulseConstraintSolver plain;
   btSimpleDynamicsWorld world(&dispatcher, &broadphase, &plain, &configuration);
+  expectNames(refusal(world), "btSimpleDynamicsWorld");
   expectNames(refusal(world), "use btDiscreteDynamicsWorld");
+  btDeformableMultiBodyConstraintSolver solver;
+  btDeformableBodySolver bodies;
+  solver.setDeformableSolver(&bodies);
+  btDeformableMultiBodyDynamicsWorld deformable(&dispatcher, &broadphase, &solver, &configuration,
+                                                &bodies);
+  expectNames(refusal(deformable), "btDeformableMultiBodyDynamicsWorld");
+  expectNames(refusal(deformable), "btSoftRigidDynamicsWorld");
 }
 
 TEST_F(FluidDoor, RefusesSolversThatAreNotPlainAndNamesMakeSolver) {

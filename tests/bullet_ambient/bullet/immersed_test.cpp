@@ -86,33 +86,6 @@ TEST(Immersed, IsSafeAfterItsFluidWasDestroyedBeforeASolver) {
             "region: the Fluid or the world of this Immersed was destroyed");
 }
 
-TEST(Immersed, IsRemovedThoughItsBodyWasDestroyed) {
-  FluidWorld scene;
-  btEmptyShape shape;
-  auto body = std::make_unique<btRigidBody>(1, nullptr, &shape, btVector3(1, 1, 1));
-  const Immersed gone = scene.fluid.add(*body, inAir());
-  body.reset();
-  EXPECT_TRUE(gone.remove());
-  EXPECT_EQ(scene.fluid.size(), 0u);
-}
-
-TEST(Immersed, OfADestroyedBodyIsNotThatOfTheNextOneAtItsAddress) {
-  FluidWorld scene;
-  btEmptyShape shape;
-  alignas(btRigidBody) unsigned char place[sizeof(btRigidBody)];
-  const auto make = [&] { return new (place) btRigidBody(1, nullptr, &shape, {1, 1, 1}); };
-  btRigidBody* body = make();
-  const Immersed first = scene.fluid.add(*body, inAir());
-  body->~btRigidBody();
-  body = make();
-  EXPECT_FALSE(scene.fluid.find(*body));
-  const Immersed second = scene.fluid.add(*body, inAir());
-  EXPECT_FALSE(first.isValid());
-  EXPECT_TRUE(second.isValid());
-  EXPECT_TRUE(second.remove());
-  body->~btRigidBody();
-}
-
 TEST(Immersed, StaysValidWhenAStateIsRestored) {
   FluidWorld scene;
   btRigidBody& body = scene.add(tumblingBody(Vector3::Zero()));

@@ -4,6 +4,7 @@
 #include "bullet_ambient/bullet/members/ambient_bodies.h"
 #include "bullet_ambient/force/medium/waves.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
+#include "tests/bullet_ambient/bullet/robots/state/robot_state_scene.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/part_bodies.h"
 
@@ -193,6 +194,21 @@ TEST(Step, AllocatesNothing) {
   EXPECT_GT(scene.fluid.counters().medium_changes, changes + 4);
   EXPECT_GT(scene.fluid.counters().rows, rows + 120);
   scene.world.removeConstraint(&joint);
+}
+
+// First steps size every buffer. Scenes: flight, motors and limits, contacts, joints to the world,
+// the surface of water in waves.
+TEST(RobotStep, AllocatesNothing) {
+  for (const RobotStateKind kind : kRobotStateKinds) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    RobotStateScene scene(kind);
+    // Bullet allocates memory in each step to sort pairs.
+    scene.world().getDispatchInfo().m_deterministicOverlappingPairs = false;
+    scene.step(360);
+    const std::size_t before = allocationCount();
+    scene.step(120);
+    EXPECT_EQ(allocationCount(), before);
+  }
 }
 
 }  // namespace

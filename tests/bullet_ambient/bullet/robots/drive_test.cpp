@@ -8,42 +8,12 @@
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 
-// Thrusters and tethers as docs/thrusters.md describes them.
+// Tethers as docs/thrusters.md describes them.
 namespace ambient::test {
 namespace {
 
 constexpr double kStep = 1.0 / 60;
 const Vector3 kVehicleAxes(0.2, 0.17, 0.0774);
-
-/// A vehicle of 11 kg, as dense as its water, at a place.
-BodyDef vehicleAt(const Vector3& place) {
-  BodyDef def;
-  def.mass = 11;
-  def.moments = ellipsoidMoments(kVehicleAxes, 11);
-  def.start.position = place;
-  return def;
-}
-
-// A propeller follows what it is asked for with a lag of T; implicit Euler steps.
-TEST(Drive, ThrustIsFeltWithTheInertiaOfBodyAndFluid) {
-  FluidWorld in;
-  const FluidBody shape = facelessEllipsoid(kVehicleAxes);
-  btRigidBody& body = in.add(vehicleAt(Vector3::Zero()), shape, idealFluid(1000));
-  const double asked = 20, lag = 0.15, inertia = 11 + 1000 * shape.added_mass(3, 3);
-  double thrust = 0, expected = 0;
-  for (int i = 0; i < 60; ++i) {
-    thrust += (asked - thrust) * kStep / (lag + kStep);
-    expected += thrust / inertia * kStep;
-    body.applyCentralForce({bt(thrust), 0, 0});
-    in.step(kStep);
-  }
-  EXPECT_NEAR(static_cast<double>(body.getLinearVelocity().x()), expected,
-              byPrecision(1e-12, 1e-5) * expected);
-  // First order in the step.
-  EXPECT_NEAR(thrust, asked * (1 - std::exp(-1 / lag)), asked * kStep / lag);
-  EXPECT_NEAR(expected, asked / inertia * (1 - lag * (1 - std::exp(-1 / lag))),
-              asked / inertia * kStep);
-}
 
 /// A vehicle on a tether of 10 m: links as dense as the water, the vehicle the last of them, in one
 /// btMultiBody with a fixed base, where it hangs straight down in a current.
@@ -111,7 +81,7 @@ TetherRun hang(double current, double weight, double step) {
 }
 
 TEST(Drive, ATetherOfLinksHoldsAVehicle) {
-  for (const auto& [current, weight] : {std::pair(0.5, 0.0), {1.5, 0.0}, {0.5, 90.0}}) {
+  for (const auto& [current, weight] : {std::pair(1.5, 0.0), {0.5, 90.0}}) {
     const TetherRun run = hang(current, weight, kStep), fine = hang(current, weight, kStep / 4);
     EXPECT_LT(run.gap, byPrecision(1e-13, 1e-4));
     EXPECT_LT(run.speed, 1.3 * current);  // the current takes it along, the tether swings it round

@@ -7,7 +7,6 @@
 #include "bullet_ambient/robot_dynamics.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/support/bodies/ellipsoid_body.h"
-#include "tests/support/bodies/part_bodies.h"
 
 // Which fluid is around the links of a robot, and what it does in it in the long run.
 namespace ambient::test {
@@ -181,55 +180,6 @@ TEST_F(Robots, StayBoundedUnderMotorsInWater) {
     last = now;
   }
   EXPECT_LT(last, 1e-3 * start);
-}
-
-// A multibody of one link, half as dense as water, let go at the surface.
-class FloatingLink {
- public:
-  explicit FloatingLink(const Vector3& wind) {
-    world.world.setGravity({0, 0, bt(-9.81)});
-    FluidRegion sea;
-    sea.below = water();
-    sea.below.viscosity = 0;
-    sea.above = air();
-    sea.above->velocity = wind;
-    sea.surface = std::make_shared<StillWater>(0, Vector3(0, 0, 1));
-    world.fluid.addRegion(sea);
-    body.setLinearDamping(bt(0.5));
-    body.setAngularDamping(bt(0.5));
-    body.finalizeMultiDof();
-    body.setBasePos({0, 0, bt(0.05)});
-    world.world.addMultiBody(&body);
-    AttachDef def;
-    def.fluid_body = std::make_shared<FluidBody>(box);
-    def.medium = air();
-    world.fluid.add(body, -1, def);
-  }
-  ~FloatingLink() { world.world.removeMultiBody(&body); }
-
-  double height() const { return static_cast<double>(body.getBasePos().z()); }
-  AmbientCounters counters() const { return world.fluid.find(body, -1)->counters(); }
-
-  const FluidBody box = floatingBox({0.4, 0.4, 0.2});
-  const double mass = 0.5 * water().density * box.volume;
-  RobotWorld world;
-  btMultiBody body{0, bt(mass), bt(mass / 12) * btVector3(bt(0.2), bt(0.2), bt(0.32)), false,
-                   false};
-};
-
-TEST_F(Robots, FloatAtASurface) {
-  FloatingLink link({0, 0, 0});
-  link.world.step(1 / 240.0, 4800);
-  EXPECT_NEAR(link.height(), 0, 5e-3);
-}
-
-// Wind takes one evaluation of the loads on the dry part in each step; without wind there is none.
-TEST_F(Robots, PayForWindWhereItBlows) {
-  FloatingLink calm({0, 0, 0}), windy({10, 0, 0});
-  calm.world.step(1 / 240.0, 60);
-  windy.world.step(1 / 240.0, 60);
-  EXPECT_GT(calm.counters().load_evaluations, 60);
-  EXPECT_GT(windy.counters().load_evaluations, calm.counters().load_evaluations + 60);
 }
 
 }  // namespace

@@ -66,27 +66,6 @@ TEST_F(Robots, WithoutFluidMoveAsInBulletBitForBit) {
   EXPECT_EQ(moveInAir(Kind::kFluidOfNoDensity), stock);
 }
 
-TEST_F(Robots, OfOneBodyMoveAsTheSameRigidBody) {
-  RobotDef alone;
-  alone.links = 0;
-  btMultiBody& body = add(alone);
-  const AttachDef def = fluidOf(body, -1);
-  world.fluid.add(body, -1, def);
-  btRigidBody rigid(btRigidBody::btRigidBodyConstructionInfo(body.getBaseMass(), nullptr, nullptr,
-                                                             body.getBaseInertia()));
-  btEmptyShape shape;
-  rigid.setCollisionShape(&shape);
-  rigid.setWorldTransform(body.getBaseWorldTransform());
-  rigid.setAngularVelocity(body.getBaseOmega());
-  rigid.setLinearVelocity(body.getBaseVel());
-  world.world.addRigidBody(&rigid);
-  world.fluid.add(rigid, def);
-  world.step(1 / 2000.0, 1000);
-  EXPECT_LT((body.getBasePos() - rigid.getWorldTransform().getOrigin()).length(), bt(1e-5));
-  EXPECT_LT((body.getBaseOmega() - rigid.getAngularVelocity()).length(), bt(1e-4));
-  world.world.removeRigidBody(&rigid);
-}
-
 TEST_F(Robots, MoveWithoutBulletsRungeKuttaMethod) {
   RobotDef def;
   def.speed = 0;

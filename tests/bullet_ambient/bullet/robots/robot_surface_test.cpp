@@ -213,5 +213,16 @@ TEST(LinksAtASurface, WakeWhereALinkIsLoaded) {
   EXPECT_NEAR(boat.height(), MotorBarge::kBalance - 350 / 9970.0, 0.01);
 }
 
+// Wind takes one evaluation of the loads on the dry part in each step; without wind there is none.
+TEST(LinksAtASurface, PayForWindWhereItBlows) {
+  FloatingPair calm({}), windy({0, 10});
+  for (FloatingPair* pair : {&calm, &windy}) pair->distanceIn(0.25);
+  const auto evaluations = [](const FloatingPair& pair) {
+    return pair.world.fluid.find(pair.multi, -1)->counters().load_evaluations;
+  };
+  EXPECT_GT(evaluations(calm), 60);
+  EXPECT_GT(evaluations(windy), evaluations(calm) + 60);
+}
+
 }  // namespace
 }  // namespace ambient::test

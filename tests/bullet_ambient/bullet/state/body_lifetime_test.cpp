@@ -150,8 +150,11 @@ TEST_F(Lifetime, ANewBodyAtTheAddressOfADestroyedOneIsNotAttached) {
 }
 
 TEST_F(Lifetime, ANewBodyReplacesTheDestroyedOneWhenItIsAttached) {
-  removeAndDestroy(addAttached());
+  btRigidBody& gone = addAttached();
+  const Immersed first = scene.of(gone);
+  removeAndDestroy(gone);
   btRigidBody& body = addAttached();
+  EXPECT_FALSE(first.isValid());
   EXPECT_TRUE(scene.fluid.find(body));
   EXPECT_EQ(scene.fluid.size(), 1u);
   scene.step(kTimeStep);

@@ -72,10 +72,6 @@ class Drawing : public testing::Test {
     body->setGravity(btVector3(0, 0, btScalar(-kGravity)));
     scene.fluid.add(*body, attach);
     scene.step(1e-3);
-    scene.fluid.drawing.length_per_face_force = 1;
-    scene.fluid.drawing.length_per_force = 1;
-    scene.fluid.drawing.length_per_torque = 1;
-    scene.fluid.drawing.length_per_velocity = 1;
     recorder.clear();
   }
   ~Drawing() override { scene.world.setDebugDrawer(nullptr); }
@@ -129,11 +125,6 @@ class Drawing : public testing::Test {
  private:
   std::size_t lines_of_stock_ = 0;
 };
-
-TEST_F(Drawing, IsEmptyByDefault) {
-  draw({});
-  EXPECT_EQ(lines(), 0u);
-}
 
 TEST_F(Drawing, NormalsShowWhereTheFlowIsAttached) {
   FluidDrawing what = unitLengths();
@@ -193,6 +184,21 @@ TEST_F(Drawing, SlipVelocitiesLieInTheirFaces) {
   }
 }
 
+TEST_F(Drawing, ArrowsOfFacesSumToTheirForces) {
+  draw({});
+  EXPECT_EQ(lines(), 0u);
+  FluidDrawing what = unitLengths();
+  what.pressure = what.friction = true;
+  draw(what);
+  const Vector3 pressure = fromFluidFrame(loads().pressure.force);
+  const Vector3 friction = fromFluidFrame(loads().friction.force);
+  EXPECT_GT(friction.norm(), 0.1);
+  EXPECT_LT((recorder.sumOf(fluid_colours::kPressure) - pressure).norm(),
+            tolerance * pressure.norm());
+  EXPECT_LT((recorder.sumOf(fluid_colours::kFriction) - friction).norm(),
+            10 * tolerance * friction.norm());
+}
+
 TEST_F(Drawing, PressureOfTheFormLawIsDrawnInTheLeeAsWell) {
   AttachDef def = *ambient().def;
   auto shape = std::make_shared<FluidBody>(*def.fluid_body);
@@ -208,26 +214,6 @@ TEST_F(Drawing, PressureOfTheFormLawIsDrawnInTheLeeAsWell) {
   const Vector3 expected = fromFluidFrame(loads().pressure.force);
   EXPECT_LT((recorder.sumOf(fluid_colours::kPressure) - expected).norm(),
             tolerance * expected.norm());
-}
-
-TEST_F(Drawing, PressureArrowsSumToThePressureForce) {
-  FluidDrawing what = unitLengths();
-  what.pressure = true;
-  draw(what);
-  EXPECT_EQ(recorder.linesOf(fluid_colours::kPressure).size(), lines());
-  const Vector3 expected = fromFluidFrame(loads().pressure.force);
-  EXPECT_LT((recorder.sumOf(fluid_colours::kPressure) - expected).norm(),
-            tolerance * expected.norm());
-}
-
-TEST_F(Drawing, FrictionArrowsSumToTheFrictionForce) {
-  FluidDrawing what = unitLengths();
-  what.friction = true;
-  draw(what);
-  const Vector3 expected = fromFluidFrame(loads().friction.force);
-  EXPECT_GT(expected.norm(), 0.1);
-  EXPECT_LT((recorder.sumOf(fluid_colours::kFriction) - expected).norm(),
-            10 * tolerance * expected.norm());
 }
 
 TEST_F(Drawing, BuoyancyActsAtTheCentreOfVolume) {

@@ -108,7 +108,7 @@ Responses responsesTo(double boxes, double time_step) {
 // start.
 TEST(LongWave, ASmallBodyMovesAsTheWaterAtTheSurface) {
   for (const double boxes : {40.0, 281.0})
-    for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 120, 1.0 / 240}) {
+    for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 120}) {
       const Responses response = responsesTo(boxes, step);
       const double step_angle = LongWave(boxes).frequency * step;
       EXPECT_NEAR(response.heave.size, 1, 0.0015) << boxes << ", " << step;

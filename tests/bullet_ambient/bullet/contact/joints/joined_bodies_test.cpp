@@ -130,8 +130,8 @@ TopEnergy energyOfTop(double spin, double rate, unsigned seed) {
 
 // Up to a third of a turn per step and far beyond. Stock Bullet gains 53 times at 1000 rad/s.
 TEST(Top, OnABallJointGainsNoEnergy) {
-  for (const double spin : {1, 3, 10, 20, 40, 60, 200, 1000})
-    for (unsigned seed = 0; seed < 24; ++seed) {
+  for (const double spin : {1, 10, 40, 200, 1000})
+    for (unsigned seed = 0; seed < 15; ++seed) {
       const double rate = 30 << seed % 5;
       EXPECT_LT(energyOfTop(spin, rate, seed).largest, 1.02) << spin << " rad/s, " << rate << " Hz";
     }
