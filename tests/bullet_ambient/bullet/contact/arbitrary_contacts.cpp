@@ -1,12 +1,7 @@
 #include "tests/bullet_ambient/bullet/contact/arbitrary_contacts.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <iostream>
-#include <sstream>
 #include <utility>
 
 namespace ambient::test {
@@ -152,13 +147,6 @@ btContactSolverInfo convergingSettings(double dt) {
 
 bool touch(const reference::DenseSolution& solution) {
   return solution.impulses.cwiseAbs().maxCoeff() > 1e-9L;
-}
-
-void report(const std::string& name, double error) {
-  std::ostringstream text;
-  text << std::setprecision(2) << error;
-  ::testing::Test::RecordProperty(name, text.str());
-  std::cout << "    largest error of " << name << ": " << text.str() << "\n";
 }
 
 }  // namespace ambient::test

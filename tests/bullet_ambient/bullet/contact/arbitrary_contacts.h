@@ -1,10 +1,11 @@
-#include "tests/bullet_ambient/bullet/contact/coupled_body.h"
-#include "tests/support/solver_kinds.h"
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
-#include <string>
+#include <vector>
+
+#include "tests/bullet_ambient/bullet/contact/coupled_body.h"
+#include "tests/support/solver_kinds.h"
 
 namespace ambient::test {
 
@@ -114,8 +115,5 @@ constexpr Real kIndependent = 0.05L;
 /// Tells if a row pushes. Bodies without any impulse fly freely, which the dense solution does not
 /// contain.
 bool touch(const reference::DenseSolution& solution);
-
-/// Records a measured error in the log of the test run.
-void report(const std::string& name, double error);
 
 }  // namespace ambient::test

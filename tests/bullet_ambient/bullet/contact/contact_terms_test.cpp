@@ -127,7 +127,6 @@ TYPED_TEST(ContactTerms, PositionErrorsSoftnessAndRelaxationEqualTheDenseSolutio
   }
   EXPECT_GT(solved, 150);
   EXPECT_LT(worst, kTolerance);
-  report("soft_contacts", worst);
 }
 
 // The second solve starts from impulses of the first one, at a different velocity.
@@ -157,7 +156,6 @@ TYPED_TEST(ContactTerms, WarmStartsChangeNothingButTheWay) {
   }
   EXPECT_GT(solved, 100);
   EXPECT_LT(worst, kTolerance);
-  report("warm_start", worst);
 }
 
 template <class Kind>
@@ -191,7 +189,6 @@ TYPED_TEST(IteratedContactTerms, AWarmStartFromTheSolutionNeedsOneIteration) {
   }
   EXPECT_GT(solved, 75);
   EXPECT_LT(worst, kTolerance);
-  report("one_iteration", worst);
 }
 
 // Push velocities correct the position, without a change of the velocities.
@@ -228,8 +225,6 @@ TYPED_TEST(ContactTerms, SplitImpulsesPushAsTheDenseSolution) {
   EXPECT_GT(solved, 150);
   EXPECT_LT(worst, kTolerance);
   EXPECT_LT(worst_pose, kTolerance);
-  report("split_velocity", worst);
-  report("split_pose", worst_pose);
 }
 
 }  // namespace

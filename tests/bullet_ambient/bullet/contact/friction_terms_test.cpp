@@ -55,7 +55,6 @@ TYPED_TEST(FrictionTerms, MovingAndAnchoredEqualTheDenseSolution) {
   }
   EXPECT_GT(solved, 200);
   EXPECT_LT(worst, kTolerance);
-  report("moving_friction", worst);
 }
 
 template <class Kind>
@@ -131,7 +130,6 @@ TYPED_TEST(TorsionalFriction, RollingAndSpinningEqualTheDenseSolution) {
   EXPECT_GT(sliding, 50);
   EXPECT_GT(capped, 15);
   EXPECT_LT(worst, kTolerance);
-  report("torsional_friction", worst);
 }
 
 }  // namespace

@@ -60,7 +60,6 @@ TYPED_TEST(Impact, EqualsTheDenseSolution) {
   }
   EXPECT_GE(impacts, 800);
   EXPECT_LT(worst, kTolerance);
-  report("impacts", worst);
 }
 
 // Step so short that forces and gyroscopic terms vanish. K_a u_a + K_b u_b about one point is
@@ -88,8 +87,6 @@ TYPED_TEST(FrictionlessImpact, ConservesMomentumAndAtRestitutionOneEnergy) {
   }
   EXPECT_LT(worst_momentum, kTolerance);
   EXPECT_LT(worst_energy, kTolerance);
-  report("momentum", worst_momentum);
-  report("energy", worst_energy);
 }
 
 // Friction sticks in both, one or none of the two directions, depending on the pair.
@@ -132,8 +129,6 @@ TYPED_TEST(Impact, WithBoxFrictionEqualsTheDenseSolution) {
   constexpr bool kIterates = !std::is_same_v<typename TypeParam::Base, btMLCPSolver>;
   EXPECT_LT(worst, kIterates && sizeof(btScalar) == 4 ? 3 * kTolerance : kTolerance);
   EXPECT_LT(worst_point_force, kTolerance);
-  report("friction", worst);
-  report("point_force", worst_point_force);
 }
 
 }  // namespace

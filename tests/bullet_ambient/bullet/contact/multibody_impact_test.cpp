@@ -48,7 +48,6 @@ TEST(MultiBodyImpact, EqualsTheDenseSolution) {
   }
   EXPECT_GE(impacts, 600);
   EXPECT_LT(worst, kTolerance);
-  report("link_impacts", worst);
 }
 
 // Position error, softness of contact and friction, friction in a box.
@@ -94,7 +93,6 @@ TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
   EXPECT_GT(sticking, 50);
   EXPECT_GT(sliding, 50);
   EXPECT_LT(worst, kTolerance);
-  report("link_friction", worst);
 }
 
 // Rows that fix the locked axes of the body against the ground.
@@ -157,7 +155,6 @@ TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
   EXPECT_GT(solved, 100);
   EXPECT_GT(on_ground, 60);
   EXPECT_LT(worst, kTolerance);
-  report("link_locked_axes", worst);
 }
 
 // Large coefficients: contacts between a link and a body neither slide nor roll nor spin. All rows
@@ -194,7 +191,6 @@ TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
   }
   EXPECT_GT(solved, 50);
   EXPECT_LT(worst, kTolerance);
-  report("link_sticking", worst);
 }
 
 // The second solve starts from impulses of the first one, at different velocities.
@@ -224,7 +220,6 @@ TEST(MultiBodyImpact, WarmStartsChangeNothingButTheWay) {
   }
   EXPECT_GT(warm, 150);
   EXPECT_LT(worst, kTolerance);
-  report("link_warm_start", worst);
 }
 
 }  // namespace

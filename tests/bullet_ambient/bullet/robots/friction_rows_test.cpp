@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "tests/bullet_ambient/bullet/robots/link_contacts.h"
+#include "tests/bullet_ambient/bullet/robots/link_reference.h"
 
 // Friction of links in fluid, and kinematic links, against one dense system of all links, joints
 // and rows.

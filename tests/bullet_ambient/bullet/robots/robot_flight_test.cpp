@@ -18,11 +18,6 @@
 namespace ambient::test {
 namespace {
 
-void record(const char* what, double hertz, double value) {
-  testing::Test::RecordProperty(what + ("_" + std::to_string(std::lround(hertz))),
-                                std::to_string(value));
-}
-
 struct EnergyRange {
   double lowest = 1, highest = 1, last = 1;  // over initial energy
 
@@ -205,8 +200,6 @@ TEST(RobotFlight, OnATetherNeverGainsEnergy) {
       highest = std::max(highest, range.highest);
       mean += range.last / 20;
     }
-    record("tether_highest", hertz, highest);
-    record("tether_mean", hertz, mean);
     EXPECT_LT(highest, 1.01);  // correction of gaps does work
     EXPECT_GT(mean, hertz < 100 ? 0.65 : 0.9);
   }

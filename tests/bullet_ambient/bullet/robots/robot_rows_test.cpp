@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tests/bullet_ambient/bullet/robots/link_contacts.h"
+#include "tests/bullet_ambient/bullet/robots/link_reference.h"
 
 // Rows of links in fluid against one dense system of all links, joints and rows.
 namespace ambient::test {

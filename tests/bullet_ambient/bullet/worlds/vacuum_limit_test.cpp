@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/kirchhoff_integration.h"
@@ -49,7 +48,6 @@ void expectFirstOrder(const Simulate& simulate, const Vector6& vacuum) {
   for (int k = 0; k < 3; ++k) error[k] = (simulate(thin * std::pow(4, k)) - vacuum).norm();
   for (int k = 1; k < 3; ++k) {
     const double order = std::log(error[k] / error[k - 1]) / std::log(4);
-    std::cout << "    difference " << error[k] << ", order " << order << "\n";
     EXPECT_NEAR(order, 1, 0.1);
   }
 }

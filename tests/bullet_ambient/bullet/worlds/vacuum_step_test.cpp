@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <memory>
 #include <vector>
 
@@ -119,8 +118,6 @@ TEST_P(VacuumStep, EndsAsInStockBullet) {
   EXPECT_LT(velocity_error_, kStackTolerance);
   EXPECT_LT(jointed_velocity_error_, kVacuumTolerance);
   EXPECT_LT(pose_error_, kPoseTolerance);
-  std::cout << "    velocity " << velocity_error_ << ", on joints " << jointed_velocity_error_
-            << ", pose " << pose_error_ << "\n";
 }
 
 }  // namespace

@@ -110,7 +110,6 @@ TEST_P(MultiBodyJoint, EqualsTheDenseSolution) {
   }
   EXPECT_GT(solved, 50);
   EXPECT_LT(worst, kLinkTolerance);
-  report("link_joint", worst);
 }
 
 TEST_P(MultiBodyJoint, WarmStartsChangeNothingButTheWay) {
@@ -136,7 +135,6 @@ TEST_P(MultiBodyJoint, WarmStartsChangeNothingButTheWay) {
   }
   EXPECT_GT(solved, 50);
   EXPECT_LT(worst, kLinkTolerance);
-  report("link_joint_warm_start", worst);
 }
 
 }  // namespace
