@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/bullet/state/world_state.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/contact/uneven_body.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 #include "tests/reference/sphere_fall.h"

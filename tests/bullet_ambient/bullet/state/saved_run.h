@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bullet_ambient/bullet/state/world_state.h"
-#include "bullet_ambient/bullet/world/fluid.h"
+#include "bullet_ambient/fluid.h"
+#include "bullet_ambient/saved_state.h"
 
 namespace ambient::test {
 

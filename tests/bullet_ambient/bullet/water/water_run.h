@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
-#include "bullet_ambient/spatial/frame_offset.h"
+#include "bullet_ambient/spatial/vector_types.h"
 #include "tests/bullet_ambient/bullet/fluid_world.h"
 
 namespace ambient::test {
