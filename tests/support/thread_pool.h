@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "bullet_ambient/threads.h"
+#include "bullet_ambient/base/task_runner.h"
 
 namespace ambient::test {
 
