@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bullet_ambient/robot_dynamics.h"
+#include "bullet_ambient/saved_state.h"
 #include "tests/bullet_ambient/bullet/robots/robot_fixture.h"
 #include "tests/bullet_ambient/bullet/robots/robot_world.h"
 #include "tests/support/bodies/ellipsoid_body.h"
