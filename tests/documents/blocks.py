@@ -3,6 +3,7 @@
     <!-- given: ... -->     what the block takes for granted: parameters of a function around C++, statements before Python,
                             commands before commands
     <!-- not run: ... -->   why nobody runs it here; of commands, programs and options are looked up all the same
+    <!-- quicker: A -> B --> the commands are run with B in place of A, which takes less time
     <!-- usage -->          not commands but their forms: programs and options are looked up
 """
 
@@ -14,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SHOWN = ("text", "math")  # languages of blocks that only show something
 COMMANDS = "commands"  # the language of blocks that are indented
-NOTE = re.compile(r"<!-- (given|not run|usage)(?:: (.*?))? -->", re.DOTALL)
+NOTE = re.compile(r"<!-- (given|not run|quicker|usage)(?:: (.*?))? -->", re.DOTALL)
 
 
 @dataclass

@@ -4,7 +4,10 @@
 
 #include <fstream>
 
+#include "demos/scene/scene_lookup.h"
 #include "demos/simulation/output/trajectory_text.h"
+#include "preprocess/shape/shape_mesh.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ambient {
@@ -44,6 +47,19 @@ TEST(TrajectoryText, RowsCarrySeventeenDigitsInTheOrderOfTheHeader) {
   EXPECT_EQ(trajectoryRow("plate", sample),
             "0.10000000000000001,plate,0.33333333333333331,2,-9.9999999999999995e-08,"
             "0.5,-0.5,0.5,-0.5,4,5,6,7,8,9\n");
+}
+
+TEST(SceneFiles, AreAllValidAndDescribed) {
+  const auto files = listScenes({std::filesystem::path(AMBIENT_DATA) / "scenes"});
+  EXPECT_GE(files.size(), 8u);
+  for (const auto& file : files) {
+    const Scene scene = readScene(file);
+    EXPECT_FALSE(scene.description.empty()) << file;
+    for (const BodyDef& body : scene.bodies) {
+      const auto shape_file = fileOf(body.shape);
+      EXPECT_TRUE(shape_file.empty() || std::filesystem::exists(shape_file)) << shape_file;
+    }
+  }
 }
 
 }  // namespace

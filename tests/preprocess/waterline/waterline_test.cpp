@@ -20,18 +20,34 @@ FluidBody bodyWith(const std::string& shape, int subdivisions) {
 constexpr const char* kCube = R"({"type": "box", "size": [1, 1, 1], "faces": 300})";
 constexpr const char* kBarge = R"({"type": "box", "size": [2, 1, 0.5], "faces": 300})";
 
+// Tables of all divisions have the node of the half submerged barge.
+const FluidBody& bargeWithTable() {
+  static const FluidBody body = [] {
+    FluidBody made = bodyWith(kBarge, 0);
+    made.waterline = makeWaterlineTable(made, {2, 350, 0});
+    return made;
+  }();
+  return body;
+}
+
+const FluidBody& bargeWithCoarseTable() {
+  static const FluidBody body = [] {
+    FluidBody made = bodyWith(kBarge, 0);
+    made.waterline = makeWaterlineTable(made, {1, 100, 1});
+    return made;
+  }();
+  return body;
+}
+
 // Heave, roll, sway and surge by Capytaine 3.0 at infinite frequency, finer meshes.
 TEST(Waterline, AddedMassIsThatOfAnotherBoundaryElementMethod) {
-  const auto halfSubmergedWithTable = [](const char* shape, int panels) {
-    FluidBody body = bodyWith(shape, 0);
-    body.waterline = makeWaterlineTable(body, {1, panels, 0});
-    return test::halfSubmerged(body);
-  };
-  const Matrix6 cube = halfSubmergedWithTable(kCube, 600);
+  FluidBody body = bodyWith(kCube, 0);
+  body.waterline = makeWaterlineTable(body, {1, 600, 0});
+  const Matrix6 cube = test::halfSubmerged(body);
   EXPECT_NEAR(cube(5, 5), 0.3213, 0.01 * 0.3213);
   EXPECT_NEAR(cube(3, 3), 0.1588, 0.03 * 0.1588);
   EXPECT_NEAR(cube(0, 0), 0.0201, 0.05 * 0.0201);
-  const Matrix6 barge = halfSubmergedWithTable(kBarge, 350);
+  const Matrix6 barge = test::halfSubmerged(bargeWithTable());
   EXPECT_NEAR(barge(5, 5), 0.7837, 0.01 * 0.7837);
   EXPECT_NEAR(barge(0, 0), 0.0268, 0.05 * 0.0268);
   EXPECT_NEAR(barge(1, 1), 0.1610, 0.02 * 0.1610);
@@ -41,8 +57,7 @@ TEST(Waterline, AddedMassIsThatOfAnotherBoundaryElementMethod) {
 // Cummins' equation with Capytaine's coefficients, taken from floating_test.cpp, where periods
 // agree within 4 %.
 TEST(Waterline, PeriodsAreThoseOfLinearTheory) {
-  FluidBody body = bodyWith(kBarge, 0);
-  body.waterline = makeWaterlineTable(body, {2, 350, 0});
+  const FluidBody& body = bargeWithTable();
   const double root = std::sqrt(std::sqrt(2.0) / 9.81);
   test::FloatingRun heave(test::floatingDef(body, 2, 1));
   heave.state.position.z() = 0.01;
@@ -62,19 +77,17 @@ TEST(Waterline, PeriodsAreThoseOfLinearTheory) {
 
 // Bodies dropped on an edge, and released at depth with spin, in long and short steps.
 TEST(Waterline, ABodyWithATableGainsNoEnergy) {
-  FluidBody body = bodyWith(kBarge, 0);
-  body.waterline = makeWaterlineTable(body, {1, 100, 0});
   for (const double gravity : {0.02, 0.5})
     for (const double step : {1.0 / 30, 1.0 / 240})
       for (const double height : {1.5, -2.0}) {
         test::FloatingDef def;
-        def.shape = body;
+        def.shape = bargeWithCoarseTable();
         def.specific_gravity = gravity;
         test::FloatingRun run(def);
         run.state.position.z() = height;
         run.state.orientation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 0.3, 0).normalized());
         run.state.twist = {{0.5, 1, -2}, {0.3, 0.2, 0}};
-        const double scale = (run.mass() + 1000 * body.volume) * 9.81;
+        const double scale = (run.mass() + 1000 * def.shape.volume) * 9.81;
         double energy = run.energy();
         for (int i = 0; i < 3 / step; ++i) {
           run.step(step);
@@ -84,19 +97,12 @@ TEST(Waterline, ABodyWithATableGainsNoEnergy) {
       }
 }
 
-TEST(Waterline, TheTableIsTheSameOnAnyNumberOfThreads) {
-  const FluidBody body = bodyWith(kBarge, 0);
-  WaterlineSettings settings{1, 100, 1};
-  const WaterlineTable one = makeWaterlineTable(body, settings);
-  settings.threads = 3;
-  EXPECT_EQ(makeWaterlineTable(body, settings).corrections, one.corrections);
-}
-
-TEST(Waterline, TellsOfEachAttitudeThatIsDone) {
-  WaterlineSettings settings{1, 100, 2};
+TEST(Waterline, TheTableIsTheSameOnAnyNumberOfThreadsAndTellsOfEachAttitude) {
+  WaterlineSettings settings{1, 100, 3};
   std::vector<std::pair<int, int>> told;
   settings.progress = [&](int done, int attitudes) { told.emplace_back(done, attitudes); };
-  makeWaterlineTable(bodyWith(kBarge, 0), settings);
+  const WaterlineTable table = makeWaterlineTable(bodyWith(kBarge, 0), settings);
+  EXPECT_EQ(table.corrections, bargeWithCoarseTable().waterline.corrections);
   // Of the six directions of an octahedron, three are left to solve by the planes of symmetry.
   const std::vector<std::pair<int, int>> expected{{1, 3}, {2, 3}, {3, 3}};
   EXPECT_EQ(told, expected);

@@ -1,11 +1,13 @@
 // Bodies in water and a balloon: the scenes underwater_ellipsoid, underwater_bunny, balloon,
 // ball_on_bottom, box_pile.
+// Scene with regions of fluid: wind_zone.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
+#include "tests/demos/simulation/scenes/run_scene.h"
 #include "tests/demos/simulation/scenes/scene_loads.h"
 
 namespace ambient {
@@ -209,6 +211,43 @@ TEST(BoxPile, StaysInWaterAsItWasBuilt) {
     EXPECT_LT(end.twist.linear.norm(), 1e-3) << scene.bodies[i].name;
     EXPECT_LT(end.orientation.angularDistance(scene.bodies[i].orientation), 0.01)
         << scene.bodies[i].name;
+  }
+}
+
+TEST(WindZone, BlowsWhereItIsAndMoreTheLighterTheBall) {
+  const Scene scene = readNamedScene("wind_zone");
+  const RunRecord run = runSharing(scene);
+  constexpr double kRadius = 0.02;
+  double before = 1e9;
+  for (std::size_t ball = 1; ball < scene.bodies.size(); ++ball) {
+    double entry = 0, exit = 0;  // times
+    const auto& motion = run.motion[ball];
+    for (std::size_t i = 1; i < motion.size(); ++i) {
+      const double height = motion[i - 1].position.z();
+      if (entry == 0 && height < 4) entry = motion[i - 1].time;
+      if (exit == 0 && height < 2 - kRadius) exit = motion[i - 1].time;  // all of it
+      const double gain = motion[i].twist.linear.x() - motion[i - 1].twist.linear.x();
+      if (height > 4.1) {
+        EXPECT_EQ(gain, 0) << i;
+      }
+      if (height < 3.9 && height > 2.1) {
+        EXPECT_GT(gain, 0) << i;
+      }
+      if (exit > 0) {
+        // Air at rest slows the ball.
+        EXPECT_LT(gain, 0) << i;
+        break;
+      }
+      // Falling 1 m takes sqrt(2 / g): air has little effect.
+      if (entry > 0) {
+        EXPECT_NEAR(entry, std::sqrt(2 / 9.81), 0.02);
+      }
+    }
+    ASSERT_GT(exit, entry);
+    const double drift = motion.back().position.x();
+    EXPECT_GT(drift, 0);
+    EXPECT_LT(drift, before);
+    before = drift;
   }
 }
 
