@@ -71,7 +71,7 @@ btScalar solveQuickContacts(const RowPass& pass, btScalar largest) {
 }
 
 btScalar solveQuickFrictions(const RowPass& pass, const btConstraintArray& contacts,
-                                       btScalar largest) {
+                             btScalar largest) {
   for (int i = 0; i < pass.rows.size(); ++i) {
     auto& row = const_cast<btSolverConstraint&>(pass.rows[pass.order[i]]);
     const btScalar pressed = contacts[row.m_frictionIndex].m_appliedImpulse;

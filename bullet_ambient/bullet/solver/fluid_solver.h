@@ -188,8 +188,8 @@ class FluidSolver : public Base {
     solveObsolete(constraints, constraint_count, info.m_timeStep);
     largest = solveQuickContacts({contacts, this->m_orderTmpConstraintPool, bodies}, largest);
     largest = solveQuickFrictions({this->m_tmpSolverContactFrictionConstraintPool,
-                               this->m_orderFrictionConstraintPool, bodies},
-                              contacts, largest);
+                                   this->m_orderFrictionConstraintPool, bodies},
+                                  contacts, largest);
     btConstraintArray& rolling = this->m_tmpSolverContactRollingFrictionConstraintPool;
     for (int i = 0; i < rolling.size(); ++i) {
       btSolverConstraint& row = rolling[i];

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 
-#include "bullet_ambient/force/kernels/lane_vectors.h"
-
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif

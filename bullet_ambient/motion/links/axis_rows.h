@@ -1,7 +1,5 @@
 #pragma once
 
-#include "bullet_ambient/motion/links/link_state.h"
-
 #if defined(__FAST_MATH__)
 #error "-ffast-math reorders operations; results must have the same bits everywhere"
 #endif
