@@ -11,7 +11,6 @@
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/triangle_quality.h"
 #include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
-#include "preprocess/potential_flow/results/estimated_added_mass.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
 #include "preprocess/shape/json_text.h"
 #include "preprocess/shape/shape_facts.h"

@@ -13,7 +13,7 @@
 #include "preprocess/collision_shape/solids/solid_union.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/join_meshes.h"
-#include "preprocess/potential_flow/results/estimated_added_mass.h"
+#include "preprocess/potential_flow/results/ellipsoid_added_mass.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "preprocess/potential_flow/results/refined_flow.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"

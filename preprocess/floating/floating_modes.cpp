@@ -10,7 +10,6 @@
 #include "bullet_ambient/spatial/spatial_vectors.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
 #include "preprocess/floating/floating_energy.h"
-#include "preprocess/floating/restoring_stiffness.h"
 
 namespace ambient {
 namespace {

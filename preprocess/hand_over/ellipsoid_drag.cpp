@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "preprocess/polar/body_loads.h"
+#include "preprocess/polar/polar.h"
 
 namespace ambient {
 namespace {

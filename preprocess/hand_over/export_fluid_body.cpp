@@ -5,7 +5,7 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/plain_text.h"
 #include "preprocess/base/output_file.h"
-#include "preprocess/hand_over/formats.h"
+#include "preprocess/hand_over/handed_body.h"
 
 namespace ambient {
 

@@ -5,7 +5,6 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "preprocess/hand_over/export_settings.h"
-#include "preprocess/hand_over/exported_body.h"
 
 namespace ambient {
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "bullet_ambient/force/medium/medium.h"
@@ -30,6 +32,16 @@ struct ExportSettings {
   std::optional<double> draught;
   /// Speed along `forward` [m/s] for the linearised drag of Fossen's model; default: no drag.
   std::optional<double> speed;
+};
+
+/// A fluid body in the file format of another program.
+struct ExportedBody {
+  std::string bytes;   ///< content of the file, text
+  std::string report;  ///< lines for people on what the format leaves out; may be empty
+
+  /// Writes the file completely or not at all.
+  /// @throws std::runtime_error in one line that names the file, if it cannot be written.
+  void write(const std::filesystem::path& file) const;
 };
 
 }  // namespace ambient

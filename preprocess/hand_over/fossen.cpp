@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/hand_over/formats.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "preprocess/hand_over/number_text.h"
-#include "preprocess/polar/body_loads.h"
+#include "preprocess/polar/polar.h"
 
 namespace ambient {
 namespace {

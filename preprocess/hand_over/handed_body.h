@@ -5,7 +5,7 @@
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
 #include "bullet_ambient/force/surface/hydrostatics.h"
-#include "preprocess/floating/restoring_stiffness.h"
+#include "preprocess/floating/floating_energy.h"
 #include "preprocess/hand_over/export_settings.h"
 
 namespace ambient {
@@ -36,5 +36,17 @@ struct HandedBody {
 /// @throws std::invalid_argument in one line that names the fluid body, the value and the limit.
 HandedBody handedBody(const std::shared_ptr<const FluidBody>& shape,
                       const ExportSettings& settings);
+
+// Each of these makes a file of one format. Matrices are symmetric to rounding.
+
+/// SDFormat 1.10: a model of one link with mass and fluid_added_mass. The link's frame is F.
+ExportedBody makeSdf(const HandedBody& body);
+
+/// MJCF: a free body with mass and the ellipsoid that comes nearest to its added mass. The report
+/// compares the two.
+ExportedBody makeMjcf(const HandedBody& body);
+
+/// JSON: Fossen's matrices in SNAME's body axes, origin at that of F.
+ExportedBody makeFossen(const HandedBody& body);
 
 }  // namespace ambient

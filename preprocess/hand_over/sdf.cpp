@@ -1,4 +1,4 @@
-#include "preprocess/hand_over/formats.h"
+#include "preprocess/hand_over/handed_body.h"
 #include "preprocess/hand_over/number_text.h"
 
 namespace ambient {

@@ -10,7 +10,7 @@
 #include "preprocess/command_line/json_numbers.h"
 #include "preprocess/command_line/option_values.h"
 #include "preprocess/mesh/input_error.h"
-#include "preprocess/polar/body_loads.h"
+#include "preprocess/polar/polar.h"
 
 namespace ambient {
 namespace {

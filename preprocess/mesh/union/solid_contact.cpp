@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bullet_ambient/base/pi.h"
-#include "preprocess/mesh/defects/triangle_contact.h"
+#include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/defects/winding_number.h"
 
 namespace ambient {

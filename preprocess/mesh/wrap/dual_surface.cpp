@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bullet_ambient/spatial/symmetric_eigen.h"
-#include "preprocess/mesh/defects/triangle_contact.h"
+#include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/graded_grid.h"
 #include "preprocess/mesh/wrap/triangle_pieces.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "preprocess/mesh/defects/triangle_contact.h"
+#include "preprocess/mesh/defects/surface_crossing.h"
 #include "preprocess/mesh/wrap/triangle_pieces.h"
 
 namespace ambient {

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "bullet_ambient/base/elementary.h"
 #include "preprocess/mesh/defects/winding_number.h"
 #include "preprocess/mesh/input_error.h"
 #include "preprocess/mesh/mass_properties.h"
@@ -19,6 +21,16 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector3d;
+
+bool isWithin(double share, double now, double then) { return std::abs(now / then - 1) <= share; }
+
+/// Stretched and moved to the volume and the centre of a body.
+TriangleMesh fitted(TriangleMesh mesh, const MeshProperties& own, const MeshProperties& body) {
+  const double stretch = portable::cbrt(body.volume / own.volume);
+  mesh.vertices =
+      (stretch * (mesh.vertices.colwise() - own.uniform.centre)).colwise() + body.uniform.centre;
+  return mesh;
+}
 
 /// Without triangles that have no normal; what they leave open is a gap of no width.
 TriangleMesh withoutNeedles(const TriangleMesh& mesh) {
@@ -215,6 +227,30 @@ CheckedMesh wrapSurface(const TriangleMesh& mesh, double size, const std::string
   }
   result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
   return result;
+}
+
+std::optional<TriangleMesh> compactSurface(const TriangleMesh& mesh, int triangles) {
+  constexpr double kSquares = 8000, kMostNodes = 5e6;
+  constexpr double kVolumeChange = 0.0025, kAreaChange = 0.005;
+  const MeshProperties body = computeMassProperties(mesh);
+  const double step = std::sqrt(body.area / kSquares);
+  if (!(gridNodesAround(mesh, step) <= kMostNodes)) return std::nullopt;
+  TriangleMesh compact = wrapped(mesh, step, {triangles, triangles, 0});
+  if (compact.triangleCount() == 0) return std::nullopt;
+  const MeshProperties found = computeMassProperties(compact);
+  if (!isWithin(kVolumeChange, found.volume, body.volume)) return std::nullopt;
+  if (!isWithin(kAreaChange, found.area, body.area)) return std::nullopt;
+  return fitted(std::move(compact), found, body);
+}
+
+std::optional<TriangleMesh> inFewerTriangles(const TriangleMesh& mesh, int triangles) {
+  constexpr double kVolumeChange = 0.02, kAreaChange = 0.02, kTooMany = 1.1;
+  TriangleMesh fewer = coarsened(mesh, {triangles, triangles, 0});
+  if (static_cast<double>(fewer.triangleCount()) > kTooMany * triangles) return std::nullopt;
+  const MeshProperties found = computeMassProperties(fewer), body = computeMassProperties(mesh);
+  if (!isWithin(kVolumeChange, found.volume, body.volume)) return std::nullopt;
+  if (!isWithin(kAreaChange, found.area, body.area)) return std::nullopt;
+  return fitted(std::move(fewer), found, body);
 }
 
 }  // namespace ambient

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "preprocess/potential_flow/operators/near_panels.h"
+#include "preprocess/potential_flow/operators/near_moments.h"
 
 namespace ambient {
 

@@ -3,10 +3,24 @@
 #include <array>
 #include <vector>
 
-#include "preprocess/potential_flow/operators/near_panels.h"
+#include "preprocess/potential_flow/surface/panel_pair.h"
 #include "preprocess/potential_flow/surface/quadrature_rules.h"
 
 namespace ambient {
+
+/// Lists for every panel the near panels, itself included, ascending: those that the far-field
+/// formula does not cover.
+struct NearPanels {
+  struct Entry {
+    int panel;
+    PairKind kind;
+    double integral;  ///< computePairIntegral(), the same number for (t, s) and (s, t)
+  };
+  std::vector<std::vector<Entry>> of_panel;
+};
+
+/// Finds the near panels and integrates each near pair once. Cost: O(panels^2) tests.
+NearPanels findNearPanels(const PanelSurface& surface, int threads);
 
 /// Moments of a function on the surface with the three hat functions of every panel: one 3 x 6
 /// matrix per panel, int h_a phi_c over the panel.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "preprocess/potential_flow/operators/cluster_expansions.h"
-#include "preprocess/potential_flow/operators/double_layer.h"
+#include "preprocess/potential_flow/operators/far_moments.h"
 
 namespace ambient {
 

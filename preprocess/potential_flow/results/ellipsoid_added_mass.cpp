@@ -6,7 +6,9 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
+#include "preprocess/mesh/mass_properties.h"
 
 namespace ambient {
 namespace {
@@ -112,6 +114,13 @@ std::vector<PanelInertia> simplePanels(const TriangleMesh& mesh, const Vector6& 
     if (K[i] > 0 && sum[i] > 0) factor[i] = K[i] / sum[i];
   for (PanelInertia& panel : panels) panel.inertia *= factor.asDiagonal();
   return panels;
+}
+
+std::vector<AddedMassPart> estimateParts(TriangleMesh mesh, const Matrix6& added_mass) {
+  const Vector3 centre = computeMassProperties(mesh).uniform.centre;
+  mesh.vertices.colwise() -= centre;
+  const Matrix6 about_centre = shiftOrigin(added_mass, centre);
+  return placed(joinPanels(simplePanels(mesh, about_centre.diagonal())), 1, centre);
 }
 
 }  // namespace ambient

@@ -22,4 +22,8 @@ std::vector<PanelInertia> ellipsoidPanels(const TriangleMesh& mesh, const Vector
 /// bilinear in rotation. The diagonal of the sum is K.
 std::vector<PanelInertia> simplePanels(const TriangleMesh& mesh, const Vector6& K);
 
+/// Estimates the parts of a known added mass for a closed mesh whose flow was not solved, by
+/// simplePanels(); all about the mesh's origin.
+std::vector<AddedMassPart> estimateParts(TriangleMesh mesh, const Matrix6& added_mass);
+
 }  // namespace ambient

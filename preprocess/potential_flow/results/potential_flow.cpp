@@ -1,5 +1,6 @@
 #include "preprocess/potential_flow/results/potential_flow.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -11,12 +12,13 @@
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "bullet_ambient/spatial/symmetric_eigen.h"
+#include "preprocess/base/large_products.h"
 #include "preprocess/base/parallel_for.h"
 #include "preprocess/base/positive_part.h"
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/potential_flow/results/added_mass_parts.h"
 #include "preprocess/potential_flow/results/vertex_projection.h"
-#include "preprocess/potential_flow/solvers/dense_solver.h"
+#include "preprocess/potential_flow/solvers/flow_solver.h"
 #include "preprocess/potential_flow/solvers/hierarchical_solver.h"
 #include "preprocess/potential_flow/solvers/memory_limit.h"
 #include "preprocess/potential_flow/surface/surface_refinement.h"
@@ -26,6 +28,53 @@ namespace {
 
 using Eigen::Index;
 using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+constexpr double kDenseBytesPerPanel =
+    15000;  // of near pairs and what is held between passes; measured
+
+/// Assembles the matrix and factorises it.
+class DenseSolver final : public FlowSolver {
+ public:
+  /// The surface must outlive the solver.
+  /// @throws std::runtime_error if it would need more than `memory_limit` bytes.
+  DenseSolver(const PanelSurface& surface, int threads, double memory_limit)
+      : surface_(surface), threads_(threads) {
+    requireMemory(surface.panelCount(), DenseSolver::bytesNeeded(), memory_limit);
+    fixBlocksOfLargeProducts();
+    near_ = findNearPanels(surface, threads);
+  }
+
+  const PanelSurface& surface() const override { return surface_; }
+
+  double bytesNeeded() const override {
+    const auto panels = static_cast<double>(surface_.panelCount());
+    const auto vertices = static_cast<double>(surface_.vertexCount());
+    return sizeof(double) * vertices * vertices + kDenseBytesPerPanel * panels;
+  }
+
+  Jump solveJump(const Unknowns& unknowns) override {
+    Eigen::MatrixXd W = assembleHypersingular(surface_, unknowns, near_, threads_);
+    fillKernel(surface_, unknowns, W);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(W);
+    if (factors.info() != Eigen::Success)
+      throw std::runtime_error("potential flow: the linear system of " +
+                               std::to_string(unknowns.count) +
+                               " vertices is not positive definite; two sides of the surface are "
+                               "too close for the size of "
+                               "its triangles: use more triangles, a sheet, or build --wrap");
+    const MatrixX6 solution = factors.solve(-assembleNormalVelocity(surface_, unknowns));
+    return {atVertices(unknowns, solution), 0};
+  }
+
+  PanelMoments computeMoments(const Jump& jump) override {
+    return computeExteriorMoments(surface_, near_, jump.values, threads_);
+  }
+
+ private:
+  const PanelSurface& surface_;
+  int threads_;
+  NearPanels near_;
+};
 
 double largestAsymmetry(const Matrix6& K) {
   const double largest = K.cwiseAbs().maxCoeff();

@@ -11,7 +11,7 @@
 #include "preprocess/mesh/check/mesh_checks.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/triangle_quality.h"
-#include "preprocess/mesh/wrap/compact_surface.h"
+#include "preprocess/mesh/wrap/surface_wrap.h"
 #include "preprocess/potential_flow/results/curvature_correction.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
 #include "preprocess/potential_flow/surface/shape_symmetry.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "preprocess/potential_flow/operators/double_layer.h"
+#include "preprocess/potential_flow/operators/far_moments.h"
 
 namespace ambient {
 

@@ -1,12 +1,233 @@
 #include "preprocess/potential_flow/solvers/hierarchical_solver.h"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
 #include "preprocess/base/large_products.h"
+#include "preprocess/base/parallel_for.h"
+#include "preprocess/potential_flow/operators/hypersingular.h"
 #include "preprocess/potential_flow/operators/tree_double_layer.h"
-#include "preprocess/potential_flow/solvers/iterative_jump.h"
 #include "preprocess/potential_flow/solvers/memory_limit.h"
+#include "preprocess/potential_flow/solvers/pair_integrals.h"
 
 namespace ambient {
 namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXf;
+using Eigen::Vector3d;
+using MatrixX6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+using RowVector6 = Eigen::Matrix<double, 1, 6>;
+
+constexpr double kResidualLimit = 1e-6;  // of the residual, in the norm of the preconditioner
+constexpr int kMostIterations = 500;
+constexpr Index kAtOnce = 512;  // unknowns or panels of one task
+
+/// Calls body(i) for all i, in tasks of many.
+template <typename Body>
+void forEach(int threads, Index count, const Body& body) {
+  parallelFor(threads, (count + kAtOnce - 1) / kAtOnce, [&](Index task) {
+    for (Index i = task * kAtOnce; i < std::min(count, (task + 1) * kAtOnce); ++i) body(i);
+  });
+}
+
+/// The panels at every unknown, and which of their corners it is.
+struct Corners {
+  struct Entry {
+    int panel, corner;
+  };
+  std::vector<std::size_t> first;  ///< of every unknown, and the end
+  std::vector<Entry> entries;
+};
+
+Corners listCorners(const PanelSurface& surface, const Unknowns& unknowns) {
+  Corners corners;
+  corners.first.assign(unknowns.count + 1, 0);
+  const auto forAll = [&](const auto& body) {
+    for (Index t = 0; t < surface.panelCount(); ++t)
+      for (int a = 0; a < 3; ++a) {
+        const int i = unknowns.of_vertex[surface.triangles(a, t)];
+        if (i >= 0) body(i, Corners::Entry{static_cast<int>(t), a});
+      }
+  };
+  forAll([&](int i, const Corners::Entry&) { ++corners.first[i + 1]; });
+  for (int i = 0; i < unknowns.count; ++i) corners.first[i + 1] += corners.first[i];
+  corners.entries.resize(corners.first.back());
+  std::vector<std::size_t> next = corners.first;
+  forAll([&](int i, const Corners::Entry& entry) { corners.entries[next[i]++] = entry; });
+  return corners;
+}
+
+/// W and its preconditioner.
+class HypersingularSystem {
+ public:
+  HypersingularSystem(const PanelSurface& surface, const Unknowns& unknowns,
+                      const PairIntegrals& integrals, int threads)
+      : surface_(surface),
+        unknowns_(unknowns),
+        integrals_(integrals),
+        threads_(threads),
+        corners_(listCorners(surface, unknowns)),
+        mass_(unknowns.count),
+        diagonal_(unknowns.count) {
+    forEach(threads, unknowns.count, [&](Index i) { fillDiagonals(i); });
+    listClosedComponents();
+  }
+
+  MatrixX6 apply(const MatrixX6& x) const {
+    MatrixXf curl(surface_.panelCount(), 18);
+    forEach(threads_, surface_.panelCount(), [&](Index t) {
+      Eigen::Matrix<double, 3, 6> sum = Eigen::Matrix<double, 3, 6>::Zero();
+      for (int a = 0; a < 3; ++a)
+        if (const int j = unknownAt(t, a); j >= 0) sum += surface_.panels[t].hatCurl(a) * x.row(j);
+      for (int k = 0; k < 18; ++k) curl(t, k) = static_cast<float>(sum.data()[k]);
+    });
+    const MatrixXf potential = integrals_.apply(curl);
+    MatrixX6 y(x.rows(), 6);
+    forEach(threads_, unknowns_.count, [&](Index i) {
+      RowVector6 sum = RowVector6::Zero();
+      forCorners(i, [&](int t, int a) {
+        Eigen::Matrix<double, 3, 6> value;
+        for (int k = 0; k < 18; ++k) value.data()[k] = potential(t, k);
+        sum += surface_.panels[t].hatCurl(a).transpose() * value;
+      });
+      y.row(i) = sum / (4 * kPi);
+    });
+    return y;
+  }
+
+  /// An approximate solution of W z = r: four times the single layer between divisions by the
+  /// masses of the hat functions, which smooth parts need, and the diagonal, which rough ones do.
+  MatrixX6 precondition(const MatrixX6& r) const {
+    MatrixXf density(surface_.panelCount(), 6);
+    forEach(threads_, surface_.panelCount(), [&](Index t) {
+      RowVector6 sum = RowVector6::Zero();
+      for (int a = 0; a < 3; ++a)
+        if (const int j = unknownAt(t, a); j >= 0) sum += r.row(j) / mass_[j];
+      density.row(t) = (sum / 3).cast<float>();
+    });
+    const MatrixXf potential = integrals_.apply(density);
+    MatrixX6 z(r.rows(), 6);
+    forEach(threads_, unknowns_.count, [&](Index i) {
+      RowVector6 sum = RowVector6::Zero();
+      forCorners(i, [&](int t, int) { sum += potential.row(t).cast<double>() / 3; });
+      z.row(i) = sum / (kPi * mass_[i]) + r.row(i) / diagonal_[i];
+    });
+    removeConstants(z);
+    return z;
+  }
+
+  /// Makes the mean over every closed component 0: its constants are the kernel of W.
+  void removeConstants(MatrixX6& x) const {
+    for (const std::vector<int>& members : closed_) {
+      RowVector6 mean = RowVector6::Zero();
+      for (const int i : members) mean += x.row(i);
+      mean /= static_cast<double>(members.size());
+      for (const int i : members) x.row(i) -= mean;
+    }
+  }
+
+ private:
+  int unknownAt(Index t, int corner) const {
+    return unknowns_.of_vertex[surface_.triangles(corner, t)];
+  }
+
+  template <typename Body>
+  void forCorners(Index i, const Body& body) const {
+    for (std::size_t k = corners_.first[i]; k < corners_.first[i + 1]; ++k)
+      body(corners_.entries[k].panel, corners_.entries[k].corner);
+  }
+
+  void fillDiagonals(Index i) {
+    double mass = 0, diagonal = 0;
+    forCorners(i, [&](int t, int a) {
+      mass += surface_.panels[t].area / 3;
+      const Vector3d curl = surface_.panels[t].hatCurl(a);
+      forCorners(i, [&](int s, int b) {
+        diagonal += curl.dot(surface_.panels[s].hatCurl(b)) * integrals_.entry(t, s);
+      });
+    });
+    mass_[i] = mass;
+    AMBIENT_ASSERT(mass > 0 && diagonal > 0);
+    diagonal_[i] = diagonal / (4 * kPi);
+  }
+
+  void listClosedComponents() {
+    std::vector<bool> open(surface_.component_count, false);
+    std::vector<std::vector<int>> members(surface_.component_count);
+    for (Index v = 0; v < surface_.vertexCount(); ++v) {
+      if (surface_.boundary_vertex[v]) open[surface_.component[v]] = true;
+      if (unknowns_.of_vertex[v] >= 0)
+        members[surface_.component[v]].push_back(unknowns_.of_vertex[v]);
+    }
+    for (int c = 0; c < surface_.component_count; ++c)
+      if (!open[c]) closed_.push_back(std::move(members[c]));
+  }
+
+  const PanelSurface& surface_;
+  const Unknowns& unknowns_;
+  const PairIntegrals& integrals_;
+  int threads_;
+  Corners corners_;
+  Eigen::VectorXd mass_, diagonal_;
+  std::vector<std::vector<int>> closed_;  ///< unknowns of every closed component
+};
+
+RowVector6 columnProducts(const MatrixX6& a, const MatrixX6& b) {
+  return a.cwiseProduct(b).colwise().sum();
+}
+
+[[noreturn]] void raiseNotConverged(int unknowns, int iterations) {
+  throw std::runtime_error(
+      "potential flow: the linear system of " + std::to_string(unknowns) +
+      " vertices was not solved within " + std::to_string(iterations) +
+      " iterations; two sides of the surface are too close for the size of its triangles: use more "
+      "triangles, a sheet, or build --wrap");
+}
+
+/// Solves W mu = -B without the matrix W, by conjugate gradients, all six motions side by side.
+/// Preconditioner: the single layer, whose product with W is about a fourth of unity;
+/// docs/theory.md eq. (34). The same bits for every number of threads. The mean is 0 on closed
+/// components.
+/// @throws std::runtime_error if they do not converge.
+Jump solveIteratively(const PanelSurface& surface, const Unknowns& unknowns,
+                      const PairIntegrals& integrals, int threads) {
+  AMBIENT_ASSERT(unknowns.of_vertex.size() == static_cast<std::size_t>(surface.vertexCount()));
+  const HypersingularSystem system(surface, unknowns, integrals, threads);
+  MatrixX6 jump = MatrixX6::Zero(unknowns.count, 6);
+  MatrixX6 residual = -assembleNormalVelocity(surface, unknowns);
+  system.removeConstants(residual);
+  MatrixX6 z = system.precondition(residual);
+  MatrixX6 direction = z;
+  RowVector6 square = columnProducts(residual, z);
+  const RowVector6 limit = kResidualLimit * kResidualLimit * square;
+  for (int iterations = 0; iterations < kMostIterations; ++iterations) {
+    if ((square.array() <= limit.array()).all()) return {atVertices(unknowns, jump), iterations};
+    const MatrixX6 image = system.apply(direction);
+    const RowVector6 curvature = columnProducts(direction, image);
+    RowVector6 step = RowVector6::Zero();
+    for (int k = 0; k < 6; ++k) {
+      if (square[k] <= limit[k]) continue;
+      if (!(curvature[k] > 0)) raiseNotConverged(unknowns.count, iterations);
+      step[k] = square[k] / curvature[k];
+    }
+    jump += direction * step.asDiagonal();
+    residual -= image * step.asDiagonal();
+    system.removeConstants(residual);
+    z = system.precondition(residual);
+    const RowVector6 next = columnProducts(residual, z);
+    for (int k = 0; k < 6; ++k) {
+      const double ratio = step[k] > 0 ? next[k] / square[k] : 0;
+      direction.col(k) = z.col(k) + ratio * direction.col(k);
+    }
+    square = next;
+  }
+  raiseNotConverged(unknowns.count, kMostIterations);
+}
 
 // The energy, quadratic in the jump, comes out within 1e-5. The rotation block is linear in the
 // double layer, of whose two sides a thin body leaves little: a degree of 5 would leave 1e-4 of it.
@@ -37,8 +258,7 @@ double HierarchicalSolver::bytesNeeded() const {
 
 Jump HierarchicalSolver::solveJump(const Unknowns& unknowns) {
   const PairIntegrals integrals(tree_, pairs_, kDegree, threads_);
-  const IterativeJump solved = solveIteratively(tree_.surface, unknowns, integrals, threads_);
-  return {atVertices(unknowns, solved.values), solved.iterations};
+  return solveIteratively(tree_.surface, unknowns, integrals, threads_);
 }
 
 PanelMoments HierarchicalSolver::computeMoments(const Jump& jump) {

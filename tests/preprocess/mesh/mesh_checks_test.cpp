@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bullet_ambient/base/pi.h"
-#include "preprocess/mesh/check/mesh_diagnosis.h"
 #include "preprocess/mesh/defects/closed_mesh.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_topology.h"

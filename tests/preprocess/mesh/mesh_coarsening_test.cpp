@@ -7,7 +7,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/mesh/wrap/compact_surface.h"
+#include "preprocess/mesh/wrap/surface_wrap.h"
 
 namespace ambient {
 namespace {

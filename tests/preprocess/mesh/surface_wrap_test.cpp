@@ -7,7 +7,6 @@
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mesh_topology.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/mesh/wrap/compact_surface.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
 
 namespace ambient {

@@ -5,7 +5,7 @@
 
 #include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/shapes/primitives.h"
-#include "preprocess/potential_flow/operators/double_layer.h"
+#include "preprocess/potential_flow/operators/far_moments.h"
 #include "preprocess/potential_flow/operators/hypersingular.h"
 #include "preprocess/potential_flow/results/vertex_projection.h"
 #include "preprocess/potential_flow/solvers/block_product.h"
