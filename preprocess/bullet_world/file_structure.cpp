@@ -1,0 +1,166 @@
+#include "preprocess/bullet_world/file_structure.h"
+
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "preprocess/mesh/input_error.h"
+
+namespace ambient {
+namespace {
+
+// "BULLET", precision f or d, pointers of 4 (_) or 8 (-) bytes, little (v) or big (V) endian,
+// three digits of version. Then chunks; the last one holds the DNA.
+constexpr std::size_t kHeaderSize = 12;
+
+/// Reads parts of a file one after the other.
+class Reader {
+ public:
+  Reader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  std::string_view take(std::size_t size, const char* what) {
+    if (size > bytes_.size() - at_) raiseInputError(name_, "damaged: it ends within ", what);
+    const std::string_view taken = bytes_.substr(at_, size);
+    at_ += size;
+    return taken;
+  }
+
+  template <class Number>
+  Number number(const char* what) {
+    Number value;
+    std::memcpy(&value, take(sizeof value, what).data(), sizeof value);
+    return value;
+  }
+
+  // A number of things that take at least `least_size` bytes each.
+  std::size_t count(const char* what, std::size_t least_size) {
+    const auto count = number<std::int32_t>(what);
+    if (count < 0 || static_cast<std::size_t>(count) > (bytes_.size() - at_) / least_size) {
+      raiseInputError(name_, "damaged: ", what, " has ", count, " entries");
+    }
+    return static_cast<std::size_t>(count);
+  }
+
+  void mark(std::string_view expected) {
+    if (take(expected.size(), "its DNA") != expected) {
+      raiseInputError(name_, "damaged: its DNA lacks the mark ", expected);
+    }
+  }
+
+  void skipTexts(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t end = bytes_.find('\0', at_);
+      if (end == std::string_view::npos) raiseInputError(name_, "damaged: it ends within its DNA");
+      at_ = end + 1;
+    }
+    align();
+  }
+
+  void align() { take((4 - at_ % 4) % 4, "its DNA"); }
+  std::size_t at() const { return at_; }
+
+ private:
+  std::string_view bytes_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+};
+
+struct Chunk {
+  std::string_view code;
+  std::int32_t length = 0, structure = 0, count = 0;
+};
+
+Chunk readChunk(Reader& reader, std::size_t pointer_size) {
+  constexpr const char* kWhere = "the head of a chunk";
+  Chunk chunk;
+  chunk.code = reader.take(4, kWhere);
+  chunk.length = reader.number<std::int32_t>(kWhere);
+  reader.take(pointer_size, kWhere);
+  chunk.structure = reader.number<std::int32_t>(kWhere);
+  chunk.count = reader.number<std::int32_t>(kWhere);
+  return chunk;
+}
+
+// Sizes of the structures, by number [bytes]; the indices in it are checked.
+std::vector<std::size_t> readDna(Reader& reader, const std::string& name) {
+  reader.mark("SDNANAME");
+  const std::size_t names = reader.count("the list of names", 1);
+  reader.skipTexts(names);
+  reader.mark("TYPE");
+  const std::size_t types = reader.count("the list of types", 1);
+  reader.skipTexts(types);
+  reader.mark("TLEN");
+  std::vector<std::size_t> type_sizes;
+  for (std::size_t i = 0; i < types; ++i) {
+    type_sizes.push_back(reader.number<std::uint16_t>("its DNA"));
+  }
+  reader.align();
+  reader.mark("STRC");
+  const auto index = [&](std::size_t limit) {
+    const std::size_t value = reader.number<std::uint16_t>("its DNA");
+    if (value >= limit) raiseInputError(name, "damaged: its DNA refers to what it does not hold");
+    return value;
+  };
+  std::vector<std::size_t> sizes(reader.count("the list of structures", 4));
+  for (std::size_t& size : sizes) {
+    size = type_sizes[index(types)];
+    const std::size_t fields = reader.number<std::uint16_t>("its DNA");
+    for (std::size_t i = 0; i < fields; ++i) {
+      index(types);
+      index(names);
+    }
+  }
+  return sizes;
+}
+
+void checkChunk(const Chunk& chunk, const std::vector<std::size_t>& sizes,
+                const std::string& name) {
+  if (chunk.structure < 0) return;  // plain bytes
+  const auto structure = static_cast<std::size_t>(chunk.structure);
+  if (structure >= sizes.size() || chunk.count < 0 ||
+      static_cast<std::size_t>(chunk.count) * sizes[structure] >
+          static_cast<std::size_t>(chunk.length)) {
+    raiseInputError(name, "damaged: a chunk of ", chunk.length, " bytes announces ", chunk.count,
+                    " structures of kind ", chunk.structure, ", which it cannot hold");
+  }
+}
+
+std::size_t checkHeader(std::string_view header, const std::string& name) {
+  if (header.substr(0, 6) != "BULLET") {
+    raiseInputError(name, "is not a .bullet file: it does not begin with BULLET");
+  }
+  if (header.size() < kHeaderSize) raiseInputError(name, "damaged: it ends within its header");
+  if (header[8] == 'V') raiseInputError(name, "comes from a big-endian machine: not supported");
+  if ((header[6] != 'f' && header[6] != 'd') || (header[7] != '-' && header[7] != '_') ||
+      header[8] != 'v') {
+    raiseInputError(name, "damaged: its header is not valid");
+  }
+  return header[7] == '-' ? 8 : 4;
+}
+
+}  // namespace
+
+void checkFileStructure(const std::string& bytes, const std::string& name) {
+  const std::size_t pointer_size = checkHeader(bytes.substr(0, kHeaderSize), name);
+  Reader reader(bytes, name);
+  reader.take(kHeaderSize, "its header");
+  std::vector<Chunk> chunks;
+  for (;;) {
+    const Chunk chunk = readChunk(reader, pointer_size);
+    if (chunk.length < 0) {
+      raiseInputError(name, "damaged: a chunk has a length of ", chunk.length, " bytes");
+    }
+    if (chunk.code == "DNA1") break;
+    reader.take(static_cast<std::size_t>(chunk.length), "a chunk");
+    chunks.push_back(chunk);
+  }
+  // Bullet takes the last of these marks for the DNA.
+  if (bytes.rfind("SDNANAME") != reader.at()) {
+    raiseInputError(name, "damaged: its DNA is not where it should be");
+  }
+  const std::vector<std::size_t> sizes = readDna(reader, name);
+  for (const Chunk& chunk : chunks) checkChunk(chunk, sizes, name);
+}
+
+}  // namespace ambient
