@@ -11,7 +11,7 @@
 #include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/packed/packed_hull.h"
 #include "bullet_ambient/spatial/inertia.h"
-#include "preprocess/floating/restoring_stiffness.h"
+#include "preprocess/floating/floating_energy.h"
 #include "tests/support/bodies/hull_bodies.h"
 
 namespace ambient::test {
