@@ -161,16 +161,6 @@ TEST_F(WorldInFluid, SaysOnceWhichBodiesAreLight) {
   EXPECT_EQ(said.size(), 1u);
 }
 
-TEST_F(WorldInFluid, OneLightBodyIsSaidWithBothMasses) {
-  const AttachDef def{shapes.ball, air()};  // displaces 5.04 kg
-  fluid.add(add(2.6, sphere), def);
-  EXPECT_TRUE(said.empty());
-  fluid.add(add(2.4, sphere), def);
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("has a mass of 2.4 kg and displaces 5.04 kg"), std::string::npos)
-      << said[0];
-}
-
 TEST_F(WorldInFluid, WithoutACollisionShapeABodyIsDryAndSaidToBe) {
   static btCompoundShape nothing;
   add(kHeavy, nothing);

@@ -114,18 +114,5 @@ TEST(RungeKutta, TurnsByLessThanSixDegreesPerSubstep) {
   EXPECT_EQ(plate.count.load_evaluations, 4 * 17);
 }
 
-TEST(Flight, GivesTheSameBitsTwice) {
-  for (const OwnFlight integrator : std::initializer_list<OwnFlight>{
-           nullptr, flyDormandPrince, flyRungeKutta, flySymplecticEuler}) {
-    FreeBody a = tumblingEllipsoid({1e-3, 0, integrator});
-    FreeBody b = tumblingEllipsoid({1e-3, 0, integrator});
-    a.advance(1.0 / 60, 60);
-    b.advance(1.0 / 60, 60);
-    EXPECT_EQ(a.state.position, b.state.position);
-    EXPECT_EQ(a.state.orientation.coeffs(), b.state.orientation.coeffs());
-    EXPECT_EQ(a.state.twist.vector(), b.state.twist.vector());
-  }
-}
-
 }  // namespace
 }  // namespace ambient

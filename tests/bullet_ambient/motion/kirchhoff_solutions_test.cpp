@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "bullet_ambient/base/pi.h"
-#include "demos/integrators/integrators.h"
 #include "tests/reference/kirchhoff_motion.h"
 #include "tests/support/bodies/ellipsoid_body.h"
 #include "tests/support/bodies/free_body.h"
@@ -74,34 +73,6 @@ TEST(Leapfrog, RocksLikeTheEllipticFunction) {
       EXPECT_NEAR(planarAngle(body.state), motion.rockingAngle(amplitude, i / 60.0), 1e-11)
           << amplitude << " at step " << i;
     }
-  }
-}
-
-TEST(Leapfrog, IsBackAfterOnePeriod) {
-  const Ellipsoid ellipsoid;
-  const double momentum = 2 * ellipsoid.mass;
-  for (const double amplitude : {0.1, 0.5, 1.0, 1.4}) {
-    FreeBody body = ellipsoid.body();
-    release(body, amplitude, momentum);
-    const Vector6 twist = body.state.twist.vector();
-    constexpr int kSteps = 100;
-    body.advance(ellipsoid.planarMotion(momentum).rockingPeriod(amplitude) / kSteps, kSteps);
-    EXPECT_NEAR(planarAngle(body.state), amplitude, 1e-11);
-    EXPECT_LT((body.state.twist.vector() - twist).norm(), 1e-11);
-  }
-}
-
-TEST(RungeKutta, RocksLikeTheEllipticFunction) {
-  const Ellipsoid ellipsoid;
-  const double momentum = 2 * ellipsoid.mass;
-  const reference::PlanarMotion motion = ellipsoid.planarMotion(momentum);
-  FreeBody body = ellipsoid.body();
-  body.settings.own_flight = flyRungeKutta;
-  release(body, 1.0, momentum);
-  for (int i = 1; i <= 240; ++i) {
-    body.advance(1.0 / 60);
-    // Scheme of fourth order; measured 9e-6.
-    EXPECT_NEAR(planarAngle(body.state), motion.rockingAngle(1.0, i / 60.0), 3e-5) << i;
   }
 }
 

@@ -146,17 +146,6 @@ TEST_F(Robots, OfTheWorldAreAttachedByTheFilterOfLinks) {
   }
 }
 
-TEST_F(Robots, SwimInRegions) {
-  btMultiBody& body = add();
-  putIntoFluid(arbitrary, world, body, 2);
-  FluidRegion region;
-  region.below = idealFluid(7);
-  const RegionId id = world.fluid.addRegion(region);
-  world.step(1e-3);
-  EXPECT_EQ(world.fluid.find(body, 2)->region(), id);
-  EXPECT_EQ(world.fluid.find(body, -1)->medium().density, 7);
-}
-
 // The loads of water on links that motors keep at rest, or not, as PyBullet's.
 TEST_F(Robots, StayBoundedUnderMotorsInWater) {
   RobotDef def;

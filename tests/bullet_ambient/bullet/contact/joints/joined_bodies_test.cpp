@@ -91,18 +91,6 @@ TEST_P(JoinedPair, KeepsItsEnergyToSecondOrder) {
   EXPECT_LT(driftOf(GetParam(), 2, 1.0 / 120).energy, byPrecision(0.3, 0.5) * coarse);
 }
 
-TEST(JoinedChain, KeepsItsMomentumAndGainsNothing) {
-  Row row(Link::kBall, 10, 100);
-  const double energy = row.energy();
-  const Vector3 momentum = row.momentum();
-  for (int i = 0; i < 600; ++i) {
-    row.step(1.0 / 60);
-    EXPECT_LT((row.momentum() - momentum).norm(), byPrecision(1e-12, 1e-5) * momentum.norm());
-    EXPECT_LT(row.energy(), 1.001 * energy);
-  }
-  EXPECT_GT(row.energy(), 0.9 * energy);
-}
-
 /// Energies of a body on a ball joint at its rim in two seconds, over its energy at the start.
 struct TopEnergy {
   double largest = 1, end = 1;

@@ -211,11 +211,10 @@ TEST_P(SwingingBody, HasThePeriodOfTheEllipticIntegral) {
 // fluid.
 TEST_P(SwingingBody, HasThePeriodOfLargeSwingsWhereJointsAreCorrectedAtOnce) {
   for (const unsigned seed : kSeeds) {
-    for (const double amplitude : {0.2, 0.5, 1.0}) {
+    for (const double amplitude : {0.5, 1.0}) {
       const Pendulum pendulum = Pendulum::random(GetParam(), seed, amplitude);
       const std::vector<double> errors = periodErrors(pendulum, 1);
       EXPECT_LT(std::abs(errors[0]), amplitude < 1 ? 1e-4 : 2e-4) << seed << ", " << amplitude;
-      if (amplitude < 0.5) expectSecondOrder(errors, 0.05);
       if (amplitude == 1) expectSecondOrder(errors, 0.4);
     }
   }
