@@ -177,13 +177,11 @@ std::optional<AddedMass> addedMassOf(const SeparateSolids& separate,
 
 /// Settings of the flow around solids. Polyhedra need fewer panels than round bodies: all their
 /// triangles are merged, and the added mass is extrapolated.
-PotentialFlowSettings flowSettingsFor(const std::vector<Solid>& solids, PotentialFlowSettings flow,
-                                      bool has_unions) {
-  constexpr int kPanelsOfHull = 1500, kPanelsOfPolyhedra = 2600;
+PotentialFlowSettings flowSettingsFor(const std::vector<Solid>& solids,
+                                      PotentialFlowSettings flow) {
+  constexpr int kPanelsOfPolyhedra = 1500;
   flow.polyhedron = flow.max_panels > 0 && arePolyhedra(solids);
-  if (!flow.polyhedron) return flow;
-  const bool is_one = solids.size() == 1 && !has_unions;
-  flow.max_panels = std::min(flow.max_panels, is_one ? kPanelsOfHull : kPanelsOfPolyhedra);
+  if (flow.polyhedron) flow.max_panels = std::min(flow.max_panels, kPanelsOfPolyhedra);
   return flow;
 }
 
@@ -223,7 +221,7 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
   build.provenance = describeForm(form, settings);
   build.begin = settings.begin;
   const std::vector<Solid>& solids = separate.solids;
-  build.flow = flowSettingsFor(solids, settings.flow, separate.has_unions);
+  build.flow = flowSettingsFor(solids, settings.flow);
   if (std::optional<AddedMass> known = addedMassOf(separate, settings, build.name)) {
     build.added_mass = known->total;
     build.added_mass_parts = std::move(known->parts);

@@ -63,8 +63,9 @@ TriangleMesh evenlyDivided(const TriangleMesh& mesh, int faces) {
 }
 
 Solid makeHullSolid(const Hull& hull, const SolidResolution& resolution, const std::string& name) {
-  // Hulls of more triangles are taken for round bodies that their points lie on.
-  constexpr Eigen::Index kMostOfPolyhedron = 100;
+  // Hulls of more triangles than those of 64 points, which convex decompositions make, are taken
+  // for round bodies that their points lie on.
+  constexpr Eigen::Index kMostOfPolyhedron = 124;
   const TriangleMesh mesh = hullOf(hull.points, name);
   Solid solid = solidOf(evenlyDivided(mesh, resolution.faces));
   solid.is_polyhedron = mesh.triangleCount() <= kMostOfPolyhedron;

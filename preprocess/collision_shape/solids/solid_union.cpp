@@ -1,11 +1,14 @@
 #include "preprocess/collision_shape/solids/solid_union.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "preprocess/builder/fluid_body_builder.h"
 #include "preprocess/collision_shape/solids/collision_solids.h"
 #include "preprocess/mesh/defects/closed_mesh.h"
 #include "preprocess/mesh/graded_grid.h"
@@ -17,6 +20,7 @@
 #include "preprocess/mesh/union/mesh_union.h"
 #include "preprocess/mesh/union/solid_contact.h"
 #include "preprocess/mesh/weld_vertices.h"
+#include "preprocess/mesh/wrap/surface_wrap.h"
 #include "preprocess/potential_flow/surface/flat_merging.h"
 
 namespace ambient {
@@ -57,18 +61,55 @@ int facesOf(const std::vector<Solid>& group, std::size_t all, int faces) {
   return std::max(1, static_cast<int>(std::min(1.0, kMostOfMany * share) * faces));
 }
 
+/// The surface wrapped around parts; none if it has another volume than their union.
+std::optional<CheckedMesh> wrapOf(const Meshes& parts, const std::string& name) {
+  constexpr double kTolerance = 0.01;
+  try {
+    CheckedMesh wrap = wrapSurface(joinMeshes(parts), 0, name);
+    const double volume = volumeOfUnion(parts);
+    const double change = computeMassProperties(wrap.mesh).volume / volume - 1;
+    if (!(std::abs(change) <= kTolerance)) return std::nullopt;
+    wrap.mesh = withVolume(wrap.mesh, volume);
+    return wrap;
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+/// The union of a group, or a wrap around it: for round parts of many triangles, which seldom can
+/// be united, before the tries that take seconds.
+Solid unitedOrWrapped(const Meshes& parts, bool polyhedra, const std::string& name) {
+  constexpr Eigen::Index kFewTriangles = 1500;
+  const bool are_few = joinMeshes(parts).triangleCount() <= kFewTriangles;
+  Solid solid;
+  solid.is_polyhedron = polyhedra;
+  CheckedMesh surface;
+  try {
+    surface = uniteMeshes(parts, name, are_few ? UnionTries::kAll : UnionTries::kOne);
+  } catch (const std::runtime_error&) {
+    const std::optional<CheckedMesh> wrap = wrapOf(parts, name);
+    if (!wrap && are_few) throw;
+    surface = wrap ? *wrap : uniteMeshes(parts, name);
+    solid.is_polyhedron = polyhedra && !wrap;
+  }
+  solid.mesh = std::move(surface.mesh);
+  solid.cavities = std::move(surface.cavities);
+  return solid;
+}
+
 Solid uniteGroup(const std::vector<Solid>& group, int faces, const std::string& name) {
   Meshes parts, cavities;
-  Solid solid;
-  solid.is_polyhedron = arePolyhedra(group);
+  std::vector<std::string> warnings;
   for (const Solid& own : group) {
-    parts.push_back(mergeFlatTriangles(own.mesh, false, kDefaultPanels));
+    parts.push_back(own.is_polyhedron ? mergePolyhedronSides(own.mesh)
+                                      : mergeFlatTriangles(own.mesh, false, kDefaultPanels));
     cavities.push_back(own.cavities);
-    solid.warnings.insert(solid.warnings.end(), own.warnings.begin(), own.warnings.end());
+    warnings.insert(warnings.end(), own.warnings.begin(), own.warnings.end());
   }
-  const CheckedMesh united = uniteMeshes(parts, name);
-  cavities.push_back(united.cavities);
-  solid.mesh = evenlyDivided(united.mesh, faces);
+  Solid solid = unitedOrWrapped(parts, arePolyhedra(group), name);
+  solid.warnings = std::move(warnings);
+  cavities.push_back(solid.cavities);
+  solid.mesh = evenlyDivided(solid.mesh, faces);
   solid.cavities = joinMeshes(cavities);
   return solid;
 }

@@ -337,7 +337,7 @@ CheckedMesh unitedAsTheyAre(const Meshes& parts, const Tolerances& tolerances,
 
 }  // namespace
 
-CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name) {
+CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name, UnionTries tries) {
   std::string reason;
   const auto tryToUnite = [&](const Meshes& moved,
                               const Tolerances& tolerances) -> std::optional<CheckedMesh> {
@@ -352,6 +352,7 @@ CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name) {
     Meshes blown_up;
     for (const TriangleMesh& part : parts) blown_up.push_back(blownUp(part, share));
     if (auto united = tryToUnite(blown_up, kOfForms)) return *std::move(united);
+    if (tries == UnionTries::kOne) throw std::runtime_error(reason);
   }
   std::mt19937 generator;  // the same numbers everywhere
   for (const double share : {3e-4, 6e-4, 6e-4, 6e-4}) {
@@ -359,6 +360,14 @@ CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name) {
     if (auto united = tryToUnite(moved, kOfCuts)) return *std::move(united);
   }
   throw std::runtime_error(reason);
+}
+
+double volumeOfUnion(const Meshes& parts) {
+  TriangleMesh surface = unionSurface(parts, joinMeshes(parts).extents().norm(), kOfForms);
+  // What a gap in the surface takes off grows with its distance from the origin.
+  const Eigen::Vector3d centre = surface.bounds().center();
+  surface.vertices.colwise() -= centre;
+  return computeMassProperties(surface).volume;
 }
 
 std::optional<CheckedMesh> uniteClosedParts(const TriangleMesh& mesh, const std::string& name) {

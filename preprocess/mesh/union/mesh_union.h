@@ -8,6 +8,10 @@
 
 namespace ambient {
 
+/// How often uniteMeshes() tries: with the parts as they are, or with enlarged and turned ones,
+/// too.
+enum class UnionTries { kOne, kAll };
+
 /// Computes the union of closed surfaces that touch or overlap: keeps the part of each that lies
 /// outside the others, so that sharp edges stay sharp. If the result is not closed, for example
 /// because parts touch in an edge, tries again with the parts enlarged about their centres by 0.03
@@ -17,7 +21,12 @@ namespace ambient {
 /// call. Cost O(T P) for triangles T of one and planes P of those whose bounding boxes it meets.
 /// @pre each is closed, manifold and outward.
 /// @throws std::runtime_error with the reason, if no closed surface of the right volume comes out.
-CheckedMesh uniteMeshes(const std::vector<TriangleMesh>& parts, const std::string& name);
+CheckedMesh uniteMeshes(const std::vector<TriangleMesh>& parts, const std::string& name,
+                        UnionTries tries = UnionTries::kAll);
+
+/// Returns the volume of the union of closed surfaces [m^3], to about 1e-4 also where uniteMeshes()
+/// does not close its surface. @throws std::runtime_error for too many triangles in one of them.
+double volumeOfUnion(const std::vector<TriangleMesh>& parts);
 
 /// Unites the closed parts of a mesh that overlap, touch, lie in each other or have edges in
 /// common, whatever their orientation; adds a warning. None if the mesh is open, has one part only,

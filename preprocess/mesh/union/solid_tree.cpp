@@ -1,5 +1,6 @@
 #include "preprocess/mesh/union/solid_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -57,6 +58,7 @@ SolidTree::SolidTree(const TriangleMesh& mesh, double tolerance) : tolerance_(to
       if (!sides.front.corners.empty()) front.push_back(std::move(sides.front));
       if (!sides.back.corners.empty()) back.push_back(std::move(sides.back));
     }
+    is_convex_ = is_convex_ && front.empty();
     if (!front.empty()) pending.push_back({number, true, std::move(front)});
     if (!back.empty()) pending.push_back({number, false, std::move(back)});
   }
@@ -118,7 +120,24 @@ Polygons SolidTree::cutOff(const FlatPolygon& polygon, bool keep_flush) const {
   Polygons outside, inside;
   divide(0, polygon, outside, inside, keep_flush);
   if (inside.empty()) return {polygon};
-  return outside;
+  return is_convex_ && inside.size() == 1 ? piecesAround(inside.front(), polygon) : outside;
+}
+
+Polygons SolidTree::piecesAround(const FlatPolygon& hole, const FlatPolygon& polygon) const {
+  Polygons pieces;
+  FlatPolygon left = polygon;
+  for (const Node& node : nodes_) {
+    const auto is_on = [&](const Vector3d& corner) {
+      return std::abs(node.normal.dot(corner) - node.offset) <= tolerance_;
+    };
+    if (std::count_if(hole.corners.begin(), hole.corners.end(), is_on) < 2) continue;
+    Sides sides = divide(node, left);
+    if (sides.is_flat || sides.front.corners.empty()) continue;
+    pieces.push_back(std::move(sides.front));
+    if (sides.back.corners.empty()) break;
+    left = std::move(sides.back);
+  }
+  return pieces;
 }
 
 }  // namespace ambient

@@ -49,8 +49,13 @@ class SolidTree {
   void divide(int node, const FlatPolygon& polygon, std::vector<FlatPolygon>& outside,
               std::vector<FlatPolygon>& inside, bool keep_flush) const;
 
+  /// Returns the pieces of a polygon around the part of it that is inside a convex solid, cut by
+  /// those planes alone that the part ends at.
+  std::vector<FlatPolygon> piecesAround(const FlatPolygon& hole, const FlatPolygon& polygon) const;
+
   double tolerance_;
   std::vector<Node> nodes_;
+  bool is_convex_ = true;
 };
 
 }  // namespace ambient

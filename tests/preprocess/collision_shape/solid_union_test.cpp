@@ -3,15 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "bullet_ambient/base/pi.h"
 #include "preprocess/mesh/defects/topology_defects.h"
 #include "preprocess/mesh/mass_properties.h"
 #include "preprocess/mesh/mend/crack_mending.h"
 #include "preprocess/mesh/mesh_topology.h"
+#include "preprocess/mesh/shapes/convex_hull.h"
 #include "preprocess/mesh/shapes/primitives.h"
+#include "preprocess/mesh/union/mesh_union.h"
 #include "preprocess/mesh/union/solid_tree.h"
 #include "preprocess/potential_flow/results/potential_flow.h"
 #include "tests/preprocess/mesh/mesh_fixtures.h"
@@ -46,6 +52,24 @@ TEST(SolidTree, TakesOffWhatIsInside) {
   EXPECT_NEAR(areaOf(cube.cutOff(squareAt(0, 2, true), true)), 16 - 4, 1e-12);
   EXPECT_EQ(areaOf(cube.cutOff(squareAt(0, 0.5, true), true)), 0);
   EXPECT_EQ(cube.cutOff(squareAt(1.1, 2, true), true).size(), 1u) << "not cut where not needed";
+}
+
+// Other planes of the solid meet the polygon, too, but leave no edge of the hole.
+TEST(SolidTree, ConvexCutsOncePerEdgeOfTheHole) {
+  const TriangleMesh ball = makeEllipsoidMesh({1, 1, 1}, 320);
+  constexpr double kHeight = 0.3;
+  std::size_t edges = 0;
+  for (Eigen::Index t = 0; t < ball.triangleCount(); ++t) {
+    double low = 1, high = -1;
+    for (int k = 0; k < 3; ++k) {
+      low = std::min(low, ball.corner(t, k).z());
+      high = std::max(high, ball.corner(t, k).z());
+    }
+    if (low < kHeight && kHeight < high) ++edges;
+  }
+  const auto pieces = SolidTree(ball, 1e-9).cutOff(squareAt(kHeight, 2, true), true);
+  EXPECT_LE(pieces.size(), edges);
+  EXPECT_NEAR(areaOf(pieces), 16 - kPi * (1 - kHeight * kHeight), 0.1);  // of chords
 }
 
 TEST(SolidTree, DecidesOnItsSurfaceByTheNormal) {
@@ -102,6 +126,69 @@ TEST(SolidUnion, UnitesBoxesThatLieNearlyFlush) {
   ASSERT_EQ(separate.solids.size(), 1u);
   EXPECT_TRUE(separate.has_unions);
   EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume / 1.5, 1, 5e-3);
+}
+
+// Rounded hulls that lie in each other, as a convex decomposition of a toy has them. Every other
+// corner lies beside another one, so that some edges are as short as what is welded.
+std::vector<Solid> roundedHulls(unsigned seed) {
+  constexpr int kHulls = 16, kCorners = 120;
+  std::mt19937 generator(seed);
+  const auto random = [&] {
+    return 2 * static_cast<double>(generator()) / std::mt19937::max() - 1;
+  };
+  const auto randomVector = [&] {
+    const double x = random(), y = random(), z = random();
+    return Eigen::Vector3d(x, y, z);
+  };
+  std::vector<Solid> solids;
+  for (int i = 0; i < kHulls; ++i) {
+    const Eigen::Vector3d centre = 0.6 * randomVector();
+    const Eigen::Vector3d axes = Eigen::Vector3d::Constant(0.5) + 0.2 * randomVector();
+    Eigen::Matrix3Xd corners(3, kCorners);
+    for (int k = 0; k < kCorners; k += 2) {
+      corners.col(k) = centre + axes.cwiseProduct(randomVector().normalized());
+      corners.col(k + 1) = corners.col(k) + 1e-4 * randomVector();
+    }
+    Solid solid;
+    solid.mesh = makeConvexHull(corners, "hull");
+    solid.name = "child " + std::to_string(i);
+    solids.push_back(solid);
+  }
+  return solids;
+}
+
+bool canBeUnitedAtOnce(const std::vector<TriangleMesh>& meshes) {
+  try {
+    uniteMeshes(meshes, "it", UnionTries::kOne);
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+TEST(SolidUnion, WrapsRoundPartsThatCannotBeUnited) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const std::vector<Solid> solids = roundedHulls(seed);
+    std::vector<TriangleMesh> meshes;
+    for (const Solid& solid : solids) meshes.push_back(solid.mesh);
+    if (canBeUnitedAtOnce(meshes)) continue;
+    const double volume = volumeOfUnion(meshes);
+    EXPECT_LT(volume, 0.9 * sumOfVolumes(meshes));
+    const SeparateSolids separate =
+        uniteSolids(solids, fallingBackTo(CompoundFallback::kRefuse), "it");
+    ASSERT_EQ(separate.solids.size(), 1u);
+    EXPECT_TRUE(separate.has_unions);
+    EXPECT_TRUE(isClosed(computeMeshEdges(separate.solids[0].mesh)));
+    EXPECT_NEAR(computeMassProperties(separate.solids[0].mesh).volume, volume, 1e-6 * volume);
+    return;
+  }
+  FAIL() << "all were united at once";
+}
+
+TEST(SolidUnion, VolumesAreThoseOfTheUnion) {
+  const TriangleMesh cube = makeBoxMesh({0.5, 0.5, 0.5}, 48);
+  EXPECT_NEAR(volumeOfUnion({cube, moved(cube, {7, 0.25, 0})}), 2, 1e-12);
+  EXPECT_NEAR(volumeOfUnion({cube, moved(cube, {0.5, 0.25, 0})}), 2 - 0.5 * 0.75, 1e-9);
 }
 
 TEST(SolidUnion, LeavesSolidsWithGapsAlone) {
