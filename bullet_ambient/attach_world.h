@@ -38,6 +38,14 @@ class FluidBodySource {
   /// Returns the fluid body of a shape, in the frame of the shape, which is also that of a
   /// btRigidBody with this shape. @throws std::exception with one line that says why there is none.
   virtual std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) = 0;
+
+  /// Returns fluidBody() for a body of a world. `whose` names the body and says how many more there
+  /// are, for lines about work that takes long: "body 2 'crane', 3 of 14".
+  virtual std::shared_ptr<const FluidBody> fluidBodyOf(const std::function<std::string()>& whose,
+                                                       const btCollisionShape& shape) {
+    static_cast<void>(whose);
+    return fluidBody(shape);
+  }
 };
 
 /// Settings of addAll(): how the bodies of a world meet the fluid.
@@ -120,8 +128,10 @@ class WorldAttachment {
   FluidBodySource& source_;
   Medium medium_;
   AttachSettings settings_;
-  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;  // of attachNew(), while it runs
-  std::vector<Met> met_;                                 // in the order of the world
+  std::vector<Met> met_;  // in the order of the world
+  // Of attachNew(), while it runs:
+  btMultiBodyDynamicsWorld* multibody_world_ = nullptr;
+  int index_ = 0, number_ = 0, count_ = 0;  // of the object, in the world and among the new ones
 };
 
 AMBIENT_END

@@ -1,6 +1,7 @@
 #include "demos/simulation/body_preparation.h"
 
 #include <memory>
+#include <string>
 
 #include "bullet_ambient/fluid_body/file/fluid_body_file.h"
 #include "demos/simulation/robots/robots_in_world.h"
@@ -50,7 +51,11 @@ PreparedBody prepare(const Scene& scene, const BodyDef& def, SceneBodyCache& flu
 
 std::vector<PreparedBody> prepareBodies(const Scene& scene, SceneBodyCache& fluid_bodies) {
   std::vector<PreparedBody> bodies;
-  for (const BodyDef& def : scene.bodies) bodies.push_back(prepare(scene, def, fluid_bodies));
+  for (const BodyDef& def : scene.bodies) {
+    fluid_bodies.announce("body " + std::to_string(bodies.size() + 1) + " of " +
+                          std::to_string(scene.bodies.size()));
+    bodies.push_back(prepare(scene, def, fluid_bodies));
+  }
   return bodies;
 }
 

@@ -31,7 +31,7 @@ std::shared_ptr<const FluidBody> SceneBodyCache::get(const ShapeDescription& sha
 std::shared_ptr<const FluidBody> SceneBodyCache::readOr(const std::string& name,
                                                         const Provenance& provenance,
                                                         const BodyMaker::Make& make) {
-  unsaved_.push_back(maker_.get(name, provenance, make));
+  unsaved_.push_back(maker_.get(name, provenance, make, whose_));
   return unsaved_.back().body;
 }
 

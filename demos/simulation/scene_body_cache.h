@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bullet_ambient/fluid_body/fluid_body.h"
@@ -36,6 +37,9 @@ class SceneBodyCache {
   /// Fluid body of a link's collision shape, in the shape's frame. @throws as makeFluidBody()
   std::shared_ptr<const FluidBody> get(const btCollisionShape& shape, const std::string& name);
 
+  /// Says for whom get() works next, for lines about work that takes long: "body 3 of 14".
+  void announce(std::string whose) { whose_ = std::move(whose); }
+
   /// Writes the bodies made by this object since the last call; what cannot be written is reported.
   void save();
 
@@ -58,6 +62,7 @@ class SceneBodyCache {
 
   BodyMaker maker_;
   int threads_;
+  std::string whose_;
   std::map<std::string, std::shared_ptr<const FluidBody>> by_text_;
   std::vector<BodyMaker::Made> unsaved_;
   std::vector<std::string> warnings_;

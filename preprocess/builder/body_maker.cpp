@@ -24,7 +24,7 @@ BodyMaker::BodyMaker(BodyFolder folder, Report report)
     : folder_(std::move(folder)), report_(std::move(report)) {}
 
 BodyMaker::Made BodyMaker::get(const std::string& name, const Provenance& provenance,
-                               const Make& make) {
+                               const Make& make, const std::string& whose) {
   std::filesystem::path file;
   if (!folder_.path.empty()) {
     file = folder_.path / keptFileName(name, provenance);
@@ -35,13 +35,15 @@ BodyMaker::Made BodyMaker::get(const std::string& name, const Provenance& proven
     }
   }
   const Clock::time_point begin = Clock::now();
-  auto body = std::make_shared<const FluidBody>(makeShown(name, make));
+  const std::string label =
+      "making the fluid body of '" + name + (whose.empty() ? "'" : "' for " + whose);
+  auto body = std::make_shared<const FluidBody>(makeShown(label, make));
   if (Clock::now() - begin < folder_.least) file.clear();
   return {std::move(body), std::move(file)};
 }
 
 // Bodies that are made right after each other are one work.
-FluidBody BodyMaker::makeShown(const std::string& name, const Make& make) {
+FluidBody BodyMaker::makeShown(const std::string& label, const Make& make) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++counts_.made;
@@ -61,7 +63,6 @@ FluidBody BodyMaker::makeShown(const std::string& name, const Make& make) {
   {
     std::optional<ElapsedDisplay> display;
     body = make([&](const std::string& stage) {
-      const std::string label = "making the fluid body of '" + name + "'";
       if (report_ && !display) display.emplace(label, print, std::chrono::milliseconds(100));
       if (display) display->begin(stage);
     });

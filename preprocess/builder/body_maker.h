@@ -35,8 +35,10 @@ class BodyMaker {
   explicit BodyMaker(BodyFolder folder = {}, Report report = nullptr);
 
   /// Reads the body with this name and provenance, or makes it where the folder has none, or a
-  /// file that is damaged, foreign or outdated.
-  Made get(const std::string& name, const Provenance& provenance, const Make& make);
+  /// file that is damaged, foreign or outdated. `whose`: what lines about the work say of it
+  /// besides, such as "body 2 'crane', 3 of 14"; empty: nothing.
+  Made get(const std::string& name, const Provenance& provenance, const Make& make,
+           const std::string& whose = {});
   /// Writes a body into the folder, whole or not at all: other processes may read and write there.
   /// Reports in one line if it cannot be written.
   void keep(const Made& made);
@@ -47,7 +49,7 @@ class BodyMaker {
  private:
   using Clock = std::chrono::steady_clock;
 
-  FluidBody makeShown(const std::string& name, const Make& make);
+  FluidBody makeShown(const std::string& label, const Make& make);
 
   const BodyFolder folder_;
   const Report report_;

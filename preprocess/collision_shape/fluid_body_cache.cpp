@@ -35,14 +35,14 @@ struct FluidBodyCache::Store {
   std::mutex mutex;     // of this:
   std::unordered_map<std::string, SharedBody> by_name;
 
-  SharedBody get(const ShapeForm& form) {
+  SharedBody get(const ShapeForm& form, const std::string& whose) {
     const std::string& name = settings.name.empty() ? form.kind : settings.name;
     const auto make = [&](const auto& begin) {
       CollisionShapeSettings shown = settings;
       shown.begin = begin;
       return makeFormBody(form, shown);
     };
-    const BodyMaker::Made made = maker.get(name, describeForm(form, settings), make);
+    const BodyMaker::Made made = maker.get(name, describeForm(form, settings), make, whose);
     maker.keep(made);
     return made.body;
   }
@@ -60,12 +60,17 @@ FluidBodyCache::FluidBodyCache(CollisionShapeSettings settings, BodyFolder folde
 FluidBodyCache::~FluidBodyCache() = default;
 
 SharedBody FluidBodyCache::fluidBody(const btCollisionShape& shape) {
+  return fluidBodyOf([] { return std::string(); }, shape);
+}
+
+SharedBody FluidBodyCache::fluidBodyOf(const std::function<std::string()>& whose,
+                                       const btCollisionShape& shape) {
   Store& store = *store_;
   const ShapeForm form = normalised(readForm(shape, store.settings));
   const std::string content = form.kind + contentOf(form.parts);
   const std::string sized = withSize(content, form.size);
   return store.shapes.get(sized, [&] {
-    const SharedBody unit = store.forms.get(content, [&] { return store.get(form); });
+    const SharedBody unit = store.forms.get(content, [&] { return store.get(form, whose()); });
     FluidBody body = form.size == 1 ? *unit : scaled(*unit, form.size);
     // Tells the fluid bodies of one kind of shape apart, the same in all programs.
     body.name = unit->name + " " + hashText(fnv1a64(sized));

@@ -31,6 +31,8 @@ class FluidBodyCache : public FluidBodySource {
   /// it is known: that of reading the shape's numbers. @throws std::runtime_error as
   /// makeFluidBody(), in every call.
   std::shared_ptr<const FluidBody> fluidBody(const btCollisionShape& shape) override;
+  std::shared_ptr<const FluidBody> fluidBodyOf(const std::function<std::string()>& whose,
+                                               const btCollisionShape& shape) override;
 
   /// Finds the last result of fluidBody() with a name; null: none. A FluidBodyLookup for
   /// decodeState().

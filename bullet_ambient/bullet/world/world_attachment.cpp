@@ -5,6 +5,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include <algorithm>
 #include <exception>
 #include <optional>
 #include <set>
@@ -37,17 +38,25 @@ bool canMove(const btMultiBody& multi_body, int link) {
   return multi_body.getLinkMass(link) > 0;
 }
 
+// True for an object that a fluid can move; null is none.
+bool canJoin(const btCollisionObject* object) {
+  if (!object) return false;
+  if (const btRigidBody* body = btRigidBody::upcast(object)) return isDynamic(*body);
+  const auto* collider = btMultiBodyLinkCollider::upcast(object);
+  return collider && collider->m_multiBody && canMove(*collider->m_multiBody, collider->m_link);
+}
+
 std::string nameOf(int index, const btCollisionObject& object, const AmbientBodies& bodies) {
   const std::string name = "body " + std::to_string(index);
   if (bodies.naming) {
     try {
       const std::string given = bodies.naming(object);
-      if (!given.empty()) return name + " '" + given + "': ";
+      if (!given.empty()) return name + " '" + given + "'";
     } catch (...) {  // then by its shape
     }
   }
   const btCollisionShape* shape = object.getCollisionShape();
-  return shape ? name + " (" + shape->getName() + "): " : name + ": ";
+  return shape ? name + " (" + shape->getName() + ")" : name;
 }
 
 // Calls a function of the program's settings; what it throws is named after the function.
@@ -141,7 +150,11 @@ AttachDef WorldAttachment::makeDef(const btCollisionObject& object) const {
   const auto shape = shapeOf(object);
   if (!shape || isEmpty(*shape))
     throw std::invalid_argument("it has no collision shape, so that no fluid acts on it");
-  def.fluid_body = source_.fluidBody(*shape);
+  const auto whose = [&] {
+    return nameOf(index_, object, bodies_) + ", " + std::to_string(number_) + " of " +
+           std::to_string(count_);
+  };
+  def.fluid_body = source_.fluidBodyOf(whose, *shape);
   return def;
 }
 
@@ -210,10 +223,13 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
   Tally tally;
   multibody_world_ = dynamic_cast<btMultiBodyDynamicsWorld*>(&world);
   const std::vector<btCollisionObject*> strangers = meetAll(world);
+  count_ = static_cast<int>(std::count_if(strangers.begin(), strangers.end(), canJoin));
+  number_ = 0;
   for (std::size_t i = 0; i < strangers.size(); ++i) {
     btCollisionObject* object = strangers[i];
     if (!object) continue;
-    const int index = static_cast<int>(i);
+    const int index = index_ = static_cast<int>(i);
+    if (canJoin(object)) ++number_;
     try {
       if (const AmbientBody* ambient = attach(*object, report)) {
         const auto* collider = btMultiBodyLinkCollider::upcast(object);
@@ -221,10 +237,10 @@ AttachReport WorldAttachment::attachNew(btCollisionWorld& world) {
         tally.add(index, *ambient, tree, report);
       }
     } catch (const std::exception& error) {
-      report.refused.push_back({index, nameOf(index, *object, bodies_) + error.what()});
+      report.refused.push_back({index, nameOf(index, *object, bodies_) + ": " + error.what()});
     } catch (...) {  // thrown by the program's source
       report.refused.push_back(
-          {index, nameOf(index, *object, bodies_) + "something unknown was thrown"});
+          {index, nameOf(index, *object, bodies_) + ": something unknown was thrown"});
     }
   }
   multibody_world_ = nullptr;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -26,7 +27,14 @@ class BallTable : public FluidBodySource {
     return ball;
   }
 
+  std::shared_ptr<const FluidBody> fluidBodyOf(const std::function<std::string()>& whose,
+                                               const btCollisionShape& shape) override {
+    asked_for.push_back(whose());
+    return fluidBody(shape);
+  }
+
   int asked = 0;
+  std::vector<std::string> asked_for;
   bool throws_once = false;
   std::shared_ptr<const FluidBody> ball =
       std::make_shared<FluidBody>(meshedEllipsoid(Vector3::Ones(), 1));
@@ -74,6 +82,19 @@ TEST_F(WorldInFluid, TakesEveryDynamicBodyAndSaysWhy) {
   first.setLinearVelocity({1, 0, 0});
   step();
   EXPECT_GE(fluid.find(first)->counters().substeps, 1);  // solver and action are in the world
+}
+
+TEST_F(WorldInFluid, TellsTheSourceWhichOfHowManyBodiesItIs) {
+  add(0, box);
+  btRigidBody& first = add(kHeavy, sphere);
+  btRigidBody& second = add(kHeavy, sphere);
+  fluid.setNaming([&](const btCollisionObject& object) {
+    return std::string(&object == &second ? "crane" : "");
+  });
+  fluid.addAll(shapes, water());
+  EXPECT_EQ(shapes.asked_for,
+            (std::vector<std::string>{"body 1 (SPHERE), 1 of 2", "body 2 'crane', 2 of 2"}));
+  EXPECT_TRUE(isAttached(first));
 }
 
 TEST_F(WorldInFluid, LeavesWhatIsAttachedAndWhatTheFilterDoesNotWant) {

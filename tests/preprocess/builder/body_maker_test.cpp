@@ -63,12 +63,13 @@ struct Said {
   std::vector<std::string> lines;
   BodyMaker maker{{}, [this](const std::string& line) { lines.push_back(line); }};
 
-  void make(const std::string& name, int milliseconds) {
-    maker.get(name, {}, [&](const auto& begin) {
+  void make(const std::string& name, int milliseconds, const std::string& whose = {}) {
+    const auto work = [&](const auto& begin) {
       begin("solving the flow");
       std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
       return FluidBody();
-    });
+    };
+    maker.get(name, {}, work, whose);
   }
 };
 
@@ -80,6 +81,14 @@ TEST(BodyMaker, SaysAfterASecondWhatItMakes) {
   ASSERT_FALSE(said.lines.empty());
   EXPECT_LE(static_cast<double>(said.lines.size()), time.count());
   EXPECT_EQ(said.lines[0], "making the fluid body of 'hull': solving the flow, 1 s");
+}
+
+TEST(BodyMaker, SaysForWhichBodyItWorksAndHowManyThereAre) {
+  Said said;
+  said.make("Convex", 1500, "body 2 'crane', 3 of 14");
+  ASSERT_FALSE(said.lines.empty());
+  EXPECT_EQ(said.lines[0],
+            "making the fluid body of 'Convex' for body 2 'crane', 3 of 14: solving the flow, 1 s");
 }
 
 // A robot has many links.
