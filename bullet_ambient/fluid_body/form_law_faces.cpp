@@ -73,21 +73,6 @@ bool isSharp(const FlatSide& side, const FaceTable& faces) {
   return true;
 }
 
-/// Sharpness of a flat side, eq. (45): more than 1 if the side is long.
-double sharpnessOf(const FlatSide& side) {
-  constexpr double kEndless = 1.98 / 1.17 - 1;  // gain of an endless strip: C_D over the square's
-  constexpr double kHalf = 40;                  // y of eq. (45) at half of that gain
-  const std::vector<Vector3>& corners = side.corners;
-  double outline = 0, twice_area = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vector3& next = corners[(i + 1) % corners.size()];
-    outline += (next - corners[i]).norm();
-    twice_area += (corners[i] - corners[0]).cross(next - corners[0]).norm();
-  }
-  const double length = std::max(outline * outline / (2 * twice_area) - 4, 0.0);
-  return static_cast<double>(static_cast<float>(1 + kEndless * length / (length + kHalf)));
-}
-
 Corners cornersOf(const SurfaceTriangles& mesh, int triangle) {
   return {mesh.place(mesh.vertex(triangle, 0)), mesh.place(mesh.vertex(triangle, 1)),
           mesh.place(mesh.vertex(triangle, 2))};
@@ -172,7 +157,7 @@ FaceTable facesWithPoints(const FluidBody& body) {
   std::vector<bool> is_replaced(static_cast<std::size_t>(mesh.size()));
   for (const FlatSide& side : findFlatSides(mesh)) {
     if (!isSharp(side, faces)) continue;
-    const double sharpness = sharpnessOf(side);
+    const double sharpness = sharpnessOfSide(side.corners);
     if (!deservesPoints(side, mesh, body, longest)) {
       if (side.has_sharp_rim) setSharpness(side, sharpness, mesh.size(), faces);
       continue;
@@ -196,6 +181,19 @@ FaceTable facesWithPoints(const FluidBody& body) {
 }
 
 }  // namespace
+
+double sharpnessOfSide(const std::vector<Vector3>& corners) {
+  constexpr double kEndless = 1.98 / 1.17 - 1;  // gain of an endless strip: C_D over the square's
+  constexpr double kHalf = 40;                  // y of eq. (45) at half of that gain
+  double outline = 0, twice_area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector3& next = corners[(i + 1) % corners.size()];
+    outline += (next - corners[i]).norm();
+    twice_area += (corners[i] - corners[0]).cross(next - corners[0]).norm();
+  }
+  const double length = std::max(outline * outline / (2 * twice_area) - 4, 0.0);
+  return static_cast<double>(static_cast<float>(1 + kEndless * length / (length + kHalf)));
+}
 
 FaceTable formLawFaces(const FluidBody& body, const FormShape& shape) {
   FaceTable faces = facesWithPoints(body);

@@ -15,6 +15,10 @@ struct FormShape;
 /// @throws std::invalid_argument in one sentence, if the faces are not these triangles.
 std::vector<double> computeSharpness(const FluidBody& body);
 
+/// Returns the sharpness of a flat side with edges all around it, eq. (45): more than 1 if it is
+/// long. `corners` of its outline, one after the other [m].
+double sharpnessOfSide(const std::vector<Vector3>& corners);
+
 /// Returns the faces that the form law is summed over: those of the body with their sharpness,
 /// except that Gauss points replace the triangles of most flat sides, 16 per four corners, and
 /// triangles that are long against the body. The form law has no jump at the edge of the wake:

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/spatial/inertia.h"
 #include "preprocess/mesh/input_error.h"
@@ -88,6 +89,15 @@ void requireWaterline(const BuildSettings& settings) {
     raiseInputError(sourceOf(settings), "a sphere needs no waterline table: all have the same one");
 }
 
+/// Makes a body the sphere that its mesh approximates; its volume is that of the sphere.
+void setSphere(double radius, FluidBody& body) {
+  const Matrix3 square = radius * radius * Matrix3::Identity();
+  body.sphere_radius = radius;
+  body.area = 4 * kPi * radius * radius;
+  body.uniform_mass.inertia = 2.0 / 5 * square;
+  body.surface_mass.inertia = 2.0 / 3 * square;
+}
+
 void tellStage(const BuildSettings& settings, const std::string& stage) {
   if (settings.begin) settings.begin(stage);
 }
@@ -166,7 +176,7 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   body.faces.sharpness = computeSharpness(body);
   AMBIENT_ASSERT(body.faces.sharpness.size() == body.faces.size());
   AMBIENT_ASSERT(settings.sphere_radius >= 0);
-  body.sphere_radius = settings.sphere_radius;
+  if (settings.sphere_radius > 0) setSphere(settings.sphere_radius, body);
   if (settings.waterline_subdivisions == 0) return body;
   tellStage(settings, "waterline table");
   body.waterline = waterlineOf(body, settings);

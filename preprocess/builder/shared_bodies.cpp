@@ -20,14 +20,16 @@ SharedBodies::Body SharedBodies::get(const std::string& key, const std::function
     try {
       promise.set_value(make());
     } catch (...) {
-      {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        bodies_.erase(key);
-      }
+      forget(key);
       promise.set_exception(std::current_exception());
     }
   }
   return body.get();
+}
+
+void SharedBodies::forget(const std::string& key) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  bodies_.erase(key);
 }
 
 }  // namespace ambient

@@ -1,5 +1,6 @@
 #include "preprocess/collision_shape/fluid_body_cache.h"
 
+#include <deque>
 #include <mutex>
 #include <string>
 #include <unordered_map>
@@ -30,9 +31,10 @@ struct FluidBodyCache::Store {
 
   CollisionShapeSettings settings;
   BodyMaker maker;
-  SharedBodies forms;   // at size 1
-  SharedBodies shapes;  // at their own sizes
-  std::mutex mutex;     // of this:
+  SharedBodies forms;                 // at size 1; of those that are soon made again, the last few
+  SharedBodies shapes;                // at their own sizes
+  std::mutex mutex;                   // of this:
+  std::deque<std::string> soon_made;  // what such forms were made of
   std::unordered_map<std::string, SharedBody> by_name;
 
   SharedBody get(const ShapeForm& form, const std::string& whose) {
@@ -45,6 +47,24 @@ struct FluidBodyCache::Store {
     const BodyMaker::Made made = maker.get(name, describeForm(form, settings), make, whose);
     maker.keep(made);
     return made.body;
+  }
+
+  // Scenes have few forms in many sizes, or a form for each shape, which then is kept but once.
+  SharedBody getUnit(const std::string& content, const ShapeForm& form,
+                     const std::function<std::string()>& whose) {
+    constexpr std::size_t kKept = 16;
+    bool is_new = false;
+    const SharedBody unit = forms.get(content, [&] {
+      is_new = true;
+      return get(form, whose());
+    });
+    if (!is_new || !isSoonMade(form, settings)) return unit;
+    const std::lock_guard<std::mutex> lock(mutex);
+    soon_made.push_back(content);
+    if (soon_made.size() <= kKept) return unit;
+    forms.forget(soon_made.front());
+    soon_made.pop_front();
+    return unit;
   }
 
   SharedBody remember(SharedBody body) {
@@ -70,7 +90,7 @@ SharedBody FluidBodyCache::fluidBodyOf(const std::function<std::string()>& whose
   const std::string content = form.kind + contentOf(form.parts);
   const std::string sized = withSize(content, form.size);
   return store.shapes.get(sized, [&] {
-    const SharedBody unit = store.forms.get(content, [&] { return store.get(form, whose()); });
+    const SharedBody unit = store.getUnit(content, form, whose);
     FluidBody body = form.size == 1 ? *unit : scaled(*unit, form.size);
     // Tells the fluid bodies of one kind of shape apart, the same in all programs.
     body.name = unit->name + " " + hashText(fnv1a64(sized));

@@ -70,7 +70,7 @@ std::vector<Solid> solidsOf(const std::vector<PlacedShape>& parts,
                             const CollisionShapeSettings& settings) {
   SolidResolution resolution;
   resolution.faces = settings.faces;
-  resolution.least_faces = kLeastFaces;
+  resolution.least_faces = std::min(kLeastFaces, settings.faces);
   resolution.flow_faces = std::max(resolution.faces, settings.flow.max_panels);
   resolution.tables = usesTables(settings);
   return makeSolids(parts, resolution);
@@ -189,14 +189,25 @@ bool isBox(const ShapeForm& form) {
   return form.parts.size() == 1 && std::holds_alternative<Box>(form.parts.front().shape);
 }
 
+bool isSphere(const ShapeForm& form) {
+  return form.parts.size() == 1 && std::holds_alternative<Sphere>(form.parts.front().shape);
+}
+
+bool isTabulated(const ShapeForm& form, const CollisionShapeSettings& settings) {
+  return usesTables(settings) && form.parts.size() == 1 &&
+         tabulatedAddedMass(form.parts.front().shape);
+}
+
 /// Settings with a number of faces. The default law takes sides of a box as they are, so that few
-/// triangles do.
+/// triangles do; no loads on a sphere come from its own; round bodies of known added mass need them
+/// for the loads alone.
 CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeForm& form) {
-  constexpr int kFaces = 1300, kBoxFaces = 192;
+  constexpr int kFaces = 1300, kRoundFaces = 700, kBoxFaces = 192, kSphereFaces = 80;
   if (settings.faces > 0) return settings;
-  const bool needs_few =
-      isBox(form) && usesTables(settings) && tabulatedAddedMass(form.parts.front().shape);
-  settings.faces = needs_few ? kBoxFaces : kFaces;
+  settings.faces = isSphere(form)                 ? kSphereFaces
+                   : !isTabulated(form, settings) ? kFaces
+                   : isBox(form)                  ? kBoxFaces
+                                                  : kRoundFaces;
   return settings;
 }
 
@@ -206,7 +217,7 @@ std::optional<FormLevel> levelOf(const FluidBody& body, const ShapeForm& form,
   if (settings.load_error == 0 || body.sphere_radius > 0) return std::nullopt;
   if (isBox(form) && settings.load_error >= kBoxLevelError) {
     const PlacedShape& box = form.parts.front();
-    return boxLevel(body, std::get<Box>(box.shape).half_sizes,
+    return boxLevel(std::get<Box>(box.shape).half_sizes,
                     {box.pose.linear(), box.pose.translation()});
   }
   tellStage(settings, "choosing few faces");
@@ -237,6 +248,10 @@ FluidBody bodyOf(const SeparateSolids& separate, const ShapeForm& form,
 }
 
 }  // namespace
+
+bool isSoonMade(const ShapeForm& form, const CollisionShapeSettings& settings) {
+  return isSphere(form) || (isTabulated(form, settings) && settings.waterline_subdivisions == 0);
+}
 
 void requireUsable(const CollisionShapeSettings& settings, const std::string& name) {
   const auto require = [&](const char* what, int value, int least) {

@@ -14,6 +14,10 @@ FluidBody makeFormBody(const ShapeForm& form, const CollisionShapeSettings& sett
 /// result.
 Provenance describeForm(const ShapeForm& form, const CollisionShapeSettings& settings);
 
+/// Returns true if the added mass of a form has a closed form or a table: its fluid body is made in
+/// about a millisecond.
+bool isSoonMade(const ShapeForm& form, const CollisionShapeSettings& settings);
+
 /// Checks the settings. @throws std::runtime_error in one line that begins with `name`, if a value
 /// is out of range
 void requireUsable(const CollisionShapeSettings& settings, const std::string& name);

@@ -31,7 +31,7 @@ std::optional<FormLevel> smallestFormLevel(const FluidBody& body, double p99_err
 constexpr double kBoxLevelError = 0.01;
 
 /// Makes few faces for a box by rule: on each side 1 to 4 x 1 to 4 Gauss points, fewer along short
-/// edges, 54 for a cube. half_sizes [m] and pose in F are those of the box. Cost: formLawFaces().
-FormLevel boxLevel(const FluidBody& body, const Vector3& half_sizes, const FrameOffset& pose);
+/// edges, 54 for a cube. half_sizes [m] and pose in F are those of the box.
+FormLevel boxLevel(const Vector3& half_sizes, const FrameOffset& pose);
 
 }  // namespace ambient

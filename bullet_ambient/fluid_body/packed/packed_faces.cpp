@@ -48,6 +48,7 @@ PackedFaces::PackedFaces(const FaceTable& faces)
   order_ = orderOf(faces, length_unit_);
   AMBIENT_ASSERT(length_unit_ > 0 && area_unit_ > 0);
   const std::size_t count = (size() + FaceBlock::kFaces - 1) / FaceBlock::kFaces;
+  blocks_.reserve(count);
   for (std::size_t block = 0; block < count; ++block) blocks_.push_back(packBlock(faces, block));
   bounds_.resize((count + FaceBounds::kBlocks - 1) / FaceBounds::kBlocks);  // all zero
   for (std::size_t block = 0; block < count; ++block) {
@@ -98,11 +99,10 @@ void PackedFaces::addLee(const FaceTable& faces, std::size_t face, double by_lee
   const Vector3 normal = faces.normal(face);
   const Vector6 m = stack(faces.centroid(face).cross(normal) / length_unit_, normal);
   const double strength = -by_lee * faces.area[face] / area_unit_;
-  std::size_t next = 0;
+  Eigen::Map<Eigen::Matrix<double, 6, 21>> lee(lee_.data());
+  Eigen::Index column = 0;
   for (int i = 0; i < 6; ++i)
-    for (int j = i; j < 6; ++j)
-      for (int row = 0; row < 6; ++row)
-        lee_[next++] += strength * (i == j ? 1 : 2) * m[i] * m[j] * m[row];
+    for (int j = i; j < 6; ++j) lee.col(column++) += strength * (i == j ? 1 : 2) * m[i] * m[j] * m;
 }
 
 void PackedFaces::setBounds(std::size_t block) {

@@ -133,6 +133,8 @@ PackedHull::PackedHull(const FluidBody& body) {
 
 void PackedHull::packTriangles(const std::vector<Triangle>& triangles) {
   constexpr std::size_t kTriangles = HullBlock::kTriangles, kBlocks = HullMoments::kBlocks;
+  blocks_.reserve((triangles.size() + kTriangles - 1) / kTriangles);
+  moments_.reserve((blocks_.capacity() + kBlocks - 1) / kBlocks);
   for (std::size_t begin = 0; begin < triangles.size(); begin += kTriangles) {
     const std::size_t count = std::min(kTriangles, triangles.size() - begin);
     const std::size_t lane = blocks_.size() % kBlocks;
@@ -159,6 +161,7 @@ void PackedHull::packPoints(const std::vector<Vector3>& points) {
   constexpr std::size_t kPoints = HullPoints::kPoints;
   const std::vector<Vector3> sorted =
       inBlocks(points, kPoints, [](const Vector3& place) { return place; });
+  points_.reserve((sorted.size() + kPoints - 1) / kPoints);
   for (std::size_t begin = 0; begin < sorted.size(); begin += kPoints) {
     const std::size_t count = std::min(kPoints, sorted.size() - begin);
     const Box box = boxAround(&sorted[begin], count);

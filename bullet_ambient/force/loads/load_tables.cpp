@@ -67,8 +67,10 @@ LoadTables::Wetted LoadTables::wettedInertia(const std::function<Wetted()>& make
 }
 
 LoadTables::Faces LoadTables::formFaces() const {
-  return tables_.get(body_, tables_.form_faces,
-                     [this] { return formLawFaces(*body_, shape()->shape); });
+  return tables_.get(body_, tables_.form_faces, [this] {
+    const FaceTable faces = formLawFaces(*body_, shape()->shape);
+    return FaceTable(faces);  // a copy has no room to spare
+  });
 }
 
 LoadTables::Shape LoadTables::shape() const {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/fluid_body/sharpness.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
 #include "tests/support/bodies/hull_bodies.h"
@@ -117,12 +118,56 @@ TEST(WetLoads, ChangeLittleWhereTheSurfaceMovesLittle) {
   }
 }
 
+std::shared_ptr<const FluidBody> sphereOf(double radius, const Vector3& centre = {0, 0, 0}) {
+  FluidBody ball;
+  ball.sphere_radius = radius;
+  ball.area = 4 * kPi * radius * radius;
+  ball.centre_of_volume = centre;
+  return std::make_shared<const FluidBody>(ball);
+}
+
 TEST(WetLoads, AreSummedOverFacesWhereOthersHaveClosedForms) {
-  FluidBody ball = *roundBody(2);
-  ball.sphere_radius = 1;
-  const auto shared = std::make_shared<const FluidBody>(ball);
-  EXPECT_LT(makeSurfaceLoads(shared, kLiquid, {})->faces(), 17);
-  EXPECT_EQ(makeWaterlineLoads(shared, kLiquid, {})->faces(), 320);
+  EXPECT_LT(makeSurfaceLoads(sphereOf(1), kLiquid, {})->faces(), 17);
+  EXPECT_EQ(makeWaterlineLoads(sphereOf(1), kLiquid, {})->faces(), 1152);
+}
+
+// All spheres take them from faces of one sphere, with lengths in radii.
+TEST(WetLoads, OfASphereInTheFluidAreItsClosedForm) {
+  const Vector3 centre(0.3, -0.1, 0.2);
+  const auto body = sphereOf(0.4, centre);
+  const Twist x{{0.7, -0.3, 0.5}, {0.3, 0.2, -0.4}};
+  for (FlowSettings flow : allLaws())
+    for (const double angle : {kPi / 2, 2.0, kPi}) {
+      flow.separation_angle = angle;
+      const auto loads = makeWaterlineLoads(body, kLiquid, flow);
+      const FaceLoads exact = makeSurfaceLoads(body, kLiquid, flow)->parts(x);
+      const FaceLoads deep = loads->wetParts(x, wetBelow({1, 2, 3}, 0.9, 1));
+      // Discretisation by 1152 faces.
+      const double size = 0.5 * kLiquid.density * x.linear.squaredNorm() * kPi * 0.16;
+      EXPECT_LT((deep.pressure + -1.0 * exact.pressure).force.norm(), 0.01 * size);
+      EXPECT_LT(sizeOf(deep.friction + -1.0 * exact.friction), 0.02 * sizeOf(exact.friction));
+      EXPECT_EQ(loads->frame({}).translation, centre);
+    }
+}
+
+TEST(WetLoads, OfASphereEndAtTheSidesOfAPool) {
+  const Vector3 centre(2, 0, 0);
+  FlowSettings flow;
+  flow.precision = LoadPrecision::kDouble;
+  const auto loads = makeWaterlineLoads(sphereOf(0.4, centre), kLiquid, flow);
+  const Twist x{{0, 0, 0}, {0, 0, -1}};
+  PoolSides sides;
+  sides.count = 1;
+  WetPart wet = wetBelow({0, 0, 1}, 0.9, 1);
+  const double whole = loads->wetLoad(x, wet).force.z();
+  wet.plane.sides_F = &sides;
+  const auto shareBeside = [&](double place) {
+    sides.of[0] = {Vector3::UnitX(), {place, 0, 0}};
+    return loads->wetLoad(x, wet).force.z() / whole;
+  };
+  EXPECT_EQ(shareBeside(1.59), 0);
+  EXPECT_NEAR(shareBeside(2), 0.5, 1e-12);
+  EXPECT_EQ(shareBeside(2.41), 1);
 }
 
 TEST(WetLoads, OfAnotherLawAreTheShareOfTheVolume) {

@@ -1,0 +1,146 @@
+#include <btBulletDynamicsCommon.h>
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bullet_ambient/ambient.h"
+#include "preprocess/collision_shape/fluid_body_cache.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/support/bodies/random_bodies.h"
+
+// What a scene costs in which every shape is different: rubble at the surface of water.
+
+namespace ambient {
+namespace {
+
+/// Bytes in use, as the C library's allocator counts them; 0 under a sanitizer.
+double bytesInUse() {
+  const auto info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
+}
+
+using Sizes = Vector3;  // from 0.2 to 0.8 m
+using MakeShape = std::function<std::unique_ptr<btCollisionShape>(const Sizes&)>;
+
+btScalar toScalar(double value) { return static_cast<btScalar>(value); }
+
+class Rubble {
+ public:
+  Rubble(const MakeShape& make, int count) {
+    world.setGravity(btVector3(0, 0, toScalar(-9.81)));
+    test::Arbitrary arbitrary(1);
+    const auto size = [&] { return arbitrary.between(0.2, 0.8); };
+    for (int i = 0; i < count; ++i) {
+      shapes.push_back(make({size(), size(), size()}));
+      bodies.push_back(std::make_unique<btRigidBody>(toScalar(300), nullptr, shapes.back().get(),
+                                                     btVector3(30, 30, 30)));
+      bodies.back()->setWorldTransform(
+          btTransform(btQuaternion::getIdentity(), btVector3(toScalar(3 * i), 0, 0)));
+      world.addRigidBody(bodies.back().get());
+    }
+    fluid.addRegion(waterBelow(0));
+  }
+  ~Rubble() {
+    for (const auto& body : bodies) world.removeRigidBody(body.get());
+  }
+
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, nullptr, &configuration};
+  Fluid fluid{world};
+  std::vector<std::unique_ptr<btCollisionShape>> shapes;
+  std::vector<std::unique_ptr<btRigidBody>> bodies;
+};
+
+/// What one more shape costs: the difference of many and few, without what all share.
+struct Cost {
+  double kept;    ///< [kB]
+  double asked;   ///< bytes asked of the allocator, with those given back [kB]
+  double blocks;  ///< how often
+};
+
+Cost costOfAttaching(const MakeShape& make, int count) {
+  Rubble rubble(make, count);
+  FluidBodyCache shapes;
+  const double kept = bytesInUse();
+  const auto asked = static_cast<double>(test::allocatedBytes());
+  const auto blocks = static_cast<double>(test::allocationCount());
+  EXPECT_EQ(rubble.fluid.addAll(shapes, air()).attached, count);
+  return {(bytesInUse() - kept) / 1e3, (static_cast<double>(test::allocatedBytes()) - asked) / 1e3,
+          static_cast<double>(test::allocationCount()) - blocks};
+}
+
+Cost costOfOneMore(const MakeShape& make) {
+  constexpr int kFew = 20, kMany = 60;  // more than the forms that are kept
+  const Cost few = costOfAttaching(make, kFew), many = costOfAttaching(make, kMany);
+  constexpr double kMore = kMany - kFew;
+  const Cost one{(many.kept - few.kept) / kMore, (many.asked - few.asked) / kMore,
+                 (many.blocks - few.blocks) / kMore};
+  ::testing::Test::RecordProperty("kept_kB", std::to_string(one.kept));
+  ::testing::Test::RecordProperty("asked_kB", std::to_string(one.asked));
+  ::testing::Test::RecordProperty("blocks", std::to_string(one.blocks));
+  return one;
+}
+
+bool isCounted() {
+  const double before = bytesInUse();
+  const std::vector<double> some(10000);
+  return bytesInUse() - before > 70000 && some[1] == 0;
+}
+
+/// Limits: what is measured, and a tenth more.
+void expectCost(const MakeShape& make, const Cost& most) {
+  if (!isCounted()) GTEST_SKIP() << "this allocator does not say what is in use";
+  const Cost one = costOfOneMore(make);
+  EXPECT_LT(one.kept, most.kept);
+  EXPECT_LT(one.asked, most.asked);
+  EXPECT_LT(one.blocks, most.blocks);
+}
+
+TEST(DifferentShapes, SpheresCostNextToNothing) {
+  expectCost([](const Sizes& s) { return std::make_unique<btSphereShape>(toScalar(s.x())); },
+             {12.7, 15.6, 92});
+}
+
+TEST(DifferentShapes, BoxesCostLittle) {
+  expectCost(
+      [](const Sizes& s) {
+        return std::make_unique<btBoxShape>(
+            btVector3(toScalar(s.x()), toScalar(s.y()), toScalar(s.z())));
+      },
+      {125, 740, 2250});
+}
+
+TEST(DifferentShapes, CylindersCostLittle) {
+  expectCost(
+      [](const Sizes& s) {
+        return std::make_unique<btCylinderShapeZ>(
+            btVector3(toScalar(s.x()), toScalar(s.x()), toScalar(s.y())));
+      },
+      {312, 6750, 10500});
+}
+
+TEST(DifferentShapes, CapsulesCostLittle) {
+  expectCost(
+      [](const Sizes& s) {
+        return std::make_unique<btCapsuleShapeZ>(toScalar(s.x()), toScalar(2 * s.y()));
+      },
+      {257, 4950, 17500});
+}
+
+TEST(DifferentShapes, ConesCostLittle) {
+  expectCost(
+      [](const Sizes& s) {
+        return std::make_unique<btConeShapeZ>(toScalar(s.x()), toScalar(2 * s.y()));
+      },
+      {286, 6400, 15500});
+}
+
+}  // namespace
+}  // namespace ambient
