@@ -47,7 +47,7 @@ TEST(MultiBodyImpact, EqualsTheDenseSolution) {
     worst = std::max(worst, before.error(task, expected));
   }
   EXPECT_GE(impacts, 600);
-  EXPECT_LT(worst, kTolerance);
+  EXPECT_LT(worst, kLinkTolerance);
 }
 
 // Position error, softness of contact and friction, friction in a box.
@@ -92,7 +92,7 @@ TEST(MultiBodyImpact, WithSoftBoxFrictionEqualsTheDenseSolution) {
   }
   EXPECT_GT(sticking, 50);
   EXPECT_GT(sliding, 50);
-  EXPECT_LT(worst, kTolerance);
+  EXPECT_LT(worst, kLinkTolerance);
 }
 
 // Rows that fix the locked axes of the body against the ground.
@@ -154,7 +154,7 @@ TEST(MultiBodyImpact, WithLockedAxesEqualsTheDenseSolution) {
   }
   EXPECT_GT(solved, 100);
   EXPECT_GT(on_ground, 60);
-  EXPECT_LT(worst, kTolerance);
+  EXPECT_LT(worst, kLinkTolerance);
 }
 
 // Large coefficients: contacts between a link and a body neither slide nor roll nor spin. All rows
@@ -190,7 +190,7 @@ TEST(MultiBodyImpact, StickingRollingAndSpinningRowsEqualTheDenseSolution) {
     worst = std::max(worst, before.error(task, expected));
   }
   EXPECT_GT(solved, 50);
-  EXPECT_LT(worst, kTolerance);
+  EXPECT_LT(worst, kLinkTolerance);
 }
 
 // The second solve starts from impulses of the first one, at different velocities.
@@ -219,7 +219,7 @@ TEST(MultiBodyImpact, WarmStartsChangeNothingButTheWay) {
     worst = std::max(worst, before.error(task, expected));
   }
   EXPECT_GT(warm, 150);
-  EXPECT_LT(worst, kTolerance);
+  EXPECT_LT(worst, kLinkTolerance);
 }
 
 }  // namespace

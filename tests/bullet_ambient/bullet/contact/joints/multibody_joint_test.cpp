@@ -14,10 +14,6 @@ namespace {
 
 // Joints of btMultiBody between a link and an ambient body, against the dense solution.
 
-// Tolerance of links. Bullet's recursion in float32 loses digits: 3e-5 for one of 600 chains, 8e-6
-// with ordinary bodies instead of ambient ones.
-constexpr double kLinkTolerance = sizeof(btScalar) == 8 ? kTolerance : 5e-5;
-
 enum class JointKind { kPoint, kFixed, kSlider };
 
 btVector3 localOf(const btTransform& pose, const Vector3r& point) {
