@@ -13,6 +13,12 @@ static_assert(sizeof(btVector3) == 4 * sizeof(btScalar));
 
 /// For sources that compile a function once more for a larger instruction set.
 #define AMBIENT_INLINE inline __attribute__((always_inline))
+/// Before such a function: compiles it for processors with AVX.
+#if defined(__x86_64__)
+#define AMBIENT_AVX __attribute__((target("avx")))
+#else
+#define AMBIENT_AVX
+#endif
 
 #ifdef BT_USE_DOUBLE_PRECISION
 

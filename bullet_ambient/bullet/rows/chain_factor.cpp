@@ -137,13 +137,6 @@ struct FactorKernel {
   void (*solve)(const Group* groups, const double* elements, int size, double* x);
 };
 
-// Before a function: compiles it for processors with AVX.
-#if defined(__x86_64__)
-#define AMBIENT_AVX __attribute__((target("avx")))
-#else
-#define AMBIENT_AVX
-#endif
-
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute takes none
 #define AMBIENT_FACTOR_KERNEL(name, target)                                                      \
   struct name {                                                                                  \

@@ -22,20 +22,23 @@ struct RowPass {
   btAlignedObjectArray<btSolverBody>& bodies;
 };
 
-// A residual is the velocity along a row that its impulse changes [m/s].
+/// Functions that solve rows. A residual is the velocity along a row that its impulse changes
+/// [m/s].
+struct QuickRows {
+  /// Solves a row between a lower and an upper limit. Returns its residual.
+  btSingleConstraintRowSolver generic;
+  /// Solves a row with a lower limit alone, a contact. Returns its residual.
+  btSingleConstraintRowSolver lower_limit;
+  /// Solves all contact rows. Returns the largest squared residual, or `largest` if that is larger.
+  btScalar (*contacts)(const RowPass& pass, btScalar largest);
+  /// Solves the friction rows of contacts whose impulse is positive, between -mu and mu times that
+  /// impulse. Returns a value like contacts().
+  btScalar (*frictions)(const RowPass& pass, const btConstraintArray& contacts, btScalar largest);
+  /// Joints in turn, those that take part in an iteration. Returns as contacts().
+  btScalar (*joints)(const RowPass& pass, int iteration, btScalar largest);
+};
 
-/// Solves a row between a lower and an upper limit. Returns its residual.
-btScalar solveQuickRow(btSolverBody& a, btSolverBody& b, const btSolverConstraint& row);
-/// Solves a row with a lower limit alone, a contact. Returns its residual.
-btScalar solveQuickContact(btSolverBody& a, btSolverBody& b, const btSolverConstraint& row);
-/// Solves joints in turn, those that take part in an iteration. Returns the largest squared
-/// residual, or `largest` if that is larger.
-btScalar solveQuickJoints(const RowPass& pass, int iteration, btScalar largest);
-/// Solves all contact rows. Returns a value like solveQuickJoints().
-btScalar solveQuickContacts(const RowPass& pass, btScalar largest);
-/// Solves the friction rows of contacts whose impulse is positive, between -mu and mu times that
-/// impulse. Returns a value like solveQuickJoints().
-btScalar solveQuickFrictions(const RowPass& pass, const btConstraintArray& contacts,
-                             btScalar largest);
+/// Returns the row functions for the processor's instruction set.
+const QuickRows& quickRows() noexcept;
 
 AMBIENT_END

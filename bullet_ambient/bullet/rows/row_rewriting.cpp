@@ -3,6 +3,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "bullet_ambient/base/ambient_assert.h"
+#include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/bullet/core/conversions.h"
 #include "bullet_ambient/bullet/core/four_numbers.h"
 
@@ -174,6 +175,38 @@ AMBIENT_INLINE void rewriteRow(btSolverConstraint& row, RowKind kind, const Part
   }
 }
 
+AMBIENT_INLINE void rewriteAll(btConstraintArray& rows, RowKind kind, btScalar relaxation,
+                               RowBodies& bodies,
+                               const btAlignedObjectArray<btSolverBody>& solver_bodies) {
+  for (int i = 0; i < rows.size(); ++i) {
+    btSolverConstraint& row = rows[i];
+    // The multithreaded solver leaves rows of torsional friction that it does not need unset.
+    if (kind == RowKind::kTorsionalFriction && row.m_frictionIndex < 0) continue;
+    RowBody* a = bodies.find(row.m_solverBodyIdA);
+    RowBody* b = bodies.find(row.m_solverBodyIdB);
+    if (!a && !b) continue;
+    const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
+    const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
+    rewriteRow(row, kind, {a, solver_bodies[row.m_solverBodyIdA], side_a},
+               {b, solver_bodies[row.m_solverBodyIdB], side_b}, relaxation);
+    ++(a ? a : b)->rows;
+  }
+}
+
+void rewriteBaseline(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
+                     const btAlignedObjectArray<btSolverBody>& solver_bodies) {
+  rewriteAll(rows, kind, relaxation, bodies, solver_bodies);
+}
+
+AMBIENT_AVX void rewriteAvx(btConstraintArray& rows, RowKind kind, btScalar relaxation,
+                            RowBodies& bodies,
+                            const btAlignedObjectArray<btSolverBody>& solver_bodies) {
+  rewriteAll(rows, kind, relaxation, bodies, solver_bodies);
+}
+
+using Rewriting = decltype(&rewriteBaseline);
+constexpr Kernels<Rewriting> kRewriting{&rewriteBaseline, &rewriteAvx, &rewriteAvx};
+
 }  // namespace
 
 void RowBodies::reset(int solver_body_count) {
@@ -199,19 +232,8 @@ btScalar inverseEffectiveMass(const btSolverBody& body, const RowSide& side) noe
 
 void rewriteRows(btConstraintArray& rows, RowKind kind, btScalar relaxation, RowBodies& bodies,
                  const btAlignedObjectArray<btSolverBody>& solver_bodies) noexcept {
-  for (int i = 0; i < rows.size(); ++i) {
-    btSolverConstraint& row = rows[i];
-    // The multithreaded solver leaves rows of torsional friction that it does not need unset.
-    if (kind == RowKind::kTorsionalFriction && row.m_frictionIndex < 0) continue;
-    RowBody* a = bodies.find(row.m_solverBodyIdA);
-    RowBody* b = bodies.find(row.m_solverBodyIdB);
-    if (!a && !b) continue;
-    const RowSide side_a{row.m_relpos1CrossNormal, row.m_contactNormal1, row.m_angularComponentA};
-    const RowSide side_b{row.m_relpos2CrossNormal, row.m_contactNormal2, row.m_angularComponentB};
-    rewriteRow(row, kind, {a, solver_bodies[row.m_solverBodyIdA], side_a},
-               {b, solver_bodies[row.m_solverBodyIdB], side_b}, relaxation);
-    ++(a ? a : b)->rows;
-  }
+  static const Rewriting rewrite = kRewriting.fastest();
+  rewrite(rows, kind, relaxation, bodies, solver_bodies);
 }
 
 void reapplyImpulses(const btConstraintArray& rows, RowBodies& bodies,

@@ -158,16 +158,17 @@ class FluidSolver : public Base {
   // Replaces Bullet's scalar row solvers by quick ones. Keeps row solvers with SSE of other builds
   // of Bullet, and those that the program has set.
   void useQuickRows() {
+    const QuickRows& quick = quickRows();
     if (this->m_resolveSingleConstraintRowGeneric == this->getScalarConstraintRowSolverGeneric())
-      this->m_resolveSingleConstraintRowGeneric = solveQuickRow;
+      this->m_resolveSingleConstraintRowGeneric = quick.generic;
     if (this->m_resolveSingleConstraintRowLowerLimit ==
         this->getScalarConstraintRowSolverLowerLimit())
-      this->m_resolveSingleConstraintRowLowerLimit = solveQuickContact;
+      this->m_resolveSingleConstraintRowLowerLimit = quick.lower_limit;
   }
 
   bool hasQuickRows() const {
-    return this->m_resolveSingleConstraintRowGeneric == solveQuickRow &&
-           this->m_resolveSingleConstraintRowLowerLimit == solveQuickContact;
+    return this->m_resolveSingleConstraintRowGeneric == quickRows().generic &&
+           this->m_resolveSingleConstraintRowLowerLimit == quickRows().lower_limit;
   }
 
   // Repeats btSequentialImpulseConstraintSolver::solveSingleIteration() in its default order:
@@ -182,14 +183,15 @@ class FluidSolver : public Base {
           bodies[row.m_solverBodyIdA], bodies[row.m_solverBodyIdB], row);
       return btMax(largest, residual * residual);
     };
+    const QuickRows& quick = quickRows();
     btScalar largest =
-        solveQuickJoints({joints, this->m_orderNonContactConstraintPool, bodies}, iteration, 0);
+        quick.joints({joints, this->m_orderNonContactConstraintPool, bodies}, iteration, 0);
     if (iteration >= info.m_numIterations) return largest;
     solveObsolete(constraints, constraint_count, info.m_timeStep);
-    largest = solveQuickContacts({contacts, this->m_orderTmpConstraintPool, bodies}, largest);
-    largest = solveQuickFrictions({this->m_tmpSolverContactFrictionConstraintPool,
-                                   this->m_orderFrictionConstraintPool, bodies},
-                                  contacts, largest);
+    largest = quick.contacts({contacts, this->m_orderTmpConstraintPool, bodies}, largest);
+    largest = quick.frictions({this->m_tmpSolverContactFrictionConstraintPool,
+                               this->m_orderFrictionConstraintPool, bodies},
+                              contacts, largest);
     btConstraintArray& rolling = this->m_tmpSolverContactRollingFrictionConstraintPool;
     for (int i = 0; i < rolling.size(); ++i) {
       btSolverConstraint& row = rolling[i];

@@ -85,8 +85,8 @@ void expectSame(btSingleConstraintRowSolver quick, btSingleConstraintRowSolver s
 
 TEST(QuickRows, HaveTheBitsOfBullets) {
   btSequentialImpulseConstraintSolver solver;
-  expectSame(solveQuickRow, solver.getScalarConstraintRowSolverGeneric());
-  expectSame(solveQuickContact, solver.getScalarConstraintRowSolverLowerLimit());
+  expectSame(quickRows().generic, solver.getScalarConstraintRowSolverGeneric());
+  expectSame(quickRows().lower_limit, solver.getScalarConstraintRowSolverLowerLimit());
 }
 
 }  // namespace
