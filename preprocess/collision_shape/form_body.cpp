@@ -202,7 +202,7 @@ bool isTabulated(const ShapeForm& form, const CollisionShapeSettings& settings) 
 /// triangles do; no loads on a sphere come from its own; round bodies of known added mass need them
 /// for the loads alone.
 CollisionShapeSettings withFaces(CollisionShapeSettings settings, const ShapeForm& form) {
-  constexpr int kFaces = 1300, kRoundFaces = 700, kBoxFaces = 192, kSphereFaces = 80;
+  constexpr int kFaces = 1300, kRoundFaces = 700, kBoxFaces = 350, kSphereFaces = 80;
   if (settings.faces > 0) return settings;
   settings.faces = isSphere(form)                 ? kSphereFaces
                    : !isTabulated(form, settings) ? kFaces

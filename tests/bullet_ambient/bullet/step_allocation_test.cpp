@@ -46,7 +46,7 @@ TEST(Attachment, OfAnEqualBodyTakesOneOrTwoKilobytes) {
     sea.above = air();
     if (has_surface) sea.surface = std::make_shared<StillWater>(0, Vector3::UnitZ());
     scene.fluid.addRegion(sea);
-    constexpr std::size_t kBodies = 64;
+    constexpr std::size_t kBodies = 512;
     std::vector<btRigidBody*> bodies;
     for (std::size_t i = 0; i <= kBodies; ++i) bodies.push_back(&scene.add(BodyDef{}));
     std::size_t before = 0;

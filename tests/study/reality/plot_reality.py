@@ -103,7 +103,9 @@ def main():
     parser.add_argument("out", type=Path, nargs="?", metavar="OUT", help="what `reality` wrote; motions at sea are run")
     parser.add_argument("-o", "--docs", type=Path, required=True, metavar="DOCS")
     arguments = parser.parse_args()
-    if is_sea(arguments.measurements):
+    with reading(arguments.measurements, "a file of measurements"):
+        at_sea = is_sea(arguments.measurements)
+    if at_sea:
         sea_page.write(Sea(arguments.measurements), arguments.docs)
         return
     with reading(arguments.out, "a folder of results of reality"):
