@@ -105,7 +105,7 @@ void expectCost(const MakeShape& make, const Cost& most) {
 
 TEST(DifferentShapes, SpheresCostNextToNothing) {
   expectCost([](const Sizes& s) { return std::make_unique<btSphereShape>(toScalar(s.x())); },
-             {12.7, 15.6, 92});
+             {14, 17, 96});
 }
 
 TEST(DifferentShapes, BoxesCostLittle) {
@@ -114,7 +114,7 @@ TEST(DifferentShapes, BoxesCostLittle) {
         return std::make_unique<btBoxShape>(
             btVector3(toScalar(s.x()), toScalar(s.y()), toScalar(s.z())));
       },
-      {125, 740, 2250});
+      {139, 1110, 3150});
 }
 
 TEST(DifferentShapes, CylindersCostLittle) {
