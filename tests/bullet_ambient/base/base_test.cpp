@@ -20,8 +20,7 @@ TEST(AmbientAssert, EvaluatesNothingInRelease) {
 TEST(AmbientAssertDeathTest, NamesWhatDidNotHoldAndWhere) {
   const int lanes = 9;
   AMBIENT_ASSERT(lanes > 8);
-  EXPECT_DEATH(AMBIENT_ASSERT(lanes <= 8),
-               "base_test.cpp:[0-9]+: this must hold: lanes <= 8");
+  EXPECT_DEATH(AMBIENT_ASSERT(lanes <= 8), "base_test.cpp:[0-9]+: this must hold: lanes <= 8");
 }
 #endif
 
