@@ -129,7 +129,7 @@ class WorldAttachment {
   Medium medium_;
   AttachSettings settings_;
   std::vector<Met> met_;  // in the order of the world
-  // Of attachNew(), while it runs:
+  // State of attachNew() while it runs.
   btMultiBodyDynamicsWorld* multibody_world_ = nullptr;
   int index_ = 0, number_ = 0, count_ = 0;  // of the object, in the world and among the new ones
 };

@@ -364,7 +364,7 @@ CheckedMesh uniteMeshes(const Meshes& parts, const std::string& name, UnionTries
 
 double volumeOfUnion(const Meshes& parts) {
   TriangleMesh surface = unionSurface(parts, joinMeshes(parts).extents().norm(), kOfForms);
-  // What a gap in the surface takes off grows with its distance from the origin.
+  // The error of the volume by a gap in the surface grows with its distance from the origin.
   const Eigen::Vector3d centre = surface.bounds().center();
   surface.vertices.colwise() -= centre;
   return computeMassProperties(surface).volume;

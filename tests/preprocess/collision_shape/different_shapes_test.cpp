@@ -13,7 +13,7 @@
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/random_bodies.h"
 
-// What a scene costs in which every shape is different: rubble at the surface of water.
+// Cost of a scene in which every shape is different: rubble at the surface of water.
 
 namespace ambient {
 namespace {
@@ -58,7 +58,7 @@ class Rubble {
   std::vector<std::unique_ptr<btRigidBody>> bodies;
 };
 
-/// What one more shape costs: the difference of many and few, without what all share.
+/// Returns the cost of one more shape: the difference of many and few, without shared parts.
 struct Cost {
   double kept;    ///< [kB]
   double asked;   ///< bytes asked of the allocator, with those given back [kB]
