@@ -18,16 +18,6 @@ namespace {
 
 }  // namespace
 
-std::vector<int> firstCoordinates(const LinkTree& tree) {
-  std::vector<int> first;
-  int next = 0;
-  for (int l = 0; l < tree.size(); ++l) {
-    first.push_back(next);
-    next += l == 0 ? 6 : axisCount(tree.links[l].joint.kind);
-  }
-  return first;
-}
-
 int coordinateCount(const LinkTree& tree) {
   int count = 6;
   for (int l = 1; l < tree.size(); ++l) count += axisCount(tree.links[l].joint.kind);
@@ -95,7 +85,8 @@ bool turnsTooFastForBullet(const LinkTree& tree, const CoordinatesIn& u, double 
   int first = 6;
   for (int l = 1; l < tree.size(); ++l) {
     const JointKind kind = tree.links[l].joint.kind;
-    if (hasQuaternion(kind)) is_too_fast = is_too_fast || u.segment<3>(first).norm() > limit;
+    if (kind == JointKind::kSpherical)
+      is_too_fast = is_too_fast || u.segment<3>(first).norm() > limit;
     first += axisCount(kind);
   }
   return is_too_fast;

@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/motion/flight/flight_task.h"
 #include "bullet_ambient/motion/links/joint.h"
+#include "bullet_ambient/motion/links/link_kernel.h"
 
 namespace ambient {
 
@@ -34,11 +35,8 @@ struct Link {
 /// Links joined to a tree without loops. Its generalized velocities u are Bullet's, in the order of
 /// btMultiBody::getVelocityVector(): angular and linear velocity of the base in W, then those of
 /// the joints, link by link.
-struct LinkTree {
-  std::vector<Link> links;          ///< at least the base; parents before children
-  double linear_damping = 0;        ///< d in Bullet's force -d (1 + |v|) m v, with v in m/s
-  double angular_damping = 0;       ///< d in Bullet's torque -d (1 + |w|) J w, with w in rad/s
-  bool has_gyroscopic_term = true;  ///< false: w x J w of the dry inertia is left out
+struct LinkTree : MultiBodySettings {
+  std::vector<Link> links;  ///< at least the base; parents before children
 
   int size() const { return static_cast<int>(links.size()); }
 };
@@ -54,8 +52,6 @@ using Coordinates = Eigen::VectorXd;  ///< generalized velocities, accelerations
 using CoordinatesIn = Eigen::Ref<const Eigen::VectorXd>;
 using CoordinatesOut = Eigen::Ref<Eigen::VectorXd>;
 
-/// Returns the index in u of the first velocity of each link's joint; 0 for the base.
-std::vector<int> firstCoordinates(const LinkTree& tree);
 /// Returns the number of generalized velocities: 6, and one for each axis of all joints.
 int coordinateCount(const LinkTree& tree);
 
