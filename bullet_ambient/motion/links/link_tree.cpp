@@ -92,8 +92,7 @@ bool turnsTooFastForBullet(const LinkTree& tree, const CoordinatesIn& u, double 
   return is_too_fast;
 }
 
-bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept {
-  u.setZero();
+RestInFlow restInFlow(const LinkTree& tree) noexcept {
   const Vector3* flow = nullptr;
   bool is_one = true;
   for (const Link& link : tree.links) {
@@ -101,10 +100,16 @@ bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept {
     if (!flow) flow = &link.surroundings.ambient_velocity;
     is_one = is_one && link.surroundings.ambient_velocity == *flow;
   }
-  if (!flow) return true;
-  if (tree.links[0].keeps_velocity) return is_one && flow->cwiseAbs().maxCoeff() == 0;
-  u.segment<3>(3) = *flow;
-  return is_one;
+  if (!flow) return {Vector3::Zero(), true};
+  if (tree.links[0].keeps_velocity) return {Vector3::Zero(), is_one && flow->isZero(0)};
+  return {*flow, is_one};
+}
+
+bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept {
+  const RestInFlow rest = restInFlow(tree);
+  u.setZero();
+  u.segment<3>(3) = rest.velocity;
+  return rest.exists;
 }
 
 bool findFlow(const LinkTree& tree, const CoordinatesIn& u, Coordinates& flow) noexcept {

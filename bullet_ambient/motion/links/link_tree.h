@@ -74,9 +74,20 @@ bool turnsTooFastForBullet(const LinkTree& tree, const CoordinatesIn& u, double 
 void velocityBetween(const LinkTree& tree, const TreePose& from, const TreePose& to, double h,
                      CoordinatesOut u) noexcept;
 
-/// Writes the velocity of a tree at rest in the flow of its links: the base has the velocity of the
-/// flow, or 0 if its velocity is prescribed; joints have 0. Returns false if no such motion exists:
-/// links are in different flows, or the base is fixed and the flow moves.
+/// Motion of a tree at rest in the flow of its links; its joints are at rest.
+struct RestInFlow {
+  Vector3 velocity;  ///< of the base, W [m/s]: that of the flow, or 0 if its own is prescribed
+  bool exists;  ///< false: links are in different flows, or the base is fixed in one that moves
+};
+RestInFlow restInFlow(const LinkTree& tree) noexcept;
+
+/// Returns the velocity of the flow that the tree can follow, W [m/s]; 0: there is none.
+inline Vector3 flowAround(const LinkTree& tree) noexcept {
+  const RestInFlow rest = restInFlow(tree);
+  return rest.exists ? rest.velocity : Vector3(Vector3::Zero());
+}
+
+/// Writes that motion. Returns whether it exists.
 bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept;
 
 /// Calls restInFlow(). Returns true if that motion exists and all prescribed velocities in `u` are
