@@ -230,16 +230,6 @@ std::optional<SurfacePlane> metPlane(const AmbientBody& ambient) noexcept {
   return ambient.stand().plane;
 }
 
-SurfaceStart surfaceStart(const AmbientBody& ambient) noexcept {
-  return {ambient.encounter(), metPlane(ambient)};
-}
-
-void restart(AmbientBody& ambient, const SurfaceStart& start) noexcept {
-  ambient.encounter() = start.encounter;
-  ambient.meeting->forgetPlane();
-  if (start.met_B) ambient.meeting->meet(*start.met_B);
-}
-
 void meetAgain(AmbientBody& ambient, int media) noexcept {
   SurfaceEncounter& encounter = ambient.encounter();
   AMBIENT_ASSERT(ambient.meeting->has_met);

@@ -127,15 +127,6 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept;
 /// before Bullet rounded it; none: the body has met no surface.
 std::optional<SurfacePlane> metPlane(const AmbientBody& ambient) noexcept;
 
-/// Encounter of a body at the start of a step, to repeat the step from there.
-struct SurfaceStart {
-  SurfaceEncounter encounter;
-  std::optional<SurfacePlane> met_B;  ///< metPlane()
-};
-/// @pre the body meets a surface
-SurfaceStart surfaceStart(const AmbientBody& ambient) noexcept;
-void restart(AmbientBody& ambient, const SurfaceStart& start) noexcept;
-
 /// Restores the encounter of a saved state with its surface, and the stand for metPlane(). Call
 /// between steps.
 /// @pre metPlane() is set; `media` is an index into FluidModels::surfaces

@@ -7,6 +7,7 @@ namespace ambient {
 template <int N>
 Cholesky<N>::Cholesky(const Matrix& A) noexcept {
   double scaled[N] = {};  // a row of M D
+  is_positive_ = true;
   for (int i = 0; i < N; ++i) {
     double pivot = A(i, i);
     for (int j = 0; j < i; ++j) {
@@ -15,10 +16,9 @@ Cholesky<N>::Cholesky(const Matrix& A) noexcept {
       unit_(i, j) = scaled[j] * per_pivot_[j];
       pivot -= scaled[j] * unit_(i, j);
     }
-    if (!(pivot > 0)) return;
+    is_positive_ = is_positive_ && pivot > 0;
     per_pivot_[i] = 1 / pivot;
   }
-  is_positive_ = true;
 }
 
 template <int N>

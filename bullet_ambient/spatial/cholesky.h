@@ -17,7 +17,7 @@ class Cholesky {
   explicit Cholesky(const Matrix& symmetric) noexcept;
 
   /// False if the matrix is not positive definite; results of the functions below are then
-  /// undefined.
+  /// meaningless, and of a matrix that is not finite not finite.
   bool isPositive() const noexcept { return is_positive_; }
   Matrix lower() const noexcept;                     ///< L, zeros above the diagonal
   Vector solve(const Vector& right) const noexcept;  ///< A^-1 `right`

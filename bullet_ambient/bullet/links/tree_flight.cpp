@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
-#include "bullet_ambient/bullet/links/tree_energy.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/links/tree_surface.h"
 #include "bullet_ambient/bullet/members/flight_coupling.h"
@@ -30,8 +29,13 @@ void applyForces(AmbientTree& tree) {
   stand_in.applyTorque(toBullet(applied.torque));
 }
 
-// Copies the end of the stand-in's flight to the step of the tree. Returns false if the flight has
-// failed or Bullet cannot move the tree to its end.
+void setFlown(TreeStep& step) {
+  step.outcome = TreeOutcome::kFlown;
+  step.reserve = 0;
+}
+
+// Moves a tree to the end of its stand-in's flight. Returns false if the flight has failed or
+// Bullet cannot move the tree to its end.
 bool takeFlight(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   AmbientBody& ambient = baseOf(tree).ambient;
@@ -40,6 +44,10 @@ bool takeFlight(AmbientTree& tree, const TreeTask& task) {
   step.moved << end.effective_W.angular, end.effective_W.linear;
   if (turnsTooFastForBullet(tree.tree, step.moved, task.duration)) return false;
   step.end << end.left_W.angular, end.left_W.linear;
+  step.pose.orientation = end.orientation;
+  step.pose.position = end.position;
+  tree.flight.stay(step.pose, step.end);
+  setFlown(step);
   if (ambient.outcome.is_too_long) task.bodies.complaints.sayTooLong(*ambient.def);
   return true;
 }
@@ -51,8 +59,7 @@ bool fliesAsBody(const AmbientTree& tree) noexcept {
          tree.tree.has_gyroscopic_term && tree.step.was_awake && !tree.step.turns_rows;
 }
 
-void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task,
-                 bool* have_flown) noexcept {
+void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept {
   AMBIENT_ASSERT(count > 0 && count <= kFlightsTogether);
   AmbientBody* bodies[kFlightsTogether] = {};
   LastFlight before[kFlightsTogether];
@@ -62,16 +69,13 @@ void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task,
     applyForces(*trees[i]);
     bodies[i] = &base.ambient;
     before[i] = base.ambient.outcome.flight();
-    if (base.ambient.surface()) base.start = surfaceStart(base.ambient);
+    if (base.ambient.surface()) base.start = *base.ambient.meeting;
   }
   beginFlights(bodies, count, task.duration, changes_W);
   for (int i = 0; i < count; ++i) {
-    have_flown[i] = takeFlight(*trees[i], task);
-    if (have_flown[i]) continue;
+    if (takeFlight(*trees[i], task)) continue;
     bodies[i]->outcome.motion = before[i];  // in the place where the tree knows its memory
-    if (!bodies[i]->surface()) continue;
-    restart(*bodies[i], baseOf(*trees[i]).start);
-    standNow(*bodies[i]);  // the tree goes on from where it is
+    if (bodies[i]->surface()) *bodies[i]->meeting = baseOf(*trees[i]).start;
   }
 }
 
@@ -118,6 +122,7 @@ class TreeFlight {
     addCount(count_, tree_);
     addErrors(count_.error, tree_, task_.bodies.complaints);
     countEnergyRemoved(count_.energy_removed, tree_);
+    setFlown(step_);
     return true;
   }
 
@@ -146,8 +151,7 @@ class TreeFlight {
   // it never does, the motion ends after the last part at whose end it suffices.
   void flyInParts() {
     step_.surface.pose = step_.pose;
-    forEachAtSurface(tree_,
-                     [](AmbientLink& link, int) { link.start = surfaceStart(link.ambient); });
+    forEachAtSurface(tree_, [](AmbientLink& link, int) { link.start = *link.ambient.meeting; });
     int parts = 1, reached = 0;
     while (is_finite_ && reached < parts && parts < settings_.max_substeps) {
       parts = std::min(2 * parts, settings_.max_substeps);
@@ -207,8 +211,7 @@ class TreeFlight {
     count_.energy_removed = 0;
     count_.coarse = false;
     forEachAtSurface(tree_, [](AmbientLink& link, int) {
-      restart(link.ambient, link.start);
-      standNow(link.ambient);
+      *link.ambient.meeting = link.start;
       link.frozen.freeze(link.ambient);
     });
   }

@@ -6,10 +6,10 @@
 AMBIENT_BEGIN
 
 /// Flies a tree over a substep, from `step.pose` with velocity `step.start`. Writes the mean
-/// velocity to `step.moved` and the end velocity to `step.end`. At a water surface, a step that
-/// ends with more potential energy than it had energy is flown again in 2, 4, ... parts, and ends
-/// early if that does not help; docs/theory.md section 14, eq. (81b). Returns false if a result is
-/// not finite.
+/// velocity to `step.moved`, the end velocity to `step.end`, and the outcome. At a water surface, a
+/// step that ends with more potential energy than it had energy is flown again in 2, 4, ... parts,
+/// and ends early if that does not help; docs/theory.md section 14, eq. (81b). Returns false if a
+/// result is not finite.
 /// @pre no row turns with the tree; `step.start` contains the kicks by the surface
 bool flyTree(AmbientTree& tree, const TreeTask& task) noexcept;
 
@@ -17,13 +17,10 @@ bool flyTree(AmbientTree& tree, const TreeTask& task) noexcept;
 /// and no row turns with it. @pre prepareLinks()
 bool fliesAsBody(const AmbientTree& tree) noexcept;
 
-/// Flies up to kFlightsTogether trees for which fliesAsBody() is true, side by side, from
-/// `step.pose` with `step.start`. Calls beginFlights() for their stand-ins, so that they have the
-/// bits of rigid bodies. Writes mean velocities to `step.moved`, end velocities to `step.end`, and
-/// true to `have_flown` for each tree that has flown. A flight that is not finite, or turns faster
-/// than Bullet can move a multibody, leaves its tree unchanged. @pre the stand-ins have the poses
-/// of the trees
-void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task,
-                 bool* have_flown) noexcept;
+/// Flies up to kFlightsTogether trees for which fliesAsBody() is true, side by side. Calls
+/// beginFlights() for their stand-ins, so that they have the bits of rigid bodies. Writes what
+/// flyTree() does. A flight that is not finite, or turns faster than Bullet can move a multibody,
+/// leaves its tree and the outcome unchanged. @pre the stand-ins have the poses of the trees
+void flyAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept;
 
 AMBIENT_END

@@ -105,18 +105,6 @@ void forgetLoads(AmbientTree& tree) noexcept {
   for (const auto& link : tree.links) forgetFlight(link->ambient);
 }
 
-Vector3 flowAround(const LinkTree& tree) noexcept {
-  if (tree.links.front().keeps_velocity) return Vector3::Zero();
-  const Link* first = nullptr;
-  for (const Link& link : tree.links) {
-    if (!link.model) continue;
-    if (!first) first = &link;
-    if (link.surroundings.ambient_velocity != first->surroundings.ambient_velocity)
-      return Vector3::Zero();
-  }
-  return first ? first->surroundings.ambient_velocity : Vector3(Vector3::Zero());
-}
-
 bool prepareLinks(AmbientTree& tree, const TreeTask& task) noexcept {
   readLinks(*tree.multi_body, tree.tree);
   for (const auto& link : tree.links) standIn(*link, *tree.multi_body, task.gravity);

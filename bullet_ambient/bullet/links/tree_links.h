@@ -39,10 +39,6 @@ bool wasMovedByOthers(const AmbientTree& tree, const CoordinatesIn& now) noexcep
 /// Makes the links forget the loads at the end of the last flight, which the motion has left.
 void forgetLoads(AmbientTree& tree) noexcept;
 
-/// Returns the velocity of the flow that the tree can follow, world axes [m/s]: that around its
-/// links, if it is the same for all and the base can move; otherwise 0.
-Vector3 flowAround(const LinkTree& tree) noexcept;
-
 /// Gives the stand-ins the poses of the links at `step.pose`, and their velocities for the
 /// generalized velocity `u`. Leaves the dynamics there, with the models that they had.
 void placeStandIns(AmbientTree& tree, const CoordinatesIn& u) noexcept;

@@ -7,7 +7,6 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
-#include "bullet_ambient/bullet/links/tree_energy.h"
 #include "bullet_ambient/bullet/links/tree_flight.h"
 #include "bullet_ambient/bullet/links/tree_links.h"
 #include "bullet_ambient/bullet/links/tree_reading.h"
@@ -72,14 +71,6 @@ void giveUp(AmbientTree& tree, AmbientBodies& bodies) {
   reject(tree, bodies);
 }
 
-bool fly(AmbientTree& tree, const TreeTask& task) {
-  TreeStep& step = tree.step;
-  if (!flyTree(tree, task)) return false;
-  step.outcome = TreeOutcome::kFlown;
-  step.reserve = 0;
-  return true;
-}
-
 // Computes the velocity x + X of a tree whose rows turn with it. Returns false if it is not finite.
 bool prepareRows(AmbientTree& tree, double h) {
   TreeStep& step = tree.step;
@@ -128,7 +119,7 @@ void finishFlown(AmbientTree& tree) {
 void finishRows(AmbientTree& tree, const TreeTask& task) {
   TreeStep& step = tree.step;
   if (step.change.isZero(0) && step.extent <= kSlowTurn && step.was_awake) {
-    if (fly(tree, task)) {
+    if (flyTree(tree, task)) {
       writeVelocity(*tree.multi_body, step.moved);
     } else {
       giveUp(tree, task.bodies);
@@ -144,11 +135,12 @@ void finishRows(AmbientTree& tree, const TreeTask& task) {
   step.energy = std::max(0.0, dynamics.normSquared(free) + std::min(0.0, on_share));
 }
 
-// Moves `to` back towards `step.spare`, both relative to the flow, until twice its energy is at
-// most `energy`. If twice the energy of `step.spare` is larger, too, scales `to` down, or in a fast
-// turn sets it to `step.spare` scaled down. Returns the energy that `to` has lost [J].
-double keepWithin(double energy, LinkDynamics& dynamics, Coordinates& to, TreeStep& step) {
+// Moves `step.end` back towards `step.spare`, both relative to the flow, until twice its energy is
+// at most `energy`. If twice the energy of `step.spare` is larger, too, scales `step.end` down, or
+// in a fast turn sets it to `step.spare` scaled down. Returns the energy that it has lost [J].
+double keepWithin(double energy, LinkDynamics& dynamics, TreeStep& step) {
   const Coordinates& from = step.spare;
+  Coordinates& to = step.end;
   const double has = dynamics.normSquared(to);
   if (!(has > energy)) return 0;
   const double removed = (has - energy) / 2;
@@ -166,40 +158,39 @@ double keepWithin(double energy, LinkDynamics& dynamics, Coordinates& to, TreeSt
   return removed;
 }
 
-// Writes the turning part t to `step.share`: h times the part of du/dt at `step.pose` that depends
-// on u.
-void computeTurningAt(LinkDynamics& dynamics, const Coordinates& u, double h, TreeStep& step) {
-  Coordinates &turning = step.share, &at_rest = step.change, &rate = step.spare;
+// Adds the turning part t(q_m, xi) to `step.end`: h times the part of du/dt that depends on u, at
+// the pose in the middle of the step. Changes `step.pose`.
+void addTurning(AmbientTree& tree, double h) {
+  TreeStep& step = tree.step;
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  Coordinates &turning = step.share, &at_rest = step.spare;
+  movePose(tree.tree, step.pose, step.moved, h / 2, step.pose);
   dynamics.setPose(step.pose);
   dynamics.factor();
-  at_rest.setZero();
-  at_rest.segment<3>(3) = flowAround(dynamics.tree());
-  dynamics.accelerations(at_rest, rate);
-  dynamics.accelerations(u, turning);
-  turning = h * (turning - rate);
+  turning.setZero();
+  turning.segment<3>(3) = flowAround(tree.tree);
+  dynamics.accelerations(turning, at_rest);
+  dynamics.accelerations(step.moved, turning);
+  step.end += h * (turning - at_rest);
 }
 
 // Writes the velocity after the substep, x + d + t(q_m, xi) within the energy bound, to `step.end`.
 void turnAfterRows(AmbientTree& tree, double h) {
   TreeStep& step = tree.step;
-  LinkFlight& flight = tree.flight;
-  Coordinates& turn = step.share;
+  LinkDynamics& dynamics = tree.flight.dynamics();
   step.end += step.change;
-  movePose(tree.tree, step.pose, step.moved, h / 2, step.pose);
-  computeTurningAt(flight.dynamics(), step.moved, h, step);
-  step.end += turn;
+  addTurning(tree, h);
   Coordinates& from = step.spare;
   from = step.moved;
   subtractFlow(tree.tree, from);
-  turn = step.end - step.moved + from;  // the velocity after the substep relative to the flow
+  step.end = step.end - step.moved + from;  // for now relative to the flow
   readPose(*tree.multi_body, step.pose);
-  flight.dynamics().setPose(step.pose);
-  const double allowed = step.energy + step.reserve;
-  countEnergyRemoved(keepWithin(allowed, flight.dynamics(), turn, step), tree);
-  const double left = allowed - flight.dynamics().normSquared(turn);
+  dynamics.setPose(step.pose);
   AMBIENT_ASSERT(!(step.energy < 0));
-  step.reserve = std::clamp(left, 0.0, step.energy);
-  step.end = turn + step.moved - from;
+  const double allowed = step.energy + step.reserve;
+  countEnergyRemoved(keepWithin(allowed, dynamics, step), tree);
+  step.reserve = std::clamp(allowed - dynamics.normSquared(step.end), 0.0, step.energy);
+  step.end = step.end + step.moved - from;
 }
 
 // Corrects `step.end` of a flown tree that is not at the end pose of its flight, so that it has the
@@ -224,7 +215,7 @@ bool begin(AmbientTree& tree, const TreeTask& task) {
     kickAtSurface(tree, task);
     keepEnergy(tree);
   }
-  return step.turns_rows ? prepareRows(tree, task.duration) : fly(tree, task);
+  return step.turns_rows ? prepareRows(tree, task.duration) : flyTree(tree, task);
 }
 
 // Sets the velocity of a tree that does not fly as a body.
@@ -235,18 +226,6 @@ void beginAlone(AmbientTree& tree, const TreeTask& task) {
   }
   const TreeStep& step = tree.step;
   writeVelocity(*tree.multi_body, step.outcome == TreeOutcome::kFlown ? step.end : step.moved);
-}
-
-// Sets pose and velocity of a tree to the end of the flight of its stand-in.
-void arriveAsBody(AmbientTree& tree) {
-  TreeStep& step = tree.step;
-  step.outcome = TreeOutcome::kFlown;
-  step.reserve = 0;
-  const LastFlight& end = tree.links.front()->ambient.outcome.flight();
-  step.pose.orientation = end.orientation;
-  step.pose.position = end.position;
-  tree.flight.stay(step.pose, step.end);
-  writeVelocity(*tree.multi_body, step.end);
 }
 
 // Reports links that their joints turn by half a turn or more in a step: blades then meet the flow
@@ -289,11 +268,10 @@ bool meetTree(AmbientTree& tree, const TreeTask& task) noexcept {
 }
 
 void meetAsBodies(AmbientTree* const* trees, int count, const TreeTask& task) noexcept {
-  bool have_flown[kFlightsTogether] = {};
-  flyAsBodies(trees, count, task, have_flown);
+  flyAsBodies(trees, count, task);
   for (int i = 0; i < count; ++i) {
-    if (have_flown[i]) {
-      arriveAsBody(*trees[i]);
+    if (hasMet(*trees[i])) {
+      writeVelocity(*trees[i]->multi_body, trees[i]->step.end);
     } else {
       beginAlone(*trees[i], task);
     }
@@ -334,7 +312,7 @@ void completeTree(AmbientTree& tree, const TreeTask& task) noexcept {
   addVelocity(body, step.change);
   reportFastJoints(tree, task);
   keepTreeAwake(tree);
-  if (wantsJointForces(body)) writeJointForces(tree, task);
+  writeJointForces(tree, task);
   finishTreeReading(tree, task.duration);
 }
 

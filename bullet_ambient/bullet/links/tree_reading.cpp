@@ -111,16 +111,18 @@ btSpatialForceVector inBulletsFrame(const Wrench& wrench, const btMultibodyLink&
   return {torque, force};
 }
 
-}  // namespace
-
-bool wantsJointForces(const btMultiBody& body) noexcept {
+bool wantsJointForces(const btMultiBody& body) {
   for (int i = 0; i < body.getNumLinks(); ++i)
     if (body.getLink(i).m_jointFeedback) return true;
   return false;
 }
 
+}  // namespace
+
 void writeJointForces(AmbientTree& tree, const TreeTask& task) noexcept {
+  if (!wantsJointForces(*tree.multi_body)) return;
   TreeStep& step = tree.step;
+  Coordinates &acceleration = step.change, &forces = step.spare;  // not needed any more
   LinkDynamics& dynamics = tree.flight.dynamics();
   readPose(*tree.multi_body, step.pose);
   movePose(tree.tree, step.pose, step.moved, -task.duration / 2, step.pose);
@@ -128,8 +130,8 @@ void writeJointForces(AmbientTree& tree, const TreeTask& task) noexcept {
   dynamics.setVelocity(step.moved);
   addOuterWrenches(tree, task.duration);
   dynamics.setPose(step.pose);  // again: it reads the applied wrenches
-  step.change = (step.end - step.start) / task.duration;
-  dynamics.inverseDynamics(step.moved, step.change, step.spare);
+  acceleration = (step.end - step.start) / task.duration;
+  dynamics.inverseDynamics(step.moved, acceleration, forces);
   const btContactSolverInfo& info = task.bodies.trees.world()->getSolverInfo();
   for (int i = 0; i < tree.multi_body->getNumLinks(); ++i) {
     btMultibodyLink& link = tree.multi_body->getLink(i);

@@ -1,9 +1,10 @@
 #include "bullet_ambient/bullet/links/tree_surface.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
-#include "bullet_ambient/bullet/links/tree_energy.h"
-#include "bullet_ambient/bullet/links/tree_links.h"
+#include "bullet_ambient/base/pi.h"
 #include "bullet_ambient/bullet/members/tree_state.h"
 #include "bullet_ambient/immersed/surface_encounter.h"
 
@@ -67,6 +68,12 @@ double passTogether(const SurfaceArrivals& some, const SurfaceStep& step,
 
 }  // namespace
 
+bool isAtSurface(const AmbientTree& tree) noexcept {
+  bool is_at = false;
+  forEachAtSurface(tree, [&is_at](const AmbientLink&, int) { is_at = true; });
+  return is_at;
+}
+
 void kickAtSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;
   step.surface.time = task.duration;
@@ -126,6 +133,155 @@ double arriveAtSurface(AmbientTree& tree) noexcept {
   if (some.count > 0) arrive();
   return addResponse(tree, step.end) ? energy_removed : 0;
 }
+
+namespace {
+
+// True if the fluid above the surface loads the link and moves relative to the water.
+bool hasWind(const AmbientBody& ambient) {
+  return ambient.surface()->loads_above.loads &&
+         ambient.encounter().velocity_above != ambient.medium.velocity;
+}
+
+// True if a torque, a joint force or an accelerating flow acts on a link.
+bool isDriven(const Link& link) {
+  const auto& forces = link.joint_force;
+  return link.surroundings.hasTorque() ||
+         std::any_of(forces.begin(), forces.end(), [](double force) { return force != 0; }) ||
+         (link.model && !link.surroundings.ambient_acceleration.isZero(0));
+}
+
+// True if nothing but weight and water moves a tree, in one flow that it can follow.
+bool isLeftToWater(AmbientTree& tree) {
+  bool has_wind = false;
+  forEachAtSurface(
+      tree, [&](const AmbientLink& link, int) { has_wind = has_wind || hasWind(link.ambient); });
+  const auto& links = tree.tree.links;
+  return !has_wind && std::none_of(links.begin(), links.end(), isDriven) &&
+         findFlow(tree.tree, tree.step.surface.start, tree.step.spare);
+}
+
+// Returns twice the kinetic energy of `u` relative to the flow [J], and leaves the velocity
+// relative to the flow in `step.spare`.
+double twiceKinetic(AmbientTree& tree, const CoordinatesIn& u) {
+  Coordinates& x = tree.step.spare;
+  x = u;
+  x.segment<3>(3) -= flowAround(tree.tree);
+  return tree.flight.dynamics().normSquared(x);
+}
+
+// Returns the potential energy at the pose of the dynamics [J], with positions relative to
+// `origin_W`. Adds of_water(AmbientBody&, index in the tree) for each link at a surface: the energy
+// of water and waves.
+template <class OfWater>
+double energyOfPlace(const AmbientTree& tree, const Vector3& origin_W, const OfWater& of_water) {
+  const LinkDynamics& dynamics = tree.flight.dynamics();
+  double sum = 0;
+  for (int i = 0; i < tree.tree.size(); ++i) {
+    const Link& link = tree.tree.links[i];
+    if (!link.model) sum -= link.surroundings.applied.force.dot(dynamics.position(i) - origin_W);
+  }
+  for (const auto& ambient_link : tree.links) {
+    const int i = ambient_link->link + 1;
+    const AmbientBody& ambient = ambient_link->ambient;
+    const Link& link = tree.tree.links[i];
+    if (!link.model) continue;
+    const SurfaceModel* surface = ambient.surface();
+    sum += energyOfPlace(surface ? surface->above : *link.model, link.surroundings,
+                         {dynamics.rotation(i), dynamics.position(i) - origin_W},
+                         surface ? of_water(ambient, i) : 0);
+  }
+  return sum;
+}
+
+// Returns the energy rho g W of docs/theory.md eq. (64) at the last pose of a link, and that of its
+// waves [J].
+double energyOfWater(const AmbientBody& ambient, int) {
+  const SurfaceStand& stand = ambient.stand();
+  return hydrostaticEnergy(wetVolume(*ambient.surface(), stand), stand.plane) +
+         ambient.encounter().waves.energy();
+}
+
+// Returns the largest change of the energy by rounding of Bullet's poses [J].
+double roundingOf(const AmbientTree& tree) {
+  constexpr double kRounding = 64 * static_cast<double>(std::numeric_limits<btScalar>::epsilon());
+  double sum = 0;
+  forEachAtSurface(tree, [&](const AmbientLink& link, int i) {
+    const SurfaceModel& model = *link.ambient.surface();
+    const double weight =
+        (model.below.mass + model.below.displaced_mass) * link.ambient.encounter().plane_W.gravity;
+    sum += weight * (model.radius + tree.flight.dynamics().position(i).norm());
+  });
+  return kRounding * sum;
+}
+
+// Returns the origin of displacements, which moves with the flow, `time` after the start.
+Vector3 originAfter(const AmbientTree& tree, double time) {
+  return tree.step.surface.origin_W + time * flowAround(tree.tree);
+}
+
+}  // namespace
+
+void keepEnergy(AmbientTree& tree) noexcept {
+  SurfaceStep& surface = tree.step.surface;
+  surface.is_bound = isLeftToWater(tree);
+  if (!surface.is_bound) return;
+  surface.origin_W = tree.flight.dynamics().position(0);
+  surface.rounding = roundingOf(tree);
+  surface.energy =
+      twiceKinetic(tree, surface.start) / 2 + energyOfPlace(tree, surface.origin_W, energyOfWater);
+}
+
+bool mayGainEnergy(AmbientTree& tree, double duration) noexcept {
+  if (!tree.step.surface.is_bound) return false;
+  LinkDynamics& dynamics = tree.flight.dynamics();
+  const Vector3 flow = flowAround(tree.tree);
+  dynamics.setVelocity(tree.step.moved);
+  bool is_stiff = false;
+  double most = 0;  // right-hand side of eq. (81b) [J]
+  forEachAtSurface(tree, [&](const AmbientLink& link, int i) {
+    const AmbientBody& ambient = link.ambient;
+    const SurfaceModel& model = *ambient.surface();
+    const SurfacePlane& plane = ambient.encounter().plane_W;
+    const Twist& twist = dynamics.twist(i);
+    const double radius = model.radius;
+    const double speed =
+        (dynamics.rotation(i) * twist.linear - flow).norm() + radius * twist.angular.norm();
+    const double way = duration * speed;
+    most += kPi / 2 * plane.density * plane.gravity * radius * radius * way * way;
+    is_stiff = is_stiff || duration * ambient.stand().swing > kLongestSwing;
+  });
+  return is_stiff || twiceKinetic(tree, tree.step.end) < 2 * most;
+}
+
+bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept {
+  const SurfaceStep& surface = tree.step.surface;
+  const LinkDynamics& dynamics = tree.flight.dynamics();
+  const double place = energyOfPlace(
+      tree, originAfter(tree, since_start), [&](const AmbientBody& ambient, int link) {
+        const FrameOffset pose{dynamics.rotation(link), dynamics.position(link)};
+        return hydrostaticEnergyAt(ambient, pose, surface.time) +
+               ambient.encounter().waves_with_rows.energy();
+      });
+  return place > surface.energy + surface.rounding;
+}
+
+namespace {
+
+// Scales `step.end` relative to the flow, so that the energy does not exceed the one that
+// keepEnergy() stored. `duration` of the step [s]. Returns the energy removed [J].
+double boundEnergy(AmbientTree& tree, double duration) {
+  TreeStep& step = tree.step;
+  if (!step.surface.is_bound) return 0;
+  const double place = energyOfPlace(tree, originAfter(tree, duration), energyOfWater);
+  const double has = twiceKinetic(tree, step.end);
+  const double allowed = 2 * std::max(0.0, step.surface.energy + step.surface.rounding - place);
+  if (!(has > allowed)) return 0;
+  step.end = std::sqrt(allowed / has) * step.spare;
+  step.end.segment<3>(3) += flowAround(tree.tree);
+  return (has - allowed) / 2;
+}
+
+}  // namespace
 
 void passSurface(AmbientTree& tree, const TreeTask& task) noexcept {
   TreeStep& step = tree.step;

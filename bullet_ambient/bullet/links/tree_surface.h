@@ -5,6 +5,17 @@
 
 AMBIENT_BEGIN
 
+/// True if a water surface is near a link.
+bool isAtSurface(const AmbientTree& tree) noexcept;
+
+/// Calls visit(AmbientLink&, index in the tree) for links near a water surface.
+template <class Visit>
+void forEachAtSurface(const AmbientTree& tree, const Visit& visit) {
+  for (const auto& link : tree.links)
+    if (tree.tree.links[link->link + 1].model && link->ambient.surface())
+      visit(*link, link->link + 1);
+}
+
 // A water surface acts on links as on bodies that rows move: waves and wind at the start of a step,
 // change of added mass at its end. Each link alone would change its twist V_l = J_l u to y_l. The
 // tree takes the motion that is nearest to these twists in the norm of the K_l:
@@ -33,8 +44,27 @@ void floatInMiddle(AmbientTree& tree) noexcept;
 /// (68a). Returns the energy removed [J].
 double arriveAtSurface(AmbientTree& tree) noexcept;
 
-/// Call after Bullet has moved the tree. Calls arriveAtSurface() at the present pose, and
-/// boundEnergy() if no rows have moved the tree.
+// Energy of a tree at a water surface, docs/theory.md eq. (64): kinetic energy relative to the
+// flow, potential energy of weight and water, and energy of the waves that its links have made.
+
+/// Call before a step. Stores the energy of the tree with the velocity `step.surface.start`. If
+/// wind, applied torques or joint forces act, stores that there is no bound. @pre the dynamics are
+/// at the pose, with inertias that are not stiffened
+void keepEnergy(AmbientTree& tree) noexcept;
+
+/// Returns false if a flight with mean velocity `step.moved` and end velocity `step.end` cannot
+/// have reached a pose with more potential energy than the stored energy: the kinetic energy at the
+/// end exceeds the largest error of the work of buoyancy, docs/theory.md eq. (81b). `duration` [s].
+/// Cost: O(links).
+bool mayGainEnergy(AmbientTree& tree, double duration) noexcept;
+
+/// True if the potential energy at the pose of the dynamics exceeds the stored energy, a time
+/// `since_start` [s] after the start of the step.
+bool hasGainedEnergy(const AmbientTree& tree, double since_start) noexcept;
+
+/// Call after Bullet has moved the tree. Calls arriveAtSurface() at the present pose. If no rows
+/// have moved the tree, scales the motion relative to the flow so that the energy does not exceed
+/// the one that keepEnergy() stored.
 void passSurface(AmbientTree& tree, const TreeTask& task) noexcept;
 
 AMBIENT_END

@@ -28,8 +28,9 @@ struct AmbientLink {
   const int link;        ///< Bullet's number; -1: the base
   btRigidBody stand_in;  ///< has the link's mass, pose and velocity, and the world's gravity
   AmbientBody ambient;
-  StepModel frozen;    ///< at a water surface: the model in the present or last step
-  SurfaceStart start;  ///< encounter at the start of the step, to repeat a flight from there
+  StepModel frozen;      ///< at a water surface: the model in the present or last step
+  SurfaceMeeting start;  ///< that of `ambient` at the start of the step, to repeat a flight from
+                         ///< there
   Vector6 fall = Vector6::Zero();  ///< weight and buoyancy of a flight, in the link's frame
 };
 
@@ -73,7 +74,7 @@ struct TreeStep {
   Coordinates share;   ///< part of the turning velocity change included in the velocity that rows
                        ///< were solved for
   Coordinates change;  ///< velocity change by the rows
-  Coordinates spare;   ///< scratch memory
+  Coordinates spare;   ///< scratch memory; so are share and change once Bullet has moved the tree
   std::vector<Wrench>
       impulses;  ///< impulse of the water surface on each link, in the link's frame [N m s, N s]
   double extent = 0;  ///< extent m of the turn, docs/theory.md eq. (28a)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/bullet/core/conversions.h"
@@ -13,29 +14,23 @@ AMBIENT_BEGIN
 
 namespace {
 
-// Two numbers, so that btScalar of single precision holds both exactly.
-constexpr int kBits = 20;
-
 // btMultiBodyDynamicsWorld finds the room in the same way.
 btScalar* roomOf(const btMultiBody& body) noexcept {
   const int dofs = body.getNumDofs();
   return const_cast<btScalar*>(body.getVelocityVector()) + 6 + dofs + dofs * dofs;
 }
 
-bool isPart(btScalar part) noexcept { return part >= 0 && part < btScalar(1 << kBits); }
-
 }  // namespace
 
 int instanceNumber(const btMultiBody& body) noexcept {
-  const btScalar low = roomOf(body)[0], high = roomOf(body)[1];
-  if (!isPart(low) || !isPart(high)) return 0;  // of RK4
-  return static_cast<int>(low) + (static_cast<int>(high) << kBits);
+  int number = 0;
+  std::memcpy(&number, roomOf(body), sizeof number);
+  return number;
 }
 
 void setInstanceNumber(btMultiBody& body, int number) noexcept {
   AMBIENT_ASSERT(number > 0);
-  roomOf(body)[0] = static_cast<btScalar>(number & ((1 << kBits) - 1));
-  roomOf(body)[1] = static_cast<btScalar>(number >> kBits);
+  std::memcpy(roomOf(body), &number, sizeof number);
 }
 
 int giveInstanceNumber(btMultiBody& body) noexcept {
@@ -58,7 +53,7 @@ JointKind kindOf(const btMultibodyLink& link) {
 Joint jointOf(const btMultibodyLink& link) {
   Joint joint;
   joint.kind = kindOf(link);
-  joint.zero_rotation = toQuaternion(link.m_zeroRotParentToThis);
+  joint.zero_axes = toQuaternion(link.m_zeroRotParentToThis).toRotationMatrix().transpose();
   joint.parent_to_pivot = toVector3(link.m_eVector);
   joint.pivot_to_link = toVector3(link.m_dVector);
   // Bullet's planar joint has no pivot on the side of the link, and leaves the vector unset.

@@ -81,13 +81,8 @@ double jointSpin(const Joint& joint, const double* velocity) noexcept {
   }
 }
 
-Matrix3 zeroAxes(const Joint& joint) noexcept {
-  AMBIENT_ASSERT(!(std::abs(joint.zero_rotation.squaredNorm() - 1) > 1e-3));
-  return joint.zero_rotation.toRotationMatrix().transpose();
-}
-
-FrameOffset linkOffset(const Joint& joint, const Matrix3& from_zero,
-                       const JointPosition& position) noexcept {
+FrameOffset linkOffset(const Joint& joint, const JointPosition& position) noexcept {
+  const Matrix3& from_zero = joint.zero_axes;
   FrameOffset offset{from_zero, joint.parent_to_pivot};
   switch (joint.kind) {
     case JointKind::kFixed:

@@ -25,10 +25,6 @@ constexpr int axisCount(JointKind kind) {
   }
 }
 
-/// True if the position is a quaternion. Bullet limits the rotation of such joints to pi/4 per
-/// step.
-constexpr bool hasQuaternion(JointKind kind) { return kind == JointKind::kSpherical; }
-
 /// Position of a joint, in Bullet's form. Revolute: angle [rad]. Prismatic: displacement [m].
 /// Spherical: unit quaternion x, y, z, w of the link in the axes of position zero. Planar: angle
 /// [rad], and two displacements [m] in these axes.
@@ -38,8 +34,7 @@ using JointPosition = std::array<double, 4>;
 /// Bullet's link.
 struct Joint {
   JointKind kind = JointKind::kFixed;
-  /// Rotates vectors from the parent's axes to the link's axes at position zero.
-  Quaternion zero_rotation = Quaternion::Identity();
+  Matrix3 zero_axes = Matrix3::Identity();    ///< the link's axes to its parent's at position zero
   Vector3 parent_to_pivot = Vector3::Zero();  ///< in the parent's frame [m]
   Vector3 pivot_to_link = Vector3::Zero();    ///< in the link's frame [m]
   /// Columns of S, docs/theory.md eq. (76): twist of the link relative to its parent, in the link's
@@ -50,15 +45,8 @@ struct Joint {
 /// Returns the angular speed of a joint with these velocities along its axes [rad/s].
 double jointSpin(const Joint& joint, const double* velocity) noexcept;
 
-/// Returns the rotation from the link's axes to its parent's at position zero.
-Matrix3 zeroAxes(const Joint& joint) noexcept;
-
-/// Returns the pose of the link in its parent's frame. `zero_axes`: zeroAxes() of the joint.
-FrameOffset linkOffset(const Joint& joint, const Matrix3& zero_axes,
-                       const JointPosition& position) noexcept;
-inline FrameOffset linkOffset(const Joint& joint, const JointPosition& position) noexcept {
-  return linkOffset(joint, zeroAxes(joint), position);
-}
+/// Returns the pose of the link in its parent's frame.
+FrameOffset linkOffset(const Joint& joint, const JointPosition& position) noexcept;
 
 /// Returns the position that a joint reaches in the time h [s] with constant velocities along its
 /// axes, by a screw motion of the link.

@@ -9,19 +9,27 @@ namespace {
 
 static_assert(sizeof(LinkState::axis) == kMaxJointAxes * sizeof(AxisPair));
 
-void put(const Vector3& a, AxisRow& row) { row = {{a[0], a[1], a[2], 0}}; }
+AxisRow rowOf(const Vector3& a) { return {{a[0], a[1], a[2], 0}}; }
 template <class Block>
-void put(const Block& m, AxisMatrix& matrix) {
-  for (int j = 0; j < 3; ++j) matrix.column[j] = {{m(0, j), m(1, j), m(2, j), 0}};
+AxisMatrix matrixOf(const Block& m) {
+  return {{rowOf(m.col(0)), rowOf(m.col(1)), rowOf(m.col(2))}};
 }
-void put(const Wrench& f, AxisPair& pair) {
-  put(f.torque, pair.angular);
-  put(f.force, pair.linear);
+AxisPair pairOf(const Wrench& f) { return {rowOf(f.torque), rowOf(f.force)}; }
+void setOffset(const FrameOffset& offset, LinkState& link) {
+  link.offset = matrixOf(offset.rotation);
+  link.offset_transposed = matrixOf(offset.rotation.transpose());
+  link.translation = rowOf(offset.translation);
 }
-void put(const FrameOffset& offset, LinkState& link) {
-  put(offset.rotation, link.offset);
-  put(offset.rotation.transpose(), link.offset_transposed);
-  put(offset.translation, link.translation);
+
+// Factors an inertia, of which Cholesky reads the lower half.
+Cholesky<6> factorsOf(const InertiaBlocks& I) {
+  Matrix6 K;
+  for (int j = 0; j < 3; ++j) {
+    K.block<3, 1>(0, j) = vectorOf(I.rotation.column[j]);
+    K.block<1, 3>(3 + j, 0) = vectorOf(I.coupling.column[j]).transpose();
+    K.block<3, 1>(3, 3 + j) = vectorOf(I.translation.column[j]);
+  }
+  return Cholesky<6>(K);
 }
 
 bool isSame(const TreePose& a, const TreePose& b) {
@@ -47,24 +55,19 @@ LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree), kernel_(fastestK
   checkTree(tree);
   coordinates_ = coordinateCount(tree);
   missing_.resize(coordinates_);
-  const std::vector<int> first = firstCoordinates(tree);
   links_.resize(tree.size());
   pose_.joints.resize(tree.size());
   pose_.position.setConstant(std::numeric_limits<double>::quiet_NaN());  // that of no pose
-  for (int l = 0; l < tree.size(); ++l) {
+  for (int l = 0, next = 0; l < tree.size(); ++l) {
     const Link& link = tree.links[l];
     LinkState& state = links_[l];
     state.parent = link.parent;
-    state.first = first[l];
+    state.first = next;
     state.axis_count = l == 0 ? 0 : axisCount(link.joint.kind);
+    next += l == 0 ? 6 : state.axis_count;
     for (int i = 0; i < state.axis_count; ++i)
-      put(Wrench::fromVector(link.joint.axes[i]), state.axis[i]);
-    zero_axes_.push_back(zeroAxes(link.joint));
+      state.axis[i] = pairOf(Wrench::fromVector(link.joint.axes[i]));
   }
-}
-
-TreeHabits LinkDynamics::habits() const {
-  return {tree_.linear_damping, tree_.angular_damping, tree_.has_gyroscopic_term};
 }
 
 void LinkDynamics::setPose(const TreePose& pose) noexcept {
@@ -80,39 +83,37 @@ void LinkDynamics::moveTo(const TreePose& pose) noexcept {
 
 void LinkDynamics::takeOffsets(const TreePose& pose) noexcept {
   pose_ = pose;
-  put(FrameOffset{pose.orientation.toRotationMatrix(), pose.position}, links_[0]);
+  setOffset({pose.orientation.toRotationMatrix(), pose.position}, links_[0]);
   for (int l = 1; l < count(); ++l)
-    put(linkOffset(tree_.links[l].joint, zero_axes_[l], pose.joints[l]), links_[l]);
+    setOffset(linkOffset(tree_.links[l].joint, pose.joints[l]), links_[l]);
 }
 
 void LinkDynamics::takeModel(const Link& link, LinkState& state) noexcept {
   const Surroundings& s = link.surroundings;
   state.is_kept = link.keeps_velocity && (state.parent < 0 || links_[state.parent].is_kept);
   state.mass = link.mass;
-  put(link.inertia, state.moments);
+  state.moments = rowOf(link.inertia);
+  state.accelerates_flow = link.model && !s.ambient_acceleration.isZero(0);
   Wrench applied = s.applied;
   if (link.model) {
     const BodyModel& model = *link.model;
     const auto coupling = model.inertia.topRightCorner<3, 3>();
-    put(model.inertia.topLeftCorner<3, 3>(), state.inertia.rotation);
-    put(coupling, state.inertia.coupling);
-    put(coupling.transpose(), state.coupling_transposed);
-    put(model.inertia.bottomRightCorner<3, 3>(), state.inertia.translation);
+    state.inertia = {matrixOf(model.inertia.topLeftCorner<3, 3>()), matrixOf(coupling),
+                     matrixOf(model.inertia.bottomRightCorner<3, 3>())};
+    state.coupling_transposed = matrixOf(coupling.transpose());
     applied.force -= model.mass * s.ambient_acceleration;
-    put(Vector3(-model.displaced_mass * (s.gravity - s.ambient_acceleration)), state.buoyancy_W);
-    put(model.centre_of_volume, state.centre_of_volume);
-    put(s.ambient_velocity, state.flow_W);
-    put(s.ambient_acceleration, state.flow_acceleration_W);
-    state.accelerates_flow = !s.ambient_acceleration.isZero(0);
+    state.buoyancy_W = rowOf(-model.displaced_mass * (s.gravity - s.ambient_acceleration));
+    state.centre_of_volume = rowOf(model.centre_of_volume);
+    state.flow_W = rowOf(s.ambient_velocity);
+    state.flow_acceleration_W = rowOf(s.ambient_acceleration);
   } else {
-    put(Matrix3(link.inertia.asDiagonal()), state.inertia.rotation);
-    put(Matrix3(Matrix3::Zero()), state.inertia.coupling);
-    state.coupling_transposed = state.inertia.coupling;
-    put(Matrix3(link.mass * Matrix3::Identity()), state.inertia.translation);
+    state.inertia = {matrixOf(Matrix3(link.inertia.asDiagonal())),
+                     {},
+                     matrixOf(Matrix3(link.mass * Matrix3::Identity()))};
+    state.coupling_transposed = {};
     state.buoyancy_W = state.centre_of_volume = state.flow_W = state.flow_acceleration_W = {};
-    state.accelerates_flow = false;
   }
-  put(applied, state.applied_W);
+  state.applied_W = pairOf(applied);
 }
 
 Matrix3 LinkDynamics::rotation(int link) const {
@@ -136,13 +137,13 @@ Wrench LinkDynamics::appliedWrench(int link) const noexcept {
   return {applied.torque + R * damping.torque, applied.force + R * damping.force};
 }
 
-bool LinkDynamics::factor() noexcept {
-  return kernel_.articulate(links_.data(), count(), nullptr, base_);
-}
-
-bool LinkDynamics::factor(const std::vector<double>& drag) noexcept {
-  AMBIENT_ASSERT(drag.size() == links_.size());
-  return kernel_.articulate(links_.data(), count(), drag.data(), base_);
+bool LinkDynamics::factor(const std::vector<double>* drag) noexcept {
+  AMBIENT_ASSERT(!drag || drag->size() == links_.size());
+  const bool is_positive =
+      kernel_.articulate(links_.data(), count(), drag ? drag->data() : nullptr);
+  if (links_[0].is_kept) return is_positive;
+  base_ = factorsOf(links_[0].articulated);
+  return is_positive && base_.isPositive();
 }
 
 double LinkDynamics::roughNormSquared(const CoordinatesIn& u) const noexcept {
@@ -166,7 +167,7 @@ double LinkDynamics::roughNormSquared(const CoordinatesIn& u) const noexcept {
 
 void LinkDynamics::accelerations(const CoordinatesIn& u, CoordinatesOut result) noexcept {
   AMBIENT_ASSERT(u.size() == coordinates_ && result.size() == coordinates_);
-  kernel_.computeForces(links_.data(), count(), habits(), u.data(), nullptr);
+  kernel_.computeForces(links_.data(), count(), tree_, u.data(), nullptr);
   takeJointForces();
   solve(result.data());
 }
@@ -174,7 +175,7 @@ void LinkDynamics::accelerations(const CoordinatesIn& u, CoordinatesOut result) 
 void LinkDynamics::correctAccelerations(const CoordinatesIn& u,
                                         CoordinatesOut accelerations) noexcept {
   AMBIENT_ASSERT(u.size() == coordinates_ && accelerations.size() == coordinates_);
-  kernel_.computeForces(links_.data(), count(), habits(), u.data(), accelerations.data());
+  kernel_.computeForces(links_.data(), count(), tree_, u.data(), accelerations.data());
   takeJointForces();
   solve(missing_.data());
   accelerations += missing_;
@@ -193,7 +194,7 @@ void LinkDynamics::respond(const CoordinatesIn& force, CoordinatesOut response) 
     for (int i = 0; i < link.axis_count; ++i) link.rest[i] = force[link.first + i];
   }
   const Matrix3 to_base = rotation(0).transpose();
-  put(Wrench{to_base * -force.head<3>(), to_base * -force.segment<3>(3)}, links_[0].force);
+  links_[0].force = pairOf({to_base * -force.head<3>(), to_base * -force.segment<3>(3)});
   solve(response.data());
 }
 
@@ -201,20 +202,24 @@ void LinkDynamics::respond(const std::vector<Wrench>& wrenches, CoordinatesOut r
   AMBIENT_ASSERT(wrenches.size() == links_.size());
   AMBIENT_ASSERT(response.size() == coordinates_);
   for (std::size_t l = 0; l < links_.size(); ++l) {
-    put(-1.0 * wrenches[l], links_[l].force);
+    links_[l].force = pairOf(-1.0 * wrenches[l]);
     for (double& rest : links_[l].rest) rest = 0;
   }
   solve(response.data());
 }
 
 void LinkDynamics::solve(double* result) noexcept {
-  kernel_.solve(links_.data(), count(), base_, result);
+  kernel_.sumNeeds(links_.data(), count());
+  LinkState& base = links_[0];
+  const Vector6 needed = -wrenchOf(base.force).vector();
+  base.acceleration = base.is_kept ? AxisPair{} : pairOf(Wrench::fromVector(base_.solve(needed)));
+  kernel_.accelerate(links_.data(), count(), result);
 }
 
 void LinkDynamics::inverseDynamics(const CoordinatesIn& u, const CoordinatesIn& acceleration,
                                    CoordinatesOut force) noexcept {
   AMBIENT_ASSERT(u.size() == coordinates_ && acceleration.size() == coordinates_);
-  kernel_.computeForces(links_.data(), count(), habits(), u.data(), acceleration.data());
+  kernel_.computeForces(links_.data(), count(), tree_, u.data(), acceleration.data());
   kernel_.sumForces(links_.data(), count(), force.data());
 }
 
@@ -242,19 +247,22 @@ double LinkDynamics::kineticEnergy(const CoordinatesIn& u) noexcept {
 
 void LinkDynamics::appliedForces(CoordinatesOut result) noexcept {
   AMBIENT_ASSERT(result.size() == coordinates_);
-  kernel_.computeApplied(links_.data(), count(), habits());
+  kernel_.computeApplied(links_.data(), count(), tree_);
   kernel_.sumForces(links_.data(), count(), result.data());
   for (int l = 1; l < tree_.size(); ++l)
     for (int i = 0; i < links_[l].axis_count; ++i)
       result[links_[l].first + i] += tree_.links[l].joint_force[i];
 }
 
-void LinkDynamics::holdJoints() noexcept { kernel_.holdJoints(links_.data(), count(), held_); }
+void LinkDynamics::holdJoints() noexcept {
+  kernel_.holdJoints(links_.data(), count());
+  held_ = factorsOf(links_[0].articulated);
+}
 
 Vector6 LinkDynamics::answerHeld(const Vector6& momentum) const noexcept {
   const Matrix3 R = rotation(0);
-  Vector6 result = stack(R.transpose() * momentum.head<3>(), R.transpose() * momentum.tail<3>());
-  kernel_.answer(held_, result.data());
+  const Vector6 result =
+      held_.solve(stack(R.transpose() * momentum.head<3>(), R.transpose() * momentum.tail<3>()));
   return stack(R * result.head<3>(), R * result.tail<3>());
 }
 

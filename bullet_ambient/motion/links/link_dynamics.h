@@ -2,10 +2,13 @@
 
 #include <vector>
 
-#include "bullet_ambient/motion/links/link_kernel.h"
 #include "bullet_ambient/motion/links/link_tree.h"
+#include "bullet_ambient/spatial/cholesky.h"
 
 namespace ambient {
+
+inline Vector3 vectorOf(const AxisRow& a) { return {a.at[0], a.at[1], a.at[2]}; }
+inline Wrench wrenchOf(const AxisPair& f) { return {vectorOf(f.angular), vectorOf(f.linear)}; }
 
 /// Equations of motion of a tree at one pose, docs/theory.md eq. (76) to (79):
 ///
@@ -42,11 +45,9 @@ class LinkDynamics {
   Vector3 position(int link) const { return vectorOf(links_[link].position_W); }
 
   /// Factors H by articulated inertias, eq. (79), for accelerations and responses. Returns false if
-  /// H is not positive definite or not finite. Cost: O(links).
-  bool factor() noexcept;
-  /// Factors M = sum (1 + drag_l) J_l^T K_l J_l of eq. (81) in place of H, with drag_l >= 0 for
-  /// each link [1].
-  bool factor(const std::vector<double>& drag) noexcept;
+  /// H is not positive definite or not finite. Cost: O(links). With a `drag_l` >= 0 for each link
+  /// [1], factors M = sum (1 + drag_l) J_l^T K_l J_l of eq. (81) in place of H.
+  bool factor(const std::vector<double>* drag = nullptr) noexcept;
 
   /// Returns an estimate of normSquared() from diagonals of the factor, within its order of
   /// magnitude, at almost no cost [J]. @pre factor()
@@ -125,11 +126,7 @@ class LinkDynamics {
   Eigen::MatrixXd massMatrix();
 
  private:
-  static Vector3 vectorOf(const AxisRow& a) { return {a.at[0], a.at[1], a.at[2]}; }
-  static Wrench wrenchOf(const AxisPair& f) { return {vectorOf(f.angular), vectorOf(f.linear)}; }
-
   int count() const { return static_cast<int>(links_.size()); }
-  TreeHabits habits() const;
   void takeModel(const Link& link, LinkState& state) noexcept;
   void takeOffsets(const TreePose& pose) noexcept;
   void takeJointForces() noexcept;
@@ -138,11 +135,10 @@ class LinkDynamics {
   const LinkTree& tree_;
   int coordinates_ = 0;
   std::vector<LinkState> links_;
-  TreePose pose_;                   // of the offsets in links_
-  std::vector<Matrix3> zero_axes_;  // by link: zeroAxes() of its joint
+  TreePose pose_;  // of the offsets in links_
   const LinkKernel& kernel_;
-  BaseFactor base_;      // factor of the base's articulated inertia
-  BaseFactor held_;      // factor of I_c, from holdJoints()
+  Cholesky<6> base_;     // of the base's articulated inertia
+  Cholesky<6> held_;     // of I_c, from holdJoints()
   Coordinates missing_;  // scratch memory of correctAccelerations()
 };
 

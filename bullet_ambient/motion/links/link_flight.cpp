@@ -107,6 +107,7 @@ LinkFlight::LinkFlight(const LinkTree& tree)
       end_(dynamics_.coordinates()),
       start_(dynamics_.coordinates()),
       rate_(dynamics_.coordinates()),
+      correction_(dynamics_.coordinates()),
       end_pose_(poseOfSize(tree)),
       middle_(poseOfSize(tree)) {}
 
@@ -205,9 +206,9 @@ bool LinkFlight::findMiddle(double h, const LinkFlightSettings& settings) noexce
     movePose(tree_, end_pose_, mean_, h / 2, middle_);
     dynamics_.moveTo(middle_);
     dynamics_.correctAccelerations(mean_, rate_);
-    end_ = start_ + h / 2 * rate_ - mean_;
-    mean_ += end_;
-    const double change = dynamics_.roughNormSquared(end_);
+    correction_ = start_ + h / 2 * rate_ - mean_;
+    mean_ += correction_;
+    const double change = dynamics_.roughNormSquared(correction_);
     motion = dynamics_.roughNormSquared(mean_) + dynamics_.roughNormSquared(start_);
     rest = last > 0 ? change / last * change : change;
     if (rest <= kMiddlePrecision * kMiddlePrecision * tolerance * motion) break;

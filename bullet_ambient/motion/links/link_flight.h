@@ -106,7 +106,7 @@ class LinkFlight {
   LinkDynamics dynamics_;
   LinkKick kick_;
   LinkIntegrals integrals_;
-  Coordinates mean_, end_, start_, rate_;
+  Coordinates mean_, end_, start_, rate_, correction_;
   TreePose end_pose_, middle_;
   bool answers_rows_ = false;  // true: prepareJointRows() was called since the flight
 };

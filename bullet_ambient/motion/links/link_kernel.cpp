@@ -1,241 +1,359 @@
+#if defined(__FAST_MATH__)
+#error "-ffast-math reorders operations; results must have the same bits everywhere"
+#endif
+
 #include "bullet_ambient/motion/links/link_kernel.h"
 
-#include "bullet_ambient/motion/links/axis_rows.h"
+// Compiled once per instruction set, see base/instruction_set.h. No operation is fused and each sum
+// has a fixed order, so that all instruction sets give the same bits.
 
 namespace ambient {
 namespace {
 
+inline AxisRow operator+(const AxisRow& a, const AxisRow& b) { return {a.at + b.at}; }
+inline AxisRow operator-(const AxisRow& a, const AxisRow& b) { return {a.at - b.at}; }
+inline AxisRow operator*(const AxisRow& a, const AxisRow& b) { return {a.at * b.at}; }
+inline AxisRow operator*(double s, const AxisRow& a) { return {s * a.at}; }
+// Returns component kAxis in all lanes.
+template <int kAxis>
+AxisRow spread(const AxisRow& a) {
+  return {__builtin_shufflevector(a.at, a.at, kAxis, kAxis, kAxis, kAxis)};
+}
+// Returns (y, z, x).
+inline AxisRow nextAxes(const AxisRow& a) {
+  return {__builtin_shufflevector(a.at, a.at, 1, 2, 0, 3)};
+}
+inline AxisRow rowOf(const double* xyz) { return {{xyz[0], xyz[1], xyz[2], 0}}; }
+inline double sum(const AxisRow& a) { return a.at[0] + a.at[1] + a.at[2]; }
+inline double dot(const AxisRow& a, const AxisRow& b) { return sum(a * b); }
+inline AxisRow cross(const AxisRow& a, const AxisRow& b) {
+  return nextAxes(a * nextAxes(b) - nextAxes(a) * b);
+}
+
+inline AxisMatrix transposed(const AxisMatrix& m) {
+  const auto &x = m.column[0].at, &y = m.column[1].at, &z = m.column[2].at;
+  const auto even = __builtin_shufflevector(x, y, 0, 4, 2, 6);
+  const auto odd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+  return {{{__builtin_shufflevector(even, z, 0, 1, 4, 7)},
+           {__builtin_shufflevector(odd, z, 0, 1, 5, 7)},
+           {__builtin_shufflevector(even, z, 2, 3, 6, 7)}}};
+}
+inline AxisRow operator*(const AxisMatrix& m, const AxisRow& a) {
+  return m.column[0] * spread<0>(a) + m.column[1] * spread<1>(a) + m.column[2] * spread<2>(a);
+}
+inline AxisMatrix operator*(const AxisMatrix& m, const AxisMatrix& n) {
+  return {{m * n.column[0], m * n.column[1], m * n.column[2]}};
+}
+inline AxisMatrix operator+(const AxisMatrix& m, const AxisMatrix& n) {
+  return {{m.column[0] + n.column[0], m.column[1] + n.column[1], m.column[2] + n.column[2]}};
+}
+inline AxisMatrix operator*(double s, const AxisMatrix& m) {
+  return {{s * m.column[0], s * m.column[1], s * m.column[2]}};
+}
+// Returns m - a b^T.
+inline AxisMatrix lessProduct(const AxisMatrix& m, const AxisRow& a, const AxisRow& b) {
+  return {{m.column[0] - a * spread<0>(b), m.column[1] - a * spread<1>(b),
+           m.column[2] - a * spread<2>(b)}};
+}
+// Returns [t]x m.
+inline AxisMatrix crossColumns(const AxisRow& t, const AxisMatrix& m) {
+  return {{cross(t, m.column[0]), cross(t, m.column[1]), cross(t, m.column[2])}};
+}
+
+inline AxisPair operator+(const AxisPair& a, const AxisPair& b) {
+  return {a.angular + b.angular, a.linear + b.linear};
+}
+inline AxisPair operator-(const AxisPair& a, const AxisPair& b) {
+  return {a.angular - b.angular, a.linear - b.linear};
+}
+inline AxisPair operator*(double s, const AxisPair& a) { return {s * a.angular, s * a.linear}; }
+inline double dot(const AxisPair& a, const AxisPair& b) {
+  return sum(a.angular * b.angular + a.linear * b.linear);
+}
+
+// Returns I x.
+inline AxisPair times(const InertiaBlocks& I, const AxisMatrix& coupling_transposed,
+                      const AxisPair& x) {
+  return {I.rotation * x.angular + I.coupling * x.linear,
+          coupling_transposed * x.angular + I.translation * x.linear};
+}
+// Returns K x.
+inline AxisPair times(const LinkState& link, const AxisPair& x) {
+  return times(link.inertia, link.coupling_transposed, x);
+}
+
+// Brings a twist from the frame of a link's parent to the link's frame, X x of docs/theory.md eq.
+// (76); and a wrench back, X^T f.
+inline AxisPair toLink(const LinkState& link, const AxisPair& x) {
+  return {link.offset_transposed * x.angular,
+          link.offset_transposed * (x.linear + cross(x.angular, link.translation))};
+}
+inline AxisPair toParent(const LinkState& link, const AxisPair& f) {
+  const AxisRow force = link.offset * f.linear;
+  return {link.offset * f.angular + cross(link.translation, force), force};
+}
+
+// Rotates the first six coordinates into the base's frame; and back into W.
+inline AxisPair ofBase(const LinkState& base, const double* u) {
+  return {base.rotation_W_transposed * rowOf(u), base.rotation_W_transposed * rowOf(u + 3)};
+}
+inline void putInWorld(const LinkState& base, const AxisPair& a, double* u) {
+  const AxisRow angular = base.rotation_W * a.angular, linear = base.rotation_W * a.linear;
+  for (int i = 0; i < 3; ++i) {
+    u[i] = angular.at[i];
+    u[3 + i] = linear.at[i];
+  }
+}
+
+// Returns S q' of the link's joint.
+inline AxisPair alongAxes(const LinkState& link, const double* velocity) {
+  AxisPair x{};
+  for (int i = 0; i < link.axis_count; ++i) x = x + velocity[i] * link.axis[i];
+  return x;
+}
+
 // Returns V x S q' of eq. (76), the acceleration of a link by the rotation of its axes.
-Spatial crossTwist(const Spatial& V, const Spatial& s) {
+AxisPair crossTwist(const AxisPair& V, const AxisPair& s) {
   return {cross(V.angular, s.angular), cross(V.linear, s.angular) + cross(V.angular, s.linear)};
 }
 
 void place(LinkState* links, int count) noexcept {
   for (int l = 0; l < count; ++l) {
     LinkState& link = links[l];
-    Matrix R = load(link.offset);
-    Row position = load(link.translation);
+    AxisMatrix R = link.offset;
+    AxisRow position = link.translation;
     if (l > 0) {
       const LinkState& parent = links[link.parent];
-      const Matrix of_parent = load(parent.rotation_W);
-      R = of_parent * R;
-      position = load(parent.position_W) + of_parent * position;
+      R = parent.rotation_W * R;
+      position = parent.position_W + parent.rotation_W * position;
     }
-    const Matrix to_link = transposed(R);
-    store(link.rotation_W, R);
-    store(link.rotation_W_transposed, to_link);
-    store(link.position_W, position);
-    store(link.flow, to_link * load(link.flow_W));
-    const Row buoyancy = to_link * load(link.buoyancy_W);
-    Spatial external{
-        to_link * load(link.applied_W.angular) + cross(load(link.centre_of_volume), buoyancy),
-        to_link * load(link.applied_W.linear) + buoyancy};
+    const AxisMatrix to_link = transposed(R);
+    link.rotation_W = R;
+    link.rotation_W_transposed = to_link;
+    link.position_W = position;
+    link.flow = to_link * link.flow_W;
+    const AxisRow buoyancy = to_link * link.buoyancy_W;
+    link.external = {to_link * link.applied_W.angular + cross(link.centre_of_volume, buoyancy),
+                     to_link * link.applied_W.linear + buoyancy};
     if (link.accelerates_flow)
-      external = external + times(link, {zeroRow(), to_link * load(link.flow_acceleration_W)});
-    store(link.external, external);
+      link.external = link.external + times(link, {{}, to_link * link.flow_acceleration_W});
   }
 }
 
 void setVelocity(LinkState* links, int count, const double* u) noexcept {
-  store(links[0].twist, ofBase(links[0], u));
+  links[0].twist = ofBase(links[0], u);
   for (int l = 1; l < count; ++l) {
     LinkState& link = links[l];
-    store(link.twist,
-          toLink(link, load(links[link.parent].twist)) + alongAxes(link, u + link.first));
+    link.twist = toLink(link, links[link.parent].twist) + alongAxes(link, u + link.first);
   }
 }
 
 // Returns the wrench of surroundings, buoyancy and damping on a link with twist V, in its frame.
-Spatial appliedOn(const LinkState& link, const TreeHabits& habits, const Spatial& V) {
-  Spatial f = load(link.external);
-  if (habits.linear_damping != 0 || habits.angular_damping != 0) {
+AxisPair appliedOn(const LinkState& link, const MultiBodySettings& settings, const AxisPair& V) {
+  AxisPair f = link.external;
+  if (settings.linear_damping != 0 || settings.angular_damping != 0) {
     const double linear =
-        habits.linear_damping * (1 + __builtin_sqrt(dot(V.linear, V.linear))) * link.mass;
-    const double angular = habits.angular_damping * (1 + __builtin_sqrt(dot(V.angular, V.angular)));
-    f = f - Spatial{angular * (load(link.moments) * V.angular), linear * V.linear};
+        settings.linear_damping * (1 + __builtin_sqrt(dot(V.linear, V.linear))) * link.mass;
+    const double angular =
+        settings.angular_damping * (1 + __builtin_sqrt(dot(V.angular, V.angular)));
+    f = f - AxisPair{angular * (link.moments * V.angular), linear * V.linear};
   }
-  if (!habits.has_gyroscopic_term)
-    f.angular = f.angular + cross(V.angular, load(link.moments) * V.angular);
+  if (!settings.has_gyroscopic_term)
+    f.angular = f.angular + cross(V.angular, link.moments * V.angular);
   return f;
 }
 
 // Returns f_l of eq. (77): the wrench that the link needs besides the one that acts on it.
-Spatial forceOn(const LinkState& link, const TreeHabits& habits, const Spatial& V,
-                const Spatial& A) {
-  const Row flow = load(link.flow);
-  const Inertia K = load(link.inertia);
-  const Matrix coupling_transposed = load(link.coupling_transposed);
-  const Spatial V_r{V.angular, V.linear - flow};
-  const Spatial A_r{A.angular, A.linear + cross(V.angular, flow)};
-  const Spatial m = times(K, coupling_transposed, V_r);
-  const Spatial gyroscopic{cross(m.angular, V_r.angular) + cross(m.linear, V_r.linear),
-                           cross(m.linear, V_r.angular)};
-  return times(K, coupling_transposed, A_r) - gyroscopic - appliedOn(link, habits, V);
+AxisPair forceOn(const LinkState& link, const MultiBodySettings& settings, const AxisPair& V,
+                 const AxisPair& A) {
+  const AxisPair V_r{V.angular, V.linear - link.flow};
+  const AxisPair A_r{A.angular, A.linear + cross(V.angular, link.flow)};
+  const AxisPair m = times(link, V_r);
+  const AxisPair gyroscopic{cross(m.angular, V_r.angular) + cross(m.linear, V_r.linear),
+                            cross(m.linear, V_r.angular)};
+  return times(link, A_r) - gyroscopic - appliedOn(link, settings, V);
 }
 
-void computeForces(LinkState* links, int count, const TreeHabits& habits, const double* u,
+void computeForces(LinkState* links, int count, const MultiBodySettings& settings, const double* u,
                    const double* acceleration) noexcept {
   for (int l = 0; l < count; ++l) {
     LinkState& link = links[l];
-    Spatial V, A;
+    AxisPair V, A{};
     if (l == 0) {
       V = ofBase(link, u);
-      A = {zeroRow(), zeroRow()};
       if (!link.is_kept) A.linear = cross(V.linear, V.angular);
       if (acceleration) A = A + ofBase(link, acceleration);
     } else {
       const LinkState& parent = links[link.parent];
-      const Spatial relative = alongAxes(link, u + link.first);
-      V = toLink(link, load(parent.twist)) + relative;
-      A = toLink(link, load(parent.acceleration)) + crossTwist(V, relative);
+      const AxisPair relative = alongAxes(link, u + link.first);
+      V = toLink(link, parent.twist) + relative;
+      A = toLink(link, parent.acceleration) + crossTwist(V, relative);
       if (acceleration) A = A + alongAxes(link, acceleration + link.first);
     }
-    store(link.twist, V);
-    store(link.acceleration, A);
-    store(link.force, forceOn(link, habits, V, A));
+    link.twist = V;
+    link.acceleration = A;
+    link.force = forceOn(link, settings, V, A);
   }
 }
 
-void computeApplied(LinkState* links, int count, const TreeHabits& habits) noexcept {
-  for (int l = 0; l < count; ++l)
-    store(links[l].force, appliedOn(links[l], habits, load(links[l].twist)));
+void computeApplied(LinkState* links, int count, const MultiBodySettings& settings) noexcept {
+  for (int l = 0; l < count; ++l) links[l].force = appliedOn(links[l], settings, links[l].twist);
 }
 
 void computeMomenta(LinkState* links, int count) noexcept {
-  for (int l = 0; l < count; ++l) store(links[l].force, times(links[l], load(links[l].twist)));
+  for (int l = 0; l < count; ++l) links[l].force = times(links[l], links[l].twist);
 }
 
 void measure(LinkState* links, int count) noexcept {
   for (int l = 0; l < count; ++l) {
     LinkState& link = links[l];
-    const Spatial V_r{load(link.twist.angular), load(link.twist.linear) - load(link.flow)};
-    const Spatial m = times(link, V_r);
-    store(link.force, m);
+    const AxisPair V_r{link.twist.angular, link.twist.linear - link.flow};
+    const AxisPair m = times(link, V_r);
+    link.force = m;
     link.energy = dot(m, V_r);
   }
 }
 
 double norm(const LinkState* links, int count) noexcept {
   double sum = 0;
-  for (int l = 0; l < count; ++l) {
-    const Spatial V = load(links[l].twist);
-    sum += dot(times(links[l], V), V);
-  }
+  for (int l = 0; l < count; ++l) sum += dot(times(links[l], links[l].twist), links[l].twist);
   return sum;
+}
+
+// Adds a wrench in the link's frame to that of its parent.
+void addToParent(LinkState* links, const LinkState& link, const AxisPair& f) {
+  AxisPair& of_parent = links[link.parent].force;
+  of_parent = of_parent + toParent(link, f);
 }
 
 void sumForces(LinkState* links, int count, double* force) noexcept {
   for (int l = count - 1; l > 0; --l) {
     const LinkState& link = links[l];
-    const Spatial f = load(link.force);
-    for (int i = 0; i < link.axis_count; ++i) force[link.first + i] = dot(f, load(link.axis[i]));
-    AxisPair& of_parent = links[link.parent].force;
-    store(of_parent, load(of_parent) + toParent(link, f));
+    for (int i = 0; i < link.axis_count; ++i) force[link.first + i] = dot(link.force, link.axis[i]);
+    addToParent(links, link, link.force);
   }
-  putInWorld(links[0], load(links[0].force), force);
+  putInWorld(links[0], links[0].force, force);
 }
 
-// Adds an inertia in the link's frame to the articulated inertia of its parent.
-void addToParent(LinkState* links, const LinkState& link, const Inertia& I) {
+// Adds an inertia in the link's frame to the articulated inertia of its parent, docs/theory.md eq.
+// (4) and (5).
+void addToParent(LinkState* links, const LinkState& link, const InertiaBlocks& I) {
+  const AxisMatrix &R = link.offset, &R_transposed = link.offset_transposed;
+  const AxisRow& t = link.translation;
+  const AxisMatrix M = R * I.translation * R_transposed;
+  const AxisMatrix C = R * I.coupling * R_transposed;
+  const AxisMatrix C_parent = C + crossColumns(t, M);
+  // A - C [t] + [t] C_parent^T
+  const AxisMatrix A = R * I.rotation * R_transposed + transposed(crossColumns(t, transposed(C))) +
+                       crossColumns(t, transposed(C_parent));
   InertiaBlocks& of_parent = links[link.parent].articulated;
-  const Inertia added = toParent(link, I), before = load(of_parent);
-  store(of_parent, {before.rotation + added.rotation, before.coupling + added.coupling,
-                    before.translation + added.translation});
+  of_parent = {of_parent.rotation + A, of_parent.coupling + C_parent, of_parent.translation + M};
 }
 
-// Replaces I by I - I S (S^T I S)^-1 S^T I, eq. (79): inertia of the subtree that the parent feels.
-// Returns false if S^T I S is not positive definite.
-bool takeOutJoint(LinkState& link, Inertia& I) {
-  if (link.axis_count == 0) return true;
-  const Matrix coupling_transposed = transposed(I.coupling);
-  Spatial push[3];
-  double D[3][3] = {};
-  for (int i = 0; i < link.axis_count; ++i) {
-    push[i] = times(I, coupling_transposed, load(link.axis[i]));
-    store(link.push[i], push[i]);
-    for (int j = 0; j <= i; ++j) D[i][j] = D[j][i] = dot(push[i], load(link.axis[j]));
-    link.weight[i] = D[i][i];
+// Inverts a symmetric matrix of `n` rows. Returns false if it is not positive definite.
+bool invert(const double (&D)[3][3], int n, double (&inverse)[3][3]) {
+  double lower[3][3] = {}, per_pivot[3] = {};
+  bool is_positive = true;
+  for (int i = 0; i < n; ++i) {
+    double scaled[3] = {}, pivot = D[i][i];
+    for (int j = 0; j < i; ++j) {
+      scaled[j] = D[i][j];
+      for (int k = 0; k < j; ++k) scaled[j] -= scaled[k] * lower[j][k];
+      lower[i][j] = scaled[j] * per_pivot[j];
+      pivot -= scaled[j] * lower[i][j];
+    }
+    per_pivot[i] = 1 / pivot;
+    is_positive = is_positive && pivot > 0 && per_pivot[i] <= __DBL_MAX__;
   }
-  const bool is_positive = invert(D, link.axis_count, link.inverse);
-  for (int i = 0; i < link.axis_count; ++i) {
-    Spatial part = link.inverse[i][0] * push[0];
-    for (int j = 1; j < link.axis_count; ++j) part = part + link.inverse[i][j] * push[j];
-    I.rotation = lessProduct(I.rotation, push[i].angular, part.angular);
-    I.coupling = lessProduct(I.coupling, push[i].angular, part.linear);
-    I.translation = lessProduct(I.translation, push[i].linear, part.linear);
+  for (int j = 0; j < n; ++j) {
+    double x[3] = {0, 0, 0};
+    x[j] = 1;
+    for (int i = j + 1; i < n; ++i)
+      for (int k = j; k < i; ++k) x[i] -= lower[i][k] * x[k];
+    for (int i = n - 1; i >= 0; --i) {
+      x[i] *= per_pivot[i];
+      for (int k = i + 1; k < n; ++k) x[i] -= lower[k][i] * x[k];
+      inverse[i][j] = x[i];
+    }
   }
   return is_positive;
 }
 
-bool articulate(LinkState* links, int count, const double* drag, BaseFactor& base) noexcept {
+// Replaces I by I - I S (S^T I S)^-1 S^T I, eq. (79): inertia of the subtree that the parent feels.
+// Returns false if S^T I S is not positive definite.
+bool takeOutJoint(LinkState& link, InertiaBlocks& I) {
+  if (link.axis_count == 0) return true;
+  const AxisMatrix coupling_transposed = transposed(I.coupling);
+  double D[3][3] = {};
+  for (int i = 0; i < link.axis_count; ++i) {
+    link.push[i] = times(I, coupling_transposed, link.axis[i]);
+    for (int j = 0; j <= i; ++j) D[i][j] = D[j][i] = dot(link.push[i], link.axis[j]);
+    link.weight[i] = D[i][i];
+  }
+  const bool is_positive = invert(D, link.axis_count, link.inverse);
+  for (int i = 0; i < link.axis_count; ++i) {
+    const AxisPair& push = link.push[i];
+    AxisPair part = link.inverse[i][0] * link.push[0];
+    for (int j = 1; j < link.axis_count; ++j) part = part + link.inverse[i][j] * link.push[j];
+    I.rotation = lessProduct(I.rotation, push.angular, part.angular);
+    I.coupling = lessProduct(I.coupling, push.angular, part.linear);
+    I.translation = lessProduct(I.translation, push.linear, part.linear);
+  }
+  return is_positive;
+}
+
+bool articulate(LinkState* links, int count, const double* drag) noexcept {
   for (int l = 0; l < count; ++l) {
-    links[l].articulated = links[l].inertia;
-    if (!drag) continue;
-    const Inertia K = load(links[l].inertia);
-    const double s = 1 + drag[l];
-    store(links[l].articulated, {s * K.rotation, s * K.coupling, s * K.translation});
+    const InertiaBlocks& K = links[l].inertia;
+    const double s = drag ? 1 + drag[l] : 1;
+    links[l].articulated = {s * K.rotation, s * K.coupling, s * K.translation};
   }
   bool is_positive = true;
   for (int l = count - 1; l > 0; --l) {
     LinkState& link = links[l];
     if (link.is_kept) continue;
-    Inertia I = load(link.articulated);
+    InertiaBlocks I = link.articulated;
     is_positive = takeOutJoint(link, I) && is_positive;
     if (!links[link.parent].is_kept) addToParent(links, link, I);
   }
-  if (links[0].is_kept) return is_positive;
-  factorBase(links[0].articulated, base);
-  return is_positive && base.is_positive;
+  return is_positive;
 }
 
-void holdJoints(LinkState* links, int count, BaseFactor& held) noexcept {
+void holdJoints(LinkState* links, int count) noexcept {
   for (int l = 0; l < count; ++l) links[l].articulated = links[l].inertia;
-  for (int l = count - 1; l > 0; --l) addToParent(links, links[l], load(links[l].articulated));
-  factorBase(links[0].articulated, held);
+  for (int l = count - 1; l > 0; --l) addToParent(links, links[l], links[l].articulated);
 }
 
-// Solves for the acceleration of the base.
-void solveBase(LinkState& base, const BaseFactor& factor, double* result) {
-  double a[6] = {0, 0, 0, 0, 0, 0};
-  if (!base.is_kept) {
-    for (int i = 0; i < 3; ++i) {
-      a[i] = -base.force.angular.at[i];
-      a[3 + i] = -base.force.linear.at[i];
-    }
-    answer(factor, a);
-  }
-  const Spatial acceleration{rowOf(a), rowOf(a + 3)};
-  store(base.acceleration, acceleration);
-  putInWorld(base, acceleration, result);
+// Returns component `axis` of (S^T I^A S)^-1 `rest`.
+double answerOf(const LinkState& link, int axis) {
+  double q = 0;
+  for (int j = 0; j < link.axis_count; ++j) q += link.inverse[axis][j] * link.rest[j];
+  return q;
 }
 
-void solve(LinkState* links, int count, const BaseFactor& base, double* result) noexcept {
+void sumNeeds(LinkState* links, int count) noexcept {
   for (int l = count - 1; l > 0; --l) {
     LinkState& link = links[l];
     if (link.is_kept) continue;
-    Spatial f = load(link.force);
-    for (int i = 0; i < link.axis_count; ++i) link.rest[i] -= dot(f, load(link.axis[i]));
-    for (int i = 0; i < link.axis_count; ++i) {
-      double q = 0;
-      for (int j = 0; j < link.axis_count; ++j) q += link.inverse[i][j] * link.rest[j];
-      f = f + q * load(link.push[i]);
-    }
-    AxisPair& of_parent = links[link.parent].force;
-    store(of_parent, load(of_parent) + toParent(link, f));
+    AxisPair f = link.force;
+    for (int i = 0; i < link.axis_count; ++i) link.rest[i] -= dot(f, link.axis[i]);
+    for (int i = 0; i < link.axis_count; ++i) f = f + answerOf(link, i) * link.push[i];
+    addToParent(links, link, f);
   }
-  solveBase(links[0], base, result);
+}
+
+void accelerate(LinkState* links, int count, double* result) noexcept {
+  putInWorld(links[0], links[0].acceleration, result);
   for (int l = 1; l < count; ++l) {
     LinkState& link = links[l];
-    Spatial a = toLink(link, load(links[link.parent].acceleration));
-    for (int i = 0; i < link.axis_count; ++i) link.rest[i] -= dot(load(link.push[i]), a);
+    AxisPair a = toLink(link, links[link.parent].acceleration);
+    for (int i = 0; i < link.axis_count; ++i) link.rest[i] -= dot(link.push[i], a);
     for (int i = 0; i < link.axis_count; ++i) {
-      double q = 0;
-      if (!link.is_kept)
-        for (int j = 0; j < link.axis_count; ++j) q += link.inverse[i][j] * link.rest[j];
+      const double q = link.is_kept ? 0 : answerOf(link, i);
       result[link.first + i] = q;
-      a = a + q * load(link.axis[i]);
+      a = a + q * link.axis[i];
     }
-    store(link.acceleration, a);
+    link.acceleration = a;
   }
 }
 
@@ -243,6 +361,6 @@ void solve(LinkState* links, int count, const BaseFactor& base, double* result) 
 
 const LinkKernel AMBIENT_KERNEL(kLinkKernel){
     place, setVelocity, computeForces, computeApplied, computeMomenta, measure,
-    norm,  sumForces,   articulate,    holdJoints,     solve,          answer};
+    norm,  sumForces,   articulate,    holdJoints,     sumNeeds,       accelerate};
 
 }  // namespace ambient

@@ -137,7 +137,7 @@ void LinkKick::kick(LinkDynamics& dynamics, double h, CoordinatesOut u) noexcept
     drag_impulses_[l] = -drags_[l] * momentum;
     lift_impulses_[l] = h * ratio * ratio * sample.lift;
   }
-  dynamics.factor(drags_);
+  dynamics.factor(&drags_);
   dynamics.respond(drag_impulses_, change_);
   u += change_;
   applyLift(dynamics, u);

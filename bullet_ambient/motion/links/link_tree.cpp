@@ -18,16 +18,6 @@ namespace {
 
 }  // namespace
 
-std::vector<int> firstCoordinates(const LinkTree& tree) {
-  std::vector<int> first;
-  int next = 0;
-  for (int l = 0; l < tree.size(); ++l) {
-    first.push_back(next);
-    next += l == 0 ? 6 : axisCount(tree.links[l].joint.kind);
-  }
-  return first;
-}
-
 int coordinateCount(const LinkTree& tree) {
   int count = 6;
   for (int l = 1; l < tree.size(); ++l) count += axisCount(tree.links[l].joint.kind);
@@ -95,14 +85,14 @@ bool turnsTooFastForBullet(const LinkTree& tree, const CoordinatesIn& u, double 
   int first = 6;
   for (int l = 1; l < tree.size(); ++l) {
     const JointKind kind = tree.links[l].joint.kind;
-    if (hasQuaternion(kind)) is_too_fast = is_too_fast || u.segment<3>(first).norm() > limit;
+    if (kind == JointKind::kSpherical)
+      is_too_fast = is_too_fast || u.segment<3>(first).norm() > limit;
     first += axisCount(kind);
   }
   return is_too_fast;
 }
 
-bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept {
-  u.setZero();
+RestInFlow restInFlow(const LinkTree& tree) noexcept {
   const Vector3* flow = nullptr;
   bool is_one = true;
   for (const Link& link : tree.links) {
@@ -110,10 +100,16 @@ bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept {
     if (!flow) flow = &link.surroundings.ambient_velocity;
     is_one = is_one && link.surroundings.ambient_velocity == *flow;
   }
-  if (!flow) return true;
-  if (tree.links[0].keeps_velocity) return is_one && flow->cwiseAbs().maxCoeff() == 0;
-  u.segment<3>(3) = *flow;
-  return is_one;
+  if (!flow) return {Vector3::Zero(), true};
+  if (tree.links[0].keeps_velocity) return {Vector3::Zero(), is_one && flow->isZero(0)};
+  return {*flow, is_one};
+}
+
+bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept {
+  const RestInFlow rest = restInFlow(tree);
+  u.setZero();
+  u.segment<3>(3) = rest.velocity;
+  return rest.exists;
 }
 
 bool findFlow(const LinkTree& tree, const CoordinatesIn& u, Coordinates& flow) noexcept {

@@ -5,6 +5,7 @@
 
 #include "bullet_ambient/motion/flight/flight_task.h"
 #include "bullet_ambient/motion/links/joint.h"
+#include "bullet_ambient/motion/links/link_kernel.h"
 
 namespace ambient {
 
@@ -34,11 +35,8 @@ struct Link {
 /// Links joined to a tree without loops. Its generalized velocities u are Bullet's, in the order of
 /// btMultiBody::getVelocityVector(): angular and linear velocity of the base in W, then those of
 /// the joints, link by link.
-struct LinkTree {
-  std::vector<Link> links;          ///< at least the base; parents before children
-  double linear_damping = 0;        ///< d in Bullet's force -d (1 + |v|) m v, with v in m/s
-  double angular_damping = 0;       ///< d in Bullet's torque -d (1 + |w|) J w, with w in rad/s
-  bool has_gyroscopic_term = true;  ///< false: w x J w of the dry inertia is left out
+struct LinkTree : MultiBodySettings {
+  std::vector<Link> links;  ///< at least the base; parents before children
 
   int size() const { return static_cast<int>(links.size()); }
 };
@@ -54,8 +52,6 @@ using Coordinates = Eigen::VectorXd;  ///< generalized velocities, accelerations
 using CoordinatesIn = Eigen::Ref<const Eigen::VectorXd>;
 using CoordinatesOut = Eigen::Ref<Eigen::VectorXd>;
 
-/// Returns the index in u of the first velocity of each link's joint; 0 for the base.
-std::vector<int> firstCoordinates(const LinkTree& tree);
 /// Returns the number of generalized velocities: 6, and one for each axis of all joints.
 int coordinateCount(const LinkTree& tree);
 
@@ -78,9 +74,20 @@ bool turnsTooFastForBullet(const LinkTree& tree, const CoordinatesIn& u, double 
 void velocityBetween(const LinkTree& tree, const TreePose& from, const TreePose& to, double h,
                      CoordinatesOut u) noexcept;
 
-/// Writes the velocity of a tree at rest in the flow of its links: the base has the velocity of the
-/// flow, or 0 if its velocity is prescribed; joints have 0. Returns false if no such motion exists:
-/// links are in different flows, or the base is fixed and the flow moves.
+/// Motion of a tree at rest in the flow of its links; its joints are at rest.
+struct RestInFlow {
+  Vector3 velocity;  ///< of the base, W [m/s]: that of the flow, or 0 if its own is prescribed
+  bool exists;  ///< false: links are in different flows, or the base is fixed in one that moves
+};
+RestInFlow restInFlow(const LinkTree& tree) noexcept;
+
+/// Returns the velocity of the flow that the tree can follow, W [m/s]; 0: there is none.
+inline Vector3 flowAround(const LinkTree& tree) noexcept {
+  const RestInFlow rest = restInFlow(tree);
+  return rest.exists ? rest.velocity : Vector3(Vector3::Zero());
+}
+
+/// Writes that motion. Returns whether it exists.
 bool restInFlow(const LinkTree& tree, CoordinatesOut u) noexcept;
 
 /// Calls restInFlow(). Returns true if that motion exists and all prescribed velocities in `u` are

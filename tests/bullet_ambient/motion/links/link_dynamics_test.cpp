@@ -35,7 +35,7 @@ JointedBody jointedBody(const Link& link, const JointPosition& position) {
   b.applied = link.surroundings.applied.vector().cast<JointedReal>();
   b.parent = link.parent;
   b.kind = static_cast<reference::JointedKind>(link.joint.kind);
-  b.zero_rotation = link.joint.zero_rotation.cast<JointedReal>().toRotationMatrix();
+  b.zero_rotation = link.joint.zero_axes.transpose().cast<JointedReal>();
   b.parent_to_pivot = link.joint.parent_to_pivot.cast<JointedReal>();
   b.pivot_to_body = link.joint.pivot_to_link.cast<JointedReal>();
   for (int i = 0; i < 3; ++i) {
