@@ -1,3 +1,5 @@
+#include <math.h>
+
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"

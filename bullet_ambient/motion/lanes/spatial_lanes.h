@@ -1,19 +1,12 @@
 #pragma once
 
-#include <math.h>
-
-#include "bullet_ambient/motion/lanes/flight_lanes.h"
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/force/kernels/double_lanes.h"
+#include "bullet_ambient/force/kernels/lanes.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
 
 // Functions of one number per body, side by side in the lanes of a register; vectors, orientations
 // and twists, one body per lane. For sources that are compiled once per instruction set, see
-// force/kernels/double_lanes.h. No operation is fused and lanes are independent, so that every
+// force/kernels/lanes.h. No operation is fused and lanes are independent, so that every
 // instruction set gives the same bits.
 
 namespace ambient {
@@ -21,22 +14,9 @@ namespace ambient {
 namespace {
 
 using Lanes = Doubles;
+using Vectors = VectorsOf<Lanes>;
 
 inline Lanes all(double value) { return value - Lanes{}; }
-
-inline Lanes squareRoot(const Lanes& a) {
-#if defined(__AVX512F__)
-  return _mm512_maskz_sqrt_pd(0xff, a);  // _mm512_sqrt_pd causes a warning in GCC 12's header
-#elif defined(__AVX2__)
-  return _mm256_sqrt_pd(a);
-#elif defined(__x86_64__)
-  return _mm_sqrt_pd(a);
-#else
-  Lanes root;
-  for (int i = 0; i < kWidth; ++i) root[i] = ::sqrt(a[i]);
-  return root;
-#endif
-}
 
 /// Returns the larger number per lane; b where a is NaN.
 inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
@@ -76,9 +56,6 @@ inline Lanes tangent(const Lanes& x) {
   return t;
 }
 
-inline Vectors select(const Mask& mask, const Vectors& a, const Vectors& b) {
-  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
-}
 inline Vectors zeroVectors() { return {Lanes{}, Lanes{}, Lanes{}}; }
 
 /// Loads the 3-vectors of the bodies in kWidth lanes from `at` on.
