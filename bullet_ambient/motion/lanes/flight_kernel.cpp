@@ -123,7 +123,7 @@ inline Spatials beyondEven(const PushLanes& push, int at, const Pairs& kick) {
 /// Implements FlightKernel::push for the lanes from `at` on.
 struct PushStep {
   template <class Matrices>
-  static void act(PushLanes& lanes, int at) {
+  static void act(PushLanes& lanes, int at, const Mask&) {
     const FlightLanes& bodies = lanes.bodies;
     const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
     const Orientations q = orientationOf(bodies, at);
@@ -153,7 +153,7 @@ struct PushStep {
 /// Implements FlightKernel::keep for the lanes from `at` on.
 struct KeepStep {
   template <class Matrices>
-  static void act(RowMotionLanes& lanes, int at) {
+  static void act(RowMotionLanes& lanes, int at, const Mask&) {
     const FlightLanes& bodies = lanes.bodies;
     const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
     const Orientations q = orientationOf(bodies, at);
@@ -174,7 +174,7 @@ struct KeepStep {
 /// Implements FlightKernel::carry for the lanes from `at` on.
 struct CarryStep {
   template <class Matrices>
-  static void act(RowMotionLanes& lanes, int at) {
+  static void act(RowMotionLanes& lanes, int at, const Mask&) {
     FlightLanes& bodies = lanes.bodies;
     const Orientations q = orientationOf(bodies, at);
     Spatials m = load6(lanes.momentum_W, at);
@@ -252,16 +252,6 @@ struct KickStep {
     store6(bodies.load_W, at, select(active, load_W, load6(bodies.load_W, at)));
     return passiveKick(x, sample, {inverse * wrench, wrench}, duration);
   }
-
-  // Returns the error e of eq. (25). fall_scale avoids tiny substeps where the speed of a swing
-  // passes through 0.
-  static Lanes relativeError(const Pairs& x, const Pairs& surprise, const Lanes& duration,
-                             const Lanes& fall_scale) {
-    const Lanes zero = Lanes{};
-    const Lanes change = duration * squareRoot(larger(inner(surprise, surprise), zero));
-    const Lanes scale = squareRoot(larger(inner(x, x), zero)) + fall_scale;
-    return scale > zero ? change / (scale > zero ? scale : all(1)) : zero;
-  }
 };
 
 // Twice the kinetic energy, and the potential energy of forces that are constant over the step, eq.
@@ -296,34 +286,28 @@ struct BoundStep {
     if (!anyOf(gains)) return;
     const Lanes removed = gains ? 0.5 * (now.kinetic2 - allowed) : zero;
     store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
-    const Lanes scale = squareRoot(gains ? allowed / now.kinetic2 : all(1));
-    setMotion(bodies, at, gains, scale * motionOf(bodies, at));
+    setMotion(bodies, at, gains, scaleWithin(now.kinetic2, allowed) * motionOf(bodies, at));
   }
 };
 
-// Runs a step for all active lanes, with diagonal matrices if all bodies have them.
-template <class Step>
-void forAll(FlightLanes& bodies) noexcept {
+inline FlightLanes& bodiesOf(FlightLanes& bodies) { return bodies; }
+template <class Rows>
+inline FlightLanes& bodiesOf(Rows& lanes) {
+  return lanes.bodies;
+}
+
+// Runs a step for all registers with an active body, with diagonal matrices if all bodies have
+// them.
+template <class Step, class AnyLanes>
+void forAll(AnyLanes& lanes) noexcept {
+  const FlightLanes& bodies = bodiesOf(lanes);
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Mask active = load(bodies.active + at) > Lanes{};
     if (!anyOf(active)) continue;
     if (bodies.has_diagonal_inertia) {
-      Step::template act<DiagonalMatrices>(bodies, at, active);
+      Step::template act<DiagonalMatrices>(lanes, at, active);
     } else {
-      Step::template act<FullMatrices>(bodies, at, active);
-    }
-  }
-}
-
-// Runs a step of bodies with rows for all lanes with an active body.
-template <class Step, class Rows>
-void forAllWithRows(Rows& lanes) noexcept {
-  for (int at = 0; at < kFlightLanes; at += kWidth) {
-    if (!anyOf(load(lanes.bodies.active + at) > Lanes{})) continue;
-    if (lanes.bodies.has_diagonal_inertia) {
-      Step::template act<DiagonalMatrices>(lanes, at);
-    } else {
-      Step::template act<FullMatrices>(lanes, at);
+      Step::template act<FullMatrices>(lanes, at, active);
     }
   }
 }
@@ -338,8 +322,8 @@ const FlightKernel AMBIENT_KERNEL(kFlightKernel){depart,
                                                  forAll<KickStep>,
                                                  forAll<MeasureStep>,
                                                  forAll<BoundStep>,
-                                                 forAllWithRows<PushStep>,
-                                                 forAllWithRows<KeepStep>,
-                                                 forAllWithRows<CarryStep>};
+                                                 forAll<PushStep>,
+                                                 forAll<KeepStep>,
+                                                 forAll<CarryStep>};
 
 }  // namespace ambient

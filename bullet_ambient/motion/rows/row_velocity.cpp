@@ -2,7 +2,6 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/one_body.h"
-#include "bullet_ambient/motion/body/passive_kick.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
@@ -60,17 +59,12 @@ Wrench meanLoadInTurningFluid(const FlightTask& task, const BodyModel& model, co
   Twist seen = relative;
   seen.angular -= flow.twists_B[0].angular;
   const Wrench whole = load + flow.at_rest_B;
-  const DualPair motion = pairOfTwist(model, seen.vector());
-  const DualPair sample = pairOfTwist(model, model.inverse_inertia * whole.vector());
-  const Vector6 change = passiveKick(motion, {motion, sample}, task.duration).twist - motion.twist;
+  const PairsOf<double> motion = plain(pairOfTwist(model, seen.vector()));
+  const PairsOf<double> sample = plain(pairOfTwist(model, model.inverse_inertia * whole.vector()));
+  const Vector6 change =
+      asEigen(passiveKick(motion, motion, sample, task.duration).twist - motion.twist);
   Wrench mean = Wrench::fromVector(model.inertia * change / task.duration);
   return mean -= flow.at_rest_B;
-}
-
-double extentOf(const BodyModel& model, const Vector6& change, const DualPair& motion,
-                const TurnLimits& limits) noexcept {
-  return extentOf(inAllLanes(pairOfTwist(model, change)), inAllLanes(motion), all(limits.spin),
-                  all(limits.change))[0];
 }
 
 void computeRowVelocities(const RowTask* const* bodies, int count, RowVelocity* results) noexcept {

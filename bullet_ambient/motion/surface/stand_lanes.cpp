@@ -24,7 +24,7 @@ void setWetVolume(StandLanes& lanes, int body, const WetVolume& wet) {
 }
 
 void getMatrix(const FlightLane (&from)[kSymmetricEntries], int body, SymmetricMatrix& m) {
-  for (int entry = 0; entry < kSymmetricEntries; ++entry) m[entry] = from[entry][body];
+  for (int entry = 0; entry < kSymmetricEntries; ++entry) m.entries[entry] = from[entry][body];
 }
 
 /// Added mass along the normal per unit density, times c of docs/theory.md eq. (69) [m^3].
@@ -61,28 +61,14 @@ void setStand(StandLanes& lanes, int body, const SurfaceModel& model,
               const SurfaceStand& stand) noexcept {
   setPlane(lanes, body, stand.plane);
   setWetVolume(lanes, body, wetVolume(model, stand));
-  const FloatingModes& modes = stand.modes;
-  setLane(lanes.heave, body, Twist::fromVector(modes[0].motion));
-  for (int i = 0; i < 2; ++i) setLane(lanes.tilt[i], body, Vector3(modes[i + 1].motion.head<3>()));
-  for (int i = 0; i < 3; ++i) {
-    lanes.stiffness[i][body] = modes[i].stiffness;
-    lanes.strength[i][body] = modes[i].strength;
-    lanes.loss[i][body] = modes[i].loss;
-    lanes.rate[i][body] = modes[i].rate;
-  }
+  forEachNumber(lanes.modes, stand.modes,
+                [&](FlightLane& to, const double& from) { to[body] = from; });
 }
 
 void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept {
   getMatrix(lanes.inverse, body, stand.inverse);
-  FloatingModes& modes = stand.modes;
-  for (int i = 0; i < 3; ++i)
-    modes[i] = {Vector6::Zero(),     lanes.strength[i][body],  lanes.loss[i][body],
-                lanes.rate[i][body], lanes.stiffness[i][body], 0};
-  modes[0].motion = twistOf(lanes.heave, body).vector();
-  for (int i = 0; i < 2; ++i) {
-    modes[i + 1].motion.head<3>() = vectorOf(lanes.tilt[i], body);
-    modes[i + 1].second_moment = lanes.second_moment[i][body];
-  }
+  forEachNumber(stand.modes, lanes.modes,
+                [&](double& to, const FlightLane& from) { to = from[body]; });
   stand.swing = lanes.swing[body];
 }
 

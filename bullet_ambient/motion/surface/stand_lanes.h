@@ -21,7 +21,7 @@ const SurfaceKernel& fastestSurfaceKernel() noexcept;
 
 inline void setLane(FlightLane (&to)[kSymmetricEntries], int body,
                     const SymmetricMatrix& m) noexcept {
-  for (int entry = 0; entry < kSymmetricEntries; ++entry) to[entry][body] = m[entry];
+  for (int entry = 0; entry < kSymmetricEntries; ++entry) to[entry][body] = m.entries[entry];
 }
 
 /// Writes a place into lane `body`, as input of computeStands().
