@@ -164,37 +164,21 @@ void fall(SurfaceLanes& bodies, int at, const Mask& active) {
   store6(flight.momentum_B, at, inertia * load6(flight.twist_B, at));
 }
 
-WaveStatesOf<Lanes> statesAt(const SurfaceLanes& bodies, int at) {
-  return {{load(bodies.wave_heave[0] + at), load(bodies.wave_heave[1] + at)},
-          {load(bodies.wave_tilt_W[0], at), load(bodies.wave_tilt_W[1], at)},
-          load(bodies.heave_energy + at),
-          load(bodies.tilt_energy + at)};
-}
-void keep(SurfaceLanes& bodies, int at, const Mask& active, const WaveStatesOf<Lanes>& states) {
-  const auto keepOne = [&](FlightLane& to, const Lanes& value) {
-    store(to + at, active ? value : load(to + at));
-  };
-  keepOne(bodies.wave_heave[0], states.heave.first);
-  keepOne(bodies.wave_heave[1], states.heave.second);
-  keepOne(bodies.heave_energy, states.heave_energy);
-  keepOne(bodies.tilt_energy, states.tilt_energy);
-  for (int i = 0; i < 2; ++i) {
-    const Vectors before = load(bodies.wave_tilt_W[i], at);
-    store(bodies.wave_tilt_W[i], at, select(active, states.tilt_W[i], before));
-  }
-}
-
 void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
   const Modes of_body = modesAt(bodies.stand, at);
   const Orientations q = orientationOf(bodies.flight, at);
   const ModesAtPose<Lanes> modes{of_body, {q.toWorld(of_body.tilt[0]), q.toWorld(of_body.tilt[1])}};
-  WaveStatesOf<Lanes> states = statesAt(bodies, at);
-  meetModes(modes, states);
+  WavesOf<Lanes> waves;
+  forEachNumber(waves, bodies.waves,
+                [&](Lanes& to, const FlightLane& from) { to = load(from + at); });
+  meetModes(modes, waves);
   const Spatials x =
       exchangeWaves(modes, FullMatrices(bodies.flight.inverse_inertia, at),
-                    halfKick(bodies.flight, at), load6(bodies.flight.twist_B, at), states);
+                    halfKick(bodies.flight, at), load6(bodies.flight.twist_B, at), waves);
   setTwist(bodies.flight, at, active, x);
-  keep(bodies, at, active, states);
+  forEachNumber(bodies.waves, waves, [&](FlightLane& to, const Lanes& from) {
+    store(to + at, active ? from : load(to + at));
+  });
 }
 
 void keepLoad(SurfaceLanes& bodies, int at, const Mask& active) {
@@ -256,7 +240,7 @@ void measure(SurfaceLanes& bodies, int at, const Mask&) {
   const Vectors way = load(flight.way_W, at);
   const Vectors arm = way + orientationOf(flight, at).toWorld(load(flight.centre_of_volume_B, at));
   const Lanes of_water = load(bodies.stand.pull + at) * load(bodies.stand.depth_integral + at) +
-                         load(bodies.heave_energy + at) + load(bodies.tilt_energy + at);
+                         load(bodies.waves.heave_energy + at) + load(bodies.waves.tilt_energy + at);
   store(bodies.kinetic2 + at, inner(x, x));
   store(bodies.potential + at, of_water - dot(load(flight.force_W, at), way) - dot(buoyancy, arm));
 }

@@ -22,20 +22,48 @@ struct FloatingModesOf {
 };
 using FloatingModes = FloatingModesOf<double>;
 
+/// States s_1 and s_2 of one mode of waves, eq. (70).
+template <class Real>
+struct OscillationOf {
+  Real first = {}, second = {};
+};
+
+/// Waves that a floating body has made, as far as they act on it; eq. (69). `Real`: as above.
+template <class Real>
+struct WavesOf {
+  OscillationOf<Real> heave;       ///< [m]
+  VectorsOf<Real> tilt_W[2] = {};  ///< s_1 and s_2 of the tilt about the horizontal axes [rad]
+  Real heave_energy = {}, tilt_energy = {};  ///< [J]
+
+  auto energy() const { return heave_energy + tilt_energy; }
+};
+using WaveMemory = WavesOf<double>;
+
 namespace {
 
-/// Calls act(to, from) with each number of the modes `to` and the same one of `from`.
+// Call act(to, from) with each number of `to` and the same one of `from`.
+
 template <class To, class From, class Act>
-inline void forEachNumber(To& to, From& from, const Act& act) {
-  const auto vector = [&](auto& a, auto& b) {
-    act(a.x, b.x);
-    act(a.y, b.y);
-    act(a.z, b.z);
-  };
-  vector(to.heave.angular, from.heave.angular);
-  vector(to.heave.linear, from.heave.linear);
+inline void forEachNumber(VectorsOf<To>& to, const VectorsOf<From>& from, const Act& act) {
+  act(to.x, from.x);
+  act(to.y, from.y);
+  act(to.z, from.z);
+}
+template <class To, class From, class Act>
+inline void forEachNumber(WavesOf<To>& to, const WavesOf<From>& from, const Act& act) {
+  act(to.heave.first, from.heave.first);
+  act(to.heave.second, from.heave.second);
+  for (int i = 0; i < 2; ++i) forEachNumber(to.tilt_W[i], from.tilt_W[i], act);
+  act(to.heave_energy, from.heave_energy);
+  act(to.tilt_energy, from.tilt_energy);
+}
+template <class To, class From, class Act>
+inline void forEachNumber(FloatingModesOf<To>& to, const FloatingModesOf<From>& from,
+                          const Act& act) {
+  forEachNumber(to.heave.angular, from.heave.angular, act);
+  forEachNumber(to.heave.linear, from.heave.linear, act);
   for (int i = 0; i < 2; ++i) {
-    vector(to.tilt[i], from.tilt[i]);
+    forEachNumber(to.tilt[i], from.tilt[i], act);
     act(to.second_moment[i], from.second_moment[i]);
   }
   for (int i = 0; i < 3; ++i) {
@@ -87,7 +115,7 @@ struct alignas(64) SurfaceLanes {
   FlightLane centre_of_buoyancy[3];
   FlightLane passage_error;  ///< result of pass(), eq. (68b) [1]
 
-  FlightLane wave_heave[2], heave_energy, wave_tilt_W[2][3], tilt_energy;  ///< WaveMemory: s_1, s_2
+  WavesOf<FlightLane> waves;
 
   FlightLane kinetic2, potential;  ///< results of measure(): x.K x, and eq. (64) without T [J]
 };

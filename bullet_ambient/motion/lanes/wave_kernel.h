@@ -153,23 +153,10 @@ inline SymmetricOf<Real> stiffened(const SymmetricOf<Real>& inertia,
   return K;
 }
 
-/// States s_1 and s_2 of one mode, eq. (70).
 template <class Real>
-struct OscillationOf {
-  Real first, second;
-
-  Real energy(const Real& strength) const {
-    return 0.5 * strength * (first * first + second * second);
-  }
-};
-
-/// WaveMemory.
-template <class Real>
-struct WaveStatesOf {
-  OscillationOf<Real> heave;
-  VectorsOf<Real> tilt_W[2];
-  Real heave_energy, tilt_energy;
-};
+inline Real energyOf(const OscillationOf<Real>& s, const Real& strength) {
+  return 0.5 * strength * (s.first * s.first + s.second * s.second);
+}
 
 /// Modes of a body at its present pose.
 template <class Real>
@@ -178,15 +165,15 @@ struct ModesAtPose {
   VectorsOf<Real> tilt_W[2];  ///< axes of the tilts in W
 
   /// Returns the states of a tilt.
-  OscillationOf<Real> tiltStates(int i, const WaveStatesOf<Real>& waves) const {
+  OscillationOf<Real> tiltStates(int i, const WavesOf<Real>& waves) const {
     return {dot(tilt_W[i], waves.tilt_W[0]), dot(tilt_W[i], waves.tilt_W[1])};
   }
   /// Returns the energy of both tilts.
   Real energy(const OscillationOf<Real> (&tilts)[2]) const {
-    return tilts[0].energy(of_body.strength[1]) + tilts[1].energy(of_body.strength[2]);
+    return energyOf(tilts[0], of_body.strength[1]) + energyOf(tilts[1], of_body.strength[2]);
   }
   /// Stores the states of both tilts as vectors in W, and their energy.
-  void setTilts(const OscillationOf<Real> (&tilts)[2], WaveStatesOf<Real>& waves) const {
+  void setTilts(const OscillationOf<Real> (&tilts)[2], WavesOf<Real>& waves) const {
     waves.tilt_W[0] = tilts[0].first * tilt_W[0] + tilts[1].first * tilt_W[1];
     waves.tilt_W[1] = tilts[0].second * tilt_W[0] + tilts[1].second * tilt_W[1];
     waves.tilt_energy = energy(tilts);
@@ -196,10 +183,10 @@ struct ModesAtPose {
 /// Scales the waves down where a change of G has raised their energy, eq. (72). Sets them to 0
 /// without a waterplane.
 template <class Real>
-inline void meetModes(const ModesAtPose<Real>& modes, WaveStatesOf<Real>& waves) {
+inline void meetModes(const ModesAtPose<Real>& modes, WavesOf<Real>& waves) {
   const Real zero = Real{};
   const MaskOf<Real> floats = modes.of_body.rate[0] > zero;
-  const Real heave_after = waves.heave.energy(modes.of_body.strength[0]);
+  const Real heave_after = energyOf(waves.heave, modes.of_body.strength[0]);
   const Real by_heave = floats ? scaleWithin(heave_after, waves.heave_energy) : zero;
   waves.heave = {by_heave * waves.heave.first, by_heave * waves.heave.second};
   waves.heave_energy = by_heave * by_heave * heave_after;
@@ -236,12 +223,12 @@ struct ModeOf {
 template <class Real>
 inline SpatialsOf<Real> exchangeWaves(const ModesAtPose<Real>& modes,
                                       const SymmetricOf<Real>& inverse, const Real& duration,
-                                      const SpatialsOf<Real>& x, WaveStatesOf<Real>& waves) {
+                                      const SpatialsOf<Real>& x, WavesOf<Real>& waves) {
   const FloatingModesOf<Real>& N = modes.of_body;
   const SpatialsOf<Real> answer = inverse * N.heave;
   SpatialsOf<Real> end = ModeOf<Real>{N.strength[0], N.loss[0], N.rate[0], answer}.exchange(
       x, dot(N.heave, x), dot(N.heave, answer), duration, waves.heave);
-  waves.heave_energy = waves.heave.energy(N.strength[0]);
+  waves.heave_energy = energyOf(waves.heave, N.strength[0]);
   OscillationOf<Real> tilts[2];
   for (int i = 0; i < 2; ++i) {
     tilts[i] = modes.tiltStates(i, waves);

@@ -2,7 +2,6 @@
 
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/surface/symmetric_matrix.h"
-#include "bullet_ambient/motion/surface/wave_memory.h"
 #include "bullet_ambient/spatial/spatial_vectors.h"
 
 namespace ambient {
