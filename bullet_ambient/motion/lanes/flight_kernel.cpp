@@ -219,13 +219,7 @@ struct GravityStep {
 struct SampleStep {
   template <class Matrices>
   static void act(FlightLanes& bodies, int at, const Mask&) {
-    const Matrices inverse(bodies.inverse_inertia, at);
-    const Spatials guess = load6(bodies.guess_B, at);
-    const Pairs x = motionOf(bodies, at);
-    const Pairs sample =
-        passiveKick(x, x, {inverse * guess, guess}, 0.5 * load(bodies.kick_time + at));
-    store6(bodies.sample_twist, at, sample.twist);
-    store6(bodies.sample_momentum, at, sample.momentum);
+    sampleLoad<Matrices>(bodies, at, motionOf(bodies, at), 0.5 * load(bodies.kick_time + at));
   }
 };
 
@@ -233,24 +227,10 @@ struct KickStep {
   template <class Matrices>
   static void act(FlightLanes& bodies, int at, const Mask& active) {
     Pairs x = motionOf(bodies, at);
-    if (bodies.has_loads) x = underLoads<Matrices>(bodies, at, active, x);
+    if (bodies.has_loads)
+      x = underLoad<Matrices>(bodies, at, active, x, load(bodies.kick_time + at));
     setMotion(bodies, at, active,
               x + Pairs{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)});
-  }
-
- private:
-  template <class Matrices>
-  static Pairs underLoads(FlightLanes& bodies, int at, const Mask& active, const Pairs& x) {
-    const Matrices inverse(bodies.inverse_inertia, at);
-    const Lanes duration = load(bodies.kick_time + at);
-    const Spatials wrench = load6(bodies.load_B, at);
-    const Pairs sample{load6(bodies.sample_twist, at), load6(bodies.sample_momentum, at)};
-    const Spatials surprise = wrench - load6(bodies.guess_B, at);
-    store(bodies.error + at,
-          relativeError(x, {inverse * surprise, surprise}, duration, load(bodies.fall_scale + at)));
-    const Spatials load_W = toWorld(orientationOf(bodies, at), wrench);
-    store6(bodies.load_W, at, select(active, load_W, load6(bodies.load_W, at)));
-    return passiveKick(x, sample, {inverse * wrench, wrench}, duration);
   }
 };
 

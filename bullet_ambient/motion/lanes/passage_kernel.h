@@ -62,7 +62,7 @@ inline SpatialsOf<Real> impulseOf(const PassageOf<Real>& p, const PassageWorks<R
 template <class Real>
 inline Real largestEntry(const SymmetricOf<Real>& K) {
   Real largest = Real{};
-  for (const Real& entry : K.entries) largest = larger(larger<Real>(entry, -entry), largest);
+  for (const Real& number : K.entries) largest = larger(larger<Real>(number, -number), largest);
   return largest;
 }
 

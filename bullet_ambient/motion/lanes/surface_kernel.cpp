@@ -189,30 +189,17 @@ void keepLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   setTwist(flight, at, active, passiveKick(x, x, response, halfKick(flight, at)).twist);
 }
 
-void sampleLoad(SurfaceLanes& bodies, int at, const Mask&) {
+void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
   FlightLanes& flight = bodies.flight;
-  const Spatials guess = toBody(orientationOf(flight, at), load6(flight.load_W, at));
-  const Pairs x = motionOf(flight, at);
-  const Pairs response{FullMatrices(flight.inverse_inertia, at) * guess, guess};
-  const Pairs sample = passiveKick(x, x, response, halfKick(flight, at));
-  store6(flight.guess_B, at, guess);
-  store6(flight.sample_twist, at, sample.twist);
-  store6(flight.sample_momentum, at, sample.momentum);
+  store6(flight.guess_B, at, toBody(orientationOf(flight, at), load6(flight.load_W, at)));
+  sampleLoad<FullMatrices>(flight, at, motionOf(flight, at), halfKick(flight, at));
 }
 
 void takeLoad(SurfaceLanes& bodies, int at, const Mask& active) {
   FlightLanes& flight = bodies.flight;
-  const FullMatrices inverse(flight.inverse_inertia, at);
   const Pairs x = motionOf(flight, at);
-  const Pairs sample{load6(flight.sample_twist, at), load6(flight.sample_momentum, at)};
-  const Spatials load_B = load6(flight.load_B, at), surprise = load_B - load6(flight.guess_B, at);
   setTwist(flight, at, active,
-           passiveKick(x, sample, {inverse * load_B, load_B}, halfKick(flight, at)).twist);
-  store(flight.error + at,
-        relativeError(x, {inverse * surprise, surprise}, load(flight.kick_time + at),
-                      load(flight.fall_scale + at)));
-  const Spatials load_W = toWorld(orientationOf(flight, at), load_B);
-  store6(flight.load_W, at, select(active, load_W, load6(flight.load_W, at)));
+           underLoad<FullMatrices>(flight, at, active, x, halfKick(flight, at)).twist);
 }
 
 /// Returns the velocity of the water minus that of the fluid above, in B.
@@ -267,7 +254,7 @@ const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){computeStands,
                                                    forAll<fall>,
                                                    forAll<exchangeWithWaves>,
                                                    forAll<keepLoad>,
-                                                   forAll<sampleLoad>,
+                                                   forAll<predictLoad>,
                                                    forAll<takeLoad>,
                                                    forAll<meetWind>,
                                                    forAll<takeWind>,
