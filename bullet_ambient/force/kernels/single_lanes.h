@@ -183,20 +183,18 @@ inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums
 }
 
 /// Constants of the form law for lifting and slender shapes, the same in all lanes; zero if
-/// motion.wing is null. `Motion`: SingleMotion.
-template <class Lanes>
+/// motion.wing is null.
 struct WingLanes {
-  VectorsOf<Lanes> facing = {}, span = {}, slender = {};
-  Lanes pitching_rate = {}, slip_share = {};
+  Vectors facing = {}, span = {}, slender = {};
+  Floats pitching_rate = {}, slip_share = {};
 
   // Inlined: else the vectors pass through memory.
-  template <class Motion>
-  [[gnu::always_inline]] explicit WingLanes(const Motion& motion) {
+  [[gnu::always_inline]] explicit WingLanes(const SingleMotion& motion) {
     slip_share = slip_share + motion.slip_share;
     if (!motion.wing) return;
-    facing = inAllLanes<Lanes>(motion.wing->facing);
-    span = inAllLanes<Lanes>(motion.wing->span);
-    slender = inAllLanes<Lanes>(motion.wing->slender);
+    facing = inAllLanes<Floats>(motion.wing->facing);
+    span = inAllLanes<Floats>(motion.wing->span);
+    slender = inAllLanes<Floats>(motion.wing->slender);
     pitching_rate = pitching_rate + motion.pitching_rate;
   }
 };

@@ -62,7 +62,7 @@ struct RunMotion {
   const SingleMotion& motion;
   Vectors angular, linear;
   Cuts cuts;
-  WingLanes<Floats> wings;
+  WingLanes wings;
   int lane;
 
   [[gnu::always_inline]] RunMotion(const FaceBlocks& blocks, const SingleMotion& all,
@@ -132,7 +132,7 @@ template <class Law, bool kRightAngle>
   const int lane = run.lane;
   const FaceBlock& geometry = run.faces.blocks[block];
   const Vectors n = load(geometry.normal, lane), c = load(geometry.centroid, lane);
-  const WingLanes<Floats>& wings = run.wings;
+  const WingLanes& wings = run.wings;
   const Vectors u = plusCross(run.linear, run.angular, c);
   const Floats normal_speed = dot(n, u), whole_sq = squareOf(u);
   const Vectors t = lessProduct(u, normal_speed, n);

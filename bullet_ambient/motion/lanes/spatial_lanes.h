@@ -212,11 +212,12 @@ inline SymmetricOf<Real> operator-(const SymmetricOf<Real>& a, const SymmetricOf
   for (int i = 0; i < kSymmetricEntries; ++i) difference.entries[i] = a.entries[i] - b.entries[i];
   return difference;
 }
-/// Returns the products of row i with the twists (a, 0).
+/// Returns the product of row i with the twist (a, 0).
 template <class Real>
 inline Real rowOfAngular(const SymmetricOf<Real>& m, int i, const VectorsOf<Real>& a) {
   return entry(m, i, 0) * a.x + entry(m, i, 1) * a.y + entry(m, i, 2) * a.z;
 }
+/// Returns the product with the twist (a, 0).
 template <class Real>
 inline SpatialsOf<Real> ofAngular(const SymmetricOf<Real>& m, const VectorsOf<Real>& a) {
   return {{rowOfAngular(m, 0, a), rowOfAngular(m, 1, a), rowOfAngular(m, 2, a)},

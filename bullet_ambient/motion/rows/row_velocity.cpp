@@ -73,7 +73,7 @@ void computeRowVelocities(const RowTask* const* bodies, int count, RowVelocity* 
   if (count < kFlightLanes) push = {};
   setKinds(push.bodies, count, [&](int i) -> const BodyModel& { return bodies[i]->task.model; });
   for (int i = 0; i < count; ++i) results[i].count = begin(*bodies[i], i, push);
-  fastestFlightKernel().push(push);
+  kFlightKernels.fastest()->push(push);
   for (int i = 0; i < count; ++i) {
     results[i].change_W = twistOf(push.change_W, i);
     results[i].turning_W = twistOf(push.turning_W, i);
@@ -122,7 +122,7 @@ void computeKeptMotions(const BodyWithRows* const* bodies, int count, double dur
     setLane(some.lanes.turning_W, i, bodies[i]->turning_W);
     setLane(some.lanes.by_rows_W, i, bodies[i]->by_rows_W);
   }
-  fastestFlightKernel().keep(some.lanes);
+  kFlightKernels.fastest()->keep(some.lanes);
   for (int i = 0; i < count; ++i) {
     const FlightLane* m = some.lanes.momentum_W;
     results[i] = {
@@ -136,7 +136,7 @@ void computeCarriedTwists(const CarriedBody* const* bodies, int count, Twist* tw
     setLane(some.lanes.momentum_W, i, bodies[i]->momentum_W);
     setLane(some.lanes.bodies.way_W, i, bodies[i]->way_W);
   }
-  fastestFlightKernel().carry(some.lanes);
+  kFlightKernels.fastest()->carry(some.lanes);
   for (int i = 0; i < count; ++i) twists_B[i] = twistOf(some.lanes.bodies.twist_B, i);
 }
 

@@ -37,11 +37,6 @@ double heaveInertia(const SurfaceModel& model, const SurfacePlace& place) {
 
 }  // namespace
 
-const SurfaceKernel& fastestSurfaceKernel() noexcept {
-  static const SurfaceKernel& fastest = *kSurfaceKernels.fastest();
-  return fastest;
-}
-
 void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
               const SurfacePlace& place) noexcept {
   setPlane(lanes, body, place.plane);
@@ -73,7 +68,7 @@ void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept 
 }
 
 void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexcept {
-  fastestSurfaceKernel().stand(lanes);
+  kSurfaceKernels.fastest()->stand(lanes);
   const auto isIndefinite = [&](int i) {
     return lanes.active[i] > 0 && lanes.is_indefinite[i] > 0;
   };
@@ -87,7 +82,7 @@ void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexc
     setLane(lanes.least, i, SymmetricMatrix(Matrix6::Zero()));
   }
   if (!is_any) return;
-  fastestSurfaceKernel().stand(lanes);
+  kSurfaceKernels.fastest()->stand(lanes);
   for (int i = 0; i < count; ++i)
     if (isIndefinite(i))
       setLane(lanes.inverse, i, SymmetricMatrix(bodies[i].model->above.inverse_inertia));

@@ -16,9 +16,6 @@ SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane
 
 extern const Kernels<const SurfaceKernel*> kSurfaceKernels;
 
-/// Kernel of fastestInstructionSet().
-const SurfaceKernel& fastestSurfaceKernel() noexcept;
-
 inline void setLane(FlightLane (&to)[kSymmetricEntries], int body,
                     const SymmetricMatrix& m) noexcept {
   for (int entry = 0; entry < kSymmetricEntries; ++entry) to[entry][body] = m.entries[entry];

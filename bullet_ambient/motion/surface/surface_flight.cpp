@@ -56,7 +56,7 @@ bool mayGain(const Progress& progress) {
 class SurfaceFlights {
  public:
   SurfaceFlights(SurfaceFlight* const* flights, int count)
-      : kernel_(fastestSurfaceKernel()), flow_(fastestFlightKernel()), count_(count) {
+      : kernel_(*kSurfaceKernels.fastest()), flow_(*kFlightKernels.fastest()), count_(count) {
     AMBIENT_ASSERT(count > 0 && count <= kFlightLanes);
     lanes_.flight.has_diagonal_inertia = false;
     for (int i = 0; i < count; ++i) begin(i, *flights[i]);
