@@ -19,12 +19,15 @@ struct Kernels {
   Pointer baseline, avx2, avx512;
 
   /// Function for the instruction set; null if isSupported() returns false.
-  Pointer of(InstructionSet set) const noexcept {
-    if (!isSupported(set)) return nullptr;
+  Pointer of(InstructionSet set) const noexcept { return isSupported(set) ? choose(set) : nullptr; }
+  /// Function for fastestInstructionSet().
+  Pointer fastest() const noexcept { return choose(fastestInstructionSet()); }
+
+ private:
+  Pointer choose(InstructionSet set) const noexcept {
     if (set == InstructionSet::kAvx512) return avx512;
     return set == InstructionSet::kAvx2 ? avx2 : baseline;
   }
-  Pointer fastest() const noexcept { return of(fastestInstructionSet()); }
 };
 
 }  // namespace ambient

@@ -19,9 +19,9 @@
 #include "bullet_ambient/motion/body/wake.h"
 #include "bullet_ambient/motion/flight/flight.h"
 #include "bullet_ambient/motion/flight/flight_task.h"
+#include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/rows/axis_locks.h"
 #include "bullet_ambient/motion/surface/surface_stand.h"
-#include "bullet_ambient/motion/surface/wave_memory.h"
 
 AMBIENT_BEGIN
 

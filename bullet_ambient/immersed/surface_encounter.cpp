@@ -6,6 +6,7 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
+#include "bullet_ambient/motion/surface/body_waves.h"
 #include "bullet_ambient/motion/surface/stand_lanes.h"
 #include "bullet_ambient/spatial/cholesky.h"
 
@@ -216,7 +217,7 @@ Vector6 kickByWavesAndWind(AmbientBody& ambient, double duration) noexcept {
   ambient.encounter().plane_before_rows = planeAfter(ambient, 0);
   WaveMemory& waves = ambient.encounter().waves_with_rows;
   waves = ambient.encounter().waves;
-  Vector6 end = exchangeWaves(stand.modes, R, stand.inverse.full(), duration, x, waves);
+  Vector6 end = exchangeWaves(stand.modes, R, stand.inverse, duration, x, waves);
   if (model.loads_above.loads) {
     const Vector3 wind_W = ambient.medium.velocity - ambient.encounter().velocity_above;
     end = takeWind({model, stand, R.transpose() * wind_W, duration}, end);

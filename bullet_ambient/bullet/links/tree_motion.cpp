@@ -17,7 +17,8 @@
 AMBIENT_BEGIN
 namespace {
 
-constexpr TurnLimits kTreeTurn{0.5, 0.45};  // those of bodies, docs/theory.md eq. (28a)
+// Limits of turns, those of bodies, docs/theory.md eq. (28a).
+constexpr double kTreeSpin = 0.5, kTreeChange = 0.45;
 
 // Subtracts the velocity of the flow from the velocity of the base.
 void subtractFlow(const LinkTree& tree, CoordinatesOut u) { u.segment<3>(3) -= flowAround(tree); }
@@ -34,10 +35,10 @@ double fastestSpin(LinkDynamics& dynamics, const CoordinatesIn& u) {
 // Returns m of docs/theory.md eq. (28a) for the velocity `x` relative to the flow and its turning
 // part `t` in a step `h` [s].
 double extentOf(LinkDynamics& dynamics, const CoordinatesIn& x, const CoordinatesIn& t, double h) {
-  const double by_spin = h * fastestSpin(dynamics, x) / kTreeTurn.spin;
+  const double by_spin = h * fastestSpin(dynamics, x) / kTreeSpin;
   const double size = dynamics.normSquared(x);
   if (!(size > 0)) return by_spin;
-  return std::max(by_spin, std::sqrt(dynamics.normSquared(t) / size) / kTreeTurn.change);
+  return std::max(by_spin, std::sqrt(dynamics.normSquared(t) / size) / kTreeChange);
 }
 
 // Returns X / t of eq. (28).

@@ -20,7 +20,7 @@ void readAttitudes(AmbientBody* const* bodies, const Twist* twists_W, int count,
       setLane(lanes.rotation + 3 * row, i, toVector3(rotation[row]));
     setLane(lanes.twist_W, i, twists_W[i]);
   }
-  fastestFlightKernel().depart(lanes);
+  kFlightKernels.fastest()->depart(lanes);
   for (int i = 0; i < count; ++i) {
     attitudes.orientations[i] = orientationOf(lanes.orientation, i);
     attitudes.twists_B[i] = twistOf(lanes.twist_B, i);

@@ -98,7 +98,7 @@ void computeArrivals(const Departures& departures, const Flight* const* flights,
     setLane(lanes.position, i, end.position);
     setLane(lanes.twist_B, i, end.twist);
   }
-  fastestFlightKernel().arrive(lanes);
+  kFlightKernels.fastest()->arrive(lanes);
   for (int i = 0; i < count; ++i) {
     arrivals.ends_W[i] = twistOf(lanes.twist_W, i);
     arrivals.means_W[i] = twistOf(lanes.mean_W, i);

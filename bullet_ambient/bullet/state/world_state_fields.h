@@ -91,12 +91,23 @@ void fields(V& v, AttachDef& s) {
 }
 
 template <class V>
+void fields(V& v, VectorsOf<double>& s) {
+  each(v, kAny, s.x, s.y, s.z);
+}
+
+template <class V>
 void fields(V& v, WaveMemory& s) {
-  each(v, kAny, s.heave[0], s.tilt_W[0], s.heave[1], s.tilt_W[1], s.heave_energy, s.tilt_energy);
+  each(v, kAny, s.heave.first);
+  fields(v, s.tilt_W[0]);
+  each(v, kAny, s.heave.second);
+  fields(v, s.tilt_W[1]);
+  each(v, kAny, s.heave_energy, s.tilt_energy);
   v.check("waves have energies that are negative or not finite, or heights that have such", [&s] {
+    double squares = s.heave.first * s.heave.first + s.heave.second * s.heave.second;
+    for (const VectorsOf<double>& tilt : s.tilt_W)
+      squares += tilt.x * tilt.x + tilt.y * tilt.y + tilt.z * tilt.z;
     return s.heave_energy >= 0 && s.tilt_energy >= 0 && std::isfinite(s.energy()) &&
-           std::isfinite(s.heave[0] * s.heave[0]) && std::isfinite(s.heave[1] * s.heave[1]) &&
-           std::isfinite(s.tilt_W[0].squaredNorm()) && std::isfinite(s.tilt_W[1].squaredNorm());
+           std::isfinite(squares);
   });
 }
 

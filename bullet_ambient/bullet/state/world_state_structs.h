@@ -14,7 +14,7 @@
 #include "bullet_ambient/immersed/region_id.h"
 #include "bullet_ambient/motion/body/wake.h"
 #include "bullet_ambient/motion/flight/flight_task.h"
-#include "bullet_ambient/motion/surface/wave_memory.h"
+#include "bullet_ambient/motion/lanes/surface_lanes.h"
 
 AMBIENT_BEGIN
 

@@ -2,7 +2,7 @@
 
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/fluid_body/packed/hull_block.h"
-#include "bullet_ambient/force/kernels/double_lanes.h"
+#include "bullet_ambient/force/kernels/lanes.h"
 
 // Sums over the wet parts of triangles, docs/theory.md eq. (55), (56) and (58), one triangle per
 // lane. Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
@@ -14,18 +14,7 @@ namespace {
 constexpr int kLanes = 8;
 static_assert(HullBlock::kTriangles == kLanes, "a block has one triangle per lane");
 
-inline Doubles broadcast(double value) { return Doubles{} + value; }
-inline Vectors broadcast(const double (&v)[3]) {
-  return {broadcast(v[0]), broadcast(v[1]), broadcast(v[2])};
-}
-template <int kColumns>
-inline Vectors load(const double (&columns)[3][kColumns], int at) {
-  return {load(columns[0] + at), load(columns[1] + at), load(columns[2] + at)};
-}
-inline Doubles select(const Mask& mask, const Doubles& a, const Doubles& b) { return mask ? a : b; }
-inline Vectors select(const Mask& mask, const Vectors& a, const Vectors& b) {
-  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
-}
+using Vectors = VectorsOf<Doubles>;
 
 /// HullPlane in all lanes. `size`: absolute values of the normal's components.
 struct Planes {
@@ -33,11 +22,11 @@ struct Planes {
   Doubles height;
 
   explicit Planes(const HullPlane& plane)
-      : normal(broadcast(plane.normal)),
-        axis1(broadcast(plane.axes[0])),
-        axis2(broadcast(plane.axes[1])),
+      : normal(inAllLanes<Doubles>(plane.normal)),
+        axis1(inAllLanes<Doubles>(plane.axes[0])),
+        axis2(inAllLanes<Doubles>(plane.axes[1])),
         size({larger(normal.x), larger(normal.y), larger(normal.z)}),
-        height(broadcast(plane.height)) {}
+        height(Doubles{} + plane.height) {}
   Doubles depth(const Vectors& place) const { return height - dot(normal, place); }
   /// Returns coordinates along e_1 and e_2, and the depth as z.
   Vectors seen(const Vectors& place, const Doubles& depth) const {
@@ -87,7 +76,7 @@ struct HullRows {
     const Vectors a = planes.seen(places[0], za), b = planes.seen(places[1], zb),
                   c = planes.seen(places[2], zc);
     const Mask most = wet.most();
-    if (anyOf(most)) addWhole(a, b, c, select(most, flux, zero));
+    if (anyOf(most)) addWhole(a, b, c, most ? flux : zero);
     const Mask is_cut = wet.any() & ~wet.all();
     if (!anyOf(is_cut)) return;
     const Mask alone_a = (wet.a ^ wet.b) & (wet.a ^ wet.c),
@@ -95,7 +84,7 @@ struct HullRows {
     const Vectors u = select(alone_a, a, select(alone_b, b, c));
     const Vectors p = select(alone_a, b, select(alone_b, c, a));
     const Vectors q = select(alone_a, c, select(alone_b, a, b));
-    addCorner(u, p, q, select(most, -flux, flux), is_cut);
+    addCorner(u, p, q, most ? -flux : flux, is_cut);
   }
 
  private:
@@ -118,7 +107,7 @@ struct HullRows {
     // lp = u.z / (u.z - p.z) and lq = u.z / (u.z - q.z): places of the cut on the edges from u. One
     // division serves both.
     const Doubles to_p = u.z - p.z, to_q = u.z - q.z, product = to_p * to_q;
-    const Doubles per = select(is_cut, u.z / select(product > zero, product, one), zero);
+    const Doubles per = is_cut ? u.z / (product > zero ? product : one) : zero;
     const Doubles lp = per * to_q, lq = per * to_p;
     const Doubles px = u.x + lp * (p.x - u.x), py = u.y + lp * (p.y - u.y);
     const Doubles qx = u.x + lq * (q.x - u.x), qy = u.y + lq * (q.y - u.y);
@@ -126,7 +115,7 @@ struct HullRows {
     rows[kVolume] = rows[kVolume] + by_depth;
     addMoments(by_depth, {2 * u.x + px + qx, 2 * u.y + py + qy, 2 * u.z});
     const Doubles cross = px * qy - py * qx;
-    addLine(px, py, qx, qy, select(is_cut, select(u.z > zero, -cross, cross), zero));
+    addLine(px, py, qx, qy, is_cut ? (u.z > zero ? -cross : cross) : zero);
   }
 
   /// Adds the segment from a to b with k = s.(a x b) to the moments of the waterplane, eq. (58).
@@ -180,8 +169,8 @@ inline void choose(const HullMoments* groups, int count, const HullBlock* blocks
       const Doubles depth = planes.depth(load(groups[group].centre, lane));
       const Doubles reach = dot(planes.size, load(groups[group].half, lane));
       const Mask is_wet = depth > reach;
-      store(choice.wet[group] + lane, select(is_wet, one, zero));
-      store(open + lane, select(is_wet, zero, select(depth >= -reach, one, zero)));
+      store(choice.wet[group] + lane, is_wet ? one : zero);
+      store(open + lane, is_wet ? zero : (depth >= -reach ? one : zero));
     }
     for (int lane = 0; lane < kLanes; ++lane) {
       if (!(open[lane] > 0)) continue;
@@ -301,7 +290,7 @@ inline double absolute(double a) { return a < 0 ? -a : a; }
 
 /// Returns the extent along s. Skips blocks whose bounding box lies within the extent found so far.
 HullExtent extentOf(const HullCorners& corners, const double (&s)[3]) noexcept {
-  const Vectors normal = broadcast(s);
+  const Vectors normal = inAllLanes<Doubles>(s);
   const double size[3] = {absolute(s[0]), absolute(s[1]), absolute(s[2])};
   HullExtent extent{};
   for (std::size_t i = 0; i < corners.count; ++i) {

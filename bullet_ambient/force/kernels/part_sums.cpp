@@ -1,7 +1,7 @@
 #include "bullet_ambient/force/kernels/part_sums.h"
 
 #include "bullet_ambient/base/instruction_set.h"
-#include "bullet_ambient/force/kernels/double_lanes.h"
+#include "bullet_ambient/force/kernels/lanes.h"
 
 // Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
 
@@ -36,7 +36,7 @@ struct Depths {
     slope[2] = kNode * (s[0] * spread(4) + s[1] * spread(5) + s[2] * spread(2));
     const Doubles square = s[0] * slope[0] + s[1] * slope[1] + s[2] * slope[2];
     const Doubles zero = {};
-    way = root(square > zero ? square : zero);
+    way = squareRoot(square > zero ? square : zero);
     above = middle - way;
     below = middle + way;
   }

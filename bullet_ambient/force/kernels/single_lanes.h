@@ -1,41 +1,17 @@
 #pragma once
 
-#include <cstdint>
-
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
-
-#include "bullet_ambient/force/kernels/lane_vectors.h"
+#include "bullet_ambient/force/kernels/lanes.h"
 #include "bullet_ambient/force/kernels/load_sums.h"
 #include "bullet_ambient/force/law/skin_friction.h"
 
-// Registers of floats and sums over their lanes, for sources that are compiled once per instruction
-// set. The vector types of GCC and Clang have the +, -, *, > and ?: of IEEE 754 per lane.
+// Arithmetic of floats with products that are rounded once, and sums over lanes, for sources that
+// are compiled once per instruction set, see lanes.h.
 
 namespace ambient {
 
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kWidth = 16;
-#elif defined(__AVX2__)
-constexpr int kWidth = 8;
-#else
-constexpr int kWidth = 4;
-#endif
 constexpr int kLanes = 16;
-
-using Floats = float __attribute__((vector_size(kWidth * sizeof(float))));
-using Ints = std::int32_t __attribute__((vector_size(kWidth * sizeof(std::int32_t))));
-
-inline Floats load(const float* from) {
-  Floats f;
-  __builtin_memcpy(&f, from, sizeof f);
-  return f;
-}
-
-inline void store(float* to, Floats f) { __builtin_memcpy(to, &f, sizeof f); }
 
 #if defined(__AVX512F__)
 inline Floats plusProduct(Floats c, Floats a, Floats b) { return _mm512_fmadd_ps(a, b, c); }
@@ -67,35 +43,10 @@ inline float fused(float a, float b, float c) {
 /// Return c + a b and c - a b, rounded once. Processors without fused multiply-add (x86 before
 /// 2013) emulate it, which takes about thirty times as long.
 inline Floats plusProduct(Floats c, Floats a, Floats b) {
-  for (int lane = 0; lane < kWidth; ++lane) c[lane] = fused(a[lane], b[lane], c[lane]);
+  for (int lane = 0; lane < kFloatWidth; ++lane) c[lane] = fused(a[lane], b[lane], c[lane]);
   return c;
 }
 inline Floats lessProduct(Floats c, Floats a, Floats b) { return plusProduct(c, -a, b); }
-#endif
-
-/// True if a comparison holds in any lane.
-inline bool anyOf(const Ints& mask) {
-#if defined(__AVX512F__)
-  return _mm512_movepi32_mask((__m512i)mask) != 0;
-#elif defined(__AVX2__)
-  return _mm256_movemask_ps((__m256)mask) != 0;
-#else
-  std::int32_t any = 0;
-  for (int lane = 0; lane < kWidth; ++lane) any |= mask[lane];
-  return any != 0;
-#endif
-}
-
-/// Square root per lane, correctly rounded with every instruction set.
-#if defined(__AVX512F__)
-inline Floats root(Floats x) { return _mm512_maskz_sqrt_ps(0xffff, x); }
-#elif defined(__AVX2__)
-inline Floats root(Floats x) { return _mm256_sqrt_ps(x); }
-#else
-inline Floats root(Floats x) {
-  for (int lane = 0; lane < kWidth; ++lane) x[lane] = __builtin_sqrtf(x[lane]);
-  return x;
-}
 #endif
 
 /// Returns x where it is positive, else 0.
@@ -132,10 +83,6 @@ inline Floats inverseRoot(Floats x) {
 
 using Vectors = VectorsOf<Floats>;
 
-inline Vectors load(const float (&columns)[3][kLanes], int lane) {
-  return {load(columns[0] + lane), load(columns[1] + lane), load(columns[2] + lane)};
-}
-inline Vectors broadcast(const float (&v)[3]) { return inAllLanes<Floats>(v); }
 inline Vectors plusProduct(Vectors c, Floats s, Vectors a) {
   return {plusProduct(c.x, s, a.x), plusProduct(c.y, s, a.y), plusProduct(c.z, s, a.z)};
 }
@@ -174,17 +121,6 @@ inline Floats slipPower(Floats slip_sq) {
   });
 }
 
-constexpr int kHalf = kWidth / 2;
-using Doubles = double __attribute__((vector_size(kHalf * sizeof(double))));
-
-inline Doubles load(const double* from) {
-  Doubles d;
-  __builtin_memcpy(&d, from, sizeof d);
-  return d;
-}
-
-inline void store(double* to, Doubles d) { __builtin_memcpy(to, &d, sizeof d); }
-
 /// Partial sums over all runs, one per lane: wrench, and with `kPitch` the pitch of LoadSums.
 template <bool kPitch = false>
 struct WrenchTotal {
@@ -193,7 +129,7 @@ struct WrenchTotal {
 
   WrenchTotal() {
     for (double(&row)[kLanes] : lanes)
-      for (int lane = 0; lane < kLanes; lane += kHalf) store(row + lane, Doubles{});
+      for (int lane = 0; lane < kLanes; lane += kWidth) store(row + lane, Doubles{});
   }
 
   void add(const WrenchLanes& run) {
@@ -207,21 +143,17 @@ struct WrenchTotal {
 
   LoadSums sum() const {
     LoadSums sums;
-    for (int row = 0; row < 6; ++row) sums.wrench[row] = sumLanes(lanes[row]);
-    if constexpr (kPitch) sums.pitch = sumLanes(lanes[6]);
+    for (int row = 0; row < 6; ++row) sums.wrench[row] = sumOf(lanes[row]);
+    if constexpr (kPitch) sums.pitch = sumOf(lanes[6]);
     return sums;
   }
 
  private:
-  static double sumLanes(const double* row) {
+  static double sumOf(const double* row) {
     double folded[8];
-    for (int lane = 0; lane < 8; lane += kHalf)
+    for (int lane = 0; lane < 8; lane += kWidth)
       store(folded + lane, load(row + lane) + load(row + lane + 8));
-    using Pair = double __attribute__((vector_size(16)));
-    Pair f[4];
-    __builtin_memcpy(f, folded, sizeof f);
-    const Pair sums = (f[0] + f[2]) + (f[1] + f[3]);
-    return sums[0] + sums[1];
+    return sumLanes(folded);
   }
 };
 
@@ -235,8 +167,8 @@ inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums
   for (int i = 0, next = 0; i < 6; ++i)
     for (int j = i; j < 6; ++j) products[next++] = x[i] * x[j];
   double part[8];
-  for (int row = 0; row < 6; row += kHalf) {
-    // With kHalf > 2, the load at the last rows also reads the start of the next column. The last
+  for (int row = 0; row < 6; row += kWidth) {
+    // With kWidth > 2, the load at the last rows also reads the start of the next column. The last
     // column has no next one, and is added below.
     Doubles a = {}, b = {};
     for (int k = 0; k < kProducts - 1; k += 2) {
@@ -251,20 +183,18 @@ inline void addEvenPart(const double* even, const double (&x)[6], LoadSums& sums
 }
 
 /// Constants of the form law for lifting and slender shapes, the same in all lanes; zero if
-/// motion.wing is null. `Motion`: SingleMotion.
-template <class Lanes>
+/// motion.wing is null.
 struct WingLanes {
-  VectorsOf<Lanes> facing = {}, span = {}, slender = {};
-  Lanes pitching_rate = {}, slip_share = {};
+  Vectors facing = {}, span = {}, slender = {};
+  Floats pitching_rate = {}, slip_share = {};
 
   // Inlined: else the vectors pass through memory.
-  template <class Motion>
-  [[gnu::always_inline]] explicit WingLanes(const Motion& motion) {
+  [[gnu::always_inline]] explicit WingLanes(const SingleMotion& motion) {
     slip_share = slip_share + motion.slip_share;
     if (!motion.wing) return;
-    facing = inAllLanes<Lanes>(motion.wing->facing);
-    span = inAllLanes<Lanes>(motion.wing->span);
-    slender = inAllLanes<Lanes>(motion.wing->slender);
+    facing = inAllLanes<Floats>(motion.wing->facing);
+    span = inAllLanes<Floats>(motion.wing->span);
+    slender = inAllLanes<Floats>(motion.wing->slender);
     pitching_rate = pitching_rate + motion.pitching_rate;
   }
 };

@@ -38,7 +38,7 @@ struct Cuts {
 
   explicit Cuts(const SingleCut* cut) {
     if (!cut) return;
-    normal = broadcast(cut->normal);
+    normal = inAllLanes<Floats>(cut->normal);
     height = height + cut->height;
     disc = disc + cut->disc;
   }
@@ -46,7 +46,7 @@ struct Cuts {
   /// Returns the wet share of faces, eq. (59).
   Floats wetShare(const Vectors& n, const Vectors& c, Floats area) const {
     return wetShareOf(height - dot(normal, c), dot(normal, n), disc * area,
-                      [](Floats x) { return root(x); });
+                      [](Floats x) { return squareRoot(x); });
   }
 };
 
@@ -62,21 +62,21 @@ struct RunMotion {
   const SingleMotion& motion;
   Vectors angular, linear;
   Cuts cuts;
-  WingLanes<Floats> wings;
+  WingLanes wings;
   int lane;
 
   [[gnu::always_inline]] RunMotion(const FaceBlocks& blocks, const SingleMotion& all,
                                    const SingleCut* cut, int first)
       : faces(blocks),
         motion(all),
-        angular(broadcast(all.angular)),
-        linear(broadcast(all.linear)),
+        angular(inAllLanes<Floats>(all.angular)),
+        linear(inAllLanes<Floats>(all.linear)),
         cuts(cut),
         wings(all),
         lane(first) {}
 };
 
-/// Flow at kWidth faces of a block.
+/// Flow at kFloatWidth faces of a block.
 struct FaceFlow {
   Vectors velocity;     ///< u
   Floats normal_speed;  ///< n.u
@@ -96,7 +96,7 @@ struct Sides {
     const Vectors& s = cuts.normal;
     const Vectors slope = {magnitude(s.x), magnitude(s.y), magnitude(s.z)};
     for (int first = 0; first < size; first += kLanes)
-      for (int lane = 0; lane < kLanes; lane += kWidth) {
+      for (int lane = 0; lane < kLanes; lane += kFloatWidth) {
         const FaceBounds& at = bounds[first / kLanes];
         const Floats depth = cuts.height - dot(s, load(at.centre, lane));
         const Floats reach = dot(slope, load(at.half, lane)) + load(at.radius + lane);
@@ -114,7 +114,8 @@ struct WhollyWet {
   const std::int32_t* of = nullptr;
 };
 
-/// Returns the areas in the fluid of kWidth faces of a block, eq. (59). `side`: that of the block.
+/// Returns the areas in the fluid of kFloatWidth faces of a block, eq. (59). `side`: that of the
+/// block.
 [[gnu::always_inline]] inline Floats wetArea(const RunMotion& run, const FaceBlock& block,
                                              std::int32_t side) {
   const Floats area = load(block.area + run.lane);
@@ -123,15 +124,15 @@ struct WhollyWet {
          run.cuts.wetShare(load(block.normal, run.lane), load(block.centroid, run.lane), area);
 }
 
-/// Returns the flow at kWidth faces of a block with the given areas, docs/theory.md eq. (12) to
-/// (15), (43) to (44). Adds q_L A mu of wings to `pitch`.
+/// Returns the flow at kFloatWidth faces of a block with the given areas, docs/theory.md eq. (12)
+/// to (15), (43) to (44). Adds q_L A mu of wings to `pitch`.
 template <class Law, bool kRightAngle>
 [[gnu::always_inline]] inline FaceFlow flowOn(const RunMotion& run, int block, const Floats& area,
                                               Floats& pitch) {
   const int lane = run.lane;
   const FaceBlock& geometry = run.faces.blocks[block];
   const Vectors n = load(geometry.normal, lane), c = load(geometry.centroid, lane);
-  const WingLanes<Floats>& wings = run.wings;
+  const WingLanes& wings = run.wings;
   const Vectors u = plusCross(run.linear, run.angular, c);
   const Floats normal_speed = dot(n, u), whole_sq = squareOf(u);
   const Vectors t = lessProduct(u, normal_speed, n);
@@ -140,7 +141,7 @@ template <class Law, bool kRightAngle>
   const Floats strength =
       strengthWhereAttached<kRightAngle>(normal_speed, area * slip_sq, slip_sq, run.motion);
   const auto speed = [&] {
-    const Floats whole = root(plusProduct(slip_sq, normal_speed, normal_speed));
+    const Floats whole = squareRoot(plusProduct(slip_sq, normal_speed, normal_speed));
     if constexpr (!Law::kIsSlender) return whole;
     const Floats along = dot(wings.slender, t), across_sq = lessProduct(slip_sq, along, along);
     return speedAcross(normal_speed, across_sq, whole);
@@ -154,7 +155,7 @@ template <class Law, bool kRightAngle>
     const Floats arm = load(run.faces.form[block].arm + lane);
     const WingFlow<FusedArithmetic> flow{dot(wings.facing, u), dot(wings.span, u),
                                          lessProduct(normal_speed, wings.pitching_rate, arm),
-                                         whole_sq, root(whole_sq)};
+                                         whole_sq, squareRoot(whole_sq)};
     const FacePressure<Floats> pressure = law(flow, *run.motion.wing);
     pitch = plusProduct(pitch, pressure.lift, arm);
     return pressure;
@@ -190,7 +191,7 @@ struct Chosen {
   const std::int32_t* sides;
 };
 
-/// Sums the kWidth lanes from `lane` of chosen blocks.
+/// Sums the kFloatWidth lanes from `lane` of chosen blocks.
 template <class Law, bool kRightAngle, bool kFriction, bool kCut>
 void sumRun(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& motion, int lane,
             WrenchLanes& sums) {
@@ -219,7 +220,7 @@ void sumRun(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& m
   if (Law::kLifts) store(sums.pitch + lane, pitch);
 }
 
-/// Marks blocks of kWidth lanes: -1 if a face of the block may move into the fluid, else 0.
+/// Marks blocks of kFloatWidth lanes: -1 if a face of the block may move into the fluid, else 0.
 inline Ints mayBeWindward(const FaceBounds& bounds, const float (&angular)[3],
                           const float (&linear)[3], int lane) {
   const float* const x[2] = {angular, linear};
@@ -237,7 +238,7 @@ inline Ints mayBeWindward(const FaceBounds& bounds, const float (&angular)[3],
 template <bool kLifts>
 inline void markAttached(const FaceBounds& bounds, const SingleMotion& motion,
                          std::int32_t (&marks)[kLanes]) {
-  for (int lane = 0; lane < kLanes; lane += kWidth) {
+  for (int lane = 0; lane < kLanes; lane += kFloatWidth) {
     Ints mark = mayBeWindward(bounds, motion.angular, motion.linear, lane);
     if (kLifts)
       mark = mark | mayBeWindward(bounds, motion.pitched_angular, motion.pitched_linear, lane);
@@ -274,7 +275,7 @@ template <class Law, bool kRightAngle, bool kFriction, bool kCut>
 void sumChosen(const FaceBlocks& faces, const Chosen& chosen, const SingleMotion& motion,
                WrenchTotal<Law::kLifts>& total) {
   WrenchLanes run;
-  for (int lane = 0; lane < kLanes; lane += kWidth)
+  for (int lane = 0; lane < kLanes; lane += kFloatWidth)
     sumRun<Law, kRightAngle, kFriction, kCut>(faces, chosen, motion, lane, run);
   total.add(run);
 }

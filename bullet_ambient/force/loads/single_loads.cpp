@@ -130,14 +130,13 @@ Wrench computeFaceLoad(const PackedFaces& faces, double reference_length,
                  (settings.law == PressureLaw::kForm) == (faces.blocks().form != nullptr));
   AMBIENT_ASSERT(!settings.shape || settings.law == PressureLaw::kForm);
   AMBIENT_ASSERT(settings.density >= 0 && reference_length >= 0);
-  static const SumBlocks sum_blocks = kSumBlocks.fastest();
   const double length = faces.lengthUnit();
   const ScaledMotion motion = scaledMotion(relative_twist.angular, relative_twist.linear, length);
   SingleMotion single = singleMotion(motion, settings, reference_length);
   const SingleCut cut = plane ? cutBy(*plane, faces) : SingleCut{};
   if (plane) single.cut = &cut;
   if (settings.shape) addShape(*settings.shape, motion, length, settings.separation_cosine, single);
-  LoadSums sums = sum_blocks(faces.blocks(), single);
+  LoadSums sums = kSumBlocks.fastest()(faces.blocks(), single);
   if (single.wing)
     for (int axis = 0; axis < 3; ++axis)
       sums.wrench[axis] -= settings.shape->shape.pitching[axis] * sums.pitch;

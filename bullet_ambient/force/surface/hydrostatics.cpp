@@ -12,11 +12,6 @@
 namespace ambient {
 namespace {
 
-const HullKernel& fastestHullKernel() noexcept {
-  static const HullKernel& fastest = *kHullKernels.fastest();
-  return fastest;
-}
-
 HullPlane planeOf(const SurfacePlane& plane, const PlaneAxes& axes) {
   const Vector3 &s = plane.normal, &e = axes.first, &f = axes.second;
   return {{s.x(), s.y(), s.z()}, {{e.x(), e.y(), e.z()}, {f.x(), f.y(), f.z()}}, plane.height};
@@ -63,7 +58,7 @@ WetVolume computeWetVolume(const PackedHull& hull, const SurfacePlane& plane) no
   const PlaneAxes axes(plane.normal);
   const HullSums sums = plane.sides_F
                             ? sumBetweenSides(hull.blocks(), plane)
-                            : fastestHullKernel().sums(hull.blocks(), planeOf(plane, axes));
+                            : kHullKernels.fastest()->sums(hull.blocks(), planeOf(plane, axes));
   const Vector3 moment = sums.moment[0] * axes.first + sums.moment[1] * axes.second +
                          (plane.height * sums.volume - sums.depth) * plane.normal;
   const double factor = hull.volumeFactor();
@@ -82,7 +77,7 @@ Wrench computeSidePush(const PackedHull& hull, const SurfacePlane& plane) noexce
 }
 
 std::pair<double, double> computeExtent(const PackedHull& hull, const Vector3& s) noexcept {
-  const HullExtent extent = fastestHullKernel().extent(hull.corners(), {s.x(), s.y(), s.z()});
+  const HullExtent extent = kHullKernels.fastest()->extent(hull.corners(), {s.x(), s.y(), s.z()});
   return {extent.low, extent.high};
 }
 

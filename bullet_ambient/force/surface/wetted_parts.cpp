@@ -13,11 +13,6 @@ namespace ambient {
 
 namespace {
 
-const PartKernel& fastestKernel() noexcept {
-  static const PartKernel& fastest = *kPartKernels.fastest();
-  return fastest;
-}
-
 /// Plane with the reach kappa H of the weights; kappa fades to 0 at a deep body, eq. (61).
 PartPlane planeOf(const Immersion& at) {
   constexpr double kReach = 0.06;
@@ -62,7 +57,7 @@ WettedParts::WettedParts(const FluidBody& body, std::shared_ptr<const PackedPart
 Matrix6 WettedParts::inertiaAt(const Immersion& at) const noexcept {
   PartInertia sum{};
   forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
-    const PartInertia more = fastestKernel().inertia(blocks, planeOf(at));
+    const PartInertia more = kPartKernels.fastest()->inertia(blocks, planeOf(at));
     for (int i = 0; i < PartBlock::kEntries; ++i) sum.entries[i] += more.entries[i];
   });
   Matrix6 K = wetShare(at, volume_) * defect_;
@@ -86,7 +81,7 @@ InertiaGradient WettedParts::gradientAt(const Immersion& at, const Twist& twist)
       products[entry++] = (row == column ? 1 : 2) * x[row] * x[column];
   InertiaGradient sum;
   forBlocksInPool(parts_->blocks(), at.plane.sides_F, [&](const PartBlocks& blocks) {
-    const PartGradient g = fastestKernel().gradient(blocks, planeOf(at), products);
+    const PartGradient g = kPartKernels.fastest()->gradient(blocks, planeOf(at), products);
     sum.by_height += 0.5 * g.by_height;
     sum.by_normal += 0.5 * Vector3(g.by_normal[0], g.by_normal[1], g.by_normal[2]);
   });

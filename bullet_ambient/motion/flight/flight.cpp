@@ -41,7 +41,7 @@ struct StepProgress {
 // Moves several bodies over one step, one per lane.
 class Leapfrog {
  public:
-  Leapfrog(Flight* const* flights, int count) : kernel_(fastestFlightKernel()), count_(count) {
+  Leapfrog(Flight* const* flights, int count) : kernel_(*kFlightKernels.fastest()), count_(count) {
     AMBIENT_ASSERT(count > 0 && count <= kFlightLanes);
     if (count < kFlightLanes) lanes_ = {};
     setKinds(lanes_, count, [&](int i) -> const BodyModel& { return flights[i]->task.model; });

@@ -20,11 +20,6 @@ void setSymmetric(FlightLane (&to)[kSymmetricEntries], int body, const Matrix6& 
 
 }  // namespace
 
-const FlightKernel& fastestFlightKernel() noexcept {
-  static const FlightKernel& fastest = *kFlightKernels.fastest();
-  return fastest;
-}
-
 void setModel(FlightLanes& lanes, int body, const BodyModel& model) noexcept {
   AMBIENT_ASSERT(isSymmetric(model.inertia, 1e-9) && isSymmetric(model.inverse_inertia, 1e-9));
   setSymmetric(lanes.inertia, body, model.inertia, lanes.has_diagonal_inertia);

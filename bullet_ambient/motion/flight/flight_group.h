@@ -9,9 +9,6 @@ namespace ambient {
 
 extern const Kernels<const FlightKernel*> kFlightKernels;
 
-/// Kernel of fastestInstructionSet().
-const FlightKernel& fastestFlightKernel() noexcept;
-
 /// Sets what the models of all bodies have in common, before setModel(). `modelOf(i)`: model of
 /// body i.
 template <class ModelOf>

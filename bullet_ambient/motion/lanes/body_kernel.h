@@ -2,57 +2,79 @@
 
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
 
-// For sources compiled once per instruction set, see spatial_lanes.h, and with one_body.h for
-// ordinary ones.
+// Steps of one body or of one body per lane, see spatial_lanes.h.
 
 namespace ambient {
 
 namespace {
 
-/// Returns the motions `x` after `duration` [s] under `load`, docs/theory.md eq. (23). `load`: K^-1
-/// F and F of the loads F evaluated at the motions `at`.
-inline Pairs passiveKick(const Pairs& x, const Pairs& at, const Pairs& load,
-                         const Lanes& duration) {
-  const Lanes one = all(1), zero = Lanes{};
-  const Lanes energy = inner(at, at);
-  const Mask moves = energy > zero;  // at rest relative to the fluid there is no load
-  const Lanes per_energy = one / (moves ? energy : one);
-  const Lanes n = squareRoot(moves ? energy : one);
-  const Lanes per_n = one / n;
-  const Lanes along = inner(at, load) * per_energy;
-  const Lanes decay = along > zero ? zero : -along;  // NaN of a load that is not finite stays NaN,
-                                                     // because NaN > 0 is false
+/// Returns the motion `x` after `duration` [s] under a load homogeneous of degree 2 in the twist,
+/// docs/theory.md eq. (23):
+///
+///   x' = Rot(theta) x / (1 + z),  z = d h |x| / n,  theta = h (|a| / n) (|x| / n) ln(1 + z) / z
+///
+///   x, x'  twist before and after `duration` h, >= 0
+///   K      total inertia; |x| = sqrt(x.K x) is the norm of a twist in it [sqrt(J)]
+///   y, F   twist and load of the sample, `at` and `load`: pairs y, K y and K^-1 F, F; n = |y|
+///   d      drag, max(-F.y / n^2, 0) [1/s]: 0 if F feeds energy at the sample
+///   a      lift: K^-1 F = -d y + a with y.K a = 0
+///   Rot    rotation by theta in the plane of y and a, orthogonal in the norm of K
+///
+/// Drag is an exact quadratic decay and lift an exact rotation: |x'| <= |x| for any duration.
+template <class Real>
+inline PairsOf<Real> passiveKick(const PairsOf<Real>& x, const PairsOf<Real>& at,
+                                 const PairsOf<Real>& load, const Real& duration) {
+  const Real one = all<Real>(1), zero = Real{};
+  const Real energy = inner(at, at);
+  const MaskOf<Real> moves = energy > zero;  // at rest relative to the fluid there is no load
+  const Real per_energy = one / (moves ? energy : one);
+  const Real n = squareRoot(moves ? energy : one);
+  const Real per_n = one / n;
+  const Real along = inner(at, load) * per_energy;
+  const Real decay = along > zero ? zero : -along;  // NaN of a load that is not finite stays NaN,
+                                                    // because NaN > 0 is false
 
   // Lift: K^-1 F minus its part along the twist.
-  const Pairs across = load - along * at;
-  const Lanes f = squareRoot(larger(inner(across, across), zero));
-  const Lanes per_f = one / (f > zero ? f : one);
+  const PairsOf<Real> across = load - along * at;
+  const Real f = squareRoot(larger(inner(across, across), zero));
+  const Real per_f = one / (f > zero ? f : one);
 
-  const Lanes speed = squareRoot(larger(inner(x, x), zero)) * per_n;
-  const Lanes z = decay * duration * speed;
-  const Lanes angle = duration * f * per_n * logarithmRatio(z) * speed;
-  const Lanes c1 = inner(x, at) * per_n;
-  const Lanes c2 = inner(x, across) * per_f;
+  const Real speed = squareRoot(larger(inner(x, x), zero)) * per_n;
+  const Real z = decay * duration * speed;
+  const Real angle = duration * f * per_n * logarithmRatio(z) * speed;
+  const Real c1 = inner(x, at) * per_n;
+  const Real c2 = inner(x, across) * per_f;
   // Sine and versine from one tangent: a rotation for any rounding of the tangent.
-  const Lanes t = tangent(0.5 * angle);
-  const Lanes sine = 2 * t / (1 + t * t);
-  const Lanes versine = t * sine;
-  const Pairs turned = x + ((-versine * c1 - sine * c2) * per_n) * at +
-                       ((sine * c1 - versine * c2) * per_f) * across;
+  const Real t = tangent<Real>(0.5 * angle);
+  const Real sine = 2 * t / (1 + t * t);
+  const Real versine = t * sine;
+  const PairsOf<Real> turned = x + ((-versine * c1 - sine * c2) * per_n) * at +
+                               ((sine * c1 - versine * c2) * per_f) * across;
   return select(moves, one / (1 + z) * turned, x);
 }
 
-/// Returns the extents m of turns, docs/theory.md eq. (28a): the larger of |w| / spin and
-/// (|t| / |x|) / largest_change. `change`: pairs of t; `motion`: pairs of x.
-inline Lanes extentOf(const Pairs& change, const Pairs& motion, const Lanes& spin,
-                      const Lanes& largest_change) {
+/// Returns the error e of a kick, eq. (25). `surprise`: load that was not predicted. `fall_scale`
+/// avoids tiny substeps where the speed of a swing passes through 0.
+inline Lanes relativeError(const Pairs& x, const Pairs& surprise, const Lanes& duration,
+                           const Lanes& fall_scale) {
   const Lanes zero = Lanes{};
-  const Lanes energy = inner(motion, motion);
-  const Mask moves = energy > zero;
-  const Lanes part_sq = larger(inner(change, change), zero) / (moves ? energy : all(1));
-  const Lanes part = moves ? squareRoot(part_sq) : zero;
-  const Vectors& w = motion.twist.angular;
-  return larger(part / largest_change, squareRoot(dot(w, w)) / spin);
+  const Lanes change = duration * squareRoot(larger(inner(surprise, surprise), zero));
+  const Lanes scale = squareRoot(larger(inner(x, x), zero)) + fall_scale;
+  return scale > zero ? change / (scale > zero ? scale : all(1)) : zero;
+}
+
+/// Returns the extent m of a turn, docs/theory.md eq. (28a): the larger of |w| / spin and
+/// (|t| / |x|) / largest_change. `change`: pair of t; `motion`: pair of x.
+template <class Real>
+inline Real extentOf(const PairsOf<Real>& change, const PairsOf<Real>& motion, const Real& spin,
+                     const Real& largest_change) {
+  const Real zero = Real{};
+  const Real energy = inner(motion, motion);
+  const MaskOf<Real> moves = energy > zero;
+  const Real part_sq = larger(inner(change, change), zero) / (moves ? energy : all<Real>(1));
+  const Real part = moves ? squareRoot(part_sq) : zero;
+  const VectorsOf<Real>& w = motion.twist.angular;
+  return larger<Real>(part / largest_change, squareRoot(dot(w, w)) / spin);
 }
 
 /// Turning part t of eq. (28) over a step, in B, and its extent.
@@ -70,7 +92,8 @@ Turnings computeTurnings(const Matrices& inertia, const Matrices& inverse, const
                         cross(m.linear, x.angular)};  // eq. (2)
   Spatials change = duration * (inverse * wrench);
   change.linear = change.linear + duration * cross(x.angular, x.linear);
-  const Lanes extent = extentOf({change, inertia * change}, motion, 0.5 / duration, all(0.45));
+  const Lanes extent =
+      extentOf<Lanes>({change, inertia * change}, motion, 0.5 / duration, all(0.45));
   return {change, extent};
 }
 

@@ -1,3 +1,5 @@
+#include <math.h>
+
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/base/instruction_set.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
@@ -121,7 +123,7 @@ inline Spatials beyondEven(const PushLanes& push, int at, const Pairs& kick) {
 /// Implements FlightKernel::push for the lanes from `at` on.
 struct PushStep {
   template <class Matrices>
-  static void act(PushLanes& lanes, int at) {
+  static void act(PushLanes& lanes, int at, const Mask&) {
     const FlightLanes& bodies = lanes.bodies;
     const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
     const Orientations q = orientationOf(bodies, at);
@@ -151,7 +153,7 @@ struct PushStep {
 /// Implements FlightKernel::keep for the lanes from `at` on.
 struct KeepStep {
   template <class Matrices>
-  static void act(RowMotionLanes& lanes, int at) {
+  static void act(RowMotionLanes& lanes, int at, const Mask&) {
     const FlightLanes& bodies = lanes.bodies;
     const Matrices inertia(bodies.inertia, at), inverse(bodies.inverse_inertia, at);
     const Orientations q = orientationOf(bodies, at);
@@ -172,7 +174,7 @@ struct KeepStep {
 /// Implements FlightKernel::carry for the lanes from `at` on.
 struct CarryStep {
   template <class Matrices>
-  static void act(RowMotionLanes& lanes, int at) {
+  static void act(RowMotionLanes& lanes, int at, const Mask&) {
     FlightLanes& bodies = lanes.bodies;
     const Orientations q = orientationOf(bodies, at);
     Spatials m = load6(lanes.momentum_W, at);
@@ -217,13 +219,7 @@ struct GravityStep {
 struct SampleStep {
   template <class Matrices>
   static void act(FlightLanes& bodies, int at, const Mask&) {
-    const Matrices inverse(bodies.inverse_inertia, at);
-    const Spatials guess = load6(bodies.guess_B, at);
-    const Pairs x = motionOf(bodies, at);
-    const Pairs sample =
-        passiveKick(x, x, {inverse * guess, guess}, 0.5 * load(bodies.kick_time + at));
-    store6(bodies.sample_twist, at, sample.twist);
-    store6(bodies.sample_momentum, at, sample.momentum);
+    sampleLoad<Matrices>(bodies, at, motionOf(bodies, at), 0.5 * load(bodies.kick_time + at));
   }
 };
 
@@ -231,34 +227,10 @@ struct KickStep {
   template <class Matrices>
   static void act(FlightLanes& bodies, int at, const Mask& active) {
     Pairs x = motionOf(bodies, at);
-    if (bodies.has_loads) x = underLoads<Matrices>(bodies, at, active, x);
+    if (bodies.has_loads)
+      x = underLoad<Matrices>(bodies, at, active, x, load(bodies.kick_time + at));
     setMotion(bodies, at, active,
               x + Pairs{load6(bodies.fall_twist, at), load6(bodies.fall_momentum, at)});
-  }
-
- private:
-  template <class Matrices>
-  static Pairs underLoads(FlightLanes& bodies, int at, const Mask& active, const Pairs& x) {
-    const Matrices inverse(bodies.inverse_inertia, at);
-    const Lanes duration = load(bodies.kick_time + at);
-    const Spatials wrench = load6(bodies.load_B, at);
-    const Pairs sample{load6(bodies.sample_twist, at), load6(bodies.sample_momentum, at)};
-    const Spatials surprise = wrench - load6(bodies.guess_B, at);
-    store(bodies.error + at,
-          relativeError(x, {inverse * surprise, surprise}, duration, load(bodies.fall_scale + at)));
-    const Spatials load_W = toWorld(orientationOf(bodies, at), wrench);
-    store6(bodies.load_W, at, select(active, load_W, load6(bodies.load_W, at)));
-    return passiveKick(x, sample, {inverse * wrench, wrench}, duration);
-  }
-
-  // Returns the error e of eq. (25). fall_scale avoids tiny substeps where the speed of a swing
-  // passes through 0.
-  static Lanes relativeError(const Pairs& x, const Pairs& surprise, const Lanes& duration,
-                             const Lanes& fall_scale) {
-    const Lanes zero = Lanes{};
-    const Lanes change = duration * squareRoot(larger(inner(surprise, surprise), zero));
-    const Lanes scale = squareRoot(larger(inner(x, x), zero)) + fall_scale;
-    return scale > zero ? change / (scale > zero ? scale : all(1)) : zero;
   }
 };
 
@@ -294,34 +266,28 @@ struct BoundStep {
     if (!anyOf(gains)) return;
     const Lanes removed = gains ? 0.5 * (now.kinetic2 - allowed) : zero;
     store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
-    const Lanes scale = squareRoot(gains ? allowed / now.kinetic2 : all(1));
-    setMotion(bodies, at, gains, scale * motionOf(bodies, at));
+    setMotion(bodies, at, gains, scaleWithin(now.kinetic2, allowed) * motionOf(bodies, at));
   }
 };
 
-// Runs a step for all active lanes, with diagonal matrices if all bodies have them.
-template <class Step>
-void forAll(FlightLanes& bodies) noexcept {
+inline FlightLanes& bodiesOf(FlightLanes& bodies) { return bodies; }
+template <class Rows>
+inline FlightLanes& bodiesOf(Rows& lanes) {
+  return lanes.bodies;
+}
+
+// Runs a step for all registers with an active body, with diagonal matrices if all bodies have
+// them.
+template <class Step, class AnyLanes>
+void forAll(AnyLanes& lanes) noexcept {
+  const FlightLanes& bodies = bodiesOf(lanes);
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Mask active = load(bodies.active + at) > Lanes{};
     if (!anyOf(active)) continue;
     if (bodies.has_diagonal_inertia) {
-      Step::template act<DiagonalMatrices>(bodies, at, active);
+      Step::template act<DiagonalMatrices>(lanes, at, active);
     } else {
-      Step::template act<FullMatrices>(bodies, at, active);
-    }
-  }
-}
-
-// Runs a step of bodies with rows for all lanes with an active body.
-template <class Step, class Rows>
-void forAllWithRows(Rows& lanes) noexcept {
-  for (int at = 0; at < kFlightLanes; at += kWidth) {
-    if (!anyOf(load(lanes.bodies.active + at) > Lanes{})) continue;
-    if (lanes.bodies.has_diagonal_inertia) {
-      Step::template act<DiagonalMatrices>(lanes, at);
-    } else {
-      Step::template act<FullMatrices>(lanes, at);
+      Step::template act<FullMatrices>(lanes, at, active);
     }
   }
 }
@@ -336,8 +302,8 @@ const FlightKernel AMBIENT_KERNEL(kFlightKernel){depart,
                                                  forAll<KickStep>,
                                                  forAll<MeasureStep>,
                                                  forAll<BoundStep>,
-                                                 forAllWithRows<PushStep>,
-                                                 forAllWithRows<KeepStep>,
-                                                 forAllWithRows<CarryStep>};
+                                                 forAll<PushStep>,
+                                                 forAll<KeepStep>,
+                                                 forAll<CarryStep>};
 
 }  // namespace ambient

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "bullet_ambient/force/kernels/lane_vectors.h"
+
 namespace ambient {
 
 // Data and kernels of the passive leapfrog, docs/theory.md eq. (22) to (25), for several bodies
@@ -14,6 +16,18 @@ using FlightLane = double[kFlightLanes];
 /// Number of entries in the upper triangle of a symmetric 6x6 matrix, stored row by row.
 constexpr int kSymmetricEntries = 21;
 constexpr int symmetricEntry(int row, int column) { return row * (11 - row) / 2 + column; }
+
+/// Symmetric 6x6 matrix, its upper triangle row by row. `Real`: double, or one number per lane.
+template <class Real>
+struct SymmetricOf {
+  Real entries[kSymmetricEntries];
+};
+
+/// Twist (w, v) or wrench (torque, force).
+template <class Real>
+struct SpatialsOf {
+  VectorsOf<Real> angular, linear;
+};
 
 /// Input and output of the kernels. Vectors are in world axes (_W) or body axes (_B); SI units.
 /// 6-vectors and wrenches: rotation first.

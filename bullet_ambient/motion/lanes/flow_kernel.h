@@ -215,12 +215,10 @@ void flow(FlightLanes& bodies, int at, const Mask& active) {
   // twist: rounding of K^-1 grows with the condition of K.
   now.motion.momentum = Matrices(bodies.inertia, at) * now.motion.twist;
   const Lanes after = inner(now.motion, now.motion);
-  const Mask has_gained = after > energy;
-  const Lanes scale = has_gained ? squareRoot(energy / (has_gained ? after : all(1))) : all(1);
-  const Lanes removed = moves & has_gained ? 0.5 * (after - energy) : zero;
+  const Lanes removed = moves & (after > energy) ? 0.5 * (after - energy) : zero;
   store(bodies.energy_removed + at, load(bodies.energy_removed + at) + removed);
   const Pairs start{load6(bodies.twist_B, at), load6(bodies.momentum_B, at)};
-  now.motion = select(moves, scale * now.motion, start);
+  now.motion = select(moves, scaleWithin(after, energy) * now.motion, start);
   store(bodies.orientation, at, now.orientation.u);
   store(bodies.orientation[3] + at, now.orientation.w);
   store(bodies.way_W, at, now.way_W);

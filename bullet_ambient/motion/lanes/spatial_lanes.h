@@ -1,84 +1,99 @@
 #pragma once
 
-#include <math.h>
-
-#include "bullet_ambient/motion/lanes/flight_lanes.h"
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
+#include <type_traits>
 
 #include "bullet_ambient/base/elementary.h"
-#include "bullet_ambient/force/kernels/double_lanes.h"
+#include "bullet_ambient/force/kernels/lanes.h"
+#include "bullet_ambient/motion/lanes/flight_lanes.h"
 
-// Functions of one number per body, side by side in the lanes of a register; vectors, orientations
-// and twists, one body per lane. For sources that are compiled once per instruction set, see
-// force/kernels/double_lanes.h. No operation is fused and lanes are independent, so that every
-// instruction set gives the same bits.
+// Mathematics of rigid bodies: of one body per lane of a register, Real = Lanes, or of a single
+// body, Real = double. Both make the same operations, so their bits are equal. No operation is
+// fused and lanes are independent, so that every instruction set gives the same bits. For sources
+// that are compiled once per instruction set, see force/kernels/lanes.h, and with one_body.h for
+// ordinary ones.
 
 namespace ambient {
 
 namespace {
 
 using Lanes = Doubles;
+using Vectors = VectorsOf<Lanes>;
 
-inline Lanes all(double value) { return value - Lanes{}; }
+/// Result of a comparison: a mask of lanes, or bool.
+template <class Real>
+using MaskOf = decltype(Real{} < Real{});
 
-inline Lanes squareRoot(const Lanes& a) {
-#if defined(__AVX512F__)
-  return _mm512_maskz_sqrt_pd(0xff, a);  // _mm512_sqrt_pd causes a warning in GCC 12's header
-#elif defined(__AVX2__)
-  return _mm256_sqrt_pd(a);
-#elif defined(__x86_64__)
-  return _mm_sqrt_pd(a);
-#else
-  Lanes root;
-  for (int i = 0; i < kWidth; ++i) root[i] = ::sqrt(a[i]);
-  return root;
-#endif
+template <class Real = Lanes>
+inline Real all(double value) {
+  return value - Real{};
 }
 
-/// Returns the larger number per lane; b where a is NaN.
-inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+inline bool anyOf(bool is_true) { return is_true; }
+inline double squareRoot(double x) { return __builtin_sqrt(x); }
 
-/// Returns c_0 + c_1 x + c_2 x^2 + ... per lane.
-template <int kTerms>
-Lanes polynomial(const double (&c)[kTerms], const Lanes& x) {
-  Lanes sum = all(c[kTerms - 1]);
+/// Returns the larger number; b where a is NaN.
+template <class Real>
+inline Real larger(const Real& a, const Real& b) {
+  return a > b ? a : b;
+}
+
+/// Returns the factor on a motion that brings its energy down to the allowed one; 1 if it has no
+/// more.
+template <class Real>
+inline Real scaleWithin(const Real& energy, const Real& allowed) {
+  const Real one = all<Real>(1);
+  const MaskOf<Real> gains = energy > allowed;
+  return squareRoot(gains ? allowed / (gains ? energy : one) : one);
+}
+
+/// Returns f(x) where the mask holds, else y. `f`: function of one number.
+template <class Real, class Function>
+inline Real resultsWhere(const MaskOf<Real>& mask, const Function& f, const Real& x, Real y) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return mask ? f(x) : y;
+  } else {
+    for (int i = 0; i < kWidth; ++i)
+      if (mask[i]) y[i] = f(x[i]);
+    return y;
+  }
+}
+
+/// Returns c_0 + c_1 x + c_2 x^2 + ...
+template <int kTerms, class Real>
+inline Real polynomial(const double (&c)[kTerms], const Real& x) {
+  Real sum = all<Real>(c[kTerms - 1]);
   for (int i = kTerms - 2; i >= 0; --i) sum = c[i] + x * sum;
   return sum;
 }
 
-/// Returns log(1 + z) / z per lane. @pre z >= 0
-inline Lanes logarithmRatio(const Lanes& z) {
+/// Returns log(1 + z) / z. @pre z >= 0
+template <class Real>
+inline Real logarithmRatio(const Real& z) {
   // 2/(2 + z) artanh(s)/s, s = z/(2 + z); the series ends where the next term is below rounding.
   constexpr double kSmall = 0.1;
   static constexpr double kSeries[] = {1, 1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9, 1.0 / 11, 1.0 / 13};
-  const Lanes scale = 1 / (2 + z);
-  const Lanes s = z * scale;
-  Lanes ratio = 2 * scale * polynomial(kSeries, s * s);
-  if (!anyOf(!(z <= all(kSmall)))) return ratio;
-  for (int i = 0; i < kWidth; ++i)
-    if (!(z[i] <= kSmall)) ratio[i] = portable::log1p(z[i]) / z[i];
-  return ratio;
+  const Real scale = 1 / (2 + z);
+  const Real s = z * scale;
+  const Real ratio = 2 * scale * polynomial(kSeries, s * s);
+  const MaskOf<Real> is_large = !(z <= all<Real>(kSmall));
+  if (!anyOf(is_large)) return ratio;
+  return resultsWhere(
+      is_large, [](double x) { return portable::log1p(x) / x; }, z, ratio);
 }
 
-/// Returns tan(x) per lane. @pre x >= 0
-inline Lanes tangent(const Lanes& x) {
+/// Returns tan(x). @pre x >= 0
+template <class Real>
+inline Real tangent(const Real& x) {
   constexpr double kSmall = 0.1;  // the first term left out is below rounding
   static constexpr double kSeries[] = {
       1.0,         1.0 / 3,         2.0 / 15,          17.0 / 315,
       62.0 / 2835, 1382.0 / 155925, 21844.0 / 6081075, 929569.0 / 638512875};
-  Lanes t = x * polynomial(kSeries, x * x);
-  if (!anyOf(!(x <= all(kSmall)))) return t;
-  for (int i = 0; i < kWidth; ++i)
-    if (!(x[i] <= kSmall)) t[i] = portable::tan(x[i]);
-  return t;
+  const Real t = x * polynomial(kSeries, x * x);
+  const MaskOf<Real> is_large = !(x <= all<Real>(kSmall));
+  if (!anyOf(is_large)) return t;
+  return resultsWhere(is_large, portable::tan, x, t);
 }
 
-inline Vectors select(const Mask& mask, const Vectors& a, const Vectors& b) {
-  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
-}
 inline Vectors zeroVectors() { return {Lanes{}, Lanes{}, Lanes{}}; }
 
 /// Loads the 3-vectors of the bodies in kWidth lanes from `at` on.
@@ -117,10 +132,8 @@ inline Orientations select(const Mask& mask, const Orientations& a, const Orient
   return {select(mask, a.u, b.u), mask ? a.w : b.w};
 }
 
-/// Twists (w, v) or wrenches (torque, force).
-struct Spatials {
-  Vectors angular, linear;
-};
+using Spatials = SpatialsOf<Lanes>;
+
 inline Spatials load6(const FlightLane* from, int at) {
   return {load(from, at), load(from + 3, at)};
 }
@@ -134,77 +147,97 @@ inline Spatials toWorld(const Orientations& q, const Spatials& a) {
 inline Spatials toBody(const Orientations& q, const Spatials& a) {
   return {q.toBody(a.angular), q.toBody(a.linear)};
 }
-inline Spatials operator+(const Spatials& a, const Spatials& b) {
+template <class Real>
+inline SpatialsOf<Real> operator+(const SpatialsOf<Real>& a, const SpatialsOf<Real>& b) {
   return {a.angular + b.angular, a.linear + b.linear};
 }
-inline Spatials operator-(const Spatials& a, const Spatials& b) {
+template <class Real>
+inline SpatialsOf<Real> operator-(const SpatialsOf<Real>& a, const SpatialsOf<Real>& b) {
   return {a.angular - b.angular, a.linear - b.linear};
 }
-inline Spatials operator*(const Lanes& s, const Spatials& a) {
+template <class Real>
+inline SpatialsOf<Real> operator*(const Real& s, const SpatialsOf<Real>& a) {
   return {s * a.angular, s * a.linear};
 }
-inline Lanes dot(const Spatials& a, const Spatials& b) {
+template <class Real>
+inline Real dot(const SpatialsOf<Real>& a, const SpatialsOf<Real>& b) {
   return dot(a.angular, b.angular) + dot(a.linear, b.linear);
 }
-inline Spatials select(const Mask& mask, const Spatials& a, const Spatials& b) {
+template <class Real>
+inline SpatialsOf<Real> select(const MaskOf<Real>& mask, const SpatialsOf<Real>& a,
+                               const SpatialsOf<Real>& b) {
   return {select(mask, a.angular, b.angular), select(mask, a.linear, b.linear)};
 }
 
-/// Twists x and momenta K x, one pair per lane: DualPair.
-struct Pairs {
-  Spatials twist, momentum;
+/// Twists x and momenta K x: DualPair.
+template <class Real>
+struct PairsOf {
+  SpatialsOf<Real> twist, momentum;
 };
-inline Pairs operator+(const Pairs& a, const Pairs& b) {
+using Pairs = PairsOf<Lanes>;
+
+template <class Real>
+inline PairsOf<Real> operator+(const PairsOf<Real>& a, const PairsOf<Real>& b) {
   return {a.twist + b.twist, a.momentum + b.momentum};
 }
-inline Pairs operator-(const Pairs& a, const Pairs& b) {
+template <class Real>
+inline PairsOf<Real> operator-(const PairsOf<Real>& a, const PairsOf<Real>& b) {
   return {a.twist - b.twist, a.momentum - b.momentum};
 }
-inline Pairs operator*(const Lanes& s, const Pairs& a) { return {s * a.twist, s * a.momentum}; }
-inline Lanes inner(const Pairs& a, const Pairs& b) { return dot(a.twist, b.momentum); }
-inline Pairs select(const Mask& mask, const Pairs& a, const Pairs& b) {
+template <class Real>
+inline PairsOf<Real> operator*(const Real& s, const PairsOf<Real>& a) {
+  return {s * a.twist, s * a.momentum};
+}
+template <class Real>
+inline Real inner(const PairsOf<Real>& a, const PairsOf<Real>& b) {
+  return dot(a.twist, b.momentum);
+}
+template <class Real>
+inline PairsOf<Real> select(const MaskOf<Real>& mask, const PairsOf<Real>& a,
+                            const PairsOf<Real>& b) {
   return {select(mask, a.twist, b.twist), select(mask, a.momentum, b.momentum)};
 }
 
+template <class Real>
+inline const Real& entry(const SymmetricOf<Real>& m, int i, int j) {
+  return m.entries[i < j ? symmetricEntry(i, j) : symmetricEntry(j, i)];
+}
+template <class Real>
+inline Real& entry(SymmetricOf<Real>& m, int i, int j) {
+  return m.entries[i < j ? symmetricEntry(i, j) : symmetricEntry(j, i)];
+}
+template <class Real>
+inline SymmetricOf<Real> operator-(const SymmetricOf<Real>& a, const SymmetricOf<Real>& b) {
+  SymmetricOf<Real> difference;
+  for (int i = 0; i < kSymmetricEntries; ++i) difference.entries[i] = a.entries[i] - b.entries[i];
+  return difference;
+}
+/// Returns the product of row i with the twist (a, 0).
+template <class Real>
+inline Real rowOfAngular(const SymmetricOf<Real>& m, int i, const VectorsOf<Real>& a) {
+  return entry(m, i, 0) * a.x + entry(m, i, 1) * a.y + entry(m, i, 2) * a.z;
+}
+/// Returns the product with the twist (a, 0).
+template <class Real>
+inline SpatialsOf<Real> ofAngular(const SymmetricOf<Real>& m, const VectorsOf<Real>& a) {
+  return {{rowOfAngular(m, 0, a), rowOfAngular(m, 1, a), rowOfAngular(m, 2, a)},
+          {rowOfAngular(m, 3, a), rowOfAngular(m, 4, a), rowOfAngular(m, 5, a)}};
+}
+template <class Real>
+inline SpatialsOf<Real> operator*(const SymmetricOf<Real>& m, const SpatialsOf<Real>& a) {
+  const auto row = [&](int i) {
+    return rowOfAngular(m, i, a.angular) +
+           (entry(m, i, 3) * a.linear.x + entry(m, i, 4) * a.linear.y +
+            entry(m, i, 5) * a.linear.z);
+  };
+  return {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}};
+}
+
 /// Symmetric 6x6 matrices, one per lane.
-class FullMatrices {
- public:
-  FullMatrices() = default;  ///< leaves the entries uninitialised
-  FullMatrices(const FlightLane (&entries)[kSymmetricEntries], int at) {
-    for (int i = 0; i < kSymmetricEntries; ++i) m_[i] = load(entries[i] + at);
+struct FullMatrices : SymmetricOf<Lanes> {
+  FullMatrices(const FlightLane (&from)[kSymmetricEntries], int at) {
+    for (int i = 0; i < kSymmetricEntries; ++i) entries[i] = load(from[i] + at);
   }
-  void storeTo(FlightLane (&entries)[kSymmetricEntries], int at) const {
-    for (int i = 0; i < kSymmetricEntries; ++i) store(entries[i] + at, m_[i]);
-  }
-
-  Lanes& entry(int i, int j) { return m_[i < j ? symmetricEntry(i, j) : symmetricEntry(j, i)]; }
-  const Lanes& entry(int i, int j) const {
-    return m_[i < j ? symmetricEntry(i, j) : symmetricEntry(j, i)];
-  }
-
-  FullMatrices operator-(const FullMatrices& other) const {
-    FullMatrices difference;
-    for (int i = 0; i < kSymmetricEntries; ++i) difference.m_[i] = m_[i] - other.m_[i];
-    return difference;
-  }
-  Spatials operator*(const Spatials& a) const {
-    return {{row(0, a), row(1, a), row(2, a)}, {row(3, a), row(4, a), row(5, a)}};
-  }
-  /// Returns the product with the twist (a, 0).
-  Spatials ofAngular(const Vectors& a) const {
-    return {{half(0, a), half(1, a), half(2, a)}, {half(3, a), half(4, a), half(5, a)}};
-  }
-
- private:
-  Lanes half(int i, const Vectors& a) const {
-    return entry(i, 0) * a.x + entry(i, 1) * a.y + entry(i, 2) * a.z;
-  }
-  Lanes row(int i, const Spatials& a) const {
-    return half(i, a.angular) +
-           (entry(i, 3) * a.linear.x + entry(i, 4) * a.linear.y + entry(i, 5) * a.linear.z);
-  }
-
-  Lanes m_[kSymmetricEntries];
 };
 
 /// Diagonal 6x6 matrices, one per lane: bodies with three planes of symmetry.

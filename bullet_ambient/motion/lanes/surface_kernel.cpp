@@ -6,8 +6,7 @@
 #include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/lanes/wave_kernel.h"
 
-// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel. Each
-// struct is one kernel of SurfaceKernel; act() computes the lanes from `at` on.
+// Compiled once per instruction set; AMBIENT_KERNEL() adds its name to that of the kernel.
 
 namespace ambient {
 
@@ -16,13 +15,13 @@ namespace {
 /// Factors L D L^T of symmetric 6x6 matrices K, one per lane.
 class PositiveFactor {
  public:
-  explicit PositiveFactor(const FullMatrices& K) {
+  explicit PositiveFactor(const SymmetricOf<Lanes>& K) {
     const Lanes one = all(1), zero = Lanes{};
     Lanes scaled[6];  // a row of L D
     for (int i = 0; i < 6; ++i) {
-      Lanes pivot = K.entry(i, i);
+      Lanes pivot = entry(K, i, i);
       for (int j = 0; j < i; ++j) {
-        scaled[j] = K.entry(i, j);
+        scaled[j] = entry(K, i, j);
         for (int k = 0; k < j; ++k) scaled[j] = scaled[j] - scaled[k] * lower_[j][k];
         lower_[i][j] = scaled[j] * per_pivot_[j];
         pivot = pivot - scaled[j] * lower_[i][j];
@@ -49,7 +48,7 @@ class PositiveFactor {
   }
 
   /// Returns K^-1.
-  FullMatrices inverse() const {
+  SymmetricOf<Lanes> inverse() const {
     Lanes M[6][6];  // L^-1 below its diagonal of ones
     for (int j = 0; j < 6; ++j)
       for (int i = j + 1; i < 6; ++i) {
@@ -57,12 +56,12 @@ class PositiveFactor {
         for (int k = j + 1; k < i; ++k) sum = sum + lower_[i][k] * M[k][j];
         M[i][j] = -sum;
       }
-    FullMatrices inverse;
+    SymmetricOf<Lanes> inverse;
     for (int j = 0; j < 6; ++j)
       for (int i = 0; i <= j; ++i) {
         Lanes sum = i == j ? per_pivot_[j] : M[j][i] * per_pivot_[j];
         for (int k = j + 1; k < 6; ++k) sum = sum + M[k][i] * M[k][j] * per_pivot_[k];
-        inverse.entry(i, j) = sum;
+        entry(inverse, i, j) = sum;
       }
     return inverse;
   }
@@ -73,57 +72,32 @@ class PositiveFactor {
   Mask is_positive_;
 };
 
-void storeModes(StandLanes& stand, int at, const Restorings& modes, const Waves& waves) {
-  store6(stand.heave, at, modes.heave);
-  for (int i = 0; i < 2; ++i) {
-    store(stand.tilt[i], at, modes.tilt[i]);
-    store(stand.second_moment[i] + at, modes.second_moment[i]);
-  }
-  for (int i = 0; i < 3; ++i) {
-    store(stand.stiffness[i] + at, modes.stiffness[i]);
-    store(stand.strength[i] + at, waves.strength[i]);
-    store(stand.loss[i] + at, waves.loss[i]);
-    store(stand.rate[i] + at, waves.rate[i]);
-  }
-}
-
-Restorings restoringsAt(const StandLanes& stand, int at) {
-  Restorings modes;
-  modes.heave = load6(stand.heave, at);
-  for (int i = 0; i < 3; ++i) modes.stiffness[i] = load(stand.stiffness[i] + at);
-  for (int i = 0; i < 2; ++i) {
-    modes.tilt[i] = load(stand.tilt[i], at);
-    modes.second_moment[i] = load(stand.second_moment[i] + at);
-  }
+Modes modesAt(const StandLanes& stand, int at) {
+  Modes modes;
+  forEachNumber(modes, stand.modes,
+                [&](Lanes& to, const FlightLane& from) { to = load(from + at); });
   return modes;
 }
 
-Waves wavesAt(const StandLanes& stand, int at) {
-  Waves waves;
-  for (int i = 0; i < 3; ++i) {
-    waves.strength[i] = load(stand.strength[i] + at);
-    waves.loss[i] = load(stand.loss[i] + at);
-    waves.rate[i] = load(stand.rate[i] + at);
-  }
-  return waves;
+void store(FlightLane (&to)[kSymmetricEntries], int at, const SymmetricOf<Lanes>& m) {
+  for (int i = 0; i < kSymmetricEntries; ++i) store(to[i] + at, m.entries[i]);
 }
 
 void computeStand(StandLanes& stand, int at) {
   const FullMatrices inertia(stand.inertia, at);
-  const PositiveFactor factor(inertia);
-  factor.inverse().storeTo(stand.inverse, at);
+  store(stand.inverse, at, PositiveFactor(inertia).inverse());
   const Mask is_fine = PositiveFactor(inertia - FullMatrices(stand.least, at)).isPositive();
   store(stand.is_indefinite + at, is_fine ? Lanes{} : all(1));
   Waterplanes section{load(stand.area + at), load(stand.centroid, at), {}};
   for (int i = 0; i < 6; ++i) section.spread[i] = load(stand.spread[i] + at);
   const Lanes pull = load(stand.pull + at);
-  const Restorings modes =
-      restoringsOf(section, load(stand.moment, at), load(stand.normal, at), pull);
-  const Waves waves =
-      wavesOf({section.area, load(stand.volume + at), load(stand.heave_inertia + at),
-               load(stand.damping + at), pull, load(stand.gravity + at)},
-              modes);
-  storeModes(stand, at, modes, waves);
+  Modes modes;
+  setRestoring(section, load(stand.moment, at), load(stand.normal, at), pull, modes);
+  setWaves({section.area, load(stand.volume + at), load(stand.heave_inertia + at),
+            load(stand.damping + at), pull, load(stand.gravity + at)},
+           modes);
+  forEachNumber(stand.modes, modes,
+                [&](FlightLane& to, const Lanes& from) { store(to + at, from); });
   store(stand.swing + at, squareRoot(swingSquared(modes, inertia)));
 }
 
@@ -137,192 +111,133 @@ void setTwist(FlightLanes& bodies, int at, const Mask& active, const Spatials& x
 }
 Lanes halfKick(const FlightLanes& bodies, int at) { return 0.5 * load(bodies.kick_time + at); }
 
-struct SeeStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask&) {
-    const Vectors normal_W = load(bodies.normal_W, at);
-    store(bodies.stand.normal, at, orientationOf(bodies.flight, at).toBody(normal_W));
-    store(bodies.stand.height + at,
-          load(bodies.height_W + at) - dot(normal_W, load(bodies.flight.way_W, at)));
-  }
-};
+void see(SurfaceLanes& bodies, int at, const Mask&) {
+  const Vectors normal_W = load(bodies.normal_W, at);
+  store(bodies.stand.normal, at, orientationOf(bodies.flight, at).toBody(normal_W));
+  store(bodies.stand.height + at,
+        load(bodies.height_W + at) - dot(normal_W, load(bodies.flight.way_W, at)));
+}
 
-struct PassStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask& active) {
-    FlightLanes& flight = bodies.flight;
-    const FullMatrices before(flight.inertia, at), after(bodies.stand.inertia, at),
-        inverse_after(bodies.stand.inverse, at);
-    const PassedTwists passed = passSurface(
-        {before, after, inverse_after, load6(bodies.gradient, at), load(bodies.stand.normal, at),
-         load(bodies.centre_of_buoyancy, at), load(bodies.draught + at), load(bodies.cover + at),
-         load(bodies.stand.gravity + at), load(flight.flow_time + at),
-         load(flight.fall_scale + at)},
-        load6(flight.twist_B, at));
-    const BoundedTwists& end = passed.end;
-    setTwist(flight, at, active, end.twist);
-    store(bodies.passage_error + at, passed.error);
-    const Lanes removed = load(flight.energy_removed + at);
-    store(flight.energy_removed + at, active ? removed + end.energy_removed : removed);
-    for (int i = 0; i < kSymmetricEntries; ++i) {
-      const Lanes old = load(flight.inertia[i] + at),
-                  old_inverse = load(flight.inverse_inertia[i] + at);
-      store(flight.inertia[i] + at, active ? load(bodies.stand.inertia[i] + at) : old);
-      store(flight.inverse_inertia[i] + at,
-            active ? load(bodies.stand.inverse[i] + at) : old_inverse);
-    }
+void pass(SurfaceLanes& bodies, int at, const Mask& active) {
+  FlightLanes& flight = bodies.flight;
+  const FullMatrices before(flight.inertia, at), after(bodies.stand.inertia, at),
+      inverse_after(bodies.stand.inverse, at);
+  const PassedOf<Lanes> passed = passSurface(
+      {before, after, inverse_after, load6(bodies.gradient, at), load(bodies.stand.normal, at),
+       load(bodies.centre_of_buoyancy, at), load(bodies.draught + at), load(bodies.cover + at),
+       load(bodies.stand.gravity + at), load(flight.flow_time + at), load(flight.fall_scale + at)},
+      load6(flight.twist_B, at));
+  setTwist(flight, at, active, passed.twist);
+  store(bodies.passage_error + at, passed.error);
+  const Lanes removed = load(flight.energy_removed + at);
+  store(flight.energy_removed + at, active ? removed + passed.energy_removed : removed);
+  for (int i = 0; i < kSymmetricEntries; ++i) {
+    const Lanes old = load(flight.inertia[i] + at),
+                old_inverse = load(flight.inverse_inertia[i] + at);
+    store(flight.inertia[i] + at, active ? load(bodies.stand.inertia[i] + at) : old);
+    store(flight.inverse_inertia[i] + at,
+          active ? load(bodies.stand.inverse[i] + at) : old_inverse);
   }
-};
+}
 
-struct FallStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask& active) {
-    FlightLanes& flight = bodies.flight;
-    const FullMatrices inertia(flight.inertia, at);
-    const Spatials wrench = wrenchAt(bodies, at);
-    Spatials change = FullMatrices(flight.inverse_inertia, at) * wrench;
-    const Mask is_stiff = active & (load(bodies.is_stiff + at) > Lanes{});
-    if (anyOf(is_stiff)) {
-      const FullMatrices stiff =
-          stiffened(inertia, restoringsAt(bodies.stand, at), load(flight.kick_time + at));
-      change = select(is_stiff, PositiveFactor(stiff).solve(wrench), change);
-    }
-    setTwist(flight, at, active, load6(flight.twist_B, at) + halfKick(flight, at) * change);
-    store6(flight.momentum_B, at, inertia * load6(flight.twist_B, at));
-  }
+Spatials wrenchAt(const SurfaceLanes& bodies, int at) {
+  const FlightLanes& flight = bodies.flight;
+  const StandLanes& stand = bodies.stand;
+  const Spatials dry = externalWrench(flight, at, orientationOf(flight, at));
+  const Vectors up = load(stand.pull + at) * load(stand.normal, at);
+  return {dry.angular + cross(load(stand.moment, at), up),
+          dry.linear + load(stand.volume + at) * up};
+}
 
- private:
-  static Spatials wrenchAt(const SurfaceLanes& bodies, int at) {
-    const FlightLanes& flight = bodies.flight;
-    const StandLanes& stand = bodies.stand;
-    const Spatials dry = externalWrench(flight, at, orientationOf(flight, at));
-    const Vectors up = load(stand.pull + at) * load(stand.normal, at);
-    return {dry.angular + cross(load(stand.moment, at), up),
-            dry.linear + load(stand.volume + at) * up};
+void fall(SurfaceLanes& bodies, int at, const Mask& active) {
+  FlightLanes& flight = bodies.flight;
+  const FullMatrices inertia(flight.inertia, at);
+  const Spatials wrench = wrenchAt(bodies, at);
+  Spatials change = FullMatrices(flight.inverse_inertia, at) * wrench;
+  const Mask is_stiff = active & (load(bodies.is_stiff + at) > Lanes{});
+  if (anyOf(is_stiff)) {
+    const PositiveFactor stiff(
+        stiffened(inertia, modesAt(bodies.stand, at), load(flight.kick_time + at)));
+    change = select(is_stiff, stiff.solve(wrench), change);
   }
-};
+  setTwist(flight, at, active, load6(flight.twist_B, at) + halfKick(flight, at) * change);
+  store6(flight.momentum_B, at, inertia * load6(flight.twist_B, at));
+}
 
-struct WaveStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask& active) {
-    const Restorings restoring = restoringsAt(bodies.stand, at);
-    const Waves waves = wavesAt(bodies.stand, at);
-    const Orientations q = orientationOf(bodies.flight, at);
-    const WaveModesOfBodies modes{
-        restoring, waves, {q.toWorld(restoring.tilt[0]), q.toWorld(restoring.tilt[1])}};
-    WaveStates states = statesAt(bodies, at);
-    meetModes(modes, states);
-    const Spatials x =
-        exchangeWaves(modes, FullMatrices(bodies.flight.inverse_inertia, at),
-                      halfKick(bodies.flight, at), load6(bodies.flight.twist_B, at), states);
-    setTwist(bodies.flight, at, active, x);
-    keep(bodies, at, active, states);
-  }
+void exchangeWithWaves(SurfaceLanes& bodies, int at, const Mask& active) {
+  const Modes of_body = modesAt(bodies.stand, at);
+  const Orientations q = orientationOf(bodies.flight, at);
+  const ModesAtPose<Lanes> modes{of_body, {q.toWorld(of_body.tilt[0]), q.toWorld(of_body.tilt[1])}};
+  WavesOf<Lanes> waves;
+  forEachNumber(waves, bodies.waves,
+                [&](Lanes& to, const FlightLane& from) { to = load(from + at); });
+  meetModes(modes, waves);
+  const Spatials x =
+      exchangeWaves(modes, FullMatrices(bodies.flight.inverse_inertia, at),
+                    halfKick(bodies.flight, at), load6(bodies.flight.twist_B, at), waves);
+  setTwist(bodies.flight, at, active, x);
+  forEachNumber(bodies.waves, waves, [&](FlightLane& to, const Lanes& from) {
+    store(to + at, active ? from : load(to + at));
+  });
+}
 
- private:
-  static WaveStates statesAt(const SurfaceLanes& bodies, int at) {
-    return {{load(bodies.wave_heave[0] + at), load(bodies.wave_heave[1] + at)},
-            {load(bodies.wave_tilt_W[0], at), load(bodies.wave_tilt_W[1], at)},
-            load(bodies.heave_energy + at),
-            load(bodies.tilt_energy + at)};
-  }
-  static void keep(SurfaceLanes& bodies, int at, const Mask& active, const WaveStates& states) {
-    const auto keepOne = [&](FlightLane& to, const Lanes& value) {
-      store(to + at, active ? value : load(to + at));
-    };
-    keepOne(bodies.wave_heave[0], states.heave.first);
-    keepOne(bodies.wave_heave[1], states.heave.second);
-    keepOne(bodies.heave_energy, states.heave_energy);
-    keepOne(bodies.tilt_energy, states.tilt_energy);
-    for (int i = 0; i < 2; ++i) {
-      const Vectors before = load(bodies.wave_tilt_W[i], at);
-      store(bodies.wave_tilt_W[i], at, select(active, states.tilt_W[i], before));
-    }
-  }
-};
+void keepLoad(SurfaceLanes& bodies, int at, const Mask& active) {
+  FlightLanes& flight = bodies.flight;
+  const Spatials load_B = toBody(orientationOf(flight, at), load6(flight.load_W, at));
+  const Pairs x = motionOf(flight, at);
+  const Pairs response{FullMatrices(flight.inverse_inertia, at) * load_B, load_B};
+  setTwist(flight, at, active, passiveKick(x, x, response, halfKick(flight, at)).twist);
+}
 
-struct KeepLoadStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask& active) {
-    FlightLanes& flight = bodies.flight;
-    const Spatials load_B = toBody(orientationOf(flight, at), load6(flight.load_W, at));
-    const Pairs x = motionOf(flight, at);
-    const Pairs response{FullMatrices(flight.inverse_inertia, at) * load_B, load_B};
-    setTwist(flight, at, active, passiveKick(x, x, response, halfKick(flight, at)).twist);
-  }
-};
+void predictLoad(SurfaceLanes& bodies, int at, const Mask&) {
+  FlightLanes& flight = bodies.flight;
+  store6(flight.guess_B, at, toBody(orientationOf(flight, at), load6(flight.load_W, at)));
+  sampleLoad<FullMatrices>(flight, at, motionOf(flight, at), halfKick(flight, at));
+}
 
-struct SampleStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask&) {
-    FlightLanes& flight = bodies.flight;
-    const Spatials guess = toBody(orientationOf(flight, at), load6(flight.load_W, at));
-    const Pairs x = motionOf(flight, at);
-    const Pairs response{FullMatrices(flight.inverse_inertia, at) * guess, guess};
-    const Pairs sample = passiveKick(x, x, response, halfKick(flight, at));
-    store6(flight.guess_B, at, guess);
-    store6(flight.sample_twist, at, sample.twist);
-    store6(flight.sample_momentum, at, sample.momentum);
-  }
-};
-
-struct LoadStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask& active) {
-    FlightLanes& flight = bodies.flight;
-    const FullMatrices inverse(flight.inverse_inertia, at);
-    const Pairs x = motionOf(flight, at);
-    const Pairs sample{load6(flight.sample_twist, at), load6(flight.sample_momentum, at)};
-    const Spatials load_B = load6(flight.load_B, at), surprise = load_B - load6(flight.guess_B, at);
-    setTwist(flight, at, active,
-             passiveKick(x, sample, {inverse * load_B, load_B}, halfKick(flight, at)).twist);
-    const Lanes zero = Lanes{}, one = all(1);
-    const Lanes change =
-        load(flight.kick_time + at) * squareRoot(larger(dot(surprise, inverse * surprise), zero));
-    const Lanes scale = squareRoot(larger(inner(x, x), zero)) + load(flight.fall_scale + at);
-    const Lanes error = scale > zero ? change / (scale > zero ? scale : one) : zero;
-    store(flight.error + at, error);
-    const Spatials load_W = toWorld(orientationOf(flight, at), load_B);
-    store6(flight.load_W, at, select(active, load_W, load6(flight.load_W, at)));
-  }
-};
+void takeLoad(SurfaceLanes& bodies, int at, const Mask& active) {
+  FlightLanes& flight = bodies.flight;
+  const Pairs x = motionOf(flight, at);
+  setTwist(flight, at, active,
+           underLoad<FullMatrices>(flight, at, active, x, halfKick(flight, at)).twist);
+}
 
 /// Returns the velocity of the water minus that of the fluid above, in B.
 Spatials windAt(const SurfaceLanes& bodies, int at) {
   return {zeroVectors(), orientationOf(bodies.flight, at).toBody(load(bodies.wind_W, at))};
 }
 
-struct MeetWindStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask&) {
-    store6(bodies.flight.sample_twist, at, load6(bodies.flight.twist_B, at) + windAt(bodies, at));
-  }
-};
+void meetWind(SurfaceLanes& bodies, int at, const Mask&) {
+  store6(bodies.flight.sample_twist, at, load6(bodies.flight.twist_B, at) + windAt(bodies, at));
+}
 
-struct WindStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask& active) {
-    FlightLanes& flight = bodies.flight;
-    const Spatials seen = load6(flight.sample_twist, at), load_B = load6(flight.load_B, at);
-    const Pairs x{seen, FullMatrices(flight.inertia, at) * seen};
-    const Pairs response{FullMatrices(flight.inverse_inertia, at) * load_B, load_B};
-    const Spatials end = passiveKick(x, x, response, halfKick(flight, at)).twist;
-    setTwist(flight, at, active, end - windAt(bodies, at));
-  }
-};
+void takeWind(SurfaceLanes& bodies, int at, const Mask& active) {
+  FlightLanes& flight = bodies.flight;
+  const Spatials seen = load6(flight.sample_twist, at), load_B = load6(flight.load_B, at);
+  const Pairs x{seen, FullMatrices(flight.inertia, at) * seen};
+  const Pairs response{FullMatrices(flight.inverse_inertia, at) * load_B, load_B};
+  const Spatials end = passiveKick(x, x, response, halfKick(flight, at)).twist;
+  setTwist(flight, at, active, end - windAt(bodies, at));
+}
 
-struct MeasureStep {
-  static void act(SurfaceLanes& bodies, int at, const Mask&) {
-    const FlightLanes& flight = bodies.flight;
-    const Pairs x = motionOf(flight, at);
-    const Vectors buoyancy = load(flight.buoyancy_W, at);
-    const Vectors way = load(flight.way_W, at);
-    const Vectors arm =
-        way + orientationOf(flight, at).toWorld(load(flight.centre_of_volume_B, at));
-    const Lanes of_water = load(bodies.stand.pull + at) * load(bodies.stand.depth_integral + at) +
-                           load(bodies.heave_energy + at) + load(bodies.tilt_energy + at);
-    store(bodies.kinetic2 + at, inner(x, x));
-    store(bodies.potential + at,
-          of_water - dot(load(flight.force_W, at), way) - dot(buoyancy, arm));
-  }
-};
+void measure(SurfaceLanes& bodies, int at, const Mask&) {
+  const FlightLanes& flight = bodies.flight;
+  const Pairs x = motionOf(flight, at);
+  const Vectors buoyancy = load(flight.buoyancy_W, at);
+  const Vectors way = load(flight.way_W, at);
+  const Vectors arm = way + orientationOf(flight, at).toWorld(load(flight.centre_of_volume_B, at));
+  const Lanes of_water = load(bodies.stand.pull + at) * load(bodies.stand.depth_integral + at) +
+                         load(bodies.waves.heave_energy + at) + load(bodies.waves.tilt_energy + at);
+  store(bodies.kinetic2 + at, inner(x, x));
+  store(bodies.potential + at, of_water - dot(load(flight.force_W, at), way) - dot(buoyancy, arm));
+}
 
-template <class Step>
+/// Calls a step for all registers with an active body, which begin with the lane `at`.
+template <void (*kStep)(SurfaceLanes& bodies, int at, const Mask& active)>
 void forAll(SurfaceLanes& bodies) noexcept {
   for (int at = 0; at < kFlightLanes; at += kWidth) {
     const Mask active = load(bodies.flight.active + at) > Lanes{};
-    if (anyOf(active)) Step::act(bodies, at, active);
+    if (anyOf(active)) kStep(bodies, at, active);
   }
 }
 
@@ -333,9 +248,16 @@ void computeStands(StandLanes& stand) noexcept {
 
 }  // namespace
 
-const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){
-    computeStands,        forAll<SeeStep>,      forAll<PassStep>,   forAll<FallStep>,
-    forAll<WaveStep>,     forAll<KeepLoadStep>, forAll<SampleStep>, forAll<LoadStep>,
-    forAll<MeetWindStep>, forAll<WindStep>,     forAll<MeasureStep>};
+const SurfaceKernel AMBIENT_KERNEL(kSurfaceKernel){computeStands,
+                                                   forAll<see>,
+                                                   forAll<pass>,
+                                                   forAll<fall>,
+                                                   forAll<exchangeWithWaves>,
+                                                   forAll<keepLoad>,
+                                                   forAll<predictLoad>,
+                                                   forAll<takeLoad>,
+                                                   forAll<meetWind>,
+                                                   forAll<takeWind>,
+                                                   forAll<measure>};
 
 }  // namespace ambient

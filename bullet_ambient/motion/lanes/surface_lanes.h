@@ -7,6 +7,75 @@ namespace ambient {
 // Data and kernels of flight at a water surface, docs/theory.md section 12, for several bodies side
 // by side. Plain data only, see flight_lanes.h.
 
+/// Motions of a body that buoyancy acts against like springs: heave of the waterplane's centroid,
+/// then tilts about its two principal axes. Each has an oscillator that stands for the waves that
+/// it makes, eq. (69), (70). All zero without a waterplane. `Real`: double, one number per lane, or
+/// FlightLane.
+template <class Real>
+struct FloatingModesOf {
+  SpatialsOf<Real> heave;   ///< N: the velocity of the motion is N.x for a twist x
+  VectorsOf<Real> tilt[2];  ///< angular part of N; its linear part is 0
+  Real second_moment[2];    ///< I_i of the waterplane about the axes of the tilts [m^4]
+  Real stiffness[3];        ///< k: rho g A_w for heave [N/m], rho g V GM_i for tilts [N m]
+  Real strength[3];         ///< G [N/m, N m]
+  Real loss[3], rate[3];    ///< a, b [1/s]
+};
+using FloatingModes = FloatingModesOf<double>;
+
+/// States s_1 and s_2 of one mode of waves, eq. (70).
+template <class Real>
+struct OscillationOf {
+  Real first = {}, second = {};
+};
+
+/// Waves that a floating body has made, as far as they act on it; eq. (69). `Real`: as above.
+template <class Real>
+struct WavesOf {
+  OscillationOf<Real> heave;       ///< [m]
+  VectorsOf<Real> tilt_W[2] = {};  ///< s_1 and s_2 of the tilt about the horizontal axes [rad]
+  Real heave_energy = {}, tilt_energy = {};  ///< [J]
+
+  auto energy() const { return heave_energy + tilt_energy; }
+};
+using WaveMemory = WavesOf<double>;
+
+namespace {
+
+// Call act(to, from) with each number of `to` and the same one of `from`.
+
+template <class To, class From, class Act>
+inline void forEachNumber(VectorsOf<To>& to, const VectorsOf<From>& from, const Act& act) {
+  act(to.x, from.x);
+  act(to.y, from.y);
+  act(to.z, from.z);
+}
+template <class To, class From, class Act>
+inline void forEachNumber(WavesOf<To>& to, const WavesOf<From>& from, const Act& act) {
+  act(to.heave.first, from.heave.first);
+  act(to.heave.second, from.heave.second);
+  for (int i = 0; i < 2; ++i) forEachNumber(to.tilt_W[i], from.tilt_W[i], act);
+  act(to.heave_energy, from.heave_energy);
+  act(to.tilt_energy, from.tilt_energy);
+}
+template <class To, class From, class Act>
+inline void forEachNumber(FloatingModesOf<To>& to, const FloatingModesOf<From>& from,
+                          const Act& act) {
+  forEachNumber(to.heave.angular, from.heave.angular, act);
+  forEachNumber(to.heave.linear, from.heave.linear, act);
+  for (int i = 0; i < 2; ++i) {
+    forEachNumber(to.tilt[i], from.tilt[i], act);
+    act(to.second_moment[i], from.second_moment[i]);
+  }
+  for (int i = 0; i < 3; ++i) {
+    act(to.stiffness[i], from.stiffness[i]);
+    act(to.strength[i], from.strength[i]);
+    act(to.loss[i], from.loss[i]);
+    act(to.rate[i], from.rate[i]);
+  }
+}
+
+}  // namespace
+
 /// Bodies at given positions relative to the water surface: input and output of
 /// SurfaceKernel::stand(). Vectors in B.
 struct alignas(64) StandLanes {
@@ -25,13 +94,10 @@ struct alignas(64) StandLanes {
   FlightLane least[kSymmetricEntries];    ///< smallest K that is allowed, half of K_above
 
   // Results.
-  FlightLane inverse[kSymmetricEntries];     ///< K^-1
-  FlightLane is_indefinite;                  ///< 1: K less `least` is not positive definite
-  FlightLane heave[6], tilt[2][3];           ///< N of heave; angular part of N of the two tilts
-  FlightLane stiffness[3];                   ///< k of heave and tilts [N/m, N m]
-  FlightLane second_moment[2];               ///< I_i of the tilts [m^4]
-  FlightLane strength[3], loss[3], rate[3];  ///< G, a, b of heave and tilts, eq. (69)
-  FlightLane swing;                          ///< largest natural frequency [1/s]
+  FlightLane inverse[kSymmetricEntries];  ///< K^-1
+  FlightLane is_indefinite;               ///< 1: K less `least` is not positive definite
+  FloatingModesOf<FlightLane> modes;
+  FlightLane swing;  ///< largest natural frequency [1/s]
 };
 
 /// Bodies in flight near a surface. `flight` holds pose, motion, forces, loads, and the inertia of
@@ -49,7 +115,7 @@ struct alignas(64) SurfaceLanes {
   FlightLane centre_of_buoyancy[3];
   FlightLane passage_error;  ///< result of pass(), eq. (68b) [1]
 
-  FlightLane wave_heave[2], heave_energy, wave_tilt_W[2][3], tilt_energy;  ///< WaveMemory: s_1, s_2
+  WavesOf<FlightLane> waves;
 
   FlightLane kinetic2, potential;  ///< results of measure(): x.K x, and eq. (64) without T [J]
 };

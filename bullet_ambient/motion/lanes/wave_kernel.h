@@ -2,25 +2,15 @@
 
 #include "bullet_ambient/base/elementary.h"
 #include "bullet_ambient/motion/lanes/spatial_lanes.h"
+#include "bullet_ambient/motion/lanes/surface_lanes.h"
 
-// Waves that floating bodies make, docs/theory.md eq. (69) to (72), one body per lane. For sources
-// that are compiled once per instruction set, see spatial_lanes.h.
+// Waves that floating bodies make, docs/theory.md eq. (69) to (72), of one body or of one body per
+// lane, see spatial_lanes.h.
 
 namespace ambient {
 namespace {
 
-/// Motions of FloatingModes of one body per lane: heave and two tilts.
-struct Restorings {
-  Spatials heave;          ///< N of heave
-  Vectors tilt[2];         ///< angular part of N of the tilts; the linear part is 0
-  Lanes stiffness[3];      ///< k of heave and tilts
-  Lanes second_moment[2];  ///< I_i of the tilts
-};
-
-/// G, a, b of eq. (69), (70) for heave and tilts.
-struct Waves {
-  Lanes strength[3], loss[3], rate[3];
-};
+using Modes = FloatingModesOf<Lanes>;
 
 /// Waterplane of one body per lane.
 struct Waterplanes {
@@ -45,16 +35,10 @@ inline Vectors normalized(const Vectors& a) { return 1 / squareRoot(dot(a, a)) *
 
 /// Return logarithm and exponential in the lanes of a mask; 0 elsewhere.
 inline Lanes logarithm(const Lanes& x, const Mask& mask) {
-  Lanes y = Lanes{};
-  for (int i = 0; i < kWidth; ++i)
-    if (mask[i]) y[i] = portable::log(x[i]);
-  return y;
+  return resultsWhere(mask, portable::log, x, Lanes{});
 }
 inline Lanes exponential(const Lanes& x, const Mask& mask) {
-  Lanes y = Lanes{};
-  for (int i = 0; i < kWidth; ++i)
-    if (mask[i]) y[i] = portable::exp(x[i]);
-  return y;
+  return resultsWhere(mask, portable::exp, x, Lanes{});
 }
 
 /// Returns a unit vector perpendicular to the unit vector n, the one of PlaneAxes::first.
@@ -82,15 +66,14 @@ inline Vectors principalAxis(const Waterplanes& section, const Vectors& s) {
   return normalized(axis);
 }
 
-/// Returns heave and tilts, zero without a waterplane. `moment`: first moment S of the wet volume;
-/// `s`: normal of the surface; `pull`: rho g.
-inline Restorings restoringsOf(const Waterplanes& section, const Vectors& moment, const Vectors& s,
-                               const Lanes& pull) {
+/// Sets motions, stiffness and second moments, to zero without a waterplane. `moment`: first moment
+/// S of the wet volume; `s`: normal of the surface; `pull`: rho g.
+inline void setRestoring(const Waterplanes& section, const Vectors& moment, const Vectors& s,
+                         const Lanes& pull, Modes& modes) {
   const Lanes zero = Lanes{};
   const Mask floats = (section.area > zero) & (pull > zero);
   const Vectors none = zeroVectors(), axis = principalAxis(section, s);
   const Vectors axes[2] = {axis, cross(s, axis)};
-  Restorings modes;
   modes.heave = select(floats, Spatials{cross(section.centroid, s), s}, Spatials{none, none});
   modes.stiffness[0] = floats ? pull * section.area : zero;
   const Lanes dipole = dot(s, moment);
@@ -101,7 +84,6 @@ inline Restorings restoringsOf(const Waterplanes& section, const Vectors& moment
     modes.second_moment[i] = floats ? second : zero;
     modes.stiffness[i + 1] = floats ? pull * (second + dipole) : zero;
   }
-  return modes;
 }
 
 /// WaveSource of one body per lane.
@@ -109,44 +91,42 @@ struct WaveSources {
   Lanes area, volume, heave_inertia, damping, pull, gravity;
 };
 
-/// Returns G, a, b of eq. (69); all zero without a waterplane.
-inline Waves wavesOf(const WaveSources& source, const Restorings& restoring) {
+/// Sets G, a, b of eq. (69), to zero without a waterplane. @pre setRestoring()
+inline void setWaves(const WaveSources& source, Modes& modes) {
   const Lanes zero = Lanes{}, one = all(1);
-  const Mask floats = restoring.stiffness[0] > zero;
+  const Mask floats = modes.stiffness[0] > zero;
   const Lanes area = floats ? source.area : one, pull = floats ? source.pull : one;
   const Lanes length = squareRoot(area);
   const Lanes volume = source.volume + source.heave_inertia;
   const Lanes per_depth = between(length * area / (floats ? volume : one), 0.1, 8.0);
   Lanes width[2];
   for (int i = 0; i < 2; ++i)
-    width[i] = between(squareRoot(12 * restoring.second_moment[i] / area) / length, 0.2, 5.0);
+    width[i] = between(squareRoot(12 * modes.second_moment[i] / area) / length, 0.2, 5.0);
   const Lanes steep = larger(width[0], width[1]) * per_depth;
   const Lanes log_per_depth = logarithm(per_depth, floats);
   const Lanes log_steepness = logarithm(1 + steep * steep / 30, floats);
-  Waves waves;
-  waves.strength[0] = source.damping * restoring.stiffness[0] * 0.075 * per_depth * per_depth *
+  modes.strength[0] = source.damping * modes.stiffness[0] * 0.075 * per_depth * per_depth *
                       exponential(-0.63 * log_steepness, floats);
-  waves.rate[0] = 0.66 * exponential(0.9 * log_per_depth - log_steepness / 3, floats) *
+  modes.rate[0] = 0.66 * exponential(0.9 * log_per_depth - log_steepness / 3, floats) *
                   squareRoot(source.gravity / length);
-  waves.loss[0] = 1.5 * waves.rate[0];
+  modes.loss[0] = 1.5 * modes.rate[0];
   for (int i = 0; i < 2; ++i) {
-    const Lanes dipole = restoring.stiffness[i + 1] / pull;  // V GM
+    const Lanes dipole = modes.stiffness[i + 1] / pull;  // V GM
     const Lanes log_width = logarithm(width[i], floats);
-    waves.strength[i + 1] = source.damping * pull * dipole * dipole / (area * area) * 1.14 *
+    modes.strength[i + 1] = source.damping * pull * dipole * dipole / (area * area) * 1.14 *
                             exponential(1.2 * log_per_depth - 2.6 * log_width, floats);
     const Lanes rate = 2.7 * squareRoot(source.gravity / (width[i] * length));
-    waves.rate[i + 1] = floats ? rate : zero;
-    waves.loss[i + 1] = 1.12 * waves.rate[i + 1];
+    modes.rate[i + 1] = floats ? rate : zero;
+    modes.loss[i + 1] = 1.12 * modes.rate[i + 1];
   }
-  return waves;
 }
 
 /// Returns the square of the largest natural frequency of heave and tilts, each alone [1/s^2].
-inline Lanes swingSquared(const Restorings& modes, const FullMatrices& inertia) {
+inline Lanes swingSquared(const Modes& modes, const SymmetricOf<Lanes>& inertia) {
   const Lanes zero = Lanes{}, one = all(1);
   const Lanes along[3] = {dot(modes.heave, inertia * modes.heave),
-                          dot(modes.tilt[0], inertia.ofAngular(modes.tilt[0]).angular),
-                          dot(modes.tilt[1], inertia.ofAngular(modes.tilt[1]).angular)};
+                          dot(modes.tilt[0], ofAngular(inertia, modes.tilt[0]).angular),
+                          dot(modes.tilt[1], ofAngular(inertia, modes.tilt[1]).angular)};
   Lanes square = zero;
   for (int i = 0; i < 3; ++i) {
     const Mask moves = along[i] > zero;
@@ -157,124 +137,107 @@ inline Lanes swingSquared(const Restorings& modes, const FullMatrices& inertia) 
 
 /// Returns K + duration^2/4 sum of k N N^T over the modes with k > 0, docs/theory.md below eq.
 /// (68).
-inline FullMatrices stiffened(const FullMatrices& inertia, const Restorings& modes,
-                              const Lanes& duration) {
-  const Lanes zero = Lanes{};
-  const auto add = [&](FullMatrices& K, const Spatials& motion, const Lanes& stiffness) {
-    const Lanes scale = duration * duration / 4 * larger(stiffness, zero);
-    const Lanes N[6] = {motion.angular.x, motion.angular.y, motion.angular.z,
-                        motion.linear.x,  motion.linear.y,  motion.linear.z};
+template <class Real>
+inline SymmetricOf<Real> stiffened(const SymmetricOf<Real>& inertia,
+                                   const FloatingModesOf<Real>& modes, const Real& duration) {
+  SymmetricOf<Real> K = inertia;
+  const auto add = [&](const SpatialsOf<Real>& motion, const Real& stiffness) {
+    const Real scale = duration * duration / 4 * larger(stiffness, Real{});
+    const Real N[6] = {motion.angular.x, motion.angular.y, motion.angular.z,
+                       motion.linear.x,  motion.linear.y,  motion.linear.z};
     for (int i = 0; i < 6; ++i)
-      for (int j = i; j < 6; ++j) K.entry(i, j) = K.entry(i, j) + scale * N[i] * N[j];
+      for (int j = i; j < 6; ++j) entry(K, i, j) = entry(K, i, j) + scale * N[i] * N[j];
   };
-  FullMatrices K = inertia;
-  add(K, modes.heave, modes.stiffness[0]);
-  for (int i = 0; i < 2; ++i) add(K, {modes.tilt[i], zeroVectors()}, modes.stiffness[i + 1]);
+  add(modes.heave, modes.stiffness[0]);
+  for (int i = 0; i < 2; ++i) add({modes.tilt[i], {}}, modes.stiffness[i + 1]);
   return K;
 }
 
-/// States s_1 and s_2 of one mode, eq. (70).
-struct Oscillations {
-  Lanes first, second;
+template <class Real>
+inline Real energyOf(const OscillationOf<Real>& s, const Real& strength) {
+  return 0.5 * strength * (s.first * s.first + s.second * s.second);
+}
 
-  Lanes energy(const Lanes& strength) const {
-    return 0.5 * strength * (first * first + second * second);
+/// Modes of a body at its present pose.
+template <class Real>
+struct ModesAtPose {
+  const FloatingModesOf<Real>& of_body;
+  VectorsOf<Real> tilt_W[2];  ///< axes of the tilts in W
+
+  /// Returns the states of a tilt.
+  OscillationOf<Real> tiltStates(int i, const WavesOf<Real>& waves) const {
+    return {dot(tilt_W[i], waves.tilt_W[0]), dot(tilt_W[i], waves.tilt_W[1])};
+  }
+  /// Returns the energy of both tilts.
+  Real energy(const OscillationOf<Real> (&tilts)[2]) const {
+    return energyOf(tilts[0], of_body.strength[1]) + energyOf(tilts[1], of_body.strength[2]);
+  }
+  /// Stores the states of both tilts as vectors in W, and their energy.
+  void setTilts(const OscillationOf<Real> (&tilts)[2], WavesOf<Real>& waves) const {
+    waves.tilt_W[0] = tilts[0].first * tilt_W[0] + tilts[1].first * tilt_W[1];
+    waves.tilt_W[1] = tilts[0].second * tilt_W[0] + tilts[1].second * tilt_W[1];
+    waves.tilt_energy = energy(tilts);
   }
 };
 
-/// WaveMemory of one body per lane.
-struct WaveStates {
-  Oscillations heave;
-  Vectors tilt_W[2];
-  Lanes heave_energy, tilt_energy;
-};
-
-/// Modes of the bodies at the present pose.
-struct WaveModesOfBodies {
-  const Restorings& restoring;
-  const Waves& waves;
-  Vectors tilt_W[2];  ///< axes of the tilts in W
-};
-
-/// Returns the states of the tilt about an axis.
-inline Oscillations tiltAlong(const WaveStates& waves, const Vectors& axis_W) {
-  return {dot(axis_W, waves.tilt_W[0]), dot(axis_W, waves.tilt_W[1])};
-}
-/// Stores the states of both tilts as vectors in W, and their energy.
-inline void setTilt(const WaveModesOfBodies& modes, const Oscillations (&tilt)[2],
-                    WaveStates& waves) {
-  const Vectors &e1 = modes.tilt_W[0], &e2 = modes.tilt_W[1];
-  waves.tilt_W[0] = tilt[0].first * e1 + tilt[1].first * e2;
-  waves.tilt_W[1] = tilt[0].second * e1 + tilt[1].second * e2;
-  waves.tilt_energy =
-      tilt[0].energy(modes.waves.strength[1]) + tilt[1].energy(modes.waves.strength[2]);
-}
-
-/// Returns the factor on an amplitude that keeps its energy within the one before.
-inline Lanes scaleTo(const Lanes& before, const Lanes& after) {
-  const Lanes one = all(1);
-  const Mask gains = after > before;
-  return gains ? squareRoot(before / (gains ? after : one)) : one;
-}
-
 /// Scales the waves down where a change of G has raised their energy, eq. (72). Sets them to 0
 /// without a waterplane.
-inline void meetModes(const WaveModesOfBodies& modes, WaveStates& waves) {
-  const Lanes zero = Lanes{};
-  const Mask floats = modes.waves.rate[0] > zero;
-  const Lanes heave_after = waves.heave.energy(modes.waves.strength[0]);
-  const Lanes by_heave = floats ? scaleTo(waves.heave_energy, heave_after) : zero;
+template <class Real>
+inline void meetModes(const ModesAtPose<Real>& modes, WavesOf<Real>& waves) {
+  const Real zero = Real{};
+  const MaskOf<Real> floats = modes.of_body.rate[0] > zero;
+  const Real heave_after = energyOf(waves.heave, modes.of_body.strength[0]);
+  const Real by_heave = floats ? scaleWithin(heave_after, waves.heave_energy) : zero;
   waves.heave = {by_heave * waves.heave.first, by_heave * waves.heave.second};
   waves.heave_energy = by_heave * by_heave * heave_after;
-  Oscillations tilt[2] = {tiltAlong(waves, modes.tilt_W[0]), tiltAlong(waves, modes.tilt_W[1])};
-  const Lanes tilt_after =
-      tilt[0].energy(modes.waves.strength[1]) + tilt[1].energy(modes.waves.strength[2]);
-  const Lanes by_tilt = floats ? scaleTo(waves.tilt_energy, tilt_after) : zero;
-  for (Oscillations& s : tilt) s = {by_tilt * s.first, by_tilt * s.second};
-  setTilt(modes, tilt, waves);
+  OscillationOf<Real> tilts[2] = {modes.tiltStates(0, waves), modes.tiltStates(1, waves)};
+  const Real by_tilt = floats ? scaleWithin(modes.energy(tilts), waves.tilt_energy) : zero;
+  for (OscillationOf<Real>& s : tilts) s = {by_tilt * s.first, by_tilt * s.second};
+  modes.setTilts(tilts, waves);
 }
 
 /// One mode of the waves, for the implicit midpoint rule, eq. (71).
-struct ModeOfBodies {
-  const Lanes &strength, &loss, &rate;
-  Spatials answer;  ///< K^-1 N
+template <class Real>
+struct ModeOf {
+  const Real &strength, &loss, &rate;
+  SpatialsOf<Real> answer;  ///< K^-1 N
 
   /// Advances the states `s` by `duration` [s] and returns the twist after it. `velocity`: N.x;
   /// `per_force`: N.K^-1 N.
-  Spatials exchange(const Spatials& x, const Lanes& velocity, const Lanes& per_force,
-                    const Lanes& duration, Oscillations& s) const {
-    const Lanes half = duration / 2;
-    const Lanes A = 1 + half * loss, B = half * rate, per = 1 / (A + B * B);
-    const Lanes stiffness = half * strength * per_force;
-    const Lanes kept = per * (s.first - B * s.second);  // s_1 in the middle if the body rested
-    const Lanes gain = half * per;
-    const Lanes middle = (velocity - stiffness * kept) / (1 + stiffness * gain);
-    const Lanes first = kept + gain * middle, second = s.second + B * first;
+  SpatialsOf<Real> exchange(const SpatialsOf<Real>& x, const Real& velocity, const Real& per_force,
+                            const Real& duration, OscillationOf<Real>& s) const {
+    const Real half = duration / 2;
+    const Real A = 1 + half * loss, B = half * rate, per = 1 / (A + B * B);
+    const Real stiffness = half * strength * per_force;
+    const Real kept = per * (s.first - B * s.second);  // s_1 in the middle if the body rested
+    const Real gain = half * per;
+    const Real middle = (velocity - stiffness * kept) / (1 + stiffness * gain);
+    const Real first = kept + gain * middle, second = s.second + B * first;
     s = {2 * first - s.first, 2 * second - s.second};
     return x - duration * strength * first * answer;
   }
 };
 
-/// Applies the waves over `duration` [s], one mode after another, eq. (71). Returns the twists
-/// after it. @pre meetModes()
-inline Spatials exchangeWaves(const WaveModesOfBodies& modes, const FullMatrices& inverse,
-                              const Lanes& duration, const Spatials& x, WaveStates& waves) {
-  const Restorings& N = modes.restoring;
-  const Waves& w = modes.waves;
-  const Mask floats = w.rate[0] > Lanes{};
-  const Spatials answer = inverse * N.heave;
-  Spatials end = ModeOfBodies{w.strength[0], w.loss[0], w.rate[0], answer}.exchange(
+/// Applies the waves over `duration` [s], one mode after another, eq. (71). Returns the twist after
+/// it. @pre meetModes()
+template <class Real>
+inline SpatialsOf<Real> exchangeWaves(const ModesAtPose<Real>& modes,
+                                      const SymmetricOf<Real>& inverse, const Real& duration,
+                                      const SpatialsOf<Real>& x, WavesOf<Real>& waves) {
+  const FloatingModesOf<Real>& N = modes.of_body;
+  const SpatialsOf<Real> answer = inverse * N.heave;
+  SpatialsOf<Real> end = ModeOf<Real>{N.strength[0], N.loss[0], N.rate[0], answer}.exchange(
       x, dot(N.heave, x), dot(N.heave, answer), duration, waves.heave);
-  waves.heave_energy = waves.heave.energy(w.strength[0]);
-  Oscillations tilt[2];
+  waves.heave_energy = energyOf(waves.heave, N.strength[0]);
+  OscillationOf<Real> tilts[2];
   for (int i = 0; i < 2; ++i) {
-    tilt[i] = tiltAlong(waves, modes.tilt_W[i]);
-    const Spatials of_tilt = inverse.ofAngular(N.tilt[i]);
-    end = ModeOfBodies{w.strength[i + 1], w.loss[i + 1], w.rate[i + 1], of_tilt}.exchange(
-        end, dot(N.tilt[i], end.angular), dot(N.tilt[i], of_tilt.angular), duration, tilt[i]);
+    tilts[i] = modes.tiltStates(i, waves);
+    const SpatialsOf<Real> of_tilt = ofAngular(inverse, N.tilt[i]);
+    end = ModeOf<Real>{N.strength[i + 1], N.loss[i + 1], N.rate[i + 1], of_tilt}.exchange(
+        end, dot(N.tilt[i], end.angular), dot(N.tilt[i], of_tilt.angular), duration, tilts[i]);
   }
-  setTilt(modes, tilt, waves);
-  return select(floats, end, x);
+  modes.setTilts(tilts, waves);
+  return select(N.rate[0] > Real{}, end, x);
 }
 
 }  // namespace

@@ -37,11 +37,6 @@ bool isSame(const TreePose& a, const TreePose& b) {
          a.joints == b.joints;
 }
 
-const LinkKernel& fastestKernel() {
-  static const LinkKernel& fastest = *kLinkKernels.fastest();
-  return fastest;
-}
-
 // Returns the wrench of Bullet's damping, which acts on the dry mass, in the link's frame.
 Wrench dampingWrench(const LinkTree& tree, const Link& link, const Twist& V) {
   const double linear = tree.linear_damping * (1 + V.linear.norm());
@@ -51,7 +46,7 @@ Wrench dampingWrench(const LinkTree& tree, const Link& link, const Twist& V) {
 
 }  // namespace
 
-LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree), kernel_(fastestKernel()) {
+LinkDynamics::LinkDynamics(const LinkTree& tree) : tree_(tree), kernel_(*kLinkKernels.fastest()) {
   checkTree(tree);
   coordinates_ = coordinateCount(tree);
   missing_.resize(coordinates_);

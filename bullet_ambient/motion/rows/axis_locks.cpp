@@ -4,7 +4,8 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/body_model.h"
-#include "bullet_ambient/motion/body/passive_kick.h"
+#include "bullet_ambient/motion/body/one_body.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
 
@@ -104,15 +105,16 @@ RowVelocity computeLockedVelocity(const FlightTask& task, const RigidState& star
       const Wrench mean = meanLoadInTurningFluid(task, model, relative, load.wrench);
       forced += model.inverse_inertia * mean.vector();
     } else {
-      const DualPair motion = pairOfTwist(model, x);
+      const PairsOf<double> motion = plain(pairOfTwist(model, x));
       // The wrench that K^-1 would need for the acceleration that the locks allow.
-      const DualPair sample = pairOfTwist(model, model.inverse_inertia * load.wrench.vector());
-      forced += (passiveKick(motion, {motion, sample}, dt).twist - x) / dt;
+      const PairsOf<double> sample =
+          plain(pairOfTwist(model, model.inverse_inertia * load.wrench.vector()));
+      forced += (asEigen(passiveKick(motion, motion, sample, dt).twist) - x) / dt;
     }
   }
   const LockedRates rates(model.inertia, model.inverse_inertia, forced);
-  result.extent =
-      extentOf(model, dt * (rates.acceleration(x) - forced), pairOfTwist(model, x), {1 / dt, 0.3});
+  const DualPair turned = pairOfTwist(model, dt * (rates.acceleration(x) - forced));
+  result.extent = extentOf(plain(turned), plain(pairOfTwist(model, x)), 1 / dt, 0.3);
   Vector6 turning = Vector6::Zero();
   if (result.extent <= 1) turning = dt * (rates.acceleration(midpoint(rates, x, dt)) - forced);
   const Vector6 free = projectionOf(factors);

@@ -2,7 +2,6 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/motion/body/one_body.h"
-#include "bullet_ambient/motion/body/passive_kick.h"
 #include "bullet_ambient/motion/flight/flight_group.h"
 #include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "bullet_ambient/motion/lanes/flight_lanes.h"
@@ -60,17 +59,12 @@ Wrench meanLoadInTurningFluid(const FlightTask& task, const BodyModel& model, co
   Twist seen = relative;
   seen.angular -= flow.twists_B[0].angular;
   const Wrench whole = load + flow.at_rest_B;
-  const DualPair motion = pairOfTwist(model, seen.vector());
-  const DualPair sample = pairOfTwist(model, model.inverse_inertia * whole.vector());
-  const Vector6 change = passiveKick(motion, {motion, sample}, task.duration).twist - motion.twist;
+  const PairsOf<double> motion = plain(pairOfTwist(model, seen.vector()));
+  const PairsOf<double> sample = plain(pairOfTwist(model, model.inverse_inertia * whole.vector()));
+  const Vector6 change =
+      asEigen(passiveKick(motion, motion, sample, task.duration).twist - motion.twist);
   Wrench mean = Wrench::fromVector(model.inertia * change / task.duration);
   return mean -= flow.at_rest_B;
-}
-
-double extentOf(const BodyModel& model, const Vector6& change, const DualPair& motion,
-                const TurnLimits& limits) noexcept {
-  return extentOf(inAllLanes(pairOfTwist(model, change)), inAllLanes(motion), all(limits.spin),
-                  all(limits.change))[0];
 }
 
 void computeRowVelocities(const RowTask* const* bodies, int count, RowVelocity* results) noexcept {
@@ -79,7 +73,7 @@ void computeRowVelocities(const RowTask* const* bodies, int count, RowVelocity* 
   if (count < kFlightLanes) push = {};
   setKinds(push.bodies, count, [&](int i) -> const BodyModel& { return bodies[i]->task.model; });
   for (int i = 0; i < count; ++i) results[i].count = begin(*bodies[i], i, push);
-  fastestFlightKernel().push(push);
+  kFlightKernels.fastest()->push(push);
   for (int i = 0; i < count; ++i) {
     results[i].change_W = twistOf(push.change_W, i);
     results[i].turning_W = twistOf(push.turning_W, i);
@@ -128,7 +122,7 @@ void computeKeptMotions(const BodyWithRows* const* bodies, int count, double dur
     setLane(some.lanes.turning_W, i, bodies[i]->turning_W);
     setLane(some.lanes.by_rows_W, i, bodies[i]->by_rows_W);
   }
-  fastestFlightKernel().keep(some.lanes);
+  kFlightKernels.fastest()->keep(some.lanes);
   for (int i = 0; i < count; ++i) {
     const FlightLane* m = some.lanes.momentum_W;
     results[i] = {
@@ -142,7 +136,7 @@ void computeCarriedTwists(const CarriedBody* const* bodies, int count, Twist* tw
     setLane(some.lanes.momentum_W, i, bodies[i]->momentum_W);
     setLane(some.lanes.bodies.way_W, i, bodies[i]->way_W);
   }
-  fastestFlightKernel().carry(some.lanes);
+  kFlightKernels.fastest()->carry(some.lanes);
   for (int i = 0; i < count; ++i) twists_B[i] = twistOf(some.lanes.bodies.twist_B, i);
 }
 

@@ -5,16 +5,6 @@
 
 namespace ambient {
 
-/// Limits in eq. (28a): spin, and size of t relative to the twist, at which the extent m is 1.
-struct TurnLimits {
-  double spin;    ///< [rad/s]
-  double change;  ///< |t| / |x| in the norm of K
-};
-/// Extent m of docs/theory.md eq. (28a): the larger of |w| / limits.spin and
-/// (|change| / |x|) / limits.change. `motion`: relative to the flow.
-double extentOf(const BodyModel& model, const Vector6& change, const DualPair& motion,
-                const TurnLimits& limits) noexcept;
-
 /// Largest extent m at which a step needs no bound of the energy, docs/theory.md eq. (31a).
 constexpr double kSlowTurn = 0.5;
 

@@ -24,7 +24,7 @@ void setWetVolume(StandLanes& lanes, int body, const WetVolume& wet) {
 }
 
 void getMatrix(const FlightLane (&from)[kSymmetricEntries], int body, SymmetricMatrix& m) {
-  for (int entry = 0; entry < kSymmetricEntries; ++entry) m[entry] = from[entry][body];
+  for (int entry = 0; entry < kSymmetricEntries; ++entry) m.entries[entry] = from[entry][body];
 }
 
 /// Added mass along the normal per unit density, times c of docs/theory.md eq. (69) [m^3].
@@ -36,11 +36,6 @@ double heaveInertia(const SurfaceModel& model, const SurfacePlace& place) {
 }
 
 }  // namespace
-
-const SurfaceKernel& fastestSurfaceKernel() noexcept {
-  static const SurfaceKernel& fastest = *kSurfaceKernels.fastest();
-  return fastest;
-}
 
 void setPlace(StandLanes& lanes, int body, const SurfaceModel& model,
               const SurfacePlace& place) noexcept {
@@ -61,33 +56,19 @@ void setStand(StandLanes& lanes, int body, const SurfaceModel& model,
               const SurfaceStand& stand) noexcept {
   setPlane(lanes, body, stand.plane);
   setWetVolume(lanes, body, wetVolume(model, stand));
-  const FloatingModes& modes = stand.modes;
-  setLane(lanes.heave, body, Twist::fromVector(modes[0].motion));
-  for (int i = 0; i < 2; ++i) setLane(lanes.tilt[i], body, Vector3(modes[i + 1].motion.head<3>()));
-  for (int i = 0; i < 3; ++i) {
-    lanes.stiffness[i][body] = modes[i].stiffness;
-    lanes.strength[i][body] = modes[i].strength;
-    lanes.loss[i][body] = modes[i].loss;
-    lanes.rate[i][body] = modes[i].rate;
-  }
+  forEachNumber(lanes.modes, stand.modes,
+                [&](FlightLane& to, const double& from) { to[body] = from; });
 }
 
 void readStand(const StandLanes& lanes, int body, SurfaceStand& stand) noexcept {
   getMatrix(lanes.inverse, body, stand.inverse);
-  FloatingModes& modes = stand.modes;
-  for (int i = 0; i < 3; ++i)
-    modes[i] = {Vector6::Zero(),     lanes.strength[i][body],  lanes.loss[i][body],
-                lanes.rate[i][body], lanes.stiffness[i][body], 0};
-  modes[0].motion = twistOf(lanes.heave, body).vector();
-  for (int i = 0; i < 2; ++i) {
-    modes[i + 1].motion.head<3>() = vectorOf(lanes.tilt[i], body);
-    modes[i + 1].second_moment = lanes.second_moment[i][body];
-  }
+  forEachNumber(stand.modes, lanes.modes,
+                [&](double& to, const FlightLane& from) { to = from[body]; });
   stand.swing = lanes.swing[body];
 }
 
 void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexcept {
-  fastestSurfaceKernel().stand(lanes);
+  kSurfaceKernels.fastest()->stand(lanes);
   const auto isIndefinite = [&](int i) {
     return lanes.active[i] > 0 && lanes.is_indefinite[i] > 0;
   };
@@ -101,7 +82,7 @@ void computeStands(StandLanes& lanes, const BodyInLane* bodies, int count) noexc
     setLane(lanes.least, i, SymmetricMatrix(Matrix6::Zero()));
   }
   if (!is_any) return;
-  fastestSurfaceKernel().stand(lanes);
+  kSurfaceKernels.fastest()->stand(lanes);
   for (int i = 0; i < count; ++i)
     if (isIndefinite(i))
       setLane(lanes.inverse, i, SymmetricMatrix(bodies[i].model->above.inverse_inertia));

@@ -16,12 +16,9 @@ SurfaceStand standAtSurface(const SurfaceModel& model, const SurfacePlane& plane
 
 extern const Kernels<const SurfaceKernel*> kSurfaceKernels;
 
-/// Kernel of fastestInstructionSet().
-const SurfaceKernel& fastestSurfaceKernel() noexcept;
-
 inline void setLane(FlightLane (&to)[kSymmetricEntries], int body,
                     const SymmetricMatrix& m) noexcept {
-  for (int entry = 0; entry < kSymmetricEntries; ++entry) to[entry][body] = m[entry];
+  for (int entry = 0; entry < kSymmetricEntries; ++entry) to[entry][body] = m.entries[entry];
 }
 
 /// Writes a place into lane `body`, as input of computeStands().

@@ -56,7 +56,7 @@ bool mayGain(const Progress& progress) {
 class SurfaceFlights {
  public:
   SurfaceFlights(SurfaceFlight* const* flights, int count)
-      : kernel_(fastestSurfaceKernel()), flow_(fastestFlightKernel()), count_(count) {
+      : kernel_(*kSurfaceKernels.fastest()), flow_(*kFlightKernels.fastest()), count_(count) {
     AMBIENT_ASSERT(count > 0 && count <= kFlightLanes);
     lanes_.flight.has_diagonal_inertia = false;
     for (int i = 0; i < count; ++i) begin(i, *flights[i]);
@@ -129,7 +129,8 @@ class SurfaceFlights {
     setLane(lanes_.flight.inverse_inertia, i, flight.stand.inverse);
     setStand(lanes_.stand, i, p.model(), flight.stand);
     p.place = &flight.stand;
-    setWaves(i, flight.waves);
+    forEachNumber(lanes_.waves, flight.waves,
+                  [&](FlightLane& to, const double& from) { to[i] = from; });
     const FlightMemory& memory = flight.body.memory;
     p.has_load = memory.has_load && p.model().loads_below.loads;
     setLane(lanes_.flight.load_W, i, p.has_load ? memory.load_W : Wrench{});
@@ -361,27 +362,13 @@ class SurfaceFlights {
     body.state.position += t * s.ambient_velocity + t * t / 2 * s.ambient_acceleration;
     body.state.twist.linear +=
         body.state.orientation.conjugate() * (s.ambient_velocity + t * s.ambient_acceleration);
-    flight.waves = wavesOf(i);
+    forEachNumber(flight.waves, lanes_.waves,
+                  [&](double& to, const FlightLane& from) { to = from[i]; });
     if (p.place == &p.later) {
       static_cast<SurfacePlace&>(flight.stand) = p.later;
       readStand(lanes_.stand, i, flight.stand);
     }
     p.is_done = true;
-  }
-
-  void setWaves(int i, const WaveMemory& waves) {
-    for (int k = 0; k < 2; ++k) {
-      lanes_.wave_heave[k][i] = waves.heave[k];
-      setLane(lanes_.wave_tilt_W[k], i, waves.tilt_W[k]);
-    }
-    lanes_.heave_energy[i] = waves.heave_energy;
-    lanes_.tilt_energy[i] = waves.tilt_energy;
-  }
-  WaveMemory wavesOf(int i) const {
-    return {{lanes_.wave_heave[0][i], lanes_.wave_heave[1][i]},
-            {vectorOf(lanes_.wave_tilt_W[0], i), vectorOf(lanes_.wave_tilt_W[1], i)},
-            lanes_.heave_energy[i],
-            lanes_.tilt_energy[i]};
   }
 
   const SurfaceKernel& kernel_;

@@ -4,8 +4,10 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/force/loads/surface_loads.h"
-#include "bullet_ambient/motion/body/passive_kick.h"
-#include "bullet_ambient/motion/surface/surface_passage.h"
+#include "bullet_ambient/motion/body/one_body.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
+#include "bullet_ambient/motion/lanes/passage_kernel.h"
+#include "bullet_ambient/motion/lanes/wave_kernel.h"
 #include "bullet_ambient/spatial/inertia.h"
 
 namespace ambient {
@@ -31,20 +33,23 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noe
 bool isStable(const SurfaceStand& stand) noexcept {
   constexpr double kNeutral = 0.005;  // the flat sides of a barrel's mesh make 0.0022
   const double pull = stand.plane.density * stand.plane.gravity;
-  return std::all_of(stand.modes.begin(), stand.modes.end(), [pull](const FloatingMode& mode) {
-    return mode.stiffness >= -kNeutral * pull * mode.second_moment;
-  });
+  const FloatingModes& modes = stand.modes;
+  const auto isTiltStable = [&](int i) {
+    return modes.stiffness[i + 1] >= -kNeutral * pull * modes.second_moment[i];
+  };
+  return modes.stiffness[0] >= 0 && isTiltStable(0) && isTiltStable(1);
 }
 
 Matrix6 stiffInertia(const SurfaceStand& stand, const FloatingModes& modes,
                      double duration) noexcept {
-  return stiffened(stand.inertia.full(), modes, duration);
+  AMBIENT_ASSERT(duration >= 0);
+  return SymmetricMatrix(stiffened(stand.inertia, modes, duration)).full();
 }
 
 FloatingModes modesOfWaterplane(const SurfaceStand& stand) noexcept {
   FloatingModes modes = stand.modes;
-  for (FloatingMode* tilt : {&modes[1], &modes[2]})
-    tilt->stiffness = stand.plane.density * stand.plane.gravity * tilt->second_moment;
+  for (int i = 0; i < 2; ++i)
+    modes.stiffness[i + 1] = stand.plane.density * stand.plane.gravity * modes.second_moment[i];
   return modes;
 }
 
@@ -93,12 +98,13 @@ BoundedTwist passSurface(const SurfaceMove& move, const Vector6& x) noexcept {
   const SurfacePlace& wet = at.isDry() ? move.before : after;
   const Wrench gradient = gradientAt(move.model, wet, Twist::fromVector(x));
   const MeanDepths depths = meanDepths(move.before.immersion_F, at);
-  const Matrix6 before = move.before.inertia.full(), inertia = after.inertia.full(),
-                inverse = after.inverse.full();
-  return passSurface(
-      {before, inertia, inverse, gradient, after.plane.normal, centreOfBuoyancy(move.model, after),
-       depths.draught, depths.cover, after.plane.gravity, move.duration},
-      x);
+  AMBIENT_ASSERT(move.duration > 0 && !(after.plane.gravity < 0) && isUnit(after.plane.normal));
+  const PassedOf<double> passed =
+      passSurface({move.before.inertia, after.inertia, after.inverse, plain(gradient.vector()),
+                   plain(after.plane.normal), plain(centreOfBuoyancy(move.model, after)),
+                   depths.draught, depths.cover, after.plane.gravity, move.duration},
+                  plain(x));
+  return {asEigen(passed.twist), passed.energy_removed};
 }
 
 SurfaceLoad loadBelow(const SurfaceModel& model, const SurfacePlace& place, const Twist& x,
@@ -130,9 +136,9 @@ Vector6 takeWind(const WindKick& kick, const Vector6& x) noexcept {
   const Vector6 seen = x + shift;
   AMBIENT_ASSERT(kick.duration >= 0);
   const Vector6 load = loadAbove(kick.model, stand, Twist::fromVector(seen)).vector();
-  const DualPair motion{seen, stand.inertia.full() * seen};
-  return passiveKick(motion, {motion, {stand.inverse.full() * load, load}}, kick.duration).twist -
-         shift;
+  const PairsOf<double> motion = plain(DualPair{seen, stand.inertia.full() * seen});
+  const PairsOf<double> response = plain(DualPair{stand.inverse.full() * load, load});
+  return asEigen(passiveKick(motion, motion, response, kick.duration).twist) - shift;
 }
 
 }  // namespace ambient

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bullet_ambient/motion/body/dual_pair.h"
-#include "bullet_ambient/motion/surface/body_waves.h"
+#include "bullet_ambient/motion/lanes/surface_lanes.h"
 #include "bullet_ambient/motion/surface/surface_model.h"
 #include "bullet_ambient/motion/surface/symmetric_matrix.h"
 
@@ -21,7 +21,7 @@ SurfacePlace placeAt(const SurfaceModel& model, const SurfacePlane& plane_B) noe
 /// A place, and quantities that follow from it: inverse inertia, stiffness, waves.
 struct SurfaceStand : SurfacePlace {
   SymmetricMatrix inverse;  ///< K^-1
-  FloatingModes modes;
+  FloatingModes modes{};
   double swing = 0;  ///< largest natural frequency of the body on its buoyancy [1/s]
 };
 

@@ -1,10 +1,10 @@
-#include "bullet_ambient/motion/body/passive_kick.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "bullet_ambient/motion/body/one_body.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "tests/support/bodies/free_body.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -21,9 +21,9 @@ FreeBody bodyWithCoupledInertia(Arbitrary& arbitrary) {
 // Applies a kick; `x`, wrench and sampled twist as vectors.
 Vector6 kicked(const FreeBody& body, const Vector6& x, const Vector6& sampled_twist,
                const Vector6& wrench, double duration) {
-  const LoadSample sample{pairOfTwist(body.model(), sampled_twist),
-                          pairOfMomentum(body.model(), wrench)};
-  return passiveKick(pairOfTwist(body.model(), x), sample, duration).twist;
+  const PairsOf<double> at = plain(pairOfTwist(body.model(), sampled_twist));
+  const PairsOf<double> load = plain(pairOfMomentum(body.model(), wrench));
+  return asEigen(passiveKick(plain(pairOfTwist(body.model(), x)), at, load, duration).twist);
 }
 
 TEST(PassiveKick, NeverGainsEnergyHoweverLongAndStrong) {

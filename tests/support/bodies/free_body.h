@@ -83,7 +83,7 @@ inline Flow flowWithoutLoads(const FreeBody& body, double duration, double preci
   lanes.active[0] = 1;
   lanes.flow_time[0] = duration;
   lanes.precision[0] = precision;
-  fastestFlightKernel().flow(lanes);
+  kFlightKernels.fastest()->flow(lanes);
   return {stateOf(lanes, 0, body.state.position), !(lanes.is_coarse[0] > 0)};
 }
 

@@ -177,8 +177,8 @@ TEST_F(StateBytes, WithNumbersThatNoWorldCanHaveAreRefusedHoweverTheyCome) {
       {[](WorldState& s) { s.bodies[1].ambient->left_W.angular.y() = 1e200; }, "velocity"},
       {[](WorldState& s) { s.bodies[1].ambient->waves.heave_energy = -1; }, "waves"},
       {[](WorldState& s) { s.bodies[1].ambient->waves.tilt_energy = -1e-9; }, "waves"},
-      {[](WorldState& s) { s.bodies[1].ambient->waves.heave[1] = 1e200; }, "waves"},
-      {[](WorldState& s) { s.bodies[1].ambient->waves.tilt_W[0].x() = 1e200; }, "waves"},
+      {[](WorldState& s) { s.bodies[1].ambient->waves.heave.second = 1e200; }, "waves"},
+      {[](WorldState& s) { s.bodies[1].ambient->waves.tilt_W[0].x = 1e200; }, "waves"},
       {[](WorldState& s) {
          s.bodies[1].ambient->met_B = SurfacePlane{{0, 0, 2}, 0, 998, 9.81};
        },

@@ -30,6 +30,7 @@ class Numbers {
     put(pose.getOrigin());
   }
   void put(Vector3& v) { operator()(v.x(), v.y(), v.z()); }
+  void put(VectorsOf<double>& v) { operator()(v.x, v.y, v.z); }
   void put(Matrix3& m) {
     for (int i = 0; i < 9; ++i) put(m.data()[i]);
   }
@@ -66,10 +67,10 @@ void fill(Numbers& n, AmbientState& s) {
     s.flow.change, s.flow.parts, s.flow.region, s.flow.is_above);
   SurfacePlane& met = s.met_B.emplace();
   n(met.normal, met.height, met.density, met.gravity);
-  n(s.waves.heave[0], s.waves.tilt_W[0], s.waves.heave[1], s.waves.tilt_W[1], s.waves.heave_energy,
-    s.waves.tilt_energy, s.memory.load_W.torque, s.memory.load_W.force, s.memory.has_load,
-    s.memory.substep, s.wake.velocity_W.angular, s.wake.velocity_W.linear, s.wake.has_begun,
-    s.left_W.angular, s.left_W.linear);
+  n(s.waves.heave.first, s.waves.tilt_W[0], s.waves.heave.second, s.waves.tilt_W[1],
+    s.waves.heave_energy, s.waves.tilt_energy, s.memory.load_W.torque, s.memory.load_W.force,
+    s.memory.has_load, s.memory.substep, s.wake.velocity_W.angular, s.wake.velocity_W.linear,
+    s.wake.has_begun, s.left_W.angular, s.left_W.linear);
   AmbientCounters& c = s.counters;
   n(c.substeps, c.load_evaluations, c.faces, c.guarded, c.coarse, c.halted, c.energy_removed,
     c.rows, c.joint_rows, c.rejected, c.regions_asked, c.medium_changes, c.too_long);

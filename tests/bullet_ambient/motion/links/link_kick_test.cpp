@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "bullet_ambient/motion/body/passive_kick.h"
+#include "bullet_ambient/motion/body/one_body.h"
+#include "bullet_ambient/motion/lanes/body_kernel.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/bodies/random_trees.h"
 
@@ -133,18 +134,19 @@ TEST(LinkKick, OfABaseAloneIsThePassiveKickOfARigidBody) {
     dynamics.setPose(test.pose);
     kick.sample(dynamics, test.u);
     const Twist x = dynamics.twist(0);
-    const DualPair motion = pairOfTwist(model, x.vector());
-    const DualPair load = pairOfMomentum(model, model.loads->load(x).vector());
+    const PairsOf<double> motion = plain(pairOfTwist(model, x.vector()));
+    const PairsOf<double> load = plain(pairOfMomentum(model, model.loads->load(x).vector()));
     const double step = has_lift ? 1e-3 : 10;
-    const DualPair expected = passiveKick(motion, {motion, load}, step);
+    const PairsOf<double> expected = passiveKick(motion, motion, load, step);
     kick.kick(dynamics, step, test.u);
     dynamics.setVelocity(test.u);
     // Without lift: equal decay. With lift: equal energy, and equal turn to first order.
     const Vector6 end = dynamics.twist(0).vector();
     EXPECT_NEAR(end.dot(model.inertia * end), inner(expected, expected),
                 1e-13 * inner(motion, motion));
-    const double turn = (expected.twist - motion.twist).norm();
-    EXPECT_LT((end - expected.twist).norm(), has_lift ? 0.03 * turn : 1e-13 * x.vector().norm());
+    const double turn = asEigen(expected.twist - motion.twist).norm();
+    EXPECT_LT((end - asEigen(expected.twist)).norm(),
+              has_lift ? 0.03 * turn : 1e-13 * x.vector().norm());
   }
 }
 

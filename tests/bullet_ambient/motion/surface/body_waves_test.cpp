@@ -35,7 +35,8 @@ SurfaceStand standOf(const WetVolume& wet, const SurfacePlane& plane, double add
 /// Lets waves meet modes, and act for no time.
 void meetModes(const FloatingModes& modes, const Matrix3& to_world, WaveMemory& waves) {
   const Vector6 rest = Vector6::Zero();
-  EXPECT_EQ(exchangeWaves(modes, to_world, Matrix6::Identity(), 0, rest, waves), rest);
+  const SymmetricMatrix inverse{Matrix6(Matrix6::Identity())};
+  EXPECT_EQ(exchangeWaves(modes, to_world, inverse, 0, rest, waves), rest);
 }
 
 /// A hemisphere of radius 1 in water of density 1 and gravity 1.
@@ -43,23 +44,24 @@ FloatingModes hemisphere() {
   return standOf(computeWetSphere(1, {0, 0, 0}, kPlane), kPlane, kPi / 3).modes;
 }
 
-/// Force over velocity of a mode, B + i omega (A - A(inf)).
-std::complex<double> impedance(const FloatingMode& mode, double frequency) {
+/// Force over velocity of a mode: 0, heave; 1 and 2, tilts; B + i omega (A - A(inf)).
+std::complex<double> impedance(const FloatingModes& modes, int mode, double frequency) {
   const std::complex<double> s(0, frequency);
-  return mode.strength * s / (s * s + mode.loss * s + mode.rate * mode.rate);
+  const double rate = modes.rate[mode];
+  return modes.strength[mode] * s / (s * s + modes.loss[mode] * s + rate * rate);
 }
 
 TEST(BodyWaves, DampTheHeaveOfAHemisphereAsHulmeSays) {
   // Hulme 1982: A33 and B33 in units of rho R^3, and of rho R^3 sqrt(g/R), at k R; A33(inf) is
   // pi/3. The model's two states reach a tenth of the total inertia near the natural frequency, k R
   // = 1.05.
-  const FloatingMode heave = hemisphere()[0];
+  const FloatingModes modes = hemisphere();
   const double total = 2 * kPi / 3 + kPi / 3;
   const struct {
     double frequency, added, damping;
   } cases[] = {{0.7511, 1.1606, 0.5227}, {1.0623, 0.8622, 0.4961}, {1.4052, 0.8127, 0.3102}};
   for (const auto& c : cases) {
-    const std::complex<double> z = impedance(heave, c.frequency);
+    const std::complex<double> z = impedance(modes, 0, c.frequency);
     EXPECT_NEAR(z.real(), c.damping, 0.04 * total * c.frequency) << c.frequency;
     EXPECT_NEAR(z.imag() / c.frequency, c.added - kPi / 3, 0.04 * total) << c.frequency;
   }
@@ -87,7 +89,7 @@ TEST(BodyWaves, OfTheHeaveOfBoxesHaveTheImpedanceOfTheFit) {
     const double area = c.length * c.breadth, total = area * c.draught + c.added_mass;
     const double frequency = std::sqrt(c.wave_number / std::sqrt(area));
     const FloatingModes modes = boxModes(c.length, c.breadth, c.draught, c.added_mass);
-    const std::complex<double> z = impedance(modes[0], frequency) / (frequency * total);
+    const std::complex<double> z = impedance(modes, 0, frequency) / (frequency * total);
     EXPECT_NEAR(z.real(), c.damping, 0.006) << c.length << " " << c.wave_number;
     EXPECT_NEAR(z.imag(), c.added, 0.006) << c.length << " " << c.wave_number;
   }
@@ -111,13 +113,13 @@ TEST(BodyWaves, HaveTheCoefficientsOfBoxes) {
     const double mass = c.length * c.breadth * c.draught, total = mass + c.heave_inf;
     // Added mass of (60), a factor 1.13 below the exact one.
     const FloatingModes modes = boxModes(c.length, c.breadth, c.draught, c.heave_inf);
-    const std::complex<double> heave = impedance(modes[0], c.w);
+    const std::complex<double> heave = impedance(modes, 0, c.w);
     EXPECT_NEAR(heave.real(), c.b33, 0.07 * total * c.w) << c.length << " " << c.w;
     EXPECT_NEAR(heave.imag() / c.w, c.a33 - c.heave_inf, 0.07 * total) << c.length << " " << c.w;
     const double gyration = 0.4 * c.breadth;
     const double roll = mass * gyration * gyration + c.roll_inf;
-    const bool is_first = std::abs(modes[1].motion[0]) > 0.5;
-    EXPECT_NEAR(impedance(modes[is_first ? 1 : 2], c.w).real(), c.b44, 0.1 * roll * c.w)
+    const bool is_first = std::abs(modes.tilt[0].x) > 0.5;
+    EXPECT_NEAR(impedance(modes, is_first ? 1 : 2, c.w).real(), c.b44, 0.1 * roll * c.w)
         << c.length << " " << c.w;
   }
 }
@@ -128,11 +130,11 @@ TEST(FloatingModes, OfABoxAreThoseOfItsWaterplane) {
   WetVolume wet{0.5, {0, 0, -0.5 * 0.125}, 0, {2, {0, 0, 0}, Matrix3::Zero()}};
   wet.waterplane.spread.diagonal() << 2 * 4 / 12.0, 2 / 12.0, 0;
   const FloatingModes modes = standOf(wet, plane).modes;
-  EXPECT_NEAR(modes[0].stiffness, 6 * 2, 1e-14);
-  for (const std::size_t i : {1, 2}) {
-    const bool is_roll = std::abs(modes[i].motion[0]) > 0.5;
-    EXPECT_NEAR(std::abs(modes[i].motion[is_roll ? 0 : 1]), 1, 1e-14);
-    EXPECT_NEAR(modes[i].stiffness, 6 * ((is_roll ? 1 / 6.0 : 2 / 3.0) - 0.0625), 1e-14);
+  EXPECT_NEAR(modes.stiffness[0], 6 * 2, 1e-14);
+  for (int i = 0; i < 2; ++i) {
+    const bool is_roll = std::abs(modes.tilt[i].x) > 0.5;
+    EXPECT_NEAR(std::abs(is_roll ? modes.tilt[i].x : modes.tilt[i].y), 1, 1e-14);
+    EXPECT_NEAR(modes.stiffness[i + 1], 6 * ((is_roll ? 1 / 6.0 : 2 / 3.0) - 0.0625), 1e-14);
   }
 }
 
@@ -144,7 +146,7 @@ TEST(FloatingModes, HavePrincipalAxesWhateverTheAttitude) {
     WetVolume wet{0.5, {0, 0, 0}, 0, {2, {0, 0, 0}, Matrix3::Zero()}};
     wet.waterplane.spread = R * Vector3(0.7, 0.2, 0).asDiagonal() * R.transpose();
     const FloatingModes modes = standOf(wet, plane).modes;
-    const double a = modes[1].second_moment, b = modes[2].second_moment;
+    const double a = modes.second_moment[0], b = modes.second_moment[1];
     EXPECT_NEAR(std::max(a, b), 0.7, 1e-13);
     EXPECT_NEAR(std::min(a, b), 0.2, 1e-13);
   }
@@ -152,9 +154,9 @@ TEST(FloatingModes, HavePrincipalAxesWhateverTheAttitude) {
 
 TEST(BodyWaves, BallThatTurnsMakesNone) {
   const FloatingModes modes = hemisphere();
-  EXPECT_GT(modes[0].strength, 0);
-  EXPECT_LT(modes[1].strength, 1e-20);
-  EXPECT_LT(modes[2].strength, 1e-20);
+  EXPECT_GT(modes.strength[0], 0);
+  EXPECT_LT(modes.strength[1], 1e-20);
+  EXPECT_LT(modes.strength[2], 1e-20);
 }
 
 TEST(BodyWaves, AreNoneWithoutAWaterplane) {
@@ -162,35 +164,38 @@ TEST(BodyWaves, AreNoneWithoutAWaterplane) {
   const WetVolume dry = computeWetSphere(1, {0, 0, 0}, above);
   const FloatingModes modes = standOf(dry, above).modes;
   WaveMemory waves;
-  waves.heave[0] = 1;
+  waves.heave.first = 1;
   waves.heave_energy = 1;
   meetModes(modes, Matrix3::Identity(), waves);
   EXPECT_EQ(waves.energy(), 0);
-  EXPECT_EQ(waves.heave[0], 0);
+  EXPECT_EQ(waves.heave.first, 0);
 }
 
-FloatingMode arbitraryMode(test::Arbitrary& arbitrary) {
-  FloatingMode mode;
-  mode.motion = arbitrary.twist().vector();
-  mode.strength = arbitrary.between(0, 10);
-  mode.loss = arbitrary.between(0, 3);
-  mode.rate = arbitrary.between(0.01, 3);
-  return mode;
+FloatingModes arbitraryModes(test::Arbitrary& arbitrary) {
+  const auto between = [&](double least, double most) { return arbitrary.between(least, most); };
+  const auto vector = [&] {
+    return VectorsOf<double>{between(-1, 1), between(-1, 1), between(-1, 1)};
+  };
+  FloatingModes modes{{vector(), vector()}, {{1, 0, 0}, {0, 1, 0}}, {}, {}, {}, {}, {}};
+  for (int i = 0; i < 3; ++i) {
+    modes.strength[i] = between(0, 10);
+    modes.loss[i] = between(0, 3);
+    modes.rate[i] = between(0.01, 3);
+  }
+  return modes;
 }
 
 TEST(BodyWaves, NeverAddEnergyWhateverTheStep) {
   test::Arbitrary arbitrary(1);
   for (int i = 0; i < 300; ++i) {
-    const Matrix6 K = arbitrary.positiveDefinite(), inverse = test::inverse(K);
+    const Matrix6 K = arbitrary.positiveDefinite();
+    const SymmetricMatrix inverse{Matrix6(test::inverse(K))};
     Vector6 x = arbitrary.twist().vector();
     const Matrix3 turn = arbitrary.rotation();
     WaveMemory waves;
     double energy = 0.5 * x.dot(K * x);
     for (int n = 0; n < 20; ++n) {
-      FloatingModes modes{arbitraryMode(arbitrary), arbitraryMode(arbitrary),
-                          arbitraryMode(arbitrary)};
-      modes[1].motion = stack(Vector3::UnitX(), Vector3::Zero());
-      modes[2].motion = stack(Vector3::UnitY(), Vector3::Zero());
+      const FloatingModes modes = arbitraryModes(arbitrary);
       x = exchangeWaves(modes, turn, inverse, std::pow(10, arbitrary.between(-2, 1)), x, waves);
       const double now = 0.5 * x.dot(K * x) + waves.energy();
       ASSERT_LE(now, energy * (1 + 1e-12)) << i;
@@ -201,11 +206,11 @@ TEST(BodyWaves, NeverAddEnergyWhateverTheStep) {
 
 TEST(BodyWaves, AreAsAnOscillatorBehindAVelocity) {
   // A heavy body with a constant velocity u.
-  FloatingModes modes;
-  modes[0] = {stack(Vector3::Zero(), Vector3::UnitZ()), 1, 1.5, 1};
-  modes[1].motion = stack(Vector3::UnitX(), Vector3::Zero());
-  modes[2].motion = stack(Vector3::UnitY(), Vector3::Zero());
-  const Matrix6 inverse = 1e-12 * Matrix6::Identity();
+  FloatingModes modes{};
+  modes.heave.linear.z = modes.tilt[0].x = modes.tilt[1].y = 1;
+  modes.strength[0] = modes.rate[0] = 1;
+  modes.loss[0] = 1.5;
+  const SymmetricMatrix inverse{Matrix6(1e-12 * Matrix6::Identity())};
   Vector6 x = Vector6::Zero();
   x[5] = 2;
   WaveMemory waves;
@@ -213,16 +218,13 @@ TEST(BodyWaves, AreAsAnOscillatorBehindAVelocity) {
   const double p = std::sqrt(1 - 0.5625), time = 1;
   for (int i = 0; i < 1000; ++i)
     x = exchangeWaves(modes, Matrix3::Identity(), inverse, time / 1000, x, waves);
-  EXPECT_NEAR(waves.heave[0], 2 / p * std::exp(-0.75 * time) * std::sin(p * time), 1e-5);
+  EXPECT_NEAR(waves.heave.first, 2 / p * std::exp(-0.75 * time) * std::sin(p * time), 1e-5);
 }
 
 TEST(BodyWaves, OfTheTiltStayInTheWorld) {
   // A quarter turn about the vertical exchanges the body's axes, but not the waves.
-  FloatingModes modes;
-  for (int i = 0; i < 2; ++i) {
-    modes[i + 1] = {stack(Vector3::Unit(i), Vector3::Zero()), 2, 0.1, 1};
-    modes[0].rate = 1;
-  }
+  const FloatingModes modes{{},        {{1, 0, 0}, {0, 1, 0}}, {},       {},
+                            {0, 2, 2}, {0, 0.1, 0.1},          {1, 1, 1}};
   WaveMemory waves;
   waves.tilt_W[0] = {0.3, 0.4, 0};
   waves.tilt_W[1] = {-0.1, 0.2, 0};
@@ -231,7 +233,9 @@ TEST(BodyWaves, OfTheTiltStayInTheWorld) {
   meetModes(modes, Matrix3::Identity(), waves);
   const double energy = waves.tilt_energy;
   meetModes(modes, quarter, waves);
-  EXPECT_LT((waves.tilt_W[0] - Vector3(0.3, 0.4, 0)).norm(), 1e-15);
+  EXPECT_NEAR(waves.tilt_W[0].x, 0.3, 1e-15);
+  EXPECT_NEAR(waves.tilt_W[0].y, 0.4, 1e-15);
+  EXPECT_NEAR(waves.tilt_W[0].z, 0, 1e-15);
   EXPECT_NEAR(waves.tilt_energy, energy, 1e-15);
   EXPECT_NEAR(energy, 0.5 * 2 * (0.25 + 0.05), 1e-15);
 }
@@ -239,11 +243,11 @@ TEST(BodyWaves, OfTheTiltStayInTheWorld) {
 TEST(BodyWaves, LoseEnergyWhereTheirStrengthGrows) {
   FloatingModes modes = hemisphere();
   WaveMemory waves;
-  waves.heave[0] = 0.1;
+  waves.heave.first = 0.1;
   waves.heave_energy = 1e-4;
   meetModes(modes, Matrix3::Identity(), waves);
   EXPECT_NEAR(waves.heave_energy, 1e-4, 1e-18);
-  EXPECT_NEAR(0.5 * modes[0].strength * waves.heave[0] * waves.heave[0], 1e-4, 1e-18);
+  EXPECT_NEAR(0.5 * modes.strength[0] * waves.heave.first * waves.heave.first, 1e-4, 1e-18);
 }
 
 }  // namespace
