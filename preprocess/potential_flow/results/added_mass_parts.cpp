@@ -6,7 +6,9 @@
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/single_precision.h"
+#include "bullet_ambient/spatial/cholesky.h"
 #include "bullet_ambient/spatial/inertia.h"
+#include "bullet_ambient/spatial/symmetric_eigen.h"
 
 namespace ambient {
 namespace {
@@ -105,6 +107,23 @@ std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels) {
   for (const Patch& patch : dividedPatches(panels, size > 0 ? size : 1))
     parts.push_back(join(panels, patch.panels));
   return parts;
+}
+
+std::vector<AddedMassPart> withoutStillMotions(std::vector<AddedMassPart> parts,
+                                               const Matrix6& added_mass,
+                                               const Matrix6& displaced) {
+  constexpr double kStill = 1e-3;
+  const Cholesky<6> factor(displaced);
+  AMBIENT_ASSERT(factor.isPositive());
+  const Matrix6 to_motion = factor.inverseTransposed();  // of a motion in units of M
+  const SymmetricEigen<6> eigen = symmetricEigen<6>(to_motion.transpose() * added_mass * to_motion);
+  Matrix6 rest = Matrix6::Identity();
+  for (int i = 0; i < 6 && eigen.values[i] < kStill; ++i) {
+    const Vector6 motion = to_motion * eigen.vectors.col(i);  // x.Mx = 1
+    rest -= motion * (displaced * motion).transpose();
+  }
+  for (AddedMassPart& part : parts) part.inertia = rest.transpose() * part.inertia * rest;
+  return placed(std::move(parts), 1, Vector3::Zero());
 }
 
 std::vector<AddedMassPart> placed(std::vector<AddedMassPart> parts, double length,

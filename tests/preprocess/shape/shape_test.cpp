@@ -121,7 +121,7 @@ TEST(Shape, KeysWithoutMeaningAreRefused) {
 TEST(Shape, ImpossibleValuesAreNamed) {
   EXPECT_EQ(refusal(R"({"type":"spere","radius":1})"),
             "type is \"spere\"; must be one of [\"sphere\",\"box\",\"ellipsoid\",\"cylinder\","
-            "\"capsule\",\"cone\",\"mesh\",\"fluid_body\",\"sheet\"]");
+            "\"capsule\",\"cone\",\"mesh\",\"fluid_body\",\"sheet\",\"compound\"]");
   EXPECT_EQ(refusal(R"({"type":"sphere","radius":0})"), "radius is 0; must be > 0");
   EXPECT_EQ(refusal(R"({"type":"sphere","radius":-1})"), "radius is -1; must be > 0");
   EXPECT_EQ(refusal(R"({"type":"sphere","radius":"1"})"),

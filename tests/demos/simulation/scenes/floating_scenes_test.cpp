@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "tests/demos/simulation/scenes/run_scene.h"
+#include "tests/support/text_files.h"
 
 namespace ambient {
 namespace {
@@ -124,6 +125,24 @@ TEST(Pool, KeepsItsBoxesAndSinksTheHeavyOnes) {
       EXPECT_LT(end.z(), 0.5) << scene.bodies[i].name;
     }
   }
+}
+
+// Two pontoons under a deck float up to their axes with the mass of half of the water that they
+// could displace; a ball of lead falls through the gap between them.
+TEST(Catamaran, FloatsOnItsPontoonsAndLetsABallThrough) {
+  const TemporaryFolder folder;
+  writeText(folder / "catamaran.json", R"({
+    "duration": 20, "time_step": 0.016666666666666666, "water": {"level": 0, "density": 1000},
+    "bodies": [
+      {"mass": 1130.97, "position": [0, 0, 0.1], "centre_of_mass": [0, 0, 0], "shape": {"type": "compound", "parts": [
+        {"shape": {"type": "cylinder", "radius": 0.3, "height": 4}, "position": [-1, 0, 0], "orientation": [1, 1, 0, 0]},
+        {"shape": {"type": "cylinder", "radius": 0.3, "height": 4}, "position": [1, 0, 0], "orientation": [1, 1, 0, 0]},
+        {"shape": {"type": "box", "size": [2.6, 1, 0.2]}, "position": [0, 0, 0.35]}]}},
+      {"mass": 380, "position": [0, 1.3, 1], "shape": {"type": "sphere", "radius": 0.2}}]})");
+  const RunRecord record = run(readScene(folder / "catamaran.json"));
+  EXPECT_NEAR(meanHeight(record.motion[0], 10), 0, 0.01);
+  EXPECT_GT(uprightness(record.motion[0].back()), 0.999);
+  EXPECT_LT(record.motion[1].back().position.z(), -5);
 }
 
 }  // namespace
