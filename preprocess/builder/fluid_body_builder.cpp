@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "bullet_ambient/base/ambient_assert.h"
 #include "bullet_ambient/base/pi.h"
@@ -31,13 +30,6 @@ MassDistribution uniformMassOf(const TriangleMesh& mesh, const MeshProperties& p
                                const TriangleMesh& cavities) {
   if (cavities.triangleCount() == 0) return properties.uniform;
   return computeMassProperties(joinMeshes({mesh, cavities})).uniform;
-}
-
-/// Inertia of the displaced fluid about an origin, per unit density.
-Matrix6 displacedInertia(const MeshProperties& properties, const Eigen::Vector3d& origin) {
-  return shiftOrigin(
-      rigidBodyInertia(properties.volume, properties.volume * properties.uniform.inertia),
-      origin - properties.uniform.centre);
 }
 
 FaceTable facesOf(const TriangleMesh& mesh, bool sheet) {
@@ -185,9 +177,6 @@ FluidBody makeFluidBody(const TriangleMesh& source_mesh, const BuildSettings& se
   AMBIENT_ASSERT(body.faces.sharpness.size() == body.faces.size());
   AMBIENT_ASSERT(settings.sphere_radius >= 0);
   if (settings.sphere_radius > 0) setSphere(settings.sphere_radius, body);
-  if (body.volume > 0)
-    body.added_mass_parts = withoutStillMotions(std::move(body.added_mass_parts), body.added_mass,
-                                                displacedInertia(properties, origin));
   if (settings.waterline_subdivisions == 0) return body;
   tellStage(settings, "waterline table");
   body.waterline = waterlineOf(body, settings);

@@ -15,15 +15,10 @@ struct PanelInertia {
 };
 
 /// Joins panels with similar normal and place to at most 96 parts. The sum of the parts is that of
-/// the panels, made symmetric. Independent of the unit of length. Cost: O(panels).
+/// the panels, made symmetric. Parts of a body of revolution are eight rings of twelve alike, none
+/// of which gives spin about the axis any inertia; their sum is the mean of the panels' over all
+/// turns about it. Independent of the unit of length. Cost: O(panels).
 std::vector<AddedMassPart> joinPanels(const std::vector<PanelInertia>& panels);
-
-/// Returns the parts without what they give motions that move next to no water in unbounded fluid,
-/// as the spin of a body of revolution: these move none at its surface either. A motion x is one if
-/// x.Kx < 1e-3 x.Mx, K the added mass, M the inertia of the displaced fluid, both per unit density
-/// and about the origin of the parts. Rounds as placed(). @pre M is positive definite
-std::vector<AddedMassPart> withoutStillMotions(std::vector<AddedMassPart> parts,
-                                               const Matrix6& added_mass, const Matrix6& displaced);
 
 /// Converts parts to another unit of length and another origin: z = length z' + centre, where z'
 /// are the coordinates of the given parts. Rounds to single precision, as in files.

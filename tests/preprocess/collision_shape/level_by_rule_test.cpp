@@ -110,7 +110,7 @@ TEST(RoundLevel, OfACapsuleIsWithinItsError) {
 }
 
 TEST(RoundLevel, OfAConeIsWithinItsError) {
-  expectRule([](double ratio) { return btConeShapeZ(btScalar(0.5), btScalar(ratio)); }, 56);
+  expectRule([](double ratio) { return btConeShapeZ(btScalar(0.5), btScalar(ratio)); }, 70);
 }
 
 TEST(RoundLevel, FollowsATurnedCylinder) {

@@ -127,6 +127,29 @@ TEST(Pool, KeepsItsBoxesAndSinksTheHeavyOnes) {
   }
 }
 
+// Pressure does not spin a body of revolution about its axis, whatever waves it meets: a float on a
+// spar with a plate below, 30 waves of 2.5 m and 8 s across the mirrors of its mesh.
+TEST(Buoy, DoesNotSpinInWaves) {
+  const TemporaryFolder folder;
+  writeText(folder / "buoy.json", R"({
+    "duration": 240, "time_step": 0.016666666666666666, "output_step": 0.1,
+    "water": {"level": 0, "waves": [{"amplitude": 1.25, "period": 8, "direction": [0.8, 0.6, 0]}]},
+    "bodies": [{"mass": 2.5e5, "position": [0, 0, -2], "centre_of_mass": [0, 0, -2], "skin_friction": false,
+      "shape": {"type": "compound", "parts": [
+        {"shape": {"type": "cylinder", "radius": 5, "height": 4}},
+        {"shape": {"type": "cylinder", "radius": 2, "height": 6}, "position": [0, 0, -4]},
+        {"shape": {"type": "cylinder", "radius": 4, "height": 1}, "position": [0, 0, -7]}]}}]})");
+  double turn = 0, before = 0, most_tilt = 0;
+  for (const MotionSample& sample : run(readScene(folder / "buoy.json")).motion[0]) {
+    const Vector3 axis = sample.orientation * Vector3::UnitZ();
+    turn += axis.dot(sample.twist.angular) * (sample.time - before);
+    before = sample.time;
+    most_tilt = std::max(most_tilt, std::acos(std::min(1.0, axis.z())));
+  }
+  EXPECT_GT(most_tilt, 0.2);  // it does rock
+  EXPECT_LT(std::abs(turn), 0.07);
+}
+
 // Two pontoons under a deck float up to their axes with the mass of half of the water that they
 // could displace; a ball of lead falls through the gap between them.
 TEST(Catamaran, FloatsOnItsPontoonsAndLetsABallThrough) {
